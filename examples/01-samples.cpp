@@ -19,7 +19,7 @@ int main()
     const auto samples = std::make_shared<std::vector<float>>();
     for (double t = 0.0; t < seconds; t += 1.0 / rate) {
         const double cycles = 200.0 * t + 0.5 * 0.05 * t * t;
-        samples->push_back(static_cast<float>(noise(random) + amplitude * std::cos(2.0 * std::numbers::pi * cycles)));
+        samples->push_back(float(noise(random) + amplitude * std::cos(2.0 * std::numbers::pi * cycles)));
     }
 
     const ArrayLayout layout{.sampleRateHz = rate, .sampleCount = std::ssize(*samples)};

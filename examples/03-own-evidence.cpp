@@ -27,12 +27,12 @@ int main()
     Index best = 0;
     for (Index frame = 0; frame < 60; ++frame) {
         for (float &value : lambda)
-            value = static_cast<float>(random.normal() - 0.5); // of noise in the mean below 0
-        lambda[static_cast<std::size_t>(20 + frame)] += 1.5f;  // the spot
+            value = float(random.normal() - 0.5); // of noise in the mean below 0
+        lambda[std::size_t(20 + frame)] += 1.5f;  // the spot
         detector.update(lambda, statistic);
         best = std::max_element(statistic.begin(), statistic.end()) - statistic.begin();
     }
-    std::printf("after 60 frames: %.1f nat in cell %td, the spot is in 79\n",
-                static_cast<double>(statistic[static_cast<std::size_t>(best)]), best);
+    std::printf("after 60 frames: %.1f nat in cell %td, the spot is in 79\n", double(statistic[std::size_t(best)]),
+                best);
     return std::abs(best - 79) <= 1 ? 0 : 1;
 }

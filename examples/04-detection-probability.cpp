@@ -19,7 +19,7 @@ int main()
     experiment.detectors = {peer("SMD 5 slopes", 50.0), peer("3 of 4", 50.0), peer("integrator", 50.0)};
 
     Campaign campaign{experiment, {}, {}};
-    std::vector<int> runs(static_cast<std::size_t>(experiment.runs));
+    std::vector<int> runs(std::size_t(experiment.runs));
     std::iota(runs.begin(), runs.end(), 0);
     RunContext context;
     context.threads = 2;

@@ -42,7 +42,7 @@ int main()
     const auto look = [&](const SectorVisit &visit) -> StageSource {
         ScanScene sector = scene;
         sector.hasTarget = visit.sector == 2;
-        const int run = static_cast<int>(visit.round * 6 + visit.sector);
+        const int run = int(visit.round * 6 + visit.sector);
         return [sector, run, path = scanTrajectory(sector, run),
                 y = std::vector<float>(3 * 3 * 40 * 8)](Index stage, std::span<double> out) mutable {
             readScan(sector, path, run, stage, y);

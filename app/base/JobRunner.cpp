@@ -29,7 +29,7 @@ namespace {
 
     int threadCount()
     {
-        return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+        return int(std::max(1u, std::thread::hardware_concurrency()));
     }
 
 } // namespace

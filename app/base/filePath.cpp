@@ -60,7 +60,7 @@ qint64 fileSize(const QString &path)
 {
     std::error_code failure;
     const std::uintmax_t size = fs::file_size(pathBytes(path), failure);
-    return failure ? 0 : static_cast<qint64>(size);
+    return failure ? 0 : qint64(size);
 }
 
 QString absolutePath(const QString &path)

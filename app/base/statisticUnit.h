@@ -10,7 +10,7 @@ namespace faintline {
 inline QString statisticUnit(const AnalysisSettings &settings)
 {
     const std::string_view unit = detectorUnits[settings.detector.index()];
-    return QString::fromUtf8(unit.data(), static_cast<qsizetype>(unit.size()));
+    return QString::fromUtf8(unit.data(), qsizetype(unit.size()));
 }
 
 } // namespace faintline

@@ -42,10 +42,9 @@ void addBench(CLI::App &app, Common &common)
             std::printf("%s, medians of %d interleaved rounds\n\n", instructionSet().c_str(), options->speed.rounds);
         std::vector<SpeedResult> results;
         for (std::size_t i = 0; i < chosen.size(); ++i) {
-            const auto count = static_cast<double>(chosen.size());
-            results.push_back(measureSpeed(
-                chosen[i], options->speed,
-                common.context().part(static_cast<double>(i) / count, static_cast<double>(i + 1) / count)));
+            const auto count = double(chosen.size());
+            results.push_back(measureSpeed(chosen[i], options->speed,
+                                           common.context().part(double(i) / count, double(i + 1) / count)));
             if (!options->json) {
                 std::printf("%s\n", speedText(results.back()).c_str());
                 std::fflush(stdout);

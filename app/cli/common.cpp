@@ -25,15 +25,15 @@ RunContext Common::context() const
     if (progress == "none" || (!lines && !isatty(STDERR_FILENO)))
         return context;
     context.progress = [lines, last = -1](double fraction, std::string_view what) mutable {
-        const int percent = static_cast<int>(100.0 * fraction);
+        const int percent = int(100.0 * fraction);
         if (percent == last)
             return;
         last = percent;
         if (lines)
-            std::fprintf(stderr, "{\"progress\": %.2f, \"doing\": \"%.*s\"}\n", fraction, static_cast<int>(what.size()),
+            std::fprintf(stderr, "{\"progress\": %.2f, \"doing\": \"%.*s\"}\n", fraction, int(what.size()),
                          what.data());
         else
-            std::fprintf(stderr, "\r\033[K%3d %%  %.*s%s", percent, static_cast<int>(what.size()), what.data(),
+            std::fprintf(stderr, "\r\033[K%3d %%  %.*s%s", percent, int(what.size()), what.data(),
                          percent >= 100 ? "\n" : "");
         std::fflush(stderr);
     };

@@ -52,7 +52,7 @@ namespace {
         const double perHour = analysis.calibration->eventRateAt(analysis.threshold) * analysis.cellFramesPerHour;
         const std::string_view unit = detectorUnits[analysis.settings.detector.index()];
         std::printf("%s: %zu event(s), threshold %.2f %.*s (%.3g false alarms per hour on noise)\n", name,
-                    analysis.tracks.size(), analysis.threshold, static_cast<int>(unit.size()), unit.data(), perHour);
+                    analysis.tracks.size(), analysis.threshold, int(unit.size()), unit.data(), perHour);
     }
 
     void printDifferences(const AnalysisSettings &a, const AnalysisSettings &b)

@@ -79,7 +79,7 @@ namespace {
             std::printf("warning: ln K left its noise band %.3f … %.3f in %zu frame(s), the first at %.6g s; strong "
                         "signals lower it\n",
                         analysis.lnKBand.low(), analysis.lnKBand.high(), dragged.size(),
-                        time.value(static_cast<double>(dragged.front())));
+                        time.value(double(dragged.front())));
         if (const auto law = checkNoiseLaw(analysis); law && !law->isFollowed())
             std::printf("warning: %s\n", law->warning().c_str());
         for (const Advice &advice : advise(analysis))
@@ -287,7 +287,7 @@ namespace {
         json["margin"] = decided - explanation.threshold;
         json["tracked"] = explanation.isTracked;
         json["offset"] = explanation.offset;
-        json["reset"]["cause"] = resetNames[static_cast<std::size_t>(explanation.reset.kind)];
+        json["reset"]["cause"] = resetNames[std::size_t(explanation.reset.kind)];
         json["reset"]["lost"] = explanation.reset.lost;
         if (explanation.reset.track > 0)
             json["reset"]["track"] = explanation.reset.track;
@@ -301,8 +301,8 @@ namespace {
             const std::vector<Index> c = analysis.grid().coordinates(space.cellOf(step.state));
             std::vector<double> at;
             for (std::size_t axis = 0; axis < c.size(); ++axis)
-                at.push_back(analysis.grid().axes[axis].value(static_cast<double>(c[axis])));
-            json["steps"].push_back({{"t", analysis.time().value(static_cast<double>(step.frame))},
+                at.push_back(analysis.grid().axes[axis].value(double(c[axis])));
+            json["steps"].push_back({{"t", analysis.time().value(double(step.frame))},
                                      {"position", at},
                                      {"rates", space.ratesOfPlane(space.planeOf(step.state))},
                                      {"llr", step.logLikelihoodRatio},
@@ -378,15 +378,15 @@ namespace {
             projected.emplace(options.projected, projectedShape);
         std::string log = "frame,lnK,reset_fraction,max_statistic\n";
         const RunContext context = common.context();
-        std::vector<float> y(static_cast<std::size_t>(space.cellCount()));
+        std::vector<float> y(std::size_t(space.cellCount()));
         std::vector<float> D(y.size());
         std::vector<float> scores;
         for (Index frame = 0; frame < frames->time().count; ++frame) {
-            context.checkpoint(static_cast<double>(frame) / static_cast<double>(frames->time().count), "recursion");
+            context.checkpoint(double(frame) / double(frames->time().count), "recursion");
             frames->read(frame, 1, y);
             detector->update(y, D);
             scores.assign(detector->scores().begin(), detector->scores().end());
-            if (const auto offset = static_cast<float>(detector->offset()); offset != 0.0f)
+            if (const auto offset = float(detector->offset()); offset != 0.0f)
                 for (float &score : scores)
                     score += offset;
             out.write(scores);
@@ -395,7 +395,7 @@ namespace {
             const PathDetector::Regulation regulation = detector->regulation();
             log += std::to_string(frame) + "," + formatNumber(regulation.lnK) + ","
                    + formatNumber(1.0 - regulation.continuedFraction) + ","
-                   + formatNumber(static_cast<double>(*std::max_element(D.begin(), D.end()))) + "\n";
+                   + formatNumber(double(*std::max_element(D.begin(), D.end()))) + "\n";
         }
         if (!options.log.empty())
             writeTextFile(options.log, log);

@@ -39,7 +39,7 @@ namespace {
         if (!index || !count || !isWhole(*index) || !isWhole(*count) || *count < 1.0 || *count > 1e6 || *index < 0.0
             || *index > *count)
             throw Error("--shard " + text, "must be I/N with 0 ≤ I ≤ N (0 and N name the same shard)");
-        return {static_cast<int>(*index), static_cast<int>(*count)};
+        return {int(*index), int(*count)};
     }
 
     void mergeFiles(const std::vector<std::string> &paths, const std::string &out)

@@ -102,9 +102,8 @@ namespace {
             const PingTarget &target = scene.targets[i];
             const TruthTarget &truth = pings.truth().targets[i];
             std::printf("target %zu      %s dB, %s, pings %d … %td, from %.6g m, %.4g° to %.6g m, %.4g°\n", i + 1,
-                        formatNumber(target.snrDb).c_str(),
-                        std::string(echoNames[static_cast<std::size_t>(target.echo)]).c_str(), truth.firstPing,
-                        truth.firstPing + std::ssize(truth.cell) - 1, truth.rangeMetres.front(),
+                        formatNumber(target.snrDb).c_str(), std::string(echoNames[std::size_t(target.echo)]).c_str(),
+                        truth.firstPing, truth.firstPing + std::ssize(truth.cell) - 1, truth.rangeMetres.front(),
                         truth.bearingDegrees.front(), truth.rangeMetres.back(), truth.bearingDegrees.back());
         }
     }

@@ -63,8 +63,7 @@ void addInject(CLI::App &app, Common &common)
         options->line.fading = options->fading == "rayleigh" ? Fading::Rayleigh : Fading::None;
         const InjectedLine injected =
             scaledInjection(options->line, recording, settings, common.context().part(0.0, 0.3));
-        const InjectedRecording made(recording, {injected}, settings.selection.channel,
-                                     static_cast<std::uint64_t>(options->seed));
+        const InjectedRecording made(recording, {injected}, settings.selection.channel, std::uint64_t(options->seed));
         CommitTogether files;
         writeProvenance(common, options->analysis.inputs(), {options->out, options->truth});
         writeRecording(made, options->out, options->type == "int16" ? WrittenType::Int16 : WrittenType::Float32,

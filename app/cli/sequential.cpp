@@ -76,7 +76,7 @@ namespace {
     {
         const SprtBoundaries boundaries = sprtBoundaries(settings);
         Json json;
-        json["decision"] = sprtDecisionNames[static_cast<std::size_t>(result.decision)];
+        json["decision"] = sprtDecisionNames[std::size_t(result.decision)];
         json["stop"] = result.stages;
         json["forced"] = result.isForced;
         json["observedEvery"] = observedEvery;

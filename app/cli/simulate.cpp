@@ -29,10 +29,10 @@ namespace {
         for (const Axis &axis : scanGrid(scene).axes)
             shape.push_back(axis.count);
         const std::vector<ScanCell> trajectory = scanTrajectory(scene);
-        std::vector<float> y(static_cast<std::size_t>(scanGrid(scene).size()));
+        std::vector<float> y(std::size_t(scanGrid(scene).size()));
         NumPyWriter writer(out, shape);
         for (Index stage = 0; stage < scene.stages; ++stage) {
-            context.checkpoint(static_cast<double>(stage) / scene.stages, "simulating");
+            context.checkpoint(double(stage) / scene.stages, "simulating");
             readScan(scene, trajectory, 0, stage, y);
             writer.write(y);
         }
@@ -52,9 +52,9 @@ namespace {
             scene.seed = seed;
         const SimulatedPings pings(scene);
         NumPyWriter writer(out, {pings.time().count, pings.grid().axes[0].count, pings.grid().axes[1].count});
-        std::vector<float> y(static_cast<std::size_t>(pings.grid().size()));
+        std::vector<float> y(std::size_t(pings.grid().size()));
         for (Index ping = 0; ping < pings.time().count; ++ping) {
-            context.checkpoint(static_cast<double>(ping) / static_cast<double>(pings.time().count), "simulating pings");
+            context.checkpoint(double(ping) / double(pings.time().count), "simulating pings");
             pings.read(ping, 1, y);
             writer.write(y);
         }

@@ -36,7 +36,7 @@ namespace {
     {
         std::string text = "t,f\n";
         for (std::size_t i = 0; i < curve.hz().size(); ++i)
-            text += formatNumber(curve.time().value(static_cast<double>(i))) + "," + formatNumber(curve.hz()[i]) + "\n";
+            text += formatNumber(curve.time().value(double(i))) + "," + formatNumber(curve.hz()[i]) + "\n";
         return text;
     }
 

@@ -120,7 +120,7 @@ namespace {
         const Experiment experiment = experimentFromJson(provenance.at("experiment"), "experiment");
         if (const std::string recording = recordingOf(experiment); !recording.empty())
             mayRead(fileNameFromText(recording));
-        std::vector<int> runs(static_cast<std::size_t>(runCount(experiment)));
+        std::vector<int> runs(std::size_t(runCount(experiment)));
         std::iota(runs.begin(), runs.end(), 0);
         if (provenance.contains("runs")) { // it was stopped
             runs.clear();

@@ -120,7 +120,7 @@ void AnalysisController::edit(const QString &field, const FieldValue &value, con
 void AnalysisController::editNumber(const QString &field, double value)
 {
     const bool isWhole = settingField(field.toStdString()).kind == FieldKind::Integer;
-    edit(field, isWhole ? FieldValue(static_cast<int>(std::lround(value))) : FieldValue(value),
+    edit(field, isWhole ? FieldValue(int(std::lround(value))) : FieldValue(value),
          tr("Apply a value of "
             "the sweep"));
 }
@@ -234,7 +234,7 @@ void AnalysisController::dropPartialPreview()
         return;
     const Span &visible = m_document.viewport().time();
     const Axis &time = shown->time();
-    if (visible.low < time.value(-1.5) || visible.high > time.value(static_cast<double>(time.count) + 0.5))
+    if (visible.low < time.value(-1.5) || visible.high > time.value(double(time.count) + 0.5))
         m_document.setProvisional(nullptr);
 }
 

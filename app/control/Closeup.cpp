@@ -55,7 +55,7 @@ FrameStretch Closeup::wanted() const
         return framesPerRowWithin(byteBudget, one.end - one.begin, cells);
     };
     const Index there = mergedIn(m_stretch);
-    const bool isFineEnough = there <= mergedIn(stretch) || static_cast<double>(there) <= m_input.framesPerPixel();
+    const bool isFineEnough = there <= mergedIn(stretch) || double(there) <= m_input.framesPerPixel();
     return isFineEnough ? m_stretch : stretch;
 }
 

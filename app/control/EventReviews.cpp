@@ -220,7 +220,7 @@ void EventReviews::fillContextMenu(QMenu &menu, double seconds, double hz)
             box.label.empty() ? tr("annotation") : tr("“%1”").arg(buttonText(QString::fromStdString(box.label), 40));
         menu.addAction(tr("Remove %1").arg(name), this, [this, i, name] {
             Annotations after = m_document.annotations();
-            after.boxes.erase(after.boxes.begin() + static_cast<std::ptrdiff_t>(i));
+            after.boxes.erase(after.boxes.begin() + std::ptrdiff_t(i));
             m_document.annotate(std::move(after), tr("Remove %1").arg(name));
         });
     }
@@ -339,8 +339,7 @@ void EventReviews::showUnmatched()
 
 void EventReviews::goToUnmatched(int line)
 {
-    const SignalPath &path =
-        m_document.annotations().reviews[m_unmatched[static_cast<std::size_t>(line)]].paths.front();
+    const SignalPath &path = m_document.annotations().reviews[m_unmatched[std::size_t(line)]].paths.front();
     Viewport::Box box{{path.seconds.front(), path.seconds.back()},
                       {path.position.front().front(), path.position.front().front()}};
     for (const std::vector<double> &position : path.position) {

@@ -15,7 +15,7 @@ namespace {
 
     std::vector<int> openRuns(const Campaign &campaign)
     {
-        std::vector<int> runs(static_cast<std::size_t>(runCount(campaign.experiment)));
+        std::vector<int> runs(std::size_t(runCount(campaign.experiment)));
         std::iota(runs.begin(), runs.end(), 0);
         for (const RunOutcome &outcome : campaign.outcomes)
             std::erase(runs, outcome.run);
@@ -179,7 +179,7 @@ void Experiments::startCampaign(const Entry &entry)
 
 void Experiments::startReproduction(const Entry &entry)
 {
-    const ReproduceOptions options = m_options[static_cast<std::size_t>(entry.id - 1)];
+    const ReproduceOptions options = m_options[std::size_t(entry.id - 1)];
     m_runner.start([this, id = entry.id, reproducible = *entry.reproducible,
                     options](const RunContext &context) -> JobRunner::Delivery {
         const auto made = std::make_shared<const Reproduction>(reproducible.run(options, context));

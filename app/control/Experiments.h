@@ -38,7 +38,7 @@ public:
         std::optional<Reproducible> reproducible;
         std::shared_ptr<const Reproduction> reproduction; ///< once done
         std::optional<std::vector<CurvePoint>> imported;  ///< a curve file's points: there are no trials behind them
-        int runsDone() const { return campaign ? static_cast<int>(campaign->outcomes.size()) : 0; }
+        int runsDone() const { return campaign ? int(campaign->outcomes.size()) : 0; }
         bool isOpen() const { return state == State::Waiting || state == State::Running; }
     };
 

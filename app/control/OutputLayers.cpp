@@ -138,7 +138,7 @@ void OutputLayers::cycleLayer()
 {
     auto next = m_layer;
     do
-        next = static_cast<OutputLayer>((static_cast<std::size_t>(next) + 1) % outputLayerNames.size());
+        next = static_cast<OutputLayer>((std::size_t(next) + 1) % outputLayerNames.size());
     while (!isOffered(next));
     setLayer(next);
 }
@@ -202,14 +202,14 @@ LayerWindow OutputLayers::windowOfPing() const
     };
     const auto [firstRange, endRange] = span(axes[0], viewport.time());
     // On a cyclic axis the ends of a view all round are neighbours.
-    const bool isAllRound = viewport.frequency().width() > axes[1].step * static_cast<double>(axes[1].count - 1);
+    const bool isAllRound = viewport.frequency().width() > axes[1].step * double(axes[1].count - 1);
     const auto [firstBeam, endBeam] =
         isAllRound ? std::pair(Index(0), axes[1].count) : span(axes[1], viewport.frequency());
     LayerWindow window{firstRange, endRange, firstBeam, endBeam, axes[0].count, axes[1].count};
     if (m_map->isPolar()) {
         const PolarView &polar = *m_map->polar();
         const double perPixel = polar.invTransform(QwtAxis::XBottom, 1.0) - polar.invTransform(QwtAxis::XBottom, 0.0);
-        window.mostRows = std::max<Index>(1, static_cast<Index>(viewport.time().width() / perPixel));
+        window.mostRows = std::max<Index>(1, Index(viewport.time().width() / perPixel));
     } else {
         const QSize size = m_map->plane()->canvas()->contentsRect().size();
         const bool isRangeVertical = m_map->plane()->orientation() != WaterfallView::Orientation::LeftToRight;
@@ -333,8 +333,7 @@ void OutputLayers::show()
         break;
     case OutputLayer::Age: {
         const std::vector<float> &ages = m_result.picture->age;
-        const double longest =
-            std::max(static_cast<double>(*std::max_element(ages.begin(), ages.end())), analysis->time().step);
+        const double longest = std::max(double(*std::max_element(ages.begin(), ages.end())), analysis->time().step);
         constexpr double manySeconds = 7200.0;
         const bool isLong = longest > manySeconds;
         if (isOfPing)

@@ -16,8 +16,8 @@ namespace {
     /// As many as make up two hours, four at least.
     int runsFor(const Analysis &analysis)
     {
-        const double hours = static_cast<double>(analysis.time().count) * analysis.time().step / 3600.0;
-        return std::clamp(static_cast<int>(std::ceil(wantedHours / hours)), 4, mostRuns);
+        const double hours = double(analysis.time().count) * analysis.time().step / 3600.0;
+        return std::clamp(int(std::ceil(wantedHours / hours)), 4, mostRuns);
     }
 
 } // namespace

@@ -14,7 +14,7 @@ namespace {
     Axis partOf(Axis axis, Index first, Index count)
     {
         axis.cyclic = axis.cyclic && count == axis.count;
-        axis.first = axis.value(static_cast<double>(first));
+        axis.first = axis.value(double(first));
         axis.count = count;
         return axis;
     }
@@ -23,13 +23,13 @@ namespace {
     std::vector<SequentialTests::Walk> walk(const ScanTest &test, const SequentialModel &model, int first, int count,
                                             const RunContext &context)
     {
-        std::vector<SequentialTests::Walk> walks(static_cast<std::size_t>(2 * count));
+        std::vector<SequentialTests::Walk> walks(std::size_t(2 * count));
         parallelFor(2 * count, context, "walks", [&]() -> std::function<void(Index)> {
             return [&](Index i) {
-                const ScanRun run{i % 2 == 1, first + static_cast<int>(i / 2)};
+                const ScanRun run{i % 2 == 1, first + int(i / 2)};
                 RunContext inner;
                 inner.stop = context.stop;
-                walks[static_cast<std::size_t>(i)] = {run, walkScan(test, model, run, inner)};
+                walks[std::size_t(i)] = {run, walkScan(test, model, run, inner)};
             };
         });
         return walks;
@@ -153,7 +153,7 @@ void SequentialTests::runScans(const ScanTest &test, const RunContext &context)
         m_fixedSize = fixedSize;
         m_isFixedSizeKnown = true;
         if (fixedSize)
-            m_survey->fixedStages = *fixedSize * static_cast<Index>(m_survey->visits.size());
+            m_survey->fixedStages = *fixedSize * Index(m_survey->visits.size());
         emit fixedSizeChanged();
         emit surveyChanged();
     });
@@ -163,7 +163,7 @@ void SequentialTests::measureCurves(const ScanTest &test, const RunContext &cont
 {
     const std::vector<double> snrs = curveSnrs(test);
     const std::vector<double> &deviations = priorDeviations();
-    const auto count = static_cast<double>(snrs.size() + deviations.size());
+    const auto count = double(snrs.size() + deviations.size());
     double done = 0.0;
     std::optional<ScanPoint> before;
     for (const double snrDb : snrs) {
@@ -197,10 +197,10 @@ void SequentialTests::addWalks(std::vector<Walk> walks)
 
 void SequentialTests::select(int walk)
 {
-    if (walk < 0 || walk >= static_cast<int>(m_walks.size()) || walk == m_selected)
+    if (walk < 0 || walk >= int(m_walks.size()) || walk == m_selected)
         return;
     m_selected = walk;
-    m_stage = m_walks[static_cast<std::size_t>(walk)].second.stages;
+    m_stage = m_walks[std::size_t(walk)].second.stages;
     m_scan.reset();
     m_inspection.reset();
     emit selectionChanged();
@@ -213,7 +213,7 @@ void SequentialTests::setStage(Index stage)
 {
     if (m_selected < 0)
         return;
-    stage = std::clamp<Index>(stage, 1, m_walks[static_cast<std::size_t>(m_selected)].second.stages);
+    stage = std::clamp<Index>(stage, 1, m_walks[std::size_t(m_selected)].second.stages);
     if (stage == m_stage)
         return;
     m_stage = stage;
@@ -224,7 +224,7 @@ void SequentialTests::setStage(Index stage)
 
 void SequentialTests::inspect()
 {
-    const ScanRun run = m_walks[static_cast<std::size_t>(m_selected)].first;
+    const ScanRun run = m_walks[std::size_t(m_selected)].first;
     m_inspector.start([this, test = m_test, run](const RunContext &context) -> JobRunner::Delivery {
         const auto inspection = std::make_shared<const Inspection>(
             Inspection{inspectStages(scanModel(test.scene, test.designSnrDb), test.sprt, stageLimit(test),
@@ -239,7 +239,7 @@ void SequentialTests::inspect()
 
 void SequentialTests::readScan()
 {
-    m_scanner.start([this, test = m_test, run = m_walks[static_cast<std::size_t>(m_selected)].first,
+    m_scanner.start([this, test = m_test, run = m_walks[std::size_t(m_selected)].first,
                      stage = m_stage](const RunContext &) -> JobRunner::Delivery {
         return [this, scan = Scan{run, stage, rangeDopplerDb(test, run, stage - 1)}] {
             m_scan = scan;

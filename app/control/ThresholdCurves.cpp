@@ -44,9 +44,7 @@ void ThresholdCurves::showSelection()
         return m_plot.setSelectionExceedance({});
     const Axis &time = analysis->time();
     const Axis &frequency = analysis->grid().axes.front();
-    const auto first = [](const Axis &axis, double value) {
-        return static_cast<Index>(std::ceil(axis.position(value)));
-    };
+    const auto first = [](const Axis &axis, double value) { return Index(std::ceil(axis.position(value))); };
     m_plot.setSelectionExceedance(
         polygonOf(boxExceedance(*analysis->statistic, first(time, box->time.low), first(time, box->time.high),
                                 first(frequency, box->frequency.low), first(frequency, box->frequency.high))));

@@ -26,7 +26,7 @@ namespace {
     {
         int height = 0;
         for (const KeySection &section : sections)
-            height += titleHeight + rowHeight * static_cast<int>(section.entries.size());
+            height += titleHeight + rowHeight * int(section.entries.size());
         return height;
     }
 
@@ -92,7 +92,7 @@ void KeysOverlay::paintEvent(QPaintEvent *)
     const Theme::Colours &colours = Theme::colours(*this);
     // What the view has for itself stands above, in two halves; what holds everywhere below.
     const KeySection own = keysOfView(m_view);
-    const auto rows = static_cast<std::ptrdiff_t>(own.entries.size() + 1) / 2;
+    const auto rows = std::ptrdiff_t(own.entries.size() + 1) / 2;
     const KeySection halves[2]{{own.title, {own.entries.begin(), own.entries.begin() + rows}},
                                {QString(), {own.entries.begin() + rows, own.entries.end()}}};
     const int ownHeight = own.entries.empty() ? 0 : heightOf({halves[0]}) + gap;
@@ -110,7 +110,7 @@ void KeysOverlay::paintEvent(QPaintEvent *)
         const QPoint column = sheet.topLeft() + QPoint(margin + i * (columnWidth + margin), margin);
         if (ownHeight > 0)
             paintColumn(painter, {halves[i]}, column, colours);
-        paintColumn(painter, general[static_cast<std::size_t>(i)], column + QPoint(0, ownHeight), colours);
+        paintColumn(painter, general[std::size_t(i)], column + QPoint(0, ownHeight), colours);
     }
     if (ownHeight > 0) {
         painter.setPen(colours.frame);

@@ -136,7 +136,7 @@ namespace {
             question.choices << paragraphs(choice.get<std::string>());
         }
         const auto answer = numberAt(object, "answer", where).value_or(-1.0);
-        question.answer = static_cast<int>(answer);
+        question.answer = int(answer);
         if (question.answer != answer || question.answer < 0 || question.answer >= question.choices.size())
             throw Error(jsonName(where, "answer"), "must be the index of a choice, counted from 0");
         return question;

@@ -76,7 +76,7 @@ void LessonGuide::goTo(int step)
 {
     if (step < 0)
         return;
-    if (step >= static_cast<int>(m_lesson.steps.size())) {
+    if (step >= int(m_lesson.steps.size())) {
         leave();
         return emit finished();
     }
@@ -93,7 +93,7 @@ void LessonGuide::goTo(int step)
 int LessonGuide::openingStep() const
 {
     int opening = m_step;
-    while (m_lesson.steps[static_cast<std::size_t>(opening)].open.isEmpty())
+    while (m_lesson.steps[std::size_t(opening)].open.isEmpty())
         --opening;
     return opening;
 }
@@ -107,7 +107,7 @@ std::vector<LessonStep> LessonGuide::stepsNow() const
 /// Opens and sets what the step needs; `check` notices when the window has settled.
 void LessonGuide::set()
 {
-    const QString path = m_lesson.steps[static_cast<std::size_t>(openingStep())].open;
+    const QString path = m_lesson.steps[std::size_t(openingStep())].open;
     Document &document = m_parts.document();
     if (isScanScenario(path)) {
         m_opened = path;

@@ -52,7 +52,7 @@ signals:
     void runningChanged(bool isRunning);
 
 private:
-    const LessonStep &now() const { return m_lesson.steps[static_cast<std::size_t>(m_step)]; }
+    const LessonStep &now() const { return m_lesson.steps[std::size_t(m_step)]; }
     int openingStep() const; ///< the one whose recording is looked at
     std::vector<LessonStep> stepsNow() const;
     void set();

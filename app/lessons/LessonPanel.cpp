@@ -118,8 +118,8 @@ void LessonPanel::setLarge(bool isLarge)
 
 void LessonPanel::fill()
 {
-    const LessonStep &step = m_lesson.steps[static_cast<std::size_t>(m_step)];
-    const int count = static_cast<int>(m_lesson.steps.size());
+    const LessonStep &step = m_lesson.steps[std::size_t(m_step)];
+    const int count = int(m_lesson.steps.size());
     m_title->setText(m_lesson.title);
     m_title->setFont(Theme::boldFont(m_isLarge ? largeSize : plainSize));
     m_place->setText(tr("Step %1 of %2").arg(m_step + 1).arg(count));
@@ -180,7 +180,7 @@ int LessonPanel::choice() const
 
 void LessonPanel::showAnswer(int chosen)
 {
-    const LessonQuestion &question = *m_lesson.steps[static_cast<std::size_t>(m_step)].question;
+    const LessonQuestion &question = *m_lesson.steps[std::size_t(m_step)].question;
     m_why->setText(
         (chosen == question.answer ? tr("Right. ") : tr("The answer is “%1”. ").arg(question.choices[question.answer]))
         + question.why);
@@ -206,7 +206,7 @@ void LessonPanel::showState()
 {
     if (m_step < 0)
         return;
-    const LessonStep &step = m_lesson.steps[static_cast<std::size_t>(m_step)];
+    const LessonStep &step = m_lesson.steps[std::size_t(m_step)];
     const Theme::Colours &colours = Theme::colours(*this);
     if (m_choices)
         for (QAbstractButton *button : m_choices->buttons()) {

@@ -52,8 +52,7 @@ namespace {
 
     double mean(const std::vector<float> &values)
     {
-        return values.empty() ? 0.0
-                              : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+        return values.empty() ? 0.0 : std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
     }
 
     double windowSeconds(const Analysis &analysis)
@@ -65,16 +64,15 @@ namespace {
     double shareAboveTwice(const Analysis &analysis)
     {
         constexpr Index mostFrames = 256;
-        const auto cells = static_cast<std::size_t>(analysis.grid().size());
+        const auto cells = std::size_t(analysis.grid().size());
         std::vector<float> y(cells);
         const Index count = std::min(mostFrames, analysis.time().count);
         std::size_t above = 0;
         for (Index i = 0; i < count; ++i) {
             analysis.frames->read(i * analysis.time().count / count, 1, y);
-            above +=
-                static_cast<std::size_t>(std::count_if(y.begin(), y.end(), [](float value) { return value > 2.0f; }));
+            above += std::size_t(std::count_if(y.begin(), y.end(), [](float value) { return value > 2.0f; }));
         }
-        return static_cast<double>(above) / static_cast<double>(cells * static_cast<std::size_t>(count));
+        return double(above) / double(cells * std::size_t(count));
     }
 
     double peak(const WindowParts &, const Document &document)
@@ -97,7 +95,7 @@ namespace {
             return cell < 0 ? std::nullopt : std::optional(cell);
         }
         const auto &lines = document.truth().lines;
-        const double seconds = analysis.time().value(static_cast<double>(frame));
+        const double seconds = analysis.time().value(double(frame));
         if (line >= lines.size() || seconds < lines[line].startSeconds || seconds > lines[line].endSeconds)
             return {};
         return analysis.grid().axes.front().nearest(lines[line].frequencyAt(seconds));
@@ -127,10 +125,10 @@ namespace {
     Following following(const Document &document, std::size_t line)
     {
         const Analysis &analysis = *document.analysis();
-        std::vector<bool> isThere(static_cast<std::size_t>(analysis.time().count));
+        std::vector<bool> isThere(std::size_t(analysis.time().count));
         std::vector<bool> isFollowed(isThere.size());
         for (Index frame = 0; frame < analysis.time().count; ++frame)
-            isThere[static_cast<std::size_t>(frame)] = truthCell(document, line, frame).has_value();
+            isThere[std::size_t(frame)] = truthCell(document, line, frame).has_value();
         const auto first = std::find(isThere.begin(), isThere.end(), true) - isThere.begin();
         Following result;
         for (const Track &track : document.shownTracks()) {
@@ -138,20 +136,18 @@ namespace {
             for (const TrackPoint &point : track.points)
                 if (const auto cell = truthCell(document, line, point.frame);
                     cell && isNear(analysis.grid(), *cell, point.cell)) {
-                    isFollowed[static_cast<std::size_t>(point.frame)] = true;
+                    isFollowed[std::size_t(point.frame)] = true;
                     ++together;
                 }
             if (2 * together <= std::ssize(track.points))
                 continue;
             ++result.tracks;
             result.peak = std::max(result.peak, track.peakStatistic);
-            const double seconds = static_cast<double>(track.detectFrame - first) * analysis.time().step;
+            const double seconds = double(track.detectFrame - first) * analysis.time().step;
             result.seconds = std::min(seconds, result.seconds.value_or(seconds));
         }
         const auto there = std::count(isThere.begin(), isThere.end(), true);
-        result.share = there ? static_cast<double>(std::count(isFollowed.begin(), isFollowed.end(), true))
-                                   / static_cast<double>(there)
-                             : 0.0;
+        result.share = there ? double(std::count(isFollowed.begin(), isFollowed.end(), true)) / double(there) : 0.0;
         return result;
     }
 
@@ -162,11 +158,11 @@ namespace {
         std::smatch parts;
         if (!window.document().analysis() || !std::regex_match(name, parts, pattern))
             return {};
-        const Following found = following(window.document(), static_cast<std::size_t>(std::stoi(parts[1])) - 1);
+        const Following found = following(window.document(), std::size_t(std::stoi(parts[1])) - 1);
         if (parts[2] == "followed")
             return found.share;
         if (parts[2] == "tracks")
-            return static_cast<double>(found.tracks);
+            return double(found.tracks);
         if (parts[2] == "peak")
             return found.peak;
         return found.seconds ? Value(*found.seconds) : std::nullopt;
@@ -187,7 +183,7 @@ namespace {
             int count = 0;
             for (const auto &[run, result] : window.sequentialTests().walks())
                 if (run.hasTarget == hasTarget) {
-                    sum += static_cast<double>(result.stages);
+                    sum += double(result.stages);
                     ++count;
                 }
             return count ? Value(sum / count) : std::nullopt;
@@ -199,7 +195,7 @@ namespace {
         int wrong = 0;
         for (const auto &[run, result] : window.sequentialTests().walks())
             wrong += result.decision == (run.hasTarget ? SprtDecision::H0 : SprtDecision::H1);
-        return static_cast<double>(wrong);
+        return double(wrong);
     }
 
     /// Mean over the steps of the path that the ladder shows.
@@ -211,13 +207,13 @@ namespace {
         double sum = 0.0;
         for (auto step = explanation->steps.begin() + 1; step != explanation->steps.end(); ++step)
             sum += step->lnTransition;
-        return sum / static_cast<double>(explanation->steps.size() - 1);
+        return sum / double(explanation->steps.size() - 1);
     }
 
     const SequentialTests::Walk *selectedWalk(WindowParts &window)
     {
         const auto &tests = window.sequentialTests();
-        return tests.selected() < 0 ? nullptr : &tests.walks()[static_cast<std::size_t>(tests.selected())];
+        return tests.selected() < 0 ? nullptr : &tests.walks()[std::size_t(tests.selected())];
     }
 
     const std::map<std::string, Measure> &measures()
@@ -242,8 +238,7 @@ namespace {
             {"windowSeconds", ofAnalysis(windowSeconds)},
             {"aboveTwice", ofAnalysis(shareAboveTwice)},
             {"threshold", [](WindowParts &window) -> Value { return window.document().shownThreshold(); }},
-            {"events",
-             [](WindowParts &window) -> Value { return static_cast<double>(window.document().shownEvents().size()); }},
+            {"events", [](WindowParts &window) -> Value { return double(window.document().shownEvents().size()); }},
             {"peak", [](WindowParts &window) -> Value { return peak(window, window.document()); }},
             {"resetFraction",
              ofAnalysis([](const Analysis &analysis) { return 1.0 - mean(analysis.continuedFraction); })},
@@ -254,7 +249,7 @@ namespace {
             {"walks.fixed",
              [](WindowParts &window) -> Value {
                  const auto size = window.sequentialTests().fixedSize();
-                 return size ? Value(static_cast<double>(*size)) : std::nullopt;
+                 return size ? Value(double(*size)) : std::nullopt;
              }},
             {"survey.saved",
              [](WindowParts &window) -> Value {
@@ -272,12 +267,11 @@ namespace {
                  const auto *walk = selectedWalk(window);
                  return walk ? Value(std::string(walk->first.hasTarget ? "target" : "noise")) : std::nullopt;
              }},
-            {"walks.stage",
-             [](WindowParts &window) -> Value { return static_cast<double>(window.sequentialTests().stage()); }},
+            {"walks.stage", [](WindowParts &window) -> Value { return double(window.sequentialTests().stage()); }},
             {"walks.stages",
              [](WindowParts &window) -> Value {
                  const auto *walk = selectedWalk(window);
-                 return walk ? Value(static_cast<double>(walk->second.stages)) : std::nullopt;
+                 return walk ? Value(double(walk->second.stages)) : std::nullopt;
              }},
         };
         return table;

@@ -79,12 +79,11 @@ namespace {
         const Axis &last = analysis.grid().axes.back();
         double low = 1e300, high = -1e300;
         for (const TrackPoint &point : track.points) {
-            const double value = last.value(static_cast<double>(point.cell % last.count));
+            const double value = last.value(double(point.cell % last.count));
             low = std::min(low, value);
             high = std::max(high, value);
         }
-        return {{time.value(static_cast<double>(track.onsetFrame)), time.value(static_cast<double>(track.endFrame))},
-                {low, high}};
+        return {{time.value(double(track.onsetFrame)), time.value(double(track.endFrame))}, {low, high}};
     }
 
 } // namespace
@@ -113,7 +112,7 @@ ComparePanel::ComparePanel(Document &document, AnalysisController &controller, C
     connect(&comparer, &Comparer::keptChanged, this, &ComparePanel::follow);
     connect(&comparer, &Comparer::costChanged, this, &ComparePanel::showWords);
     connect(&comparer, &Comparer::progressed, this, [this](double fraction, const QString &what) {
-        m_sentence->setText(tr("%1, %2 %").arg(what).arg(static_cast<int>(100.0 * fraction)));
+        m_sentence->setText(tr("%1, %2 %").arg(what).arg(int(100.0 * fraction)));
     });
     connect(&comparer, &Comparer::failed, this,
             [this](const Error &error) { m_sentence->setText(messageText(error.what())); });
@@ -174,7 +173,7 @@ QWidget *ComparePanel::buildButtons()
     m_goTo->setToolTip(tr("Apply A's settings; undo restores the current ones"));
     m_compute->setToolTip(tr("A was computed on another source; compute it on the open one"));
     for (const In in : {In::Both, In::A, In::B}) {
-        QToolButton *filter = m_filters[static_cast<int>(in)];
+        QToolButton *filter = m_filters[int(in)];
         filter->setCheckable(true);
         filter->setChecked(true);
         filter->setToolTip(in == In::Both ? tr("List the events that both found")
@@ -297,9 +296,8 @@ void ComparePanel::showEvents()
     const Comparison none;
     const Comparison &comparison = result ? result->comparison : none;
     for (const In in : {In::A, In::B, In::Both})
-        m_filters[static_cast<int>(in)]->setText(in == In::Both
-                                                     ? tr("both %1").arg(comparison.count(in))
-                                                     : tr("%1 %2").arg(nameOf(in)).arg(comparison.count(in)));
+        m_filters[int(in)]->setText(in == In::Both ? tr("both %1").arg(comparison.count(in))
+                                                   : tr("%1 %2").arg(nameOf(in)).arg(comparison.count(in)));
     m_table->setSortingEnabled(false);
     m_table->setRowCount(0);
     if (result) {
@@ -314,7 +312,7 @@ void ComparePanel::showEvents()
         m_table->horizontalHeaderItem(StatisticB)->setToolTip(tr("Largest statistic in B, %1").arg(unitB));
         for (std::size_t i = 0; i < comparison.events.size(); ++i) {
             const ComparedEvent &compared = comparison.events[i];
-            if (!m_filters[static_cast<int>(compared.in())]->isChecked())
+            if (!m_filters[int(compared.in())]->isChecked())
                 continue;
             const Event &event = compared.event();
             const double step = result->b->time().step;
@@ -329,8 +327,8 @@ void ComparePanel::showEvents()
             const auto nats = [&](const std::optional<Event> &side) {
                 return side ? numberText(side->statistic, 1) : QString();
             };
-            set(InColumn, nameOf(compared.in()), static_cast<double>(compared.in()));
-            m_table->item(row, InColumn)->setData(Qt::UserRole, static_cast<int>(i));
+            set(InColumn, nameOf(compared.in()), double(compared.in()));
+            m_table->item(row, InColumn)->setData(Qt::UserRole, int(i));
             m_table->item(row, InColumn)->setTextAlignment(Qt::AlignLeft | Qt::AlignVCenter);
             set(Onset, secondsText(event.onsetSeconds, step), event.onsetSeconds);
             set(Place,
@@ -356,8 +354,7 @@ std::vector<Track> ComparePanel::tracksAlone(const Comparer::Result &result) con
     const bool haveSameAxes = result.a->time() == result.b->time() && result.a->grid() == result.b->grid();
     std::vector<Track> alone;
     for (const ComparedEvent &compared : result.comparison.events) {
-        if (compared.in() == In::Both || !m_filters[static_cast<int>(compared.in())]->isChecked()
-            || (!compared.b && !haveSameAxes))
+        if (compared.in() == In::Both || !m_filters[int(compared.in())]->isChecked() || (!compared.b && !haveSameAxes))
             continue;
         if (const Track *track = trackOfId((compared.b ? result.b : result.a)->tracks, compared.event().id))
             alone.push_back(*track);
@@ -410,8 +407,7 @@ void ComparePanel::goTo(int row)
     const QTableWidgetItem *item = m_table->item(row, InColumn);
     if (!result || !item)
         return;
-    const ComparedEvent &compared =
-        result->comparison.events[static_cast<std::size_t>(item->data(Qt::UserRole).toInt())];
+    const ComparedEvent &compared = result->comparison.events[std::size_t(item->data(Qt::UserRole).toInt())];
     if (compared.b)
         return emit eventActivated(compared.b->id);
     const Track *track = trackOfId(result->a->tracks, compared.a->id);

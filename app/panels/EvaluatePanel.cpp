@@ -101,7 +101,7 @@ void EvaluatePanel::followDocument()
     if (const auto &analysis = m_document.analysis(); analysis && analysis->recording)
         if (const Spectrogram *spectrogram = analysis->frames->spectrogram()) {
             windowSeconds = spectrogram->windowSeconds();
-            recordingSeconds = static_cast<double>(analysis->time().count) * analysis->time().step;
+            recordingSeconds = double(analysis->time().count) * analysis->time().step;
         }
     m_form->setCurrent(m_document.usedSettings(), windowSeconds, recordingSeconds);
 }
@@ -159,7 +159,7 @@ void EvaluatePanel::fillSnrs(const Experiments::Entry &entry)
     const std::vector<double> snrs = snrsOf(entry.campaign->experiment);
     for (const double db : snrs)
         m_snr->addItem(tr("%1 dB").arg(numberText(db, db == std::floor(db) ? 0 : 1)));
-    m_snr->setCurrentIndex(static_cast<int>(snrs.size() / 2));
+    m_snr->setCurrentIndex(int(snrs.size() / 2));
 }
 
 void EvaluatePanel::showPd(const Experiments::Entry &entry)
@@ -190,7 +190,7 @@ void EvaluatePanel::showOperatingPoint(const Experiments::Entry &entry)
 
 std::size_t EvaluatePanel::shownSnr() const
 {
-    return static_cast<std::size_t>(std::max(m_snr->currentIndex(), 0));
+    return std::size_t(std::max(m_snr->currentIndex(), 0));
 }
 
 /// Only while it is looked at: it costs more than Pd.

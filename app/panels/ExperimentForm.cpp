@@ -28,7 +28,7 @@ namespace {
     /// Frames of a block and signals that fit: Billon's geometry, made longer for longer lines.
     void fitBlocks(LineExperiment &lines)
     {
-        const int needed = static_cast<int>(std::ceil((lines.durationWindows + 50.0) * lines.stepsPerWindow));
+        const int needed = int(std::ceil((lines.durationWindows + 50.0) * lines.stepsPerWindow));
         if (needed <= lines.blockFrames)
             return;
         lines.blockFrames = needed;
@@ -67,7 +67,7 @@ ExperimentForm::ExperimentForm(QWidget *parent)
         m_detectors.push_back(new QCheckBox(QString::fromStdString(one.name)));
     for (std::size_t i = 0; i < m_detectors.size(); ++i) {
         m_detectors[i]->setChecked(i == 1 || i == 3 || i == 5);
-        detectors->addWidget(m_detectors[i], static_cast<int>(i / 2), static_cast<int>(i % 2));
+        detectors->addWidget(m_detectors[i], int(i / 2), int(i % 2));
         connect(m_detectors[i], &QCheckBox::toggled, this, &ExperimentForm::changed);
     }
     m_detectors[0]->setToolTip(tr("The detector and model set in the pipeline"));
@@ -170,7 +170,7 @@ std::vector<DetectorUnderTest> ExperimentForm::chosen() const
 std::vector<double> ExperimentForm::snrDb() const
 {
     std::vector<double> result;
-    for (int i = 0; static_cast<double>(i) < mostSnrs; ++i) {
+    for (int i = 0; double(i) < mostSnrs; ++i) {
         const double db = m_lowestDb->value() + i * m_stepDb->value();
         if (db > m_highestDb->value() + 1e-9)
             break;

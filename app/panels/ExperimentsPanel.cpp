@@ -124,8 +124,7 @@ void ExperimentsPanel::follow(int id)
     for (int row = 0; entry && row < m_table->rowCount(); ++row) {
         if (m_table->item(row, Name)->data(Qt::UserRole).toInt() != id)
             continue;
-        static_cast<QProgressBar *>(m_table->cellWidget(row, Progress))
-            ->setValue(static_cast<int>(100.0 * entry->progress));
+        static_cast<QProgressBar *>(m_table->cellWidget(row, Progress))->setValue(int(100.0 * entry->progress));
         m_table->item(row, State)->setText(stateText(*entry));
         m_table->item(row, State)->setToolTip(entry->failure.isEmpty() ? QString() : asHtml(entry->failure));
     }

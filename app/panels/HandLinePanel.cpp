@@ -155,8 +155,8 @@ HandLinePanel::Comparison HandLinePanel::compare(const Analysis &analysis, const
         const auto apart = [](const std::vector<PathCell> &a, const std::vector<PathCell> &b) {
             double sum = 0.0;
             for (std::size_t i = 0; i < a.size(); ++i)
-                sum += std::abs(static_cast<double>(a[i].cell - b[i].cell));
-            return a.empty() ? 0.0 : sum / static_cast<double>(a.size());
+                sum += std::abs(double(a[i].cell - b[i].cell));
+            return a.empty() ? 0.0 : sum / double(a.size());
         };
         // Of tracks side by side the nearer one; a long one beats a scrap.
         const bool isBetter = mine.size() > 2 * ownThere.size()

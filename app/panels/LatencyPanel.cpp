@@ -38,11 +38,11 @@ namespace {
     Curve pdCurve(const std::string &name, const std::vector<Index> &latencies, Index longest)
     {
         Curve curve{name, Curve::Kind::Measured, {}};
-        const auto count = static_cast<double>(latencies.size());
+        const auto count = double(latencies.size());
         const std::vector<double> pd = pdAgainstPings(latencies, longest);
         for (std::size_t i = 0; i < pd.size(); ++i)
-            curve.points.push_back({static_cast<double>(i + 1), pd[i],
-                                    wilsonInterval(std::llround(pd[i] * count), std::ssize(latencies))});
+            curve.points.push_back(
+                {double(i + 1), pd[i], wilsonInterval(std::llround(pd[i] * count), std::ssize(latencies))});
         return curve;
     }
 
@@ -51,7 +51,7 @@ namespace {
         Curve curve{name, Curve::Kind::Measured, {}};
         const std::vector<int> counts = latencyHistogram(latencies, longest);
         for (std::size_t i = 0; i + 1 < counts.size(); ++i)
-            curve.points.push_back({static_cast<double>(i + 1), static_cast<double>(counts[i]), {}});
+            curve.points.push_back({double(i + 1), double(counts[i]), {}});
         return curve;
     }
 
@@ -96,7 +96,7 @@ LatencyPanel::LatencyPanel(const Document &document, QWidget *parent)
     });
     connect(&document, &Document::analysisChanged, this, &LatencyPanel::follow);
     connect(&m_runner, &JobRunner::progressed, this, [this](double fraction, const QString &what) {
-        m_sentence->setText(tr("%1, %2 %").arg(what).arg(static_cast<int>(100.0 * fraction)));
+        m_sentence->setText(tr("%1, %2 %").arg(what).arg(int(100.0 * fraction)));
     });
     const auto end = [this] {
         m_button->setText(tr("&Measure"));
@@ -150,7 +150,7 @@ void LatencyPanel::start(int runs)
     std::get<SmdSettings>(experiment.settings.detector).lnK = analysis.calibration->lnK;
     m_runner.start([this, experiment](const RunContext &context) -> JobRunner::Delivery {
         const std::vector<TrackScore> scores = runPings(experiment, context);
-        return [this, scores, longest = static_cast<Index>(experiment.scene.pings),
+        return [this, scores, longest = Index(experiment.scene.pings),
                 threshold = experiment.settings.decide.thresholdNats] { show(scores, longest, threshold); };
     });
 }

@@ -26,7 +26,7 @@ namespace {
         std::vector<float> sorted = analysis.lnK;
         const auto middle = sorted.begin() + std::ssize(sorted) / 2;
         std::nth_element(sorted.begin(), middle, sorted.end());
-        return static_cast<double>(*middle);
+        return double(*middle);
     }
 
     const StateSpace &turningSpace(const Analysis &analysis)
@@ -179,7 +179,7 @@ QString LawPanel::snrWords(const Analysis &analysis) const
     double changing = 0.0;
     for (const Law &law : m_laws) {
         const std::vector<double> &values = law.plot->law();
-        const auto times = static_cast<double>(law.axes.size());
+        const auto times = double(law.axes.size());
         kept -= times * std::log(values.front());
         changing += times * damping(values).mean;
     }

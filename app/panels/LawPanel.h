@@ -23,8 +23,8 @@ class LawPanel : public QWidget
 public:
     explicit LawPanel(const Document &document, QWidget *parent = nullptr);
 
-    int plotCount() const { return static_cast<int>(m_laws.size()); }
-    LawPlot *plot(int number) const { return m_laws[static_cast<std::size_t>(number)].plot; }
+    int plotCount() const { return int(m_laws.size()); }
+    LawPlot *plot(int number) const { return m_laws[std::size_t(number)].plot; }
     QString sentence() const;
 
 signals:

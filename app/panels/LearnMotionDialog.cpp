@@ -59,7 +59,7 @@ LearnMotionDialog::LearnMotionDialog(std::shared_ptr<const Analysis> analysis, A
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     connect(buttons, &QDialogButtonBox::accepted, this, &LearnMotionDialog::apply);
     connect(&m_runner, &JobRunner::progressed, this,
-            [this](double fraction, const QString &) { m_progress->setValue(static_cast<int>(1000.0 * fraction)); });
+            [this](double fraction, const QString &) { m_progress->setValue(int(1000.0 * fraction)); });
     connect(&m_runner, &JobRunner::finished, this, &LearnMotionDialog::settled);
     connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
         m_progress->hide();
@@ -77,7 +77,7 @@ void LearnMotionDialog::show(const LearnedMotion &motion)
     m_progress->hide();
     m_apply->setEnabled(true);
     const QString learnedFrom =
-        tr("From %n track(s), %1 frames.", nullptr, static_cast<int>(motion.tracks)).arg(motion.frames, 0, 'f', 0);
+        tr("From %n track(s), %1 frames.", nullptr, int(motion.tracks)).arg(motion.frames, 0, 'f', 0);
     const QString table = row(QString(), tr("<b>present</b>"), tr("<b>learned</b>"))
                           + row(tr("Slope changes"), lawText(motion.present), lawText(motion.learned))
                           + row(tr("ln K"), nats(motion.presentLnK), nats(motion.learnedLnK))

@@ -74,7 +74,7 @@ NoiseCheck::NoiseCheck(const Document &document, AnalysisController &controller,
     connect(&check, &RecordingCheck::changed, this, &NoiseCheck::refresh);
     connect(&check, &RecordingCheck::settled, this, &NoiseCheck::settled);
     connect(&check, &RecordingCheck::countProgressed, this, [this](double fraction, const QString &what) {
-        m_progress->setValue(static_cast<int>(std::lround(1000.0 * fraction)));
+        m_progress->setValue(int(std::lround(1000.0 * fraction)));
         m_progress->setToolTip(what);
     });
     refresh();

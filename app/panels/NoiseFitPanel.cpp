@@ -48,7 +48,7 @@ namespace {
             return 0;
         const std::vector<double> &cells = analysis.settings.decide.inhibitCells;
         const double half = cells.empty() ? 0.0 : cells.back();
-        return static_cast<Index>(std::ceil(half * frameGeometry(analysis.settings.spectrogram).binsPerCell)) + 1;
+        return Index(std::ceil(half * frameGeometry(analysis.settings.spectrogram).binsPerCell)) + 1;
     }
 
     Chart chartOf(const std::vector<FittedBand> &bands, const Axis &axis)
@@ -57,7 +57,7 @@ namespace {
         double longest = 1.0;
         for (const FittedBand &band : bands) {
             Curve curve{bandText(band, axis).toStdString(), Curve::Kind::Measured, {}};
-            for (double x = 0.5; static_cast<double>(band.law.count()) * std::exp(-x) >= fewest; x += 0.5) {
+            for (double x = 0.5; double(band.law.count()) * std::exp(-x) >= fewest; x += 0.5) {
                 curve.points.push_back({x, band.law.quantile(std::exp(-x)), {}});
                 longest = std::max(longest, x);
             }
@@ -114,7 +114,7 @@ NoiseFitPanel::NoiseFitPanel(const Document &document, QWidget *parent)
     connect(m_sight, &VisibilityWatcher::came, this, &NoiseFitPanel::measure);
     connect(&document, &Document::analysisChanged, this, &NoiseFitPanel::measure);
     connect(&m_runner, &JobRunner::progressed, this, [this](double fraction, const QString &what) {
-        m_sentence->setText(tr("%1, %2 %").arg(what).arg(static_cast<int>(100.0 * fraction)));
+        m_sentence->setText(tr("%1, %2 %").arg(what).arg(int(100.0 * fraction)));
     });
     connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
         m_sentence->setText(messageText(error.what()));
@@ -153,15 +153,15 @@ void NoiseFitPanel::show(const Fit &fit)
 {
     const Axis &axis = fit.analysis->grid().axes.back();
     m_plot->setChart(chartOf(fit.bands, axis));
-    m_table->setRowCount(static_cast<int>(fit.bands.size()));
+    m_table->setRowCount(int(fit.bands.size()));
     for (int row = 0; row < m_table->rowCount(); ++row) {
-        const FittedBand &band = fit.bands[static_cast<std::size_t>(row)];
-        const QStringList texts{
-            bandText(band, axis), numberText(band.law.mean(), 3),
-            tr("%1 %2 %3")
-                .arg(numberText(band.law.distance(), 4), band.fits() ? QStringLiteral("≤") : QStringLiteral(">"),
-                     numberText(NoiseLaw::distanceLimit(band.independent), 4)),
-            fit.pfa.empty() ? QStringLiteral("–") : pfaText(fit.pfa[static_cast<std::size_t>(row)])};
+        const FittedBand &band = fit.bands[std::size_t(row)];
+        const QStringList texts{bandText(band, axis), numberText(band.law.mean(), 3),
+                                tr("%1 %2 %3")
+                                    .arg(numberText(band.law.distance(), 4),
+                                         band.fits() ? QStringLiteral("≤") : QStringLiteral(">"),
+                                         numberText(NoiseLaw::distanceLimit(band.independent), 4)),
+                                fit.pfa.empty() ? QStringLiteral("–") : pfaText(fit.pfa[std::size_t(row)])};
         fillRow(*m_table, row, texts, 1);
     }
     say(fit);
@@ -182,8 +182,7 @@ void NoiseFitPanel::say(const Fit &fit)
                                         "only."));
     const auto worst = std::max_element(fit.pfa.begin(), fit.pfa.end(),
                                         [](const MisfitPfa &a, const MisfitPfa &b) { return a.ratio() < b.ratio(); });
-    const QString band =
-        bandText(fit.bands[static_cast<std::size_t>(worst - fit.pfa.begin())], fit.analysis->grid().axes.back());
+    const QString band = bandText(fit.bands[std::size_t(worst - fit.pfa.begin())], fit.analysis->grid().axes.back());
     const bool isHarmless = misfits == 0 && worst->ratio() < notable;
     const QString law = misfits > 0 ? tr("%1 of %2 bands depart from the law; lines in a band also cause this.")
                                           .arg(misfits)

@@ -82,8 +82,7 @@ void OpenOptionsDialog::showLength()
 {
     try {
         const SampleType type = parseSampleType(options().rawType, "type");
-        const auto samples =
-            static_cast<double>((m_fileBytes - m_header->value()) / (type.sampleBytes() * m_channels->value()));
+        const auto samples = double((m_fileBytes - m_header->value()) / (type.sampleBytes() * m_channels->value()));
         m_length->setText(tr("%1 s").arg(std::max(0.0, samples) / m_rate->value(), 0, 'g', 6));
         m_iq->setEnabled(!type.isComplex && m_channels->value() % 2 == 0);
     } catch (const Error &error) {

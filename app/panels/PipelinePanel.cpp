@@ -143,7 +143,7 @@ void PipelinePanel::listPresets()
 
 const Preset &PipelinePanel::presetAt(int index) const
 {
-    const auto at = static_cast<std::size_t>(index - 1);
+    const auto at = std::size_t(index - 1);
     return at < presets().size() ? presets()[at] : m_ownPresets.all()[at - presets().size()];
 }
 
@@ -183,8 +183,7 @@ void PipelinePanel::showWindows()
         };
         m_window->addItem(tr("From the recording: %1 s").arg(seconds(m_choice->chosen)));
         for (std::size_t i = 0; i < m_choice->trials.size(); ++i)
-            m_window->addItem(
-                tr("%1 s, %n track(s)", nullptr, static_cast<int>(m_choice->trials[i].tracks)).arg(seconds(i)));
+            m_window->addItem(tr("%1 s, %n track(s)", nullptr, int(m_choice->trials[i].tracks)).arg(seconds(i)));
         const auto taken =
             std::find_if(m_choice->trials.begin(), m_choice->trials.end(), [this](const WindowTrial &trial) {
                 return inWindowOf(trial, m_document.settings()) == m_document.settings();
@@ -192,8 +191,7 @@ void PipelinePanel::showWindows()
         if (leavesWindowToRecording(m_document.analysedSettings()))
             m_window->setCurrentIndex(0);
         else
-            m_window->setCurrentIndex(
-                taken == m_choice->trials.end() ? -1 : static_cast<int>(taken - m_choice->trials.begin()) + 1);
+            m_window->setCurrentIndex(taken == m_choice->trials.end() ? -1 : int(taken - m_choice->trials.begin()) + 1);
     }
     m_window->setVisible(m_window->count() > 0);
     m_top->labelForField(m_window)->setVisible(m_window->count() > 0);
@@ -234,7 +232,7 @@ void PipelinePanel::applyPreset(int index)
 
 void PipelinePanel::applyWindow(int index)
 {
-    const WindowTrial &trial = m_choice->trials[index == 0 ? m_choice->automatic : static_cast<std::size_t>(index - 1)];
+    const WindowTrial &trial = m_choice->trials[index == 0 ? m_choice->automatic : std::size_t(index - 1)];
     AnalysisSettings settings = inWindowOf(trial, m_document.settings());
     if (index == 0)
         settings.spectrogram.windowSeconds = 0.0;

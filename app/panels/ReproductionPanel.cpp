@@ -80,7 +80,7 @@ ReproductionPanel::ReproductionPanel(QWidget *parent)
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(splitter);
     connect(m_which, &QComboBox::activated, this,
-            [this](int index) { m_plot->setChart(m_reproduction->charts[static_cast<std::size_t>(index)]); });
+            [this](int index) { m_plot->setChart(m_reproduction->charts[std::size_t(index)]); });
 }
 
 void ReproductionPanel::show(std::shared_ptr<const Reproduction> reproduction)
@@ -113,9 +113,9 @@ void ReproductionPanel::fillTable()
     if (!m_reproduction)
         return;
     const Theme::Colours &colours = Theme::colours(*this);
-    m_table->setRowCount(static_cast<int>(m_reproduction->cells.size()));
+    m_table->setRowCount(int(m_reproduction->cells.size()));
     for (int row = 0; row < m_table->rowCount(); ++row) {
-        const ReproducedCell &cell = m_reproduction->cells[static_cast<std::size_t>(row)];
+        const ReproducedCell &cell = m_reproduction->cells[std::size_t(row)];
         const bool hasInterval = cell.interval.low < cell.interval.high;
         const auto z = cell.z();
         const QString gap = !cell.paper ? QString()

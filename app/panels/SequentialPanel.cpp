@@ -230,7 +230,7 @@ void SequentialPanel::connectTests()
     connect(&m_tests, &SequentialTests::restarted, this, &SequentialPanel::restart);
     connect(&m_tests, &SequentialTests::busyChanged, this, &SequentialPanel::showBusy);
     connect(&m_tests, &SequentialTests::progressed, this, [this](double fraction, const QString &what) {
-        m_progress->setValue(static_cast<int>(1000.0 * fraction));
+        m_progress->setValue(int(1000.0 * fraction));
         m_state->setText(what);
     });
     connect(&m_tests, &SequentialTests::walksChanged, this, &SequentialPanel::showWalks);
@@ -343,15 +343,14 @@ void SequentialPanel::showStopping()
     if (!m_tests.isOfScans())
         longest = 0; // one test alone is no histogram
     for (BarPlot::Series &one : series)
-        one.values.assign(static_cast<std::size_t>(longest), 0.0);
+        one.values.assign(std::size_t(longest), 0.0);
     if (longest > 0)
         for (const auto &[run, result] : m_tests.walks())
-            series[run.hasTarget ? 1 : 0].values[static_cast<std::size_t>(result.stages - 1)] += 1.0;
+            series[run.hasTarget ? 1 : 0].values[std::size_t(result.stages - 1)] += 1.0;
     m_stopping->setBars(std::move(series), 1);
     std::vector<MarkedPlot::Mark> marks;
     if (m_tests.fixedSize() && *m_tests.fixedSize() <= longest)
-        marks.push_back(
-            {static_cast<double>(*m_tests.fixedSize()), true, tr("fixed size: about %1").arg(*m_tests.fixedSize())});
+        marks.push_back({double(*m_tests.fixedSize()), true, tr("fixed size: about %1").arg(*m_tests.fixedSize())});
     m_stopping->setMarks(std::move(marks));
     m_stopping->setEmptySentence(m_tests.isOfScans() ? tr("The stages at which tests stop are counted here.")
                                                      : recordingNote(m_tests));
@@ -359,10 +358,10 @@ void SequentialPanel::showStopping()
 
 void SequentialPanel::selectStoppedAt(int stage)
 {
-    const auto count = static_cast<int>(m_tests.walks().size());
+    const auto count = int(m_tests.walks().size());
     for (int step = 1; step <= count; ++step) {
         const int walk = (std::max(0, m_tests.selected()) + step) % count;
-        if (m_tests.walks()[static_cast<std::size_t>(walk)].second.stages == stage)
+        if (m_tests.walks()[std::size_t(walk)].second.stages == stage)
             return m_tests.select(walk);
     }
 }
@@ -371,10 +370,10 @@ void SequentialPanel::showSelection()
 {
     m_walk->setSelected(m_tests.selected());
     const bool hasRun = m_tests.selected() >= 0;
-    const Index stages = hasRun ? m_tests.walks()[static_cast<std::size_t>(m_tests.selected())].second.stages : 1;
-    m_stopping->setSelected(hasRun ? static_cast<int>(stages) : -1);
+    const Index stages = hasRun ? m_tests.walks()[std::size_t(m_tests.selected())].second.stages : 1;
+    m_stopping->setSelected(hasRun ? int(stages) : -1);
     const QSignalBlocker blocker(m_slider);
-    m_slider->setRange(1, static_cast<int>(stages));
+    m_slider->setRange(1, int(stages));
     m_slider->setEnabled(hasRun && stages > 1);
     m_runText->setText(runSentence(m_tests));
 }
@@ -382,10 +381,10 @@ void SequentialPanel::showSelection()
 void SequentialPanel::showStage()
 {
     const bool hasRun = m_tests.selected() >= 0;
-    const auto stage = static_cast<double>(m_tests.stage());
+    const auto stage = double(m_tests.stage());
     m_walk->setCursor(hasRun ? std::optional(stage) : std::nullopt);
     const QSignalBlocker blocker(m_slider);
-    m_slider->setValue(static_cast<int>(m_tests.stage()));
+    m_slider->setValue(int(m_tests.stage()));
     m_stageText->setText(hasRun ? tr("stage %1 of %2").arg(m_tests.stage()).arg(m_slider->maximum()) : QString());
 }
 
@@ -404,17 +403,17 @@ void SequentialPanel::showSectors()
     std::vector<BarPlot::Series> series{{tr("empty"), 0, {}}, {tr("with a target"), 1, {}}};
     if (m_tests.survey()) {
         for (BarPlot::Series &one : series)
-            one.values.assign(static_cast<std::size_t>(test.sectors), 0.0);
+            one.values.assign(std::size_t(test.sectors), 0.0);
         for (const SectorVisit &visit : m_tests.survey()->visits)
-            series[holdsTarget(test, visit.sector) ? 1 : 0].values[static_cast<std::size_t>(visit.sector)] +=
-                static_cast<double>(visit.result.stages) / test.rounds;
+            series[holdsTarget(test, visit.sector) ? 1 : 0].values[std::size_t(visit.sector)] +=
+                double(visit.result.stages) / test.rounds;
     }
     m_sectors->setBars(std::move(series), 1, true);
     std::vector<MarkedPlot::Mark> marks;
     if (m_tests.fixedSize()) {
-        marks.push_back({static_cast<double>(*m_tests.fixedSize()), false,
+        marks.push_back({double(*m_tests.fixedSize()), false,
                          tr("a test of fixed size: about %1").arg(*m_tests.fixedSize()), true});
-        m_sectors->setLeastHeight(static_cast<double>(*m_tests.fixedSize()));
+        m_sectors->setLeastHeight(double(*m_tests.fixedSize()));
     } else {
         m_sectors->setLeastHeight(0.0);
     }

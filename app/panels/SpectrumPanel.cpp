@@ -25,13 +25,13 @@ namespace {
     {
         const auto first = std::lower_bound(hz.begin(), hz.end(), band.low) - hz.begin();
         const auto end = std::upper_bound(hz.begin(), hz.end(), band.high) - hz.begin();
-        const auto step = std::max<std::ptrdiff_t>(1, (end - first) / static_cast<std::ptrdiff_t>(mostPoints));
+        const auto step = std::max<std::ptrdiff_t>(1, (end - first) / std::ptrdiff_t(mostPoints));
         Curve curve{name, Curve::Kind::Measured, {}};
         for (std::ptrdiff_t i = first; i < end; i += step) {
             const auto largest =
                 std::max_element(values.begin() + i, values.begin() + std::min(i + step, end)) - values.begin();
-            if (const double value = values[static_cast<std::size_t>(largest)]; value > 0.0)
-                curve.points.push_back({hz[static_cast<std::size_t>(largest)], 10.0 * std::log10(value) + addedDb, {}});
+            if (const double value = values[std::size_t(largest)]; value > 0.0)
+                curve.points.push_back({hz[std::size_t(largest)], 10.0 * std::log10(value) + addedDb, {}});
         }
         return curve;
     }

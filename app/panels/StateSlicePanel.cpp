@@ -30,7 +30,7 @@ namespace {
 
     Span whole(const Axis &axis)
     {
-        return {axis.value(-0.5), axis.value(static_cast<double>(axis.count) - 0.5)};
+        return {axis.value(-0.5), axis.value(double(axis.count) - 0.5)};
     }
 
     /// Of lines, drifts in a unit that suits them.
@@ -147,7 +147,7 @@ StateSlicePanel::StateSlicePanel(Document &document, PingViewports &viewports, Q
     connect(m_tabs, &QTabBar::currentChanged, this, &StateSlicePanel::layOut);
     connect(m_law, &LawPanel::lawRequested, this, &StateSlicePanel::lawRequested);
     connect(&m_runner, &JobRunner::progressed, this, [this](double fraction, const QString &what) {
-        m_sentence->setText(tr("%1, %2 %").arg(what).arg(static_cast<int>(100.0 * fraction)));
+        m_sentence->setText(tr("%1, %2 %").arg(what).arg(int(100.0 * fraction)));
     });
     connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
         m_sentence->setText(messageText(error.what()));
@@ -201,7 +201,7 @@ void StateSlicePanel::setAxes(int rows, int columns)
 /// Two different ones: who takes the other's gives his own in exchange.
 void StateSlicePanel::chooseAxes(QComboBox &changed, QComboBox &other)
 {
-    const int before = static_cast<int>(&changed == m_rows ? m_shownAxes.first : m_shownAxes.second);
+    const int before = int(&changed == m_rows ? m_shownAxes.first : m_shownAxes.second);
     if (changed.currentIndex() == other.currentIndex())
         other.setCurrentIndex(before);
     update();
@@ -226,7 +226,7 @@ void StateSlicePanel::fillAxes()
         return m_sentence->clear();
     }
     const std::vector<Axis> axes = stateAxes(*analysis);
-    if (m_rows->count() != static_cast<int>(axes.size())) {
+    if (m_rows->count() != int(axes.size())) {
         for (QComboBox *box : {m_rows, m_columns}) {
             const QSignalBlocker blocker(box);
             box->clear();
@@ -269,11 +269,10 @@ void StateSlicePanel::update()
         || !(isLines || (m_document.hasPings() && m_rows->currentIndex() != m_columns->currentIndex())))
         return;
     const bool isBest = isMaximised();
-    const std::size_t model = !analysis->isBank() ? 0 : static_cast<std::size_t>(m_model->currentIndex());
+    const std::size_t model = !analysis->isBank() ? 0 : std::size_t(m_model->currentIndex());
     StateSlice slice{1, 0, {}}; // of lines: slope × frequency
     if (!isLines)
-        slice = {
-            static_cast<std::size_t>(m_rows->currentIndex()), static_cast<std::size_t>(m_columns->currentIndex()), {}};
+        slice = {std::size_t(m_rows->currentIndex()), std::size_t(m_columns->currentIndex()), {}};
     m_runner.start([this, analysis, at = *at, isBest, model, slice](const RunContext &context) -> JobRunner::Delivery {
         if (!m_replay || m_replay->analysis() != analysis)
             m_replay = std::make_shared<StateReplay>(
@@ -289,11 +288,11 @@ void StateSlicePanel::update()
         const std::vector<Index> rates = bestRates(space, states->values, analysis->grid().cell(cell));
         cell.insert(cell.end(), rates.begin(), rates.end());
         for (std::size_t i = 0; i < cell.size(); ++i) {
-            cut.values.push_back(cut.axes[i].value(static_cast<double>(cell[i])));
+            cut.values.push_back(cut.axes[i].value(double(cell[i])));
             cut.slice.places.push_back(isBest ? std::nullopt : std::optional(cell[i]));
         }
         cut.scores = cutStates(space, states->values, cut.slice);
-        cut.best = static_cast<double>(*std::max_element(cut.scores.begin(), cut.scores.end()));
+        cut.best = double(*std::max_element(cut.scores.begin(), cut.scores.end()));
         cut.picture =
             pictureOf(cut.axes[slice.rows], cut.axes[slice.columns], cut.scores, ByteScale(ByteScale::Kind::ScoreNats));
         return [this, analysis, cut] {
@@ -355,7 +354,7 @@ void StateSlicePanel::show(const Cut &cut)
         isOfLines()
             ? tr("Frame %1 at %2: %3")
                   .arg(cut.frame + 1)
-                  .arg(secondsText(m_document.analysis()->time().value(static_cast<double>(cut.frame)),
+                  .arg(secondsText(m_document.analysis()->time().value(double(cut.frame)),
                                    m_document.analysis()->time().step),
                        bestWords(cut))
             : tr("Ping %1: %2; at most %3 nat").arg(cut.frame + 1).arg(otherWords(cut), numberText(cut.best, 1)));
@@ -390,8 +389,7 @@ double StateSlicePanel::scoreAtCursor(const Cut &cut) const
     const Axis &rows = cut.axes[cut.slice.rows];
     const Axis &columns = cut.axes[cut.slice.columns];
     const Index row = rows.nearest(cut.values[cut.slice.rows]);
-    return static_cast<double>(
-        cut.scores[static_cast<std::size_t>(row * columns.count + columns.nearest(cut.values[cut.slice.columns]))]);
+    return double(cut.scores[std::size_t(row * columns.count + columns.nearest(cut.values[cut.slice.columns]))]);
 }
 
 /// The best state in view, and that of the cursor's cell.
@@ -424,9 +422,8 @@ void StateSlicePanel::placeMarks()
     std::optional<SliceMarks::Best> best;
     for (Index row = 0; row < rows.count; ++row)
         for (Index column = 0; column < columns.count; ++column) {
-            const auto score = static_cast<double>(cut.scores[static_cast<std::size_t>(row * columns.count + column)]);
-            const SliceMarks::Best here{rows.value(static_cast<double>(row)),
-                                        columns.value(static_cast<double>(column)), score};
+            const auto score = double(cut.scores[std::size_t(row * columns.count + column)]);
+            const SliceMarks::Best here{rows.value(double(row)), columns.value(double(column)), score};
             if ((!best || score > best->score) && m_viewport.time().contains(here.row)
                 && m_viewport.frequency().contains(here.column))
                 best = here;
@@ -438,7 +435,7 @@ void StateSlicePanel::placeMarks()
         const Index i = cut.frame - (track.points.empty() ? 0 : track.points.front().frame);
         if (track.model != cut.model || i < 0 || i >= std::ssize(track.points))
             continue;
-        const TrackPoint &point = track.points[static_cast<std::size_t>(i)];
+        const TrackPoint &point = track.points[std::size_t(i)];
         std::vector<Index> state = grid.coordinates(point.cell);
         const StateSpace::Coordinates coordinates = space.coordinates(point.plane * space.cellCount() + point.cell);
         state.insert(state.end(), coordinates.rates.begin(), coordinates.rates.end());
@@ -447,8 +444,8 @@ void StateSlicePanel::placeMarks()
             if (axis != cut.slice.rows && axis != cut.slice.columns && cut.slice.places[axis])
                 isInSlice = isInSlice && *cut.slice.places[axis] == state[axis];
         if (isInSlice)
-            paths.push_back({rows.value(static_cast<double>(state[cut.slice.rows])),
-                             columns.value(static_cast<double>(state[cut.slice.columns]))});
+            paths.push_back(
+                {rows.value(double(state[cut.slice.rows])), columns.value(double(state[cut.slice.columns]))});
     }
     m_marks->set(best, std::move(paths));
 }

@@ -69,8 +69,8 @@ std::string TrajectoryPage::scanNumbers() const
     std::string csv = "range,doppler,db\n";
     const Index rows = m_scan->yAxis().count;
     for (std::size_t i = 0; i < m_scan->values().size(); ++i)
-        csv += std::to_string(static_cast<Index>(i) % rows) + "," + std::to_string(static_cast<Index>(i) / rows) + ","
-               + formatNumber(static_cast<double>(m_scan->values()[i])) + "\n";
+        csv += std::to_string(Index(i) % rows) + "," + std::to_string(Index(i) / rows) + ","
+               + formatNumber(double(m_scan->values()[i])) + "\n";
     return csv;
 }
 
@@ -86,14 +86,13 @@ void TrajectoryPage::clear()
 
 void TrajectoryPage::showStage()
 {
-    m_posterior->setCursor(m_tests.selected() >= 0 ? std::optional(static_cast<double>(m_tests.stage()))
-                                                   : std::nullopt);
+    m_posterior->setCursor(m_tests.selected() >= 0 ? std::optional(double(m_tests.stage())) : std::nullopt);
 }
 
 const PosteriorPicture *TrajectoryPage::shownPosterior() const
 {
     const auto &inspection = m_tests.inspection();
-    const auto index = static_cast<std::size_t>(std::max(0, m_axis->currentIndex()));
+    const auto index = std::size_t(std::max(0, m_axis->currentIndex()));
     return inspection && index < inspection->test.posterior.size() ? &inspection->test.posterior[index] : nullptr;
 }
 
@@ -102,7 +101,7 @@ Axis TrajectoryPage::cellAxis(const PosteriorPicture &picture) const
     if (m_tests.isOfScans())
         return {picture.name, "cell", 0.0, 1.0, picture.cells, false};
     Axis axis = m_tests.selection().frames->grid().axes[0];
-    axis.first = axis.value(static_cast<double>(m_tests.selection().firstCell));
+    axis.first = axis.value(double(m_tests.selection().firstCell));
     axis.count = picture.cells;
     return axis;
 }
@@ -112,7 +111,7 @@ void TrajectoryPage::showInspection()
     const auto &inspection = m_tests.inspection();
     if (!inspection)
         return;
-    if (m_axis->count() != static_cast<int>(inspection->test.posterior.size())) {
+    if (m_axis->count() != int(inspection->test.posterior.size())) {
         m_axis->clear();
         std::size_t finest = 0;
         for (std::size_t i = 0; i < inspection->test.posterior.size(); ++i) {
@@ -120,25 +119,23 @@ void TrajectoryPage::showInspection()
             if (inspection->test.posterior[i].cells > inspection->test.posterior[finest].cells)
                 finest = i;
         }
-        m_axis->setCurrentIndex(static_cast<int>(finest));
+        m_axis->setCurrentIndex(int(finest));
     }
     const PosteriorPicture &picture = *shownPosterior();
     constexpr double leastLg = -4.0;
     std::vector<float> lg;
     for (const float p : picture.probability)
-        lg.push_back(static_cast<float>(std::log10(std::max(static_cast<double>(p), 1e-9))));
+        lg.push_back(float(std::log10(std::max(double(p), 1e-9))));
     const Axis cells = cellAxis(picture);
-    m_posterior->setPicture({"stage", "", 1.0, static_cast<double>(picture.stride), picture.rows(), false}, cells,
-                            std::move(lg), {leastLg, 0.0}, tr("log₁₀ P"));
+    m_posterior->setPicture({"stage", "", 1.0, double(picture.stride), picture.rows(), false}, cells, std::move(lg),
+                            {leastLg, 0.0}, tr("log₁₀ P"));
 
     const Theme::Colours &colours = Theme::colours(*this);
     CellPicture::Path truth{tr("truth"), CellPicture::Path::Kind::Dashes, colours.truth, {}};
     CellPicture::Path map{tr("MAP trajectory"), CellPicture::Path::Kind::Line, colours.track, {}};
-    const auto point = [&](Index stage, Index cell) {
-        return QPointF(static_cast<double>(stage + 1), cells.value(static_cast<double>(cell)));
-    };
+    const auto point = [&](Index stage, Index cell) { return QPointF(double(stage + 1), cells.value(double(cell))); };
     for (Index stage = 0; stage < inspection->test.result.stages; ++stage) {
-        const auto at = static_cast<std::size_t>(stage);
+        const auto at = std::size_t(stage);
         if (at < inspection->truth.size())
             truth.points.push_back(point(stage, inspection->truth[at][picture.frameAxis]));
         if (at < inspection->test.result.trajectory.size())
@@ -154,8 +151,8 @@ void TrajectoryPage::showScan()
     if (!scan)
         return;
     const ScanScene &scene = m_tests.test().scene;
-    const auto ranges = static_cast<std::size_t>(scene.rangeCells);
-    const auto dopplers = static_cast<std::size_t>(scene.dopplerCells);
+    const auto ranges = std::size_t(scene.rangeCells);
+    const auto dopplers = std::size_t(scene.dopplerCells);
     std::vector<float> values(ranges * dopplers);
     for (std::size_t r = 0; r < ranges; ++r)
         for (std::size_t d = 0; d < dopplers; ++d)
@@ -165,21 +162,17 @@ void TrajectoryPage::showScan()
                        {0.0, std::max(15.0, scene.snrDb + 6.0)}, tr("strongest beam (dB)"));
     const auto &inspection = m_tests.inspection();
     std::vector<CellPicture::Path> marks;
-    const auto at = static_cast<std::size_t>(scan->stage - 1);
+    const auto at = std::size_t(scan->stage - 1);
     const Theme::Colours &colours = Theme::colours(*this);
     if (inspection && at < inspection->truth.size()) {
         const ScanCell &cell = inspection->truth[at];
-        marks.push_back({tr("truth"),
-                         CellPicture::Path::Kind::Rings,
-                         colours.truth,
-                         {QPointF(static_cast<double>(cell[3]), static_cast<double>(cell[2]))}});
+        marks.push_back(
+            {tr("truth"), CellPicture::Path::Kind::Rings, colours.truth, {QPointF(double(cell[3]), double(cell[2]))}});
     }
     if (inspection && at < inspection->test.result.trajectory.size()) {
         const std::vector<Index> &cell = inspection->test.result.trajectory[at];
-        marks.push_back({tr("MAP"),
-                         CellPicture::Path::Kind::Crosses,
-                         colours.track,
-                         {QPointF(static_cast<double>(cell[3]), static_cast<double>(cell[2]))}});
+        marks.push_back(
+            {tr("MAP"), CellPicture::Path::Kind::Crosses, colours.track, {QPointF(double(cell[3]), double(cell[2]))}});
     }
     m_scan->setPaths(std::move(marks));
 }

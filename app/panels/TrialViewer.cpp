@@ -55,7 +55,7 @@ void TrialViewer::step(int trials, bool onlyMissed)
     const auto count = std::ssize(all);
     for (std::ptrdiff_t i = 1; i <= count; ++i) {
         const std::ptrdiff_t next = ((m_trial + i * trials) % count + count) % count;
-        if (onlyMissed && all[static_cast<std::size_t>(next)].isDetected)
+        if (onlyMissed && all[std::size_t(next)].isDetected)
             continue;
         m_trial = next;
         return start();
@@ -73,7 +73,7 @@ void TrialViewer::start()
     m_trial %= std::ssize(all);
     if (m_window)
         m_window->setBusy(true);
-    const TrialPlace place = all[static_cast<std::size_t>(m_trial)].place;
+    const TrialPlace place = all[std::size_t(m_trial)].place;
     m_runner.start([this, campaign = *entry->campaign, trials = entry->trials, detector = m_detector, snr = m_snr,
                     place](const RunContext &context) -> JobRunner::Delivery {
         ShownTrial trial = showTrial(campaign, trials.get(), detector, snr, place, context);
@@ -88,7 +88,7 @@ void TrialViewer::show(const ShownTrial &trial)
         return;
     const Campaign &campaign = *entry->campaign;
     const auto all = trialsOf(campaign, m_detector, m_snr);
-    const TrialOutcome &outcome = all[static_cast<std::size_t>(m_trial)];
+    const TrialOutcome &outcome = all[std::size_t(m_trial)];
     const DetectorUnderTest detector = detectorsOf(campaign.experiment)[m_detector];
     const QString name = labelText(detector.name);
     const QString db = numberText(snrOf(campaign, m_snr), 1);

@@ -40,7 +40,7 @@ namespace {
         Chart chart{"Evidence along the best path", "Time (s)", "Sum (nat)", false, false, {}};
         Curve sum{"sum of all terms", Curve::Kind::Measured, {}};
         for (const PathStep &step : explanation.steps)
-            sum.points.push_back({time.value(static_cast<double>(step.frame)), step.score, {}});
+            sum.points.push_back({time.value(double(step.frame)), step.score, {}});
         const double first = sum.points.front().x;
         const double last = sum.points.back().x;
         chart.curves.push_back(std::move(sum));
@@ -134,7 +134,7 @@ QString whySentence(const Explanation &explanation, const Analysis &analysis)
                      ? QObject::tr("This cell is inhibited by a track that was dropped later. ")
                      : QObject::tr("This cell is excluded: no signal is looked for here. ");
     const auto steps = explanation.steps.size();
-    const QString since = secondsText(time.value(static_cast<double>(explanation.steps.front().frame)), time.step);
+    const QString since = secondsText(time.value(double(explanation.steps.front().frame)), time.step);
     words += steps == 1 ? QObject::tr("The path begins in this frame")
                         : QObject::tr("The path has %1 steps and begins at %2").arg(steps).arg(since);
     words += resetWords(explanation.reset) + QLatin1Char(' ');
@@ -187,7 +187,7 @@ WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *
     connect(&m_runner, &JobRunner::progressed, this, [this](double fraction, const QString &what) {
         constexpr qint64 longMs = 300;
         if (m_began.elapsed() > longMs) // of millions of states, or far into a long recording, it takes seconds
-            m_sentence->setText(tr("%1, %2 %").arg(what).arg(static_cast<int>(100.0 * fraction)));
+            m_sentence->setText(tr("%1, %2 %").arg(what).arg(int(100.0 * fraction)));
     });
     connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
         m_sentence->setText(messageText(error.what()));
@@ -254,9 +254,9 @@ void WhyPanel::layColumns(const Analysis &analysis)
     QStringList names{tr("Time")};
     for (const Axis &axis : analysis.grid().axes)
         names << (axis.unit == "Hz" ? tr("f (%1)").arg(shownUnit(axis).name) : titleOf(axis));
-    const auto axes = static_cast<int>(analysis.grid().axes.size());
+    const auto axes = int(analysis.grid().axes.size());
     names << tr("λ") << tr("ln P") << tr("ln K") << tr("Sum") << tr("2nd");
-    m_ladder->setColumnCount(static_cast<int>(names.size()));
+    m_ladder->setColumnCount(int(names.size()));
     m_ladder->setHorizontalHeaderLabels(names);
     m_ladder->horizontalHeaderItem(axes + 1)->setToolTip(tr("Evidence: log-likelihood ratio of the cell's power, nat"));
     m_ladder->horizontalHeaderItem(axes + 2)->setToolTip(tr("Logarithm of the transition's probability, nat"));
@@ -277,20 +277,20 @@ void WhyPanel::show(const Explanation &explanation, const Analysis &analysis)
     m_sentence->setText(whySentence(explanation, analysis));
     m_plot->setChart(chartOf(explanation, time));
     const std::size_t count = std::min(explanation.steps.size(), longestLadder);
-    m_ladder->setRowCount(static_cast<int>(count));
+    m_ladder->setRowCount(int(count));
     for (std::size_t row = 0; row < count; ++row) {
         const PathStep &step = explanation.steps[explanation.steps.size() - 1 - row];
-        QStringList texts{secondsText(time.value(static_cast<double>(step.frame)), time.step)};
+        QStringList texts{secondsText(time.value(double(step.frame)), time.step)};
         const std::vector<Index> cells = grid.coordinates(space.cellOf(step.state));
         for (std::size_t i = 0; i < cells.size(); ++i) {
             const Axis &axis = grid.axes[i];
             const double unit = shownUnit(axis).hz;
-            texts << numberText(axis.value(static_cast<double>(cells[i])) / unit, decimalsFor(axis.step / unit));
+            texts << numberText(axis.value(double(cells[i])) / unit, decimalsFor(axis.step / unit));
         }
         texts << signedText(step.logLikelihoodRatio) << numberText(step.lnTransition, 2) << signedText(step.lnK)
               << numberText(step.score, 2)
               << (std::isfinite(step.runnerUp) ? numberText(-step.runnerUp, 2) : QStringLiteral("–"));
-        fillRow(*m_ladder, static_cast<int>(row), texts);
+        fillRow(*m_ladder, int(row), texts);
     }
 }
 

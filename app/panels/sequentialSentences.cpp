@@ -66,7 +66,7 @@ namespace {
                            .arg(decisionText(result))
                            .arg(result.stages)
                            .arg(selection.frameCount)
-                           .arg(secondsText(static_cast<double>(result.stages) * time.step, time.step),
+                           .arg(secondsText(double(result.stages) * time.step, time.step),
                                 numberText(result.lnLambda.empty() ? 0.0 : result.lnLambda.back(), 1));
         if (result.decision == SprtDecision::H0)
             text += tr(" This decision is final and does not cover lines that start later. Begin the view later to "
@@ -82,7 +82,7 @@ QString runSentence(const SequentialTests &tests)
         return {};
     if (!tests.isOfScans())
         return recordingSentence(tests);
-    const auto &[run, result] = tests.walks()[static_cast<std::size_t>(tests.selected())];
+    const auto &[run, result] = tests.walks()[std::size_t(tests.selected())];
     return tr("Run %1 %2: %3 after %4, ln Λ = %5.")
                .arg(run.number + 1)
                .arg(run.hasTarget ? tr("with a target") : tr("of noise only"), decisionText(result),
@@ -165,7 +165,7 @@ QString sectorsSentence(const SequentialTests &tests)
         found += isTarget && isAccepted ? 1 : 0;
         falseAlarms += !isTarget && isAccepted ? 1 : 0;
     }
-    const int looks = static_cast<int>(survey.visits.size());
+    const int looks = int(survey.visits.size());
     const QString seen = tr(" %1 of %2 looks at sectors with a target find it; %3 of %4 looks at empty sectors end in "
                             "a false alarm.")
                              .arg(found)

@@ -298,12 +298,12 @@ PictureDifference comparePictures(const QImage &expected, const QImage &actual, 
     const QImage a = expected.convertToFormat(QImage::Format_ARGB32);
     const QImage b = actual.convertToFormat(QImage::Format_ARGB32);
     Changes changes = changesBetween(a, b);
-    const auto slight = static_cast<qint64>(changes.slight.size());
+    const auto slight = qint64(changes.slight.size());
     if (toleratesRasters && slight * pixelsPerTolerated <= qint64(a.width()) * a.height())
         result.toleratedPixels = slight;
     else
         changes.plain.insert(changes.plain.end(), changes.slight.begin(), changes.slight.end());
-    result.changedPixels = static_cast<qint64>(changes.plain.size());
+    result.changedPixels = qint64(changes.plain.size());
     result.places = placesOf(changes.plain);
     if (!result.isEqual())
         result.picture = drawn(b, changes.plain, result.places);

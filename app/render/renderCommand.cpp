@@ -99,9 +99,8 @@ namespace {
         testAndSettle(window, [&] { window.openScans(test); });
         if (!options.seconds)
             return;
-        const double before =
-            std::clamp(*options.seconds / test.scene.secondsPerStage, 0.0, static_cast<double>(stageLimit(test)));
-        testAndSettle(window, [&] { window.sequentialTests().setStage(static_cast<Index>(before) + 1); });
+        const double before = std::clamp(*options.seconds / test.scene.secondsPerStage, 0.0, double(stageLimit(test)));
+        testAndSettle(window, [&] { window.sequentialTests().setStage(Index(before) + 1); });
     }
 
     /// The window as a lesson's step sets it up.

@@ -33,9 +33,9 @@ namespace {
         Index best = centre;
         for (Index cell = std::max<Index>(0, centre - reach); cell <= std::min(frequency.count - 1, centre + reach);
              ++cell)
-            if (row[static_cast<std::size_t>(cell)] > row[static_cast<std::size_t>(best)])
+            if (row[std::size_t(cell)] > row[std::size_t(best)])
                 best = cell;
-        return {frequency.value(static_cast<double>(best))};
+        return {frequency.value(double(best))};
     }
 
 } // namespace
@@ -63,7 +63,7 @@ void writeReport(const Analysis &analysis, ReportMaterial material, const std::s
 {
     const std::vector<Event> chosen = eventsToExplain(analysis, material.events, material.annotations);
     for (std::size_t i = 0; i < chosen.size(); ++i) {
-        const auto share = [&](std::size_t n) { return static_cast<double>(n) / static_cast<double>(chosen.size()); };
+        const auto share = [&](std::size_t n) { return double(n) / double(chosen.size()); };
         material.ladders.push_back(
             {chosen[i].id, explain(analysis, chosen[i].detectSeconds, strongestNear(analysis, chosen[i]),
                                    context.part(share(i), share(i + 1)))});

@@ -137,7 +137,7 @@ std::string WindowViews::withView(const QString &name, const std::string &proven
         {"view", name.toStdString()},
         {"size", {shown.width(), shown.height()}},
         {"theme", Theme::nameOf(Theme::kind(m_window->palette())).toStdString()},
-        {"layer", std::string(outputLayerNames[static_cast<std::size_t>(layers.layer())])},
+        {"layer", std::string(outputLayerNames[std::size_t(layers.layer())])},
         {"overlay", layers.isOverlay()},
         {"focused", shown.isAncestorOf(QApplication::focusWidget()) || &shown == QApplication::focusWidget()}};
     return json.dump(2) + "\n";

@@ -18,8 +18,8 @@ namespace {
     /// Range and Doppler of the target in the scan that is shown.
     std::vector<QPointF> truthOn(const ScanCard::Result &result)
     {
-        const ScanCell cell = truthOf(result.test, result.scan.run)[static_cast<std::size_t>(result.scan.stage - 1)];
-        return {QPointF(static_cast<double>(cell[2]), static_cast<double>(cell[3]))};
+        const ScanCell cell = truthOf(result.test, result.scan.run)[std::size_t(result.scan.stage - 1)];
+        return {QPointF(double(cell[2]), double(cell[3]))};
     }
 
     void makePicture(MarkedPlot &plot)
@@ -62,7 +62,7 @@ ScanCard::Result ScanCard::compute(const RunContext &context)
     const SequentialModel model = scanModel(result.test.scene, result.test.designSnrDb);
     for (int number = 0; number < walksShown; ++number)
         for (const bool hasTarget : {false, true}) {
-            context.checkpoint(static_cast<double>(number) / walksShown, "walks");
+            context.checkpoint(double(number) / walksShown, "walks");
             const ScanRun run{hasTarget, number};
             result.walks.emplace_back(run, walkScan(result.test, model, run));
         }
@@ -79,7 +79,7 @@ void ScanCard::setResult(const Result &result)
     int accepted = 0;
     for (const auto &[run, test] : result.walks) {
         walks.push_back({test.lnLambda, test.decision, run.hasTarget, test.isForced});
-        onTargets += run.hasTarget ? static_cast<double>(test.stages) : 0.0;
+        onTargets += run.hasTarget ? double(test.stages) : 0.0;
         accepted += run.hasTarget && test.decision == SprtDecision::H1 ? 1 : 0;
     }
     m_walks->setTest(result.test.sprt, {});

@@ -54,7 +54,7 @@ void ScenarioCard::setResult(const OpenedSource &opened, std::shared_ptr<const A
     m_viewport.setExtents(full.time, full.frequency);
     m_input->setPicture(input, frequency);
     m_statistic->setPicture(m_analysis->statisticAlong.front(), frequency);
-    const int count = static_cast<int>(m_analysis->tracks.size());
+    const int count = int(m_analysis->tracks.size());
     m_found->setText(count == 1 ? tr("1 event found") : tr("%1 events found").arg(count));
 }
 

@@ -47,7 +47,7 @@ void ActivityBar::setBusy(bool isBusy)
 void ActivityBar::setProgress(double fraction, const QString &what)
 {
     m_what->setText(what);
-    m_progress->setValue(static_cast<int>(fraction * m_progress->maximum()));
+    m_progress->setValue(int(fraction * m_progress->maximum()));
 }
 
 } // namespace faintline

@@ -145,7 +145,7 @@ void MainWindow::connectViews()
     connect(m_welcome, &WelcomePage::scenarioChosen, this, &MainWindow::openScenario);
     connect(m_welcome, &WelcomePage::scansChosen, this, [this] { open(radarScenarioPath()); });
     connect(m_welcome->lessonList(), &LessonList::chosen, this,
-            [this](int lesson) { startLesson(lessons()[static_cast<std::size_t>(lesson)]); });
+            [this](int lesson) { startLesson(lessons()[std::size_t(lesson)]); });
     connect(m_presentAction, &QAction::toggled, this,
             [](bool isPresenting) { Theme::setPlotScale(isPresenting ? 1.5 : 1.0); });
     connect(m_presentAction, &QAction::toggled, m_lessons, &LessonGuide::present);

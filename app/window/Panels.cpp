@@ -147,7 +147,7 @@ void Panels::takeLayout(const QString &name)
     if (index < 0)
         return;
     takeDefault();
-    const Layout &layout = layouts()[static_cast<std::size_t>(index)];
+    const Layout &layout = layouts()[std::size_t(index)];
     if (layout.docks.isEmpty())
         return;
     for (const Entry &entry : m_entries)

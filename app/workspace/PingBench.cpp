@@ -48,7 +48,7 @@ namespace {
 
     double centreOf(const Axis &axis, double value)
     {
-        return axis.value(static_cast<double>(cellOf(axis, value)));
+        return axis.value(double(cellOf(axis, value)));
     }
 
 } // namespace
@@ -269,7 +269,7 @@ void PingBench::showAnalysis()
     showRegulation();
     {
         const QScopedValueRollback following(m_isFollowing, true);
-        m_slider->setRange(0, static_cast<int>(analysis.time().count) - 1);
+        m_slider->setRange(0, int(analysis.time().count) - 1);
     }
     m_shownPing = -1;
     if (isFirst)
@@ -333,9 +333,7 @@ void PingBench::showEvents()
 void PingBench::followExtents()
 {
     const Analysis &analysis = *m_document.analysis();
-    const auto whole = [](const Axis &axis) {
-        return Span{axis.value(-0.5), axis.value(static_cast<double>(axis.count) - 0.5)};
-    };
+    const auto whole = [](const Axis &axis) { return Span{axis.value(-0.5), axis.value(double(axis.count) - 0.5)}; };
     constexpr double fewestCells = 4.0;
     const Axis &range = analysis.grid().axes[0];
     const Axis &bearing = analysis.grid().axes[1];
@@ -358,9 +356,8 @@ void PingBench::placeCursor()
                                      [&](const TrackPoint &point) { return point.frame >= middle; });
         const TrackPoint &point = at == track->points.end() ? track->points.back() : *at;
         const std::vector<Index> c = analysis.grid().coordinates(point.cell);
-        m_viewports.setPlace({analysis.time().value(static_cast<double>(point.frame)),
-                              analysis.grid().axes[0].value(static_cast<double>(c[0])),
-                              analysis.grid().axes[1].value(static_cast<double>(c[1]))});
+        m_viewports.setPlace({analysis.time().value(double(point.frame)), analysis.grid().axes[0].value(double(c[0])),
+                              analysis.grid().axes[1].value(double(c[1]))});
     } else
         m_viewports.setPlace({m_viewports.rangeTime().full().time.middle(), map.time.middle(), map.frequency.middle()});
 }
@@ -410,7 +407,7 @@ void PingBench::followPlace()
         m_input->setPicture(pictureOfFrame(*analysis.input, analysis.grid(), now), analysis.grid().axes[1]);
         showStatistic();
         const QScopedValueRollback following(m_isFollowing, true);
-        m_slider->setValue(static_cast<int>(now));
+        m_slider->setValue(int(now));
         showMarks();
     }
     readCursor();
@@ -461,13 +458,12 @@ void PingBench::read(double range, double bearing)
         return there ? numberText(*there, 1) : QStringLiteral("–");
     };
     QStringList words{tr("ping %1/%2").arg(m_shownPing + 1).arg(analysis.time().count),
-                      secondsText(analysis.time().value(static_cast<double>(m_shownPing)), 1.0),
+                      secondsText(analysis.time().value(double(m_shownPing)), 1.0),
                       axisText(ranges, r),
                       axisText(bearings, b),
                       tr("y %1 dB").arg(value(*m_input->plane(), r, b)),
                       tr("D %1 %2").arg(value(*m_output->plane(), r, b), m_output->plane()->valueUnit())};
-    if (const auto best =
-            m_layers.readingAt(PingViewports::Place{analysis.time().value(static_cast<double>(m_shownPing)), r, b})) {
+    if (const auto best = m_layers.readingAt(PingViewports::Place{analysis.time().value(double(m_shownPing)), r, b})) {
         const auto rate = [&](const Axis &axis, double perSecond) {
             return numberText(perSecond, decimalsFor(axis.step / analysis.time().step)) + unitText(axis)
                    + QStringLiteral("/s");
@@ -500,7 +496,7 @@ void PingBench::showPing(Index ping)
         return;
     const Axis &time = m_document.analysis()->time();
     PingViewports::Place place = m_viewports.place();
-    place.seconds = time.value(static_cast<double>(std::clamp<Index>(ping, 0, time.count - 1)));
+    place.seconds = time.value(double(std::clamp<Index>(ping, 0, time.count - 1)));
     m_viewports.setPlace(place);
     const double range = place.range;
     m_viewports.rangeTime().reveal({{place.seconds, place.seconds}, {range, range}});

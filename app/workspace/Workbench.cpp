@@ -62,7 +62,7 @@ namespace {
             const Index i = frame - (track.points.empty() ? 0 : track.points.front().frame);
             if (i < 0 || i >= std::ssize(track.points))
                 continue;
-            const TrackPoint &at = track.points[static_cast<std::size_t>(i)];
+            const TrackPoint &at = track.points[std::size_t(i)];
             if (std::abs(at.cell % frequency.count - frequency.nearest(point.hz)) <= 1)
                 return analysis.model.space.ratesOfPlane(at.plane).back() * frequency.step / time.step;
         }
@@ -74,13 +74,10 @@ namespace {
     {
         const Axis &time = analysis.time();
         const Axis &frequency = analysis.grid().axes.back();
-        const auto hz = [&](const TrackPoint &point) {
-            return frequency.value(static_cast<double>(point.cell % frequency.count));
-        };
+        const auto hz = [&](const TrackPoint &point) { return frequency.value(double(point.cell % frequency.count)); };
         const auto [low, high] = std::minmax_element(track.points.begin(), track.points.end(),
                                                      [&](const auto &a, const auto &b) { return hz(a) < hz(b); });
-        return {{time.value(static_cast<double>(track.onsetFrame)), time.value(static_cast<double>(track.endFrame))},
-                {hz(*low), hz(*high)}};
+        return {{time.value(double(track.onsetFrame)), time.value(double(track.endFrame))}, {hz(*low), hz(*high)}};
     }
 
 } // namespace
@@ -203,7 +200,7 @@ void Workbench::showPictures(const PicturesSoFar &pictures)
     followExtents(pictures.time, pictures.frequency);
     // The quick look has all of the recording, what has been gone through has all of the detail.
     const Axis &time = pictures.time;
-    const double reached = pictures.input ? time.value(static_cast<double>(pictures.input->frameCount()) - 0.5)
+    const double reached = pictures.input ? time.value(double(pictures.input->frameCount()) - 0.5)
                                           : -std::numeric_limits<double>::infinity();
     const bool isReached = !pictures.quickLook || m_document.viewport().visible().time.high <= reached;
     m_input->setPicture(isReached ? pictures.input : pictures.quickLook, pictures.frequency);
@@ -363,8 +360,7 @@ void Workbench::play()
     if (!m_document.analysis() || !viewport.cursor()
         || viewport.cursor()->seconds >= m_document.analysis()->time().last())
         return setPlaying(false);
-    stepFrames(
-        std::max(1, static_cast<int>(viewport.time().width() / playerSteps / m_document.analysis()->time().step)));
+    stepFrames(std::max(1, int(viewport.time().width() / playerSteps / m_document.analysis()->time().step)));
 }
 
 void Workbench::resizeEvent(QResizeEvent *event)

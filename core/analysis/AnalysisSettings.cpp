@@ -44,7 +44,7 @@ namespace {
         };
         kind.set = [](AnalysisSettings &settings, const FieldValue &value) {
             const auto found = std::find(detectorNames.begin(), detectorNames.end(), std::get<std::string>(value));
-            const auto index = static_cast<std::size_t>(found - detectorNames.begin());
+            const auto index = std::size_t(found - detectorNames.begin());
             if (index < detectorNames.size() && index != settings.detector.index())
                 settings.detector = detectorOfKind(index);
         };
@@ -93,7 +93,7 @@ namespace {
 
     int slopeIndex(double slope, int slopesPerBin)
     {
-        return static_cast<int>(std::lround(slope * slopesPerBin));
+        return int(std::lround(slope * slopesPerBin));
     }
 
     int slopeCount(const ModelSettings &model)
@@ -292,7 +292,7 @@ FieldValue defaultValue(const Field<AnalysisSettings> &field)
     AnalysisSettings settings;
     const std::string_view stage = std::string_view(field.name).substr(0, field.name.find('.'));
     if (const auto found = std::find(detectorNames.begin(), detectorNames.end(), stage); found != detectorNames.end())
-        settings.detector = detectorOfKind(static_cast<std::size_t>(found - detectorNames.begin()));
+        settings.detector = detectorOfKind(std::size_t(found - detectorNames.begin()));
     return field.get(settings).value();
 }
 
@@ -319,7 +319,7 @@ void checkSettings(const AnalysisSettings &settings)
                          "must not exceed conventional.window");
     const bool isInBins = settings.model.slopeUnit == SlopeUnit::BinsPerFrame;
     checkLaw("model.slopeChange", settings.model.slopeChange,
-             isInBins ? slopeCount(settings.model) : std::max(1, static_cast<int>(settings.model.slopeChange.size())));
+             isInBins ? slopeCount(settings.model) : std::max(1, int(settings.model.slopeChange.size())));
     checkLaw("model.rangeRateChange", settings.model.rangeRateChange, 1);
     checkLaw("model.bearingRateChange", settings.model.bearingRateChange, 1);
 }
@@ -328,7 +328,7 @@ void checkHasNoFamily(const AnalysisSettings &settings, std::string why)
 {
     if (!settings.family.isNone())
         throw fieldError("family.relation",
-                         std::string(FamilySettings::relationNames[static_cast<std::size_t>(settings.family.relation)]),
+                         std::string(FamilySettings::relationNames[std::size_t(settings.family.relation)]),
                          std::move(why));
 }
 

@@ -54,8 +54,8 @@ double Calibration::exceedanceAt(double nats) const
         return exceedance[last] * eventRateAt(nats)
                / eventRateAt(levels[last]); // time above a level, an event: nearly the same
     const double position = (nats - levels.front()) / (levels[1] - levels[0]);
-    const auto lower = static_cast<std::size_t>(position);
-    const double fraction = position - static_cast<double>(lower);
+    const auto lower = std::size_t(position);
+    const double fraction = position - double(lower);
     return std::exp((1.0 - fraction) * std::log(exceedance[lower]) + fraction * std::log(exceedance[lower + 1]));
 }
 
@@ -75,7 +75,7 @@ double Calibration::levelExceededBy(double probability) const
     if (levels.empty())
         return -std::numeric_limits<double>::infinity();
     const auto first = std::find_if(exceedance.begin(), exceedance.end(), [&](double p) { return p <= probability; });
-    return levels[std::min(static_cast<std::size_t>(first - exceedance.begin()), levels.size() - 1)];
+    return levels[std::min(std::size_t(first - exceedance.begin()), levels.size() - 1)];
 }
 
 double thresholdNats(const DecideSettings &decide, const Calibration &calibration, double cellFramesPerHour)
@@ -93,7 +93,7 @@ double thresholdNats(const DecideSettings &decide, const Calibration &calibratio
 
 FrameGeometry frameGeometry(const SpectrogramSettings &settings)
 {
-    return {static_cast<double>(settings.stepsPerWindow), static_cast<double>(settings.binsPerCell)};
+    return {double(settings.stepsPerWindow), double(settings.binsPerCell)};
 }
 
 } // namespace faintline

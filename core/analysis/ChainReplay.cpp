@@ -13,7 +13,7 @@ namespace {
     /// Frames between two of a replay's own checkpoints, where those of the scores alone go into the budget.
     Index intervalOf(const Analysis &analysis, std::size_t byteBudget)
     {
-        const auto most = static_cast<Index>(std::max<std::size_t>(1, byteBudget / bytesOfStates(analysis)));
+        const auto most = Index(std::max<std::size_t>(1, byteBudget / bytesOfStates(analysis)));
         const Index stretch = analysis.checkpoints.isEmpty() ? analysis.time().count : analysis.checkpoints.interval();
         return std::max(shortestInterval, (stretch + most - 1) / most);
     }
@@ -22,8 +22,8 @@ namespace {
 
 ChainReplay::ChainReplay(std::shared_ptr<const Analysis> analysis, std::size_t byteBudget)
     : m_analysis(std::move(analysis)), m_chain(makeScoringChain(*m_analysis)),
-      m_checkpoints(intervalOf(*m_analysis, byteBudget), byteBudget),
-      m_y(static_cast<std::size_t>(m_analysis->grid().size())), m_statistic(m_y.size())
+      m_checkpoints(intervalOf(*m_analysis, byteBudget), byteBudget), m_y(std::size_t(m_analysis->grid().size())),
+      m_statistic(m_y.size())
 {
 }
 

@@ -10,7 +10,7 @@ ProgressPublisher::ProgressPublisher(const PictureSink &sink, const Axis &time, 
     : m_sink(sink)
 {
     constexpr double manyCells = 3e7;
-    const bool isLong = static_cast<double>(time.count) * static_cast<double>(frequency.count) > manyCells;
+    const bool isLong = double(time.count) * double(frequency.count) > manyCells;
     m_isWanted = sink && (isLong || !knownCalibration(settings));
     m_pictures.time = time;
     m_pictures.frequency = frequency;

@@ -14,7 +14,7 @@ namespace {
 
     double wrapped(double difference, const Axis &axis)
     {
-        const double period = static_cast<double>(axis.count) * axis.step;
+        const double period = double(axis.count) * axis.step;
         return axis.cyclic && period > 0.0 ? std::remainder(difference, period) : difference;
     }
 
@@ -26,7 +26,7 @@ namespace {
             return path.position.front()[axis];
         if (after == path.seconds.end())
             return path.position.back()[axis];
-        const auto i = static_cast<std::size_t>(after - path.seconds.begin());
+        const auto i = std::size_t(after - path.seconds.begin());
         const double share = (seconds - path.seconds[i - 1]) / (path.seconds[i] - path.seconds[i - 1]);
         return std::lerp(path.position[i - 1][axis], path.position[i][axis], share);
     }
@@ -36,7 +36,7 @@ namespace {
         std::vector<double> position;
         const std::vector<Index> coordinates = grid.coordinates(cell);
         for (std::size_t axis = 0; axis < coordinates.size(); ++axis)
-            position.push_back(grid.axes[axis].value(static_cast<double>(coordinates[axis])));
+            position.push_back(grid.axes[axis].value(double(coordinates[axis])));
         return position;
     }
 
@@ -63,7 +63,7 @@ namespace {
     {
         const int index = matchReviews(analysis, {event}, reviews).front();
         if (index >= 0)
-            return reviews[static_cast<std::size_t>(index)];
+            return reviews[std::size_t(index)];
         return reviews.emplace_back(Review{{pathOf(analysis, event)}, Verdict::None, {}});
     }
 
@@ -174,7 +174,7 @@ SignalPath pathOf(const Analysis &analysis, const Event &event)
     const std::size_t steps = std::min(last, mostInstants - 1);
     for (std::size_t i = 0; i <= steps; ++i) {
         const TrackPoint &point = track->points[steps == 0 ? 0 : i * last / steps];
-        path.seconds.push_back(analysis.time().value(static_cast<double>(point.frame)));
+        path.seconds.push_back(analysis.time().value(double(point.frame)));
         path.position.push_back(positionOf(analysis.grid(), point.cell));
         if (i == 0)
             continue;
@@ -200,10 +200,8 @@ std::optional<double> distance(const SignalPath &a, const SignalPath &b, const s
     for (std::size_t axis = 0; axis < axes.size(); ++axis) {
         double mean = 0.0;
         for (std::size_t i = 0; i < mostInstants; ++i) {
-            const double seconds =
-                std::lerp(begin, end, static_cast<double>(i) / static_cast<double>(mostInstants - 1));
-            mean += std::abs(wrapped(at(a, seconds, axis) - at(b, seconds, axis), axes[axis]))
-                    / static_cast<double>(mostInstants);
+            const double seconds = std::lerp(begin, end, double(i) / double(mostInstants - 1));
+            mean += std::abs(wrapped(at(a, seconds, axis) - at(b, seconds, axis), axes[axis])) / double(mostInstants);
         }
         const double inTolerances = mean / std::max(a.tolerance[axis], b.tolerance[axis]);
         if (!(inTolerances <= 1.0))
@@ -224,7 +222,7 @@ std::vector<int> matchReviews(const Analysis &analysis, const std::vector<Event>
         for (std::size_t i = 0; i < reviews.size(); ++i)
             for (const SignalPath &known : reviews[i].paths)
                 if (const auto apart = distance(path, known, analysis.grid().axes); apart && *apart < least) {
-                    nearest = static_cast<int>(i);
+                    nearest = int(i);
                     least = *apart;
                 }
         result.push_back(nearest);
@@ -238,7 +236,7 @@ std::vector<std::size_t> unmatchedReviews(const Analysis &analysis, const std::v
     const std::vector<int> matched = matchReviews(analysis, events, reviews);
     std::vector<std::size_t> left;
     for (std::size_t i = 0; i < reviews.size(); ++i)
-        if (std::find(matched.begin(), matched.end(), static_cast<int>(i)) == matched.end())
+        if (std::find(matched.begin(), matched.end(), int(i)) == matched.end())
             left.push_back(i);
     return left;
 }
@@ -253,7 +251,7 @@ std::vector<EventReview> eventReviews(const Analysis &analysis, const std::vecto
         EventReview &one = result.emplace_back(EventReview{events[i].id, Verdict::None, {}, events[i].id});
         if (matches[i] < 0)
             continue;
-        const auto index = static_cast<std::size_t>(matches[i]);
+        const auto index = std::size_t(matches[i]);
         if (first[index] == 0)
             first[index] = events[i].id;
         one.verdict = reviews[index].verdict;
@@ -310,7 +308,7 @@ std::vector<Review> separated(std::vector<Review> reviews, const Analysis &analy
         const int index = matchReviews(analysis, {eventOf(events, id)}, reviews).front();
         if (index < 0)
             continue;
-        const Review whole = reviews[static_cast<std::size_t>(index)];
+        const Review whole = reviews[std::size_t(index)];
         reviews.erase(reviews.begin() + index);
         for (const SignalPath &path : whole.paths)
             reviews.push_back({{path}, whole.verdict, whole.note});

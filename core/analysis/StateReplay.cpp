@@ -8,7 +8,7 @@ namespace faintline {
 StateReplay::StateReplay(std::shared_ptr<const Analysis> analysis, std::size_t byteBudget)
     : m_replay(std::move(analysis), byteBudget / 2)
 {
-    const std::size_t frameBytes = sizeof(float) * static_cast<std::size_t>(this->analysis()->model.space.stateCount());
+    const std::size_t frameBytes = sizeof(float) * std::size_t(this->analysis()->model.space.stateCount());
     m_mostKept = std::max<std::size_t>(1, byteBudget / 2 / frameBytes);
 }
 
@@ -23,10 +23,10 @@ std::shared_ptr<const StateScores> StateReplay::at(Index frame, std::size_t mode
     const Index first = m_replay.next();
     while (m_replay.next() <= frame) {
         const Index now = m_replay.next();
-        context.checkpoint(static_cast<double>(now - first) / static_cast<double>(frame + 1 - first), "replaying the "
-                                                                                                      "recording");
+        context.checkpoint(double(now - first) / double(frame + 1 - first), "replaying the "
+                                                                            "recording");
         m_replay.step();
-        if (frame - now < static_cast<Index>(m_mostKept)) {
+        if (frame - now < Index(m_mostKept)) {
             m_kept.push_back(std::make_shared<const StateScores>(scoresNow(*analysis(), m_replay.chain(), now, model)));
             if (m_kept.size() > m_mostKept)
                 m_kept.pop_front();
@@ -42,10 +42,10 @@ StateScores scoresNow(const Analysis &analysis, const DetectionChain &chain, Ind
     result.model = model;
     const std::span<const float> scores = chain.detector().scores(model);
     result.values.assign(scores.begin(), scores.end());
-    if (const auto offset = static_cast<float>(chain.detector().offset(model)); offset != 0.0f)
+    if (const auto offset = float(chain.detector().offset(model)); offset != 0.0f)
         for (float &value : result.values)
             value += offset;
-    if (const auto shift = static_cast<float>(analysis.offsetAt(model)); shift != 0.0f)
+    if (const auto shift = float(analysis.offsetAt(model)); shift != 0.0f)
         for (float &value : result.values)
             value -= shift;
     for (const HmmTracker &tracker : chain.trackers())
@@ -56,7 +56,7 @@ StateScores scoresNow(const Analysis &analysis, const DetectionChain &chain, Ind
 
 float shownScore(const Analysis &analysis, const DetectionChain &chain, std::size_t model, float score)
 {
-    return score + static_cast<float>(chain.detector().offset(model)) - static_cast<float>(analysis.offsetAt(model));
+    return score + float(chain.detector().offset(model)) - float(analysis.offsetAt(model));
 }
 
 std::vector<Axis> stateAxes(const Analysis &analysis, std::size_t model)
@@ -95,12 +95,12 @@ std::vector<float> cutStates(const StateSpace &space, std::span<const float> sco
         along[memory] = {sizes[axis], stride, step, step == 0 ? slice.places[axis] : std::nullopt};
         stride *= sizes[axis];
     }
-    std::vector<float> picture(static_cast<std::size_t>(sizes[slice.rows] * sizes[slice.columns]),
+    std::vector<float> picture(std::size_t(sizes[slice.rows] * sizes[slice.columns]),
                                -std::numeric_limits<float>::infinity());
     const auto descend = [&](auto &&self, std::size_t memory, Index state, Index pixel) -> void {
         if (memory == along.size()) {
-            float &value = picture[static_cast<std::size_t>(pixel)];
-            value = std::max(value, scores[static_cast<std::size_t>(state)]);
+            float &value = picture[std::size_t(pixel)];
+            value = std::max(value, scores[std::size_t(state)]);
             return;
         }
         const Along &axis = along[memory];
@@ -117,8 +117,8 @@ std::vector<Index> bestRates(const StateSpace &space, std::span<const float> sco
 {
     Index best = 0;
     for (Index plane = 1; plane < space.planeCount(); ++plane)
-        if (scores[static_cast<std::size_t>(plane * space.cellCount() + cell)]
-            > scores[static_cast<std::size_t>(best * space.cellCount() + cell)])
+        if (scores[std::size_t(plane * space.cellCount() + cell)]
+            > scores[std::size_t(best * space.cellCount() + cell)])
             best = plane;
     const StateSpace::Coordinates coordinates = space.coordinates(best * space.cellCount() + cell);
     return {coordinates.rates.begin(), coordinates.rates.end()};

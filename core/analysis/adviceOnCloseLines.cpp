@@ -35,7 +35,7 @@ namespace {
         double squares = 0.0;
         for (Index frame = first; frame <= last; ++frame) {
             const auto at = [&](const Track &track) {
-                return track.lastPosition(static_cast<std::size_t>(frame - track.points.front().frame), axis);
+                return track.lastPosition(std::size_t(frame - track.points.front().frame), axis);
             };
             const double apart = at(a) - at(b);
             sum += apart;
@@ -67,7 +67,7 @@ namespace {
                 if (b.points.front().frame > a.points.back().frame)
                     break; // ordered by onset
                 const Distance distance = distanceOf(a, b, axis);
-                const auto shorter = static_cast<double>(std::min(a.points.size(), b.points.size()));
+                const auto shorter = double(std::min(a.points.size(), b.points.size()));
                 if (2.0 * distance.frames < shorter || distance.deviation > steadyCells * binsPerCell
                     || distance.mean >= closeCells * binsPerCell)
                     continue;
@@ -98,7 +98,7 @@ namespace {
         for (const Track *track : tracks) {
             const std::size_t last = track->points.size() - 1;
             steepest = std::max(steepest, std::abs(track->lastPosition(last, axis) - track->lastPosition(0, axis))
-                                              / static_cast<double>(last));
+                                              / double(last));
         }
         return steepest;
     }
@@ -136,7 +136,7 @@ std::optional<Advice> adviceOnCloseLines(const Analysis &analysis)
         return {};
     const double factor = wantedCells * binsPerCell / close.bins;
     const double seconds = factor * spectrogram->windowSeconds();
-    const double duration = static_cast<double>(analysis.time().count) * analysis.time().step;
+    const double duration = double(analysis.time().count) * analysis.time().step;
     const bool isTooFast = steepestOf(tracks, axis) * factor * factor > steepestAllowed(analysis.model.space);
     if (seconds * windowsInRecording > duration || isTooFast)
         return {};

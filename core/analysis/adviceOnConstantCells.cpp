@@ -16,7 +16,7 @@ namespace {
 std::optional<Advice> adviceOnConstantCells(const Analysis &analysis, const RunContext &context)
 {
     const NormalisedFrames &frames = *analysis.frames;
-    const auto cells = static_cast<std::size_t>(frames.grid().size());
+    const auto cells = std::size_t(frames.grid().size());
     const Index count = std::min(frames.time().count, readFrames);
     if (count < leastFrames)
         return {};
@@ -27,7 +27,7 @@ std::optional<Advice> adviceOnConstantCells(const Analysis &analysis, const RunC
         context.checkpoint(0.0, "looking for noise");
         frames.read(frame, 1, y);
         for (std::size_t cell = 0; cell < cells; ++cell) {
-            const auto value = static_cast<double>(y[cell]);
+            const auto value = double(y[cell]);
             if (!(value >= 0.0))
                 continue;
             sum[cell] += value;
@@ -38,13 +38,13 @@ std::optional<Advice> adviceOnConstantCells(const Analysis &analysis, const RunC
     std::size_t known = 0;
     std::size_t constant = 0;
     for (std::size_t cell = 0; cell < cells; ++cell) {
-        if (observed[cell] < static_cast<double>(leastFrames))
+        if (observed[cell] < double(leastFrames))
             continue;
         ++known;
         const double mean = sum[cell] / observed[cell];
         constant += squares[cell] / observed[cell] - mean * mean <= constantVariance * mean * mean;
     }
-    if (known == 0 || static_cast<double>(constant) < mostCells * static_cast<double>(known))
+    if (known == 0 || double(constant) < mostCells * double(known))
         return {};
     return Advice{
         "constantCells",

@@ -48,7 +48,7 @@ namespace {
             ++tracks;
             frames += length;
         }
-        return static_cast<double>(frames) >= leastShare * static_cast<double>(all) ? tracks : 0;
+        return double(frames) >= leastShare * double(all) ? tracks : 0;
     }
 
 } // namespace

@@ -21,15 +21,15 @@ namespace {
 
     void countValues(std::span<const float> statistic, std::vector<double> &counts)
     {
-        const auto last = static_cast<float>(counts.size() - 1);
+        const auto last = float(counts.size() - 1);
         for (float value : statistic)
-            counts[static_cast<std::size_t>(std::clamp(4.0f * (value + 4.0f), 0.0f, last))] += 1.0;
+            counts[std::size_t(std::clamp(4.0f * (value + 4.0f), 0.0f, last))] += 1.0;
     }
 
     /// Frames between two checkpoints, at first: where tracks are followed they are larger, and lie farther apart.
     Index checkpointInterval(const Analysis &analysis)
     {
-        const auto most = static_cast<Index>(memoryShares::checkpoints / bytesOfStates(analysis));
+        const auto most = Index(memoryShares::checkpoints / bytesOfStates(analysis));
         const Index frames = analysis.time().count;
         return most > 0 ? std::max(shortestInterval, (frames + most - 1) / most) : std::max<Index>(frames, 1);
     }
@@ -77,8 +77,7 @@ namespace {
         {
             const Index cells = m_analysis.grid().size();
             const std::size_t bytes =
-                memoryShares::inTheEnd(memoryShares::picture, static_cast<std::size_t>(m_analysis.time().count),
-                                       static_cast<std::size_t>(cells));
+                memoryShares::inTheEnd(memoryShares::picture, std::size_t(m_analysis.time().count), std::size_t(cells));
             return std::make_shared<PeakPyramid>(m_analysis.time(), cells, ByteScale(kind), bytes);
         }
 
@@ -131,8 +130,8 @@ namespace {
              AnalysisDepth depth = AnalysisDepth::Whole)
     {
         const NormalisedFrames &frames = *analysis.frames;
-        const auto cells = static_cast<std::size_t>(frames.grid().size());
-        const auto frameCount = static_cast<double>(frames.time().count);
+        const auto cells = std::size_t(frames.grid().size());
+        const auto frameCount = double(frames.time().count);
         std::unique_ptr<PathDetector> detector = makePathDetector(analysis);
         detector->useThreads(context.threads);
         const auto chain = makeChain(analysis, std::move(detector));
@@ -146,19 +145,19 @@ namespace {
         const RunContext detecting = context.part(0.0, 0.9);
         std::vector<float> statistic;
         for (std::vector<float> block = stream.next(); !block.empty(); block = stream.next()) {
-            const Index first = stream.position() - static_cast<Index>(block.size() / cells);
-            detecting.checkpoint(static_cast<double>(first) / frameCount, "detecting");
+            const Index first = stream.position() - Index(block.size() / cells);
+            detecting.checkpoint(double(first) / frameCount, "detecting");
             statistic.resize(block.size());
             for (std::size_t at = 0; at < block.size(); at += cells) {
-                const Index frame = first + static_cast<Index>(at / cells);
+                const Index frame = first + Index(at / cells);
                 const auto y = std::span<const float>(block).subspan(at, cells);
                 if (depth == AnalysisDepth::Whole && analysis.checkpoints.lacks(frame))
                     if (auto state = chain->state())
                         analysis.checkpoints.keep(frame, state, state->bytes());
                 chain->update(frame, y, std::span(statistic).subspan(at, cells));
                 const PathDetector::Regulation regulation = chain->detector().regulation();
-                analysis.lnK.push_back(static_cast<float>(regulation.lnK));
-                analysis.continuedFraction.push_back(static_cast<float>(regulation.continuedFraction));
+                analysis.lnK.push_back(float(regulation.lnK));
+                analysis.continuedFraction.push_back(float(regulation.continuedFraction));
                 pings.take(frame, y, *chain);
             }
             countValues(statistic, analysis.statisticCounts);
@@ -230,7 +229,7 @@ namespace {
         analysis->settings = settings;
         analysis->frames = std::move(frames);
         analysis->model = model;
-        analysis->cellFramesPerHour = static_cast<double>(analysis->grid().size()) * 3600.0 / analysis->time().step;
+        analysis->cellFramesPerHour = double(analysis->grid().size()) * 3600.0 / analysis->time().step;
         return analysis;
     }
 
@@ -238,13 +237,13 @@ namespace {
     /// probability.
     void calibrateBank(Analysis &analysis, const std::vector<MarkovModel> &models, const RunContext &context)
     {
-        const auto count = static_cast<double>(models.size());
+        const auto count = double(models.size());
         for (std::size_t i = 0; i < models.size(); ++i)
-            analysis.bank.push_back({models[i],
-                                     calibrateOnIndependentCells(models[i], analysis.settings,
-                                                                 context.part(static_cast<double>(i) / count,
-                                                                              static_cast<double>(i + 1) / count)),
-                                     0.0});
+            analysis.bank.push_back(
+                {models[i],
+                 calibrateOnIndependentCells(models[i], analysis.settings,
+                                             context.part(double(i) / count, double(i + 1) / count)),
+                 0.0});
         analysis.calibration = analysis.bank.front().calibration;
         analysis.threshold = thresholdNats(analysis.settings.decide, *analysis.calibration, analysis.cellFramesPerHour);
         const double pfa = analysis.calibration->exceedanceAt(analysis.threshold);

@@ -39,9 +39,8 @@ namespace {
 
         Sides(const FrameBox &box, Index cellCount, double binsPerCell)
         {
-            const auto gap = static_cast<Index>(std::ceil(gapCells * binsPerCell));
-            const Index width =
-                std::max(box.endCell - box.beginCell, static_cast<Index>(std::ceil(sideCells * binsPerCell)));
+            const auto gap = Index(std::ceil(gapCells * binsPerCell));
+            const Index width = std::max(box.endCell - box.beginCell, Index(std::ceil(sideCells * binsPerCell)));
             firstEnd = std::max<Index>(box.beginCell - gap, 0);
             firstBegin = std::max<Index>(firstEnd - width, 0);
             secondBegin = std::min(box.endCell + gap, cellCount);
@@ -55,7 +54,7 @@ namespace {
         if (cells.empty())
             return 1.0; // the band is the box: what the frames are normalised to
         const double guess = medianOf(cells) / std::log(2.0);
-        const double mean = guess > 0.0 ? truncatedMean(cells, static_cast<float>(guess)) : 0.0;
+        const double mean = guess > 0.0 ? truncatedMean(cells, float(guess)) : 0.0;
         return mean > 0.0 ? mean : 1.0;
     }
 
@@ -71,7 +70,7 @@ BoxLevels boxLevels(const Analysis &analysis, const FrameBox &box, const RunCont
     const Index count = std::min(span, mostFrames);
     const Index noiseStride = std::max<Index>(1, (count * sides.cells() + mostNoiseCells - 1) / mostNoiseCells);
 
-    std::vector<float> frame(static_cast<std::size_t>(frames.grid().size()));
+    std::vector<float> frame(std::size_t(frames.grid().size()));
     std::vector<float> noise;
     double sum = 0.0;
     float peak = 0.0f;
@@ -79,14 +78,14 @@ BoxLevels boxLevels(const Analysis &analysis, const FrameBox &box, const RunCont
     Index observed = 0;
     const auto gather = [&](Index begin, Index end) {
         for (Index cell = begin; cell < end; ++cell)
-            if (seen++ % noiseStride == 0 && !std::isnan(frame[static_cast<std::size_t>(cell)]))
-                noise.push_back(frame[static_cast<std::size_t>(cell)]);
+            if (seen++ % noiseStride == 0 && !std::isnan(frame[std::size_t(cell)]))
+                noise.push_back(frame[std::size_t(cell)]);
     };
     for (Index i = 0; i < count; ++i) {
-        context.checkpoint(static_cast<double>(i) / static_cast<double>(count), "measuring the box");
+        context.checkpoint(double(i) / double(count), "measuring the box");
         frames.read(box.beginFrame + i * span / count, 1, frame);
         for (Index cell = box.beginCell; cell < box.endCell; ++cell) {
-            const float value = frame[static_cast<std::size_t>(cell)];
+            const float value = frame[std::size_t(cell)];
             if (std::isnan(value)) // not observed
                 continue;
             sum += value;
@@ -97,9 +96,9 @@ BoxLevels boxLevels(const Analysis &analysis, const FrameBox &box, const RunCont
         gather(sides.secondBegin, sides.secondEnd);
     }
 
-    const double cells = static_cast<double>(std::max<Index>(1, observed));
+    const double cells = double(std::max<Index>(1, observed));
     const double mean = noiseOf(noise);
-    const double frameCount = cells / static_cast<double>(box.endCell - box.beginCell);
+    const double frameCount = cells / double(box.endCell - box.beginCell);
     const double ratio = (sum / mean - cells) / (frameCount * binsPerCell);
     BoxLevels levels{decibels(sum / cells), decibels(peak), decibels(mean), {}};
     if (ratio > 0.0)

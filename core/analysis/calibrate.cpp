@@ -16,7 +16,7 @@ namespace {
     {
         LineScene scene;
         scene.sampleRateHz = std::ceil(ringBands(bare.family));
-        scene.durationSeconds = static_cast<double>(segmentWindows) * calibrationWindowSamples;
+        scene.durationSeconds = double(segmentWindows) * calibrationWindowSamples;
         scene.isComplex = true;
         scene.noise.deviation = 1.0;
         scene.seed = 1000 + number;
@@ -35,10 +35,9 @@ std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, c
         return calibrate(settings, context);
     const CalibrationEffort effort = effortOf(depth);
     const auto result = keptCalibration(calibrationKey(bare, depth), [&] {
-        const double perSegment =
-            static_cast<double>(segmentWindows) * bare.spectrogram.stepsPerWindow
-            * static_cast<double>(Fft::fastLength(calibrationWindowSamples * bare.spectrogram.binsPerCell));
-        const int segments = std::max(4, static_cast<int>(std::ceil(effort.cellFrames / perSegment)));
+        const double perSegment = double(segmentWindows) * bare.spectrogram.stepsPerWindow
+                                  * double(Fft::fastLength(calibrationWindowSamples * bare.spectrogram.binsPerCell));
+        const int segments = std::max(4, int(std::ceil(effort.cellFrames / perSegment)));
         const NoiseSegment segment =
             rememberedSegments([&](int number) { return noiseSegment(bare, number); }, segments);
         return calibrateOn(segment, segments, makeModel(bare.model, segment(0)->grid()), bare, effort, context);

@@ -68,14 +68,12 @@ std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &setting
                                  : followBand(bare, wide->lnK, simulated, false, splitting, context.part(0.8, 1.0));
             return band.isEmpty() ? wide : narrowed(*wide, band, closed);
         });
-    return bins == simulated
-               ? narrow
-               : withShareOfEnds(*wide, *narrow, static_cast<double>(simulated) / static_cast<double>(bins));
+    return bins == simulated ? narrow : withShareOfEnds(*wide, *narrow, double(simulated) / double(bins));
 }
 
 double cellFramesInAnHour(const FamilySettings &family, const Spectrogram &spectrogram)
 {
-    return static_cast<double>(familyAxis(family, spectrogram.frequency()).count) * 3600.0 / spectrogram.time().step;
+    return double(familyAxis(family, spectrogram.frequency()).count) * 3600.0 / spectrogram.time().step;
 }
 
 std::shared_ptr<const Calibration> calibrateBand(AnalysisSettings settings, const Spectrogram &spectrogram,

@@ -29,7 +29,7 @@ namespace {
     void inRounds(int count, const RunContext &context, Work work, Take take)
     {
         for (int done = 0; done < count;) {
-            context.checkpoint(static_cast<double>(done) / count, "calibrating the threshold on noise");
+            context.checkpoint(double(done) / count, "calibrating the threshold on noise");
             const int round = std::min(std::max(1, context.threads), count - done);
             std::vector<std::future<decltype(work(0))>> futures;
             for (int i = 0; i < round; ++i)
@@ -46,8 +46,7 @@ namespace {
         const double total = std::accumulate(counts.begin(), counts.end(), 0.0);
         double above = total;
         for (std::size_t i = 0; i < counts.size() && above > 0.0; ++i) {
-            result.levels.push_back(static_cast<double>(levels.lowest)
-                                    + static_cast<double>(levels.step) * static_cast<double>(i));
+            result.levels.push_back(double(levels.lowest) + double(levels.step) * double(i));
             result.exceedance.push_back(above / total);
             above -= counts[i];
         }
@@ -61,11 +60,11 @@ NoiseSegment rememberedSegments(NoiseSegment segment, int segmentCount)
         std::once_flag once;
         NormalisedFramesPointer frames;
     };
-    const auto made = std::make_shared<std::vector<Made>>(static_cast<std::size_t>(roughCountOf(segmentCount)));
+    const auto made = std::make_shared<std::vector<Made>>(std::size_t(roughCountOf(segmentCount)));
     return [segment = std::move(segment), made](int number) {
         if (number >= std::ssize(*made))
             return segment(number);
-        Made &own = (*made)[static_cast<std::size_t>(number)];
+        Made &own = (*made)[std::size_t(number)];
         std::call_once(own.once, [&] { own.frames = segment(number); });
         return own.frames;
     };
@@ -100,13 +99,13 @@ std::shared_ptr<const Calibration> calibrateOn(const NoiseSegment &segment, int 
         [&](int number) { return measureTail(*segment(number), *makeDetector(trial), levels); },
         [&](const NoiseTail &part) { add(part, rough); });
     fillExceedance(rough.counts, levels, *result);
-    const double cells = static_cast<double>(first->grid().size());
-    const double columns = std::max(1.0, std::floor(cells / static_cast<double>(noiseBlockCells)));
+    const double cells = double(first->grid().size());
+    const double columns = std::max(1.0, std::floor(cells / double(noiseBlockCells)));
     const RareRates rare = followTail(*firstSegment, model, settings, *result, effort, context.part(0.2, 0.4));
     if (effort.isFirstEstimate && rare.isEmpty())
         return nullptr; // a line through a fifth of the counts tells too little
     const std::vector<double> thresholds =
-        thresholdsForEvents(std::move(rough.blockMaxima), static_cast<double>(noiseBlockFrames) * cells / columns,
+        thresholdsForEvents(std::move(rough.blockMaxima), double(noiseBlockFrames) * cells / columns,
                             rough.cellFrames / roughCount * segmentCount, rare.isEmpty());
     EventCounts counts;
     inRounds(

@@ -20,14 +20,13 @@ namespace {
             name += ";";
         };
         for (const KinematicAxis &axis : model.space.axes()) {
-            add({static_cast<double>(axis.cells), axis.cyclic ? 1.0 : 0.0, static_cast<double>(axis.firstRate),
-                 static_cast<double>(axis.rateCount), static_cast<double>(axis.ratesPerCell),
-                 static_cast<double>(axis.rounding), axis.renormalised ? 1.0 : 0.0});
+            add({double(axis.cells), axis.cyclic ? 1.0 : 0.0, double(axis.firstRate), double(axis.rateCount),
+                 double(axis.ratesPerCell), double(axis.rounding), axis.renormalised ? 1.0 : 0.0});
             add(axis.rateChange);
             add(axis.step);
             add(axis.transition);
         }
-        add({static_cast<double>(model.likelihood.kind()), model.likelihood.snr(), model.transitionScale});
+        add({double(model.likelihood.kind()), model.likelihood.snr(), model.transitionScale});
         return name;
     }
 
@@ -62,18 +61,17 @@ std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel
         grid.axes.push_back({axis.name, "", 0.0, 1.0, axis.cells, axis.cyclic});
     // Sonar's hundred rates a cell cost more than they teach: their paths overlap.
     constexpr double mostStates = 1.2e8; ///< a segment
-    const double longest =
-        std::min(4e6 / static_cast<double>(grid.size()), mostStates / static_cast<double>(model.space.stateCount()));
-    const auto frames = static_cast<Index>(std::clamp(longest, 600.0, 4000.0));
+    const double longest = std::min(4e6 / double(grid.size()), mostStates / double(model.space.stateCount()));
+    const auto frames = Index(std::clamp(longest, 600.0, 4000.0));
     const auto segment = [&](int number) -> NormalisedFramesPointer {
-        Random random(1000, static_cast<std::uint64_t>(number));
-        std::vector<float> values(static_cast<std::size_t>(frames * grid.size()));
+        Random random(1000, std::uint64_t(number));
+        std::vector<float> values(std::size_t(frames * grid.size()));
         for (float &value : values)
-            value = static_cast<float>(random.exponential());
+            value = float(random.exponential());
         return std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, frames, false}, grid, std::move(values));
     };
-    const double wanted = std::min(cellFrames, 2.0 * mostStates / static_cast<double>(model.space.planeCount()));
-    const int segments = std::max(4, static_cast<int>(std::ceil(wanted / static_cast<double>(frames * grid.size()))));
+    const double wanted = std::min(cellFrames, 2.0 * mostStates / double(model.space.planeCount()));
+    const int segments = std::max(4, int(std::ceil(wanted / double(frames * grid.size()))));
     AnalysisSettings bare = settings;
     bare.selection = {};
     bare.spectrogram = {};

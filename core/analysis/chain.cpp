@@ -22,8 +22,7 @@ namespace {
     {
         std::vector<Index> result;
         for (std::size_t axis = 0; axis < grid.axes.size(); ++axis)
-            result.push_back(
-                values.empty() ? 0 : static_cast<Index>(std::llround(values[std::min(axis, values.size() - 1)])));
+            result.push_back(values.empty() ? 0 : Index(std::llround(values[std::min(axis, values.size() - 1)])));
         return result;
     }
 
@@ -36,16 +35,14 @@ namespace {
         Index reach = 0;
         for (int db = 0; db <= largestDb; ++db) {
             while (ratioFromDb(db)
-                           * leakageBound(spectrogram.settings().window,
-                                          static_cast<double>(reach) / spectrogram.binsPerCell())
+                           * leakageBound(spectrogram.settings().window, double(reach) / spectrogram.binsPerCell())
                        > 0.5
                    && reach < spectrogram.frequency().count)
                 ++reach;
             bins.push_back(reach);
         }
         return [bins](double y) {
-            return bins[static_cast<std::size_t>(
-                std::clamp(std::ceil(dbFromRatio(std::max(y, 1.0))), 0.0, static_cast<double>(largestDb)))];
+            return bins[std::size_t(std::clamp(std::ceil(dbFromRatio(std::max(y, 1.0))), 0.0, double(largestDb)))];
         };
     }
 
@@ -73,7 +70,7 @@ namespace {
         const double threshold = plan.threshold;
         if (isScoreOfPaths(plan.settings.detector))
             return threshold - std::min(shoulderNats, 0.5 * std::abs(threshold));
-        const auto decision = static_cast<double>(framesPerDecision(plan.settings.detector, geometryOf(plan)));
+        const auto decision = double(framesPerDecision(plan.settings.detector, geometryOf(plan)));
         return std::min(threshold, plan.calibration->levelExceededBy(noiseOnShoulder / decision));
     }
 
@@ -96,7 +93,7 @@ namespace {
         if (const Spectrogram *spectrogram = plan.frames->spectrogram()) {
             binsPerCell = spectrogram->binsPerCell();
             chain.leakageExtent = leakageExtentOf(*spectrogram);
-            chain.skirtStep = static_cast<Index>(std::ceil(binsPerCell));
+            chain.skirtStep = Index(std::ceil(binsPerCell));
             chain.excluded = excludedPlaces(*spectrogram, settings.family, inBins(settings.decide.inhibitCells).back());
         }
         chain.inhibitCells = inBins(settings.decide.inhibitCells);
@@ -126,7 +123,7 @@ Index stateCount(const AnalysisPlan &plan)
 
 std::size_t bytesOfStates(const AnalysisPlan &plan)
 {
-    return sizeof(float) * static_cast<std::size_t>(stateCount(plan));
+    return sizeof(float) * std::size_t(stateCount(plan));
 }
 
 namespace {

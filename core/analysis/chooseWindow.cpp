@@ -68,9 +68,8 @@ namespace {
             const std::shared_ptr<Analysis> automatic =
                 analyse(m_recording, m_asked, nextPart(), previous, {}, pictures, m_calibrationDepth);
             m_windowSeconds = windowSecondsOf(*automatic);
-            m_cells =
-                static_cast<double>(automatic->grid().size()) * automatic->grid().axes.back().step * m_windowSeconds;
-            m_frames = static_cast<double>(automatic->time().count);
+            m_cells = double(automatic->grid().size()) * automatic->grid().axes.back().step * m_windowSeconds;
+            m_frames = double(automatic->time().count);
             note(m_asked, *automatic);
             const std::shared_ptr<Analysis> best = shorter(automatic);
             return best == automatic ? longer(automatic) : best;
@@ -96,9 +95,9 @@ namespace {
     private:
         std::size_t numberOf(double windowSeconds) const
         {
-            return static_cast<std::size_t>(
-                std::count_if(m_trials.begin(), m_trials.end(),
-                              [&](const WindowTrial &trial) { return trial.windowSeconds < windowSeconds; }));
+            return std::size_t(std::count_if(m_trials.begin(), m_trials.end(), [&](const WindowTrial &trial) {
+                return trial.windowSeconds < windowSeconds;
+            }));
         }
 
         /// A trial may be the last one: each takes half of what is left.
@@ -161,7 +160,7 @@ namespace {
         {
             const WindowTrial trial{settings, windowSecondsOf(analysis), std::ssize(analysis.tracks),
                                     std::numeric_limits<double>::quiet_NaN()};
-            const auto at = static_cast<Index>(numberOf(trial.windowSeconds));
+            const auto at = Index(numberOf(trial.windowSeconds));
             m_trials.insert(m_trials.begin() + at, trial);
             m_analyses.insert(m_analyses.begin() + at, tracksOnly(analysis));
         }

@@ -14,7 +14,7 @@ namespace {
                              std::size_t byteBudget)
     {
         Axis time = analysis.time();
-        time.first = time.value(static_cast<double>(stretch.begin));
+        time.first = time.value(double(stretch.begin));
         time.count = stretch.end - stretch.begin;
         return PeakPyramid(time, analysis.grid().size(), ByteScale(kind), byteBudget);
     }
@@ -27,11 +27,10 @@ namespace {
         const Index most = std::max<Index>(1, blockValues / cells);
         std::vector<float> block;
         for (Index first = frames.begin; first < frames.end; first += most) {
-            const double share =
-                static_cast<double>(first - frames.begin) / static_cast<double>(frames.end - frames.begin);
+            const double share = double(first - frames.begin) / double(frames.end - frames.begin);
             context.checkpoint(share, "computing the close-up");
             const Index count = std::min(most, frames.end - first);
-            block.resize(static_cast<std::size_t>(count * cells));
+            block.resize(std::size_t(count * cells));
             analysis.frames->read(first, count, block);
             take(first, block);
         }
@@ -42,7 +41,7 @@ namespace {
 Index framesPerRowWithin(std::size_t byteBudget, Index frames, Index cells)
 {
     Index merged = 1;
-    while (4 * (frames / merged) * cells / 3 > static_cast<Index>(byteBudget))
+    while (4 * (frames / merged) * cells / 3 > Index(byteBudget))
         merged *= 4;
     return merged;
 }
@@ -51,7 +50,7 @@ FrameStretch closeupStretch(const PeakPyramid &picture, const FrameStretch &visi
                             std::size_t byteBudget)
 {
     const Index perRow = picture.framesPerRow(0);
-    if (perRow == 1 || framesPerPixel >= static_cast<double>(perRow) || visible.isEmpty())
+    if (perRow == 1 || framesPerPixel >= double(perRow) || visible.isEmpty())
         return {};
     const auto widened = [&](Index by) {
         const Index begin = std::clamp<Index>(visible.begin - by, 0, picture.frameCount());
@@ -89,11 +88,11 @@ std::shared_ptr<const PeakPyramid> statisticCloseup(const Analysis &analysis, co
         way.begin = latest;
     }
 
-    const auto cells = static_cast<std::size_t>(analysis.grid().size());
+    const auto cells = std::size_t(analysis.grid().size());
     std::vector<float> statistic(cells);
     readFrames(analysis, way, context, [&](Index first, std::span<const float> block) {
-        for (Index i = 0; i < std::ssize(block) / static_cast<Index>(cells); ++i) {
-            chain->update(first + i, block.subspan(static_cast<std::size_t>(i) * cells, cells), statistic);
+        for (Index i = 0; i < std::ssize(block) / Index(cells); ++i) {
+            chain->update(first + i, block.subspan(std::size_t(i) * cells, cells), statistic);
             if (first + i >= stretch.begin)
                 picture->append(statistic);
         }

@@ -30,17 +30,15 @@ std::vector<double> thresholdsForEvents(std::vector<float> maxima, double cellFr
                                         bool isLine)
 {
     // A detector that decides in blocks of its own has blocks of ours without a decision.
-    const auto blocks = static_cast<double>(maxima.size());
+    const auto blocks = double(maxima.size());
     std::erase_if(maxima, [](float maximum) { return !std::isfinite(maximum); });
     if (maxima.size() < leastMaxima)
         throw Error("detector", "decides too rarely to be calibrated on noise; choose a shorter window");
     std::sort(maxima.begin(), maxima.end());
-    const double perMaximum = cellFramesPerBlock * blocks / static_cast<double>(maxima.size());
+    const double perMaximum = cellFramesPerBlock * blocks / double(maxima.size());
     constexpr double lower = 0.5;
     constexpr double upper = 0.95;
-    const auto quantile = [&](double p) {
-        return static_cast<double>(maxima[static_cast<std::size_t>(p * static_cast<double>(maxima.size()))]);
-    };
+    const auto quantile = [&](double p) { return double(maxima[std::size_t(p * double(maxima.size()))]); };
     const double theta =
         std::log(std::log(lower) / std::log(upper)) / std::max(1e-6, quantile(upper) - quantile(lower));
     std::vector<double> thresholds;

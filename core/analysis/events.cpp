@@ -14,7 +14,7 @@ namespace {
     double driftOf(const Track &track, const Axis &time, const Grid &grid, std::size_t along)
     {
         const Axis &axis = grid.axes[along];
-        const auto n = static_cast<double>(track.points.size());
+        const auto n = double(track.points.size());
         if (n < 2.0)
             return 0.0;
         double sumT = 0.0;
@@ -25,11 +25,11 @@ namespace {
         const bool isLast = along + 1 == grid.axes.size();
         for (std::size_t i = 0; i < track.points.size(); ++i) {
             const TrackPoint &point = track.points[i];
-            const double t = static_cast<double>(point.frame - track.points.front().frame) * time.step;
-            double f = axis.value(isLast ? track.lastPosition(i, axis)
-                                         : static_cast<double>(point.cell / grid.stride(along) % axis.count));
+            const double t = double(point.frame - track.points.front().frame) * time.step;
+            double f =
+                axis.value(isLast ? track.lastPosition(i, axis) : double(point.cell / grid.stride(along) % axis.count));
             if (axis.cyclic && i > 0) {
-                const double turn = axis.step * static_cast<double>(axis.count);
+                const double turn = axis.step * double(axis.count);
                 f += turn * std::round((before - f) / turn);
             }
             before = f;
@@ -44,17 +44,16 @@ namespace {
     /// What only the look from both ends knows.
     void describe(Event &event, const Track &track, const AnalysisPlan &analysis)
     {
-        const auto count = static_cast<double>(track.points.size());
+        const auto count = double(track.points.size());
         double level = 0.0;
         double band = 0.0;
         for (const SmoothedPoint &point : track.smoothed) {
-            level += static_cast<double>(point.level) / count;
-            band += static_cast<double>(point.high - point.low) / count;
+            level += double(point.level) / count;
+            band += double(point.high - point.low) / count;
         }
         event.snrDb = dbFromRatio(level);
         event.bandWidth = band * analysis.grid().axes.back().step;
-        const double cellFrames =
-            static_cast<double>(analysis.grid().size()) * static_cast<double>(analysis.time().count);
+        const double cellFrames = double(analysis.grid().size()) * double(analysis.time().count);
         event.windowSeconds =
             track.windowSeconds > 0.0 ? track.windowSeconds : analysis.frames->spectrogram()->windowSeconds();
         event.noiseProbability = -std::expm1(-analysis.calibration->eventRateAt(event.statistic) * cellFrames);
@@ -70,10 +69,8 @@ std::vector<AreaEvent> areaEvents(const Analysis &analysis)
     constexpr double leastDb = 1.0;
     for (const Area &area : analysis.areas)
         if (const double levelDb = dbFromRatio(area.level); levelDb >= leastDb)
-            result.push_back({time.value(static_cast<double>(area.firstFrame)),
-                              time.value(static_cast<double>(area.lastFrame)),
-                              axis.value(static_cast<double>(area.firstCell)),
-                              axis.value(static_cast<double>(area.lastCell)), levelDb});
+            result.push_back({time.value(double(area.firstFrame)), time.value(double(area.lastFrame)),
+                              axis.value(double(area.firstCell)), axis.value(double(area.lastCell)), levelDb});
     return result;
 }
 
@@ -95,14 +92,14 @@ std::vector<Event> events(const AnalysisPlan &plan, const std::vector<Track> &tr
     for (const Track &track : tracks) {
         Event event;
         event.id = track.id;
-        event.onsetSeconds = time.value(static_cast<double>(track.onsetFrame));
-        event.detectSeconds = time.value(static_cast<double>(track.detectFrame));
+        event.onsetSeconds = time.value(double(track.onsetFrame));
+        event.detectSeconds = time.value(double(track.detectFrame));
         if (track.confirmFrame >= 0)
-            event.confirmSeconds = time.value(static_cast<double>(track.confirmFrame));
-        event.endSeconds = time.value(static_cast<double>(track.endFrame));
+            event.confirmSeconds = time.value(double(track.confirmFrame));
+        event.endSeconds = time.value(double(track.endFrame));
         const auto at = std::find_if(track.points.begin(), track.points.end(),
                                      [&](const TrackPoint &point) { return point.frame >= track.detectFrame; });
-        const auto detection = static_cast<std::size_t>(std::min(at, track.points.end() - 1) - track.points.begin());
+        const auto detection = std::size_t(std::min(at, track.points.end() - 1) - track.points.begin());
         event.position = track.positionOf(detection, grid);
         for (std::size_t axis = 0; axis < grid.axes.size(); ++axis)
             event.ratesPerSecond.push_back(driftOf(track, time, grid, axis));

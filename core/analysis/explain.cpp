@@ -27,13 +27,12 @@ namespace {
                                           std::vector<float> &statistic, const RunContext &context)
     {
         auto chain = makeChain(analysis);
-        std::vector<float> y(static_cast<std::size_t>(analysis.grid().size()));
+        std::vector<float> y(std::size_t(analysis.grid().size()));
         statistic.resize(y.size());
         const Index first = resumeBefore(*chain, analysis, std::min(begin, frame + 1 - chain->longestPath()));
         for (Index t = first; t <= frame; ++t) {
             if (t % 64 == 0)
-                context.checkpoint(static_cast<double>(t - first) / static_cast<double>(frame + 1 - first),
-                                   "replaying the recording");
+                context.checkpoint(double(t - first) / double(frame + 1 - first), "replaying the recording");
             analysis.frames->read(t, 1, y);
             chain->update(t, y, statistic);
         }
@@ -61,9 +60,9 @@ namespace {
         const std::span<const float> scores = chain.detector().scores(model);
         Index state = cell;
         for (Index other = cell; other < space.stateCount(); other += space.cellCount())
-            if (scores[static_cast<std::size_t>(other)] > scores[static_cast<std::size_t>(state)])
+            if (scores[std::size_t(other)] > scores[std::size_t(state)])
                 state = other;
-        auto best = static_cast<double>(shownScore(analysis, chain, model, scores[static_cast<std::size_t>(state)]));
+        auto best = double(shownScore(analysis, chain, model, scores[std::size_t(state)]));
         const HmmTracker *following = nullptr;
         for (const HmmTracker &tracker : chain.trackers()) {
             Index candidate = 0;
@@ -85,7 +84,7 @@ namespace {
     public:
         Competitors(const Analysis &analysis, std::size_t model)
             : m_analysis(analysis), m_model(analysis.modelAt(model)), m_chain(makeScoringChain(analysis)),
-              m_number(model), m_y(static_cast<std::size_t>(analysis.grid().size())), m_statistic(m_y.size())
+              m_number(model), m_y(std::size_t(analysis.grid().size())), m_statistic(m_y.size())
         {
         }
 
@@ -96,8 +95,8 @@ namespace {
                 m_next = resumeBefore(*m_chain, m_analysis, frame);
             for (; m_next < frame; ++m_next) {
                 if (m_next % 64 == 0)
-                    context.checkpoint(static_cast<double>(m_next) / static_cast<double>(frame), "evaluating competing "
-                                                                                                 "states");
+                    context.checkpoint(double(m_next) / double(frame), "evaluating competing "
+                                                                       "states");
                 m_analysis.frames->read(m_next, 1, m_y);
                 m_chain->update(m_next, m_y, m_statistic);
             }
@@ -116,7 +115,7 @@ namespace {
             const double background = std::max(0.0, -detector.offset(m_number));
             for (const StateSpace::Predecessor &p : m_model.space.predecessors(state, frame)) {
                 const double ln = p.lnProbability * m_model.transitionScale;
-                const auto score = static_cast<double>(detector.scores(m_number)[static_cast<std::size_t>(p.state)]);
+                const auto score = double(detector.scores(m_number)[std::size_t(p.state)]);
                 const std::optional<int> track = forgottenFor(m_model.space.cellOf(p.state));
                 const double left = (track ? std::min(score, background) : score) + ln;
                 ways.second = std::max(ways.second, std::min(left, ways.best));
@@ -186,12 +185,11 @@ namespace {
         const Index own = explanation.steps.back().state;
         double best = minusInfinity;
         for (Index state = cell; state < space.stateCount(); state += space.cellCount())
-            if (const auto score = static_cast<double>(scores.values[static_cast<std::size_t>(state)]);
-                state != own && score > best) {
+            if (const auto score = double(scores.values[std::size_t(state)]); state != own && score > best) {
                 best = score;
                 explanation.otherState = state;
             }
-        explanation.otherMargin = static_cast<double>(scores.values[static_cast<std::size_t>(own)]) - best;
+        explanation.otherMargin = double(scores.values[std::size_t(own)]) - best;
     }
 
     /// What the track of an inhibited box is called among the analysis's own, which are numbered after a second look.
@@ -202,8 +200,8 @@ namespace {
         for (const Track &track : analysis.tracks) {
             const Index at = frame - track.onsetFrame;
             if (at >= 0 && at < std::ssize(track.points)
-                && inhibition.box.contains(
-                    analysis.grid(), analysis.grid().coordinates(track.points[static_cast<std::size_t>(at)].cell)))
+                && inhibition.box.contains(analysis.grid(),
+                                           analysis.grid().coordinates(track.points[std::size_t(at)].cell)))
                 return track.id;
         }
         return -1;
@@ -226,7 +224,7 @@ Explanation explain(const Analysis &analysis, double seconds, const std::vector<
             throw Error(analysis.grid().axes[axis].name + " nan", "must be a number");
         const Axis &along = analysis.grid().axes[axis];
         if (const double at = along.position(position[axis]);
-            !along.cyclic && !(at >= -0.5 && at <= static_cast<double>(along.count) - 0.5))
+            !along.cyclic && !(at >= -0.5 && at <= double(along.count) - 0.5))
             throw Error(along.name + " " + formatNumber(position[axis]) + " " + along.unit,
                         "must lie in " + formatNumber(along.first) + " … " + formatNumber(along.last()) + " "
                             + along.unit);
@@ -236,7 +234,7 @@ Explanation explain(const Analysis &analysis, double seconds, const std::vector<
 
     // A tracker's path goes on to its very beginning only if it keeps all of its history, which changes no score.
     Analysis detailed = analysis;
-    detailed.settings.track.smoothingFrames = static_cast<int>(std::min<Index>(frame + 1, 1 << 30));
+    detailed.settings.track.smoothingFrames = int(std::min<Index>(frame + 1, 1 << 30));
     std::vector<float> statistic;
     auto chain = runTo(detailed, frame, frame, statistic, context.part(0.0, 0.3));
     PathInto path = pathInto(detailed, *chain, cell);
@@ -246,10 +244,10 @@ Explanation explain(const Analysis &analysis, double seconds, const std::vector<
     }
 
     Explanation explanation;
-    explanation.seconds = time.value(static_cast<double>(frame));
+    explanation.seconds = time.value(double(frame));
     for (std::size_t axis = 0; axis < coordinates.size(); ++axis)
-        explanation.position.push_back(analysis.grid().axes[axis].value(static_cast<double>(coordinates[axis])));
-    explanation.displayed = static_cast<double>(statistic[static_cast<std::size_t>(cell)]);
+        explanation.position.push_back(analysis.grid().axes[axis].value(double(coordinates[axis])));
+    explanation.displayed = double(statistic[std::size_t(cell)]);
     explanation.threshold = analysis.threshold;
     explanation.isTracked = path.isTracked;
     explanation.steps = path.steps;

@@ -41,7 +41,7 @@ namespace {
     private:
         double hzAt(const Track &track, Index frame) const
         {
-            const auto point = static_cast<std::size_t>(frame - track.points.front().frame);
+            const auto point = std::size_t(frame - track.points.front().frame);
             return m_axis.value(track.lastPosition(std::min(point, track.points.size() - 1), m_axis));
         }
 
@@ -95,7 +95,7 @@ std::vector<Track> withoutGhosts(const AnalysisPlan &plan, std::vector<Track> tr
     std::vector<Track> result;
     for (const std::size_t number : kept) {
         result.push_back(std::move(tracks[number]));
-        result.back().id = static_cast<int>(result.size());
+        result.back().id = int(result.size());
     }
     return result;
 }

@@ -14,7 +14,7 @@ namespace {
     ResetFit measureReset(const NormalisedFrames &noise, const MarkovModel &model, const ResetRule &rule)
     {
         Smd detector(model, rule);
-        const auto cells = static_cast<std::size_t>(noise.grid().size());
+        const auto cells = std::size_t(noise.grid().size());
         const Index frames = noise.time().count;
         std::vector<float> y(cells);
         std::vector<float> statistic(cells);
@@ -39,8 +39,8 @@ namespace {
         ResetFit mean;
         for (const NormalisedFramesPointer &field : noise) {
             const ResetFit fit = measureReset(*field, model, rule);
-            mean.lnK += fit.lnK / static_cast<double>(noise.size());
-            mean.continuedFraction += fit.continuedFraction / static_cast<double>(noise.size());
+            mean.lnK += fit.lnK / double(noise.size());
+            mean.continuedFraction += fit.continuedFraction / double(noise.size());
         }
         return mean;
     }

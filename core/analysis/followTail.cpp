@@ -15,7 +15,7 @@ namespace {
     {
     public:
         BandNoise(std::unique_ptr<NoiseStream> wide, Index cells)
-            : m_wide(std::move(wide)), m_cells(cells), m_y(static_cast<std::size_t>(m_wide->cells()))
+            : m_wide(std::move(wide)), m_cells(cells), m_y(std::size_t(m_wide->cells()))
         {
         }
         Index cells() const override { return m_cells; }
@@ -38,7 +38,7 @@ namespace {
     {
     public:
         FamilyNoise(std::unique_ptr<NoiseStream> lines, FamilyMap map)
-            : m_lines(std::move(lines)), m_map(std::move(map)), m_y(static_cast<std::size_t>(m_lines->cells()))
+            : m_lines(std::move(lines)), m_map(std::move(map)), m_y(std::size_t(m_lines->cells()))
         {
         }
         Index cells() const override { return m_map.frequency().count; }
@@ -62,13 +62,13 @@ namespace {
         const FamilySettings &family = settings.family;
         if (family.isNone())
             return spectralNoise(settings.spectrogram, windowSamples);
-        const int room = static_cast<int>(std::ceil(ringBands(family)));
+        const int room = int(std::ceil(ringBands(family)));
         auto lines = spectralNoise(settings.spectrogram, room * windowSamples);
         const Index bins = lines->cells();
         return std::make_unique<FamilyNoise>(
-            std::move(lines), FamilyMap::onRing(family, bins,
-                                                settings.spectrogram.windowSeconds
-                                                    * static_cast<double>(settings.spectrogram.binsPerCell)));
+            std::move(lines),
+            FamilyMap::onRing(family, bins,
+                              settings.spectrogram.windowSeconds * double(settings.spectrogram.binsPerCell)));
     }
 
 } // namespace

@@ -26,10 +26,10 @@ namespace {
         int there = 0;
         int inside = 0;
         for (const TrackPoint &point : track->points) {
-            const double seconds = analysis.time().value(static_cast<double>(point.frame));
+            const double seconds = analysis.time().value(double(point.frame));
             if (seconds < from - half || seconds > to + half)
                 continue;
-            const double hz = frequency.value(static_cast<double>(point.cell));
+            const double hz = frequency.value(double(point.cell));
             ++there;
             inside += hz >= *box.lowHz - margin && hz <= *box.highHz + margin ? 1 : 0;
         }
@@ -60,7 +60,7 @@ JudgedByBoxes judgeByBoxes(std::vector<Review> reviews, const Analysis &analysis
         if (!isUsed)
             result.others.push_back(box);
     }
-    result.judged = static_cast<int>(judged.size());
+    result.judged = int(judged.size());
     return result;
 }
 

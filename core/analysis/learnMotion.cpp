@@ -51,7 +51,7 @@ namespace {
             strip.firstFrame = track->points.front().frame;
             strip.halfWidth = bothWaysHalfWidth(spectrogramOf(analysis).binsPerCell());
             for (std::size_t i = 0; i < std::min(mostFrames, track->points.size()); ++i)
-                strip.centres.push_back(static_cast<Index>(std::lround(track->smoothed[i].position)));
+                strip.centres.push_back(Index(std::lround(track->smoothed[i].position)));
             strips.push_back(std::move(strip));
         }
         std::vector<PathStrip *> all;
@@ -69,7 +69,7 @@ namespace {
         const double others = all - changes.front();
         std::vector<double> law{staying};
         for (std::size_t i = 1; i < changes.size(); ++i) {
-            const double share = others > 0.0 ? changes[i] / others : 1.0 / static_cast<double>(changes.size() - 1);
+            const double share = others > 0.0 ? changes[i] / others : 1.0 / double(changes.size() - 1);
             law.push_back(0.5 * (1.0 - staying) * share);
         }
         return law;
@@ -88,8 +88,8 @@ namespace {
         model.binsPerCell = spectrogramOf(analysis).binsPerCell();
         std::vector<double> changes(law.size());
         for (std::size_t i = 0; i < strips.size(); ++i) {
-            context.checkpoint(static_cast<double>(i) / static_cast<double>(strips.size()), learning);
-            model.lnK.assign(static_cast<std::size_t>(strips[i].frameCount()), analysis.calibration->lnK);
+            context.checkpoint(double(i) / double(strips.size()), learning);
+            model.lnK.assign(std::size_t(strips[i].frameCount()), analysis.calibration->lnK);
             const std::vector<double> found = slopeChangesOf(strips[i], model);
             std::transform(found.begin(), found.end(), changes.begin(), changes.begin(), std::plus<>());
         }
@@ -114,8 +114,7 @@ LearnedMotion learnMotion(const Analysis &analysis, const RunContext &context)
     const std::vector<PathStrip> strips = stripsOf(analysis, tracks, context.part(0.0, 0.2));
     LearnedMotion motion;
     motion.present = analysis.settings.model.slopeChange;
-    motion.learned.assign(motion.present.size(),
-                          0.5 * (1.0 - firstStaying) / static_cast<double>(motion.present.size() - 1));
+    motion.learned.assign(motion.present.size(), 0.5 * (1.0 - firstStaying) / double(motion.present.size() - 1));
     motion.learned.front() = firstStaying;
     std::vector<double> changes;
     for (int step = 0; step < steps; ++step) {

@@ -28,24 +28,22 @@ namespace {
                                                 double cyclesPerSample, Index averaged, const RunContext &context)
     {
         constexpr Index exactEvery = 64; // samples; between them the mixer is turned by one step after the other
-        const auto floats = static_cast<std::size_t>(recording.info().floatsPerSample());
+        const auto floats = std::size_t(recording.info().floatsPerSample());
         const std::complex<double> step = turned(-cyclesPerSample);
         std::vector<std::complex<double>> result;
-        std::vector<float> samples(static_cast<std::size_t>(averaged) * floats);
+        std::vector<float> samples(std::size_t(averaged) * floats);
         for (Index at = 0; at + averaged <= count; at += averaged) {
-            context.checkpoint(static_cast<double>(at) / static_cast<double>(count), "measuring the line");
+            context.checkpoint(double(at) / double(count), "measuring the line");
             recording.read(channel, first + at, averaged, samples);
             std::complex<double> sum = 0.0;
             std::complex<double> mixer;
             for (Index n = 0; n < averaged; ++n, mixer *= step) {
                 if (n % exactEvery == 0)
-                    mixer = turned(-cyclesPerSample * static_cast<double>(at + n));
-                const auto i = static_cast<std::size_t>(n) * floats;
-                sum += mixer
-                       * std::complex<double>(static_cast<double>(samples[i]),
-                                              floats > 1 ? static_cast<double>(samples[i + 1]) : 0.0);
+                    mixer = turned(-cyclesPerSample * double(at + n));
+                const auto i = std::size_t(n) * floats;
+                sum += mixer * std::complex<double>(double(samples[i]), floats > 1 ? double(samples[i + 1]) : 0.0);
             }
-            result.push_back(sum / static_cast<double>(averaged));
+            result.push_back(sum / double(averaged));
         }
         return result;
     }
@@ -56,15 +54,14 @@ namespace {
         double largest = 0.0;
         for (const std::complex<double> &value : x)
             largest = std::max(largest, std::abs(value));
-        const Fft fft(Fft::fastLength(2 * static_cast<int>(x.size())), Fft::Input::Complex);
+        const Fft fft(Fft::fastLength(2 * int(x.size())), Fft::Input::Complex);
         const auto buffer = fft.buffer();
         std::fill(buffer->input().begin(), buffer->input().end(), 0.0f);
         for (std::size_t n = 0; n < x.size() && largest > 0.0; ++n) {
-            const double sine =
-                std::sin(std::numbers::pi * (static_cast<double>(n) + 0.5) / static_cast<double>(x.size()));
+            const double sine = std::sin(std::numbers::pi * (double(n) + 0.5) / double(x.size()));
             const std::complex<double> value = sine * sine * x[n] / largest;
-            buffer->input()[2 * n] = static_cast<float>(value.real());
-            buffer->input()[2 * n + 1] = static_cast<float>(value.imag());
+            buffer->input()[2 * n] = float(value.real());
+            buffer->input()[2 * n + 1] = float(value.imag());
         }
         fft.run(*buffer);
         std::vector<float> powers;
@@ -85,29 +82,29 @@ LineHeight lineHeight(const Recording &recording, Stretch stretch, const RunCont
     };
     if (!(stretch.halfBandHz * (stretch.toSeconds - stretch.fromSeconds) > 1.0)) // a band of less than two cells
         refuse();
-    const auto averaged = std::max<Index>(1, static_cast<Index>(rate / (2.0 * oversampling * stretch.halfBandHz)));
-    const double longest = static_cast<double>(most * averaged) / rate;
+    const auto averaged = std::max<Index>(1, Index(rate / (2.0 * oversampling * stretch.halfBandHz)));
+    const double longest = double(most * averaged) / rate;
     if (const double spare = stretch.toSeconds - stretch.fromSeconds - longest; spare > 0.0) {
         stretch.fromSeconds += 0.5 * spare;
         stretch.toSeconds -= 0.5 * spare;
     }
-    const auto first = static_cast<Index>(std::llround(stretch.fromSeconds * rate));
-    const auto count = static_cast<Index>(std::llround(stretch.toSeconds * rate)) - first;
+    const auto first = Index(std::llround(stretch.fromSeconds * rate));
+    const auto count = Index(std::llround(stretch.toSeconds * rate)) - first;
     if (count / averaged < fewest)
         refuse();
     const std::vector<float> all =
         powerSpectrum(mixedDown(recording, stretch.channel, first, count, stretch.hz / rate, averaged, context));
-    const double step = rate / static_cast<double>(averaged * std::ssize(all));
+    const double step = rate / double(averaged * std::ssize(all));
     const Index middle = std::ssize(all) / 2; // of 0 Hz
-    const auto reach = std::min(middle, static_cast<Index>(stretch.halfBandHz / step));
+    const auto reach = std::min(middle, Index(stretch.halfBandHz / step));
     std::vector<float> band(all.begin() + middle - reach,
                             all.begin() + std::min<Index>(std::ssize(all), middle + reach + 1));
     const auto highest = std::max_element(band.begin(), band.end());
-    const double hz = stretch.hz + step * static_cast<double>(highest - band.begin() - reach);
-    const auto power = static_cast<double>(*highest);
+    const double hz = stretch.hz + step * double(highest - band.begin() - reach);
+    const auto power = double(*highest);
     const auto median = band.begin() + std::ssize(band) / 2;
     std::nth_element(band.begin(), median, band.end());
-    return {hz, dbFromRatio(power / static_cast<double>(*median))};
+    return {hz, dbFromRatio(power / double(*median))};
 }
 
 } // namespace faintline

@@ -14,20 +14,20 @@ namespace {
 
     double countedCellFrames(const NormalisedFrames &noise)
     {
-        return static_cast<double>(noise.grid().size() * std::max<Index>(0, noise.time().count - settlingFrames));
+        return double(noise.grid().size() * std::max<Index>(0, noise.time().count - settlingFrames));
     }
 
     /// Calls take(frame, y) for every frame.
     template <class Take>
     void forEachFrame(const NormalisedFrames &noise, Take take)
     {
-        const auto cells = static_cast<std::size_t>(noise.grid().size());
+        const auto cells = std::size_t(noise.grid().size());
         std::vector<float> batch(framesAtOnce * cells);
         for (Index first = 0; first < noise.time().count; first += framesAtOnce) {
             const Index count = std::min(framesAtOnce, noise.time().count - first);
-            noise.read(first, count, std::span(batch).first(static_cast<std::size_t>(count) * cells));
+            noise.read(first, count, std::span(batch).first(std::size_t(count) * cells));
             for (Index i = 0; i < count; ++i)
-                take(first + i, std::span<const float>(batch).subspan(static_cast<std::size_t>(i) * cells, cells));
+                take(first + i, std::span<const float>(batch).subspan(std::size_t(i) * cells, cells));
         }
     }
 
@@ -37,14 +37,14 @@ std::shared_ptr<const FrameArray> beginningOf(const NormalisedFrames &noise, Ind
 {
     Axis time = noise.time();
     time.count = std::min(time.count, frames);
-    std::vector<float> values(static_cast<std::size_t>(time.count * noise.grid().size()));
+    std::vector<float> values(std::size_t(time.count * noise.grid().size()));
     noise.read(0, time.count, values);
     return std::make_shared<FrameArray>(time, noise.grid(), std::move(values));
 }
 
 StatisticLevels statisticLevelsOf(const NormalisedFrames &noise, Detector &detector)
 {
-    const auto cells = static_cast<std::size_t>(noise.grid().size());
+    const auto cells = std::size_t(noise.grid().size());
     std::vector<float> y(cells);
     std::vector<float> statistic(cells);
     float least = std::numeric_limits<float>::infinity();
@@ -62,7 +62,7 @@ StatisticLevels statisticLevelsOf(const NormalisedFrames &noise, Detector &detec
     }
     if (!(least <= largest))
         return {}; // never decided anything
-    return {least, std::max((largest - least) / static_cast<float>(levelsInView), 1e-6f)};
+    return {least, std::max((largest - least) / float(levelsInView), 1e-6f)};
 }
 
 NoiseTail measureTail(const NormalisedFrames &noise, Detector &detector, const StatisticLevels &levels)
@@ -79,15 +79,14 @@ NoiseTail measureTail(const NormalisedFrames &noise, Detector &detector, const S
             return;
         for (float value : statistic) {
             const float position = (value - levels.lowest) / levels.step;
-            tail.counts[static_cast<std::size_t>(std::clamp(position, 0.0f, static_cast<float>(levelCount - 1)))] +=
-                1.0;
+            tail.counts[std::size_t(std::clamp(position, 0.0f, float(levelCount - 1)))] += 1.0;
         }
         if (inBlock == 0)
             std::fill(maxima.begin(), maxima.end(), -std::numeric_limits<float>::infinity());
         for (Index column = 0; column < columns; ++column) {
             const auto from = statistic.begin() + column * cells / columns;
             const auto to = statistic.begin() + (column + 1) * cells / columns;
-            float &maximum = maxima[static_cast<std::size_t>(column)];
+            float &maximum = maxima[std::size_t(column)];
             maximum = std::max(maximum, *std::max_element(from, to));
         }
         if (++inBlock == noiseBlockFrames) {
@@ -101,7 +100,7 @@ NoiseTail measureTail(const NormalisedFrames &noise, Detector &detector, const S
 
 EventCounts countEvents(const NormalisedFrames &noise, const std::vector<std::unique_ptr<DetectionChain>> &chains)
 {
-    std::vector<float> statistic(static_cast<std::size_t>(noise.grid().size()));
+    std::vector<float> statistic(std::size_t(noise.grid().size()));
     forEachFrame(noise, [&](Index frame, std::span<const float> y) {
         for (const auto &chain : chains)
             if (chain)
@@ -112,9 +111,8 @@ EventCounts countEvents(const NormalisedFrames &noise, const std::vector<std::un
         double events = 0.0;
         if (chain) {
             chain->finish();
-            events = static_cast<double>(
-                std::count_if(chain->tracks().begin(), chain->tracks().end(),
-                              [](const Track &track) { return track.detectFrame >= settlingFrames; }));
+            events = double(std::count_if(chain->tracks().begin(), chain->tracks().end(),
+                                          [](const Track &track) { return track.detectFrame >= settlingFrames; }));
         }
         counts.events.push_back(events);
         counts.cellFrames.push_back(chain ? countedCellFrames(noise) : 0.0);

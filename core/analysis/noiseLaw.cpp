@@ -60,11 +60,9 @@ namespace {
     /// Where, going away from a track, the power along it comes down to the noise's.
     Index endOfSkirt(const std::vector<double> &sums, Index least, Index frames)
     {
-        const double highest =
-            (noiseMean + 2.0 * overlap / std::sqrt(static_cast<double>(frames))) * static_cast<double>(frames);
+        const double highest = (noiseMean + 2.0 * overlap / std::sqrt(double(frames))) * double(frames);
         Index end = least;
-        while (end + 1 < std::ssize(sums)
-               && (sums[static_cast<std::size_t>(end)] > highest || sums[static_cast<std::size_t>(end + 1)] > highest))
+        while (end + 1 < std::ssize(sums) && (sums[std::size_t(end)] > highest || sums[std::size_t(end + 1)] > highest))
             ++end;
         return end;
     }
@@ -94,10 +92,9 @@ std::optional<NoiseLawCheck> checkNoiseLaw(const Analysis &analysis, const RunCo
     if (!isFixed || !analysis.recording || !analysis.calibration || count < settlingFrames + leastCounted)
         return {};
     const Index length = std::min(stretchFrames, count);
-    const auto stretches =
-        std::clamp<Index>(static_cast<Index>(mostCellFrames / static_cast<double>(length * cells)), 1, count / length);
+    const auto stretches = std::clamp<Index>(Index(mostCellFrames / double(length * cells)), 1, count / length);
     const int binsPerCell = analysis.settings.spectrogram.binsPerCell;
-    const auto least = static_cast<Index>(std::ceil(analysis.settings.decide.inhibitCells.front() * binsPerCell));
+    const auto least = Index(std::ceil(analysis.settings.decide.inhibitCells.front() * binsPerCell));
     const auto widest = std::max(least + 1, widestSkirt * binsPerCell);
     Random random(7000, 0);
     std::vector<float> y(static_cast<std::size_t>(cells));
@@ -109,8 +106,8 @@ std::optional<NoiseLawCheck> checkNoiseLaw(const Analysis &analysis, const RunCo
         std::vector<Piece> pieces = piecesOf(analysis.tracks, first, first + length);
         const auto points = byFrame(pieces);
         for (Piece &piece : pieces) {
-            piece.below.resize(static_cast<std::size_t>(widest));
-            piece.above.resize(static_cast<std::size_t>(widest));
+            piece.below.resize(std::size_t(widest));
+            piece.above.resize(std::size_t(widest));
         }
         for (auto it = points.begin(); it != points.end();) {
             context.checkpoint(0.0, "checking the noise outside tracks");
@@ -119,11 +116,9 @@ std::optional<NoiseLawCheck> checkNoiseLaw(const Analysis &analysis, const RunCo
             for (; it != points.end() && it->first == frame; ++it) {
                 auto &[piece, cell] = it->second;
                 for (Index offset = 0; offset < widest; ++offset) {
-                    const auto at = static_cast<std::size_t>(offset);
-                    piece->below[at] +=
-                        static_cast<double>(y[static_cast<std::size_t>(std::max<Index>(0, cell - offset))]);
-                    piece->above[at] +=
-                        static_cast<double>(y[static_cast<std::size_t>(std::min(cells - 1, cell + offset))]);
+                    const auto at = std::size_t(offset);
+                    piece->below[at] += double(y[std::size_t(std::max<Index>(0, cell - offset))]);
+                    piece->above[at] += double(y[std::size_t(std::min(cells - 1, cell + offset))]);
                 }
             }
         }
@@ -133,15 +128,14 @@ std::optional<NoiseLawCheck> checkNoiseLaw(const Analysis &analysis, const RunCo
         }
         Smd detector(analysis.model, resetRule(*smd, analysis.calibration->lnK));
         for (Index frame = first; frame < first + length; ++frame) {
-            context.checkpoint(static_cast<double>(stretch * length + frame - first)
-                                   / static_cast<double>(stretches * length),
+            context.checkpoint(double(stretch * length + frame - first) / double(stretches * length),
                                "checking the noise outside tracks");
             frames.read(frame, 1, y);
             const auto [from, to] = points.equal_range(frame);
             for (auto it = from; it != to; ++it)
                 for (Index cell = std::max<Index>(0, it->second.second + it->second.first->lowest);
                      cell <= std::min(cells - 1, it->second.second + it->second.first->highest); ++cell)
-                    y[static_cast<std::size_t>(cell)] = static_cast<float>(random.exponential());
+                    y[std::size_t(cell)] = float(random.exponential());
             detector.update(y, statistic);
             if (frame - first < settlingFrames)
                 continue;
@@ -152,9 +146,8 @@ std::optional<NoiseLawCheck> checkNoiseLaw(const Analysis &analysis, const RunCo
     NoiseLawCheck law;
     law.expected = analysis.calibration->continuedFraction;
     law.found = sum / counted;
-    const double sigma =
-        std::sqrt(clusterVariance * law.expected * (1.0 - law.expected) / (counted * static_cast<double>(cells)));
-    const double half = deviations * sigma + tolerance + 1.0 / static_cast<double>(cells);
+    const double sigma = std::sqrt(clusterVariance * law.expected * (1.0 - law.expected) / (counted * double(cells)));
+    const double half = deviations * sigma + tolerance + 1.0 / double(cells);
     law.band = {law.expected - half, law.expected + half};
     return law;
 }

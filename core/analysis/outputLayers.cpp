@@ -28,9 +28,9 @@ namespace {
         for (std::size_t model = 0; model < rates.size(); ++model) {
             const StateSpace &space = analysis.modelAt(model).space;
             for (Index plane = 0; plane < space.planeCount(); ++plane)
-                rates[model].push_back(axis < space.axes().size() ? static_cast<float>(space.ratesOfPlane(plane)[axis]
-                                                                                       * rateUnit(analysis, axis))
-                                                                  : 0.0f);
+                rates[model].push_back(axis < space.axes().size()
+                                           ? float(space.ratesOfPlane(plane)[axis] * rateUnit(analysis, axis))
+                                           : 0.0f);
         }
         return rates;
     }
@@ -42,10 +42,10 @@ LayerReplay::LayerReplay(std::shared_ptr<const Analysis> analysis, std::size_t b
 {
     for (std::size_t model = 0; model < this->analysis()->modelCount(); ++model) {
         m_models.push_back(this->analysis()->modelAt(model));
-        m_ages.states.emplace_back(static_cast<std::size_t>(m_models.back().space.stateCount()));
+        m_ages.states.emplace_back(std::size_t(m_models.back().space.stateCount()));
     }
     m_before.resize(m_models.size());
-    const auto cells = static_cast<std::size_t>(m_models.front().space.cellCount());
+    const auto cells = std::size_t(m_models.front().space.cellCount());
     m_layers.statistic.resize(cells);
     m_layers.model.resize(cells);
     m_layers.plane.resize(cells);
@@ -78,8 +78,7 @@ void LayerReplay::walk(Index begin, Index frame, const RunContext &context)
     seek(begin);
     const Index first = m_replay.next();
     while (m_replay.next() <= frame) {
-        context.checkpoint(static_cast<double>(m_replay.next() - first) / static_cast<double>(frame + 1 - first),
-                           "following all paths");
+        context.checkpoint(double(m_replay.next() - first) / double(frame + 1 - first), "following all paths");
         step();
     }
 }
@@ -112,12 +111,11 @@ std::vector<float> LayerReplay::scoresBefore(std::size_t model) const
 {
     const PathDetector &detector = m_replay.chain().detector();
     std::vector<float> scores(detector.scores(model).begin(), detector.scores(model).end());
-    const auto background = std::max(0.0f, static_cast<float>(-detector.offset(model)));
+    const auto background = std::max(0.0f, float(-detector.offset(model)));
     const Index cells = analysis()->grid().size();
     for (const CellBox &box : m_replay.chain().forgotten())
         box.forEachCell(analysis()->grid(), [&](Index cell) {
-            for (auto state = static_cast<std::size_t>(cell); state < scores.size();
-                 state += static_cast<std::size_t>(cells))
+            for (auto state = std::size_t(cell); state < scores.size(); state += std::size_t(cells))
                 scores[state] = std::min(scores[state], background);
         });
     return scores;
@@ -193,7 +191,7 @@ void LayerReplay::move(const MarkovModel &model, std::size_t axis, Index step, c
         }
     };
     for (const KinematicAxis::Move &move : own.moves(step)) {
-        const auto ln = static_cast<float>(move.lnProbability * model.transitionScale);
+        const auto ln = float(move.lnProbability * model.transitionScale);
         const Index shift = move.cells;
         if (std::abs(shift) >= own.cells)
             continue;
@@ -222,7 +220,7 @@ void LayerReplay::followPaths(std::size_t model, Index frame)
         move(m_models[model], axis, frame, m_paths, m_moved);
         std::swap(m_paths, m_moved);
     }
-    const auto lnK = static_cast<float>(m_replay.chain().detector().regulation(model).stepLnK);
+    const auto lnK = float(m_replay.chain().detector().regulation(model).stepLnK);
     for (std::size_t state = 0; state < m_paths.ages.size(); ++state)
         m_paths.ages[state] = m_paths.scores[state] + lnK > 0.0f ? m_paths.ages[state] + 1 : 0;
     std::swap(m_paths.ages, m_ages.states[model]);
@@ -237,7 +235,7 @@ void LayerReplay::followTrackers()
         auto &ages = now[tracker.track().id];
         for (const auto &[state, before] : tracker.origins()) {
             if (isNew) {
-                ages[state] = m_ages.states[tracker.track().model][static_cast<std::size_t>(state)];
+                ages[state] = m_ages.states[tracker.track().model][std::size_t(state)];
                 continue;
             }
             const auto from = earlier->second.find(before);
@@ -250,11 +248,11 @@ void LayerReplay::followTrackers()
 void LayerReplay::project(std::span<const float> statistic)
 {
     const DetectionChain &chain = m_replay.chain();
-    const auto cells = static_cast<std::size_t>(analysis()->grid().size());
+    const auto cells = std::size_t(analysis()->grid().size());
     std::copy(statistic.begin(), statistic.end(), m_layers.statistic.begin());
     std::fill(m_layers.isInhibited.begin(), m_layers.isInhibited.end(), '\0');
     for (std::size_t cell = 0; cell < cells; ++cell)
-        m_layers.model[cell] = static_cast<unsigned char>(chain.detector().winnerAt(static_cast<Index>(cell)));
+        m_layers.model[cell] = static_cast<unsigned char>(chain.detector().winnerAt(Index(cell)));
     std::fill(m_layers.resetFraction.begin(), m_layers.resetFraction.end(), 0.0f);
     std::vector<float> best(cells, unreached);
     for (std::size_t model = 0; model < m_models.size(); ++model) {
@@ -267,33 +265,32 @@ void LayerReplay::project(std::span<const float> statistic)
                 m_layers.resetFraction[cell] += age == 0 ? 1.0f : 0.0f; // counted, so far
                 if (plane == 0 || scores[state] > best[cell]) {
                     best[cell] = scores[state];
-                    m_layers.plane[cell] = static_cast<std::int32_t>(plane);
+                    m_layers.plane[cell] = std::int32_t(plane);
                     m_layers.age[cell] = age;
                 }
             }
     }
     for (std::size_t cell = 0; cell < cells; ++cell)
-        m_layers.resetFraction[cell] /= static_cast<float>(m_models[m_layers.model[cell]].space.planeCount());
+        m_layers.resetFraction[cell] /= float(m_models[m_layers.model[cell]].space.planeCount());
     std::unordered_map<std::size_t, double> followed; ///< the statistic where a tracker has a say
     for (const HmmTracker &tracker : chain.trackers())
         for (const auto &[state, age] : m_ages.trackers[tracker.track().id]) {
-            const auto cell = static_cast<std::size_t>(state) % cells;
+            const auto cell = std::size_t(state) % cells;
             const auto [shown, isFirst] = followed.try_emplace(cell);
             if (isFirst)
-                shown->second = static_cast<double>(shownScore(*analysis(), chain, m_layers.model[cell], best[cell]));
+                shown->second = double(shownScore(*analysis(), chain, m_layers.model[cell], best[cell]));
             Index candidate = 0;
-            if (const double score = tracker.scoreAt(static_cast<Index>(cell), &candidate);
+            if (const double score = tracker.scoreAt(Index(cell), &candidate);
                 candidate == state && score > shown->second) {
                 shown->second = score;
                 m_layers.model[cell] = static_cast<unsigned char>(tracker.track().model);
-                m_layers.plane[cell] = static_cast<std::int32_t>(static_cast<std::size_t>(state) / cells);
+                m_layers.plane[cell] = std::int32_t(std::size_t(state) / cells);
                 m_layers.age[cell] = age;
                 m_layers.resetFraction[cell] = 0.0f; // a tracker's paths are not reset
             }
         }
     for (const CellBox &box : chain.inhibited())
-        box.forEachCell(analysis()->grid(),
-                        [&](Index cell) { m_layers.isInhibited[static_cast<std::size_t>(cell)] = 1; });
+        box.forEachCell(analysis()->grid(), [&](Index cell) { m_layers.isInhibited[std::size_t(cell)] = 1; });
 }
 
 const std::vector<float> &LayerPicture::values(OutputLayer layer) const
@@ -329,7 +326,7 @@ namespace {
     {
     public:
         LayerPainter(const Analysis &analysis, const LayerWindow &window, Index rows, Index columns)
-            : m_rows(rows), m_columns(columns), m_frameSeconds(static_cast<float>(analysis.time().step)),
+            : m_rows(rows), m_columns(columns), m_frameSeconds(float(analysis.time().step)),
               m_rates(ratesOfPlanes(analysis, 0)), m_secondRates(ratesOfPlanes(analysis, 1))
         {
             const Index endRow = std::min(window.endRow, rows);
@@ -348,7 +345,7 @@ namespace {
             picture.firstColumn = beginColumn / picture.perColumn;
             picture.rows = count(beginRow, endRow, picture.perRow);
             picture.columns = count(beginColumn, endColumn, picture.perColumn);
-            const auto size = static_cast<std::size_t>(picture.rows * picture.columns);
+            const auto size = std::size_t(picture.rows * picture.columns);
             picture.statistic.assign(size, unreached);
             for (std::vector<float> *values :
                  {&picture.rate, &picture.secondRate, &picture.age, &picture.resetFraction, &picture.inhibited})
@@ -368,8 +365,7 @@ namespace {
         void paintRow(Index row, const CellLayers &layers, Index first)
         {
             for (Index column = firstColumn(); column < endColumn(); ++column)
-                paint(static_cast<std::size_t>(picture.pixelAt(row, column)), layers,
-                      static_cast<std::size_t>(first + column));
+                paint(std::size_t(picture.pixelAt(row, column)), layers, std::size_t(first + column));
         }
 
         LayerPicture picture;
@@ -381,11 +377,11 @@ namespace {
                 picture.inhibited[pixel] = 1.0f;
             if (!(layers.statistic[cell] > picture.statistic[pixel]))
                 return;
-            const auto plane = static_cast<std::size_t>(layers.plane[cell]);
+            const auto plane = std::size_t(layers.plane[cell]);
             picture.statistic[pixel] = layers.statistic[cell];
             picture.rate[pixel] = m_rates[layers.model[cell]][plane];
             picture.secondRate[pixel] = m_secondRates[layers.model[cell]][plane];
-            picture.age[pixel] = static_cast<float>(layers.age[cell]) * m_frameSeconds;
+            picture.age[pixel] = float(layers.age[cell]) * m_frameSeconds;
             picture.resetFraction[pixel] = layers.resetFraction[cell];
         }
 
@@ -405,7 +401,7 @@ LayerPicture layerPicture(LayerReplay &replay, const LayerWindow &window, const 
     const Index first = painter.firstRow();
     const Index end = painter.endRow();
     for (Index frame = first; frame < end; ++frame) {
-        const double done = static_cast<double>(frame - first) / static_cast<double>(end - first);
+        const double done = double(frame - first) / double(end - first);
         context.checkpoint(done, "layers");
         painter.paintRow(frame,
                          replay.at(frame, context.part(done, done), {painter.firstColumn(), painter.endColumn()}), 0);
@@ -436,19 +432,17 @@ double largestRate(const Analysis &analysis, std::size_t axis)
 
 CellReading readCell(const Analysis &analysis, const CellLayers &layers, Index cell)
 {
-    const auto i = static_cast<std::size_t>(cell);
+    const auto i = std::size_t(cell);
     const std::vector<double> rates = analysis.modelAt(layers.model[i]).space.ratesOfPlane(layers.plane[i]);
     return {rates[0] * rateUnit(analysis, 0), rates.size() > 1 ? rates[1] * rateUnit(analysis, 1) : 0.0,
-            static_cast<double>(layers.age[i]) * analysis.time().step, layers.isInhibited[i] != 0,
-            static_cast<double>(layers.statistic[i])};
+            double(layers.age[i]) * analysis.time().step, layers.isInhibited[i] != 0, double(layers.statistic[i])};
 }
 
 CellReading readPixel(const LayerPicture &picture, Index pixel)
 {
-    const auto i = static_cast<std::size_t>(pixel);
-    return {static_cast<double>(picture.rate[i]), static_cast<double>(picture.secondRate[i]),
-            static_cast<double>(picture.age[i]), picture.inhibited[i] > 0.0f,
-            static_cast<double>(picture.statistic[i])};
+    const auto i = std::size_t(pixel);
+    return {double(picture.rate[i]), double(picture.secondRate[i]), double(picture.age[i]), picture.inhibited[i] > 0.0f,
+            double(picture.statistic[i])};
 }
 
 } // namespace faintline

@@ -19,10 +19,9 @@ PathEvidence evidenceAlong(const Analysis &analysis, std::span<const PathCell> p
             throw Error("path at frame " + std::to_string(at.frame) + ", cell " + std::to_string(at.cell),
                         "lies outside the picture");
         if (evidence.frames % 64 == 0)
-            context.checkpoint(static_cast<double>(evidence.frames) / static_cast<double>(path.size()),
-                               "evaluating a path");
+            context.checkpoint(double(evidence.frames) / double(path.size()), "evaluating a path");
         analysis.frames->read(at.frame, 1, y);
-        const auto value = static_cast<double>(y[static_cast<std::size_t>(at.cell)]);
+        const auto value = double(y[std::size_t(at.cell)]);
         evidence.logLikelihoodRatio += analysis.model.likelihood.at(value);
         if (std::isnan(value)) // not observed
             ++unobserved;
@@ -31,7 +30,7 @@ PathEvidence evidenceAlong(const Analysis &analysis, std::span<const PathCell> p
         ++evidence.frames;
     }
     if (evidence.frames > unobserved)
-        evidence.meanPower = power / static_cast<double>(evidence.frames - unobserved);
+        evidence.meanPower = power / double(evidence.frames - unobserved);
     return evidence;
 }
 
@@ -42,12 +41,11 @@ std::vector<PathCell> cellsAlong(const Analysis &analysis, std::span<const Polyl
         return path;
     const Axis &time = analysis.time();
     const Axis &frequency = analysis.grid().axes.back();
-    const auto last = static_cast<Index>(std::floor(time.position(line.back().seconds) + 0.5));
+    const auto last = Index(std::floor(time.position(line.back().seconds) + 0.5));
     auto next = line.begin();
-    for (Index frame = std::max<Index>(0, static_cast<Index>(std::ceil(time.position(line.front().seconds) - 0.5)));
+    for (Index frame = std::max<Index>(0, Index(std::ceil(time.position(line.front().seconds) - 0.5)));
          frame <= std::min(last, time.count - 1); ++frame) {
-        const double seconds =
-            std::clamp(time.value(static_cast<double>(frame)), line.front().seconds, line.back().seconds);
+        const double seconds = std::clamp(time.value(double(frame)), line.front().seconds, line.back().seconds);
         while (next != line.end() && next->seconds < seconds)
             ++next;
         double hz = next->hz;
@@ -55,8 +53,7 @@ std::vector<PathCell> cellsAlong(const Analysis &analysis, std::span<const Polyl
             const PolylinePoint &before = *(next - 1);
             hz = before.hz + (next->hz - before.hz) * (seconds - before.seconds) / (next->seconds - before.seconds);
         }
-        if (const auto cell = static_cast<Index>(std::lround(frequency.position(hz)));
-            cell >= 0 && cell < frequency.count)
+        if (const auto cell = Index(std::lround(frequency.position(hz))); cell >= 0 && cell < frequency.count)
             path.push_back({frame, cell});
     }
     return path;

@@ -32,31 +32,29 @@ void readStrips(const Analysis &analysis, std::vector<PathStrip *> strips, const
     const NormalisedFrames &frames = *analysis.frames;
     const Index cells = frames.grid().size();
     const Index frameCount = frames.time().count;
-    const Index block = std::max<Index>(1, static_cast<Index>(blockBytes / sizeof(float)) / cells);
+    const Index block = std::max<Index>(1, Index(blockBytes / sizeof(float)) / cells);
     const std::vector<CellBox> excluded = excludedBoxes(analysis);
     std::vector<PathStrip *> open;
     std::size_t next = 0;
     std::vector<float> values;
     for (Index first = 0; first < frameCount && (next < strips.size() || !open.empty()); first += block) {
-        context.checkpoint(static_cast<double>(first) / static_cast<double>(frameCount), what);
+        context.checkpoint(double(first) / double(frameCount), what);
         const Index count = std::min(block, frameCount - first);
         for (; next < strips.size() && strips[next]->firstFrame < first + count; ++next) {
             PathStrip &strip = *strips[next];
-            strip.y.assign(static_cast<std::size_t>(strip.frameCount() * strip.width()),
-                           std::numeric_limits<float>::quiet_NaN());
+            strip.y.assign(std::size_t(strip.frameCount() * strip.width()), std::numeric_limits<float>::quiet_NaN());
             open.push_back(&strip);
         }
         std::erase_if(open,
                       [first](const PathStrip *strip) { return strip->firstFrame + strip->frameCount() <= first; });
         if (open.empty())
             continue;
-        values.resize(static_cast<std::size_t>(count * cells));
+        values.resize(std::size_t(count * cells));
         frames.read(first, count, values);
         for (Index i = 0; i < count; ++i) {
-            const std::span<float> y =
-                std::span(values).subspan(static_cast<std::size_t>(i * cells), static_cast<std::size_t>(cells));
+            const std::span<float> y = std::span(values).subspan(std::size_t(i * cells), std::size_t(cells));
             for (const CellBox &box : excluded)
-                box.forEachCell(frames.grid(), [&](Index cell) { y[static_cast<std::size_t>(cell)] = 0.0f; });
+                box.forEachCell(frames.grid(), [&](Index cell) { y[std::size_t(cell)] = 0.0f; });
             for (PathStrip *strip : open)
                 copyFrame(y, first + i - strip->firstFrame, *strip);
         }

@@ -27,7 +27,7 @@ void calibratePlan(AnalysisPlan &plan, const RunContext &context, CalibrationDep
 {
     plan.model = makeModel(plan.settings.model, plan.grid());
     plan.calibration = calibrateBand(plan.settings, *plan.frames->spectrogram(), context, depth);
-    plan.cellFramesPerHour = static_cast<double>(plan.grid().size()) * 3600.0 / plan.time().step;
+    plan.cellFramesPerHour = double(plan.grid().size()) * 3600.0 / plan.time().step;
     plan.threshold = thresholdNats(plan.settings.decide, *plan.calibration, plan.cellFramesPerHour);
 }
 

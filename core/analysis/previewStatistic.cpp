@@ -25,10 +25,9 @@ namespace {
         std::span<const float> at(Index frame, Index count)
         {
             const Index cells = m_source.grid().size();
-            const auto size = static_cast<std::size_t>(count * cells);
+            const auto size = std::size_t(count * cells);
             if (m_kept)
-                return std::span(m_kept->values)
-                    .subspan(static_cast<std::size_t>((frame - m_kept->first) * cells), size);
+                return std::span(m_kept->values).subspan(std::size_t((frame - m_kept->first) * cells), size);
             m_block.resize(size);
             m_source.read(frame, count, m_block);
             return m_block;
@@ -46,7 +45,7 @@ namespace {
     {
         Smd smd(model, {ResetLaw::Half, lnK, 0.0, settlingGain});
         smd.useThreads(context.threads);
-        std::vector<float> statistic(static_cast<std::size_t>(model.space.cellCount()));
+        std::vector<float> statistic(std::size_t(model.space.cellCount()));
         const Index frames = std::min(range.end - range.readFirst, settlingFrames);
         const Index averaged = std::min(averagedFrames, (frames + 1) / 2);
         double sum = 0.0;
@@ -59,7 +58,7 @@ namespace {
             sum += smd.regulation().lnK;
             ++counted;
         }
-        return counted > 0 ? sum / static_cast<double>(counted) : lnK;
+        return counted > 0 ? sum / double(counted) : lnK;
     }
 
 } // namespace
@@ -69,13 +68,12 @@ std::shared_ptr<const KeptFrames> keepFrames(NormalisedFramesPointer source, Ind
 {
     auto kept = std::make_shared<KeptFrames>();
     const Index cells = source->grid().size();
-    kept->values.resize(static_cast<std::size_t>(count * cells));
+    kept->values.resize(std::size_t(count * cells));
     for (Index done = 0; done < count; done += blockFrames) {
-        context.checkpoint(static_cast<double>(done) / static_cast<double>(count), "reading the visible part");
+        context.checkpoint(double(done) / double(count), "reading the visible part");
         const Index block = std::min(blockFrames, count - done);
         source->read(first + done, block,
-                     std::span(kept->values)
-                         .subspan(static_cast<std::size_t>(done * cells), static_cast<std::size_t>(block * cells)));
+                     std::span(kept->values).subspan(std::size_t(done * cells), std::size_t(block * cells)));
     }
     kept->source = std::move(source);
     kept->first = first;
@@ -94,7 +92,7 @@ FrameRange previewRange(const NormalisedFrames &frames, Index first, Index last)
         std::max<Index>(0, range.first - (frames.grid().axes.size() == 1 ? settlingFrames : settlingPings));
     range.end = std::clamp<Index>(last, range.first, count - 1) + 1;
     const Index cells = (range.end - range.readFirst) * frames.grid().size();
-    range.isKeepable = static_cast<std::size_t>(cells) * sizeof(float) <= memoryShares::previewFrames;
+    range.isKeepable = std::size_t(cells) * sizeof(float) <= memoryShares::previewFrames;
     return cells <= mostCells ? range : FrameRange{};
 }
 
@@ -134,18 +132,15 @@ StatisticPreview previewStatistic(const Analysis &before, const AnalysisSettings
     detector->useThreads(context.threads);
     const Index cells = before.grid().size();
     const Axis &time = before.time();
-    const auto statistic =
-        std::make_shared<PeakPyramid>(Axis{time.name, time.unit, time.value(static_cast<double>(range.first)),
-                                           time.step, range.end - range.first, false},
-                                      cells, ByteScale(ByteScale::Kind::ScoreNats), memoryShares::closeup);
+    const auto statistic = std::make_shared<PeakPyramid>(
+        Axis{time.name, time.unit, time.value(double(range.first)), time.step, range.end - range.first, false}, cells,
+        ByteScale(ByteScale::Kind::ScoreNats), memoryShares::closeup);
     std::vector<float> scores;
     for (Index frame = range.readFirst; frame < range.end;) {
-        context.checkpoint(static_cast<double>(frame - range.readFirst)
-                               / static_cast<double>(range.end - range.readFirst),
-                           "previewing");
+        context.checkpoint(double(frame - range.readFirst) / double(range.end - range.readFirst), "previewing");
         const Index stop = frame < range.first ? range.first : range.end;
         const Index block = std::min(blockFrames, stop - frame);
-        scores.resize(static_cast<std::size_t>(block * cells));
+        scores.resize(std::size_t(block * cells));
         detector->updateBlock(blocks.at(frame, block), scores, cells);
         if (frame >= range.first)
             statistic->append(scores);

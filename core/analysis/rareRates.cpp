@@ -44,8 +44,7 @@ namespace {
     {
     public:
         SpectralNoise(const SpectrogramSettings &settings, int windowSamples)
-            : m_hop(static_cast<std::size_t>(
-                std::max(1L, std::lround(static_cast<double>(windowSamples) / settings.stepsPerWindow)))),
+            : m_hop(std::size_t(std::max(1L, std::lround(double(windowSamples) / settings.stepsPerWindow)))),
               m_window(sampleWindow(settings.window, windowSamples)),
               m_fft(Fft::fastLength(windowSamples * settings.binsPerCell), Fft::Input::Complex),
               m_buffer(m_fft.buffer()), m_samples(2 * m_window.size())
@@ -59,8 +58,8 @@ namespace {
             // The first window is new as a whole, every other one in its last hop.
             const std::size_t fresh = m_isFirst ? m_samples.size() : std::min(2 * m_hop, m_samples.size());
             m_isFirst = false;
-            std::copy(m_samples.begin() + static_cast<std::ptrdiff_t>(fresh), m_samples.end(), m_samples.begin());
-            random.normals(std::span(m_samples).last(fresh), static_cast<float>(std::sqrt(0.5)));
+            std::copy(m_samples.begin() + std::ptrdiff_t(fresh), m_samples.end(), m_samples.begin());
+            random.normals(std::span(m_samples).last(fresh), float(std::sqrt(0.5)));
             const std::span<float> input = m_buffer->input();
             std::fill(input.begin(), input.end(), 0.0f);
             for (std::size_t n = 0; n < m_window.size(); ++n) {
@@ -100,8 +99,8 @@ namespace {
     {
     public:
         Walker(std::unique_ptr<Detector> detector, std::unique_ptr<NoiseStream> noise)
-            : m_detector(std::move(detector)), m_noise(std::move(noise)),
-              m_y(static_cast<std::size_t>(m_noise->cells())), m_statistic(m_y.size())
+            : m_detector(std::move(detector)), m_noise(std::move(noise)), m_y(std::size_t(m_noise->cells())),
+              m_statistic(m_y.size())
         {
         }
 
@@ -110,7 +109,7 @@ namespace {
         {
             m_noise->next(random, m_y);
             m_detector->update(m_y, m_statistic);
-            return static_cast<double>(*std::max_element(m_statistic.begin(), m_statistic.end()));
+            return double(*std::max_element(m_statistic.begin(), m_statistic.end()));
         }
 
         Particle particle(double reached) const { return {m_noise->state(), m_detector->state(), reached}; }
@@ -130,7 +129,7 @@ namespace {
 
     double quantileOf(std::vector<double> values, double p)
     {
-        const auto at = values.begin() + static_cast<std::ptrdiff_t>(p * static_cast<double>(values.size() - 1));
+        const auto at = values.begin() + std::ptrdiff_t(p * double(values.size() - 1));
         std::nth_element(values.begin(), at, values.end());
         return *at;
     }
@@ -150,7 +149,7 @@ namespace {
         {
             findFirstLevel();
             double lnRate = enterFirstLevel();
-            double variance = 1.0 / static_cast<double>(m_entered.size());
+            double variance = 1.0 / double(m_entered.size());
             append(m_level, lnRate, variance);
             for (int number = 1; number < mostLevels && lnRate > m_settings.leastLnRate; ++number) {
                 m_context.checkpoint(std::min(1.0, lnRate / m_settings.leastLnRate),
@@ -167,9 +166,9 @@ namespace {
                         entered.push_back(*outcome);
                 if (std::ssize(entered) < leastSuccesses)
                     break;
-                const double p = static_cast<double>(entered.size()) / static_cast<double>(outcomes.size());
+                const double p = double(entered.size()) / double(outcomes.size());
                 lnRate += std::log(p);
-                variance += (1.0 - p) / static_cast<double>(entered.size());
+                variance += (1.0 - p) / double(entered.size());
                 m_level = next;
                 m_entered = std::move(entered);
                 append(m_level, lnRate, variance);
@@ -187,7 +186,7 @@ namespace {
 
         Random randomOf(int level, Index trial) const
         {
-            return {m_settings.seed + static_cast<std::uint64_t>(level), static_cast<std::uint64_t>(trial)};
+            return {m_settings.seed + std::uint64_t(level), std::uint64_t(trial)};
         }
 
         void findFirstLevel()
@@ -200,7 +199,7 @@ namespace {
                     for (int frame = 0; frame < settlingFrames + quantileFrames / streams; ++frame)
                         if (const double reached = walker->step(random);
                             frame >= settlingFrames && std::isfinite(reached))
-                            maxima[static_cast<std::size_t>(stream)].push_back(reached);
+                            maxima[std::size_t(stream)].push_back(reached);
                 };
             });
             std::vector<double> all;
@@ -224,10 +223,10 @@ namespace {
                     Random random = randomOf(1000, stream);
                     for (int frame = 0; frame < settlingFrames; ++frame)
                         walker->step(random);
-                    auto &own = entered[static_cast<std::size_t>(stream)];
+                    auto &own = entered[std::size_t(stream)];
                     bool isBelow = false;
-                    for (double &count = frames[static_cast<std::size_t>(stream)];
-                         std::ssize(own) < wanted && count < longestSearch; ++count) {
+                    for (double &count = frames[std::size_t(stream)]; std::ssize(own) < wanted && count < longestSearch;
+                         ++count) {
                         const double reached = walker->step(random);
                         if (isBelow && reached > m_level) {
                             own.push_back(walker->particle(reached));
@@ -243,9 +242,9 @@ namespace {
                 total += frames[stream];
                 m_entered.insert(m_entered.end(), entered[stream].begin(), entered[stream].end());
             }
-            const auto cells = static_cast<double>(m_makeWalker()->cells());
+            const auto cells = double(m_makeWalker()->cells());
             return m_entered.empty() ? -std::numeric_limits<double>::infinity()
-                                     : std::log(static_cast<double>(m_entered.size()) / (total * cells));
+                                     : std::log(double(m_entered.size()) / (total * cells));
         }
 
         /// From one of the entered states, with fresh noise, to the next level or back to the base; answers the highest
@@ -253,8 +252,7 @@ namespace {
         double walk(Walker &walker, Random &random, double next, std::optional<Particle> *outcome) const
         {
             const auto number =
-                std::min(static_cast<std::size_t>(random.uniform() * static_cast<double>(m_entered.size())),
-                         m_entered.size() - 1);
+                std::min(std::size_t(random.uniform() * double(m_entered.size())), m_entered.size() - 1);
             const Particle &start = m_entered[number];
             double highest = start.reached;
             if (highest > next) {
@@ -277,12 +275,12 @@ namespace {
 
         double nextLevel(int number) const
         {
-            std::vector<double> highest(static_cast<std::size_t>(m_settings.pilots));
+            std::vector<double> highest(std::size_t(m_settings.pilots));
             parallelFor(m_settings.pilots, m_context, "noise", [&] {
                 return [&, walker = m_makeWalker()](Index trial) {
                     Random random = randomOf(2000 + number, trial);
                     std::optional<Particle> ignored;
-                    highest[static_cast<std::size_t>(trial)] =
+                    highest[std::size_t(trial)] =
                         walk(*walker, random, std::numeric_limits<double>::infinity(), &ignored);
                 };
             });
@@ -293,11 +291,11 @@ namespace {
 
         std::vector<std::optional<Particle>> trials(int number, double next) const
         {
-            std::vector<std::optional<Particle>> outcomes(static_cast<std::size_t>(m_settings.entries));
+            std::vector<std::optional<Particle>> outcomes(std::size_t(m_settings.entries));
             parallelFor(std::ssize(outcomes), m_context, "noise", [&] {
                 return [&, walker = m_makeWalker()](Index trial) {
                     Random random = randomOf(3000 + number, trial);
-                    walk(*walker, random, next, &outcomes[static_cast<std::size_t>(trial)]);
+                    walk(*walker, random, next, &outcomes[std::size_t(trial)]);
                 };
             });
             return outcomes;
@@ -316,7 +314,7 @@ namespace {
     RareRates combined(const std::vector<RareRates> &runs)
     {
         RareRates result;
-        const auto count = static_cast<double>(runs.size());
+        const auto count = double(runs.size());
         for (std::size_t i = 0; i < runs.front().levels.size(); ++i) {
             const double level = runs.front().levels[i];
             const bool isReached = std::all_of(runs.begin(), runs.end(),
@@ -346,7 +344,7 @@ namespace {
         if (levels.size() == 1)
             return values.front();
         const auto above = std::upper_bound(levels.begin() + 1, levels.end() - 1, level);
-        const auto upper = static_cast<std::size_t>(above - levels.begin());
+        const auto upper = std::size_t(above - levels.begin());
         const double fraction = (level - levels[upper - 1]) / (levels[upper] - levels[upper - 1]);
         return values[upper - 1] + fraction * (values[upper] - values[upper - 1]);
     }
@@ -381,17 +379,16 @@ RareRates measureRareRates(const std::function<std::unique_ptr<Detector>()> &mak
 {
     constexpr std::size_t mostBytes = std::size_t(64) << 20; // of all states that a level begins from
     const auto state = makeDetector()->state();
-    if (!state || state->bytes() * static_cast<std::size_t>(settings.entries) > mostBytes)
+    if (!state || state->bytes() * std::size_t(settings.entries) > mostBytes)
         return {};
     std::vector<RareRates> runs;
     for (int run = 0; run < replicates; ++run) {
         SplittingSettings own = settings;
         own.entries = std::max(1, settings.entries / replicates);
-        own.seed = settings.seed + static_cast<std::uint64_t>(run) * 10000;
-        runs.push_back(
-            Splitting(makeDetector, makeNoise, own,
-                      context.part(static_cast<double>(run) / replicates, static_cast<double>(run + 1) / replicates))
-                .run());
+        own.seed = settings.seed + std::uint64_t(run) * 10000;
+        runs.push_back(Splitting(makeDetector, makeNoise, own,
+                                 context.part(double(run) / replicates, double(run + 1) / replicates))
+                           .run());
         if (runs.back().isEmpty())
             return {};
     }

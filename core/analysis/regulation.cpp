@@ -14,21 +14,20 @@ NoiseBand regulationBand(const MarkovModel &model, const ResetRule &rule, const 
         return {};
     const MarkovModel piece = calibrationSubgrid(model);
     Smd detector(piece, rule);
-    std::vector<float> y(static_cast<std::size_t>(piece.space.cellCount()));
+    std::vector<float> y(std::size_t(piece.space.cellCount()));
     std::vector<float> statistic(y.size());
     std::vector<double> lnK;
     Random random(2000, 0);
     for (int frame = 0; frame < frames; ++frame) {
-        context.checkpoint(static_cast<double>(frame) / frames, "regulating K on noise");
+        context.checkpoint(double(frame) / frames, "regulating K on noise");
         for (float &value : y)
-            value = static_cast<float>(random.exponential());
+            value = float(random.exponential());
         detector.update(y, statistic);
         if (frame >= settlingFrames)
             lnK.push_back(detector.regulation().lnK);
     }
     NoiseBand band = noiseBand(lnK);
-    band.deviation *=
-        std::sqrt(static_cast<double>(piece.space.cellCount()) / static_cast<double>(model.space.cellCount()));
+    band.deviation *= std::sqrt(double(piece.space.cellCount()) / double(model.space.cellCount()));
     return band;
 }
 
@@ -37,8 +36,8 @@ std::vector<Index> draggedFrames(const Analysis &analysis)
     std::vector<Index> frames;
     if (analysis.lnKBand.deviation > 0.0)
         for (std::size_t frame = 0; frame < analysis.lnK.size(); ++frame)
-            if (static_cast<double>(analysis.lnK[frame]) < analysis.lnKBand.low())
-                frames.push_back(static_cast<Index>(frame));
+            if (double(analysis.lnK[frame]) < analysis.lnKBand.low())
+                frames.push_back(Index(frame));
     return frames;
 }
 

@@ -57,12 +57,12 @@ namespace {
     /// Least-squares slope of so many points from `first` on, cells a frame.
     double slopeOf(const std::vector<TrackPoint> &points, std::size_t first, std::size_t count)
     {
-        const double middle = 0.5 * static_cast<double>(count - 1);
+        const double middle = 0.5 * double(count - 1);
         double cross = 0.0;
         double square = 0.0;
         for (std::size_t i = 0; i < count; ++i) {
-            const double t = static_cast<double>(i) - middle;
-            cross += t * static_cast<double>(points[first + i].cell);
+            const double t = double(i) - middle;
+            cross += t * double(points[first + i].cell);
             square += t * t;
         }
         return square > 0.0 ? cross / square : 0.0;
@@ -72,7 +72,7 @@ namespace {
     const TrackPoint &pointAt(const Track &track, Index frame)
     {
         const Index first = track.points.front().frame;
-        return track.points[static_cast<std::size_t>(std::clamp(frame, first, track.points.back().frame) - first)];
+        return track.points[std::size_t(std::clamp(frame, first, track.points.back().frame) - first)];
     }
 
     class SecondLook
@@ -102,12 +102,10 @@ namespace {
                 std::size_t end = first;
                 while (end < pieces.size() && (end == first || bytes < stripBytes)) {
                     const PathStrip &strip = pieces[end++].strip;
-                    bytes += sizeof(float) * static_cast<std::size_t>(strip.frameCount() * strip.width());
+                    bytes += sizeof(float) * std::size_t(strip.frameCount() * strip.width());
                 }
                 const std::span<Piece> some = std::span(pieces).subspan(first, end - first);
-                const auto done = [&](std::size_t piece) {
-                    return static_cast<double>(piece) / static_cast<double>(pieces.size());
-                };
+                const auto done = [&](std::size_t piece) { return double(piece) / double(pieces.size()); };
                 std::vector<PathStrip *> strips;
                 for (Piece &piece : some)
                     strips.push_back(&piece.strip);
@@ -142,12 +140,11 @@ namespace {
             PathStrip strip;
             const std::vector<TrackPoint> &points = piece.track->points;
             const auto goesOn = [&](const TrackPoint &end, double slope, Index frame) {
-                strip.centres.push_back(
-                    end.cell + static_cast<Index>(std::lround(slope * static_cast<double>(frame - end.frame))));
+                strip.centres.push_back(end.cell + Index(std::lround(slope * double(frame - end.frame))));
             };
-            const std::size_t count = std::min(points.size(), static_cast<std::size_t>(slopeFrames));
-            const std::size_t from = piece.from - std::min(piece.from, static_cast<std::size_t>(pieceOverlap));
-            const std::size_t to = std::min(points.size(), piece.to + static_cast<std::size_t>(pieceOverlap));
+            const std::size_t count = std::min(points.size(), std::size_t(slopeFrames));
+            const std::size_t from = piece.from - std::min(piece.from, std::size_t(pieceOverlap));
+            const std::size_t to = std::min(points.size(), piece.to + std::size_t(pieceOverlap));
             strip.firstFrame = points[from].frame;
             if (piece.isFirst()) {
                 strip.firstFrame = std::max<Index>(0, points.front().frame - extraFrames);
@@ -161,7 +158,7 @@ namespace {
                 for (Index frame = points.back().frame + 1; frame < end; ++frame)
                     goesOn(points.back(), slopeOf(points, points.size() - count, count), frame);
             }
-            const bool isStrong = piece.track->peakStatistic > strongGrowth * static_cast<double>(points.size());
+            const bool isStrong = piece.track->peakStatistic > strongGrowth * double(points.size());
             strip.halfWidth = std::max({bothWaysHalfWidth(m_model.binsPerCell),
                                         levelBesideHalfWidth(m_model.binsPerCell), isStrong ? skirtBins : 0});
             return strip;
@@ -171,7 +168,7 @@ namespace {
         bool divideByFloor(PathStrip &strip) const
         {
             bool isRaised = false;
-            std::vector<float> floor(static_cast<std::size_t>(strip.width()));
+            std::vector<float> floor(std::size_t(strip.width()));
             for (Index at = 0; at < strip.frameCount(); ++at) {
                 m_explanations.read(strip.firstFrame + at, strip.firstCell(at), floor);
                 float *y = strip.row(at);
@@ -188,11 +185,11 @@ namespace {
         {
             double loss = 0.0;
             for (Index at = 0; at < strip.frameCount(); ++at) {
-                const Index centre = strip.centres[static_cast<std::size_t>(at)];
+                const Index centre = strip.centres[std::size_t(at)];
                 const auto lambda = [&](const PathStrip &of) {
                     const float y =
                         std::max({of.valueAt(at, centre), of.valueAt(at, centre - 1), of.valueAt(at, centre + 1)});
-                    return std::isnan(y) ? 0.0 : m_model.likelihood.at(static_cast<double>(y));
+                    return std::isnan(y) ? 0.0 : m_model.likelihood.at(double(y));
                 };
                 loss += lambda(strip) - lambda(less);
             }
@@ -205,8 +202,8 @@ namespace {
         {
             PathStrip alone = strip;
             for (Index at = 0; at < alone.frameCount(); ++at)
-                for (float &y : std::span(alone.row(at), static_cast<std::size_t>(alone.width())))
-                    y /= static_cast<float>(levels[static_cast<std::size_t>(at)]);
+                for (float &y : std::span(alone.row(at), std::size_t(alone.width())))
+                    y /= float(levels[std::size_t(at)]);
             return lossAlongPath(strip, alone);
         }
 
@@ -215,7 +212,7 @@ namespace {
         {
             const Index half = levelBesideHalfWidth(m_model.binsPerCell);
             for (Index at = 0; at < strip.frameCount(); ++at) {
-                const auto i = static_cast<std::size_t>(at);
+                const auto i = std::size_t(at);
                 if (levels[i] > 1.0)
                     m_areas.push_back({strip.firstFrame + at, strip.firstFrame + at,
                                        std::clamp<Index>(strip.centres[i] - half, 0, m_cells - 1),
@@ -269,8 +266,7 @@ namespace {
             ExplainedSignal signal = explain(piece.strip, seen, stretch);
             if (m_candidates.empty() || m_candidates.back().track.endFrame + 1 != track.onsetFrame) {
                 if (!piece.isLast()) { // it is going to be long: no room beyond that
-                    track.points.reserve(piece.track->points.size() - piece.from
-                                         + 2 * static_cast<std::size_t>(extraFrames));
+                    track.points.reserve(piece.track->points.size() - piece.from + 2 * std::size_t(extraFrames));
                     track.smoothed.reserve(track.points.capacity());
                 }
                 m_candidates.push_back({std::move(track), {std::move(signal)}, stretch.gain, stretch.evidence});
@@ -314,7 +310,7 @@ namespace {
             const float least = std::min(0.5f, 0.5f * *std::max_element(present.begin(), present.end()));
             std::vector<Stretch> stretches;
             for (Index at = from; at < to; ++at) {
-                const auto i = static_cast<std::size_t>(at);
+                const auto i = std::size_t(at);
                 if (present[i] <= least)
                     continue;
                 if (stretches.empty() || at - stretches.back().to > largestGapFrames)
@@ -343,31 +339,30 @@ namespace {
             if (found.confirmFrame >= 0)
                 track.confirmFrame = std::max(found.confirmFrame, track.detectFrame);
             for (Index at = stretch.from; at < stretch.to; ++at) {
-                const auto i = static_cast<std::size_t>(at);
-                const double position = std::clamp(seen.positions[i], 0.0, static_cast<double>(m_cells - 1));
+                const auto i = std::size_t(at);
+                const double position = std::clamp(seen.positions[i], 0.0, double(m_cells - 1));
                 const TrackPoint &before = pointAt(found, strip.firstFrame + at);
                 track.points.push_back(
-                    {strip.firstFrame + at, static_cast<Index>(std::lround(position)), before.plane, before.statistic});
+                    {strip.firstFrame + at, Index(std::lround(position)), before.plane, before.statistic});
                 track.smoothed.push_back({position, seen.presence.low[i], seen.presence.high[i],
-                                          seen.presence.present[i], static_cast<float>(seen.levels[i])});
+                                          seen.presence.present[i], float(seen.levels[i])});
             }
             return track;
         }
 
         ExplainedSignal explain(const PathStrip &strip, const BothWays &seen, const Stretch &stretch) const
         {
-            const auto near = static_cast<Index>(std::floor(levelCells * m_model.binsPerCell));
+            const auto near = Index(std::floor(levelCells * m_model.binsPerCell));
             ExplainedSignal signal;
             signal.firstFrame = strip.firstFrame + stretch.from;
             for (Index at = stretch.from; at < stretch.to; ++at) {
-                const auto i = static_cast<std::size_t>(at);
+                const auto i = std::size_t(at);
                 double power = seen.levels[i] + 1.0;
                 for (Index d = -near; d <= near; ++d)
-                    if (const float y = strip.valueAt(at, static_cast<Index>(std::lround(seen.positions[i])) + d);
-                        !std::isnan(y))
-                        power = std::max(power, static_cast<double>(y));
+                    if (const float y = strip.valueAt(at, Index(std::lround(seen.positions[i])) + d); !std::isnan(y))
+                        power = std::max(power, double(y));
                 signal.positions.push_back(seen.positions[i]);
-                signal.levels.push_back(static_cast<float>(power - 1.0));
+                signal.levels.push_back(float(power - 1.0));
             }
             if (strip.halfWidth >= skirtBins)
                 for (Index first = 0; first < stretch.to - stretch.from; first += ExplainedSignal::skirtFrames)
@@ -381,18 +376,17 @@ namespace {
                                           Index first)
         {
             const Index end = std::min(std::ssize(signal.positions), first + ExplainedSignal::skirtFrames);
-            const auto count = static_cast<double>(end - first);
+            const auto count = double(end - first);
             double level = 0.0;
             for (Index i = first; i < end; ++i)
-                level += static_cast<double>(signal.levels[static_cast<std::size_t>(i)]) / count;
+                level += double(signal.levels[std::size_t(i)]) / count;
             const auto excess = [&](Index distance) {
                 double sum = 0.0;
                 double observed = 0.0;
                 for (Index i = first; i < end; ++i) {
-                    const auto cell =
-                        static_cast<Index>(std::lround(signal.positions[static_cast<std::size_t>(i)])) + distance;
+                    const auto cell = Index(std::lround(signal.positions[std::size_t(i)])) + distance;
                     if (const float y = strip.valueAt(from + i, cell); !std::isnan(y)) {
-                        sum += static_cast<double>(y) - 1.0;
+                        sum += double(y) - 1.0;
                         observed += 1.0;
                     }
                 }
@@ -404,7 +398,7 @@ namespace {
                 running = std::min({running, excess(d), excess(-d)});
                 if (running <= 1.0 + 3.0 / std::sqrt(count))
                     break;
-                shares.push_back(static_cast<float>(running / std::max(level, 1e-9)));
+                shares.push_back(float(running / std::max(level, 1e-9)));
             }
             return shares;
         }

@@ -30,12 +30,12 @@ namespace {
         const auto count = std::ssize(track.points);
         Samples samples{Eigen::VectorXd(count), Eigen::VectorXd::Ones(count)};
         for (Eigen::Index i = 0; i < count; ++i) {
-            const auto point = static_cast<std::size_t>(i);
+            const auto point = std::size_t(i);
             samples.hz[i] = frequency.value(track.lastPosition(point, frequency));
             if (track.smoothed.empty())
                 continue;
             const SmoothedPoint &smoothed = track.smoothed[point];
-            samples.weights[i] = static_cast<double>(smoothed.presence) / std::pow(smoothed.deviation(), 2);
+            samples.weights[i] = double(smoothed.presence) / std::pow(smoothed.deviation(), 2);
         }
         return samples;
     }
@@ -68,7 +68,7 @@ namespace {
         for (Eigen::Index i = 0; i + 2 < n; ++i)
             for (std::size_t a = 0; a < difference.size(); ++a)
                 for (std::size_t b = 0; b < difference.size(); ++b)
-                    entries.emplace_back(i + static_cast<Eigen::Index>(a), i + static_cast<Eigen::Index>(b),
+                    entries.emplace_back(i + Eigen::Index(a), i + Eigen::Index(b),
                                          stiffness * difference[a] * difference[b]);
         Eigen::SparseMatrix<double> matrix(n, n);
         matrix.setFromTriplets(entries.begin(), entries.end());
@@ -84,10 +84,10 @@ namespace {
         const double fall = last > 0 ? hz[last] - hz[last - 1] : 0.0;
         std::vector<double> longer;
         for (Index i = beyond; i > 0; --i)
-            longer.push_back(hz[0] - rise * static_cast<double>(i));
+            longer.push_back(hz[0] - rise * double(i));
         longer.insert(longer.end(), hz.begin(), hz.end());
         for (Index i = 1; i <= beyond; ++i)
-            longer.push_back(hz[last] + fall * static_cast<double>(i));
+            longer.push_back(hz[last] + fall * double(i));
         return longer;
     }
 
@@ -103,9 +103,9 @@ FrequencyCurve smoothFrequency(const AnalysisPlan &plan, const Track &track, dou
                         + formatNumber(mostFrames * time.step) + " s");
     const double stiffness = std::pow(2.0 * std::sin(std::numbers::pi / period), -4);
     const Eigen::VectorXd hz = whittaker(samplesOf(track, plan.grid().axes.back()), stiffness);
-    const auto beyond = static_cast<Index>(std::lround(0.5 * std::min(period, static_cast<double>(hz.size()))));
+    const auto beyond = Index(std::lround(0.5 * std::min(period, double(hz.size()))));
     Axis knots = time;
-    knots.first = time.value(static_cast<double>(track.points.front().frame - beyond));
+    knots.first = time.value(double(track.points.front().frame - beyond));
     knots.count = hz.size() + 2 * beyond;
     return {knots, extended(hz, beyond)};
 }

@@ -14,7 +14,7 @@ namespace {
 
     Index nearestFrame(const Axis &time, double seconds)
     {
-        return std::clamp<Index>(static_cast<Index>(std::llround(time.position(seconds))), 0, time.count - 1);
+        return std::clamp<Index>(Index(std::llround(time.position(seconds))), 0, time.count - 1);
     }
 
     /// Frames of an analysis as what the level asks for.
@@ -24,7 +24,7 @@ namespace {
         Reader(const Analysis &analysis, SpectrumLevel level)
             : m_frames(*analysis.frames),
               m_spectrogram(level == SpectrumLevel::Density ? analysis.frames->spectrogram() : nullptr),
-              m_values(static_cast<std::size_t>(axis().count))
+              m_values(std::size_t(axis().count))
         {
             if (!m_spectrogram)
                 return;
@@ -34,7 +34,7 @@ namespace {
 
         const Axis &axis() const { return m_spectrogram ? m_spectrogram->frequency() : m_frames.grid().axes.back(); }
 
-        double value(std::size_t cell) const { return m_unit * static_cast<double>(m_values[cell]); }
+        double value(std::size_t cell) const { return m_unit * double(m_values[cell]); }
 
         void read(Index frame, const RunContext &context)
         {
@@ -59,7 +59,7 @@ Spectra spectraOf(const Analysis &analysis, double seconds, double fromSeconds, 
     const Axis &time = analysis.time();
     Reader reader(analysis, level);
     const Axis &axis = reader.axis();
-    const auto cells = static_cast<std::size_t>(axis.count);
+    const auto cells = std::size_t(axis.count);
     Spectra spectra;
     std::vector<double> counts(cells, 0.0);
     spectra.mean.assign(cells, 0.0);
@@ -67,7 +67,7 @@ Spectra spectraOf(const Analysis &analysis, double seconds, double fromSeconds, 
     const Index last = std::max(first, nearestFrame(time, toSeconds));
     const Index frames = std::min(last - first + 1, mostFrames);
     for (Index i = 0; i < frames; ++i) {
-        context.checkpoint(static_cast<double>(i) / static_cast<double>(frames), "averaging spectra");
+        context.checkpoint(double(i) / double(frames), "averaging spectra");
         reader.read(frames == 1 ? first : first + i * (last - first) / (frames - 1), context);
         for (std::size_t cell = 0; cell < cells; ++cell)
             if (const double value = reader.value(cell); std::isfinite(value)) {
@@ -77,7 +77,7 @@ Spectra spectraOf(const Analysis &analysis, double seconds, double fromSeconds, 
     }
     reader.read(nearestFrame(time, seconds), context);
     for (std::size_t cell = 0; cell < cells; ++cell) {
-        spectra.position.push_back(axis.value(static_cast<double>(cell)));
+        spectra.position.push_back(axis.value(double(cell)));
         spectra.frame.push_back(reader.value(cell));
         spectra.mean[cell] =
             counts[cell] > 0.0 ? spectra.mean[cell] / counts[cell] : std::numeric_limits<double>::quiet_NaN();

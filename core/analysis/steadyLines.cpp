@@ -27,7 +27,7 @@ namespace {
 
     double secondsAt(const Analysis &analysis, const Track &track, std::size_t point)
     {
-        return analysis.time().value(static_cast<double>(track.points[point].frame));
+        return analysis.time().value(double(track.points[point].frame));
     }
 
     double hzAt(const Analysis &analysis, const Track &track, std::size_t point)
@@ -40,7 +40,7 @@ namespace {
         double way = 0.0;
         for (std::size_t i = 1; i < track.points.size(); ++i)
             way += std::abs(hzAt(analysis, track, i) - hzAt(analysis, track, i - 1));
-        const auto steps = static_cast<double>(track.points.size() - 1);
+        const auto steps = double(track.points.size() - 1);
         return steps > 0.0 && way <= mostWander * cellHz(analysis) * steps;
     }
 
@@ -66,7 +66,7 @@ namespace {
             for (std::size_t i = 0; i < track.points.size(); ++i)
                 if (isExplained(secondsAt(m_longer, track, i), hzAt(m_longer, track, i), followers))
                     explained += 1.0;
-            return explained <= mostExplained * static_cast<double>(track.points.size());
+            return explained <= mostExplained * double(track.points.size());
         }
 
         /// The track on the chosen window's frames.
@@ -83,11 +83,10 @@ namespace {
             result.detectStatistic += shift;
             result.points.clear();
             result.smoothed.clear();
-            const auto last = static_cast<double>(track.points.size() - 1);
+            const auto last = double(track.points.size() - 1);
             for (Index frame = result.onsetFrame; frame <= result.endFrame; ++frame) {
-                const double at = m_longer.time().position(m_chosen.time().value(static_cast<double>(frame)));
-                append(result, frame,
-                       between(track, std::clamp(at - static_cast<double>(track.points.front().frame), 0.0, last)),
+                const double at = m_longer.time().position(m_chosen.time().value(double(frame)));
+                append(result, frame, between(track, std::clamp(at - double(track.points.front().frame), 0.0, last)),
                        shift);
             }
             return result;
@@ -109,10 +108,10 @@ namespace {
                 if (frame < line.onsetFrame - reach || frame > line.endFrame + reach)
                     continue;
                 const Index at = std::clamp(frame, line.onsetFrame, line.endFrame) - line.onsetFrame;
-                const double apart = track.smoothed[i].position - line.smoothed[static_cast<std::size_t>(at)].position;
+                const double apart = track.smoothed[i].position - line.smoothed[std::size_t(at)].position;
                 near += std::abs(apart) <= cell ? 1.0 : 0.0;
             }
-            return near >= leastFollowed * static_cast<double>(track.points.size());
+            return near >= leastFollowed * double(track.points.size());
         }
 
         /// Whether a track of the chosen window, but for the followers, is near within the time of the longer one.
@@ -128,15 +127,15 @@ namespace {
         {
             const Axis &time = m_chosen.time();
             const double half = 0.5 / cellHz(m_longer);
-            const auto frames = static_cast<double>(track.points.size());
+            const auto frames = double(track.points.size());
             const double start = secondsAt(m_chosen, track, 0);
             const auto at = [&](double t) { return (t - start) / time.step; };
             const double from = std::max(0.0, std::ceil(at(seconds - half)));
             const double to = std::min(frames - 1.0, std::floor(at(seconds + half)));
             if (from > to)
                 return false;
-            const auto first = track.smoothed.begin() + static_cast<Index>(from);
-            const auto end = track.smoothed.begin() + static_cast<Index>(to) + 1;
+            const auto first = track.smoothed.begin() + Index(from);
+            const auto end = track.smoothed.begin() + Index(to) + 1;
             const auto byPosition = [](const SmoothedPoint &a, const SmoothedPoint &b) {
                 return a.position < b.position;
             };
@@ -145,8 +144,8 @@ namespace {
             double high = axis.value(std::max_element(first, end, byPosition)->position);
             if (high - low > cellHz(m_longer))
                 for (auto point = first; point != end; ++point) {
-                    low = std::min(low, axis.value(static_cast<double>(point->low)));
-                    high = std::max(high, axis.value(static_cast<double>(point->high)));
+                    low = std::min(low, axis.value(double(point->low)));
+                    high = std::max(high, axis.value(double(point->high)));
                 }
             const double margin = nearCells * cellHz(m_longer);
             return low - margin <= hz && hz <= high + margin;
@@ -154,15 +153,15 @@ namespace {
 
         Index frameOf(Index longerFrame) const
         {
-            return m_chosen.time().nearest(m_longer.time().value(static_cast<double>(longerFrame)));
+            return m_chosen.time().nearest(m_longer.time().value(double(longerFrame)));
         }
 
         /// At a fractional point of a track, by linear interpolation.
         static Place between(const Track &track, double at)
         {
-            const auto i = static_cast<std::size_t>(at);
+            const auto i = std::size_t(at);
             const std::size_t next = std::min(i + 1, track.points.size() - 1);
-            const double share = at - static_cast<double>(i);
+            const double share = at - double(i);
             const auto mix = [&](auto a, auto b) { return static_cast<decltype(a)>((1.0 - share) * a + share * b); };
             const SmoothedPoint &a = track.smoothed[i];
             const SmoothedPoint &b = track.smoothed[next];
@@ -176,13 +175,12 @@ namespace {
             const Axis &axis = frequencyOf(m_chosen);
             const auto here = [&](double position) { return axis.position(frequencyOf(m_longer).value(position)); };
             const double windows = cellHz(m_chosen) / cellHz(m_longer);
-            const double position = std::clamp(here(place.point.position), 0.0, static_cast<double>(axis.count - 1));
-            track.points.push_back({frame, static_cast<Index>(std::lround(position)),
-                                    m_chosen.model.space.planeCount() / 2, place.statistic + shift});
-            track.smoothed.push_back({position, static_cast<float>(here(static_cast<double>(place.point.low))),
-                                      static_cast<float>(here(static_cast<double>(place.point.high))),
-                                      place.point.presence,
-                                      static_cast<float>(static_cast<double>(place.point.level) / windows)});
+            const double position = std::clamp(here(place.point.position), 0.0, double(axis.count - 1));
+            track.points.push_back(
+                {frame, Index(std::lround(position)), m_chosen.model.space.planeCount() / 2, place.statistic + shift});
+            track.smoothed.push_back({position, float(here(double(place.point.low))),
+                                      float(here(double(place.point.high))), place.point.presence,
+                                      float(double(place.point.level) / windows)});
         }
 
         const Analysis &m_chosen;

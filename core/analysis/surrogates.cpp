@@ -30,7 +30,7 @@ SurrogateCount countOnSurrogates(RecordingPointer recording, const AnalysisSetti
 
     SurrogateCount result;
     result.runs = runs;
-    result.hours = runs * static_cast<double>(spectrogram.time().count) * spectrogram.time().step / 3600.0;
+    result.hours = runs * double(spectrogram.time().count) * spectrogram.time().step / 3600.0;
     const double nats = thresholdNats(settings.decide, *calibration, cellFramesPerHour);
     result.orderPerHour = std::max(calibration->eventRateAt(nats) * cellFramesPerHour, wantedEvents / result.hours);
     AnalysisSettings counting = settings;
@@ -38,14 +38,14 @@ SurrogateCount countOnSurrogates(RecordingPointer recording, const AnalysisSetti
     counting.decide.falseAlarmsPerHour = result.orderPerHour;
     for (int run = 0; run < runs; ++run) {
         const auto surrogate =
-            std::make_shared<SurrogateRecording>(spectrogram, background, firstSeed + static_cast<std::uint64_t>(run));
+            std::make_shared<SurrogateRecording>(spectrogram, background, firstSeed + std::uint64_t(run));
         const auto analysis =
             analyse(surrogate, counting, context.part(0.2 + 0.8 * run / runs, 0.2 + 0.8 * (run + 1) / runs));
         result.threshold = analysis->threshold;
         result.events += std::ssize(analysis->tracks);
     }
     result.ordered = result.orderPerHour * result.hours;
-    const auto events = static_cast<double>(result.events);
+    const auto events = double(result.events);
     result.ratio = events / result.ordered;
     const Interval counted = poissonInterval(result.events);
     result.interval = {counted.low / result.ordered, counted.high / result.ordered};

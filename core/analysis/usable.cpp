@@ -19,7 +19,7 @@ void checkUsable(const Spectrogram &spectrogram, const NoiseBackground &backgrou
     const Index first = spectrogram.firstSample();
     const Index end = first + (spectrogram.time().count - 1) * spectrogram.hopSamples() + spectrogram.windowSamples();
     const Index before = recording.nonFiniteCount();
-    std::vector<float> samples(static_cast<std::size_t>(blockSamples * recording.info().floatsPerSample()));
+    std::vector<float> samples(std::size_t(blockSamples * recording.info().floatsPerSample()));
     for (Index at = first; at < end; at += blockSamples) {
         context.checkpoint(0.0, "looking for usable samples");
         recording.read(channel, at, std::min(blockSamples, end - at), samples);

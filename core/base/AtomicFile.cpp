@@ -155,7 +155,7 @@ void AtomicFile::write(std::span<const std::byte> bytes)
             continue;
         if (written < 0)
             throw Error(m_path, "cannot be written: " + systemMessage(errno), Error::Kind::Failure);
-        bytes = bytes.subspan(static_cast<std::size_t>(written));
+        bytes = bytes.subspan(std::size_t(written));
     }
 }
 

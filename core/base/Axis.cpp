@@ -7,13 +7,13 @@ Index Axis::nearest(double wanted) const
     if (count == 0)
         return 0;
     const double rounded = std::floor(position(wanted) + 0.5);
-    const double last = static_cast<double>(count - 1);
+    const double last = double(count - 1);
     if (!cyclic)
-        return static_cast<Index>(std::fmin(std::fmax(rounded, 0.0), last)); // which take NaN for 0
+        return Index(std::fmin(std::fmax(rounded, 0.0), last)); // which take NaN for 0
     if (!std::isfinite(rounded))
         return 0;
     const double rest = std::fmod(rounded, last + 1.0);
-    return static_cast<Index>(rest < 0.0 ? rest + last + 1.0 : rest);
+    return Index(rest < 0.0 ? rest + last + 1.0 : rest);
 }
 
 } // namespace faintline

@@ -39,7 +39,7 @@ struct Axis {
         return rest < 0 ? rest + count : rest;
     }
 
-    double last() const { return value(static_cast<double>(count - 1)); }
+    double last() const { return value(double(count - 1)); }
 
     bool operator==(const Axis &) const = default;
 };

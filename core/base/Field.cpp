@@ -162,7 +162,7 @@ FieldValue parseFieldValue(const FieldInfo &info, std::string_view text)
     case FieldKind::Integer:
         if (const auto number = parseNumber(text);
             number && std::floor(*number) == *number && std::abs(*number) < 2147483648.0)
-            value = static_cast<int>(*number);
+            value = int(*number);
         break;
     case FieldKind::Number:
         if (const auto number = parseQuotient(text))

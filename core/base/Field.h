@@ -101,7 +101,7 @@ requires std::is_enum_v<E> Field<S> field(E S::*member, std::string name, std::s
     result.kind = FieldKind::Choice;
     result.choices.assign(names.begin(), names.end());
     result.get = [member, names](const S &s) -> std::optional<FieldValue> {
-        return std::string(names[static_cast<std::size_t>(s.*member)]);
+        return std::string(names[std::size_t(s.*member)]);
     };
     result.set = [member, names](S &s, const FieldValue &value) {
         for (std::size_t i = 0; i < names.size(); ++i)

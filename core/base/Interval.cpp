@@ -17,8 +17,8 @@ Interval wilsonInterval(std::int64_t successes, std::int64_t trials)
 {
     if (trials <= 0)
         return {0.0, 1.0};
-    const auto n = static_cast<double>(trials);
-    const double p = static_cast<double>(successes) / n;
+    const auto n = double(trials);
+    const double p = double(successes) / n;
     const double centre = p + z * z / (2.0 * n);
     const double half = z * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n));
     const double scale = 1.0 + z * z / n;
@@ -31,7 +31,7 @@ Interval poissonInterval(std::int64_t count)
 {
     using boost::math::chi_squared;
     using boost::math::quantile;
-    const auto n = static_cast<double>(count);
+    const auto n = double(count);
     return {count == 0 ? 0.0 : 0.5 * quantile(chi_squared(2.0 * n), 0.025),
             0.5 * quantile(chi_squared(2.0 * n + 2.0), 0.975)};
 }

@@ -17,10 +17,8 @@ namespace {
     inline r123::Philox4x32::ctr_type philoxBlock(std::uint64_t seed, std::uint64_t stream, std::uint64_t block)
     {
         const r123::Philox4x32::ctr_type counter{
-            {static_cast<std::uint32_t>(block), static_cast<std::uint32_t>(block >> 32),
-             static_cast<std::uint32_t>(stream), static_cast<std::uint32_t>(stream >> 32)}};
-        const r123::Philox4x32::key_type key{
-            {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}};
+            {std::uint32_t(block), std::uint32_t(block >> 32), std::uint32_t(stream), std::uint32_t(stream >> 32)}};
+        const r123::Philox4x32::key_type key{{std::uint32_t(seed), std::uint32_t(seed >> 32)}};
         return r123::Philox4x32()(counter, key);
     }
 
@@ -28,10 +26,10 @@ namespace {
     inline void boxMuller(std::uint32_t radiusWord, std::uint32_t angleWord, float deviation, float &first,
                           float &second)
     {
-        const float uniform = static_cast<float>(static_cast<std::int32_t>(radiusWord >> 1)) * 0x1p-31f + 0x1p-32f;
+        const float uniform = float(std::int32_t(radiusWord >> 1)) * 0x1p-31f + 0x1p-32f;
         const float radius = deviation * std::sqrt(-2.0f * fastLn(uniform));
         // The low 30 bits turn within -45° … 45°; the high two mirror and reverse, which covers the circle evenly.
-        const float angle = static_cast<float>(static_cast<std::int32_t>(angleWord << 2)) * (6.28318530718f * 0x1p-34f);
+        const float angle = float(std::int32_t(angleWord << 2)) * (6.28318530718f * 0x1p-34f);
         auto [sine, cosine] = fastSineCosineOctant(angle);
         swapIf((angleWord >> 30) & 1u, sine, cosine);
         const float signedRadius =
@@ -69,8 +67,8 @@ namespace {
         // The words of a block stay neighbours, so that a request may be cut anywhere between blocks.
         for (std::size_t i = 0; i < blocks; ++i)
             for (std::size_t j = 0; j < 4; ++j) {
-                const auto half = static_cast<std::int32_t>(words[j * lanes + i] >> 1);
-                out[4 * i + j] = -fastLn(static_cast<float>(half) * 0x1p-31f + 0x1p-32f);
+                const auto half = std::int32_t(words[j * lanes + i] >> 1);
+                out[4 * i + j] = -fastLn(float(half) * 0x1p-31f + 0x1p-32f);
             }
     }
 
@@ -109,12 +107,12 @@ std::uint32_t Random::bits()
 {
     if (m_used == 4)
         refill();
-    return m_words[static_cast<std::size_t>(m_used++)];
+    return m_words[std::size_t(m_used++)];
 }
 
 double Random::uniform()
 {
-    return (static_cast<double>(bits()) + 0.5) * 0x1p-32;
+    return (double(bits()) + 0.5) * 0x1p-32;
 }
 
 double Random::normal()

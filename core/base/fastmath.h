@@ -16,7 +16,7 @@ inline float fastLn(float x)
     const auto bits = std::bit_cast<std::int32_t>(x);
     const std::int32_t exponent = (bits - 0x3f3504f3) >> 23; // mantissa in √½ … √2
     const float m = std::bit_cast<float>(bits - (exponent << 23)) - 1.0f;
-    const float e = static_cast<float>(exponent);
+    const float e = float(exponent);
     float p = 7.0376836292e-2f;
     p = p * m - 1.1514610310e-1f;
     p = p * m + 1.1676998740e-1f;
@@ -47,7 +47,7 @@ inline float fastExp(float x)
     p = p * r + 5.0000001201e-1f;
     const float mantissa = (p * (r * r) + r) + 1.0f;
     const float power = n == n ? n : 0.0f; // no integer stands for NaN
-    return mantissa * std::bit_cast<float>((static_cast<std::int32_t>(power) + 127) << 23);
+    return mantissa * std::bit_cast<float>((std::int32_t(power) + 127) << 23);
 }
 
 struct SineCosine {
@@ -79,10 +79,10 @@ inline SineCosine fastSineCosineTurns(float turns)
     constexpr float roundingShift = 12582912.0f; // adding 1.5·2²³ rounds to a whole number
     const float quarter = (4.0f * turns + roundingShift) - roundingShift;
     auto [sine, cosine] = fastSineCosineOctant(6.28318530718f * (turns - 0.25f * quarter));
-    const auto quadrant = static_cast<std::int32_t>(quarter); // -2 … 2
-    swapIf(static_cast<std::uint32_t>(quadrant) & 1u, sine, cosine);
-    const std::uint32_t flipSine = (static_cast<std::uint32_t>(quadrant) & 2u) << 30;
-    const std::uint32_t flipCosine = (static_cast<std::uint32_t>(quadrant + 1) & 2u) << 30;
+    const auto quadrant = std::int32_t(quarter); // -2 … 2
+    swapIf(std::uint32_t(quadrant) & 1u, sine, cosine);
+    const std::uint32_t flipSine = (std::uint32_t(quadrant) & 2u) << 30;
+    const std::uint32_t flipCosine = (std::uint32_t(quadrant + 1) & 2u) << 30;
     return {std::bit_cast<float>(std::bit_cast<std::uint32_t>(sine) ^ flipSine),
             std::bit_cast<float>(std::bit_cast<std::uint32_t>(cosine) ^ flipCosine)};
 }

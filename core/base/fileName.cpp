@@ -47,7 +47,7 @@ bool hasEnding(std::string_view path, std::string_view ending)
         return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
     };
     return path.size() >= ending.size()
-           && std::equal(ending.begin(), ending.end(), path.end() - static_cast<std::ptrdiff_t>(ending.size()),
+           && std::equal(ending.begin(), ending.end(), path.end() - std::ptrdiff_t(ending.size()),
                          [&](char a, char b) { return small(a) == small(b); });
 }
 

@@ -118,7 +118,7 @@ Json readJsonFile(const std::string &path)
     if (!code && size > largest)
         throw Error(path, "is larger than 64 MiB, too large for a JSON file");
     std::ifstream stream(path, std::ios::binary);
-    std::string text(static_cast<std::size_t>(code ? 0 : size), '\0');
+    std::string text(std::size_t(code ? 0 : size), '\0');
     if (code || !stream || !stream.read(text.data(), static_cast<std::streamsize>(text.size())))
         throw Error(path, "cannot be read");
     return parseJson(text, path);
@@ -141,7 +141,7 @@ FieldValue fieldValueFromJson(const Json &value, const FieldInfo &info)
     } else if (value.is_number() && info.kind == FieldKind::Integer) {
         const auto number = value.get<double>();
         if (std::floor(number) == number && std::abs(number) < 2147483648.0)
-            result = static_cast<int>(number);
+            result = int(number);
     } else if (value.is_number() && info.kind == FieldKind::Numbers) {
         result = std::vector{value.get<double>()}; // a list of one
     } else if (value.is_number()) {

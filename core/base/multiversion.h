@@ -21,7 +21,7 @@ template <class Value, int bytes>
 struct Vector {
     typedef Value Type __attribute__((vector_size(bytes)));
     typedef Value Unaligned __attribute__((vector_size(bytes), aligned(sizeof(Value)), may_alias));
-    static constexpr int lanes = bytes / static_cast<int>(sizeof(Value));
+    static constexpr int lanes = bytes / int(sizeof(Value));
 };
 
 /// Bytes of the widest vectors to use: 64 with AVX-512, 32 with AVX2, else 16; fewer if FAINTLINE_VECTOR_BYTES says so.

@@ -114,7 +114,7 @@ void parallelFor(Index count, const RunContext &context, std::string_view what,
                 worker(item);
                 ++done;
                 if (reports)
-                    context.checkpoint(static_cast<double>(done) / static_cast<double>(count), what);
+                    context.checkpoint(double(done) / double(count), what);
             }
         } catch (...) {
             next = count;

@@ -64,13 +64,13 @@ namespace {
 std::optional<double> unixSeconds(int year, int month, int day, int hour, int minute, double second)
 {
     using namespace std::chrono;
-    const year_month_day date(std::chrono::year(year), std::chrono::month(static_cast<unsigned>(month)),
-                              std::chrono::day(static_cast<unsigned>(day)));
+    const year_month_day date(std::chrono::year(year), std::chrono::month(unsigned(month)),
+                              std::chrono::day(unsigned(day)));
     // A leap second (60) reads as the first one of the next minute.
     if (!date.ok() || hour < 0 || hour > 23 || minute < 0 || minute > 59 || !(second >= 0.0 && second < 61.0))
         return std::nullopt;
     const auto days = sys_days(date).time_since_epoch().count();
-    return static_cast<double>(days) * 86400.0 + hour * 3600.0 + minute * 60.0 + second;
+    return double(days) * 86400.0 + hour * 3600.0 + minute * 60.0 + second;
 }
 
 std::optional<double> parseUtc(std::string_view text)
@@ -108,10 +108,9 @@ std::string formatUtc(double unixSeconds)
     const year_month_day date(days);
     const hh_mm_ss clock(time - days);
     std::array<char, 64> buffer;
-    std::snprintf(buffer.data(), buffer.size(), "%04d-%02u-%02uT%02d:%02d:%02d.%06d", static_cast<int>(date.year()),
-                  static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
-                  static_cast<int>(clock.hours().count()), static_cast<int>(clock.minutes().count()),
-                  static_cast<int>(clock.seconds().count()), static_cast<int>(clock.subseconds().count()));
+    std::snprintf(buffer.data(), buffer.size(), "%04d-%02u-%02uT%02d:%02d:%02d.%06d", int(date.year()),
+                  unsigned(date.month()), unsigned(date.day()), int(clock.hours().count()),
+                  int(clock.minutes().count()), int(clock.seconds().count()), int(clock.subseconds().count()));
     std::string result(buffer.data());
     result.erase(result.find_last_not_of('0') + 1);
     if (result.ends_with('.'))

@@ -21,7 +21,7 @@ T wholeNumber(const Json &value, const std::string &where)
     if (value.is_number_unsigned() && std::in_range<T>(value.get<std::uint64_t>()))
         return static_cast<T>(value.get<std::uint64_t>());
     if (!value.is_number_unsigned() && std::floor(number) == number && std::abs(number) <= exact
-        && std::in_range<T>(static_cast<std::int64_t>(number)))
+        && std::in_range<T>(std::int64_t(number)))
         return static_cast<T>(number);
     throw Error(where, "must be a whole number in " + std::to_string(std::numeric_limits<T>::min()) + " … "
                            + std::to_string(std::numeric_limits<T>::max()));

@@ -38,13 +38,13 @@ namespace {
     {
         std::vector<double> largest(into.size(), minusInfinity);
         for (const Moves::Move &move : moves.moves) {
-            double &most = largest[static_cast<std::size_t>(place(move))];
+            double &most = largest[std::size_t(place(move))];
             most = std::max(most, term(move));
         }
         std::fill(into.begin(), into.end(), 0.0);
         for (const Moves::Move &move : moves.moves)
-            if (const double most = largest[static_cast<std::size_t>(place(move))]; most > minusInfinity)
-                into[static_cast<std::size_t>(place(move))] += std::exp(term(move) - most);
+            if (const double most = largest[std::size_t(place(move))]; most > minusInfinity)
+                into[std::size_t(place(move))] += std::exp(term(move) - most);
         for (std::size_t n = 0; n < into.size(); ++n)
             into[n] = into[n] > 0.0 ? std::log(into[n]) + largest[n] : minusInfinity;
     }
@@ -79,10 +79,10 @@ namespace {
     {
     public:
         Pass(const StateSpace &space, std::span<const double> lambda, const RunContext &context)
-            : m_states(static_cast<std::size_t>(space.stateCount())),
-              m_cells(static_cast<std::size_t>(space.cellCount())), m_frames(lambda.size() / m_cells), m_lambda(lambda)
+            : m_states(std::size_t(space.stateCount())), m_cells(std::size_t(space.cellCount())),
+              m_frames(lambda.size() / m_cells), m_lambda(lambda)
         {
-            for (Index phase = 0; phase < std::min(space.phaseCount(), static_cast<Index>(m_frames)); ++phase) {
+            for (Index phase = 0; phase < std::min(space.phaseCount(), Index(m_frames)); ++phase) {
                 context.checkpoint(0.0, "moves");
                 m_phases.push_back(movesOf(space, phase));
             }
@@ -92,18 +92,16 @@ namespace {
         double forward(std::span<const double> initial, const RunContext &context)
         {
             for (std::size_t t = 0; t < m_frames; ++t) {
-                context.checkpoint(static_cast<double>(t) / static_cast<double>(m_frames), "forward");
+                context.checkpoint(double(t) / double(m_frames), "forward");
                 const std::span<double> now = frame(t);
                 if (t > 0) {
                     const std::span<const double> past = frame(t - 1);
                     gather(
                         movesInto(t), now, [](const auto &move) { return move.to; },
-                        [past](const auto &move) {
-                            return past[static_cast<std::size_t>(move.from)] + move.lnProbability;
-                        });
+                        [past](const auto &move) { return past[std::size_t(move.from)] + move.lnProbability; });
                 } else {
                     for (std::size_t n = 0; n < m_states; ++n)
-                        now[n] = initial.empty() ? -std::log(static_cast<double>(m_states)) : std::log(initial[n]);
+                        now[n] = initial.empty() ? -std::log(double(m_states)) : std::log(initial[n]);
                 }
                 addEvidence(now, lambda(t));
             }
@@ -120,11 +118,11 @@ namespace {
             std::vector<double> before(m_states);
             becomeProbabilities(frame(m_frames - 1));
             for (std::size_t t = m_frames - 1; t > 0; --t) {
-                context.checkpoint(1.0 - static_cast<double>(t) / static_cast<double>(m_frames), "backward");
+                context.checkpoint(1.0 - double(t) / double(m_frames), "backward");
                 addEvidence(beta, lambda(t));
                 gather(
                     movesInto(t), before, [](const auto &move) { return move.from; },
-                    [&beta](const auto &move) { return beta[static_cast<std::size_t>(move.to)] + move.lnProbability; });
+                    [&beta](const auto &move) { return beta[std::size_t(move.to)] + move.lnProbability; });
                 std::swap(beta, before);
                 const std::span<double> now = frame(t - 1);
                 for (std::size_t n = 0; n < m_states; ++n)

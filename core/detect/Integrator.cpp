@@ -20,9 +20,9 @@ namespace {
     {
         for (Index i = 0; i < n; ++i) {
             const float newest = observed(y[i]);
-            sum[i] += static_cast<double>(newest) - static_cast<double>(oldest[i]);
+            sum[i] += double(newest) - double(oldest[i]);
             oldest[i] = newest;
-            statistic[i] = static_cast<float>(sum[i] * scale);
+            statistic[i] = float(sum[i] * scale);
         }
     }
 
@@ -30,8 +30,8 @@ namespace {
     void fade(double *mean, const float *y, double decay, Index n, float *statistic)
     {
         for (Index i = 0; i < n; ++i) {
-            mean[i] = (1.0 - decay) * static_cast<double>(observed(y[i])) + decay * mean[i];
-            statistic[i] = static_cast<float>(mean[i]);
+            mean[i] = (1.0 - decay) * double(observed(y[i])) + decay * mean[i];
+            statistic[i] = float(mean[i]);
         }
     }
 
@@ -49,29 +49,28 @@ const std::vector<Field<IntegratorSettings>> &IntegratorSettings::fields()
 }
 
 Integrator::Integrator(Index cells, IntegratorSettings::Shape shape, Index frames)
-    : m_frames(std::max<Index>(1, frames)), m_decay(std::exp(-1.0 / static_cast<double>(m_frames))),
-      m_sum(static_cast<std::size_t>(cells), 0.0)
+    : m_frames(std::max<Index>(1, frames)), m_decay(std::exp(-1.0 / double(m_frames))), m_sum(std::size_t(cells), 0.0)
 {
     if (shape == IntegratorSettings::Shape::Boxcar)
-        m_past.assign(static_cast<std::size_t>(m_frames), std::vector<float>(static_cast<std::size_t>(cells), 0.0f));
+        m_past.assign(std::size_t(m_frames), std::vector<float>(std::size_t(cells), 0.0f));
 }
 
 void Integrator::update(std::span<const float> y, std::span<float> statistic)
 {
-    const auto cells = static_cast<Index>(y.size());
+    const auto cells = Index(y.size());
     if (m_past.empty()) {
         fade(m_sum.data(), y.data(), m_decay, cells, statistic.data());
         return;
     }
-    slide(m_sum.data(), m_past[m_next].data(), y.data(), 1.0 / static_cast<double>(m_frames), cells, statistic.data());
+    slide(m_sum.data(), m_past[m_next].data(), y.data(), 1.0 / double(m_frames), cells, statistic.data());
     m_next = (m_next + 1) % m_past.size();
 }
 
 void Integrator::forget(const Grid &grid, const CellBox &box)
 {
     box.forEachCell(grid, [&](Index cell) {
-        const auto i = static_cast<std::size_t>(cell);
-        m_sum[i] = m_past.empty() ? 1.0 : static_cast<double>(m_past.size());
+        const auto i = std::size_t(cell);
+        m_sum[i] = m_past.empty() ? 1.0 : double(m_past.size());
         for (std::vector<float> &frame : m_past)
             frame[i] = 1.0f;
     });

@@ -16,7 +16,7 @@ namespace {
 
 MapEstimator::MapEstimator(const SequentialModel &model)
     : m_space(model.markov.space), m_transitionScale(model.markov.transitionScale), m_initial(model.initialLaw()),
-      m_recursion(m_space, m_transitionScale), m_lambda(static_cast<std::size_t>(m_space.cellCount()))
+      m_recursion(m_space, m_transitionScale), m_lambda(std::size_t(m_space.cellCount()))
 {
 }
 
@@ -52,7 +52,7 @@ Index MapEstimator::origin(Index state, Index stage, const Scores &before)
     Index best = -1;
     double bestScore = minusInfinity;
     for (const StateSpace::Predecessor &p : found->second) {
-        const double score = before[static_cast<std::size_t>(p.state)] + p.lnProbability * m_transitionScale;
+        const double score = before[std::size_t(p.state)] + p.lnProbability * m_transitionScale;
         if (score > bestScore || best < 0) {
             bestScore = score;
             best = p.state;
@@ -65,11 +65,11 @@ MapTrajectory MapEstimator::estimate(Index stages, const Evidence &evidence, con
 {
     const Index states = m_space.stateCount();
     const bool keepsAll = stages * states <= keptScores;
-    const Index stride = keepsAll ? stages : static_cast<Index>(std::ceil(std::sqrt(static_cast<double>(stages))));
+    const Index stride = keepsAll ? stages : Index(std::ceil(std::sqrt(double(stages))));
     std::vector<Scores> milestones; // stages 0, stride, 2·stride, …
     std::vector<Scores> block;      // the stages from the last milestone on
     for (Index stage = 0; stage < stages; ++stage) {
-        context.checkpoint(0.5 * static_cast<double>(stage) / static_cast<double>(stages), "trajectory");
+        context.checkpoint(0.5 * double(stage) / double(stages), "trajectory");
         Scores scores = stage == 0 ? start(evidence) : next(block.back(), stage, evidence);
         if (stage % stride == 0) {
             milestones.push_back(scores);
@@ -79,20 +79,20 @@ MapTrajectory MapEstimator::estimate(Index stages, const Evidence &evidence, con
     }
 
     MapTrajectory map;
-    map.states.resize(static_cast<std::size_t>(stages));
+    map.states.resize(std::size_t(stages));
     const auto last = std::max_element(block.back().begin(), block.back().end());
     map.lnScore = *last;
     Index state = last - block.back().begin();
     for (Index first = (std::ssize(milestones) - 1) * stride, stage = stages - 1; stage >= 0; first -= stride) {
-        context.checkpoint(1.0 - 0.5 * static_cast<double>(stage) / static_cast<double>(stages), "trajectory");
+        context.checkpoint(1.0 - 0.5 * double(stage) / double(stages), "trajectory");
         for (; stage >= first; --stage) {
-            map.states[static_cast<std::size_t>(stage)] = state;
+            map.states[std::size_t(stage)] = state;
             if (stage > first)
-                state = origin(state, stage, block[static_cast<std::size_t>(stage - first - 1)]);
+                state = origin(state, stage, block[std::size_t(stage - first - 1)]);
         }
         if (first == 0)
             break;
-        block.assign(1, std::move(milestones[static_cast<std::size_t>(first / stride - 1)]));
+        block.assign(1, std::move(milestones[std::size_t(first / stride - 1)]));
         for (Index again = first - stride + 1; again < first; ++again)
             block.push_back(next(block.back(), again, evidence));
         state = origin(state, first, block.back());

@@ -13,10 +13,10 @@ ModelBank::ModelBank(const std::vector<Member> &members)
         if (member.model.space.cellCount() != cells)
             throw Error("model bank", "its models must lie on the same cells");
         m_detectors.emplace_back(member.model, member.reset);
-        m_offsets.push_back(static_cast<float>(member.offset));
+        m_offsets.push_back(float(member.offset));
     }
-    m_winners.resize(static_cast<std::size_t>(cells));
-    m_own.resize(static_cast<std::size_t>(cells));
+    m_winners.resize(std::size_t(cells));
+    m_own.resize(std::size_t(cells));
 }
 
 void ModelBank::update(std::span<const float> y, std::span<float> statistic)

@@ -40,7 +40,7 @@ public:
     std::shared_ptr<const DetectorState> state() const override;
     void setState(const DetectorState &state) override;
 
-    std::size_t winnerAt(Index cell) const override { return m_winners[static_cast<std::size_t>(cell)]; }
+    std::size_t winnerAt(Index cell) const override { return m_winners[std::size_t(cell)]; }
 
 private:
     struct State;

@@ -7,7 +7,7 @@ namespace faintline {
 
 NoiseBand noiseBand(std::span<const double> lnK)
 {
-    const auto n = static_cast<double>(lnK.size());
+    const auto n = double(lnK.size());
     NoiseBand band;
     band.mean = std::accumulate(lnK.begin(), lnK.end(), 0.0) / n;
     double squares = 0.0;

@@ -26,12 +26,12 @@ namespace {
                 restrictCells(axes[i], i, length);
             }
             space = StateSpace(std::move(axes));
-            m_cells.resize(static_cast<std::size_t>(space.cellCount()));
+            m_cells.resize(std::size_t(space.cellCount()));
             for (Index local = 0; local < space.cellCount(); ++local) {
                 std::vector<Index> c = space.coordinates(local).cells;
                 for (std::size_t i = 0; i < c.size(); ++i)
                     c[i] += m_origin[i];
-                m_cells[static_cast<std::size_t>(local)] = m_grid.cell(c);
+                m_cells[std::size_t(local)] = m_grid.cell(c);
             }
         }
 
@@ -69,7 +69,7 @@ namespace {
         Index toGlobal(const StateSpace &whole, Index local) const
         {
             StateSpace::Coordinates c = space.coordinates(local);
-            const Index cell = m_cells[static_cast<std::size_t>(space.cellOf(local))];
+            const Index cell = m_cells[std::size_t(space.cellOf(local))];
             c.cells = m_grid.coordinates(cell);
             for (std::size_t i = 0; i < c.rates.size(); ++i)
                 c.rates[i] += m_lowestRate[i];
@@ -85,12 +85,12 @@ namespace {
             Index reach = 0;
             for (std::size_t change = 0; change < axis.rateChange.size(); ++change)
                 if (axis.rateChange[change] > 0.0)
-                    reach = static_cast<Index>(change) * length;
+                    reach = Index(change) * length;
             const Index lowest = std::max<Index>(0, endRate - reach);
             const Index highest = std::min<Index>(axis.rateCount - 1, endRate + reach);
-            axis.firstRate += static_cast<int>(lowest);
-            axis.rateCount = static_cast<int>(highest - lowest + 1);
-            m_lowestRate.push_back(static_cast<int>(lowest));
+            axis.firstRate += int(lowest);
+            axis.rateCount = int(highest - lowest + 1);
+            m_lowestRate.push_back(int(lowest));
         }
 
         /// Cells that so many steps at these rates lead from.
@@ -136,7 +136,7 @@ namespace {
         float *atLeast(Index size)
         {
             if (size > m_size) {
-                m_values.reset(new float[static_cast<std::size_t>(size)]);
+                m_values.reset(new float[std::size_t(size)]);
                 m_size = size;
             }
             return m_values.get();
@@ -160,7 +160,7 @@ namespace {
         Index firstFrame() const { return std::max(m_firstFrame, m_end - m_room); }
         std::span<float> at(Index frame) const
         {
-            return {m_values + (frame - m_firstFrame) % m_room * m_states, static_cast<std::size_t>(m_states)};
+            return {m_values + (frame - m_firstFrame) % m_room * m_states, std::size_t(m_states)};
         }
         std::span<float> append() { return at(m_end++); }
 
@@ -177,7 +177,7 @@ namespace {
         box.forEachCell(grid, [&](Index cell) {
             const Index local = corridor.localCell(cell);
             for (Index plane = 0; local >= 0 && plane < corridor.space.planeCount(); ++plane) {
-                float &score = scores[static_cast<std::size_t>(plane * corridor.space.cellCount() + local)];
+                float &score = scores[std::size_t(plane * corridor.space.cellCount() + local)];
                 score = std::min(score, 0.0f);
             }
         });
@@ -190,8 +190,7 @@ namespace {
         for (Index plane = 0; plane < corridor.space.planeCount(); ++plane) {
             const Index first = corridor.toGlobal(model.space, plane * cells) - corridor.cells().front();
             for (Index i = 0; i < cells; ++i)
-                scores[static_cast<std::size_t>(plane * cells + i)] =
-                    all[static_cast<std::size_t>(first + corridor.cells()[static_cast<std::size_t>(i)])];
+                scores[std::size_t(plane * cells + i)] = all[std::size_t(first + corridor.cells()[std::size_t(i)])];
         }
     }
 
@@ -209,7 +208,7 @@ namespace {
         for (Index frame = first; frame <= last; ++frame) {
             const std::span<const float> whole = record.frame(frame);
             for (std::size_t i = 0; i < y.size(); ++i)
-                y[i] = whole[static_cast<std::size_t>(corridor.cells()[i])];
+                y[i] = whole[std::size_t(corridor.cells()[i])];
             const std::span<float> scores = history.append();
             if (frame == first && !firstScores.empty()) {
                 take(firstScores, model, corridor, scores);
@@ -220,7 +219,7 @@ namespace {
             } else {
                 FrameJoin join;
                 join.counting = Counting::Nothing;
-                join.lnK = static_cast<float>(record.lnK(frame));
+                join.lnK = float(record.lnK(frame));
                 recursion.advance(history.at(frame - 1), scores, {y, statistic, frame}, model.likelihood, join);
             }
             if (frame < last)
@@ -238,14 +237,14 @@ namespace {
         float bestScore = unreached;
         for (const StateSpace::Predecessor &p : corridor.space.predecessors(state, frame)) {
             const double ln = p.lnProbability * model.transitionScale;
-            const float score = before[static_cast<std::size_t>(p.state)] + static_cast<float>(ln);
+            const float score = before[std::size_t(p.state)] + float(ln);
             if (score > bestScore) {
                 bestScore = score;
                 best = p.state;
                 lnTransition = ln;
             }
         }
-        return bestScore + static_cast<float>(lnK) > 0.0f ? best : -1;
+        return bestScore + float(lnK) > 0.0f ? best : -1;
     }
 
 } // namespace
@@ -271,8 +270,7 @@ std::vector<PathStep> tracePath(const MarkovModel &model, const Grid &grid, cons
         Index local = corridor.toLocal(model.space, state);
         // Paths that start outside of the corridor are missing in it: what it finds is at most the detector's score.
         if (!isFromCheckpoint && used < known
-            && static_cast<double>(history.at(frame)[static_cast<std::size_t>(local)])
-                   < detectorScore - scoreTolerance) {
+            && double(history.at(frame)[std::size_t(local)]) < detectorScore - scoreTolerance) {
             length *= 2;
             continue;
         }
@@ -283,8 +281,7 @@ std::vector<PathStep> tracePath(const MarkovModel &model, const Grid &grid, cons
             step.frame = frame;
             step.state = corridor.toGlobal(model.space, local);
             const Index cell = model.space.cellOf(step.state);
-            step.logLikelihoodRatio =
-                model.likelihood.at(static_cast<double>(record.frame(frame)[static_cast<std::size_t>(cell)]));
+            step.logLikelihoodRatio = model.likelihood.at(double(record.frame(frame)[std::size_t(cell)]));
             const Index before = frame == first ? -1
                                                 : origin(model, corridor, history.at(frame - 1), frame, local,
                                                          record.lnK(frame), step.lnTransition);
@@ -303,7 +300,7 @@ std::vector<PathStep> tracePath(const MarkovModel &model, const Grid &grid, cons
         }
         if (!isReset) {
             state = corridor.toGlobal(model.space, local);
-            detectorScore = static_cast<double>(history.at(frame)[static_cast<std::size_t>(local)]);
+            detectorScore = double(history.at(frame)[std::size_t(local)]);
             length = std::max(shortestCorridor, frame - first + 1);
         }
     }

@@ -32,11 +32,11 @@ namespace {
     {
         using Lanes = typename Vector<float, bytes>::Type;
         constexpr Index laneCount = Vector<float, bytes>::lanes;
-        const int others = static_cast<int>(rows.size()) - p;
+        const int others = int(rows.size()) - p;
         const bool keepsLargest = p <= others + 1;
         const int ranks = keepsLargest ? p : others + 1;
         const float worst = keepsLargest ? 0.0f : std::numeric_limits<float>::infinity();
-        const float oneOverP = 1.0f / static_cast<float>(p);
+        const float oneOverP = 1.0f / float(p);
         Lanes rank[maximumFrames];
         for (Index i = 0; i < n; i += laneCount) {
             for (int r = 0; r < ranks; ++r)
@@ -96,20 +96,19 @@ const std::vector<Field<PofNSettings>> &PofNSettings::fields()
 
 PofN::PofN(const Grid &grid, const PofNSettings &settings, double binsPerCell)
     : m_rowLength(grid.axes.back().count),
-      m_width(std::max<Index>(1, static_cast<Index>(std::lround(settings.widthCells * binsPerCell)))),
-      m_settings(settings)
+      m_width(std::max<Index>(1, Index(std::lround(settings.widthCells * binsPerCell)))), m_settings(settings)
 {
     if (settings.p > settings.n)
         throw fieldError("pOfN.p", std::to_string(settings.p),
                          "must not exceed pOfN.n = " + std::to_string(settings.n));
-    m_means.resize(static_cast<std::size_t>((grid.size() + mostLanes - 1) / mostLanes * mostLanes));
+    m_means.resize(std::size_t((grid.size() + mostLanes - 1) / mostLanes * mostLanes));
     m_smallest.resize(m_means.size());
-    m_maxima.assign(static_cast<std::size_t>(settings.n), std::vector<float>(m_means.size(), 0.0f));
+    m_maxima.assign(std::size_t(settings.n), std::vector<float>(m_means.size(), 0.0f));
 }
 
 void PofN::update(std::span<const float> y, std::span<float> statistic)
 {
-    const auto cells = static_cast<Index>(y.size());
+    const auto cells = Index(y.size());
     std::vector<float> &newest = m_maxima[m_next];
     m_next = (m_next + 1) % m_maxima.size();
     std::transform(y.begin(), y.end(), newest.begin(),
@@ -126,15 +125,14 @@ void PofN::update(std::span<const float> y, std::span<float> statistic)
     for (std::size_t i = 0; i < m_maxima.size(); ++i)
         rows.push_back(m_maxima[(m_next + i) % m_maxima.size()].data());
     largest(rows, m_settings.p, std::ssize(m_means), m_means.data(), m_smallest.data());
-    decide(m_means.data(), m_smallest.data(), static_cast<float>(m_settings.r1), static_cast<float>(m_settings.r2),
-           cells, statistic.data());
+    decide(m_means.data(), m_smallest.data(), float(m_settings.r1), float(m_settings.r2), cells, statistic.data());
 }
 
 void PofN::forget(const Grid &grid, const CellBox &box)
 {
     box.forEachCell(grid, [&](Index cell) {
         for (std::vector<float> &maxima : m_maxima)
-            maxima[static_cast<std::size_t>(cell)] = 0.0f;
+            maxima[std::size_t(cell)] = 0.0f;
     });
 }
 

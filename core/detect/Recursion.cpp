@@ -117,7 +117,7 @@ Recursion<Semiring>::Recursion(const StateSpace &space, double transitionScale)
 {
     for (Index number = 0; number < space.phaseCount(); ++number)
         addPhase(space, number, transitionScale);
-    m_slides.resize(static_cast<std::size_t>(m_groups));
+    m_slides.resize(std::size_t(m_groups));
     if constexpr (Semiring::logarithmic)
         if (m_phases.size() == 1)
             prepareSlides();
@@ -159,9 +159,9 @@ typename Recursion<Semiring>::AxisStep Recursion<Semiring>::firstAxis(const Kine
     const std::vector<KinematicAxis::Move> moves = axis.moves(number);
     if (isIdentity(moves))
         return step;
-    step.shifts.resize(static_cast<std::size_t>(axis.rateCount));
+    step.shifts.resize(std::size_t(axis.rateCount));
     for (const KinematicAxis::Move &move : moves) {
-        step.shifts[static_cast<std::size_t>(move.toRate)].push_back(
+        step.shifts[std::size_t(move.toRate)].push_back(
             {move.fromRate, move.cells, weightOf<Semiring>(move.lnProbability * transitionScale)});
         m_reach = std::max<Index>(m_reach, std::abs(move.cells));
     }
@@ -173,8 +173,7 @@ typename Recursion<Semiring>::AxisStep Recursion<Semiring>::laterAxis(const Kine
                                                                       Index inner, Index before, Index after,
                                                                       double transitionScale) const
 {
-    AxisStep step{axis.cells, inner, axis.cyclic,
-                  std::vector<std::vector<Shift>>(static_cast<std::size_t>(m_groupSize))};
+    AxisStep step{axis.cells, inner, axis.cyclic, std::vector<std::vector<Shift>>(std::size_t(m_groupSize))};
     const std::vector<KinematicAxis::Move> moves = axis.moves(number);
     for (Index b = 0; b < before; ++b)
         for (const KinematicAxis::Move &move : moves)
@@ -191,7 +190,7 @@ typename Recursion<Semiring>::AxisStep Recursion<Semiring>::laterAxis(const Kine
                         step.copies.push_back(shift);
                     shift = {copyNumber, 0, shift.weight};
                 }
-                step.shifts[static_cast<std::size_t>(plane(move.toRate))].push_back(shift);
+                step.shifts[std::size_t(plane(move.toRate))].push_back(shift);
             }
     return step;
 }
@@ -203,9 +202,9 @@ void Recursion<Semiring>::prepareSlides()
 {
     const Index rates = m_groups;
     AxisStep &first = m_phases.front().first;
-    std::vector<Slide> wanted(static_cast<std::size_t>(2 * rates), {-1, 0, 0, 0, 0, 0});
+    std::vector<Slide> wanted(std::size_t(2 * rates), {-1, 0, 0, 0, 0, 0});
     const auto want = [&](Index number, Index of, Index other, Index back, Index shift) {
-        Slide &slide = wanted[static_cast<std::size_t>(number - rates)];
+        Slide &slide = wanted[std::size_t(number - rates)];
         slide = slide.number < 0
                     ? Slide{number, of, other, back, shift, shift}
                     : Slide{number, of, other, back, std::min(slide.smallest, shift), std::max(slide.largest, shift)};
@@ -251,15 +250,15 @@ void Recursion<Semiring>::prepareSlides()
     std::vector<bool> made(wanted.size(), false);
     for (std::size_t rate = 0; rate < replaced.size(); ++rate) {
         const auto make = [&](auto &&self, Index number) -> void {
-            if (number < rates || made[static_cast<std::size_t>(number - rates)])
+            if (number < rates || made[std::size_t(number - rates)])
                 return;
-            const Slide &slide = wanted[static_cast<std::size_t>(number - rates)];
+            const Slide &slide = wanted[std::size_t(number - rates)];
             self(self, slide.of);
             self(self, slide.other);
-            made[static_cast<std::size_t>(number - rates)] = true;
+            made[std::size_t(number - rates)] = true;
             m_slides[rate].push_back(slide);
             m_largest.resize(wanted.size());
-            m_largest[static_cast<std::size_t>(number - rates)] = slide.largest;
+            m_largest[std::size_t(number - rates)] = slide.largest;
         };
         for (const Shift &shift : replaced[rate])
             make(make, shift.from);
@@ -269,7 +268,7 @@ void Recursion<Semiring>::prepareSlides()
         return;
     for (std::size_t rate = 0; rate < replaced.size(); ++rate)
         for (const Shift &shift : first.shifts[rate])
-            m_slideRing = std::max(m_slideRing, 2 * std::abs(shift.from - static_cast<Index>(rate)) + 1);
+            m_slideRing = std::max(m_slideRing, 2 * std::abs(shift.from - Index(rate)) + 1);
     if (m_isSingle) // then all targets are finished together
         m_slideRing = rates;
     first.shifts = std::move(replaced);
@@ -278,8 +277,7 @@ void Recursion<Semiring>::prepareSlides()
 template <class Semiring>
 void Recursion<Semiring>::prepareTiles()
 {
-    const Index fitting =
-        std::clamp(tileBytes / (2 * m_planeCount * static_cast<Index>(sizeof(Real))), fewestCells, tileCells);
+    const Index fitting = std::clamp(tileBytes / (2 * m_planeCount * Index(sizeof(Real))), fewestCells, tileCells);
     const bool isSingle = m_planeCount == m_groups && m_isSingle;
     // Shared maxima need more rows than the tile has: those of a short one would cost too much.
     const Index cells = isSingle ? longTileCells : m_slideRing > 0 ? tileCells : fitting;
@@ -312,7 +310,7 @@ void Recursion<Semiring>::prepareTiles()
     m_slotSize = (m_tileRows + slideRows) * m_inner;
     if (m_reach > 0) {
         const Index rows = m_edgeRows == m_rows ? m_rows + 2 * m_reach : 2 * (m_edgeRows + 2 * m_reach);
-        m_margins.resize(static_cast<std::size_t>(m_planeCount * rows * m_inner));
+        m_margins.resize(std::size_t(m_planeCount * rows * m_inner));
     }
 }
 
@@ -324,13 +322,13 @@ void Recursion<Semiring>::prepareSlantedTiles() requires std::same_as<Semiring, 
             return;
         std::vector<SlantedTiles::Targets> phases;
         for (const Phase &phase : m_phases) {
-            SlantedTiles::Targets &targets = phases.emplace_back(static_cast<std::size_t>(m_groups));
+            SlantedTiles::Targets &targets = phases.emplace_back(std::size_t(m_groups));
             for (Index rate = 0; rate < m_groups; ++rate) {
-                std::vector<SlantedTiles::Source> &sources = targets[static_cast<std::size_t>(rate)];
+                std::vector<SlantedTiles::Source> &sources = targets[std::size_t(rate)];
                 if (phase.first.shifts.empty())
                     sources.push_back({rate, 0, 0.0f});
                 else
-                    for (const Shift &shift : phase.first.shifts[static_cast<std::size_t>(rate)])
+                    for (const Shift &shift : phase.first.shifts[std::size_t(rate)])
                         sources.push_back({shift.from, shift.cells, shift.weight});
             }
         }
@@ -345,7 +343,7 @@ void Recursion<Semiring>::preparePlaces(const StateSpace &space, double transiti
     const auto weight = [&](double ln) {
         return static_cast<Real>(Semiring::logarithmic ? ln * transitionScale : std::exp(ln * transitionScale));
     };
-    std::vector<double> lnDepartures(static_cast<std::size_t>(space.cellCount()), 0.0);
+    std::vector<double> lnDepartures(std::size_t(space.cellCount()), 0.0);
     bool departs = false;
     Index inner = space.cellCount();
     Index after = m_planeCount;
@@ -381,7 +379,7 @@ void Recursion<Semiring>::preparePlaces(const StateSpace &space, double transiti
         for (Index cell = 0; cell < axis.cells; ++cell)
             ln.push_back(axis.lnDeparture(cell));
         for (Index cell = 0; cell < space.cellCount(); ++cell)
-            lnDepartures[static_cast<std::size_t>(cell)] += ln[static_cast<std::size_t>(cell / inner % axis.cells)];
+            lnDepartures[std::size_t(cell)] += ln[std::size_t(cell / inner % axis.cells)];
     }
     if (departs)
         for (const double ln : lnDepartures)
@@ -411,13 +409,12 @@ template <class Semiring>
 void Recursion<Semiring>::apply(const MatrixStep &step, std::span<const Real> from, std::span<Real> to) const
 {
     const Index block = step.cells * step.inner;
-    std::vector<ShiftedPlane<Real>> sources(static_cast<std::size_t>(step.cells));
+    std::vector<ShiftedPlane<Real>> sources(std::size_t(step.cells));
     for (Index first = 0; first < std::ssize(from); first += block)
         for (Index row = 0; row < step.cells; ++row) {
             for (Index source = 0; source < step.cells; ++source)
-                sources[static_cast<std::size_t>(source)] = {
-                    from.data() + first + source * step.inner,
-                    step.weights[static_cast<std::size_t>(source * step.cells + row)]};
+                sources[std::size_t(source)] = {from.data() + first + source * step.inner,
+                                                step.weights[std::size_t(source * step.cells + row)]};
             joinSources<Semiring>(to.data() + first + row * step.inner, step.inner, sources);
         }
 }
@@ -425,7 +422,7 @@ void Recursion<Semiring>::apply(const MatrixStep &step, std::span<const Real> fr
 template <class Semiring>
 void Recursion<Semiring>::apply(const RateDepartures &d, Index step, std::span<Real> scores) const
 {
-    const auto &phase = d.phases[static_cast<std::size_t>(step % std::ssize(d.phases))];
+    const auto &phase = d.phases[std::size_t(step % std::ssize(d.phases))];
     const Index block = d.cells * d.inner;
     const auto forRuns = [&](Index rate, Index cell, auto &&visit) { // of every plane of a rate, the values of a cell
         for (Index plane = rate * d.after; plane < m_planeCount; plane += d.rates * d.after)
@@ -444,7 +441,7 @@ void Recursion<Semiring>::apply(const RateDepartures &d, Index step, std::span<R
         });
     for (Index rate = 0; rate < d.rates; ++rate)
         for (Index place = 0; place < d.places(); ++place) {
-            const Real weight = phase.weights[static_cast<std::size_t>(rate * d.places() + place)];
+            const Real weight = phase.weights[std::size_t(rate * d.places() + place)];
             if (weight == weightOf<Semiring>(0.0))
                 continue;
             forRuns(rate, d.cellOf(place), [&](Real *run) {
@@ -459,8 +456,8 @@ typename Recursion<Semiring>::Scratch &Recursion<Semiring>::scratch(std::size_t 
 {
     while (m_scratch.size() <= number) {
         auto made = std::make_unique<Scratch>();
-        const auto planes = static_cast<std::size_t>(m_groupSize);
-        const auto size = static_cast<std::size_t>(m_tileRows * m_inner);
+        const auto planes = std::size_t(m_groupSize);
+        const auto size = std::size_t(m_tileRows * m_inner);
         std::size_t copies = 0;
         for (const Phase &phase : m_phases)
             for (const AxisStep &step : phase.later)
@@ -469,7 +466,7 @@ typename Recursion<Semiring>::Scratch &Recursion<Semiring>::scratch(std::size_t 
         made->otherTile.resize(planes * size);
         made->copies.resize(copies * size);
         made->lambda.resize(size);
-        made->slides.resize(static_cast<std::size_t>(2 * m_slideRing * m_groupSize * m_slotSize));
+        made->slides.resize(std::size_t(2 * m_slideRing * m_groupSize * m_slotSize));
         m_scratch.push_back(std::move(made));
     }
     return *m_scratch[number];
@@ -478,7 +475,7 @@ typename Recursion<Semiring>::Scratch &Recursion<Semiring>::scratch(std::size_t 
 template <class Semiring>
 std::span<typename Semiring::Real> Recursion<Semiring>::predict(std::span<const Real> scores, Index step)
 {
-    m_result.resize(static_cast<std::size_t>(m_planeSize * m_planeCount));
+    m_result.resize(std::size_t(m_planeSize * m_planeCount));
     predict(scores, step, [this](Index plane, Index firstCell, std::span<const Real> predicted) {
         std::copy(predicted.begin(), predicted.end(), m_result.begin() + plane * m_planeSize + firstCell);
     });
@@ -491,13 +488,13 @@ void Recursion<Semiring>::predict(std::span<const Real> scores, Index step, cons
     scores = prepare(scores, step);
     fillMargins(scores);
     Scratch &own = scratch(0);
-    std::vector<Real> predicted(static_cast<std::size_t>(m_tileRows * m_inner));
+    std::vector<Real> predicted(std::size_t(m_tileRows * m_inner));
     for (const TileRows &rows : m_tiles)
         goThroughTile(phaseOf(step), scores, rows, own, [&](Index firstPlane) {
-            const std::span<Real> to = std::span(predicted).first(static_cast<std::size_t>(rows.count * m_inner));
+            const std::span<Real> to = std::span(predicted).first(std::size_t(rows.count * m_inner));
             for (std::size_t k = 0; k + 1 < own.firstSource.size(); ++k) {
                 joinSources<Semiring>(to.data(), std::ssize(to), own.sourcesOf(k));
-                take(firstPlane + static_cast<Index>(k), rows.first * m_inner, to);
+                take(firstPlane + Index(k), rows.first * m_inner, to);
             }
         });
 }
@@ -576,7 +573,7 @@ void Recursion<Semiring>::slide(std::span<const Real> scores, const Slide &slide
         const auto from = [&](Index number, Index back) -> const Real * {
             if (number < m_groups)
                 return rowsOf(scores, number * m_groupSize + group, rows.first) + (firstRow - back) * inner;
-            return place(number) + (firstRow - back + m_largest[static_cast<std::size_t>(number - m_groups)]) * inner;
+            return place(number) + (firstRow - back + m_largest[std::size_t(number - m_groups)]) * inner;
         };
         const Index count = rows.count + slide.largest - slide.smallest;
         maxOfTwo(place(slide.number), from(slide.of, 0), from(slide.other, slide.back), count * inner);
@@ -593,9 +590,9 @@ void Recursion<Semiring>::listFirst(const AxisStep &first, std::span<const Real>
         own.sources.push_back({rowsOf(scores, rate * m_groupSize + group, rows.first), weightOf<Semiring>(0.0)});
         return;
     }
-    for (const Shift &shift : first.shifts[static_cast<std::size_t>(rate)]) {
+    for (const Shift &shift : first.shifts[std::size_t(rate)]) {
         if (shift.from >= m_groups) {
-            const auto number = static_cast<std::size_t>(shift.from - m_groups);
+            const auto number = std::size_t(shift.from - m_groups);
             const Real *maxima = own.slides.data() + slotOf(shift.from, group) * m_slotSize;
             own.sources.push_back({maxima + (m_largest[number] - shift.cells) * inner, shift.weight});
         } else if (m_isCyclic || (rows.first - shift.cells < m_rows && rows.first + rows.count - shift.cells > 0)) {
@@ -613,8 +610,8 @@ void Recursion<Semiring>::makeCopies(const AxisStep &step, Index size, Scratch &
     const Index period = step.cells * step.inner;
     for (std::size_t number = 0; number < step.copies.size(); ++number) {
         const Shift &copy = step.copies[number];
-        const Real *from = own.planes[static_cast<std::size_t>(copy.from)];
-        Real *to = own.copies.data() + static_cast<Index>(number) * size;
+        const Real *from = own.planes[std::size_t(copy.from)];
+        Real *to = own.copies.data() + Index(number) * size;
         const Index cells = std::clamp(copy.cells, -step.cells, step.cells);
         const Index by = cells * step.inner;
         // As if all blocks were one; then what that got wrong at their ends.
@@ -643,10 +640,10 @@ template <class Finish>
 void Recursion<Semiring>::goThroughTile(const Phase &phase, std::span<const Real> scores, TileRows rows, Scratch &own,
                                         Finish finish) const
 {
-    const Index bytes = rows.count * m_inner * static_cast<Index>(sizeof(Real));
+    const Index bytes = rows.count * m_inner * Index(sizeof(Real));
     own.clearSources();
     for (Index rate = 0; rate < m_groups; ++rate) {
-        for (const Slide &s : m_slides[static_cast<std::size_t>(rate)])
+        for (const Slide &s : m_slides[std::size_t(rate)])
             for (Index group = 0; group < m_groupSize; ++group)
                 slide(scores, s, group, rows, own);
         if (!phase.later.empty())
@@ -666,7 +663,7 @@ void Recursion<Semiring>::goThroughTile(const Phase &phase, std::span<const Real
             own.clearSources();
             for (const std::vector<Shift> &shifts : step.shifts) {
                 for (const Shift &shift : shifts)
-                    own.sources.push_back({own.planes[static_cast<std::size_t>(shift.from)], shift.weight});
+                    own.sources.push_back({own.planes[std::size_t(shift.from)], shift.weight});
                 own.endTarget();
             }
         }
@@ -683,7 +680,7 @@ void Recursion<Semiring>::joinListed(bool isOnlyStep, Index size, Scratch &own) 
     std::swap(own.tile, own.otherTile);
     own.planes.clear();
     for (Index group = 0; group < m_groupSize; ++group) {
-        const std::span<const Source> sources = own.sourcesOf(static_cast<std::size_t>(group));
+        const std::span<const Source> sources = own.sourcesOf(std::size_t(group));
         if (sources.size() == 1 && sources.front().weight == weightOf<Semiring>(0.0) && isOnlyStep) {
             own.planes.push_back(sources.front().from);
             continue;
@@ -708,7 +705,7 @@ Continued Recursion<Semiring>::advance(std::span<const float> scores, std::span<
     if constexpr (std::same_as<Semiring, MaxPlus<float>>) { // clang 14 makes it for the others as well
         RunContext context;
         const Index work = std::ssize(frames.y) * m_planeCount;
-        context.threads = static_cast<int>(std::clamp<Index>(work / worthAThread, 1, m_threads));
+        context.threads = int(std::clamp<Index>(work / worthAThread, 1, m_threads));
         if (std::ssize(frames.y) > m_planeSize)
             return m_slanted->advance(scores, next, frames.y, frames.statistic, frames.firstStep, likelihood, join,
                                       context);
@@ -729,19 +726,19 @@ Continued Recursion<Semiring>::advanceOne(std::span<const float> scores, std::sp
         m_tileContinued.assign(m_tiles.size(), {});
         const Phase &phase = phaseOf(frames.firstStep);
         const auto doTile = [&](Index number, Scratch &own) {
-            const TileRows rows = m_tiles[static_cast<std::size_t>(number)];
+            const TileRows rows = m_tiles[std::size_t(number)];
             const Index firstCell = rows.first * m_inner;
             const Index n = rows.count * m_inner;
-            likelihood.apply(frames.y.subspan(static_cast<std::size_t>(firstCell), static_cast<std::size_t>(n)),
-                             std::span(own.lambda).first(static_cast<std::size_t>(n)));
-            Continued &continued = m_tileContinued[static_cast<std::size_t>(number)];
+            likelihood.apply(frames.y.subspan(std::size_t(firstCell), std::size_t(n)),
+                             std::span(own.lambda).first(std::size_t(n)));
+            Continued &continued = m_tileContinued[std::size_t(number)];
             goThroughTile(phase, scores, rows, own, [&](Index firstPlane) {
                 own.targets.clear();
                 for (std::size_t k = 0; k + 1 < own.firstSource.size(); ++k) {
-                    float *const to = next.data() + (firstPlane + static_cast<Index>(k)) * m_planeSize;
+                    float *const to = next.data() + (firstPlane + Index(k)) * m_planeSize;
                     own.targets.push_back({own.sourcesOf(k), to});
                     if (firstCell + 2 * n <= m_planeSize)
-                        fetch<true>(to + firstCell + n, n * static_cast<Index>(sizeof(float)));
+                        fetch<true>(to + firstCell + n, n * Index(sizeof(float)));
                 }
                 FrameJoin joined = join;
                 joined.isFresh = firstPlane == 0;
@@ -753,12 +750,12 @@ Continued Recursion<Semiring>::advanceOne(std::span<const float> scores, std::sp
         };
         // A stretch of tiles for each thread: each fetches the next tile ahead.
         const Index count = std::ssize(m_tiles);
-        scratch(static_cast<std::size_t>(context.threads) - 1);
+        scratch(std::size_t(context.threads) - 1);
         parallelFor(context.threads, context, "recursion", [&] {
             return [&](Index thread) {
                 for (Index number = thread * count / context.threads; number < (thread + 1) * count / context.threads;
                      ++number)
-                    doTile(number, *m_scratch[static_cast<std::size_t>(thread)]);
+                    doTile(number, *m_scratch[std::size_t(thread)]);
             };
         });
         Continued all;

@@ -176,7 +176,7 @@ private:
     AxisStep firstAxis(const KinematicAxis &axis, Index number, Index inner, double transitionScale);
     AxisStep laterAxis(const KinematicAxis &axis, Index number, Index inner, Index before, Index after,
                        double transitionScale) const;
-    const Phase &phaseOf(Index step) const { return m_phases[static_cast<std::size_t>(step % std::ssize(m_phases))]; }
+    const Phase &phaseOf(Index step) const { return m_phases[std::size_t(step % std::ssize(m_phases))]; }
     void prepareSlides();
     void prepareTiles();
     void prepareSlantedTiles() requires std::same_as<Semiring, MaxPlus<float>>;

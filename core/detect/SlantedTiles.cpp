@@ -54,7 +54,7 @@ SlantedTiles::SlantedTiles(Index cells, std::vector<Targets> phases)
         for (const std::vector<Source> &sources : targets)
             for (const Source &source : sources)
                 m_reach = std::max(m_reach, std::abs(source.displacement));
-    const Index fitting = cacheBytes / (2 * m_rates * static_cast<Index>(sizeof(float))) - 2 * m_reach;
+    const Index fitting = cacheBytes / (2 * m_rates * Index(sizeof(float))) - 2 * m_reach;
     m_tileCells = std::min(longest, fitting / vectorCells * vectorCells);
     // Targets lie on whole cache lines, and rates not a power of two apart.
     m_margin = (2 * m_reach + vectorCells) / vectorCells * vectorCells;
@@ -80,9 +80,7 @@ Continued SlantedTiles::advance(std::span<const float> scores, std::span<float> 
     }
     m_scratch.resize(std::max(m_scratch.size(), stretches.size()));
     parallelFor(std::ssize(stretches), context, "recursion", [&] {
-        return [&](Index i) {
-            goThrough(work, stretches[static_cast<std::size_t>(i)], m_scratch[static_cast<std::size_t>(i)]);
-        };
+        return [&](Index i) { goThrough(work, stretches[std::size_t(i)], m_scratch[std::size_t(i)]); };
     });
     Continued all;
     for (const Stretch &stretch : stretches)
@@ -100,7 +98,7 @@ SlantedTiles::TargetList SlantedTiles::listTargets(const Targets &targets, const
             list.sources.push_back({from + source.rate * m_stride - m_reach - source.displacement, source.weight});
     std::size_t begin = 0;
     for (Index rate = 0; rate < m_rates; ++rate) {
-        const std::size_t count = targets[static_cast<std::size_t>(rate)].size();
+        const std::size_t count = targets[std::size_t(rate)].size();
         list.targets.push_back(
             {std::span<const ShiftedPlane<float>>(list.sources).subspan(begin, count), to + rate * toStride});
         begin += count;
@@ -146,11 +144,11 @@ void SlantedTiles::listAhead(const Work &work, Index frame, Index first, Index n
 void SlantedTiles::goThrough(const Work &work, Stretch &s, Scratch &own) const
 {
     const Index haloSize = m_rates * 2 * m_reach;
-    own.windows.resize(static_cast<std::size_t>(2 * m_rates * m_stride + lineFloats));
-    own.halo.assign(static_cast<std::size_t>(work.frames * haloSize), unreached);
-    own.lambda.resize(static_cast<std::size_t>(m_tileCells));
-    own.unused.resize(static_cast<std::size_t>(m_tileCells));
-    const auto address = static_cast<Index>(reinterpret_cast<std::uintptr_t>(own.windows.data()) / sizeof(float));
+    own.windows.resize(std::size_t(2 * m_rates * m_stride + lineFloats));
+    own.halo.assign(std::size_t(work.frames * haloSize), unreached);
+    own.lambda.resize(std::size_t(m_tileCells));
+    own.unused.resize(std::size_t(m_tileCells));
+    const auto address = Index(reinterpret_cast<std::uintptr_t>(own.windows.data()) / sizeof(float));
     float *const windows = own.windows.data() + (lineFloats - address % lineFloats) % lineFloats + m_margin;
     const auto windowOf = [&](Index frame) {
         return windows + (frame + 1) % 2 * m_rates * m_stride;
@@ -158,7 +156,7 @@ void SlantedTiles::goThrough(const Work &work, Stretch &s, Scratch &own) const
 
     std::vector<TargetList> lists;
     for (Index frame = 0; frame < work.frames; ++frame) {
-        const Targets &targets = m_phases[static_cast<std::size_t>((work.firstStep + frame) % std::ssize(m_phases))];
+        const Targets &targets = m_phases[std::size_t((work.firstStep + frame) % std::ssize(m_phases))];
         const bool isLast = frame + 1 == work.frames;
         lists.push_back(listTargets(targets, windowOf(frame - 1), isLast ? work.next.data() : windowOf(frame),
                                     isLast ? m_cells : m_stride));
@@ -166,13 +164,11 @@ void SlantedTiles::goThrough(const Work &work, Stretch &s, Scratch &own) const
 
     const auto goThroughFrame = [&](Index frame, Index begin, Index from, Index end) {
         const bool isLast = frame + 1 == work.frames;
-        const TargetList &list = lists[static_cast<std::size_t>(frame)];
+        const TargetList &list = lists[std::size_t(frame)];
         FrameJoin join = work.join;
         join.isFresh = true;
         join.counting = isLast ? join.counting : Counting::Nothing;
-        work.likelihood.apply(
-            work.y.subspan(static_cast<std::size_t>(frame * m_cells + from), static_cast<std::size_t>(end - from)),
-            own.lambda);
+        work.likelihood.apply(work.y.subspan(std::size_t(frame * m_cells + from), std::size_t(end - from)), own.lambda);
         // What lies outside of the stretch is the neighbour's to count and to show.
         const std::array<Index, 4> cuts{from, std::clamp(s.from, from, end), std::clamp(s.end, from, end), end};
         for (std::size_t part = 0; part < 3; ++part) {

@@ -13,7 +13,7 @@ namespace {
 
 Smd::Smd(const MarkovModel &model, const ResetRule &rule)
     : m_space(model.space), m_likelihood(model.likelihood), m_rule(rule),
-      m_recursion(model.space, model.transitionScale), m_scores(static_cast<std::size_t>(model.space.stateCount())),
+      m_recursion(model.space, model.transitionScale), m_scores(std::size_t(model.space.stateCount())),
       m_next(m_scores.size()), m_lnK(rule.law == ResetLaw::Fixed || rule.law == ResetLaw::Half ? rule.lnK : 0.0)
 {
 }
@@ -29,13 +29,13 @@ void Smd::update(std::span<const float> y, std::span<float> statistic)
     const Continued apart = inhibitedPart(y);
     const Index counted = m_rule.law == ResetLaw::None ? cells : cells - std::ssize(m_inhibited);
     if (counted > 0) {
-        const auto states = static_cast<double>(counted * m_space.planeCount());
-        m_regulation = {m_lnK, static_cast<double>(all.count - apart.count) / states, m_lnK};
+        const auto states = double(counted * m_space.planeCount());
+        m_regulation = {m_lnK, double(all.count - apart.count) / states, m_lnK};
         regulate(m_regulation.continuedFraction, (all.sum - apart.sum) / states);
     }
     if (m_offset != 0.0)
         for (float &value : statistic)
-            value += static_cast<float>(m_offset);
+            value += float(m_offset);
 }
 
 void Smd::start(std::span<const float> y, std::span<float> statistic)
@@ -51,17 +51,16 @@ void Smd::start(std::span<const float> y, std::span<float> statistic)
         m_lnK = m_offset;
         m_regulation.lnK = m_offset;
         for (float &value : statistic)
-            value += static_cast<float>(m_offset);
+            value += float(m_offset);
     }
 }
 
 void Smd::updateBlock(std::span<const float> y, std::span<float> statistic, Index cells)
 {
-    const auto size = static_cast<std::size_t>(cells);
+    const auto size = std::size_t(cells);
     const bool isRegulated = m_rule.law == ResetLaw::Mean || m_rule.law == ResetLaw::Half;
     for (std::size_t done = 0; done < y.size();) {
-        const auto frames =
-            static_cast<std::size_t>(std::min<Index>(m_recursion.framesAtOnce(), std::ssize(y) / cells));
+        const auto frames = std::size_t(std::min<Index>(m_recursion.framesAtOnce(), std::ssize(y) / cells));
         const std::size_t count = std::min(frames, (y.size() - done) / size);
         if (m_frames == 0 || isRegulated || count < 2 || !m_inhibited.empty()) {
             update(y.subspan(done, size), statistic.subspan(done, size));
@@ -69,7 +68,7 @@ void Smd::updateBlock(std::span<const float> y, std::span<float> statistic, Inde
             continue;
         }
         const Continued last = advance(y.subspan(done, count * size), statistic.subspan(done, count * size));
-        m_regulation = {m_lnK, static_cast<double>(last.count) / static_cast<double>(m_space.stateCount()), m_lnK};
+        m_regulation = {m_lnK, double(last.count) / double(m_space.stateCount()), m_lnK};
         done += count * size;
     }
 }
@@ -77,7 +76,7 @@ void Smd::updateBlock(std::span<const float> y, std::span<float> statistic, Inde
 Continued Smd::advance(std::span<const float> y, std::span<float> statistic)
 {
     FrameJoin join;
-    join.lnK = static_cast<float>(m_lnK);
+    join.lnK = float(m_lnK);
     join.floor = m_rule.law == ResetLaw::None ? unreached : 0.0f;
     join.counting = m_rule.law == ResetLaw::Mean ? Counting::StatesAndSum : Counting::States;
     Continued continued = m_recursion.advance(m_scores, m_next, {y, statistic, m_frames}, m_likelihood, join);
@@ -97,11 +96,11 @@ Continued Smd::inhibitedPart(std::span<const float> y) const
     const Index cells = m_space.cellCount();
     for (Index cell : m_inhibited) {
         float lambda = 0.0f;
-        m_likelihood.apply(y.subspan(static_cast<std::size_t>(cell), 1), {&lambda, 1});
+        m_likelihood.apply(y.subspan(std::size_t(cell), 1), {&lambda, 1});
         for (Index plane = 0; plane < m_space.planeCount(); ++plane)
-            if (const float score = m_scores[static_cast<std::size_t>(plane * cells + cell)]; score > lambda) {
+            if (const float score = m_scores[std::size_t(plane * cells + cell)]; score > lambda) {
                 ++part.count;
-                part.sum += static_cast<double>(score - lambda);
+                part.sum += double(score - lambda);
             }
     }
     return part;
@@ -127,10 +126,10 @@ void Smd::regulate(double continuedFraction, double meanContinued)
 void Smd::forget(const Grid &grid, const CellBox &box)
 {
     const Index cells = m_space.cellCount();
-    const auto background = static_cast<float>(-m_offset);
+    const auto background = float(-m_offset);
     box.forEachCell(grid, [&](Index cell) {
         for (Index plane = 0; plane < m_space.planeCount(); ++plane) {
-            float &score = m_scores[static_cast<std::size_t>(plane * cells + cell)];
+            float &score = m_scores[std::size_t(plane * cells + cell)];
             score = std::min(score, std::max(background, 0.0f));
         }
     });

@@ -56,7 +56,7 @@ LikelihoodRatio::LikelihoodRatio(const SequentialModel &model)
 
 double LikelihoodRatio::update(std::span<const double> lambda)
 {
-    const auto cells = static_cast<std::size_t>(m_cells);
+    const auto cells = std::size_t(m_cells);
     const std::span<const double> predicted =
         m_stages == 0 ? std::span<const double>(m_initial) : m_recursion.predict(m_posterior, m_stages);
     ++m_stages;
@@ -86,7 +86,7 @@ namespace {
     {
     public:
         Evidence(const SequentialModel &model, const StageSource &source)
-            : m_model(model), m_source(source), m_lambda(static_cast<std::size_t>(model.reduction.frameCells()))
+            : m_model(model), m_source(source), m_lambda(std::size_t(model.reduction.frameCells()))
         {
         }
 
@@ -117,11 +117,11 @@ SprtResult runSprt(const SequentialModel &model, const SprtSettings &settings, I
     model.check("model");
     Evidence evidence(model, source);
     LikelihoodRatio ratio(model);
-    std::vector<double> folded(static_cast<std::size_t>(model.reduction.stateCells()));
+    std::vector<double> folded(std::size_t(model.reduction.stateCells()));
     SprtResult result;
     const Index last = settings.cutOffStage > 0 ? std::min<Index>(stages, settings.cutOffStage) : stages;
     while (result.stages < last && result.decision == SprtDecision::Undecided) {
-        context.checkpoint(0.5 * static_cast<double>(result.stages) / static_cast<double>(last), "sequential test");
+        context.checkpoint(0.5 * double(result.stages) / double(last), "sequential test");
         model.reduction.sum(evidence.at(result.stages), folded);
         result.lnLambda.push_back(ratio.update(folded));
         ++result.stages;
@@ -141,20 +141,20 @@ SprtResult runSprt(const SequentialModel &model, const SprtSettings &settings, I
         context.part(0.5, 1.0));
     result.lnMapScore = map.lnScore;
     for (Index stage = 0; stage < result.stages; ++stage)
-        result.trajectory.push_back(model.reduction.best(
-            evidence.at(stage), model.markov.space.cellOf(map.states[static_cast<std::size_t>(stage)])));
+        result.trajectory.push_back(
+            model.reduction.best(evidence.at(stage), model.markov.space.cellOf(map.states[std::size_t(stage)])));
     return result;
 }
 
 StageSource stagesOf(NormalisedFramesPointer frames, Index firstFrame, Index firstCell, Index cellCount)
 {
-    std::vector<float> row(static_cast<std::size_t>(frames->grid().size()));
-    return [frames = std::move(frames), firstFrame, firstCell, cellCount, row](Index stage,
-                                                                               std::span<double> y) mutable {
-        frames->read(firstFrame + stage, 1, row);
-        for (Index cell = 0; cell < cellCount; ++cell)
-            y[static_cast<std::size_t>(cell)] = static_cast<double>(row[static_cast<std::size_t>(firstCell + cell)]);
-    };
+    std::vector<float> row(std::size_t(frames->grid().size()));
+    return
+        [frames = std::move(frames), firstFrame, firstCell, cellCount, row](Index stage, std::span<double> y) mutable {
+            frames->read(firstFrame + stage, 1, row);
+            for (Index cell = 0; cell < cellCount; ++cell)
+                y[std::size_t(cell)] = double(row[std::size_t(firstCell + cell)]);
+        };
 }
 
 } // namespace faintline

@@ -17,8 +17,8 @@ namespace {
 
 SumDetector::SumDetector(const MarkovModel &model, const ResetRule &rule)
     : m_space(model.space), m_likelihood(model.likelihood), m_rule(rule),
-      m_recursion(model.space, model.transitionScale),
-      m_weights(static_cast<std::size_t>(model.space.stateCount()), 1.0), m_scores(m_weights.size())
+      m_recursion(model.space, model.transitionScale), m_weights(std::size_t(model.space.stateCount()), 1.0),
+      m_scores(m_weights.size())
 {
     if (rule.law != ResetLaw::Fixed && rule.law != ResetLaw::None)
         throw Error("reset.law", "must be fixed or none if the semiring is sum");
@@ -26,10 +26,10 @@ SumDetector::SumDetector(const MarkovModel &model, const ResetRule &rule)
 
 void SumDetector::update(std::span<const float> y, std::span<float> statistic)
 {
-    const auto cells = static_cast<std::size_t>(m_space.cellCount());
+    const auto cells = std::size_t(m_space.cellCount());
     std::vector<double> lambda(cells);
     for (std::size_t cell = 0; cell < cells; ++cell)
-        lambda[cell] = m_likelihood.at(static_cast<double>(y[cell]));
+        lambda[cell] = m_likelihood.at(double(y[cell]));
     const auto [least, most] = std::minmax_element(lambda.begin(), lambda.end());
     const double highest = *most;
     const double background =
@@ -58,14 +58,12 @@ void SumDetector::update(std::span<const float> y, std::span<float> statistic)
                 weight /= largest;
         }
     }
-    m_lnMean =
-        m_scale
-        + std::log(std::accumulate(m_weights.begin(), m_weights.end(), 0.0) / static_cast<double>(m_weights.size()));
+    m_lnMean = m_scale + std::log(std::accumulate(m_weights.begin(), m_weights.end(), 0.0) / double(m_weights.size()));
 
     std::fill(statistic.begin(), statistic.end(), -std::numeric_limits<float>::infinity());
     for (std::size_t n = 0; n < m_weights.size(); ++n) {
         if (!isWide)
-            m_scores[n] = static_cast<float>(m_scale + std::log(m_weights[n]));
+            m_scores[n] = float(m_scale + std::log(m_weights[n]));
         statistic[n % cells] = std::max(statistic[n % cells], m_scores[n]);
     }
 }
@@ -88,7 +86,7 @@ void SumDetector::updateWide(std::span<const double> lambda)
     m_scale = *std::max_element(ln.begin(), ln.end());
     for (std::size_t n = 0; n < ln.size(); ++n) {
         m_weights[n] = std::exp(ln[n] - m_scale);
-        m_scores[n] = static_cast<float>(ln[n]);
+        m_scores[n] = float(ln[n]);
     }
 }
 
@@ -97,7 +95,7 @@ void SumDetector::forget(const Grid &grid, const CellBox &box)
     const double background = std::exp(-m_scale);
     box.forEachCell(grid, [&](Index cell) {
         for (Index plane = 0; plane < m_space.planeCount(); ++plane) {
-            double &weight = m_weights[static_cast<std::size_t>(plane * m_space.cellCount() + cell)];
+            double &weight = m_weights[std::size_t(plane * m_space.cellCount() + cell)];
             weight = std::min(weight, background);
         }
     });

@@ -9,9 +9,9 @@ Survey survey(const SequentialModel &model, const SprtSettings &settings, Index 
     const Index looks = sectors * rounds;
     for (Index look = 0; look < looks; ++look) {
         SectorVisit visit{look / sectors, look % sectors, made.stages, {}};
-        const auto count = static_cast<double>(looks);
+        const auto count = double(looks);
         visit.result = runSprt(model, settings, stagesAtMost, source(visit),
-                               context.part(static_cast<double>(look) / count, static_cast<double>(look + 1) / count));
+                               context.part(double(look) / count, double(look + 1) / count));
         made.stages += visit.result.stages;
         made.fixedStages += fixedSize;
         made.visits.push_back(std::move(visit));

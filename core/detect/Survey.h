@@ -22,10 +22,7 @@ struct Survey {
     Index fixedStages = 0;           ///< a test of fixed size would have spent
 
     /// Share of the fixed-size test's stages that was not needed; negative if more were.
-    double saving() const
-    {
-        return fixedStages > 0 ? 1.0 - static_cast<double>(stages) / static_cast<double>(fixedStages) : 0.0;
-    }
+    double saving() const { return fixedStages > 0 ? 1.0 - double(stages) / double(fixedStages) : 0.0; }
 };
 
 /// The stages of one look; may depend on when it begins.

@@ -42,7 +42,7 @@ StageSource averagedStages(StageSource source, const SequentialModel &model, Ind
                         ? "has no neighbours to average"
                         : "must lie in 1 … " + std::to_string(row.cells - 1) + ", the other cells of the row");
     return [source = std::move(source), where, row, N, snr = likelihood.snr(),
-            line = std::vector<float>(static_cast<std::size_t>(row.cells))](Index stage, std::span<double> y) mutable {
+            line = std::vector<float>(std::size_t(row.cells))](Index stage, std::span<double> y) mutable {
         source(stage, y);
         if (std::any_of(y.begin(), y.end(), [](double value) { return std::isnan(value); }))
             throw Error(where, "averages neighbours and needs all cells; stage " + std::to_string(stage)
@@ -52,13 +52,11 @@ StageSource averagedStages(StageSource source, const SequentialModel &model, Ind
             if (first % block >= row.stride) // not the first cell of a row
                 continue;
             for (Index i = 0; i < row.cells; ++i)
-                line[static_cast<std::size_t>(i)] =
-                    static_cast<float>(y[static_cast<std::size_t>(first + i * row.stride)]);
+                line[std::size_t(i)] = float(y[std::size_t(first + i * row.stride)]);
             averageCells(line, row.cells, N);
             correctAveraged(line, N, snr);
             for (Index i = 0; i < row.cells; ++i)
-                y[static_cast<std::size_t>(first + i * row.stride)] =
-                    static_cast<double>(line[static_cast<std::size_t>(i)]);
+                y[std::size_t(first + i * row.stride)] = double(line[std::size_t(i)]);
         }
     };
 }

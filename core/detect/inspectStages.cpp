@@ -13,11 +13,11 @@ namespace {
     {
     public:
         Marginal(PosteriorPicture &picture, const StateSpace &space, std::size_t axis)
-            : m_picture(picture), m_cellCount(static_cast<std::size_t>(space.cellCount())),
-              m_cells(static_cast<std::size_t>(space.axes()[axis].cells))
+            : m_picture(picture), m_cellCount(std::size_t(space.cellCount())),
+              m_cells(std::size_t(space.axes()[axis].cells))
         {
             for (std::size_t after = axis + 1; after < space.axes().size(); ++after)
-                m_inner *= static_cast<std::size_t>(space.axes()[after].cells);
+                m_inner *= std::size_t(space.axes()[after].cells);
             m_sum.resize(m_cells);
         }
 
@@ -41,7 +41,7 @@ namespace {
             for (Index row = 1; row < rows; ++row)
                 std::copy_n(m_picture.probability.begin() + 2 * row * m_picture.cells, m_picture.cells,
                             m_picture.probability.begin() + row * m_picture.cells);
-            m_picture.probability.resize(static_cast<std::size_t>(rows * m_picture.cells));
+            m_picture.probability.resize(std::size_t(rows * m_picture.cells));
             m_picture.stride *= 2;
         }
 

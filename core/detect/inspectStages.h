@@ -16,7 +16,7 @@ struct PosteriorPicture {
     Index stride = 1;               ///< row i belongs to stage i·stride (0, 1, …)
     std::vector<float> probability; ///< rows × cells
 
-    Index rows() const { return cells > 0 ? static_cast<Index>(probability.size()) / cells : 0; }
+    Index rows() const { return cells > 0 ? Index(probability.size()) / cells : 0; }
 };
 
 /// A sequential test with what it thought on the way.

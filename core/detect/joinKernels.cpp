@@ -215,7 +215,7 @@ namespace {
         bool isUniform = true;
         for (std::size_t k = 0; k < targets.size(); ++k) {
             const Joined &t = targets[k];
-            const auto number = static_cast<Index>(k);
+            const auto number = Index(k);
             const bool isLast = k + 1 == targets.size();
             if ((k > 0 && t.first != targets[k - 1].second)
                 || t.second - one.second != number * (two.second - one.second)
@@ -328,7 +328,7 @@ namespace {
             double together = 0.0;
             for (Index cell = lane; cell < cells; cell += half) {
                 continued.count += count[cell / width][cell % width];
-                together += static_cast<double>(sum[cell / width][cell % width]);
+                together += double(sum[cell / width][cell % width]);
             }
             continued.sum += together;
         }
@@ -350,7 +350,7 @@ namespace {
             const float score = lambda[i] + kept;
             target.to[targetOffset + i] = score;
             continued.count += join.counting != Counting::Nothing && score > lambda[i] ? 1 : 0;
-            continued.sum += join.counting == Counting::StatesAndSum ? static_cast<double>(kept) : 0.0;
+            continued.sum += join.counting == Counting::StatesAndSum ? double(kept) : 0.0;
             statistic[i] = score > statistic[i] ? score : statistic[i];
         }
     }

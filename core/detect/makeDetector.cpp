@@ -13,7 +13,7 @@ namespace {
 
     Index framesOf(double windows, const FrameGeometry &geometry)
     {
-        return static_cast<Index>(std::lround(windows * geometry.framesPerWindow));
+        return Index(std::lround(windows * geometry.framesPerWindow));
     }
 
 } // namespace

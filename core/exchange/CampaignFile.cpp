@@ -95,7 +95,7 @@ namespace {
                 const ssize_t written = ::write(m_descriptor, rest.data(), rest.size());
                 if (written < 0 && errno != EINTR)
                     fail();
-                rest.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(written, 0)));
+                rest.remove_prefix(std::size_t(std::max<ssize_t>(written, 0)));
             }
             if (const auto now = std::chrono::steady_clock::now(); now > m_synced + std::chrono::seconds(1)) {
                 if (::fdatasync(m_descriptor) != 0)
@@ -173,9 +173,9 @@ namespace {
         for (const SweepPoint &point : sweepCurve(campaign)) {
             csv += parameter;
             for (const double number :
-                 {point.value, point.pd, point.pdInterval.low, point.pdInterval.high, static_cast<double>(point.trials),
-                  static_cast<double>(point.falseAlarms), point.hours, point.falseAlarmsPerHour,
-                  point.falseAlarmInterval.low, point.falseAlarmInterval.high})
+                 {point.value, point.pd, point.pdInterval.low, point.pdInterval.high, double(point.trials),
+                  double(point.falseAlarms), point.hours, point.falseAlarmsPerHour, point.falseAlarmInterval.low,
+                  point.falseAlarmInterval.high})
                 csv += "," + formatNumber(number);
             for (const double number : {point.latencySeconds, point.latencyInterval.low, point.latencyInterval.high})
                 csv += "," + (point.detections > 0 ? formatNumber(number) : std::string());
@@ -213,7 +213,7 @@ namespace {
         point.snrDb = *values[0];
         point.pd = *values[1];
         point.interval = {*values[2], *values[3]};
-        point.trials = static_cast<std::int64_t>(*values[4]);
+        point.trials = std::int64_t(*values[4]);
         point.threshold = values[5];
         return point;
     }

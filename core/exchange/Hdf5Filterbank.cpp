@@ -52,7 +52,7 @@ Hdf5Filterbank::Hdf5Filterbank(const std::string &path)
                          : m_data->isSigned() ? "int"
                                               : "uint")
                         + std::to_string(m_data->bits());
-    m_info.channelCount = static_cast<int>(shape[1]);
+    m_info.channelCount = int(shape[1]);
 }
 
 void Hdf5Filterbank::read(const PowerPart &part, std::span<float> out) const

@@ -82,8 +82,8 @@ namespace {
                 throw Error(where + ".rates", "must be consecutive integers, ascending");
         if (rates.empty())
             return;
-        axis.firstRate = static_cast<int>(rates.front());
-        axis.rateCount = static_cast<int>(rates.size());
+        axis.firstRate = int(rates.front());
+        axis.rateCount = int(rates.size());
     }
 
     void readStep(KinematicAxis &axis, const Json &json, const std::string &where)
@@ -139,13 +139,13 @@ namespace {
         const double cells = number(json, where, "cells", 0.0);
         if (!(cells >= 1.0 && cells <= 1e9 && cells == std::floor(cells)))
             throw Error(where + ".cells", "must be a whole number, at least 1");
-        axis.cells = static_cast<Index>(cells);
+        axis.cells = Index(cells);
         axis.cyclic = flag(json, where, "cyclic");
         readRates(axis, numbers(json, where, "rates"), where);
         const double perCell = number(json, where, "ratesPerCell", 1.0);
         if (!(perCell >= 1.0 && perCell <= 64.0 && perCell == std::floor(perCell)))
             throw Error(where + ".ratesPerCell", "must be a whole number, 1 … 64");
-        axis.ratesPerCell = static_cast<int>(perCell);
+        axis.ratesPerCell = int(perCell);
         if (json.contains("rateChange"))
             axis.rateChange = numbers(json, where, "rateChange");
         axis.renormalised = flag(json, where, "renormalised");
@@ -295,9 +295,8 @@ GridFile readGridFile(const std::string &path, const std::vector<Index> &shape)
         const Json &axis = json["axes"][i];
         const std::string where = path + ": axes[" + std::to_string(i) + "]";
         checkKeys(axis, where, {"name", "unit", "first", "step", "count", "cells", "cyclic"});
-        const double count =
-            number(axis, where, "count", number(axis, where, "cells", static_cast<double>(shape[i + 1])));
-        if (count != static_cast<double>(shape[i + 1]))
+        const double count = number(axis, where, "count", number(axis, where, "cells", double(shape[i + 1])));
+        if (count != double(shape[i + 1]))
             throw Error(where + ".count", "is " + formatNumber(count) + ", but the frames have "
                                               + std::to_string(shape[i + 1]) + " cells there");
         file.grid.axes.push_back({text(axis, where, "name", "axis " + std::to_string(i + 1)),
@@ -326,7 +325,7 @@ namespace {
     {
         const auto bad = std::find_if(values.begin(), values.end(), [](auto y) { return y < 0 || std::isinf(y); });
         if (bad != values.end())
-            throw Error(where, "holds " + formatNumber(static_cast<double>(*bad)) + " at position "
+            throw Error(where, "holds " + formatNumber(double(*bad)) + " at position "
                                    + std::to_string(bad - values.begin())
                                    + "; normalised power must be finite and not negative, or NaN for unobserved cells");
     }

@@ -73,7 +73,7 @@ namespace {
                 const auto number = parseNumber(word);
                 if (!number || *number < 0.0 || *number != std::floor(*number) || *number > 0x1p40)
                     throw Error(path, "its NumPy shape holds '" + std::string(word) + "'");
-                shape.push_back(static_cast<Index>(*number));
+                shape.push_back(Index(*number));
                 values *= *number;
                 if (values > std::ldexp(1.0, mostExponent))
                     throw Error(path, "holds more than " + std::string(mostExponent == arrayExponent ? "2³¹" : "2⁵⁰")
@@ -107,7 +107,7 @@ namespace {
         if (start[6] >= 2) {
             unsigned char more[2] = {};
             file.read(reinterpret_cast<char *>(more), 2);
-            length += (static_cast<std::size_t>(more[0]) << 16) + (static_cast<std::size_t>(more[1]) << 24);
+            length += (std::size_t(more[0]) << 16) + (std::size_t(more[1]) << 24);
             before = 12;
         }
         if (length > (1u << 20))
@@ -121,8 +121,8 @@ namespace {
         if (!type.starts_with("'<f4'") && !type.starts_with("'<f8'"))
             throw Error(path, "holds " + std::string(type.substr(0, type.find(',')))
                                   + "; expected float32 or float64, little-endian");
-        NumPyLayout layout{parseShape(entry(dictionary, "shape", path), mostExponent, path),
-                           static_cast<Index>(before + length), type.starts_with("'<f8'")};
+        NumPyLayout layout{parseShape(entry(dictionary, "shape", path), mostExponent, path), Index(before + length),
+                           type.starts_with("'<f8'")};
         std::error_code code;
         const std::uintmax_t size = std::filesystem::file_size(path, code);
         const auto wanted =
@@ -157,9 +157,9 @@ namespace {
         Array array;
         array.shape = layout.shape;
         if (layout.isDouble)
-            readValues<double>(file, array, static_cast<std::size_t>(total), layout, path);
+            readValues<double>(file, array, std::size_t(total), layout, path);
         else
-            readValues<float>(file, array, static_cast<std::size_t>(total), layout, path);
+            readValues<float>(file, array, std::size_t(total), layout, path);
         return array;
     }
 

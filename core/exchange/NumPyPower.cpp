@@ -39,10 +39,9 @@ NumPyPower::NumPyPower(const std::string &path, const std::string &gridPath)
 void NumPyPower::read(const PowerPart &part, std::span<float> out) const
 {
     const Index valueBytes = m_layout.isDouble ? sizeof(double) : sizeof(float);
-    std::vector<double> doubles(m_layout.isDouble ? static_cast<std::size_t>(part.cells) : 0);
+    std::vector<double> doubles(m_layout.isDouble ? std::size_t(part.cells) : 0);
     for (Index i = 0; i < part.frames; ++i) {
-        const std::span<float> row =
-            out.subspan(static_cast<std::size_t>(i * part.cells), static_cast<std::size_t>(part.cells));
+        const std::span<float> row = out.subspan(std::size_t(i * part.cells), std::size_t(part.cells));
         const std::span<std::byte> bytes =
             m_layout.isDouble ? std::as_writable_bytes(std::span(doubles)) : std::as_writable_bytes(row);
         const Index at =
@@ -50,7 +49,7 @@ void NumPyPower::read(const PowerPart &part, std::span<float> out) const
         if (m_file.readAt(at, bytes) < bytes.size())
             throw Error(m_info.path, "became shorter while it was open", Error::Kind::Failure);
         for (std::size_t cell = 0; cell < doubles.size(); ++cell)
-            row[cell] = static_cast<float>(doubles[cell]);
+            row[cell] = float(doubles[cell]);
     }
 }
 

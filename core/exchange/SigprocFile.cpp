@@ -57,11 +57,11 @@ namespace {
             if (length < 1 || length > longestWord)
                 throw Error(m_path, "its filterbank header has a keyword of " + std::to_string(length)
                                         + " characters; 1 … 255 are possible");
-            const std::span<const std::byte> text = take(static_cast<std::size_t>(length));
+            const std::span<const std::byte> text = take(std::size_t(length));
             return {reinterpret_cast<const char *>(text.data()), text.size()};
         }
 
-        Index position() const { return static_cast<Index>(m_at); }
+        Index position() const { return Index(m_at); }
 
     private:
         std::span<const std::byte> take(std::size_t count)
@@ -147,7 +147,7 @@ namespace {
 
     std::vector<std::byte> beginningOf(const FileBytes &file)
     {
-        std::vector<std::byte> bytes(static_cast<std::size_t>(std::min(mostHeaderBytes, file.size())));
+        std::vector<std::byte> bytes(std::size_t(std::min(mostHeaderBytes, file.size())));
         bytes.resize(file.readAt(0, bytes));
         return bytes;
     }
@@ -169,8 +169,8 @@ SigprocFile::SigprocFile(const std::string &path) : m_file(path)
     const Values values = readValues(header, path);
     m_dataOffset = header.position();
 
-    const auto channels = static_cast<Index>(requiredWithin(values, "nchans", path, 1.0, largestCount));
-    m_bits = static_cast<int>(requiredWithin(values, "nbits", path, 1.0, 32.0));
+    const auto channels = Index(requiredWithin(values, "nchans", path, 1.0, largestCount));
+    m_bits = int(requiredWithin(values, "nbits", path, 1.0, 32.0));
     m_isSigned = m_bits == 8 && valueOr(values, "signed", 0.0) != 0.0;
     const double ifs = valueOr(values, "nifs", 1.0);
     if (!(ifs >= 1.0 && ifs <= 64.0))
@@ -179,7 +179,7 @@ SigprocFile::SigprocFile(const std::string &path) : m_file(path)
     m_info.path = path;
     m_info.container = "sigproc filterbank";
     m_info.sampleType = m_isSigned ? "int8" : sampleTypeOf(m_bits, path);
-    m_info.channelCount = static_cast<int>(ifs);
+    m_info.channelCount = int(ifs);
     m_info.quantum = m_bits < 8 ? 1.0 : 0.0;
     const Index bitsOfFrame = channels * m_info.channelCount * m_bits;
     if (bitsOfFrame % 8 != 0)
@@ -197,7 +197,7 @@ SigprocFile::SigprocFile(const std::string &path) : m_file(path)
                                 frames};
     setFilterbankAxes(m_info, axes, path);
     m_descends = axes.foff < 0.0;
-    if (const auto claimed = static_cast<Index>(valueOr(values, "nsamples", 0.0)); claimed > frames)
+    if (const auto claimed = Index(valueOr(values, "nsamples", 0.0)); claimed > frames)
         m_info.notes.push_back("The header claims " + std::to_string(claimed) + " spectra; the "
                                + std::to_string(frames) + " that are there are read.");
     else if (dataBytes % (bitsOfFrame / 8) != 0)
@@ -212,7 +212,7 @@ namespace {
         for (std::size_t i = 0; i < out.size(); ++i) {
             T value;
             std::memcpy(&value, bytes.data() + i * sizeof value, sizeof value);
-            out[i] = static_cast<float>(value) + static_cast<float>(offset);
+            out[i] = float(value) + float(offset);
         }
     }
 
@@ -221,8 +221,8 @@ namespace {
     {
         const unsigned mask = (1u << bits) - 1u;
         for (std::size_t i = 0; i < out.size(); ++i) {
-            const auto bit = static_cast<std::size_t>(firstBit) + i * static_cast<std::size_t>(bits);
-            out[i] = static_cast<float>((std::to_integer<unsigned>(bytes[bit / 8]) >> (bit % 8)) & mask);
+            const auto bit = std::size_t(firstBit) + i * std::size_t(bits);
+            out[i] = float((std::to_integer<unsigned>(bytes[bit / 8]) >> (bit % 8)) & mask);
         }
     }
 
@@ -233,7 +233,7 @@ void SigprocFile::readRow(Index row, Index firstChannel, std::span<float> out) c
 {
     const Index firstBit = (row * m_info.frequency.count + firstChannel) * m_bits;
     const Index bits = std::ssize(out) * m_bits;
-    std::vector<std::byte> bytes(static_cast<std::size_t>((firstBit % 8 + bits + 7) / 8));
+    std::vector<std::byte> bytes(std::size_t((firstBit % 8 + bits + 7) / 8));
     if (m_file.readAt(m_dataOffset + firstBit / 8, bytes) < bytes.size())
         throw Error(m_info.path, "became shorter while it was open", Error::Kind::Failure);
     switch (m_bits) {
@@ -255,8 +255,7 @@ void SigprocFile::read(const PowerPart &part, std::span<float> out) const
 {
     const Index first = m_descends ? m_info.frequency.count - part.firstCell - part.cells : part.firstCell;
     for (Index i = 0; i < part.frames; ++i) {
-        const std::span<float> frame =
-            out.subspan(static_cast<std::size_t>(i * part.cells), static_cast<std::size_t>(part.cells));
+        const std::span<float> frame = out.subspan(std::size_t(i * part.cells), std::size_t(part.cells));
         readRow((part.firstFrame + i) * m_info.channelCount + part.channel, first, frame);
         if (m_descends)
             std::reverse(frame.begin(), frame.end());

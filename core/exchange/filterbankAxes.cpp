@@ -29,8 +29,7 @@ void setFilterbankAxes(PowerInfo &info, const FilterbankHeader &header, const st
     check(header.foff, -farthest, farthest, "foff", path);
     if (!(std::abs(header.foff) > 0.0))
         throw Error(path + ": foff = 0", "must be the channels' distance, MHz");
-    const double lowest =
-        header.foff < 0.0 ? header.fch1 + static_cast<double>(header.channels - 1) * header.foff : header.fch1;
+    const double lowest = header.foff < 0.0 ? header.fch1 + double(header.channels - 1) * header.foff : header.fch1;
     info.frequency = {"frequency", "Hz", lowest * megahertz, std::abs(header.foff) * megahertz, header.channels, false};
     info.time = {"time", "s", 0.5 * header.tsamp, header.tsamp, header.frames, false};
     if (header.tstart > unixDay && header.tstart < 1e6)

@@ -20,7 +20,7 @@ namespace {
         constexpr std::string_view ending = ".npy";
         return path.size() >= ending.size()
                && std::equal(
-                   ending.begin(), ending.end(), path.end() - static_cast<Index>(ending.size()),
+                   ending.begin(), ending.end(), path.end() - Index(ending.size()),
                    [](char small, char given) { return small == std::tolower(static_cast<unsigned char>(given)); });
     }
 

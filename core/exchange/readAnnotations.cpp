@@ -35,7 +35,7 @@ namespace {
         std::string text;
         std::vector<char> block(1 << 16);
         while (file.read(block.data(), static_cast<std::streamsize>(block.size())), file.gcount() > 0) {
-            text.append(block.data(), static_cast<std::size_t>(file.gcount()));
+            text.append(block.data(), std::size_t(file.gcount()));
             if (text.size() > mostBytes)
                 throw Error(path, "is larger than 64 MiB; expected annotations, not samples");
         }
@@ -152,7 +152,7 @@ namespace {
     /// A row's cell; empty where the row ends before it.
     std::string cellOf(const std::vector<std::string> &row, std::ptrdiff_t column)
     {
-        return column < 0 || column >= std::ssize(row) ? std::string() : row[static_cast<std::size_t>(column)];
+        return column < 0 || column >= std::ssize(row) ? std::string() : row[std::size_t(column)];
     }
 
     bool isBlank(const std::vector<std::string> &row)

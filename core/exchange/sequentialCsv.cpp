@@ -6,7 +6,7 @@ namespace {
 
     std::string nameOf(SprtDecision decision)
     {
-        return std::string(sprtDecisionNames[static_cast<std::size_t>(decision)]);
+        return std::string(sprtDecisionNames[std::size_t(decision)]);
     }
 
 } // namespace
@@ -29,10 +29,9 @@ std::string posteriorCsv(const PosteriorPicture &posterior)
 {
     std::string csv = "stage,cell,probability\n";
     for (std::size_t i = 0; i < posterior.probability.size(); ++i) {
-        const auto index = static_cast<Index>(i);
+        const auto index = Index(i);
         csv += std::to_string(index / posterior.cells * posterior.stride + 1) + ","
-               + std::to_string(index % posterior.cells) + ","
-               + formatNumber(static_cast<double>(posterior.probability[i])) + "\n";
+               + std::to_string(index % posterior.cells) + "," + formatNumber(double(posterior.probability[i])) + "\n";
     }
     return csv;
 }

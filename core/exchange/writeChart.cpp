@@ -98,13 +98,13 @@ namespace {
         {
             std::vector<double> result;
             if (isLogarithmic) {
-                const int decades = static_cast<int>(std::lround(std::log10(high / low)));
+                const int decades = int(std::lround(std::log10(high / low)));
                 const int stride = std::max(1, decades / ticksWanted);
                 for (int i = 0; i <= decades; i += stride)
                     result.push_back(std::pow(10.0, std::round(std::log10(low)) + i));
                 return result;
             }
-            const int count = static_cast<int>(std::lround((high - low) / step));
+            const int count = int(std::lround((high - low) / step));
             for (int i = 0; i <= count; ++i)
                 result.push_back(std::round(low / step + i) * step);
             return result;
@@ -210,7 +210,7 @@ namespace {
         for (const Chart &chart : charts)
             for (const Curve &curve : chart.curves)
                 longestName = std::max(longestName, curve.name.size());
-        return 48.0 + pixelsPerLetter * static_cast<double>(longestName);
+        return 48.0 + pixelsPerLetter * double(longestName);
     }
 
     /// One chart, its canvas between two heights; the number tells its canvas from others.
@@ -251,7 +251,7 @@ std::string chartSvg(const Chart &chart)
 
 std::string chartsSvg(std::span<const Chart> charts)
 {
-    const double lower = static_cast<double>(charts.size() - 1) * lowerHeight;
+    const double lower = double(charts.size() - 1) * lowerHeight;
     std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + pixels(width + legendWidth(charts))
                       + "\" height=\"" + pixels(height + lower)
                       + "\" font-family=\"Inter, sans-serif\" font-size=\"12\" fill=\"#222222\">\n<rect width=\"100%\" "
@@ -269,9 +269,8 @@ std::string chartCsv(const Chart &chart)
     for (const Curve &curve : chart.curves)
         for (const Curve::Point &point : curve.points) {
             const bool hasInterval = point.interval.low < point.interval.high;
-            csv += csvText(curve.name) + "," + std::string(kinds[static_cast<std::size_t>(curve.kind)]) + ","
-                   + formatNumber(point.x) + "," + formatNumber(point.y) + ","
-                   + (hasInterval ? formatNumber(point.interval.low) : "") + ","
+            csv += csvText(curve.name) + "," + std::string(kinds[std::size_t(curve.kind)]) + "," + formatNumber(point.x)
+                   + "," + formatNumber(point.y) + "," + (hasInterval ? formatNumber(point.interval.low) : "") + ","
                    + (hasInterval ? formatNumber(point.interval.high) : "") + "\n";
         }
     return csv;

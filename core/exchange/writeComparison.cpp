@@ -23,7 +23,7 @@ namespace {
     std::string row(const ComparedEvent &compared)
     {
         const Event &event = compared.event();
-        const auto id = [](const Event &e) { return static_cast<double>(e.id); };
+        const auto id = [](const Event &e) { return double(e.id); };
         const auto detected = [](const Event &e) { return e.detectSeconds; };
         const auto statistic = [](const Event &e) { return e.statistic; };
         std::string text = nameOf(compared.in());
@@ -66,11 +66,11 @@ void writeComparison(const Comparison &comparison, const Grid &grid, const std::
 void writeDifference(const PeakPyramid &difference, const std::string &path)
 {
     NumPyWriter writer(path, {difference.rowCount(0), difference.cells()});
-    std::vector<float> values(static_cast<std::size_t>(difference.cells()));
+    std::vector<float> values(std::size_t(difference.cells()));
     for (Index i = 0; i < difference.rowCount(0); ++i) {
         const auto bytes = difference.row(0, i);
         for (std::size_t at = 0; at < values.size(); ++at)
-            values[at] = static_cast<float>(difference.scale().value(bytes[at]));
+            values[at] = float(difference.scale().value(bytes[at]));
         writer.write(values);
     }
     writer.finish();

@@ -14,7 +14,7 @@ namespace {
     /// Digits after the point that show a number to a tenth of the first digit of `width`.
     int decimalsFor(double width)
     {
-        return std::clamp(1 - static_cast<int>(std::floor(std::log10(width))), 0, 9);
+        return std::clamp(1 - int(std::floor(std::log10(width))), 0, 9);
     }
 
     std::string rounded(double value, double width)

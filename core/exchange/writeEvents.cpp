@@ -44,8 +44,8 @@ namespace {
     /// 5 and 95 % of a point's position, probability that the signal is there, and its SNR in one frame.
     std::vector<double> numbersOf(const SmoothedPoint &point, const Axis &axis)
     {
-        return {axis.value(static_cast<double>(point.low)), axis.value(static_cast<double>(point.high)),
-                static_cast<double>(point.presence), dbFromRatio(static_cast<double>(point.level))};
+        return {axis.value(double(point.low)), axis.value(double(point.high)), double(point.presence),
+                dbFromRatio(double(point.level))};
     }
 
     /// On a grid of several axes, names of the rates along each.
@@ -150,8 +150,7 @@ namespace {
         for (const Track &track : analysis.tracks)
             for (std::size_t i = 0; i < track.points.size(); ++i) {
                 const TrackPoint &point = track.points[i];
-                text += std::to_string(track.id) + ","
-                        + formatNumber(analysis.time().value(static_cast<double>(point.frame))) + ","
+                text += std::to_string(track.id) + "," + formatNumber(analysis.time().value(double(point.frame))) + ","
                         + joined(track.positionOf(i, analysis.grid())) + "," + formatNumber(point.statistic);
                 if (isSeenTwice)
                     text += "," + joined(numbersOf(track.smoothed[i], analysis.grid().axes.back()));
@@ -172,7 +171,7 @@ namespace {
                 one[name] = Json::array();
             one["statistic"] = Json::array();
             for (std::size_t i = 0; i < track.points.size(); ++i) {
-                one["t"].push_back(analysis.time().value(static_cast<double>(track.points[i].frame)));
+                one["t"].push_back(analysis.time().value(double(track.points[i].frame)));
                 const std::vector<double> position = track.positionOf(i, analysis.grid());
                 for (std::size_t axis = 0; axis < names.size(); ++axis)
                     one[names[axis]].push_back(position[axis]);

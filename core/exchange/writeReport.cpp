@@ -73,8 +73,7 @@ namespace {
                 point = text.size();
                 text += '.';
             }
-            text.append(static_cast<std::size_t>(std::max<std::ptrdiff_t>(
-                            0, decimals - static_cast<std::ptrdiff_t>(text.size() - point - 1))),
+            text.append(std::size_t(std::max<std::ptrdiff_t>(0, decimals - std::ptrdiff_t(text.size() - point - 1))),
                         '0');
         }
         return withMinus(text);
@@ -87,8 +86,7 @@ namespace {
             return formatNumber(value);
         const double magnitude = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2.0);
         const std::string text = formatNumber(std::round(value / magnitude) * magnitude);
-        return text.size() < 12 ? withMinus(text)
-                                : fixed(value, static_cast<int>(std::clamp(-std::log10(magnitude), 0.0, 12.0)));
+        return text.size() < 12 ? withMinus(text) : fixed(value, int(std::clamp(-std::log10(magnitude), 0.0, 12.0)));
     }
 
     std::string cells(const std::vector<std::string> &texts, const char *tag = "td")
@@ -286,10 +284,10 @@ namespace {
         }
         for (std::size_t i = first; i < why.steps.size(); ++i) {
             const PathStep &step = why.steps[i];
-            std::vector<std::string> row{fixed(analysis.time().value(static_cast<double>(step.frame)), 3)};
+            std::vector<std::string> row{fixed(analysis.time().value(double(step.frame)), 3)};
             const std::vector<Index> at = analysis.grid().coordinates(space.cellOf(step.state));
             for (std::size_t axis = 0; axis < axes.size(); ++axis)
-                row.push_back(fixed(axes[axis].value(static_cast<double>(at[axis])), 3));
+                row.push_back(fixed(axes[axis].value(double(at[axis])), 3));
             row.insert(row.end(), {fixed(step.logLikelihoodRatio, 4), fixed(step.lnTransition, 4), fixed(step.lnK, 4),
                                    fixed(step.score, 4)});
             text += numbers(row, row.size());

@@ -31,7 +31,7 @@ namespace {
         if (!track)
             return;
         for (const TrackPoint &point : track->points) {
-            const double hz = analysis.grid().axes.back().value(static_cast<double>(point.cell));
+            const double hz = analysis.grid().axes.back().value(double(point.cell));
             box.lowHz = std::min(*box.lowHz, hz);
             box.highHz = std::max(*box.highHz, hz);
         }

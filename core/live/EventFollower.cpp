@@ -27,12 +27,12 @@ Event EventFollower::eventNow(const HmmTracker &tracker, Index frame) const
     const Axis &time = m_plan.time();
     Event event;
     event.id = track.id;
-    event.onsetSeconds = time.value(static_cast<double>(track.onsetFrame));
-    event.detectSeconds = time.value(static_cast<double>(track.detectFrame));
-    event.endSeconds = time.value(static_cast<double>(frame));
+    event.onsetSeconds = time.value(double(track.onsetFrame));
+    event.detectSeconds = time.value(double(track.detectFrame));
+    event.endSeconds = time.value(double(frame));
     const std::vector<Index> &at = tracker.coordinates();
     for (std::size_t axis = 0; axis < at.size(); ++axis)
-        event.position.push_back(m_plan.grid().axes[axis].value(static_cast<double>(at[axis])));
+        event.position.push_back(m_plan.grid().axes[axis].value(double(at[axis])));
     event.ratesPerSecond.assign(at.size(), 0.0);
     event.statistic = statisticOf(track, m_plan);
     event.isConfirmed = track.isConfirmed;
@@ -78,8 +78,8 @@ void EventFollower::followTrackers(Index frame)
             continue;
         Event event;
         event.id = id;
-        event.onsetSeconds = m_plan.time().value(static_cast<double>(open.onsetFrame));
-        event.detectSeconds = m_plan.time().value(static_cast<double>(open.detectFrame));
+        event.onsetSeconds = m_plan.time().value(double(open.onsetFrame));
+        event.detectSeconds = m_plan.time().value(double(open.detectFrame));
         event.isConfirmed = open.isConfirmed;
         m_sink({State::Final, std::move(event), {}, true});
     }

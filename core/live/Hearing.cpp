@@ -110,7 +110,7 @@ bool Hearing::makeRoom(std::size_t bytes)
 
 void Hearing::begin(Index samples)
 {
-    const double start = now() - static_cast<double>(samples) / m_buffer.format().sampleRateHz;
+    const double start = now() - double(samples) / m_buffer.format().sampleRateHz;
     {
         const std::lock_guard lock(m_startMutex);
         m_start = start;
@@ -145,7 +145,7 @@ void Hearing::watchDisk()
     if (left > diskWarningSeconds)
         return;
     m_hasWarned = true;
-    tell(ListenNotice::Kind::DiskSpace, static_cast<Index>(left * m_buffer.format().sampleRateHz),
+    tell(ListenNotice::Kind::DiskSpace, Index(left * m_buffer.format().sampleRateHz),
          "The disk takes no more than " + formatNumber(std::round(left)) + " s of what is heard.");
 }
 

@@ -41,7 +41,7 @@ PipeSource::PipeSource(const std::string &path, const std::optional<StreamFormat
                         return false;
                     if (stop.stop_requested())
                         throw Cancelled();
-                    bytes = bytes.subspan(static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, count)));
+                    bytes = bytes.subspan(std::size_t(std::max<std::ptrdiff_t>(0, count)));
                 }
                 return true;
             },
@@ -66,7 +66,7 @@ PipeSource::~PipeSource()
 std::ptrdiff_t PipeSource::readSome(std::span<std::byte> bytes, std::chrono::milliseconds patience)
 {
     pollfd wanted{m_descriptor, POLLIN, 0};
-    if (::poll(&wanted, 1, static_cast<int>(patience.count())) <= 0)
+    if (::poll(&wanted, 1, int(patience.count())) <= 0)
         return nothingYet;
     const ssize_t count = ::read(m_descriptor, bytes.data(), bytes.size());
     if (count < 0 && (errno == EAGAIN || errno == EINTR))
@@ -79,17 +79,16 @@ std::ptrdiff_t PipeSource::readSome(std::span<std::byte> bytes, std::chrono::mil
 Heard PipeSource::hear(std::chrono::milliseconds patience)
 {
     Heard heard;
-    const std::size_t sampleBytes =
-        static_cast<std::size_t>(m_isPacked24 ? 3 * m_format.channelCount : m_format.frameBytes());
+    const std::size_t sampleBytes = std::size_t(m_isPacked24 ? 3 * m_format.channelCount : m_format.frameBytes());
     std::vector<std::byte> bytes = std::move(m_rest);
     const std::size_t before = bytes.size();
     bytes.resize(before + readBytes);
     const std::ptrdiff_t count = readSome(std::span(bytes).subspan(before), patience);
     heard.isOver = count == 0;
-    bytes.resize(before + static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, count)));
-    const auto whole = static_cast<std::ptrdiff_t>(bytes.size() / sampleBytes * sampleBytes);
+    bytes.resize(before + std::size_t(std::max<std::ptrdiff_t>(0, count)));
+    const auto whole = std::ptrdiff_t(bytes.size() / sampleBytes * sampleBytes);
     m_rest.assign(bytes.begin() + whole, bytes.end());
-    bytes.resize(static_cast<std::size_t>(whole));
+    bytes.resize(std::size_t(whole));
     heard.bytes = m_isPacked24 ? expand24(bytes) : std::move(bytes);
     return heard;
 }

@@ -29,12 +29,12 @@ namespace {
     {
         while (!bytes.empty()) {
             pollfd wanted{socket, POLLIN, 0};
-            if (::poll(&wanted, 1, static_cast<int>(patience.count())) <= 0)
+            if (::poll(&wanted, 1, int(patience.count())) <= 0)
                 return false;
             const ssize_t count = ::recv(socket, bytes.data(), bytes.size(), MSG_DONTWAIT);
             if (count <= 0)
                 return false;
-            bytes = bytes.subspan(static_cast<std::size_t>(count));
+            bytes = bytes.subspan(std::size_t(count));
         }
         return true;
     }
@@ -79,8 +79,8 @@ bool RtlTcpSource::connect(std::chrono::milliseconds patience, std::string &reas
 
 bool RtlTcpSource::sendAll() const
 {
-    const auto whole = [](double value) { return static_cast<std::uint32_t>(std::llround(value)); };
-    return send(2, whole(m_settings.sampleRateHz)) && send(5, static_cast<std::uint32_t>(m_settings.correctionPpm))
+    const auto whole = [](double value) { return std::uint32_t(std::llround(value)); };
+    return send(2, whole(m_settings.sampleRateHz)) && send(5, std::uint32_t(m_settings.correctionPpm))
            && send(1, whole(m_settings.frequencyHz)) && send(3, m_settings.gainDb ? 1 : 0)
            && (!m_settings.gainDb || send(4, whole(10.0 * *m_settings.gainDb)));
 }
@@ -89,7 +89,7 @@ bool RtlTcpSource::send(std::uint8_t command, std::uint32_t value) const
 {
     std::array<std::uint8_t, 5> bytes{command};
     for (std::size_t i = 1; i < bytes.size(); ++i)
-        bytes[i] = static_cast<std::uint8_t>(value >> (32 - 8 * i));
+        bytes[i] = std::uint8_t(value >> (32 - 8 * i));
     return ::send(m_socket, bytes.data(), bytes.size(), MSG_NOSIGNAL) == std::ssize(bytes);
 }
 
@@ -116,7 +116,7 @@ Heard RtlTcpSource::hear(std::chrono::milliseconds patience)
         return {};
     }
     pollfd wanted{m_socket, POLLIN, 0};
-    if (::poll(&wanted, 1, static_cast<int>(patience.count())) <= 0)
+    if (::poll(&wanted, 1, int(patience.count())) <= 0)
         return {};
     std::vector<std::byte> bytes = std::move(m_rest);
     m_rest.clear();
@@ -130,12 +130,12 @@ Heard RtlTcpSource::hear(std::chrono::milliseconds patience)
     }
     if (count <= 0)
         return lose(count == 0 ? "the connection was closed" : std::strerror(errno));
-    bytes.resize(before + static_cast<std::size_t>(count));
+    bytes.resize(before + std::size_t(count));
     const std::size_t whole = bytes.size() / 2 * 2;
-    m_rest.assign(bytes.begin() + static_cast<std::ptrdiff_t>(whole), bytes.end());
+    m_rest.assign(bytes.begin() + std::ptrdiff_t(whole), bytes.end());
     bytes.resize(whole);
     Heard heard;
-    const auto samples = static_cast<Index>(whole / 2);
+    const auto samples = Index(whole / 2);
     if (std::exchange(m_isBack, false) && m_last) {
         const double elapsed = std::chrono::duration<double>(Clock::now() - *m_last).count();
         heard.lostSamples = std::max<Index>(0, std::llround(elapsed * m_format.sampleRateHz) - samples);

@@ -76,8 +76,7 @@ void SigmfRecorder::writeMeta() const
         capture["core:global_index"] = each.globalIndex;
         if (m_format.centreHz != 0.0)
             capture["core:frequency"] = m_format.centreHz;
-        capture["core:datetime"] =
-            formatUtc(m_startUnixSeconds + static_cast<double>(each.globalIndex) / m_format.sampleRateHz);
+        capture["core:datetime"] = formatUtc(m_startUnixSeconds + double(each.globalIndex) / m_format.sampleRateHz);
         captures.push_back(std::move(capture));
     }
     const Json meta = {{"global", global}, {"captures", captures}, {"annotations", Json::array()}};
@@ -86,8 +85,8 @@ void SigmfRecorder::writeMeta() const
 
 void SigmfRecorder::rotateIfDue()
 {
-    const double bytes = static_cast<double>(m_written) * static_cast<double>(m_format.frameBytes());
-    const double seconds = static_cast<double>(m_position - m_fileStart) / m_format.sampleRateHz;
+    const double bytes = double(m_written) * double(m_format.frameBytes());
+    const double seconds = double(m_position - m_fileStart) / m_format.sampleRateHz;
     const bool isDue = std::ssize(m_captures) >= mostCaptures
                        || (m_rotation.largestBytes > 0.0 && bytes >= m_rotation.largestBytes)
                        || (m_rotation.longestSeconds > 0.0 && seconds >= m_rotation.longestSeconds);
@@ -124,7 +123,7 @@ void SigmfRecorder::write(std::span<const std::byte> bytes)
             throw Error(m_files.back(), std::string("cannot be written any further: ") + std::strerror(reason),
                         Error::Kind::Failure);
         }
-        left = left.subspan(static_cast<std::size_t>(written));
+        left = left.subspan(std::size_t(written));
     }
     m_written += count;
     m_position += count;
@@ -137,7 +136,7 @@ double SigmfRecorder::secondsLeft() const
     const std::filesystem::space_info space = std::filesystem::space(folder, ignored);
     if (ignored)
         return std::numeric_limits<double>::infinity();
-    return static_cast<double>(space.available) / (m_format.sampleRateHz * static_cast<double>(m_format.frameBytes()));
+    return double(space.available) / (m_format.sampleRateHz * double(m_format.frameBytes()));
 }
 
 } // namespace faintline

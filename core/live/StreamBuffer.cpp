@@ -100,10 +100,9 @@ void StreamBuffer::read(int channel, Index first, Index count, std::span<float> 
         const Index from = std::max(first, piece->first);
         const Index run = std::min(first + count, piece->first + piece->count) - from;
         const Index offset = (from - piece->first) * m_format.frameBytes() + channel * m_format.type.sampleBytes();
-        convertSamples(
-            m_format.type, std::span<const std::byte>(piece->bytes).subspan(static_cast<std::size_t>(offset)),
-            m_format.frameBytes(),
-            out.subspan(static_cast<std::size_t>((from - first) * floats), static_cast<std::size_t>(run * floats)));
+        convertSamples(m_format.type, std::span<const std::byte>(piece->bytes).subspan(std::size_t(offset)),
+                       m_format.frameBytes(),
+                       out.subspan(std::size_t((from - first) * floats), std::size_t(run * floats)));
     }
 }
 

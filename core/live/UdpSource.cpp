@@ -65,16 +65,15 @@ Index UdpSource::lostBefore(std::uint64_t number, Index samples)
     const std::uint64_t ahead = (number - expected) & mask;
     const double elapsed = m_isGone && m_last ? secondsSince(*m_last) * m_format.sampleRateHz : 0.0;
     if (ahead <= mask / 2) {
-        const double byNumbers = static_cast<double>(ahead) * static_cast<double>(samples);
-        if (!m_isGone
-            || std::abs(byNumbers + static_cast<double>(samples) - elapsed) < clockSeconds * m_format.sampleRateHz)
-            return static_cast<Index>(byNumbers);
+        const double byNumbers = double(ahead) * double(samples);
+        if (!m_isGone || std::abs(byNumbers + double(samples) - elapsed) < clockSeconds * m_format.sampleRateHz)
+            return Index(byNumbers);
     } else if (!m_isGone && mask - ahead < mostLate) {
         m_isLate = true;
         m_expected = expected;
         return 0;
     }
-    return m_isGone ? std::max<Index>(0, static_cast<Index>(std::llround(elapsed)) - samples) : 0; // it began anew
+    return m_isGone ? std::max<Index>(0, Index(std::llround(elapsed)) - samples) : 0; // it began anew
 }
 
 /// One datagram; false where there is none, or where it has to wait because of a loss before it.
@@ -94,9 +93,9 @@ bool UdpSource::receive(Heard &heard)
     for (cmsghdr *each = CMSG_FIRSTHDR(&message); each; each = CMSG_NXTHDR(&message, each))
         if (each->cmsg_level == SOL_SOCKET && each->cmsg_type == SO_RXQ_OVFL)
             std::memcpy(&dropped, CMSG_DATA(each), sizeof dropped);
-    const auto header = static_cast<std::size_t>(m_numbers.bytes);
-    const auto bytes = std::span<const std::byte>(m_datagram).first(static_cast<std::size_t>(count));
-    const Index samples = (static_cast<Index>(count) - m_numbers.bytes) / m_format.frameBytes();
+    const auto header = std::size_t(m_numbers.bytes);
+    const auto bytes = std::span<const std::byte>(m_datagram).first(std::size_t(count));
+    const Index samples = (Index(count) - m_numbers.bytes) / m_format.frameBytes();
     const std::uint32_t newlyDropped = dropped - std::exchange(m_dropped, dropped);
     if (samples < 1)
         return true;
@@ -110,13 +109,13 @@ bool UdpSource::receive(Heard &heard)
     } else if (m_isGone) {
         lost = std::max<Index>(0, std::llround(secondsSince(*m_last) * m_format.sampleRateHz) - samples);
     } else {
-        lost = static_cast<Index>(newlyDropped) * samples;
+        lost = Index(newlyDropped) * samples;
     }
     if (m_isLate)
         return true;
     const bool isBack = std::exchange(m_isGone, false);
     m_last = Clock::now();
-    const auto content = bytes.subspan(header, static_cast<std::size_t>(samples * m_format.frameBytes()));
+    const auto content = bytes.subspan(header, std::size_t(samples * m_format.frameBytes()));
     if (lost == 0 && !isBack) {
         heard.bytes.insert(heard.bytes.end(), content.begin(), content.end());
         return true;
@@ -148,7 +147,7 @@ Heard UdpSource::hear(std::chrono::milliseconds patience)
     Heard heard = std::exchange(m_next, {});
     pollfd wanted{m_socket, POLLIN, 0};
     const bool hasSome = !heard.bytes.empty();
-    if (::poll(&wanted, 1, hasSome ? 0 : static_cast<int>(patience.count())) <= 0) {
+    if (::poll(&wanted, 1, hasSome ? 0 : int(patience.count())) <= 0) {
         if (!hasSome)
             noteSilence(heard);
         return heard;

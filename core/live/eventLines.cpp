@@ -21,7 +21,7 @@ std::string eventLine(const EventChange &change, const Grid &grid, std::optional
 {
     Json line;
     line["event"] = change.event.id;
-    line["state"] = stateNames[static_cast<std::size_t>(change.state)];
+    line["state"] = stateNames[std::size_t(change.state)];
     if (change.partOf)
         line["part_of"] = *change.partOf;
     if (change.isWithdrawn) {
@@ -41,8 +41,8 @@ std::string eventLine(const EventChange &change, const Grid &grid, std::optional
 std::string noticeLine(const ListenNotice &notice, const StreamFormat &format)
 {
     Json line;
-    line["notice"] = noticeNames[static_cast<std::size_t>(notice.kind)];
-    line["t"] = static_cast<double>(notice.sample) / format.sampleRateHz;
+    line["notice"] = noticeNames[std::size_t(notice.kind)];
+    line["t"] = double(notice.sample) / format.sampleRateHz;
     line["sample"] = notice.sample;
     line["samples"] = notice.sampleCount;
     line["message"] = notice.words;

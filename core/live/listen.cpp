@@ -73,8 +73,7 @@ namespace {
             const double samples = m_settings.analysis.spectrogram.windowSeconds * m_format.sampleRateHz
                                    * m_settings.analysis.noise.blockWindows;
             return std::max(m_source.isPatient() ? std::min(enough, m_settings.bufferBytes) : m_settings.bufferBytes,
-                            blocks * static_cast<std::size_t>(samples)
-                                * static_cast<std::size_t>(m_format.frameBytes()));
+                            blocks * std::size_t(samples) * std::size_t(m_format.frameBytes()));
         }
 
         void tell(const ListenNotice &notice)
@@ -90,7 +89,7 @@ namespace {
             AnalysisPlan &plan = m_result.plan;
             const AnalysisSettings &settings = plan.settings;
             const double window = settings.spectrogram.windowSeconds * m_format.sampleRateHz;
-            if (m_buffer->isEnded() && static_cast<double>(m_buffer->length()) < std::floor(window))
+            if (m_buffer->isEnded() && double(m_buffer->length()) < std::floor(window))
                 return false; // it was over at once: there is nothing to lay out frames over
             const auto endless = std::make_shared<StreamRecording>(m_buffer, std::nullopt);
             const Spectrogram geometry(endless, settings.spectrogram, settings.selection);
@@ -120,7 +119,7 @@ namespace {
                 if (m_sinks.event)
                     m_sinks.event(change, m_result.plan);
             });
-            std::vector<float> y(static_cast<std::size_t>(frames.grid().size()));
+            std::vector<float> y(std::size_t(frames.grid().size()));
             std::vector<float> statistic(y.size());
             for (Index frame = 0; frame < frames.time().count; ++frame) {
                 const Index first = spectrogram.firstSample() + frame * spectrogram.hopSamples();
@@ -168,7 +167,7 @@ AnalysisSettings settingsForListening(AnalysisSettings settings, const StreamFor
 {
     settings.noise.causal = true;
     RecordingInfo hour = endlessInfo(format);
-    hour.sampleCount = static_cast<Index>(std::llround(3600.0 * format.sampleRateHz));
+    hour.sampleCount = Index(std::llround(3600.0 * format.sampleRateHz));
     if (settings.spectrogram.windowSeconds == 0.0)
         settings.spectrogram.windowSeconds = Spectrogram::automaticWindowSeconds(hour);
     settings = withSlopesInBins(settings, hour);

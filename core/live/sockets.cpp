@@ -50,7 +50,7 @@ namespace {
         pollfd wanted{socket, POLLOUT, 0};
         int failure = 0;
         socklen_t size = sizeof failure;
-        if (::poll(&wanted, 1, static_cast<int>(patience.count())) <= 0)
+        if (::poll(&wanted, 1, int(patience.count())) <= 0)
             failure = ETIMEDOUT;
         else
             ::getsockopt(socket, SOL_SOCKET, SO_ERROR, &failure, &size);

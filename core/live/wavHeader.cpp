@@ -26,7 +26,7 @@ namespace {
 
     bool isTag(std::span<const std::byte> bytes, std::size_t at, std::string_view tag)
     {
-        return std::equal(tag.begin(), tag.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at),
+        return std::equal(tag.begin(), tag.end(), bytes.begin() + std::ptrdiff_t(at),
                           [](char c, std::byte b) { return static_cast<char>(b) == c; });
     }
 
@@ -52,8 +52,8 @@ namespace {
         type.number = tag == ieee ? SampleType::Number::Float
                       : bits == 8 ? SampleType::Number::Unsigned
                                   : SampleType::Number::Signed;
-        type.bytes = header.isPacked24 ? 4 : static_cast<int>(bits / 8);
-        header.format.channelCount = static_cast<int>(number(fmt, 2, 2));
+        type.bytes = header.isPacked24 ? 4 : int(bits / 8);
+        header.format.channelCount = int(number(fmt, 2, 2));
         header.format.sampleRateHz = number(fmt, 4, 4);
         header.format.origin = "WAV";
         if (header.format.channelCount < 1 || header.format.channelCount > 1024 || header.format.sampleRateHz < 1.0)
@@ -105,8 +105,7 @@ std::vector<std::byte> expand24(std::span<const std::byte> bytes)
     wide.reserve(bytes.size() / 3 * 4);
     for (std::size_t at = 0; at + 3 <= bytes.size(); at += 3) {
         wide.push_back(std::byte(0));
-        wide.insert(wide.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at),
-                    bytes.begin() + static_cast<std::ptrdiff_t>(at) + 3);
+        wide.insert(wide.end(), bytes.begin() + std::ptrdiff_t(at), bytes.begin() + std::ptrdiff_t(at) + 3);
     }
     return wide;
 }

@@ -30,7 +30,7 @@ namespace {
     {
         const auto reached = [&](Index steps) { return floorOfQuotient(2 * k * steps + q, 2 * q); };
         const Index phase = t % q;
-        return static_cast<int>(reached(phase + 1) - reached(phase));
+        return int(reached(phase + 1) - reached(phase));
     }
 
     void checkProbability(double probability, const std::string &where)
@@ -59,7 +59,7 @@ namespace {
         for (Index from = 0; from < cells; ++from) {
             double sum = 0.0;
             for (Index to = 0; to < cells; ++to) {
-                const double probability = matrix[static_cast<std::size_t>(from * cells + to)];
+                const double probability = matrix[std::size_t(from * cells + to)];
                 checkProbability(probability, where);
                 sum += probability;
             }
@@ -91,16 +91,16 @@ std::vector<KinematicAxis::Move> KinematicAxis::moves(Index number) const
 {
     std::vector<Move> result;
     if (!step.empty()) {
-        const int reach = static_cast<int>(step.size()) - 1;
+        const int reach = int(step.size()) - 1;
         for (int delta = reach; delta >= -reach; --delta)
-            if (const double p = step[static_cast<std::size_t>(std::abs(delta))]; p > 0.0)
+            if (const double p = step[std::size_t(std::abs(delta))]; p > 0.0)
                 result.push_back({0, 0, delta, std::log(p)});
         return result;
     }
-    const int reach = static_cast<int>(rateChange.size()) - 1;
+    const int reach = int(rateChange.size()) - 1;
     for (int to = 0; to < rateCount; ++to)
         for (int from = std::max(0, to - reach); from <= std::min(rateCount - 1, to + reach); ++from)
-            if (const double p = rateChange[static_cast<std::size_t>(std::abs(to - from))]; p > 0.0)
+            if (const double p = rateChange[std::size_t(std::abs(to - from))]; p > 0.0)
                 result.push_back({from, to, displacement(from, to, number), std::log(p)});
     return result;
 }
@@ -122,13 +122,13 @@ double KinematicAxis::remaining(Index fromCell, int fromRate, Index number) cons
     if (!step.empty()) {
         for (Index delta = 1 - std::ssize(step); delta < std::ssize(step); ++delta)
             if (exists(fromCell + delta))
-                sum += step[static_cast<std::size_t>(std::abs(delta))];
+                sum += step[std::size_t(std::abs(delta))];
         return sum;
     }
-    const int reach = static_cast<int>(rateChange.size()) - 1;
+    const int reach = int(rateChange.size()) - 1;
     for (int to = std::max(0, fromRate - reach); to <= std::min(rateCount - 1, fromRate + reach); ++to)
         if (exists(fromCell + displacement(fromRate, to, number)))
-            sum += rateChange[static_cast<std::size_t>(std::abs(to - fromRate))];
+            sum += rateChange[std::size_t(std::abs(to - fromRate))];
     return sum;
 }
 
@@ -186,7 +186,7 @@ KinematicAxis KinematicAxis::stochastic(const std::string &where) const
                                                        + " contains only zeros, so a target "
                                                          "there cannot continue");
             for (Index to = 0; to < cells; ++to)
-                result.transition[static_cast<std::size_t>(from * cells + to)] /= sum;
+                result.transition[std::size_t(from * cells + to)] /= sum;
         }
         return result;
     }
@@ -204,7 +204,7 @@ KinematicAxis KinematicAxis::stochastic(const std::string &where) const
 int KinematicAxis::largestDisplacement() const
 {
     if (!transition.empty())
-        return static_cast<int>(cells - 1);
+        return int(cells - 1);
     int largest = 0;
     for (Index number = 0; number < phaseCount(); ++number)
         for (const Move &move : moves(number))
@@ -258,11 +258,11 @@ std::vector<double> gaussianStep(double deviation, Index cells)
     if (!(deviation > 0.0))
         return step;
     if (std::isinf(deviation))
-        return std::vector<double>(static_cast<std::size_t>(cells), 1.0);
+        return std::vector<double>(std::size_t(cells), 1.0);
     const double scale = 1.0 / (deviation * std::numbers::sqrt2);
     step.front() = std::erf(0.5 * scale);
     for (Index d = 1; d < cells; ++d) {
-        const auto distance = static_cast<double>(d);
+        const auto distance = double(d);
         const double q = 0.5 * (std::erfc((distance - 0.5) * scale) - std::erfc((distance + 0.5) * scale));
         if (q < 1e-17 * step.front())
             break;

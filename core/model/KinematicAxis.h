@@ -68,7 +68,7 @@ struct KinematicAxis {
     Index phaseCount() const { return ratesPerCell; }
 
     /// A rate by its index, in cells per step.
-    double rate(Index index) const { return static_cast<double>(firstRate + index) / ratesPerCell; }
+    double rate(Index index) const { return double(firstRate + index) / ratesPerCell; }
 
     /// Σ of the law's probabilities over the moves that exist from a cell and a rate (index) in step number `step`; 0
     /// if no move exists.

@@ -56,7 +56,7 @@ namespace {
             const double z = std::max(0.0, w * w - singularity);
             const double g = lnBesselI0(2.0 * std::sqrt(z)) - 2.0 * w + 0.5 * std::log(w);
             for (int k = 0; k < n; ++k)
-                chebyshev[static_cast<std::size_t>(k)] += (k == 0 ? 1.0 : 2.0) / n * g * std::cos(k * angle);
+                chebyshev[std::size_t(k)] += (k == 0 ? 1.0 : 2.0) / n * g * std::cos(k * angle);
         }
         // Chebyshev's series to powers of t, by T_k+1 = 2t·T_k - T_k-1.
         std::array<double, n> sum{};
@@ -73,7 +73,7 @@ namespace {
             now = next;
         }
         Polynomial result{};
-        std::transform(sum.begin(), sum.end(), result.begin(), [](double value) { return static_cast<float>(value); });
+        std::transform(sum.begin(), sum.end(), result.begin(), [](double value) { return float(value); });
         return result;
     }
 
@@ -89,11 +89,11 @@ namespace {
     void rice(const float *y, std::size_t n, const Polynomial &g, double snr, float *out)
     {
         constexpr float largest = 1e30f;
-        constexpr float c = static_cast<float>(singularity);
-        const auto scale = static_cast<float>(2.0 * std::sqrt(singularity));
-        const auto r0 = static_cast<float>(snr);
-        const auto quarter = static_cast<float>(0.25 * snr);
-        const auto rest = static_cast<float>(0.25 * snr - static_cast<double>(quarter));
+        constexpr float c = float(singularity);
+        const auto scale = float(2.0 * std::sqrt(singularity));
+        const auto r0 = float(snr);
+        const auto quarter = float(0.25 * snr);
+        const auto rest = float(0.25 * snr - double(quarter));
         for (std::size_t i = 0; i < n; ++i) {
             float value = y[i] > 0.0f ? y[i] : 0.0f;
             value = value <= largest ? value : 0.0f;
@@ -102,7 +102,7 @@ namespace {
             const float t = scale / w - 1.0f;
             float sum = g[degree];
             for (int k = degree - 1; k >= 0; --k)
-                sum = sum * t + g[static_cast<std::size_t>(k)];
+                sum = sum * t + g[std::size_t(k)];
             const float difference = 4.0f * (r0 * ((value - quarter) - rest) + c);
             out[i] = difference / (2.0f * w + r0) + (sum - 0.25f * fastLn(square));
         }
@@ -122,7 +122,7 @@ Likelihood::Likelihood(LikelihoodKind kind, double snr) : m_kind(kind), m_snr(sn
 {
     const bool needsSnr = kind == LikelihoodKind::Rice || kind == LikelihoodKind::Exponential;
     if (needsSnr && !(snr > 0.0 && snr < 1e12))
-        throw Error(std::string("likelihood ") + std::string(likelihoodNames[static_cast<std::size_t>(kind)]) + ", SNR "
+        throw Error(std::string("likelihood ") + std::string(likelihoodNames[std::size_t(kind)]) + ", SNR "
                         + formatNumber(snr),
                     "must be a power ratio above 0");
 }
@@ -154,8 +154,7 @@ void Likelihood::apply(std::span<const float> y, std::span<float> out) const
         rice(y.data(), y.size(), smoothPart(), m_snr, out.data());
         break;
     case LikelihoodKind::Exponential:
-        affine(y.data(), y.size(), static_cast<float>(m_snr / (1.0 + m_snr)), static_cast<float>(-std::log1p(m_snr)),
-               out.data());
+        affine(y.data(), y.size(), float(m_snr / (1.0 + m_snr)), float(-std::log1p(m_snr)), out.data());
         break;
     case LikelihoodKind::Linear:
         affine(y.data(), y.size(), 1.0f, 0.0f, out.data());

@@ -11,8 +11,7 @@ namespace faintline {
 std::vector<double> SequentialModel::initialLaw() const
 {
     const Index states = markov.space.stateCount();
-    return initial.empty() ? std::vector<double>(static_cast<std::size_t>(states), 1.0 / static_cast<double>(states))
-                           : initial;
+    return initial.empty() ? std::vector<double>(std::size_t(states), 1.0 / double(states)) : initial;
 }
 
 void SequentialModel::check(const std::string &where) const

@@ -17,8 +17,7 @@ StateSpace::StateSpace(std::vector<KinematicAxis> axes) : m_axes(std::move(axes)
         m_moves.emplace_back();
         for (Index phase = 0; phase < m_axes[i].phaseCount(); ++phase)
             m_moves.back().push_back(m_axes[i].moves(phase));
-        const double states =
-            static_cast<double>(stateCount()) * static_cast<double>(m_axes[i].cells) * m_axes[i].rateCount;
+        const double states = double(stateCount()) * double(m_axes[i].cells) * m_axes[i].rateCount;
         if (states > 0x1p31) // before the product can overflow
             throw Error("model.axes", "give more than 2³¹ states");
         m_cellCount *= m_axes[i].cells;
@@ -36,7 +35,7 @@ StateSpace::Coordinates StateSpace::coordinates(Index state) const
     for (std::size_t axis = m_axes.size(); axis-- > 0;) {
         result.cells[axis] = cell % m_axes[axis].cells;
         cell /= m_axes[axis].cells;
-        result.rates[axis] = static_cast<int>(plane % m_axes[axis].rateCount);
+        result.rates[axis] = int(plane % m_axes[axis].rateCount);
         plane /= m_axes[axis].rateCount;
     }
     return result;
@@ -85,12 +84,12 @@ std::vector<StateSpace::Predecessor> StateSpace::predecessors(Index target, Inde
         from.rates[axis] = to.rates[axis];
         for (Index cell = 0; !a.transition.empty() && cell < a.cells; ++cell) {
             from.cells[axis] = cell;
-            if (const double p = a.transition[static_cast<std::size_t>(cell * a.cells + to.cells[axis])]; p > 0.0)
+            if (const double p = a.transition[std::size_t(cell * a.cells + to.cells[axis])]; p > 0.0)
                 self(self, axis + 1, lnProbability + std::log(p));
         }
         if (!a.transition.empty())
             return;
-        for (const KinematicAxis::Move &move : m_moves[axis][static_cast<std::size_t>(step % a.phaseCount())]) {
+        for (const KinematicAxis::Move &move : m_moves[axis][std::size_t(step % a.phaseCount())]) {
             if (move.toRate != to.rates[axis])
                 continue;
             Index cell = to.cells[axis] - move.cells;

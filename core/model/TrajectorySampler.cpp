@@ -13,10 +13,9 @@ TrajectorySampler::TrajectorySampler(const SequentialModel &model)
     for (const KinematicAxis &axis : m_space.axes()) {
         AxisLaw law{{}, axis.transition};
         for (Index phase = 0; phase < axis.phaseCount(); ++phase) {
-            auto &ofRates = law.moves.emplace_back(static_cast<std::size_t>(axis.rateCount));
+            auto &ofRates = law.moves.emplace_back(std::size_t(axis.rateCount));
             for (const KinematicAxis::Move &move : axis.moves(phase))
-                ofRates[static_cast<std::size_t>(move.fromRate)].push_back(
-                    {move.toRate, move.cells, std::exp(move.lnProbability)});
+                ofRates[std::size_t(move.fromRate)].push_back({move.toRate, move.cells, std::exp(move.lnProbability)});
         }
         m_laws.push_back(std::move(law));
     }
@@ -26,7 +25,7 @@ Index TrajectorySampler::first(Random &random) const
 {
     const double uniform = random.uniform();
     if (m_initial.empty())
-        return static_cast<Index>(uniform * static_cast<double>(m_space.stateCount()));
+        return Index(uniform * double(m_space.stateCount()));
     const auto found = std::upper_bound(m_initial.begin(), m_initial.end(), uniform * m_initial.back());
     return std::min<Index>(found - m_initial.begin(), m_space.stateCount() - 1);
 }
@@ -48,8 +47,7 @@ void TrajectorySampler::move(std::size_t axis, Index step, int &rate, Index &cel
         return;
     }
     rate = a.rateGoingOn(cell, rate, step);
-    const std::vector<Move> &moves =
-        law.moves[static_cast<std::size_t>(step % a.phaseCount())][static_cast<std::size_t>(rate)];
+    const std::vector<Move> &moves = law.moves[std::size_t(step % a.phaseCount())][std::size_t(rate)];
     const auto exists = [&](const Move &m) { return a.cyclic || (cell + m.cells >= 0 && cell + m.cells < a.cells); };
     double left = 0.0;
     for (const Move &m : moves)

@@ -13,7 +13,7 @@ SonarMotion nonManoeuvring()
 SonarMotion manoeuvring(int reach)
 {
     SonarMotion motion;
-    motion.rangeRateChange.assign(static_cast<std::size_t>(reach) + 1, 1.0 / (2.0 * reach + 1.0));
+    motion.rangeRateChange.assign(std::size_t(reach) + 1, 1.0 / (2.0 * reach + 1.0));
     motion.bearingRateChange = {0.5, 0.25};
     return motion;
 }

@@ -17,7 +17,7 @@ namespace {
     {
         std::uint32_t value = 0;
         for (std::size_t i = 4; i-- > 0;)
-            value = value << 8 | static_cast<std::uint32_t>(bytes[i]);
+            value = value << 8 | std::uint32_t(bytes[i]);
         return value;
     }
 
@@ -81,20 +81,19 @@ struct AudioDecoder::Source {
     static sf_count_t read(void *out, sf_count_t count, void *user)
     {
         Source &source = of(user);
-        const std::span<std::byte> bytes(static_cast<std::byte *>(out),
-                                         static_cast<std::size_t>(std::max<sf_count_t>(0, count)));
+        const std::span<std::byte> bytes(static_cast<std::byte *>(out), std::size_t(std::max<sf_count_t>(0, count)));
         Index got = 0;
         try {
-            got = static_cast<Index>(source.file->readAt(source.offset, bytes));
+            got = Index(source.file->readAt(source.offset, bytes));
         } catch (const Error &) {
             return 0; // an exception must not pass through C; the short read is noticed later
         }
         for (Index i = 0; source.patched && i < 4; ++i)
             if (const Index at = *source.patched + i - source.offset; at >= 0 && at < got)
-                bytes[static_cast<std::size_t>(at)] = std::byte(0xff);
+                bytes[std::size_t(at)] = std::byte(0xff);
         source.offset += got;
         if (source.isOpening && got > 0 && source.isBehindBadList())
-            bytes[static_cast<std::size_t>(got - 1)] = std::byte('x');
+            bytes[std::size_t(got - 1)] = std::byte('x');
         return got;
     }
 
@@ -160,7 +159,7 @@ Index AudioDecoder::read(Index count, std::span<float> out)
 std::string AudioDecoder::log() const
 {
     std::string text(16384, '\0');
-    sf_command(m_handle, SFC_GET_LOG_INFO, text.data(), static_cast<int>(text.size()));
+    sf_command(m_handle, SFC_GET_LOG_INFO, text.data(), int(text.size()));
     text.resize(std::min(text.find('\0'), text.size()));
     return text;
 }
@@ -169,7 +168,7 @@ std::vector<std::byte> AudioDecoder::chunk(std::string_view id) const
 {
     SF_CHUNK_INFO info = {};
     std::copy_n(id.data(), std::min(id.size(), sizeof info.id), info.id);
-    info.id_size = static_cast<unsigned>(id.size());
+    info.id_size = unsigned(id.size());
     SF_CHUNK_ITERATOR *iterator = sf_get_chunk_iterator(m_handle, &info);
     constexpr unsigned largest = 1 << 20;
     if (!iterator || sf_get_chunk_size(iterator, &info) != SF_ERR_NO_ERROR || info.datalen > largest)

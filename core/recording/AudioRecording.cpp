@@ -72,7 +72,7 @@ AudioRecording::AudioRecording(const std::string &path, bool iq) : m_file(std::m
     m_info.sampleType = sampleTypeName(format.format);
     m_info.sampleRateHz = format.samplerate;
     m_info.isComplex = iq;
-    m_info.channelCount = static_cast<int>(iq ? m_streams / 2 : m_streams);
+    m_info.channelCount = int(iq ? m_streams / 2 : m_streams);
 
     const int encoding = format.format & SF_FORMAT_SUBMASK;
     m_isFloat = encoding == SF_FORMAT_FLOAT || encoding == SF_FORMAT_DOUBLE;
@@ -197,13 +197,12 @@ void AudioRecording::readDirectly(Index offset, Index first, std::span<float> ou
             failAt(first + got);
     } else {
         const Index perRead = std::min(samples, std::max<Index>(1, floatsPerBlock / 8 / m_streams));
-        handle->samples.resize(static_cast<std::size_t>(perRead * m_streams));
+        handle->samples.resize(std::size_t(perRead * m_streams));
         for (Index done = 0; done < samples;) {
             const Index run = std::min(perRead, samples - done);
             if (handle->decoder->read(run, handle->samples) < run)
                 failAt(first + done);
-            copyChannel(handle->samples, offset,
-                        out.subspan(static_cast<std::size_t>(done * floats), static_cast<std::size_t>(run * floats)));
+            copyChannel(handle->samples, offset, out.subspan(std::size_t(done * floats), std::size_t(run * floats)));
             done += run;
         }
     }
@@ -221,8 +220,8 @@ void AudioRecording::readBlocks(Index offset, Index first, std::span<float> out)
         if (handle->block != block)
             decodeBlock(*handle, block);
         const Index run = std::min(samples - done, m_blockSamples - within);
-        copyChannel(std::span(handle->samples).subspan(static_cast<std::size_t>(within * m_streams)), offset,
-                    out.subspan(static_cast<std::size_t>(done * floats), static_cast<std::size_t>(run * floats)));
+        copyChannel(std::span(handle->samples).subspan(std::size_t(within * m_streams)), offset,
+                    out.subspan(std::size_t(done * floats), std::size_t(run * floats)));
         done += run;
         giveBack(std::move(handle));
     }
@@ -236,7 +235,7 @@ void AudioRecording::decodeBlock(Handle &handle, Index block) const
     AudioDecoder &decoder = *handle.decoder;
     const Index start = block * m_blockSamples;
     const Index count = std::min(m_blockSamples, m_info.sampleCount - start);
-    handle.samples.resize(static_cast<std::size_t>(m_blockSamples * m_streams));
+    handle.samples.resize(std::size_t(m_blockSamples * m_streams));
     if (m_access == Access::Blocks && !decoder.seek(std::max<Index>(0, start - m_runUp)))
         failAt(start);
     while (decoder.position() < start) {

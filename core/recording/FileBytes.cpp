@@ -24,7 +24,7 @@ FileBytes::FileBytes(const std::string &path) : m_path(path)
     struct stat status = {};
     const bool isKnown = ::fstat(m_descriptor, &status) == 0;
     if (isKnown && S_ISREG(status.st_mode)) {
-        m_size = static_cast<Index>(status.st_size);
+        m_size = Index(status.st_size);
         return;
     }
     ::close(m_descriptor);
@@ -50,7 +50,7 @@ std::size_t FileBytes::readAt(Index offset, std::span<std::byte> out) const
             throw Error(m_path, std::string("cannot be read: ") + std::strerror(errno), Error::Kind::Failure);
         if (got == 0)
             break;
-        done += static_cast<std::size_t>(got);
+        done += std::size_t(got);
     }
     return done;
 }

@@ -128,8 +128,8 @@ namespace {
             std::array<char, 64> name{};
             unsigned flags = 0;
             std::size_t none = 0;
-            const H5Z_filter_t filter = H5Pget_filter2(plan, static_cast<unsigned>(i), &flags, &none, nullptr,
-                                                       name.size() - 1, name.data(), nullptr);
+            const H5Z_filter_t filter =
+                H5Pget_filter2(plan, unsigned(i), &flags, &none, nullptr, name.size() - 1, name.data(), nullptr);
             if (filter < 0 || H5Zfilter_avail(filter) <= 0)
                 throw Error(where, "is packed by filter " + std::to_string(filter) + " (" + oneLine(name.data())
                                        + "); deflate, szip, shuffle, bitshuffle and bitshuffle with LZ4 can be read");
@@ -147,10 +147,10 @@ namespace {
         case H5D_CHUNKED: {
             std::array<hsize_t, H5S_MAX_RANK> sizes{};
             const int axes = H5Pget_chunk(plan, H5S_MAX_RANK, sizes.data());
-            double bytes = static_cast<double>(elementBytes);
+            double bytes = double(elementBytes);
             for (int axis = 0; axis < axes; ++axis)
-                bytes *= static_cast<double>(sizes[static_cast<std::size_t>(axis)]);
-            if (axes < 1 || bytes > static_cast<double>(largestChunk))
+                bytes *= double(sizes[std::size_t(axis)]);
+            if (axes < 1 || bytes > double(largestChunk))
                 throw Error(where, "has chunks of more than 64 MiB, which would have to be held in memory; repack it "
                                    "(h5repack)");
             chunk.assign(sizes.begin(), sizes.begin() + axes);
@@ -171,10 +171,10 @@ namespace {
     {
         constexpr double bestPacking = 4096.0;
         constexpr double fewBytes = 1 << 20;
-        double claimed = static_cast<double>(elementBytes);
+        double claimed = double(elementBytes);
         for (const hsize_t size : sizes)
-            claimed *= static_cast<double>(size);
-        if (claimed > bestPacking * std::max(fewBytes, static_cast<double>(H5Dget_storage_size(dataset))))
+            claimed *= double(size);
+        if (claimed > bestPacking * std::max(fewBytes, double(H5Dget_storage_size(dataset))))
             throw Error(where, "claims " + std::to_string(std::llround(claimed / fewBytes))
                                    + " MiB of values, of which the file holds next to nothing");
     }
@@ -248,7 +248,7 @@ namespace {
                 return -1;
             try {
                 const std::span<std::byte> bytes(static_cast<std::byte *>(out), count);
-                return open.bytes->readAt(static_cast<Index>(address), bytes) == count ? 0 : -1;
+                return open.bytes->readAt(Index(address), bytes) == count ? 0 : -1;
             } catch (const Error &) {
                 return -1;
             }
@@ -365,14 +365,14 @@ std::unique_ptr<Hdf5Dataset> Hdf5File::dataset(const std::string &name) const
     std::vector<Index> chunk = checkStorage(handle, H5Tget_size(type), where);
     if (!chunk.empty() && (std::ssize(chunk) != axes || std::find(chunk.begin(), chunk.end(), 0) != chunk.end()))
         throw Error(where, "is damaged: its chunks are of another shape");
-    checkLength(handle, std::span(sizes).first(static_cast<std::size_t>(axes)), H5Tget_size(type), where);
+    checkLength(handle, std::span(sizes).first(std::size_t(axes)), H5Tget_size(type), where);
 
     std::unique_ptr<Hdf5Dataset> dataset(new Hdf5Dataset(m_path, handle.release()));
     dataset->m_shape.assign(sizes.begin(), sizes.begin() + axes);
     dataset->m_chunk = std::move(chunk);
     dataset->m_isFloat = kind == H5T_FLOAT;
     dataset->m_isSigned = kind == H5T_FLOAT || H5Tget_sign(type) == H5T_SGN_2;
-    dataset->m_bits = 8 * static_cast<int>(H5Tget_size(type));
+    dataset->m_bits = 8 * int(H5Tget_size(type));
     return dataset;
 }
 
@@ -441,10 +441,10 @@ void Hdf5Dataset::checkChunks(const std::vector<Index> &first, const std::vector
     double unpacked = wanted;
     for (std::size_t axis = 0; axis < m_chunk.size(); ++axis) {
         const Index chunks = (first[axis] + count[axis] - 1) / m_chunk[axis] - first[axis] / m_chunk[axis] + 1;
-        wanted *= static_cast<double>(count[axis]);
-        unpacked *= static_cast<double>(chunks) * static_cast<double>(m_chunk[axis]);
+        wanted *= double(count[axis]);
+        unpacked *= double(chunks) * double(m_chunk[axis]);
     }
-    if (unpacked > static_cast<double>(cacheBytes) && unpacked > mostUnpacked * wanted)
+    if (unpacked > double(cacheBytes) && unpacked > mostUnpacked * wanted)
         throw Error(m_path, "has chunks of which " + std::to_string(std::llround(unpacked / 0x1p20))
                                 + " MiB would have to be unpacked for every " + std::to_string(std::llround(wanted))
                                 + " bytes; choose a narrower band, or repack it (h5repack)");
@@ -457,7 +457,7 @@ void Hdf5Dataset::read(const std::vector<Index> &first, const std::vector<Index>
     const std::vector<hsize_t> from(first.begin(), first.end());
     const std::vector<hsize_t> size(count.begin(), count.end());
     const Handle file(H5Dget_space(m_handle), H5Sclose);
-    const Handle memory(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose);
+    const Handle memory(H5Screate_simple(int(size.size()), size.data(), nullptr), H5Sclose);
     if (H5Sselect_hyperslab(file, H5S_SELECT_SET, from.data(), nullptr, size.data(), nullptr) < 0
         || H5Dread(m_handle, H5T_NATIVE_FLOAT, memory, file, H5P_DEFAULT, out.data()) < 0)
         throw Error(m_path, "is damaged where it is read, or became shorter while it was open", Error::Kind::Failure);

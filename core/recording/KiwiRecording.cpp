@@ -86,7 +86,7 @@ namespace {
             const Stamp now{sample, *stamp + m_weeks * week};
             m_first = m_first ? m_first : now;
             if (m_last && sample > m_last->sample) {
-                const double expected = static_cast<double>(sample - m_last->sample) / m_nominalHz;
+                const double expected = double(sample - m_last->sample) / m_nominalHz;
                 const double missing = now.seconds - m_last->seconds - expected;
                 if (std::abs(missing) > 0.5 * expected) {
                     ++m_gaps;
@@ -106,7 +106,7 @@ namespace {
             if (!m_longest || m_longest->second.sample == m_longest->first.sample)
                 return m_nominalHz;
             const double seconds = m_longest->second.seconds - m_longest->first.seconds;
-            const double rate = static_cast<double>(m_longest->second.sample - m_longest->first.sample) / seconds;
+            const double rate = double(m_longest->second.sample - m_longest->first.sample) / seconds;
             constexpr double farOff = 1e-3;
             constexpr double shortest = 1.0;
             return seconds >= shortest && std::abs(rate / m_nominalHz - 1.0) < farOff ? rate : m_nominalHz;
@@ -227,13 +227,13 @@ void KiwiRecording::readWithin(const Run &run, Index sample, std::span<float> ou
     while (!out.empty()) {
         const Index within = sample % run.samples;
         const Index count = std::min(run.samples - within, std::ssize(out) / floats);
-        bytes.resize(static_cast<std::size_t>(count * m_bytesPerSample));
+        bytes.resize(std::size_t(count * m_bytesPerSample));
         const Index at = run.offset + sample / run.samples * run.stride + within * m_bytesPerSample;
         if (m_file.readAt(at, bytes) < bytes.size())
             throw Error(m_info.path, "became shorter while it was open", Error::Kind::Failure);
-        for (std::size_t i = 0; i < static_cast<std::size_t>(count * floats); ++i)
-            out[i] = static_cast<float>(numberAt<std::int16_t>(bytes, 2 * i)) / fullScale;
-        out = out.subspan(static_cast<std::size_t>(count * floats));
+        for (std::size_t i = 0; i < std::size_t(count * floats); ++i)
+            out[i] = float(numberAt<std::int16_t>(bytes, 2 * i)) / fullScale;
+        out = out.subspan(std::size_t(count * floats));
         sample += count;
     }
 }
@@ -248,8 +248,8 @@ void KiwiRecording::read(int, Index first, Index count, std::span<float> out) co
         for (; !inside.empty(); ++run) {
             const Index within = from - run->firstSample;
             const Index here = std::min(run->samples * run->count - within, std::ssize(inside) / floats);
-            readWithin(*run, within, inside.first(static_cast<std::size_t>(here * floats)));
-            inside = inside.subspan(static_cast<std::size_t>(here * floats));
+            readWithin(*run, within, inside.first(std::size_t(here * floats)));
+            inside = inside.subspan(std::size_t(here * floats));
             from += here;
         }
     });

@@ -92,7 +92,7 @@ RecordingInfo recordingInfo(const LineScene &scene)
     info.container = "simulated";
     info.sampleType = scene.isComplex ? "cf32" : "rf32";
     info.sampleRateHz = scene.sampleRateHz;
-    info.sampleCount = static_cast<Index>(std::floor(scene.sampleRateHz * scene.durationSeconds + 1e-6));
+    info.sampleCount = Index(std::floor(scene.sampleRateHz * scene.durationSeconds + 1e-6));
     info.channelCount = 1;
     info.isComplex = scene.isComplex;
     info.centreHz = scene.centreHz;

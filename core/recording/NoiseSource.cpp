@@ -62,8 +62,7 @@ NoiseSource::NoiseSource(const NoiseSettings &settings, double sampleRateHz, dou
     if (settings.levelDriftDb > 0.0) {
         m_levelStepSeconds = levelStep * settings.levelDriftSeconds;
         Random random(seed, streamNumber(SimulationStream::Level, 0));
-        m_level = ornsteinUhlenbeck(random, static_cast<Index>(std::ceil(durationSeconds / m_levelStepSeconds)) + 1,
-                                    levelStep);
+        m_level = ornsteinUhlenbeck(random, Index(std::ceil(durationSeconds / m_levelStepSeconds)) + 1, levelStep);
         standardise(m_level, settings.levelDriftDb);
         for (double &value : m_level)
             value = std::sqrt(ratioFromDb(value));
@@ -76,7 +75,7 @@ void NoiseSource::design(double slopeDbPerOctave)
     std::array<double, sections> zeros;
     for (std::size_t k = 0; k < sections; ++k) {
         // A falling slope lasts from a pole to its zero, a rising one from a zero to its pole.
-        const double begin = std::ldexp(lowestTurns, static_cast<int>(k));
+        const double begin = std::ldexp(lowestTurns, int(k));
         const double end = begin * std::exp2(std::abs(slopeDbPerOctave) / dbFromRatio(4.0));
         m_poles[k] = decay(slopeDbPerOctave < 0.0 ? begin : end);
         zeros[k] = decay(slopeDbPerOctave < 0.0 ? end : begin);
@@ -129,23 +128,23 @@ void NoiseSource::read(Index first, std::span<float> out) const
 
 void NoiseSource::readWhite(Index first, std::span<float> out) const
 {
-    const auto deviation = static_cast<float>(m_settings.deviation / std::sqrt(static_cast<double>(m_floats)));
+    const auto deviation = float(m_settings.deviation / std::sqrt(double(m_floats)));
     std::array<float, whiteBlock> edge;
     Index at = first * m_floats;
     while (!out.empty()) {
         const Index block = floorDivide(at, whiteBlock);
         const Index within = at - block * whiteBlock;
-        const std::size_t run = std::min(out.size(), static_cast<std::size_t>(whiteBlock - within));
+        const std::size_t run = std::min(out.size(), std::size_t(whiteBlock - within));
         Random random(m_seed, streamNumber(SimulationStream::Noise, block));
         if (within == 0) {
             random.normals(out.first(run), deviation);
         } else {
-            const std::span<float> needed = std::span(edge).first(static_cast<std::size_t>(within) + run);
+            const std::span<float> needed = std::span(edge).first(std::size_t(within) + run);
             random.normals(needed, deviation);
             std::copy(needed.begin() + within, needed.end(), out.begin());
         }
         out = out.subspan(run);
-        at += static_cast<Index>(run);
+        at += Index(run);
     }
 }
 
@@ -155,12 +154,12 @@ void NoiseSource::readColoured(Index first, std::span<float> out) const
     while (!out.empty()) {
         const Index start = floorDivide(first, colouredBlock) * colouredBlock;
         const Index end = std::min(start + colouredBlock, first + std::ssize(out) / m_floats);
-        samples.resize(static_cast<std::size_t>((end - start + runUp) * m_floats));
+        samples.resize(std::size_t((end - start + runUp) * m_floats));
         readWhite(start - runUp, samples);
         colour(samples);
         const auto from = samples.begin() + (first - start + runUp) * m_floats;
         std::copy(from, samples.end(), out.begin());
-        out = out.subspan(static_cast<std::size_t>(samples.end() - from));
+        out = out.subspan(std::size_t(samples.end() - from));
         first = end;
     }
 }
@@ -171,18 +170,17 @@ void NoiseSource::colour(std::span<float> samples) const
     std::array<float, sections> residues;
     std::copy(m_poles.begin(), m_poles.end(), poles.begin());
     std::copy(m_residues.begin(), m_residues.end(), residues.begin());
-    const auto stride = static_cast<std::size_t>(m_floats);
+    const auto stride = std::size_t(m_floats);
     for (std::size_t component = 0; component < stride; ++component)
-        runSections(samples.data() + component, samples.size() / stride, stride, static_cast<float>(m_direct), poles,
-                    residues);
+        runSections(samples.data() + component, samples.size() / stride, stride, float(m_direct), poles, residues);
 }
 
 void NoiseSource::applyLevel(Index first, std::span<float> out) const
 {
     for (std::size_t i = 0; i < out.size(); ++i) {
-        const Index sample = first + static_cast<Index>(i) / m_floats;
-        const double seconds = static_cast<double>(sample) / m_sampleRateHz;
-        out[i] *= static_cast<float>(interpolate(m_level, seconds / m_levelStepSeconds));
+        const Index sample = first + Index(i) / m_floats;
+        const double seconds = double(sample) / m_sampleRateHz;
+        out[i] *= float(interpolate(m_level, seconds / m_levelStepSeconds));
     }
 }
 

@@ -50,7 +50,7 @@ namespace {
                         "must be one of the pings, 0 … " + std::to_string(scene.pings - 1));
         const Axis range = pingGrid(scene).axes[0];
         const double cell = range.position(target.rangeMetres);
-        if (cell < -0.5 || cell >= static_cast<double>(range.count) - 0.5)
+        if (cell < -0.5 || cell >= double(range.count) - 0.5)
             throw Error(name + ".rangeMetres = " + formatNumber(target.rangeMetres),
                         "must lie within the range cells, " + formatNumber(range.first) + " … "
                             + formatNumber(range.last()) + " m");
@@ -153,14 +153,14 @@ double backgroundPower(const PingScene &scene, Index rangeCell)
     if (!scene.reverberation)
         return 1.0;
     const Axis range = pingGrid(scene).axes[0];
-    const double ratio = range.value(static_cast<double>(rangeCell)) / range.first;
+    const double ratio = range.value(double(rangeCell)) / range.first;
     return 1.0 + ratioFromDb(scene.reverberation->levelDb) * std::pow(ratio, -scene.reverberation->decayPower);
 }
 
 void checkScene(const PingScene &scene)
 {
     checkFields(scene, PingScene::fields());
-    const double cells = static_cast<double>(scene.rangeCells) * scene.beams;
+    const double cells = double(scene.rangeCells) * scene.beams;
     if (cells > 1e7)
         throw fieldError("rangeCells", std::to_string(scene.rangeCells),
                          "times beams gives " + formatNumber(cells) + " cells; at most 1e7 are possible");
@@ -188,7 +188,7 @@ void checkScene(const PingScene &scene)
         checkTarget(scene, target, i);
         const int end = target.vanishPing == 0 ? scene.pings : std::min(target.vanishPing, scene.pings);
         places += end - target.appearPing;
-        steps += static_cast<double>(end - target.appearPing) * static_cast<double>(target.legs.size());
+        steps += double(end - target.appearPing) * double(target.legs.size());
         if (places > mostPlaces)
             throw Error(targetName(i), "exceeds the limit of 3e6 pings in total, counting the targets before it");
         if (steps > mostSteps)

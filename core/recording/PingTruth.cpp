@@ -42,7 +42,7 @@ namespace {
         for (std::size_t i = 0; i < target.legs.size(); ++i) {
             const PingLeg &leg = target.legs[i];
             const Rates own = ratesOf(leg, scene, grid);
-            const double share = i == 0 ? 1.0 : std::min(1.0, static_cast<double>(k - begin + 1) / leg.turnPings);
+            const double share = i == 0 ? 1.0 : std::min(1.0, double(k - begin + 1) / leg.turnPings);
             rates = {std::lerp(before.range, own.range, share), std::lerp(before.bearing, own.bearing, share)};
             if (leg.pings == 0 || k < begin + leg.pings)
                 break;
@@ -66,11 +66,10 @@ namespace {
         Rates rates = ratesAt(0, target, scene, grid);
         for (int ping = target.appearPing; ping < end; ++ping) {
             if (bearing.cyclic)
-                b -= static_cast<double>(bearing.count) * std::floor((b + 0.5) / static_cast<double>(bearing.count));
+                b -= double(bearing.count) * std::floor((b + 0.5) / double(bearing.count));
             truth.rangeMetres.push_back(range.value(r));
             truth.bearingDegrees.push_back(bearing.value(b));
-            truth.cell.push_back(static_cast<double>(
-                grid.cell({static_cast<Index>(std::floor(r + 0.5)), static_cast<Index>(std::floor(b + 0.5))})));
+            truth.cell.push_back(double(grid.cell({Index(std::floor(r + 0.5)), Index(std::floor(b + 0.5))})));
             const Rates next = ratesAt(ping + 1 - target.appearPing, target, scene, grid);
             r += 0.5 * (rates.range + next.range);
             b += 0.5 * (rates.bearing + next.bearing);
@@ -84,7 +83,7 @@ namespace {
 Index TruthTarget::cellAt(Index ping) const
 {
     const Index k = ping - firstPing;
-    return k >= 0 && k < std::ssize(cell) ? static_cast<Index>(cell[static_cast<std::size_t>(k)]) : -1;
+    return k >= 0 && k < std::ssize(cell) ? Index(cell[std::size_t(k)]) : -1;
 }
 
 PingTruth pingTruth(const PingScene &scene)

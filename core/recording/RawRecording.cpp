@@ -72,15 +72,14 @@ void RawRecording::readFile(int channel, Index first, std::span<float> out) cons
     const Index floats = m_info.floatsPerSample();
     const Index samples = std::ssize(out) / floats;
     const Index perRead = std::max<Index>(1, readBytes / m_frameBytes);
-    std::vector<std::byte> bytes(static_cast<std::size_t>(std::min(samples, perRead) * m_frameBytes));
+    std::vector<std::byte> bytes(std::size_t(std::min(samples, perRead) * m_frameBytes));
     for (Index done = 0; done < samples;) {
         const Index run = std::min(perRead, samples - done);
-        const std::span<std::byte> wanted = std::span(bytes).first(static_cast<std::size_t>(run * m_frameBytes));
+        const std::span<std::byte> wanted = std::span(bytes).first(std::size_t(run * m_frameBytes));
         if (m_file.readAt(m_layout.headerBytes + (first + done) * m_frameBytes, wanted) < wanted.size())
             throw Error(m_info.path, "was truncated while open", Error::Kind::Failure);
-        convertSamples(m_layout.type, wanted.subspan(static_cast<std::size_t>(channel * m_layout.type.sampleBytes())),
-                       m_frameBytes,
-                       out.subspan(static_cast<std::size_t>(done * floats), static_cast<std::size_t>(run * floats)));
+        convertSamples(m_layout.type, wanted.subspan(std::size_t(channel * m_layout.type.sampleBytes())), m_frameBytes,
+                       out.subspan(std::size_t(done * floats), std::size_t(run * floats)));
         done += run;
     }
 }

@@ -35,7 +35,7 @@ int Recording::scaleExponentOf(double magnitude)
     constexpr int most = 120; // beyond that floats themselves end
     if (!(magnitude > 0.0) || !std::isfinite(magnitude))
         return 0;
-    return std::clamp(step * static_cast<int>(std::lround(std::log2(magnitude) / step)), -most, most);
+    return std::clamp(step * int(std::lround(std::log2(magnitude) / step)), -most, most);
 }
 
 /// Of the samples from one on that are not 0; 0 where there are none.
@@ -46,7 +46,7 @@ double Recording::meanMagnitude(int channel, Index first, std::span<float> sampl
     double count = 0.0;
     for (const float value : samples)
         if (value != 0.0f) {
-            sum += static_cast<double>(std::abs(value));
+            sum += double(std::abs(value));
             count += 1.0;
         }
     return count > 0.0 ? sum / count : 0.0;
@@ -58,12 +58,12 @@ int Recording::measuredScaleExponent(int channel) const
     constexpr Index stretchSamples = 64;
     constexpr Index blockSamples = 1 << 16;
     std::vector<double> magnitudes;
-    std::vector<float> samples(static_cast<std::size_t>(stretchSamples * m_info.floatsPerSample()));
+    std::vector<float> samples(std::size_t(stretchSamples * m_info.floatsPerSample()));
     const Index step = std::max(stretchSamples, m_info.sampleCount / stretches);
     for (Index first = 0; first < m_info.sampleCount; first += step)
         if (const double magnitude = meanMagnitude(channel, first, samples); magnitude > 0.0)
             magnitudes.push_back(magnitude);
-    samples.resize(static_cast<std::size_t>(blockSamples * m_info.floatsPerSample()));
+    samples.resize(std::size_t(blockSamples * m_info.floatsPerSample()));
     for (Index first = 0; magnitudes.empty() && first < m_info.sampleCount; first += blockSamples)
         if (const double magnitude = meanMagnitude(channel, first, samples); magnitude > 0.0)
             magnitudes.push_back(magnitude);
@@ -78,17 +78,17 @@ void Recording::fill(Index first, Index count, std::span<float> out,
                      const std::function<void(Index first, std::span<float> out)> &fetch) const
 {
     const Index floats = m_info.floatsPerSample();
-    out = out.first(static_cast<std::size_t>(std::max<Index>(count, 0) * floats));
+    out = out.first(std::size_t(std::max<Index>(count, 0) * floats));
     const Index begin = std::clamp<Index>(first, 0, m_info.sampleCount);
     const Index end = first >= m_info.sampleCount ? begin : std::clamp<Index>(first + count, begin, m_info.sampleCount);
     if (begin == end) {
         std::fill(out.begin(), out.end(), 0.0f);
         return;
     }
-    const std::size_t before = static_cast<std::size_t>((begin - first) * floats);
-    const std::span<float> inside = out.subspan(before, static_cast<std::size_t>((end - begin) * floats));
-    std::fill(out.begin(), out.begin() + static_cast<Index>(before), 0.0f);
-    std::fill(out.begin() + static_cast<Index>(before + inside.size()), out.end(), 0.0f);
+    const std::size_t before = std::size_t((begin - first) * floats);
+    const std::span<float> inside = out.subspan(before, std::size_t((end - begin) * floats));
+    std::fill(out.begin(), out.begin() + Index(before), 0.0f);
+    std::fill(out.begin() + Index(before + inside.size()), out.end(), 0.0f);
     fetch(begin, inside);
     if (const Index found = clearNonFinite(inside.data(), inside.size()))
         m_nonFiniteCount.fetch_add(found, std::memory_order_relaxed);

@@ -25,7 +25,7 @@ struct RecordingInfo {
     std::optional<double> startUnixSeconds; ///< UTC of the first sample
     std::vector<std::string> notes;         ///< what was repaired or assumed while opening, one sentence each
 
-    double durationSeconds() const { return static_cast<double>(sampleCount) / sampleRateHz; }
+    double durationSeconds() const { return double(sampleCount) / sampleRateHz; }
     Index floatsPerSample() const { return isComplex ? 2 : 1; }
 };
 

@@ -36,14 +36,13 @@ namespace {
     float toFloat(Bits<bytes> bits)
     {
         if constexpr (number == SampleType::Number::Float) {
-            return static_cast<float>(std::bit_cast<std::conditional_t<bytes == 4, float, double>>(bits));
+            return float(std::bit_cast<std::conditional_t<bytes == 4, float, double>>(bits));
         } else {
             // Unsigned with its highest bit turned over is the signed number round mid-scale.
             constexpr auto highest = static_cast<Bits<bytes>>(Bits<bytes>(1) << (8 * bytes - 1));
             if constexpr (number == SampleType::Number::Unsigned)
                 bits = static_cast<Bits<bytes>>(bits ^ highest);
-            return static_cast<float>(static_cast<std::make_signed_t<Bits<bytes>>>(bits))
-                   * (1.0f / static_cast<float>(highest));
+            return float(static_cast<std::make_signed_t<Bits<bytes>>>(bits)) * (1.0f / float(highest));
         }
     }
 

@@ -12,23 +12,23 @@ namespace {
 
     std::uint64_t streamOf(int run, Index number)
     {
-        return (static_cast<std::uint64_t>(run) << 32) + static_cast<std::uint64_t>(number);
+        return (std::uint64_t(run) << 32) + std::uint64_t(number);
     }
 
     Index uniformCell(Random &random, Index cells)
     {
-        return std::min(cells - 1, static_cast<Index>(random.uniform() * static_cast<double>(cells)));
+        return std::min(cells - 1, Index(random.uniform() * double(cells)));
     }
 
     /// Draws until a step stays on the axis, which is what renormalising over the existing cells means.
     Index moved(Index from, Index cells, const ScanScene &scene, Random &random)
     {
         for (;;) {
-            const double step = scene.moves == ScanMoves::Uniform ? static_cast<double>(uniformCell(random, 3) - 1)
+            const double step = scene.moves == ScanMoves::Uniform ? double(uniformCell(random, 3) - 1)
                                                                   : std::floor(scene.moveCells * random.normal() + 0.5);
-            const double to = static_cast<double>(from) + step;
-            if (to >= 0.0 && to < static_cast<double>(cells))
-                return static_cast<Index>(to);
+            const double to = double(from) + step;
+            if (to >= 0.0 && to < double(cells))
+                return Index(to);
         }
     }
 
@@ -60,8 +60,8 @@ const std::vector<Field<ScanScene>> &ScanScene::fields()
 void checkScene(const ScanScene &scene)
 {
     checkFields(scene, ScanScene::fields());
-    const double cells = static_cast<double>(scene.azimuthCells) * scene.elevationCells
-                         * static_cast<double>(scene.rangeCells) * scene.dopplerCells;
+    const double cells =
+        double(scene.azimuthCells) * scene.elevationCells * double(scene.rangeCells) * scene.dopplerCells;
     if (cells > 0x1p28)
         throw fieldError("rangeCells", std::to_string(scene.rangeCells),
                          "gives a scan of " + formatNumber(cells) + " cells; at most 2²⁸ are possible");
@@ -99,7 +99,7 @@ std::vector<ScanCell> scanTrajectory(const ScanScene &scene, int run)
     std::vector<ScanCell> trajectory;
     if (!scene.hasTarget)
         return trajectory;
-    Random random(static_cast<std::uint64_t>(scene.seed), streamOf(run, 0));
+    Random random(std::uint64_t(scene.seed), streamOf(run, 0));
     const ScanCell cells{scene.azimuthCells, scene.elevationCells, scene.rangeCells, scene.dopplerCells};
     for (Index stage = 0; stage < scene.stages; ++stage) {
         ScanCell at{};
@@ -113,12 +113,12 @@ std::vector<ScanCell> scanTrajectory(const ScanScene &scene, int run)
 
 void readScan(const ScanScene &scene, const std::vector<ScanCell> &trajectory, int run, Index stage, std::span<float> y)
 {
-    Random(static_cast<std::uint64_t>(scene.seed), streamOf(run, stage + 1)).exponentials(y);
+    Random(std::uint64_t(scene.seed), streamOf(run, stage + 1)).exponentials(y);
     if (stage >= std::ssize(trajectory))
         return;
-    const ScanCell &at = trajectory[static_cast<std::size_t>(stage)];
+    const ScanCell &at = trajectory[std::size_t(stage)];
     const Index cell = ((at[0] * scene.elevationCells + at[1]) * scene.rangeCells + at[2]) * scene.dopplerCells + at[3];
-    y[static_cast<std::size_t>(cell)] *= static_cast<float>(1.0 + ratioFromDb(scene.snrDb));
+    y[std::size_t(cell)] *= float(1.0 + ratioFromDb(scene.snrDb));
 }
 
 Json scanTruth(const ScanScene &scene, const std::vector<ScanCell> &trajectory)

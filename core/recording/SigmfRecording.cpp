@@ -64,10 +64,10 @@ namespace {
 
         Index count(const char *key, double minimum, double maximum, Index otherwise) const
         {
-            const double value = number(key, minimum, maximum).value_or(static_cast<double>(otherwise));
+            const double value = number(key, minimum, maximum).value_or(double(otherwise));
             if (std::floor(value) != value)
                 refuse(key, "must be a whole number");
-            return static_cast<Index>(value);
+            return Index(value);
         }
 
         std::optional<std::string> text(const char *key) const
@@ -124,7 +124,7 @@ SigmfRecording::Meta SigmfRecording::readMeta(const std::string &path)
     if (!rate)
         global.refuse("core:sample_rate", "is missing; frequencies require it");
     meta.layout.sampleRateHz = *rate;
-    meta.layout.channelCount = static_cast<int>(global.count("core:num_channels", 1.0, 1024.0, 1));
+    meta.layout.channelCount = int(global.count("core:num_channels", 1.0, 1024.0, 1));
     meta.layout.trailingBytes = global.count("core:trailing_bytes", 0.0, largestCount, 0);
     const Index offset = global.count("core:offset", 0.0, largestCount, 0);
 
@@ -156,7 +156,7 @@ SigmfRecording::Meta SigmfRecording::readMeta(const std::string &path)
             meta.layout.headerBytes = header;
             meta.startUnixSeconds = time ? parseUtc(*time) : std::nullopt;
             if (meta.startUnixSeconds)
-                *meta.startUnixSeconds -= static_cast<double>(start) / *rate;
+                *meta.startUnixSeconds -= double(start) / *rate;
             else if (time)
                 meta.notes.push_back("core:datetime \"" + oneLine(*time, 40)
                                      + "\" is not an ISO 8601 time and is ignored.");
@@ -185,8 +185,7 @@ void SigmfRecording::addStretch(Meta &meta, Index start, Index globalIndex)
     const Stretch &last = meta.stretches.back();
     const Index gap = (inTime - last.inTime) - (start - last.inFile);
     constexpr double longestDays = 400.0;
-    if (gap < 0 || start < last.inFile
-        || static_cast<double>(inTime) > longestDays * 86400.0 * meta.layout.sampleRateHz) {
+    if (gap < 0 || start < last.inFile || double(inTime) > longestDays * 86400.0 * meta.layout.sampleRateHz) {
         meta.notes.push_back("From sample " + std::to_string(start)
                              + " on, core:global_index contradicts what comes before it and is ignored.");
         return;
@@ -248,8 +247,7 @@ void SigmfRecording::read(int channel, Index first, Index count, std::span<float
             const Index end = std::min(to, endOf(stretch));
             if (begin < end)
                 readFile(channel, stretch->inFile + begin - stretch->inTime,
-                         inside.subspan(static_cast<std::size_t>((begin - from) * floats),
-                                        static_cast<std::size_t>((end - begin) * floats)));
+                         inside.subspan(std::size_t((begin - from) * floats), std::size_t((end - begin) * floats)));
         }
     });
 }

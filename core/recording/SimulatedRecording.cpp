@@ -13,15 +13,15 @@ namespace {
 } // namespace
 
 SimulatedRecording::SimulatedRecording(const LineScene &scene)
-    : m_scene(checked(scene)), m_noise(scene.noise, scene.sampleRateHz, scene.durationSeconds, scene.isComplex,
-                                       static_cast<std::uint64_t>(scene.seed))
+    : m_scene(checked(scene)),
+      m_noise(scene.noise, scene.sampleRateHz, scene.durationSeconds, scene.isComplex, std::uint64_t(scene.seed))
 {
     m_info = recordingInfo(scene);
     for (const LineSettings &line : scene.lines) {
         const double variance = m_noise.localVariance(line.frequencyHz - scene.centreHz);
         const double amplitude =
             toneAmplitude(line.snrDb, variance, line.referenceSeconds * scene.sampleRateHz, scene.isComplex);
-        m_tones.emplace_back(line, amplitude, m_info, static_cast<std::uint64_t>(scene.seed), std::ssize(m_tones));
+        m_tones.emplace_back(line, amplitude, m_info, std::uint64_t(scene.seed), std::ssize(m_tones));
     }
 }
 

@@ -31,11 +31,10 @@ namespace {
         constexpr double roundingShift = 6755399441055744.0; // adding 1.5·2⁵² rounds to a whole number
         const double halfRate = 0.5 * phase.rateHzPerSecond;
         for (std::size_t i = 0; i < n; ++i) {
-            const double seconds =
-                (firstSample + static_cast<double>(static_cast<int>(i))) * secondsPerSample - phase.startSeconds;
+            const double seconds = (firstSample + double(int(i))) * secondsPerSample - phase.startSeconds;
             const double turns = phase.turns + seconds * (phase.frequencyHz + seconds * halfRate);
             const double whole = (turns + roundingShift) - roundingShift;
-            const auto [s, c] = fastSineCosineTurns(static_cast<float>(turns - whole));
+            const auto [s, c] = fastSineCosineTurns(float(turns - whole));
             cosine[i] = c;
             sine[i] = s;
         }
@@ -47,7 +46,7 @@ namespace {
         if (line.wanderHz == 0.0)
             return 1; // the parabola is exact
         const double step = 0.1 * std::min(line.referenceSeconds, line.wanderSeconds);
-        return std::max<Index>(1, static_cast<Index>(std::ceil(durationSeconds / step - 1e-9)));
+        return std::max<Index>(1, Index(std::ceil(durationSeconds / step - 1e-9)));
     }
 
 } // namespace
@@ -70,17 +69,17 @@ Tone::Tone(const LineSettings &line, double amplitude, const RecordingInfo &reco
     const double duration = std::max(0.0, m_truth.endSeconds - m_truth.startSeconds);
 
     const Index intervals = intervalCount(line, duration);
-    m_truth.stepSeconds = duration / static_cast<double>(intervals);
+    m_truth.stepSeconds = duration / double(intervals);
     std::vector<double> &frequency = m_truth.frequencyHz;
     if (line.wanderHz > 0.0) {
         Random random(seed, streamNumber(SimulationStream::Wander, number));
         frequency = ornsteinUhlenbeck(random, intervals + 1, m_truth.stepSeconds / line.wanderSeconds);
         standardise(frequency, line.wanderHz);
     } else {
-        frequency.assign(static_cast<std::size_t>(intervals) + 1, 0.0);
+        frequency.assign(std::size_t(intervals) + 1, 0.0);
     }
     for (std::size_t k = 0; k < frequency.size(); ++k)
-        frequency[k] += line.frequencyHz + line.driftHzPerSecond * static_cast<double>(k) * m_truth.stepSeconds;
+        frequency[k] += line.frequencyHz + line.driftHzPerSecond * double(k) * m_truth.stepSeconds;
 
     m_turns.resize(frequency.size());
     m_turns[0] = Random(seed, streamNumber(SimulationStream::Phase, number)).uniform();
@@ -92,7 +91,7 @@ Tone::Tone(const LineSettings &line, double amplitude, const RecordingInfo &reco
 
     if (line.fading == Fading::Rayleigh) {
         m_fadingStepSeconds = fadingStep * line.fadingSeconds;
-        const Index nodes = static_cast<Index>(std::ceil(duration / m_fadingStepSeconds)) + 1;
+        const Index nodes = Index(std::ceil(duration / m_fadingStepSeconds)) + 1;
         const auto component = [&](SimulationStream stream) {
             Random random(seed, streamNumber(stream, number));
             std::vector<double> path = ornsteinUhlenbeck(random, nodes, fadingStep);
@@ -104,7 +103,7 @@ Tone::Tone(const LineSettings &line, double amplitude, const RecordingInfo &reco
         m_fadingImaginary = component(SimulationStream::FadingImaginary);
     }
 
-    const auto firstAt = [&](double seconds) { return static_cast<Index>(std::ceil(seconds * m_sampleRateHz - 1e-6)); };
+    const auto firstAt = [&](double seconds) { return Index(std::ceil(seconds * m_sampleRateHz - 1e-6)); };
     m_begin = firstAt(m_truth.startSeconds);
     m_end = firstAt(m_truth.endSeconds);
 }
@@ -116,15 +115,15 @@ Index Tone::firstSampleOf(Index interval) const
         return m_begin;
     if (interval >= std::ssize(m_turns) - 1)
         return m_end;
-    const double seconds = m_truth.startSeconds + static_cast<double>(interval) * m_truth.stepSeconds;
-    return std::clamp(static_cast<Index>(std::ceil(seconds * m_sampleRateHz)), m_begin, m_end);
+    const double seconds = m_truth.startSeconds + double(interval) * m_truth.stepSeconds;
+    return std::clamp(Index(std::ceil(seconds * m_sampleRateHz)), m_begin, m_end);
 }
 
 Index Tone::intervalOf(Index sample) const
 {
-    const double seconds = static_cast<double>(sample) / m_sampleRateHz - m_truth.startSeconds;
+    const double seconds = double(sample) / m_sampleRateHz - m_truth.startSeconds;
     const double guess = m_truth.stepSeconds > 0.0 ? seconds / m_truth.stepSeconds : 0.0;
-    Index interval = std::clamp<Index>(static_cast<Index>(guess), 0, std::ssize(m_turns) - 2);
+    Index interval = std::clamp<Index>(Index(guess), 0, std::ssize(m_turns) - 2);
     while (interval > 0 && sample < firstSampleOf(interval))
         --interval;
     while (interval < std::ssize(m_turns) - 2 && sample >= firstSampleOf(interval + 1))
@@ -142,9 +141,7 @@ void Tone::addTo(Index first, std::span<float> out) const
     for (Index interval = intervalOf(at); at < end; ++interval)
         for (const Index intervalEnd = std::min(end, firstSampleOf(interval + 1)); at < intervalEnd;) {
             const Index run = std::min(pieceLength, intervalEnd - at);
-            addPiece(
-                interval, at,
-                out.subspan(static_cast<std::size_t>((at - first) * floats), static_cast<std::size_t>(run * floats)));
+            addPiece(interval, at, out.subspan(std::size_t((at - first) * floats), std::size_t(run * floats)));
             at += run;
         }
 }
@@ -152,27 +149,26 @@ void Tone::addTo(Index first, std::span<float> out) const
 /// Adds at most pieceLength samples, all within one interval.
 void Tone::addPiece(Index interval, Index first, std::span<float> out) const
 {
-    const auto k = static_cast<std::size_t>(interval);
+    const auto k = std::size_t(interval);
     const std::size_t count = out.size() / (m_isComplex ? 2 : 1);
     const std::vector<double> &frequency = m_truth.frequencyHz;
-    const Parabola phase = {m_truth.startSeconds + static_cast<double>(interval) * m_truth.stepSeconds, m_turns[k],
+    const Parabola phase = {m_truth.startSeconds + double(interval) * m_truth.stepSeconds, m_turns[k],
                             frequency[k] - m_centreHz, (frequency[k + 1] - frequency[k]) / m_truth.stepSeconds};
     std::array<float, pieceLength> cosine;
     std::array<float, pieceLength> sine;
-    phasors(phase, static_cast<double>(first), 1.0 / m_sampleRateHz, count, cosine.data(), sine.data());
+    phasors(phase, double(first), 1.0 / m_sampleRateHz, count, cosine.data(), sine.data());
 
     for (std::size_t i = 0; i < count && !m_fadingReal.empty(); ++i) {
-        const double seconds =
-            static_cast<double>(first + static_cast<Index>(i)) / m_sampleRateHz - m_truth.startSeconds;
+        const double seconds = double(first + Index(i)) / m_sampleRateHz - m_truth.startSeconds;
         const double position = seconds / m_fadingStepSeconds;
-        const auto real = static_cast<float>(interpolate(m_fadingReal, position));
-        const auto imaginary = static_cast<float>(interpolate(m_fadingImaginary, position));
+        const auto real = float(interpolate(m_fadingReal, position));
+        const auto imaginary = float(interpolate(m_fadingImaginary, position));
         const float c = cosine[i];
         cosine[i] = real * c - imaginary * sine[i];
         sine[i] = real * sine[i] + imaginary * c;
     }
 
-    const auto amplitude = static_cast<float>(m_truth.amplitude);
+    const auto amplitude = float(m_truth.amplitude);
     if (m_isComplex) {
         for (std::size_t i = 0; i < count; ++i) {
             out[2 * i] += amplitude * cosine[i];

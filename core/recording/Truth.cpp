@@ -28,9 +28,9 @@ namespace {
 
 double TruthLine::frequencyAt(double seconds) const
 {
-    const double last = static_cast<double>(frequencyHz.size() - 1);
+    const double last = double(frequencyHz.size() - 1);
     const double position = stepSeconds > 0.0 ? std::clamp((seconds - startSeconds) / stepSeconds, 0.0, last) : 0.0;
-    const auto index = static_cast<std::size_t>(position);
+    const auto index = std::size_t(position);
     return index + 1 < frequencyHz.size()
                ? std::lerp(frequencyHz[index], frequencyHz[index + 1], position - std::floor(position))
                : frequencyHz.back();

@@ -84,7 +84,7 @@ namespace {
     {
         std::uint32_t value = 0;
         for (std::size_t i = count; i-- > 0;)
-            value = value << 8 | static_cast<std::uint32_t>(bytes[at + i]);
+            value = value << 8 | std::uint32_t(bytes[at + i]);
         return value;
     }
 
@@ -93,7 +93,7 @@ namespace {
     {
         if (auxi.size() < 36)
             return;
-        const auto word = [&](std::size_t i) { return static_cast<int>(littleEndian(auxi, 2 * i, 2)); };
+        const auto word = [&](std::size_t i) { return int(littleEndian(auxi, 2 * i, 2)); };
         const auto start = unixSeconds(word(0), word(1), word(3), word(4), word(5), word(6) + word(7) / 1000.0);
         if (!start || word(0) < 1970)
             return;
@@ -124,7 +124,7 @@ namespace {
         double missing = 0.0;
         for (std::size_t entry = 0; entry < count; ++entry) {
             const std::size_t at = entriesAt + entry * entryBytes;
-            const auto byte = [&](std::size_t i) { return static_cast<int>(littleEndian(harp, at + i, 1)); };
+            const auto byte = [&](std::size_t i) { return int(littleEndian(harp, at + i, 1)); };
             const auto start = unixSeconds(2000 + byte(0), byte(1), byte(2), byte(3), byte(4),
                                            byte(5) + littleEndian(harp, at + 6, 2) / 1000.0);
             if (!start)
@@ -150,7 +150,7 @@ namespace {
     {
         std::uint32_t value = 0;
         for (const std::byte byte : bytes)
-            value = value << 8 | static_cast<std::uint32_t>(byte);
+            value = value << 8 | std::uint32_t(byte);
         return value;
     }
 

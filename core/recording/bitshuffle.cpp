@@ -91,8 +91,8 @@ namespace {
             return false;
         const int got =
             LZ4_decompress_safe(reinterpret_cast<const char *>(taken.data()), reinterpret_cast<char *>(block.data()),
-                                static_cast<int>(taken.size()), static_cast<int>(block.size()));
-        return got == static_cast<int>(block.size());
+                                int(taken.size()), int(block.size()));
+        return got == int(block.size());
     }
 
 } // namespace
@@ -129,7 +129,7 @@ std::vector<std::byte> undoBitshuffle(std::span<const std::byte> chunk, const Bi
     std::span<const std::byte> rest;
     if (!source.take((elements - done) * elementBytes, rest))
         return {};
-    std::copy(rest.begin(), rest.end(), out.begin() + static_cast<std::ptrdiff_t>(done * elementBytes));
+    std::copy(rest.begin(), rest.end(), out.begin() + std::ptrdiff_t(done * elementBytes));
     return out;
 }
 

@@ -42,10 +42,9 @@ namespace {
 
     void addBytes(Sha256 &hash, const FileBytes &file, Index first, Index count)
     {
-        std::vector<std::byte> buffer(static_cast<std::size_t>(std::min<Index>(count, 1 << 20)));
+        std::vector<std::byte> buffer(std::size_t(std::min<Index>(count, 1 << 20)));
         for (Index done = 0; done < count;) {
-            const auto wanted =
-                std::span(buffer).first(static_cast<std::size_t>(std::min(count - done, std::ssize(buffer))));
+            const auto wanted = std::span(buffer).first(std::size_t(std::min(count - done, std::ssize(buffer))));
             if (file.readAt(first + done, wanted) < wanted.size())
                 throw Error(file.path(), "was truncated while being read", Error::Kind::Failure);
             hash.add(wanted);
@@ -68,7 +67,7 @@ std::string fileHash(const std::string &path)
     addBytes(hash, file, file.size() - mebibyte, mebibyte);
     std::array<std::byte, 8> length; // little-endian
     for (std::size_t i = 0; i < length.size(); ++i)
-        length[i] = static_cast<std::byte>(static_cast<std::uint64_t>(file.size()) >> (8 * i));
+        length[i] = static_cast<std::byte>(std::uint64_t(file.size()) >> (8 * i));
     hash.add(length);
     return "part:" + hash.hexadecimal();
 }

@@ -38,14 +38,12 @@ bool leadsBackwards(const FileBytes &file, Index chunk)
     const bool isBigEndian = std::memcmp(kind.data(), "RIFX", kind.size()) == 0;
     const Index length =
         std::min<Index>(number(std::span(head).last(wordBytes), isBigEndian), file.size() - chunk - std::ssize(head));
-    std::vector<std::byte> bytes(static_cast<std::size_t>(std::clamp<Index>(length, 0, most)));
+    std::vector<std::byte> bytes(std::size_t(std::clamp<Index>(length, 0, most)));
     bytes.resize(file.readAt(chunk + std::ssize(head), bytes));
 
     Index at = 0;
     while (at + 2 * wordBytes <= std::ssize(bytes)) {
-        const auto word = [&](Index place) {
-            return std::span(bytes).subspan(static_cast<std::size_t>(place)).first(wordBytes);
-        };
+        const auto word = [&](Index place) { return std::span(bytes).subspan(std::size_t(place)).first(wordBytes); };
         const std::string_view name(reinterpret_cast<const char *>(word(at).data()), wordBytes);
         at += wordBytes;
         if (name == "INFO" || name == "adtl")

@@ -20,7 +20,7 @@ std::vector<double> ornsteinUhlenbeck(Random &random, Index count, double step)
 
 void standardise(std::vector<double> &path, double deviation)
 {
-    const double n = static_cast<double>(path.size());
+    const double n = double(path.size());
     double sum = 0.0;
     for (const double value : path)
         sum += value;
@@ -35,8 +35,8 @@ void standardise(std::vector<double> &path, double deviation)
 
 double interpolate(const std::vector<double> &path, double position)
 {
-    const double inside = std::clamp(position, 0.0, static_cast<double>(path.size() - 1));
-    const auto index = static_cast<std::size_t>(inside);
+    const double inside = std::clamp(position, 0.0, double(path.size() - 1));
+    const auto index = std::size_t(inside);
     return index + 1 < path.size() ? path[index] + (path[index + 1] - path[index]) * (inside - std::floor(inside))
                                    : path.back();
 }

@@ -23,7 +23,7 @@ enum class SimulationStream : std::uint64_t { Noise = 1, Level, Phase, Wander, F
 
 inline std::uint64_t streamNumber(SimulationStream kind, Index number)
 {
-    return static_cast<std::uint64_t>(kind) << 56 | (static_cast<std::uint64_t>(number) & 0x00ffffffffffffffu);
+    return std::uint64_t(kind) << 56 | (std::uint64_t(number) & 0x00ffffffffffffffu);
 }
 
 } // namespace faintline

@@ -46,10 +46,10 @@ namespace {
         std::int32_t toInteger(float x, int bits)
         {
             const double highest = std::ldexp(1.0, bits - 1);
-            const double rounded = std::nearbyint(static_cast<double>(x) * highest);
+            const double rounded = std::nearbyint(double(x) * highest);
             const double clipped = std::clamp(rounded, -highest, highest - 1.0);
             m_clippedCount += clipped == rounded ? 0 : 1;
-            return static_cast<std::int32_t>(clipped);
+            return std::int32_t(clipped);
         }
 
     private:
@@ -65,19 +65,19 @@ namespace {
                                                               : 0)
         {
             SF_INFO format = {};
-            format.channels = static_cast<int>(info.channelCount * info.floatsPerSample());
+            format.channels = int(info.channelCount * info.floatsPerSample());
             if (std::floor(info.sampleRateHz) != info.sampleRateHz || info.sampleRateHz > 2147483647.0)
                 throw Error(path, "audio files need a whole-number sample rate up to 2147483647 Hz, not "
                                       + formatNumber(info.sampleRateHz) + " Hz; write a .sigmf-meta pair");
-            format.samplerate = static_cast<int>(info.sampleRateHz);
-            const double bytes = static_cast<double>(info.sampleCount) * format.channels * (m_bits == 16 ? 2 : 4);
+            format.samplerate = int(info.sampleRateHz);
+            const double bytes = double(info.sampleCount) * format.channels * (m_bits == 16 ? 2 : 4);
             if (kind == SF_FORMAT_WAV && bytes > 4294967296.0 - 65536.0)
                 kind = SF_FORMAT_RF64;
             format.format = kind
                             | (m_bits == 16   ? SF_FORMAT_PCM_16
                                : m_bits == 24 ? SF_FORMAT_PCM_24
                                               : SF_FORMAT_FLOAT);
-            m_channels = static_cast<std::size_t>(format.channels);
+            m_channels = std::size_t(format.channels);
             if (!sf_format_check(&format))
                 throw Error(path, "this file format does not support " + std::to_string(format.channels)
                                       + " channel(s) at " + formatNumber(info.sampleRateHz)
@@ -133,9 +133,9 @@ namespace {
             std::copy_n(text.data(), 10, bext.origination_date);
             std::copy_n(text.data() + 11, 8, bext.origination_time);
             const double sinceMidnight = unixSeconds - 86400.0 * std::floor(unixSeconds / 86400.0);
-            const auto samples = static_cast<std::uint64_t>(std::llround(sinceMidnight * rateHz));
-            bext.time_reference_low = static_cast<std::uint32_t>(samples);
-            bext.time_reference_high = static_cast<std::uint32_t>(samples >> 32);
+            const auto samples = std::uint64_t(std::llround(sinceMidnight * rateHz));
+            bext.time_reference_low = std::uint32_t(samples);
+            bext.time_reference_high = std::uint32_t(samples >> 32);
             bext.version = 1;
             sf_command(m_handle.get(), SFC_SET_BROADCAST_INFO, &bext, sizeof bext);
         }
@@ -180,7 +180,7 @@ namespace {
             m_bytes.clear();
             for (const float x : samples)
                 if (m_isInteger)
-                    append(static_cast<std::uint16_t>(toInteger(x, 16)));
+                    append(std::uint16_t(toInteger(x, 16)));
                 else
                     append(std::bit_cast<std::uint32_t>(x));
             m_dataFile.write(m_bytes);
@@ -230,19 +230,18 @@ Index writeRecording(const Recording &recording, const std::string &path, Writte
     const Index floats = info.floatsPerSample();
     const Index streams = floats * info.channelCount;
     const Index block = std::max<Index>(1, (1 << 18) / streams);
-    std::vector<float> channel(static_cast<std::size_t>(block * floats));
-    std::vector<float> interleaved(static_cast<std::size_t>(block * streams));
+    std::vector<float> channel(std::size_t(block * floats));
+    std::vector<float> interleaved(std::size_t(block * streams));
     for (Index done = 0; done < info.sampleCount; done += block) {
-        context.checkpoint(static_cast<double>(done) / static_cast<double>(info.sampleCount), "writing");
+        context.checkpoint(double(done) / double(info.sampleCount), "writing");
         const Index run = std::min(block, info.sampleCount - done);
         for (int c = 0; c < info.channelCount; ++c) {
             recording.read(c, done, run, channel);
             for (Index i = 0; i < run; ++i)
                 for (Index part = 0; part < floats; ++part)
-                    interleaved[static_cast<std::size_t>(i * streams + c * floats + part)] =
-                        channel[static_cast<std::size_t>(i * floats + part)];
+                    interleaved[std::size_t(i * streams + c * floats + part)] = channel[std::size_t(i * floats + part)];
         }
-        writer->write(std::span(interleaved).first(static_cast<std::size_t>(run * streams)));
+        writer->write(std::span(interleaved).first(std::size_t(run * streams)));
     }
     context.checkpoint(1.0, "writing");
     writer->finish();

@@ -5,12 +5,10 @@
 
 namespace faintline {
 
-BlockFilter::BlockFilter(Index length)
-    : m_window(static_cast<std::size_t>(length)), m_fft(static_cast<int>(length), Fft::Input::Complex)
+BlockFilter::BlockFilter(Index length) : m_window(std::size_t(length)), m_fft(int(length), Fft::Input::Complex)
 {
     for (std::size_t n = 0; n < m_window.size(); ++n)
-        m_window[n] = static_cast<float>(
-            std::sin(std::numbers::pi * (static_cast<double>(n) + 0.5) / static_cast<double>(length)));
+        m_window[n] = float(std::sin(std::numbers::pi * (double(n) + 0.5) / double(length)));
 }
 
 void BlockFilter::apply(std::span<std::complex<float>> block, std::span<const float> gains) const

@@ -20,9 +20,8 @@ namespace {
 
     CausalLevels levelsFor(const CausalGeometry &geometry, Index bands)
     {
-        const auto cells = static_cast<double>(geometry.cells);
-        return {bands, scatterOf(geometry, cells),
-                scatterOf(geometry, cells / static_cast<double>(std::max<Index>(1, bands)))};
+        const auto cells = double(geometry.cells);
+        return {bands, scatterOf(geometry, cells), scatterOf(geometry, cells / double(std::max<Index>(1, bands)))};
     }
 
 } // namespace
@@ -30,16 +29,16 @@ namespace {
 CausalBackground::CausalBackground(const CausalGeometry &geometry, const Axis &frequency,
                                    std::span<const float> firstBlock)
     : m_geometry(geometry), m_cells(frequency.count),
-      m_bands(geometry.followsLevel ? NoiseBackground::subBandCount(static_cast<double>(frequency.count)) : 0),
+      m_bands(geometry.followsLevel ? NoiseBackground::subBandCount(double(frequency.count)) : 0),
       m_firstBlockWindows(std::ssize(firstBlock) / frequency.count), m_levels(levelsFor(geometry, m_bands))
 {
     m_background.frequency = frequency;
     m_background.time = {"time", "s", 0.0, 1.0, 1, false}; // what is asked at any time
     m_background.levelTime = m_background.time;
     m_background.bandCount = m_bands;
-    m_background.lnLevel.assign(static_cast<std::size_t>(m_bands), 0.0f);
+    m_background.lnLevel.assign(std::size_t(m_bands), 0.0f);
     for (Index window = 0; window < m_firstBlockWindows; ++window)
-        keepWindow(firstBlock.subspan(static_cast<std::size_t>(window * m_cells), static_cast<std::size_t>(m_cells)));
+        keepWindow(firstBlock.subspan(std::size_t(window * m_cells), std::size_t(m_cells)));
     renew();
 }
 
@@ -49,7 +48,7 @@ void CausalBackground::keepWindow(std::span<const float> power)
         return; // digital silence tells nothing
     if (std::ssize(m_windows) == m_geometry.blockWindows * m_cells) {
         std::move(m_windows.begin() + m_cells, m_windows.end(), m_windows.begin());
-        m_windows.resize(m_windows.size() - static_cast<std::size_t>(m_cells));
+        m_windows.resize(m_windows.size() - std::size_t(m_cells));
     }
     m_windows.insert(m_windows.end(), power.begin(), power.end());
     ++m_sinceRenewal;
@@ -58,10 +57,10 @@ void CausalBackground::keepWindow(std::span<const float> power)
 double CausalBackground::marginOf(std::size_t blocks) const
 {
     constexpr double alarmsPerExcess = 30.0; // B
-    const double cells = 2.0 * static_cast<double>(m_geometry.halfWidthCells) + 1.0;
-    const auto windows = static_cast<double>(std::ssize(m_windows) / m_cells);
+    const double cells = 2.0 * double(m_geometry.halfWidthCells) + 1.0;
+    const auto windows = double(std::ssize(m_windows) / m_cells);
     const double variance =
-        inverseLn2 * inverseLn2 * m_geometry.likeness / (std::max(1.0, windows) * cells * static_cast<double>(blocks));
+        inverseLn2 * inverseLn2 * m_geometry.likeness / (std::max(1.0, windows) * cells * double(blocks));
     return 0.5 * alarmsPerExcess * variance;
 }
 
@@ -73,8 +72,8 @@ void CausalBackground::renew()
         flatten(block, m_cells);
     m_blocks.push_back(blockBackground(block, m_cells, m_geometry.halfWidthCells));
     // Every so many renewals a block is another one, without a window in common.
-    const auto apart = static_cast<std::size_t>((m_geometry.blockWindows + m_geometry.renewalWindows() - 1)
-                                                / m_geometry.renewalWindows());
+    const auto apart =
+        std::size_t((m_geometry.blockWindows + m_geometry.renewalWindows() - 1) / m_geometry.renewalWindows());
     if (m_blocks.size() > apart * (blocksAveraged - 1) + 1)
         m_blocks.pop_front();
     std::vector<float> medians;
@@ -86,8 +85,8 @@ void CausalBackground::renew()
     }
     BlockBackground colour = m_blocks.back();
     if (!m_windows.empty())
-        colour.lnPower = averageOfLatest(medians, rows, m_cells, m_geometry.halfWidthCells,
-                                         static_cast<double>(std::ssize(m_windows) / m_cells));
+        colour.lnPower =
+            averageOfLatest(medians, rows, m_cells, m_geometry.halfWidthCells, double(std::ssize(m_windows) / m_cells));
     const bool wasHeard = !m_colour.lnPower.empty() && m_colour.lnPower.front() > 0.5f * NoiseBackground::silence;
     if (m_bands > 0 && wasHeard)
         m_levels.moveBy(
@@ -95,7 +94,7 @@ void CausalBackground::renew()
     m_colour = std::move(colour);
     if (m_bands > 0 && !m_windows.empty())
         m_levels.setOffsets({levelsOf(block, m_colour, m_bands, m_geometry.likeness), m_bands + 1});
-    const auto margin = static_cast<float>(marginOf(newest / apart + 1));
+    const auto margin = float(marginOf(newest / apart + 1));
     m_background.lnPower = m_colour.lnPower;
     for (float &ln : m_background.lnPower)
         ln += margin;
@@ -120,7 +119,7 @@ const NoiseBackground &CausalBackground::next(std::span<const float> power)
 
 std::size_t CausalBackground::bytes() const
 {
-    const auto cells = static_cast<std::size_t>(m_cells);
+    const auto cells = std::size_t(m_cells);
     constexpr std::size_t perBlock = 2 * sizeof(float) + 1;
     return sizeof *this + m_windows.capacity() * sizeof(float) + (m_blocks.size() + 1) * cells * perBlock
            + cells * sizeof(float) + m_levels.bytes();

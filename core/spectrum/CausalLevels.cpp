@@ -12,8 +12,7 @@ namespace {
 
 CausalLevels::CausalLevels(Index bands, double commonScatter, double bandScatter)
     : m_columns(bands + 1), m_commonScatter(commonScatter), m_bandScatter(bandScatter),
-      m_levels(static_cast<std::size_t>(smoothedFrames * m_columns), 0.0f),
-      m_offsets(static_cast<std::size_t>(m_columns), 0.0f)
+      m_levels(std::size_t(smoothedFrames * m_columns), 0.0f), m_offsets(std::size_t(m_columns), 0.0f)
 {
 }
 
@@ -22,7 +21,7 @@ void CausalLevels::push(std::span<const float> levels)
     if (rows() >= 2 * smoothedFrames) // memory is moved once in as many frames
         m_levels.erase(m_levels.begin(), m_levels.end() - smoothedFrames * m_columns);
     const bool isKnown = levels.back() < levelNotKnown;
-    const std::size_t before = m_levels.size() - static_cast<std::size_t>(m_columns);
+    const std::size_t before = m_levels.size() - std::size_t(m_columns);
     for (std::size_t column = 0; column < levels.size(); ++column)
         m_levels.push_back(isKnown ? levels[column] : m_levels[before + column]);
 }
@@ -30,7 +29,7 @@ void CausalLevels::push(std::span<const float> levels)
 void CausalLevels::moveBy(std::span<const double> rise)
 {
     for (std::size_t i = 0; i < m_levels.size(); ++i)
-        m_levels[i] += static_cast<float>(rise[i % rise.size()]);
+        m_levels[i] += float(rise[i % rise.size()]);
 }
 
 void CausalLevels::setOffsets(const LevelOffsets &offsets)
@@ -46,11 +45,11 @@ void CausalLevels::setOffsets(const LevelOffsets &offsets)
 /// The last frames' values of a column, less its offset.
 void CausalLevels::readSeries(Index column, std::vector<float> &series) const
 {
-    series.resize(static_cast<std::size_t>(smoothedFrames));
+    series.resize(std::size_t(smoothedFrames));
     const Index first = rows() - smoothedFrames;
     for (Index i = 0; i < smoothedFrames; ++i)
-        series[static_cast<std::size_t>(i)] = m_levels[static_cast<std::size_t>((first + i) * m_columns + column)]
-                                              - m_offsets[static_cast<std::size_t>(column)];
+        series[std::size_t(i)] =
+            m_levels[std::size_t((first + i) * m_columns + column)] - m_offsets[std::size_t(column)];
 }
 
 std::vector<float> CausalLevels::latest() const

@@ -42,7 +42,7 @@ CausalSpectrogram::CausalSpectrogram(std::shared_ptr<const Spectrogram> spectrog
       m_settings(settings), m_coarse(coarseFrames(*m_spectrogram, settings, m_spectrogram->settings().stepsPerWindow)),
       m_geometry(geometryOf(m_coarse, settings)), m_kept(checkpointFrames, memoryShares::background)
 {
-    m_power.resize(static_cast<std::size_t>(m_geometry.cells));
+    m_power.resize(std::size_t(m_geometry.cells));
     m_background = begin();
     m_firstBackground = std::make_shared<const NoiseBackground>(m_background->latest());
 }
@@ -57,10 +57,10 @@ CausalBackground CausalSpectrogram::begin() const
 {
     const Index steps = m_geometry.stepsPerWindow;
     const Index windows = std::min(m_geometry.blockWindows, (m_coarse.time().count - 1) / steps + 1);
-    std::vector<float> block(static_cast<std::size_t>(windows * m_geometry.cells));
+    std::vector<float> block(std::size_t(windows * m_geometry.cells));
     for (Index window = 0; window < windows; ++window)
-        readPower(window * steps, std::span(block).subspan(static_cast<std::size_t>(window * m_geometry.cells),
-                                                           static_cast<std::size_t>(m_geometry.cells)));
+        readPower(window * steps,
+                  std::span(block).subspan(std::size_t(window * m_geometry.cells), std::size_t(m_geometry.cells)));
     return {m_geometry, m_coarse.frequency(), block};
 }
 
@@ -105,13 +105,13 @@ bool CausalSpectrogram::isTorn(Index frame) const
 void CausalSpectrogram::read(Index first, Index count, std::span<float> out) const
 {
     m_spectrogram->read(first, count, out);
-    const auto cells = static_cast<std::size_t>(grid().size());
+    const auto cells = std::size_t(grid().size());
     std::vector<float> inverse;
     const std::lock_guard lock(m_mutex);
     goTo(first);
     for (Index i = 0; i < count; ++i) {
         const NoiseBackground &background = step();
-        const std::span<float> values = out.subspan(static_cast<std::size_t>(i) * cells, cells);
+        const std::span<float> values = out.subspan(std::size_t(i) * cells, cells);
         const bool isSilent = std::none_of(values.begin(), values.end(), [](float value) { return value > 0.0f; });
         normaliseFrame(*m_spectrogram, background, 0.0, m_settings.followLevel, values, inverse);
         if (!isSilent && isTorn(first + i))

@@ -22,7 +22,7 @@ namespace {
     /// The law of K summed cells; nothing to do for one.
     LooksLaw sumLaw(std::size_t members)
     {
-        const auto looks = static_cast<double>(members);
+        const auto looks = double(members);
         return {looks, boost::math::gamma_p_inv(looks, 0.5) / looks};
     }
 
@@ -39,7 +39,7 @@ namespace {
 
     float largestOf(float maximum, std::size_t members)
     {
-        const auto K = static_cast<float>(members);
+        const auto K = float(members);
         if (maximum > exact)
             return maximum - std::log(K);
         return -std::log(-std::expm1(K * std::log1p(-std::exp(-maximum))));
@@ -134,7 +134,7 @@ Axis familyAxis(const FamilySettings &settings, const Axis &band)
     const auto [least, most] = std::minmax_element(settings.members.begin(), settings.members.end());
     const double first = std::max({band.step, apart * band.step / closest(settings.members), band.value(0.0) / *least});
     axis.first = axis.step * std::ceil(first / axis.step);
-    axis.count = static_cast<Index>(std::floor((band.last() / *most - axis.first) / axis.step)) + 1;
+    axis.count = Index(std::floor((band.last() / *most - axis.first) / axis.step)) + 1;
     if (axis.count < 1)
         refuse("must have multiples that all lie in the band, for some fundamental");
     return axis;
@@ -145,7 +145,7 @@ double ringBands(const FamilySettings &settings)
     if (settings.isNone())
         return 1.0;
     if (settings.relation == FamilySettings::Relation::Offsets)
-        return static_cast<double>(settings.members.size());
+        return double(settings.members.size());
     return std::accumulate(settings.members.begin(), settings.members.end(), 0.0) / familyCellsPerBin(settings);
 }
 
@@ -162,13 +162,13 @@ FamilyMap::FamilyMap(const FamilySettings &settings, const Axis &frequency, bool
 {
     const Index first = innerOnly ? 1 : 0;
     const Index last = m_bins - 1 - first;
-    const auto cells = static_cast<std::size_t>(m_frequency.count);
+    const auto cells = std::size_t(m_frequency.count);
     m_places.resize(cells * settings.members.size());
     for (std::size_t cell = 0; cell < cells; ++cell) {
-        const std::vector<double> members = memberFrequencies(settings, m_frequency.value(static_cast<double>(cell)));
+        const std::vector<double> members = memberFrequencies(settings, m_frequency.value(double(cell)));
         for (std::size_t k = 0; k < members.size(); ++k) {
             const Index bin = std::lround(frequency.position(members[k]));
-            m_places[k * cells + cell] = bin >= first && bin <= last ? static_cast<std::int32_t>(bin) : -1;
+            m_places[k * cells + cell] = bin >= first && bin <= last ? std::int32_t(bin) : -1;
         }
     }
     if (std::all_of(m_places.begin(), m_places.end(), [](std::int32_t place) { return place < 0; }))
@@ -182,9 +182,9 @@ FamilyMap FamilyMap::onRing(const FamilySettings &settings, Index bins, double b
     const std::vector<double> &members = settings.members;
     const bool isHarmonic = settings.relation == FamilySettings::Relation::Harmonics;
     const auto [least, most] = std::minmax_element(members.begin(), members.end());
-    const bool fits = !isHarmonic && 2.0 * (*most - *least) * binsPerHz < static_cast<double>(bins);
+    const bool fits = !isHarmonic && 2.0 * (*most - *least) * binsPerHz < double(bins);
     // Otherwise each member has a stretch to itself, or noise would be added to itself where two of them meet.
-    const auto cells = fits ? bins : static_cast<Index>(static_cast<double>(bins) / ringBands(settings));
+    const auto cells = fits ? bins : Index(double(bins) / ringBands(settings));
     FamilyMap map;
     map.m_settings = settings;
     map.m_bins = bins;
@@ -195,9 +195,8 @@ FamilyMap FamilyMap::onRing(const FamilySettings &settings, Index bins, double b
         const double step = isHarmonic ? member / familyCellsPerBin(settings) : 1.0;
         const double base = fits ? member * binsPerHz : stretch;
         for (Index cell = 0; cell < cells; ++cell)
-            map.m_places.push_back(static_cast<std::int32_t>(
-                ring.wrapped(std::lround(std::floor(base + step * static_cast<double>(cell))))));
-        stretch += step * static_cast<double>(cells);
+            map.m_places.push_back(std::int32_t(ring.wrapped(std::lround(std::floor(base + step * double(cell))))));
+        stretch += step * double(cells);
     }
     return map;
 }
@@ -216,7 +215,7 @@ namespace {
             for (std::size_t cell = 0; cell < cells; ++cell) {
                 if (places[cell] < 0)
                     continue;
-                const float value = y[static_cast<std::size_t>(places[cell])];
+                const float value = y[std::size_t(places[cell])];
                 if (std::isnan(value))
                     continue;
                 out[cell] = combine(out[cell], value);
@@ -226,12 +225,12 @@ namespace {
             if (counts[cell] == 0)
                 out[cell] = std::numeric_limits<float>::quiet_NaN();
             else if (counts[cell] > 1)
-                out[cell] = law(out[cell], static_cast<std::size_t>(counts[cell]));
+                out[cell] = law(out[cell], std::size_t(counts[cell]));
     }
 
     float summed(float sum, std::size_t members)
     {
-        return sumLawOf(members)(sum / static_cast<float>(members));
+        return sumLawOf(members)(sum / float(members));
     }
 
 } // namespace
@@ -253,11 +252,11 @@ FamilyFrames::FamilyFrames(NormalisedFramesPointer lines, const FamilySettings &
 
 void FamilyFrames::read(Index first, Index count, std::span<float> out) const
 {
-    const auto bins = static_cast<std::size_t>(m_lines->grid().size());
-    const auto cells = static_cast<std::size_t>(m_grid.size());
-    std::vector<float> lines(static_cast<std::size_t>(count) * bins);
+    const auto bins = std::size_t(m_lines->grid().size());
+    const auto cells = std::size_t(m_grid.size());
+    std::vector<float> lines(std::size_t(count) * bins);
     m_lines->read(first, count, lines);
-    for (std::size_t row = 0; row < static_cast<std::size_t>(count); ++row)
+    for (std::size_t row = 0; row < std::size_t(count); ++row)
         m_map.apply(std::span(lines).subspan(row * bins, bins), out.subspan(row * cells, cells));
 }
 

@@ -56,9 +56,8 @@ Fft::~Fft()
 
 std::unique_ptr<Fft::Buffer> Fft::buffer() const
 {
-    const auto n = static_cast<std::size_t>(m_length);
-    return std::unique_ptr<Buffer>(
-        new Buffer(m_input == Input::Real ? n : 2 * n, static_cast<std::size_t>(binCount())));
+    const auto n = std::size_t(m_length);
+    return std::unique_ptr<Buffer>(new Buffer(m_input == Input::Real ? n : 2 * n, std::size_t(binCount())));
 }
 
 void Fft::run(Buffer &buffer) const

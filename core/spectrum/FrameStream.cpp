@@ -12,8 +12,7 @@ namespace {
 
 FrameStream::FrameStream(const NormalisedFrames &frames, bool readsAhead)
     : m_frames(frames), m_readsAhead(readsAhead),
-      m_blockFrames(
-          std::max<Index>(1, static_cast<Index>(blockBytes / sizeof(float)) / std::max<Index>(1, frames.grid().size())))
+      m_blockFrames(std::max<Index>(1, Index(blockBytes / sizeof(float)) / std::max<Index>(1, frames.grid().size())))
 {
     if (m_readsAhead)
         prefetch();
@@ -33,7 +32,7 @@ std::vector<float> FrameStream::next()
 std::vector<float> FrameStream::read(Index first) const
 {
     const Index count = std::min(m_blockFrames, m_frames.time().count - first);
-    std::vector<float> block(static_cast<std::size_t>(count * m_frames.grid().size()));
+    std::vector<float> block(std::size_t(count * m_frames.grid().size()));
     m_frames.read(first, count, block);
     return block;
 }

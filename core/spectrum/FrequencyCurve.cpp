@@ -21,23 +21,22 @@ FrequencyCurve::FrequencyCurve(const Axis &time, std::vector<double> hz)
 
 double FrequencyCurve::meanHz() const
 {
-    return std::accumulate(m_hz.begin(), m_hz.end(), 0.0) / static_cast<double>(m_hz.size());
+    return std::accumulate(m_hz.begin(), m_hz.end(), 0.0) / double(m_hz.size());
 }
 
 double FrequencyCurve::at(double seconds) const
 {
-    const double position = std::clamp(m_time.position(seconds), 0.0, static_cast<double>(m_hz.size() - 1));
-    const auto lower = std::min(static_cast<std::size_t>(position), m_hz.size() - 1);
+    const double position = std::clamp(m_time.position(seconds), 0.0, double(m_hz.size() - 1));
+    const auto lower = std::min(std::size_t(position), m_hz.size() - 1);
     const std::size_t upper = std::min(lower + 1, m_hz.size() - 1);
-    return m_hz[lower] + (position - static_cast<double>(lower)) * (m_hz[upper] - m_hz[lower]);
+    return m_hz[lower] + (position - double(lower)) * (m_hz[upper] - m_hz[lower]);
 }
 
 double FrequencyCurve::cyclesAt(double seconds) const
 {
     const double position = m_time.position(seconds);
-    const auto knot =
-        static_cast<std::size_t>(std::clamp(std::floor(position), 0.0, static_cast<double>(m_hz.size() - 1)));
-    const double after = seconds - m_time.value(static_cast<double>(knot));
+    const auto knot = std::size_t(std::clamp(std::floor(position), 0.0, double(m_hz.size() - 1)));
+    const double after = seconds - m_time.value(double(knot));
     return m_cycles[knot] + 0.5 * (m_hz[knot] + at(seconds)) * after;
 }
 

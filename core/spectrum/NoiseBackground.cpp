@@ -32,7 +32,7 @@ namespace {
     void addLine(float *values, std::int32_t count, float start, float step)
     {
         for (std::int32_t i = 0; i < count; ++i)
-            values[i] += start + step * static_cast<float>(i);
+            values[i] += start + step * float(i);
     }
 
     /// Adds levels of sub-bands of equal width, interpolated between their middles, constant beyond the outer ones.
@@ -41,13 +41,13 @@ namespace {
     void addBetweenBands(std::span<float> ln, const std::vector<float> &levels)
     {
         constexpr float abyss = 4.6f; // 20 dB
-        const double perCell = static_cast<double>(levels.size()) / static_cast<double>(ln.size());
-        const auto middleOf = [&](std::size_t band) { return (static_cast<double>(band) + 0.5) / perCell - 0.5; };
+        const double perCell = double(levels.size()) / double(ln.size());
+        const auto middleOf = [&](std::size_t band) { return (double(band) + 0.5) / perCell - 0.5; };
         const auto place = [&](double cell) {
-            return std::min(static_cast<std::size_t>(std::ceil(std::max(0.0, cell))), ln.size());
+            return std::min(std::size_t(std::ceil(std::max(0.0, cell))), ln.size());
         };
         const auto addConstant = [&](std::size_t from, std::size_t to, float level) {
-            addLine(ln.data() + from, static_cast<std::int32_t>(to - from), level, 0.0f);
+            addLine(ln.data() + from, std::int32_t(to - from), level, 0.0f);
         };
         addConstant(0, place(middleOf(0)), levels.front());
         for (std::size_t band = 0; band + 1 < levels.size(); ++band) { // from its middle to that of the next
@@ -58,19 +58,16 @@ namespace {
             const float start = ln[from];
             const float fall = ln[to - 1] - start;
             if (std::abs(fall) > abyss) {
-                const auto half = std::find_if(ln.begin() + static_cast<std::ptrdiff_t>(from),
-                                               ln.begin() + static_cast<std::ptrdiff_t>(to),
+                const auto half = std::find_if(ln.begin() + std::ptrdiff_t(from), ln.begin() + std::ptrdiff_t(to),
                                                [&](float value) { return (value - start) / fall > 0.5f; });
-                const auto edge = static_cast<std::size_t>(half - ln.begin());
+                const auto edge = std::size_t(half - ln.begin());
                 addConstant(from, edge, levels[band]);
                 addConstant(edge, to, levels[band + 1]);
                 continue;
             }
-            const double slope = static_cast<double>(levels[band + 1] - levels[band]) * perCell;
-            const double first =
-                static_cast<double>(levels[band]) + (static_cast<double>(from) - middleOf(band)) * slope;
-            addLine(ln.data() + from, static_cast<std::int32_t>(to - from), static_cast<float>(first),
-                    static_cast<float>(slope));
+            const double slope = double(levels[band + 1] - levels[band]) * perCell;
+            const double first = double(levels[band]) + (double(from) - middleOf(band)) * slope;
+            addLine(ln.data() + from, std::int32_t(to - from), float(first), float(slope));
         }
         const std::size_t last = place(middleOf(levels.size() - 1));
         addConstant(last, ln.size(), levels.back());
@@ -102,8 +99,8 @@ double NoiseBackground::lnPowerAt(double seconds, double hz) const
     const Between t = between(time, seconds);
     const Between f = between(frequency, hz);
     const auto value = [&](Index block, Index cell) {
-        return static_cast<double>(lnPower[static_cast<std::size_t>(std::min(block, time.count - 1) * frequency.count
-                                                                    + std::min(cell, frequency.count - 1))]);
+        return double(lnPower[std::size_t(std::min(block, time.count - 1) * frequency.count
+                                          + std::min(cell, frequency.count - 1))]);
     };
     const auto along = [&](Index block) {
         return value(block, f.lower) * (1.0 - f.fraction) + value(block, f.lower + 1) * f.fraction;
@@ -118,7 +115,7 @@ void NoiseBackground::readLnPower(double seconds, std::span<float> ln) const
         return w.lower >= each.firstLevel && w.lower < each.firstLevel + each.levelCount();
     });
     if (stretch != stretches.end()) {
-        const auto sources = static_cast<std::size_t>(stretch->sources.count());
+        const auto sources = std::size_t(stretch->sources.count());
         const auto levelsAt = [&](Index i) {
             return stretch->sourceLevels.data()
                    + (std::min(i, stretch->firstLevel + stretch->levelCount() - 1) - stretch->firstLevel)
@@ -126,34 +123,32 @@ void NoiseBackground::readLnPower(double seconds, std::span<float> ln) const
         };
         std::vector<float> levels(sources);
         for (std::size_t k = 0; k < sources; ++k)
-            levels[k] = levelsAt(w.lower)[k]
-                        + static_cast<float>(w.fraction) * (levelsAt(w.lower + 1)[k] - levelsAt(w.lower)[k]);
+            levels[k] = levelsAt(w.lower)[k] + float(w.fraction) * (levelsAt(w.lower + 1)[k] - levelsAt(w.lower)[k]);
         readStretch(*stretch, levels, ln);
     } else {
         const Between t = between(time, seconds);
         const float *early = lnPower.data() + t.lower * frequency.count;
         const float *late = lnPower.data() + std::min(t.lower + 1, time.count - 1) * frequency.count;
-        interpolateBlocks(early, late, static_cast<float>(t.fraction), ln.size(), ln.data());
+        interpolateBlocks(early, late, float(t.fraction), ln.size(), ln.data());
     }
     if (bandCount == 0)
         return;
     const auto level = [&](Index band) {
         const auto at = [&](Index window) {
-            return static_cast<double>(
-                lnLevel[static_cast<std::size_t>(std::min(window, levelTime.count - 1) * bandCount + band)]);
+            return double(lnLevel[std::size_t(std::min(window, levelTime.count - 1) * bandCount + band)]);
         };
         return (1.0 - w.fraction) * at(w.lower) + w.fraction * at(w.lower + 1);
     };
     std::vector<float> levels;
     for (Index band = 0; band < bandCount; ++band)
-        levels.push_back(static_cast<float>(level(band)));
+        levels.push_back(float(level(band)));
     if (std::any_of(levels.begin(), levels.end(), [](float value) { return value != 0.0f; }))
         addBetweenBands(ln, levels);
 }
 
 Index NoiseBackground::subBandCount(double cells)
 {
-    return cells < 48.0 ? 0 : static_cast<Index>(std::clamp(cells / 96.0, 1.0, 64.0));
+    return cells < 48.0 ? 0 : Index(std::clamp(cells / 96.0, 1.0, 64.0));
 }
 
 } // namespace faintline

@@ -15,11 +15,11 @@ NormalisedSpectrogram::NormalisedSpectrogram(std::shared_ptr<const Spectrogram> 
 void NormalisedSpectrogram::read(Index first, Index count, std::span<float> out) const
 {
     m_spectrogram->read(first, count, out);
-    const auto cells = static_cast<std::size_t>(grid().size());
+    const auto cells = std::size_t(grid().size());
     std::vector<float> ln;
     for (Index i = 0; i < count; ++i)
-        normaliseFrame(*m_spectrogram, *m_background, time().value(static_cast<double>(first + i)),
-                       m_settings.followLevel, out.subspan(static_cast<std::size_t>(i) * cells, cells), ln);
+        normaliseFrame(*m_spectrogram, *m_background, time().value(double(first + i)), m_settings.followLevel,
+                       out.subspan(std::size_t(i) * cells, cells), ln);
 }
 
 } // namespace faintline

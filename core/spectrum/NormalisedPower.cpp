@@ -42,12 +42,12 @@ namespace {
         std::uint64_t z = counter * 0x9e3779b97f4a7c15u + 0x9e3779b97f4a7c15u;
         z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
         z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return static_cast<float>((z ^ (z >> 31)) >> 40) * 0x1p-24f;
+        return float((z ^ (z >> 31)) >> 40) * 0x1p-24f;
     }
 
     float quantile(std::vector<float> &values, double p)
     {
-        const auto at = values.begin() + static_cast<Index>(p * static_cast<double>(values.size() - 1));
+        const auto at = values.begin() + Index(p * double(values.size() - 1));
         std::nth_element(values.begin(), at, values.end());
         return *at;
     }
@@ -62,26 +62,25 @@ namespace {
 } // namespace
 
 LooksLaw::LooksLaw(double looks, double median)
-    : m_looks(looks), m_median(static_cast<float>(median)),
-      m_scale(static_cast<float>(gammaQuantile(looks, 0.5) / median)),
-      m_centre(static_cast<float>(1.0 - 1.0 / (9.0 * looks))), m_spread(static_cast<float>(std::sqrt(9.0 * looks)))
+    : m_looks(looks), m_median(float(median)), m_scale(float(gammaQuantile(looks, 0.5) / median)),
+      m_centre(float(1.0 - 1.0 / (9.0 * looks))), m_spread(float(std::sqrt(9.0 * looks)))
 {
     for (double z = tableLowest; z <= tableHighest; z += tableStep) {
-        const double root = std::max(0.0, static_cast<double>(m_centre) + z / static_cast<double>(m_spread));
+        const double root = std::max(0.0, double(m_centre) + z / double(m_spread));
         const double q = boost::math::gamma_q(looks, looks * root * root * root);
         if (!(q > smallest))
             break; // beyond, the last step goes on
-        m_table.push_back(static_cast<float>(-std::log(q)));
+        m_table.push_back(float(-std::log(q)));
     }
 }
 
 float LooksLaw::operator()(float ratio) const
 {
     const float z = (std::cbrt(ratio * m_scale) - m_centre) * m_spread;
-    const float place = std::max(0.0f, (z - static_cast<float>(tableLowest)) / static_cast<float>(tableStep));
+    const float place = std::max(0.0f, (z - float(tableLowest)) / float(tableStep));
     const auto last = m_table.size() - 2;
-    const std::size_t lower = place < static_cast<float>(last) ? static_cast<std::size_t>(place) : last;
-    return m_table[lower] + (place - static_cast<float>(lower)) * (m_table[lower + 1] - m_table[lower]);
+    const std::size_t lower = place < float(last) ? std::size_t(place) : last;
+    return m_table[lower] + (place - float(lower)) * (m_table[lower + 1] - m_table[lower]);
 }
 
 LooksLaw LooksLaw::fromQuantiles(double low, double middle, double high)
@@ -105,13 +104,11 @@ namespace {
                              const RunContext &context, const std::function<std::vector<float>(Index frame)> &readFrame)
     {
         const Index cells = frequency.count;
-        const Index most =
-            std::clamp<Index>(static_cast<Index>(memoryShares::background / sizeof(float)) / cells, 1, mostBlocks);
-        const Index wanted =
-            std::max(static_cast<Index>(std::llround(settings.blockWindows)), (time.count + most - 1) / most);
+        const Index most = std::clamp<Index>(Index(memoryShares::background / sizeof(float)) / cells, 1, mostBlocks);
+        const Index wanted = std::max(Index(std::llround(settings.blockWindows)), (time.count + most - 1) / most);
         const Index blocks = std::max<Index>(1, time.count / wanted);
-        const double blockFrames = static_cast<double>(time.count) / static_cast<double>(blocks);
-        const double atMost = static_cast<double>(std::max(fewestFramesPerBlock, valuesPerBlock / cells));
+        const double blockFrames = double(time.count) / double(blocks);
+        const double atMost = double(std::max(fewestFramesPerBlock, valuesPerBlock / cells));
         const double stride = std::max(1.0, blockFrames / atMost);
 
         NoiseBackground background;
@@ -121,11 +118,11 @@ namespace {
         std::vector<float> rows;
         std::vector<float> block;
         for (Index b = 0; b < blocks; ++b) {
-            context.checkpoint(static_cast<double>(b) / static_cast<double>(blocks), "noise background");
+            context.checkpoint(double(b) / double(blocks), "noise background");
             block.clear();
-            const double end = std::min(static_cast<double>(b + 1) * blockFrames, static_cast<double>(time.count));
-            for (double frame = static_cast<double>(b) * blockFrames; frame < end; frame += stride) {
-                const std::vector<float> row = readFrame(static_cast<Index>(frame));
+            const double end = std::min(double(b + 1) * blockFrames, double(time.count));
+            for (double frame = double(b) * blockFrames; frame < end; frame += stride) {
+                const std::vector<float> row = readFrame(Index(frame));
                 block.insert(block.end(), row.begin(), row.end());
             }
             withoutUnobserved(block);
@@ -140,7 +137,7 @@ namespace {
 
     Axis partOfAxis(Axis axis, Index first, Index count)
     {
-        axis.first = axis.value(static_cast<double>(first));
+        axis.first = axis.value(double(first));
         axis.count = count;
         return axis;
     }
@@ -175,14 +172,14 @@ NormalisedPower::NormalisedPower(std::shared_ptr<const PowerFrames> power, const
         std::vector<float> values = readPower(frame, 1);
         divide(frame, values, scratch);
         for (Index cell = 0; cell < part.cells; cell += cellStep)
-            if (const float value = values[static_cast<std::size_t>(cell)]; std::isfinite(value))
+            if (const float value = values[std::size_t(cell)]; std::isfinite(value))
                 pooled.push_back(value);
     }
     if (pooled.empty() || !(quantile(pooled, 0.5) > 0.0f))
         throw Error(path, "holds no power in most of its channels: their values are 0, negative or not finite");
-    const double low = static_cast<double>(quantile(pooled, 0.16));
-    const double high = static_cast<double>(quantile(pooled, 0.84));
-    m_law = LooksLaw::fromQuantiles(low, static_cast<double>(quantile(pooled, 0.5)), high);
+    const double low = double(quantile(pooled, 0.16));
+    const double high = double(quantile(pooled, 0.84));
+    m_law = LooksLaw::fromQuantiles(low, double(quantile(pooled, 0.5)), high);
 }
 
 std::vector<float> NormalisedPower::readPower(Index first, Index count) const
@@ -190,15 +187,15 @@ std::vector<float> NormalisedPower::readPower(Index first, Index count) const
     PowerPart part = m_part;
     part.firstFrame += first;
     part.frames = count;
-    std::vector<float> values(static_cast<std::size_t>(count * m_part.cells));
+    std::vector<float> values(std::size_t(count * m_part.cells));
     m_power->read(part, values);
-    const auto quantum = static_cast<float>(m_power->info().quantum);
+    const auto quantum = float(m_power->info().quantum);
     if (quantum > 0.0f) {
         const Index all = m_power->info().frequency.count;
         for (Index i = 0; i < std::ssize(values); ++i) {
             const Index frame = part.firstFrame + i / m_part.cells;
             const Index cell = m_part.firstCell + i % m_part.cells;
-            values[static_cast<std::size_t>(i)] += quantum * uniformAt(static_cast<std::uint64_t>(frame * all + cell));
+            values[std::size_t(i)] += quantum * uniformAt(std::uint64_t(frame * all + cell));
         }
     }
     return values;
@@ -208,7 +205,7 @@ std::vector<float> NormalisedPower::readPower(Index first, Index count) const
 void NormalisedPower::divide(Index frame, std::span<float> values, std::vector<float> &ln) const
 {
     ln.resize(values.size());
-    m_background.readLnPower(time().value(static_cast<double>(frame)), ln);
+    m_background.readLnPower(time().value(double(frame)), ln);
     for (std::size_t cell = 0; cell < values.size(); ++cell) {
         const float p = std::max(values[cell], 0.0f); // NaN stays
         const bool isKnown = ln[cell] > 0.5f * NoiseBackground::silence && std::isfinite(p);
@@ -220,22 +217,20 @@ void NormalisedPower::read(Index first, Index count, std::span<float> out) const
 {
     const std::vector<float> power = readPower(first, count);
     std::copy(power.begin(), power.end(), out.begin());
-    const auto cells = static_cast<std::size_t>(m_part.cells);
+    const auto cells = std::size_t(m_part.cells);
     const std::size_t stride = (cells + levelCells - 1) / levelCells;
-    const double chance =
-        4.5 * medianScatter(static_cast<double>((cells + stride - 1) / stride)) / std::sqrt(m_law.looks());
+    const double chance = 4.5 * medianScatter(double((cells + stride - 1) / stride)) / std::sqrt(m_law.looks());
     std::vector<float> ln;
     std::vector<float> some;
     for (Index i = 0; i < count; ++i) {
-        const std::span<float> frame = out.subspan(static_cast<std::size_t>(i) * cells, cells);
+        const std::span<float> frame = out.subspan(std::size_t(i) * cells, cells);
         divide(first + i, frame, ln);
         some.clear();
         for (std::size_t cell = 0; cell < cells; cell += stride)
             if (std::isfinite(frame[cell]))
                 some.push_back(frame[cell] / m_law.median());
         const float level = some.empty() ? 1.0f : medianOf(some);
-        const bool isOff =
-            level > 0.0f && cells >= levelCells / 10 && std::abs(std::log(static_cast<double>(level))) > chance;
+        const bool isOff = level > 0.0f && cells >= levelCells / 10 && std::abs(std::log(double(level))) > chance;
         for (float &value : frame)
             value = value == value ? m_law(isOff ? value / level : value) : value;
     }
@@ -247,11 +242,9 @@ PowerPart partOf(const PowerInfo &info, const SelectionSettings &selection)
         throw fieldError("selection.channel", std::to_string(selection.channel),
                          info.path + " has " + std::to_string(info.channelCount) + " channel(s), counted from 0");
     const auto between = [&](const Axis &axis, double from, double to, const std::string &name) {
-        const auto place = [&](double value) {
-            return std::clamp(axis.position(value), -1.0, static_cast<double>(axis.count));
-        };
-        const Index first = std::max<Index>(0, static_cast<Index>(std::ceil(place(from))));
-        const Index last = std::min<Index>(axis.count - 1, static_cast<Index>(std::floor(place(to))));
+        const auto place = [&](double value) { return std::clamp(axis.position(value), -1.0, double(axis.count)); };
+        const Index first = std::max<Index>(0, Index(std::ceil(place(from))));
+        const Index last = std::min<Index>(axis.count - 1, Index(std::floor(place(to))));
         if (last < first)
             throw Error(name, "leaves nothing of " + info.path + ", which goes from " + formatNumber(axis.first)
                                   + " to " + formatNumber(axis.last()) + " " + axis.unit);

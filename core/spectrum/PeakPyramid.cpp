@@ -31,8 +31,8 @@ namespace {
             // As whole numbers, positive floats have the same order; a comparison of floats keeps the compiler from
             // vector code.
             const std::int32_t bits = std::max(std::bit_cast<std::int32_t>(values[i]), lowest);
-            const auto byte = static_cast<std::int32_t>(stepsPerNeper * fastLn(std::bit_cast<float>(bits)) + 30.5f);
-            bytes[i] = static_cast<std::uint8_t>(std::min(byte, 255));
+            const auto byte = std::int32_t(stepsPerNeper * fastLn(std::bit_cast<float>(bits)) + 30.5f);
+            bytes[i] = std::uint8_t(std::min(byte, 255));
         }
     }
 
@@ -46,9 +46,8 @@ namespace {
         for (Index i = 0; i < n; ++i) {
             const float position = 4.0f * (values[i] + 4.0f) + 0.5f;
             const float inside = position > 0.0f ? position : 0.0f; // NaN as well
-            const auto byte = static_cast<std::int32_t>(
-                inside < static_cast<float>(endOfEven) ? inside : static_cast<float>(endOfEven));
-            bytes[i] = static_cast<std::uint8_t>(byte);
+            const auto byte = std::int32_t(inside < float(endOfEven) ? inside : float(endOfEven));
+            bytes[i] = std::uint8_t(byte);
             most = std::max(most, byte);
         }
         return most >= endOfEven;
@@ -80,11 +79,11 @@ namespace {
         int high = 127;
         while (high - low > 1) {
             const int middle = (low + high) / 2;
-            (static_cast<double>(values[static_cast<std::size_t>(2 * middle + 1)]) <= magnitude ? low : high) = middle;
+            (double(values[std::size_t(2 * middle + 1)]) <= magnitude ? low : high) = middle;
         }
-        const auto at = [&](int level) { return static_cast<double>(values[static_cast<std::size_t>(2 * level + 1)]); };
+        const auto at = [&](int level) { return double(values[std::size_t(2 * level + 1)]); };
         const int nearest = at(high) - magnitude < magnitude - at(low) ? high : low;
-        return static_cast<std::uint8_t>(2 * nearest + (value > 0.0 && nearest > 0 ? 1 : 0));
+        return std::uint8_t(2 * nearest + (value > 0.0 && nearest > 0 ? 1 : 0));
     }
 
 } // namespace
@@ -92,7 +91,7 @@ namespace {
 ByteScale::ByteScale(Kind kind) : m_kind(kind), m_values(256)
 {
     for (int byte = 0; byte < 256; ++byte)
-        m_values[static_cast<std::size_t>(byte)] = static_cast<float>(valueOf(kind, byte));
+        m_values[std::size_t(byte)] = float(valueOf(kind, byte));
 }
 
 std::vector<int> ByteScale::ascending() const
@@ -107,14 +106,14 @@ std::uint8_t ByteScale::byte(double value) const
 {
     if (m_kind == Kind::DifferenceNats)
         return differenceByte(m_values, value);
-    if (!(value > static_cast<double>(m_values.front())))
+    if (!(value > double(m_values.front())))
         return 0;
-    const auto upper = std::upper_bound(m_values.begin(), m_values.end(), static_cast<float>(value));
+    const auto upper = std::upper_bound(m_values.begin(), m_values.end(), float(value));
     if (upper == m_values.end())
         return 255;
     const auto lower = upper - 1;
-    const bool nearer = static_cast<double>(*upper) - value < value - static_cast<double>(*lower);
-    return static_cast<std::uint8_t>((nearer ? upper : lower) - m_values.begin());
+    const bool nearer = double(*upper) - value < value - double(*lower);
+    return std::uint8_t((nearer ? upper : lower) - m_values.begin());
 }
 
 void ByteScale::encode(std::span<const float> values, std::span<std::uint8_t> bytes) const
@@ -125,7 +124,7 @@ void ByteScale::encode(std::span<const float> values, std::span<std::uint8_t> by
     }
     if (m_kind == Kind::DifferenceNats) {
         for (std::size_t i = 0; i < values.size(); ++i)
-            bytes[i] = byte(static_cast<double>(values[i]));
+            bytes[i] = byte(double(values[i]));
         return;
     }
     // The even part of the scale covers nearly all cells; the rest goes the long way.
@@ -133,11 +132,11 @@ void ByteScale::encode(std::span<const float> values, std::span<std::uint8_t> by
         return;
     for (std::size_t i = 0; i < values.size(); ++i)
         if (bytes[i] >= endOfEven)
-            bytes[i] = byte(static_cast<double>(values[i]));
+            bytes[i] = byte(double(values[i]));
 }
 
 PeakPyramid::PeakPyramid(Axis time, Index cells, ByteScale scale, std::size_t byteBudget)
-    : m_time(std::move(time)), m_cells(cells), m_scale(std::move(scale)), m_byteBudget(static_cast<Index>(byteBudget)),
+    : m_time(std::move(time)), m_cells(cells), m_scale(std::move(scale)), m_byteBudget(Index(byteBudget)),
       m_chunkRows(std::max<Index>(1, chunkBytes / std::max<Index>(1, cells))), m_levels(1), m_pending(1)
 {
 }
@@ -159,7 +158,7 @@ void PeakPyramid::appendBytes(std::span<const std::uint8_t> frame)
 
 void PeakPyramid::push(int level, std::span<const std::uint8_t> row)
 {
-    const auto l = static_cast<std::size_t>(level);
+    const auto l = std::size_t(level);
     if (l == m_levels.size()) {
         m_levels.emplace_back();
         m_pending.emplace_back();
@@ -196,8 +195,7 @@ void PeakPyramid::add(Level &level, std::span<const std::uint8_t> row) const
 {
     const Index place = level.rows++ % m_chunkRows;
     if (place == 0)
-        level.chunks.push_back(
-            std::make_shared_for_overwrite<std::uint8_t[]>(static_cast<std::size_t>(m_chunkRows * m_cells)));
+        level.chunks.push_back(std::make_shared_for_overwrite<std::uint8_t[]>(std::size_t(m_chunkRows * m_cells)));
     std::copy(row.begin(), row.end(), level.chunks.back().get() + place * m_cells);
 }
 
@@ -216,8 +214,7 @@ PeakPyramid PeakPyramid::soFar() const
         const Index shared = level.rows % m_chunkRows;
         if (shared == 0)
             continue; // the next row goes to a chunk of its own
-        const auto own =
-            std::make_shared_for_overwrite<std::uint8_t[]>(static_cast<std::size_t>(m_chunkRows * m_cells));
+        const auto own = std::make_shared_for_overwrite<std::uint8_t[]>(std::size_t(m_chunkRows * m_cells));
         std::copy_n(level.chunks.back().get(), shared * m_cells, own.get());
         level.chunks.back() = own;
     }
@@ -255,15 +252,14 @@ Index PeakPyramid::framesPerRow(int level) const
 
 std::span<const std::uint8_t> PeakPyramid::row(int level, Index row) const
 {
-    const auto &chunks = m_levels[static_cast<std::size_t>(level)].chunks;
-    return {chunks[static_cast<std::size_t>(row / m_chunkRows)].get() + row % m_chunkRows * m_cells,
-            static_cast<std::size_t>(m_cells)};
+    const auto &chunks = m_levels[std::size_t(level)].chunks;
+    return {chunks[std::size_t(row / m_chunkRows)].get() + row % m_chunkRows * m_cells, std::size_t(m_cells)};
 }
 
 int PeakPyramid::levelFor(double frames) const
 {
     int level = 0;
-    while (level + 1 < levelCount() && static_cast<double>(framesPerRow(level + 1)) <= frames)
+    while (level + 1 < levelCount() && double(framesPerRow(level + 1)) <= frames)
         ++level;
     return level;
 }

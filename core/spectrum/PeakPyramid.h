@@ -24,7 +24,7 @@ public:
 
     Kind kind() const { return m_kind; }
     /// The value a byte stands for: dB or nat.
-    double value(int byte) const { return static_cast<double>(m_values[static_cast<std::size_t>(byte)]); }
+    double value(int byte) const { return double(m_values[std::size_t(byte)]); }
     /// The nearest byte of a value in dB or nat.
     std::uint8_t byte(double value) const;
     /// All bytes in the order of their values.
@@ -64,9 +64,9 @@ public:
     const ByteScale &scale() const { return m_scale; }
     Index frameCount() const { return m_frameCount; }
 
-    int levelCount() const { return static_cast<int>(m_levels.size()); }
+    int levelCount() const { return int(m_levels.size()); }
     Index framesPerRow(int level) const;
-    Index rowCount(int level) const { return m_levels[static_cast<std::size_t>(level)].rows; }
+    Index rowCount(int level) const { return m_levels[std::size_t(level)].rows; }
     std::span<const std::uint8_t> row(int level, Index row) const;
 
     /// Coarsest level whose rows hold no more than `frames` frames each.

@@ -38,14 +38,14 @@ SimulatedPings::SimulatedPings(const PingScene &scene)
     checkScene(scene);
     m_truth = pingTruth(scene);
     for (Index range = 0; range < scene.rangeCells; ++range)
-        m_background.push_back(static_cast<float>(backgroundPower(scene, range)));
+        m_background.push_back(float(backgroundPower(scene, range)));
 }
 
 void SimulatedPings::read(Index first, Index count, std::span<float> out) const
 {
-    const auto cells = static_cast<std::size_t>(grid().size());
+    const auto cells = std::size_t(grid().size());
     for (Index i = 0; i < count; ++i)
-        readPing(first + i, out.subspan(static_cast<std::size_t>(i) * cells, cells));
+        readPing(first + i, out.subspan(std::size_t(i) * cells, cells));
 }
 
 void SimulatedPings::readPing(Index ping, std::span<float> y) const
@@ -53,7 +53,7 @@ void SimulatedPings::readPing(Index ping, std::span<float> y) const
     const Index cells = grid().size();
     std::vector<float> noise(2 * y.size());
     std::fill(y.begin(), y.end(), 0.0f);
-    Random random(static_cast<std::uint64_t>(m_scene.seed), static_cast<std::uint64_t>(ping));
+    Random random(std::uint64_t(m_scene.seed), std::uint64_t(ping));
     // Echoes interfere with the noise look by look: their cells' noise is kept.
     std::vector<float> kept;
     std::vector<Index> occupied;
@@ -68,11 +68,11 @@ void SimulatedPings::readPing(Index ping, std::span<float> y) const
         for (Index cell : occupied)
             kept.insert(kept.end(), noise.begin() + 2 * cell, noise.begin() + 2 * cell + 2);
     }
-    const float share = 1.0f / static_cast<float>(m_scene.looks);
+    const float share = 1.0f / float(m_scene.looks);
     const Index beams = m_scene.beams;
     for (Index range = 0; range < m_scene.rangeCells; ++range)
-        for (float &value : y.subspan(static_cast<std::size_t>(range * beams), static_cast<std::size_t>(beams)))
-            value *= share * m_background[static_cast<std::size_t>(range)];
+        for (float &value : y.subspan(std::size_t(range * beams), std::size_t(beams)))
+            value *= share * m_background[std::size_t(range)];
     if (!occupied.empty())
         addEchoes(ping, kept, y);
 
@@ -80,8 +80,8 @@ void SimulatedPings::readPing(Index ping, std::span<float> y) const
         divideByEstimate(y);
     else if (m_scene.reverberation)
         for (Index range = 0; range < m_scene.rangeCells; ++range)
-            for (float &value : y.subspan(static_cast<std::size_t>(range * beams), static_cast<std::size_t>(beams)))
-                value /= m_background[static_cast<std::size_t>(range)];
+            for (float &value : y.subspan(std::size_t(range * beams), std::size_t(beams)))
+                value /= m_background[std::size_t(range)];
 }
 
 void SimulatedPings::addEchoes(Index ping, std::span<const float> noise, std::span<float> power) const
@@ -112,17 +112,17 @@ void SimulatedPings::addEchoes(Index ping, std::span<const float> noise, std::sp
     }
     std::size_t number = 0;
     for (const auto &[cell, sum] : sums) {
-        const double background = static_cast<double>(m_background[static_cast<std::size_t>(cell / m_scene.beams)]);
+        const double background = double(m_background[std::size_t(cell / m_scene.beams)]);
         // The noise's phase is uniform and fresh in every look, so the echo's own phase need not be drawn.
         double total = 0.0;
         for (int look = 0; look < m_scene.looks; ++look) {
-            const std::size_t at = 2 * (static_cast<std::size_t>(look) * sums.size() + number);
+            const std::size_t at = 2 * (std::size_t(look) * sums.size() + number);
             const double scale = std::sqrt(background + sum.fluctuating);
-            const double real = scale * static_cast<double>(noise[at]) + sum.amplitude;
-            const double imaginary = scale * static_cast<double>(noise[at + 1]);
+            const double real = scale * double(noise[at]) + sum.amplitude;
+            const double imaginary = scale * double(noise[at + 1]);
             total += real * real + imaginary * imaginary;
         }
-        power[static_cast<std::size_t>(cell)] = static_cast<float>(total / m_scene.looks + sum.constant);
+        power[std::size_t(cell)] = float(total / m_scene.looks + sum.constant);
         ++number;
     }
 }
@@ -133,33 +133,33 @@ void SimulatedPings::divideByEstimate(std::span<float> power) const
     constexpr Index guardBeams = 1;
     const Index ranges = m_scene.rangeCells;
     const Index beams = m_scene.beams;
-    std::vector<double> rows(static_cast<std::size_t>(ranges) + 1, 0.0); // Σ over beams and over the ranges before
+    std::vector<double> rows(std::size_t(ranges) + 1, 0.0); // Σ over beams and over the ranges before
     for (Index range = 0; range < ranges; ++range) {
         double sum = 0.0;
         for (Index beam = 0; beam < beams; ++beam)
-            sum += static_cast<double>(power[static_cast<std::size_t>(range * beams + beam)]);
-        rows[static_cast<std::size_t>(range) + 1] = rows[static_cast<std::size_t>(range)] + sum;
+            sum += double(power[std::size_t(range * beams + beam)]);
+        rows[std::size_t(range) + 1] = rows[std::size_t(range)] + sum;
     }
     const std::vector<float> raw(power.begin(), power.end());
     for (Index range = 0; range < ranges; ++range) {
         const Index half = windowAt(range, ranges);
         const Index from = std::max<Index>(0, range - half);
         const Index to = std::min(ranges - 1, range + half);
-        const double all = rows[static_cast<std::size_t>(to) + 1] - rows[static_cast<std::size_t>(from)];
+        const double all = rows[std::size_t(to) + 1] - rows[std::size_t(from)];
         for (Index beam = 0; beam < beams; ++beam) {
             double guarded = 0.0;
             Index guardedCount = 0;
             for (Index r = std::max(from, range - guardRanges); r <= std::min(to, range + guardRanges); ++r)
                 for (Index b = -std::min(guardBeams, (beams - 1) / 2); b <= std::min(guardBeams, (beams - 1) / 2); ++b)
                     if (const Index inside = grid().axes[1].wrapped(beam + b); inside >= 0) {
-                        guarded += static_cast<double>(raw[static_cast<std::size_t>(r * beams + inside)]);
+                        guarded += double(raw[std::size_t(r * beams + inside)]);
                         ++guardedCount;
                     }
-            const auto count = static_cast<double>((to - from + 1) * beams - guardedCount);
+            const auto count = double((to - from + 1) * beams - guardedCount);
             const double looks = count * m_scene.looks;
             const double mean = (all - guarded) / count * looks / (looks - 1.0);
-            auto &value = power[static_cast<std::size_t>(range * beams + beam)];
-            value = mean > 0.0 ? static_cast<float>(static_cast<double>(value) / mean) : 0.0f;
+            auto &value = power[std::size_t(range * beams + beam)];
+            value = mean > 0.0 ? float(double(value) / mean) : 0.0f;
         }
     }
 }

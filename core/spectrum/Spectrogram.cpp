@@ -49,7 +49,7 @@ namespace {
 
     int hopOf(int windowSamples, const SpectrogramSettings &settings)
     {
-        return std::max(1, static_cast<int>(std::lround(static_cast<double>(windowSamples) / settings.stepsPerWindow)));
+        return std::max(1, int(std::lround(double(windowSamples) / settings.stepsPerWindow)));
     }
 
 } // namespace
@@ -104,8 +104,8 @@ Spectrogram::Steps Spectrogram::stepsOf(const SpectrogramSettings &settings, con
     constexpr double most = 1e8; // longer windows are refused where they are made
     const double wanted =
         (settings.windowSeconds > 0.0 ? settings.windowSeconds : automaticWindowSeconds(info)) * info.sampleRateHz;
-    const int samples = static_cast<int>(std::llround(
-        std::clamp(wanted * settings.binsPerCell, 2.0 * settings.binsPerCell, most) / settings.binsPerCell));
+    const int samples = int(std::llround(std::clamp(wanted * settings.binsPerCell, 2.0 * settings.binsPerCell, most)
+                                         / settings.binsPerCell));
     return {hopOf(samples, settings) / info.sampleRateHz,
             info.sampleRateHz / Fft::fastLength(samples * settings.binsPerCell)};
 }
@@ -125,23 +125,22 @@ Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &
     if (selection.fromSeconds >= to)
         throw fieldError("selection.fromSeconds", formatNumber(selection.fromSeconds),
                          "must lie before the end of the selection, " + seconds(to));
-    m_firstSample = static_cast<Index>(std::llround(selection.fromSeconds * rate));
-    const Index sampleCount = std::min(static_cast<Index>(std::llround(to * rate)), info.sampleCount) - m_firstSample;
+    m_firstSample = Index(std::llround(selection.fromSeconds * rate));
+    const Index sampleCount = std::min(Index(std::llround(to * rate)), info.sampleCount) - m_firstSample;
 
     const double windowSeconds = settings.windowSeconds > 0.0 ? settings.windowSeconds : automaticWindowSeconds(info);
     const double wantedSamples = windowSeconds * rate;
     if (wantedSamples * settings.binsPerCell > 1e8)
         throw fieldError("spectrogram.windowSeconds", formatNumber(windowSeconds),
                          "gives a transform of more than 100 million points; shorten the window");
-    m_windowSamples = static_cast<int>(std::llround(wantedSamples));
+    m_windowSamples = int(std::llround(wantedSamples));
     if (m_windowSamples < 2)
         throw fieldError("spectrogram.windowSeconds", formatNumber(windowSeconds),
                          "contains fewer than 2 samples at " + formatNumber(rate) + " Hz");
     if (sampleCount < m_windowSamples)
         throw Error(info.path, "the selected part is " + std::to_string(sampleCount) + " samples ("
-                                   + seconds(static_cast<double>(sampleCount) / rate)
-                                   + ") long, shorter than one window of " + seconds(windowSeconds)
-                                   + "; choose a shorter spectrogram.windowSeconds");
+                                   + seconds(double(sampleCount) / rate) + ") long, shorter than one window of "
+                                   + seconds(windowSeconds) + "; choose a shorter spectrogram.windowSeconds");
     m_hopSamples = hopOf(m_windowSamples, settings);
     m_window = sampleWindow(settings.window, m_windowSamples);
     m_scaleExponent = m_recording->scaleExponent(selection.channel);
@@ -152,8 +151,8 @@ Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &
 
     m_time = {"time",
               "s",
-              (static_cast<double>(m_firstSample) + 0.5 * m_windowSamples) / rate,
-              static_cast<double>(m_hopSamples) / rate,
+              (double(m_firstSample) + 0.5 * m_windowSamples) / rate,
+              double(m_hopSamples) / rate,
               (sampleCount - m_windowSamples) / m_hopSamples + 1,
               false};
 
@@ -164,9 +163,9 @@ Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &
         whole.first -= (n / 2) * binHz;
     m_frequency = whole;
     if (selection.lowHz < selection.highHz) {
-        const Index low = static_cast<Index>(std::ceil(std::max(0.0, whole.position(selection.lowHz) - 1e-9)));
-        const Index high = static_cast<Index>(
-            std::floor(std::min(static_cast<double>(whole.count - 1), whole.position(selection.highHz) + 1e-9)));
+        const Index low = Index(std::ceil(std::max(0.0, whole.position(selection.lowHz) - 1e-9)));
+        const Index high =
+            Index(std::floor(std::min(double(whole.count - 1), whole.position(selection.highHz) + 1e-9)));
         if (low > high)
             throw Error("selection.lowHz … highHz = " + formatNumber(selection.lowHz) + " … "
                             + formatNumber(selection.highHz),
@@ -174,7 +173,7 @@ Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &
                             + formatNumber(whole.last()) + " Hz")
                 .ofField("selection.lowHz");
         m_firstBin = low;
-        m_frequency.first = whole.value(static_cast<double>(low));
+        m_frequency.first = whole.value(double(low));
         m_frequency.count = high - low + 1;
     } else if (selection.lowHz > selection.highHz) {
         throw fieldError("selection.lowHz", formatNumber(selection.lowHz), "must not lie above selection.highHz");
@@ -184,7 +183,7 @@ Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &
 void Spectrogram::read(Index first, Index count, std::span<float> out, const RunContext &context) const
 {
     // Samples of a run of frames are read once; a run is bounded so that memory does not grow with the request.
-    const auto bins = static_cast<std::size_t>(m_frequency.count);
+    const auto bins = std::size_t(m_frequency.count);
     const Index share = (count + context.threads - 1) / context.threads;
     const Index framesPerRun = std::clamp<Index>(runSamples / m_hopSamples, 1, std::max<Index>(share, 1));
     const Index runs = (count + framesPerRun - 1) / framesPerRun;
@@ -194,7 +193,7 @@ void Spectrogram::read(Index first, Index count, std::span<float> out, const Run
             const Index done = run * framesPerRun;
             const Index frames = std::min(framesPerRun, count - done);
             readRun(first + done, frames, samples, *buffer,
-                    out.subspan(static_cast<std::size_t>(done) * bins, static_cast<std::size_t>(frames) * bins));
+                    out.subspan(std::size_t(done) * bins, std::size_t(frames) * bins));
         };
     });
 }
@@ -203,27 +202,27 @@ void Spectrogram::readRun(Index first, Index count, std::vector<float> &samples,
                           std::span<float> out) const
 {
     const std::size_t floats = m_recording->info().isComplex ? 2 : 1;
-    const auto bins = static_cast<std::size_t>(m_frequency.count);
+    const auto bins = std::size_t(m_frequency.count);
     const Index sampleCount = (count - 1) * m_hopSamples + m_windowSamples;
-    samples.resize(static_cast<std::size_t>(sampleCount) * floats);
+    samples.resize(std::size_t(sampleCount) * floats);
     m_recording->read(m_selection.channel, m_firstSample + first * m_hopSamples, sampleCount, samples);
     for (Index frame = 0; frame < count; ++frame) {
-        const std::size_t offset = static_cast<std::size_t>(frame * m_hopSamples) * floats;
-        transformFrame(std::span(samples).subspan(offset, static_cast<std::size_t>(m_windowSamples) * floats), buffer,
-                       out.subspan(static_cast<std::size_t>(frame) * bins, bins));
+        const std::size_t offset = std::size_t(frame * m_hopSamples) * floats;
+        transformFrame(std::span(samples).subspan(offset, std::size_t(m_windowSamples) * floats), buffer,
+                       out.subspan(std::size_t(frame) * bins, bins));
     }
 }
 
 void Spectrogram::transformFrame(std::span<const float> samples, Fft::Buffer &buffer, std::span<float> out) const
 {
-    const auto window = static_cast<std::size_t>(m_windowSamples);
+    const auto window = std::size_t(m_windowSamples);
     const bool isComplex = m_recording->info().isComplex;
     const std::span<float> input = buffer.input();
     if (isComplex)
         applyWindowComplex(samples.data(), m_window.data(), window, input.data());
     else
         applyWindow(samples.data(), m_window.data(), window, input.data());
-    std::fill(input.begin() + static_cast<std::ptrdiff_t>(samples.size()), input.end(), 0.0f);
+    std::fill(input.begin() + std::ptrdiff_t(samples.size()), input.end(), 0.0f);
     m_fft->run(buffer);
 
     const auto *bins = reinterpret_cast<const float *>(buffer.output().data());
@@ -238,7 +237,7 @@ void Spectrogram::transformFrame(std::span<const float> samples, Fft::Buffer &bu
         const Index whole = m_firstBin + done;
         const Index source = whole < firstPositive ? whole + n - firstPositive : whole - firstPositive;
         const Index run = std::min(std::ssize(out) - done, whole < firstPositive ? firstPositive - whole : n - whole);
-        squaredMagnitude(bins + 2 * source, static_cast<std::size_t>(run), out.data() + done);
+        squaredMagnitude(bins + 2 * source, std::size_t(run), out.data() + done);
         done += run;
     }
 }

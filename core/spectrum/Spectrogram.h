@@ -70,7 +70,7 @@ public:
     int hopSamples() const { return m_hopSamples; }
     int transformLength() const { return m_fft->length(); }
     /// Bins per resolution cell as realised: transform length over window length.
-    double binsPerCell() const { return static_cast<double>(m_fft->length()) / m_windowSamples; }
+    double binsPerCell() const { return double(m_fft->length()) / m_windowSamples; }
 
     /// Whether the band ends at 0 Hz and half the rate of real samples. There the spectrum overlaps with its mirror image,
     /// y has other statistics (χ² of one degree of freedom), and at 0 Hz there is often a constant.

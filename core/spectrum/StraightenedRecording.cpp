@@ -19,8 +19,8 @@ namespace {
     {
         constexpr std::size_t half = blockSamples / 2;
         std::vector<float> gains(2 * half, 0.0f);
-        std::fill_n(gains.begin(), half, 2.0f / static_cast<float>(blockSamples));
-        gains[0] = gains[half] = 1.0f / static_cast<float>(blockSamples);
+        std::fill_n(gains.begin(), half, 2.0f / float(blockSamples));
+        gains[0] = gains[half] = 1.0f / float(blockSamples);
         return gains;
     }
 
@@ -69,7 +69,7 @@ void StraightenedRecording::turn(Index first, std::span<float> samples) const
 {
     constexpr Index linear = 32; // samples, from multiples of it on, so that no value depends on where a read begins
     const auto cyclesAt = [&](Index n) {
-        const double seconds = static_cast<double>(n) / m_info.sampleRateHz;
+        const double seconds = double(n) / m_info.sampleRateHz;
         return m_curve.cyclesAt(seconds) - m_toHz * (seconds - m_curve.time().first);
     };
     const auto factorAt = [](double cycles) {
@@ -78,17 +78,15 @@ void StraightenedRecording::turn(Index first, std::span<float> samples) const
     const Index end = first + std::ssize(samples) / 2;
     for (Index begin = first - (first % linear + linear) % linear; begin < end; begin += linear) {
         const double cycles = cyclesAt(begin);
-        const std::complex<double> rotation =
-            factorAt((cyclesAt(begin + linear) - cycles) / static_cast<double>(linear));
+        const std::complex<double> rotation = factorAt((cyclesAt(begin + linear) - cycles) / double(linear));
         std::complex<double> factor = factorAt(cycles);
         for (Index n = begin; n < std::min(begin + linear, end); ++n, factor *= rotation) {
             if (n < first)
                 continue;
             float *const sample = samples.data() + 2 * (n - first);
-            const std::complex<double> turned =
-                factor * std::complex<double>(static_cast<double>(sample[0]), static_cast<double>(sample[1]));
-            sample[0] = static_cast<float>(turned.real());
-            sample[1] = static_cast<float>(turned.imag());
+            const std::complex<double> turned = factor * std::complex<double>(double(sample[0]), double(sample[1]));
+            sample[0] = float(turned.real());
+            sample[1] = float(turned.imag());
         }
     }
 }
@@ -104,7 +102,7 @@ void StraightenedRecording::addBlock(Index block, Index first, std::span<float> 
     turn(begin, {reinterpret_cast<float *>(analytic.data()), 2 * analytic.size()});
     const Index end = std::min(begin + blockSamples, first + std::ssize(out));
     for (Index n = std::max(begin, first); n < end; ++n)
-        out[static_cast<std::size_t>(n - first)] += analytic[static_cast<std::size_t>(n - begin)].real();
+        out[std::size_t(n - first)] += analytic[std::size_t(n - begin)].real();
 }
 
 } // namespace faintline

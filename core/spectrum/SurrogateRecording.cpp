@@ -41,7 +41,7 @@ SurrogateRecording::SurrogateRecording(const Spectrogram &spectrogram,
 
 void SurrogateRecording::read(int /*channel*/, Index first, Index count, std::span<float> out) const
 {
-    std::fill(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(count * m_info.floatsPerSample()), 0.0f);
+    std::fill(out.begin(), out.begin() + std::ptrdiff_t(count * m_info.floatsPerSample()), 0.0f);
     fill(first, count, out, [&](Index from, std::span<float> inside) {
         std::fill(inside.begin(), inside.end(), 0.0f);
         const Index end = from + std::ssize(inside) / m_info.floatsPerSample();
@@ -49,8 +49,7 @@ void SurrogateRecording::read(int /*channel*/, Index first, Index count, std::sp
             addBlock(block, from, inside);
         if (m_step > 0.0)
             for (float &value : inside)
-                value = static_cast<float>(
-                    std::clamp(std::round(static_cast<double>(value) / m_step) * m_step, -1.0, 1.0 - m_step));
+                value = float(std::clamp(std::round(double(value) / m_step) * m_step, -1.0, 1.0 - m_step));
         silence(from, inside);
     });
 }
@@ -59,13 +58,13 @@ void SurrogateRecording::read(int /*channel*/, Index first, Index count, std::sp
 void SurrogateRecording::fillWhite(Index block, std::span<std::complex<float>> samples) const
 {
     const Index hop = m_filter.length() / 2;
-    std::vector<float> normals(static_cast<std::size_t>(m_info.isComplex ? 2 * hop : hop));
+    std::vector<float> normals(std::size_t(m_info.isComplex ? 2 * hop : hop));
     for (Index half = 0; half < 2; ++half) {
-        Random random(m_seed, static_cast<std::uint64_t>(block + half + 1));
-        random.normals(normals, m_info.isComplex ? static_cast<float>(std::sqrt(0.5)) : 1.0f);
+        Random random(m_seed, std::uint64_t(block + half + 1));
+        random.normals(normals, m_info.isComplex ? float(std::sqrt(0.5)) : 1.0f);
         for (Index n = 0; n < hop; ++n) {
-            const auto from = static_cast<std::size_t>(n);
-            const auto to = static_cast<std::size_t>(half * hop + n);
+            const auto from = std::size_t(n);
+            const auto to = std::size_t(half * hop + n);
             samples[to] = m_info.isComplex ? std::complex<float>(normals[2 * from], normals[2 * from + 1])
                                            : std::complex<float>(normals[from]);
         }
@@ -77,21 +76,19 @@ std::vector<float> SurrogateRecording::gainsAt(double seconds) const
 {
     const Axis &frequency = m_background->frequency;
     const Index length = m_filter.length();
-    std::vector<float> ln(static_cast<std::size_t>(frequency.count));
+    std::vector<float> ln(std::size_t(frequency.count));
     m_background->readLnPower(seconds, ln);
     std::vector<float> gains(static_cast<std::size_t>(length));
     for (Index bin = 0; bin < length; ++bin) {
         const Index signedBin = 2 * bin < length ? bin : bin - length;
-        const double hz = m_info.sampleRateHz * static_cast<double>(signedBin) / static_cast<double>(length);
-        const double last = static_cast<double>(frequency.count - 1);
+        const double hz = m_info.sampleRateHz * double(signedBin) / double(length);
+        const double last = double(frequency.count - 1);
         const double position = std::clamp(frequency.position(m_info.isComplex ? hz : std::abs(hz)), 0.0, last);
-        const auto lower = static_cast<std::size_t>(position);
+        const auto lower = std::size_t(position);
         const std::size_t upper = std::min(lower + 1, ln.size() - 1);
-        const double fraction = position - static_cast<double>(lower);
-        const double lnPower =
-            (1.0 - fraction) * static_cast<double>(ln[lower]) + fraction * static_cast<double>(ln[upper]);
-        gains[static_cast<std::size_t>(bin)] =
-            static_cast<float>(std::exp(0.5 * (m_background->lnUnit + lnPower)) / static_cast<double>(length));
+        const double fraction = position - double(lower);
+        const double lnPower = (1.0 - fraction) * double(ln[lower]) + fraction * double(ln[upper]);
+        gains[std::size_t(bin)] = float(std::exp(0.5 * (m_background->lnUnit + lnPower)) / double(length));
     }
     return gains;
 }
@@ -101,15 +98,15 @@ void SurrogateRecording::addBlock(Index block, Index first, std::span<float> out
 {
     const Index begin = m_filter.beginOf(block);
     const Index length = m_filter.length();
-    const double middle = (static_cast<double>(begin) + 0.5 * static_cast<double>(length)) / m_info.sampleRateHz;
+    const double middle = (double(begin) + 0.5 * double(length)) / m_info.sampleRateHz;
     std::vector<std::complex<float>> samples(static_cast<std::size_t>(length));
     fillWhite(block, samples);
     m_filter.apply(samples, gainsAt(middle));
     const Index floats = m_info.floatsPerSample();
     const Index end = std::min(begin + length, first + std::ssize(out) / floats);
     for (Index sample = std::max(begin, first); sample < end; ++sample) {
-        const std::complex<float> value = samples[static_cast<std::size_t>(sample - begin)];
-        const auto to = static_cast<std::size_t>((sample - first) * floats);
+        const std::complex<float> value = samples[std::size_t(sample - begin)];
+        const auto to = std::size_t((sample - first) * floats);
         out[to] += value.real();
         if (m_info.isComplex)
             out[to + 1] += value.imag();
@@ -119,15 +116,15 @@ void SurrogateRecording::addBlock(Index block, Index first, std::span<float> out
 /// 0 where the recording holds nothing but zeros for longer than chance has it.
 void SurrogateRecording::silence(Index first, std::span<float> out) const
 {
-    const auto floats = static_cast<std::size_t>(m_info.floatsPerSample());
-    const Index count = std::ssize(out) / static_cast<Index>(floats);
+    const auto floats = std::size_t(m_info.floatsPerSample());
+    const Index count = std::ssize(out) / Index(floats);
     const Index begin = first - shortestSilence;
     const Index total = count + 2 * shortestSilence;
-    std::vector<float> original(static_cast<std::size_t>(total) * floats);
+    std::vector<float> original(std::size_t(total) * floats);
     m_base->read(m_baseChannel, begin, total, original);
     Index run = 0; // of zeros, up to and with this sample
     const auto isZero = [&](Index n) {
-        const auto at = static_cast<std::size_t>(n) * floats;
+        const auto at = std::size_t(n) * floats;
         return original[at] == 0.0f && original[at + floats - 1] == 0.0f;
     };
     for (Index n = 0; n <= total; ++n) {
@@ -137,7 +134,7 @@ void SurrogateRecording::silence(Index first, std::span<float> out) const
         }
         for (Index zero = n - run; run >= shortestSilence && zero < n; ++zero)
             if (const Index at = zero - shortestSilence; at >= 0 && at < count)
-                std::fill_n(out.begin() + at * static_cast<Index>(floats), floats, 0.0f);
+                std::fill_n(out.begin() + at * Index(floats), floats, 0.0f);
         run = 0;
     }
 }

@@ -89,12 +89,12 @@ std::vector<float> sampleWindow(WindowShape shape, int length)
     for (int n = 0; n < length; ++n) {
         // Symmetric about the middle sample pair, so that a single sample is not zero.
         const double value = shapeAt(shape, (n + 0.5) / length);
-        window[static_cast<std::size_t>(n)] = value;
+        window[std::size_t(n)] = value;
         energy += value * value;
     }
     std::vector<float> scaled(window.size());
     for (std::size_t n = 0; n < window.size(); ++n)
-        scaled[n] = static_cast<float>(window[n] / std::sqrt(energy));
+        scaled[n] = float(window[n] / std::sqrt(energy));
     return scaled;
 }
 
@@ -102,8 +102,8 @@ double cellLikeness(const std::vector<float> &window)
 {
     double fourth = 0.0;
     for (const float w : window)
-        fourth += std::pow(static_cast<double>(w), 4.0);
-    return fourth * static_cast<double>(window.size());
+        fourth += std::pow(double(w), 4.0);
+    return fourth * double(window.size());
 }
 
 double overlapFactor(const std::vector<float> &window, int steps)

@@ -33,36 +33,36 @@ void addStretch(NoiseBackground &background, const StretchFrames &stretchFrames,
     const double expected = Unevenness::ofNoise(likeness);
     std::vector<float> frames = stretchFrames.read(0, cells);
     const float strongest = *std::max_element(frames.begin(), frames.end());
-    const Between t =
-        between(background.time, background.levelTime.value(static_cast<double>(
-                                     (stretchFrames.first + stretchFrames.count / 2) * stretchFrames.steps)));
+    const Between t = between(
+        background.time,
+        background.levelTime.value(double((stretchFrames.first + stretchFrames.count / 2) * stretchFrames.steps)));
     const auto row = background.lnPower.begin() + t.lower * cells;
     if (!(strongest > 0.0f) || *row <= silence)
         return;
     NoiseStretch stretch;
     stretch.firstLevel = stretchFrames.first * stretchFrames.steps;
     stretch.lnPower.assign(row, row + cells);
-    stretch.floor = std::log(strongest) + static_cast<float>(std::log(roundingFloor));
+    stretch.floor = std::log(strongest) + float(std::log(roundingFloor));
     const auto frameOf = [&](std::vector<float> &all, Index frame) {
-        return std::span(all).subspan(static_cast<std::size_t>(frame * cells), static_cast<std::size_t>(cells));
+        return std::span(all).subspan(std::size_t(frame * cells), std::size_t(cells));
     };
     std::vector<float> ln(static_cast<std::size_t>(cells));
     std::vector<float> before = frames;
     for (Index frame = 0; frame < stretchFrames.count; ++frame) {
-        background.readLnPower(
-            background.levelTime.value(static_cast<double>((stretchFrames.first + frame) * stretchFrames.steps)), ln);
+        background.readLnPower(background.levelTime.value(double((stretchFrames.first + frame) * stretchFrames.steps)),
+                               ln);
         divide(frameOf(before, frame), ln);
         divide(frameOf(frames, frame), stretch.lnPower);
     }
-    const std::vector<float> asTheyAre(static_cast<std::size_t>(cells), 1.0f);
-    const std::vector<float> each(static_cast<std::size_t>(stretchFrames.count), 1.0f);
+    const std::vector<float> asTheyAre(std::size_t(cells), 1.0f);
+    const std::vector<float> each(std::size_t(stretchFrames.count), 1.0f);
     const Unevenness unevennessBefore = unevenness(before, asTheyAre, each);
     before = {};
     stretch.sources = fitSources(frames, cells, cells < cellsForThree ? 2 : 3, half);
     if (stretch.sources.count() == 0)
         return;
     const Index sources = stretch.sources.count();
-    stretch.sourceLevels.assign(static_cast<std::size_t>(stretchFrames.count * stretchFrames.steps * sources), 0.0f);
+    stretch.sourceLevels.assign(std::size_t(stretchFrames.count * stretchFrames.steps * sources), 0.0f);
     const auto divideByNoise = [&](std::vector<float> &all, Index shift) { // which is there already divided by lnPower
         for (Index frame = 0; frame < std::ssize(all) / cells; ++frame) {
             const auto values = frameOf(all, frame);
@@ -101,10 +101,9 @@ void addStretch(NoiseBackground &background, const StretchFrames &stretchFrames,
             offsets = mediansOf(own, columns);
         for (Index i = 0; i < std::ssize(own); ++i) {
             const Index place = (stretchFrames.first + i / columns) * stretchFrames.steps + shift;
-            const float level = own[static_cast<std::size_t>(i)];
-            levels[static_cast<std::size_t>(place * columns + i % columns)] =
-                level < levelNotKnown ? level - shareOfLines(offsets[static_cast<std::size_t>(i % columns)])
-                                      : levelNotKnown;
+            const float level = own[std::size_t(i)];
+            levels[std::size_t(place * columns + i % columns)] =
+                level < levelNotKnown ? level - shareOfLines(offsets[std::size_t(i % columns)]) : levelNotKnown;
         }
     }
     background.stretches.push_back(std::move(stretch));

@@ -18,9 +18,9 @@ struct StretchFrames {
 
     std::vector<float> read(Index shift, Index cells) const
     {
-        const Spectrogram &source = shift == 0 ? windows : shifted[static_cast<std::size_t>(shift - 1)];
+        const Spectrogram &source = shift == 0 ? windows : shifted[std::size_t(shift - 1)];
         const Index there = std::max<Index>(0, std::min(count, source.time().count - first));
-        std::vector<float> frames(static_cast<std::size_t>(there * cells));
+        std::vector<float> frames(std::size_t(there * cells));
         if (there > 0)
             source.read(first, there, frames);
         return frames;

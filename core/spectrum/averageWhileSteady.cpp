@@ -25,8 +25,8 @@ namespace {
         for (Index cell = 0; cell < cells; cell += stride)
             differences.push_back(upper[cell] - lower[cell]);
         const float level = medianOf(differences);
-        const double chance = 3.0 * inverseLn2 * std::sqrt(2.0 * 2.0 / (framesUsed * static_cast<double>(cells)));
-        return static_cast<double>(std::abs(level)) < chance ? 0.0f : level;
+        const double chance = 3.0 * inverseLn2 * std::sqrt(2.0 * 2.0 / (framesUsed * double(cells)));
+        return double(std::abs(level)) < chance ? 0.0f : level;
     }
 
     /// out ← out + e^(values - level - about) where `counts`, which is counted.
@@ -51,16 +51,15 @@ namespace {
                       double framesUsed)
             : m_columns(columns), m_rows(rows), m_cells(cells), m_half(half),
               m_blocks(std::ssize(rows) / std::max<Index>(1, cells)), m_framesUsed(framesUsed),
-              m_lnMost(static_cast<float>(std::log(mostNoiseRatio(framesUsed)))),
-              m_tolerance(static_cast<std::size_t>(cells)), m_sum(m_tolerance.size()), m_count(m_tolerance.size()),
-              m_counts(m_tolerance.size()), m_goesOn(m_tolerance.size())
+              m_lnMost(float(std::log(mostNoiseRatio(framesUsed)))), m_tolerance(std::size_t(cells)),
+              m_sum(m_tolerance.size()), m_count(m_tolerance.size()), m_counts(m_tolerance.size()),
+              m_goesOn(m_tolerance.size())
         {
             for (Index cell = 0; cell < cells; ++cell) {
-                const double inward =
-                    static_cast<double>(std::min({cell, cells - 1 - cell, half})) / static_cast<double>(half);
-                const double effective = pivotCells + (2.0 * static_cast<double>(half) + 1.0 - pivotCells) * inward;
-                m_tolerance[static_cast<std::size_t>(cell)] =
-                    static_cast<float>(4.0 * inverseLn2 * std::sqrt(2.0 / (framesUsed * effective / 2.0)));
+                const double inward = double(std::min({cell, cells - 1 - cell, half})) / double(half);
+                const double effective = pivotCells + (2.0 * double(half) + 1.0 - pivotCells) * inward;
+                m_tolerance[std::size_t(cell)] =
+                    float(4.0 * inverseLn2 * std::sqrt(2.0 / (framesUsed * effective / 2.0)));
             }
         }
 

@@ -30,8 +30,8 @@ namespace {
     /// short by is added.
     float lnMean(float mean, std::ptrdiff_t cells, double likeness)
     {
-        const double scatter = meanScatter(static_cast<double>(cells), likeness);
-        return std::log(mean) + static_cast<float>(0.5 * scatter * scatter);
+        const double scatter = meanScatter(double(cells), likeness);
+        return std::log(mean) + float(0.5 * scatter * scatter);
     }
 
     /// Gives silence the level of what was before it, or of what comes first.
@@ -56,8 +56,7 @@ std::vector<float> levelsOf(std::span<const float> frames, const BlockBackground
     std::vector<float> inverse(static_cast<std::size_t>(cells));
     for (std::size_t cell = 0; cell < inverse.size(); ++cell)
         inverse[cell] = block.lnPower[cell] > silence ? std::exp(-block.lnPower[cell]) : 0.0f;
-    const auto agreeing =
-        static_cast<float>(4.0 * medianScatter(static_cast<double>(cells) / static_cast<double>(bands)));
+    const auto agreeing = float(4.0 * medianScatter(double(cells) / double(bands)));
     std::vector<float> sample;
     std::vector<float> few;
     std::vector<Index> telling;
@@ -65,11 +64,11 @@ std::vector<float> levelsOf(std::span<const float> frames, const BlockBackground
     for (Index frame = 0; frame < std::ssize(frames) / cells; ++frame) {
         const auto collect = [&](Index band, const std::vector<bool> &wanted) {
             for (Index cell = firstCell(band, bands, cells); cell < endCell(band, bands, cells); ++cell)
-                if (const auto c = static_cast<std::size_t>(cell); wanted[c])
-                    sample.push_back(frames[static_cast<std::size_t>(frame * cells + cell)] * inverse[c]);
+                if (const auto c = std::size_t(cell); wanted[c])
+                    sample.push_back(frames[std::size_t(frame * cells + cell)] * inverse[c]);
         };
-        levels.resize(levels.size() + static_cast<std::size_t>(bands + 1), levelNotKnown);
-        float *own = &levels[levels.size() - static_cast<std::size_t>(bands + 1)];
+        levels.resize(levels.size() + std::size_t(bands + 1), levelNotKnown);
+        float *own = &levels[levels.size() - std::size_t(bands + 1)];
         few.clear();
         telling.clear();
         known.clear();
@@ -102,7 +101,7 @@ std::vector<float> levelsOf(std::span<const float> frames, const BlockBackground
         if (few.size() > 2) // two cannot outvote one another: then all count
             middle = medianOf(few);
         else if (!few.empty())
-            middle = std::accumulate(few.begin(), few.end(), 0.0f) / static_cast<float>(few.size());
+            middle = std::accumulate(few.begin(), few.end(), 0.0f) / float(few.size());
         sample.clear();
         for (Index band : telling)
             if (telling.size() < 3 || std::abs(own[band] - middle) < agreeing)
@@ -116,7 +115,7 @@ std::vector<float> levelsOf(std::span<const float> frames, const BlockBackground
 
 std::vector<float> mediansOf(const std::vector<float> &levels, Index columns)
 {
-    std::vector<float> medians(static_cast<std::size_t>(columns), 0.0f);
+    std::vector<float> medians(std::size_t(columns), 0.0f);
     std::vector<float> series;
     for (std::size_t column = 0; column < medians.size(); ++column) {
         series.clear();
@@ -158,7 +157,7 @@ void removeOffsets(std::vector<float> &levels, const std::vector<LevelOffsets> &
     std::vector<std::vector<float>> taken;
     std::vector<float> few;
     for (Index block = 0; block < std::ssize(offsets); ++block) {
-        const LevelOffsets &own = offsets[static_cast<std::size_t>(block)];
+        const LevelOffsets &own = offsets[std::size_t(block)];
         taken.push_back(std::vector<float>(columns, 0.0f));
         for (std::size_t column = 0; column < columns; ++column) {
             if (own.isSure[column]) {
@@ -170,26 +169,26 @@ void removeOffsets(std::vector<float> &levels, const std::vector<LevelOffsets> &
             few.clear();
             for (Index other = std::max<Index>(0, block - reach);
                  other <= std::min(std::ssize(offsets) - 1, block + reach); ++other)
-                if (const LevelOffsets &each = offsets[static_cast<std::size_t>(other)]; !each.isSure[column])
+                if (const LevelOffsets &each = offsets[std::size_t(other)]; !each.isSure[column])
                     few.push_back(each.medians[column]);
             taken.back()[column] = shareOfLines(medianOf(few));
         }
     }
     for (std::size_t i = 0; i < levels.size(); ++i)
         if (levels[i] < levelNotKnown)
-            levels[i] -= taken[static_cast<std::size_t>(blockOfLevel[i / columns])][i % columns];
+            levels[i] -= taken[std::size_t(blockOfLevel[i / columns])][i % columns];
 }
 
 std::vector<double> meanOver(const float *upper, const float *lower, std::vector<bool>::const_iterator isNoise,
                              Index cells, Index bands)
 {
-    std::vector<double> result(static_cast<std::size_t>(bands + 1), 0.0);
+    std::vector<double> result(std::size_t(bands + 1), 0.0);
     std::vector<double> counts(result.size(), 0.0);
     for (Index band = 0; band < bands; ++band)
         for (Index cell = firstCell(band, bands, cells); cell < endCell(band, bands, cells); ++cell)
             if (isNoise[cell]) {
-                result[static_cast<std::size_t>(band)] += static_cast<double>(upper[cell] - lower[cell]);
-                counts[static_cast<std::size_t>(band)] += 1.0;
+                result[std::size_t(band)] += double(upper[cell] - lower[cell]);
+                counts[std::size_t(band)] += 1.0;
             }
     result.back() = std::accumulate(result.begin(), result.end(), 0.0);
     counts.back() = std::accumulate(counts.begin(), counts.end(), 0.0);
@@ -210,30 +209,29 @@ void moveToBackground(std::vector<float> &levels, const BlockRows &rows, const N
     std::array<std::vector<double>, 3> over; // the block before, its own, the next
     Index known = -1;
     for (Index i = 0; i < background.levelTime.count; ++i) {
-        const Index block = blockOfLevel[static_cast<std::size_t>(i)];
+        const Index block = blockOfLevel[std::size_t(i)];
         const float *own = rows.lnPower.data() + block * cells;
         if (block != known)
             for (Index side = -1; side <= 1; ++side)
-                over[static_cast<std::size_t>(side + 1)] =
+                over[std::size_t(side + 1)] =
                     meanOver(own, background.lnPower.data() + std::clamp<Index>(block + side, 0, last) * cells,
                              rows.isNoise.begin() + block * cells, cells, background.bandCount);
         known = block;
         if (own[0] <= silence)
             continue;
-        const Between t = between(background.time, background.levelTime.value(static_cast<double>(i)));
+        const Between t = between(background.time, background.levelTime.value(double(i)));
         const auto isSilent = [&](Index b) {
-            return background.lnPower[static_cast<std::size_t>(std::min(b, last) * cells)] <= silence;
+            return background.lnPower[std::size_t(std::min(b, last) * cells)] <= silence;
         };
         const Index early = isSilent(t.lower) ? t.lower + 1 : t.lower;
         const Index late = isSilent(t.lower + 1) ? t.lower : t.lower + 1;
         for (Index column = 0; column < columns; ++column) {
             const auto difference = [&](Index b) {
-                return over[static_cast<std::size_t>(std::clamp<Index>(std::min(b, last) - block + 1, 0, 2))]
-                           [static_cast<std::size_t>(column)];
+                return over[std::size_t(std::clamp<Index>(std::min(b, last) - block + 1, 0, 2))][std::size_t(column)];
             };
-            float &level = levels[static_cast<std::size_t>(i * columns + column)];
+            float &level = levels[std::size_t(i * columns + column)];
             if (level < levelNotKnown)
-                level += static_cast<float>((1.0 - t.fraction) * difference(early) + t.fraction * difference(late));
+                level += float((1.0 - t.fraction) * difference(early) + t.fraction * difference(late));
         }
     }
 }
@@ -241,12 +239,12 @@ void moveToBackground(std::vector<float> &levels, const BlockRows &rows, const N
 std::vector<float> finishLevels(const std::vector<float> &levels, const NoiseBackground &background, double overlap,
                                 double likeness)
 {
-    const auto bands = static_cast<std::size_t>(background.bandCount);
-    const auto count = static_cast<std::size_t>(background.levelTime.count);
+    const auto bands = std::size_t(background.bandCount);
+    const auto count = std::size_t(background.levelTime.count);
     std::vector<float> result(count * bands);
     if (bands == 0)
         return result;
-    const auto cells = static_cast<double>(background.frequency.count);
+    const auto cells = double(background.frequency.count);
     const auto column = [&](std::size_t number) {
         std::vector<float> series(count);
         for (std::size_t i = 0; i < count; ++i)
@@ -259,7 +257,7 @@ std::vector<float> finishLevels(const std::vector<float> &levels, const NoiseBac
         std::vector<float> own = column(band);
         for (std::size_t i = 0; i < count; ++i)
             own[i] -= common[i];
-        own = beyondScatter(own, overlap * meanScatter(cells / static_cast<double>(bands), likeness));
+        own = beyondScatter(own, overlap * meanScatter(cells / double(bands), likeness));
         for (std::size_t i = 0; i < count; ++i)
             result[i * bands + band] = common[i] + own[i];
     }

@@ -14,9 +14,9 @@ struct Between {
 
 inline Between between(const Axis &axis, double value)
 {
-    const double position = std::clamp(axis.position(value), 0.0, static_cast<double>(axis.count - 1));
-    const Index lower = std::min(static_cast<Index>(position), std::max<Index>(0, axis.count - 2));
-    return {lower, axis.count < 2 ? 0.0 : position - static_cast<double>(lower)};
+    const double position = std::clamp(axis.position(value), 0.0, double(axis.count - 1));
+    const Index lower = std::min(Index(position), std::max<Index>(0, axis.count - 2));
+    return {lower, axis.count < 2 ? 0.0 : position - double(lower)};
 }
 
 } // namespace faintline

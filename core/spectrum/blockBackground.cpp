@@ -30,7 +30,7 @@ std::vector<bool> refine(const std::vector<float> &values, std::vector<float> &m
     std::vector<double> weights(values.size());
     std::vector<bool> isNoise(values.size());
     for (std::size_t k = 0; k < values.size(); ++k) {
-        const double ratio = std::exp(static_cast<double>(values[k] - medians[k]));
+        const double ratio = std::exp(double(values[k] - medians[k]));
         isNoise[k] = ratio < mostRatio && ratio > 1.0 / mostRatio;
         ratios[k] = isNoise[k] ? ratio : 0.0;
         weights[k] = isNoise[k] ? 1.0 : 0.0;
@@ -38,7 +38,7 @@ std::vector<bool> refine(const std::vector<float> &values, std::vector<float> &m
     std::vector<double> mean(values.size());
     runningMean(ratios, weights, half, mean, fewestCells);
     for (std::size_t k = 0; k < values.size(); ++k)
-        medians[k] += static_cast<float>(std::log(mean[k]));
+        medians[k] += float(std::log(mean[k]));
     return isNoise;
 }
 
@@ -50,29 +50,28 @@ BlockBackground blockBackground(const std::vector<float> &frames, Index cells, I
     for (Index frame = 0; frame < frameCount; ++frame) {
         const auto row = frames.begin() + frame * cells;
         const float peak = *std::max_element(row, row + cells);
-        strongest = std::max(strongest, static_cast<double>(peak));
+        strongest = std::max(strongest, double(peak));
         if (peak > 0.0f)
             loud.insert(loud.end(), row, row + cells);
     }
-    std::vector<float> ln(static_cast<std::size_t>(cells), silence);
+    std::vector<float> ln(std::size_t(cells), silence);
     if (loud.empty())
-        return {ln, ln, std::vector<bool>(static_cast<std::size_t>(cells), true),
-                std::vector<bool>(static_cast<std::size_t>(cells), true)};
-    const auto used = static_cast<int>(std::ssize(loud) / cells);
+        return {ln, ln, std::vector<bool>(std::size_t(cells), true), std::vector<bool>(std::size_t(cells), true)};
+    const auto used = int(std::ssize(loud) / cells);
     const double bias = std::log(medianMean(used));
     const double floor = std::log(strongest * roundingFloor);
     columnMedians(loud, ln);
     for (float &value : ln) {
-        const auto power = static_cast<double>(value);
-        value = static_cast<float>(std::max(floor, power > 0.0 ? std::log(power) - bias : floor));
+        const auto power = double(value);
+        value = float(std::max(floor, power > 0.0 ? std::log(power) - bias : floor));
     }
     std::vector<float> background = runningMedian(ln, half);
-    std::vector<bool> isNoise = refine(ln, background, half, mostNoiseRatio(static_cast<double>(used)));
+    std::vector<bool> isNoise = refine(ln, background, half, mostNoiseRatio(double(used)));
     std::vector<bool> isFirm(isNoise.size());
     for (std::size_t cell = 0; cell < background.size(); ++cell) {
-        isNoise[cell] = isNoise[cell] && static_cast<double>(background[cell]) > floor + roundingNearness;
-        isFirm[cell] = isNoise[cell] && static_cast<double>(background[cell]) > floor + roundingMargin;
-        background[cell] = std::max(background[cell], static_cast<float>(floor));
+        isNoise[cell] = isNoise[cell] && double(background[cell]) > floor + roundingNearness;
+        isFirm[cell] = isNoise[cell] && double(background[cell]) > floor + roundingMargin;
+        background[cell] = std::max(background[cell], float(floor));
     }
     return {std::move(ln), std::move(background), std::move(isNoise), std::move(isFirm)};
 }
@@ -80,7 +79,7 @@ BlockBackground blockBackground(const std::vector<float> &frames, Index cells, I
 std::vector<float> flatten(std::vector<float> &frames, Index cells)
 {
     const Index frameCount = std::ssize(frames) / cells;
-    std::vector<float> taken(static_cast<std::size_t>(frameCount), 0.0f);
+    std::vector<float> taken(std::size_t(frameCount), 0.0f);
     std::vector<float> loud;
     for (Index frame = 0; frame < frameCount; ++frame)
         if (const auto row = frames.begin() + frame * cells;
@@ -91,20 +90,20 @@ std::vector<float> flatten(std::vector<float> &frames, Index cells)
     std::vector<float> typical(static_cast<std::size_t>(cells));
     columnMedians(loud, typical);
     const Index stride = (cells + 499) / 500;
-    const double chance = 4.5 * medianScatter(static_cast<double>((cells + stride - 1) / stride));
+    const double chance = 4.5 * medianScatter(double((cells + stride - 1) / stride));
     std::vector<float> ratios;
     for (Index frame = 0; frame < frameCount; ++frame) {
         float *row = frames.data() + frame * cells;
         ratios.clear();
         for (Index cell = 0; cell < cells; cell += stride)
-            if (typical[static_cast<std::size_t>(cell)] > 0.0f)
-                ratios.push_back(row[cell] / typical[static_cast<std::size_t>(cell)]);
+            if (typical[std::size_t(cell)] > 0.0f)
+                ratios.push_back(row[cell] / typical[std::size_t(cell)]);
         if (ratios.empty())
             continue;
         const float ratio = medianOf(ratios);
-        if (!(ratio > 0.0f) || std::abs(std::log(static_cast<double>(ratio))) < chance)
+        if (!(ratio > 0.0f) || std::abs(std::log(double(ratio))) < chance)
             continue;
-        taken[static_cast<std::size_t>(frame)] = std::log(ratio);
+        taken[std::size_t(frame)] = std::log(ratio);
         for (Index cell = 0; cell < cells; ++cell)
             row[cell] /= ratio;
     }

@@ -14,10 +14,10 @@ namespace {
     void divideByNeighbours(float *cells, const double *sums, Index count, double N)
     {
         for (Index i = 0; i < count; ++i) {
-            const double value = static_cast<double>(cells[i]);
+            const double value = double(cells[i]);
             const double neighbours = sums[i] - value;
             const double ratio = N * value / neighbours;
-            cells[i] = static_cast<float>(neighbours > 0.0 ? ratio : 0.0);
+            cells[i] = float(neighbours > 0.0 ? ratio : 0.0);
         }
     }
 
@@ -25,27 +25,27 @@ namespace {
 
 void averageCells(std::span<float> y, Index row, Index N)
 {
-    std::vector<double> until(static_cast<std::size_t>(row + 1), 0.0);
+    std::vector<double> until(std::size_t(row + 1), 0.0);
     std::vector<double> sums(static_cast<std::size_t>(row));
     for (Index first = 0; first + row <= std::ssize(y); first += row) {
         float *cells = y.data() + first;
         for (Index i = 0; i < row; ++i)
-            until[static_cast<std::size_t>(i + 1)] = until[static_cast<std::size_t>(i)] + static_cast<double>(cells[i]);
+            until[std::size_t(i + 1)] = until[std::size_t(i)] + double(cells[i]);
         for (Index i = 0; i < row; ++i) {
-            const auto begin = static_cast<std::size_t>(std::clamp<Index>(i - N / 2, 0, row - N - 1));
-            sums[static_cast<std::size_t>(i)] = until[begin + static_cast<std::size_t>(N + 1)] - until[begin];
+            const auto begin = std::size_t(std::clamp<Index>(i - N / 2, 0, row - N - 1));
+            sums[std::size_t(i)] = until[begin + std::size_t(N + 1)] - until[begin];
         }
-        divideByNeighbours(cells, sums.data(), row, static_cast<double>(N));
+        divideByNeighbours(cells, sums.data(), row, double(N));
     }
 }
 
 FAINTLINE_MULTIVERSION
 void correctAveraged(std::span<float> t, Index N, double snr)
 {
-    const auto n = static_cast<float>(N);
-    const auto factor = static_cast<float>((static_cast<double>(N) + 1.0) * (1.0 + snr) / snr);
+    const auto n = float(N);
+    const auto factor = float((double(N) + 1.0) * (1.0 + snr) / snr);
     const auto slope = 1.0f / n;
-    const auto targetSlope = static_cast<float>(1.0 / (static_cast<double>(N) * (1.0 + snr)));
+    const auto targetSlope = float(1.0 / (double(N) * (1.0 + snr)));
     for (float &value : t)
         value = factor * fastLn((1.0f + slope * value) / (1.0f + targetSlope * value));
 }

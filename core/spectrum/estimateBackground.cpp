@@ -34,8 +34,7 @@ namespace {
         const double rate = detector.recording().info().sampleRateHz;
         for (Index shift = 1; shift < steps; ++shift) {
             SelectionSettings later = windows.selection();
-            later.fromSeconds +=
-                std::round(static_cast<double>(shift * windows.windowSamples()) / static_cast<double>(steps)) / rate;
+            later.fromSeconds += std::round(double(shift * windows.windowSamples()) / double(steps)) / rate;
             if (detector.time().count <= detector.settings().stepsPerWindow)
                 return {}; // hardly longer than a window
             result.emplace_back(windows.recordingPointer(), windows.settings(), later);
@@ -58,9 +57,9 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
     const Index cells = frames.frequency().count;
     const Index mostBlocks = std::clamp<Index>(largestValueCount / std::max<Index>(1, cells), 1, largestBlockCount);
     const Index framesWanted =
-        std::max(static_cast<Index>(std::llround(settings.blockWindows)), (frameCount + mostBlocks - 1) / mostBlocks);
+        std::max(Index(std::llround(settings.blockWindows)), (frameCount + mostBlocks - 1) / mostBlocks);
     const Index blockCount = isSketch ? 1 : std::max<Index>(1, frameCount / framesWanted);
-    const double blockFrames = static_cast<double>(frameCount) / static_cast<double>(blockCount);
+    const double blockFrames = double(frameCount) / double(blockCount);
 
     auto background = std::make_shared<NoiseBackground>();
     const double step = blockFrames * frames.time().step;
@@ -70,12 +69,11 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
     background->lnUnit = 2.0 * std::numbers::ln2 * frames.scaleExponent();
 
     // Frames looked at lie on one even raster over all blocks, every frame where there are not too many of them.
-    const auto mostUsed = static_cast<double>(
+    const auto mostUsed = double(
         isSketch ? sketchFrames
                  : std::clamp<Index>(valuesPerBlock / std::max<Index>(1, cells), fewestFramesPerBlock, framesPerBlock));
-    const Index stride = static_cast<Index>(std::ceil(blockFrames / mostUsed));
-    background->bandCount =
-        settings.followLevel && !isSketch ? NoiseBackground::subBandCount(static_cast<double>(cells)) : 0;
+    const Index stride = Index(std::ceil(blockFrames / mostUsed));
+    background->bandCount = settings.followLevel && !isSketch ? NoiseBackground::subBandCount(double(cells)) : 0;
     // Levels are those of the detector's own frames, which overlap: in between a sudden change would have to be
     // guessed.
     const std::vector<Spectrogram> shifted =
@@ -84,33 +82,31 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
     background->levelTime = {"time",
                              "s",
                              frames.time().first,
-                             static_cast<double>(stride) * frames.time().step / static_cast<double>(steps),
+                             double(stride) * frames.time().step / double(steps),
                              (frameCount + stride - 1) / stride * steps,
                              false};
     const Index columns = background->bandCount + 1;
-    std::vector<float> levels(
-        background->bandCount > 0 ? static_cast<std::size_t>(background->levelTime.count * columns) : 0, levelNotKnown);
-    std::vector<Index> blockOfLevel(static_cast<std::size_t>(background->levelTime.count), blockCount - 1);
+    std::vector<float> levels(background->bandCount > 0 ? std::size_t(background->levelTime.count * columns) : 0,
+                              levelNotKnown);
+    std::vector<Index> blockOfLevel(std::size_t(background->levelTime.count), blockCount - 1);
     BlockRows rows;
-    rows.lnPower.reserve(static_cast<std::size_t>(blockCount * cells));
-    background->lnPower.reserve(static_cast<std::size_t>(blockCount * cells));
+    rows.lnPower.reserve(std::size_t(blockCount * cells));
+    background->lnPower.reserve(std::size_t(blockCount * cells));
     std::vector<Unevenness> changes; // of each block
     std::vector<LevelOffsets> offsets;
     std::vector<float> block;
     for (Index b = 0; b < blockCount; ++b) {
-        context.checkpoint(static_cast<double>(b) / static_cast<double>(blockCount), "noise background");
-        const auto first = static_cast<Index>(std::floor(static_cast<double>(b) * blockFrames));
-        const auto end = std::min(frameCount, static_cast<Index>(std::floor(static_cast<double>(b + 1) * blockFrames)));
+        context.checkpoint(double(b) / double(blockCount), "noise background");
+        const auto first = Index(std::floor(double(b) * blockFrames));
+        const auto end = std::min(frameCount, Index(std::floor(double(b + 1) * blockFrames)));
         const Index firstUsed = (first + stride - 1) / stride * stride;
         const Index used = (end - firstUsed + stride - 1) / stride;
-        block.resize(static_cast<std::size_t>(used * cells));
+        block.resize(std::size_t(used * cells));
         for (Index i = 0; i < (stride > 1 ? used : 1); ++i)
             frames.read(firstUsed + i * stride, stride > 1 ? 1 : used,
-                        std::span(block).subspan(static_cast<std::size_t>(i * cells),
-                                                 static_cast<std::size_t>((stride > 1 ? 1 : used) * cells)));
-        const std::vector<float> taken = background->bandCount > 0
-                                             ? flatten(block, cells)
-                                             : std::vector<float>(static_cast<std::size_t>(used), 0.0f);
+                        std::span(block).subspan(std::size_t(i * cells), std::size_t((stride > 1 ? 1 : used) * cells)));
+        const std::vector<float> taken =
+            background->bandCount > 0 ? flatten(block, cells) : std::vector<float>(std::size_t(used), 0.0f);
         const BlockBackground own = blockBackground(block, cells, settings.halfWidthCells);
         background->lnPower.insert(background->lnPower.end(), own.medians.begin(), own.medians.end());
         rows.lnPower.insert(rows.lnPower.end(), own.lnPower.begin(), own.lnPower.end());
@@ -123,18 +119,18 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
             changes.push_back(changesOf(block, own, measured, background->bandCount));
         const auto put = [&](const std::vector<float> &source, Index row, Index place, float more) {
             for (Index column = 0; column < columns; ++column)
-                if (const float level = source[static_cast<std::size_t>(row * columns + column)]; level < levelNotKnown)
-                    levels[static_cast<std::size_t>(place * columns + column)] = level + more;
+                if (const float level = source[std::size_t(row * columns + column)]; level < levelNotKnown)
+                    levels[std::size_t(place * columns + column)] = level + more;
         };
         std::fill_n(blockOfLevel.begin() + firstUsed / stride * steps, used * steps, b);
         for (Index i = 0; i < used; ++i)
-            put(measured, i, (firstUsed / stride + i) * steps, taken[static_cast<std::size_t>(i)]);
+            put(measured, i, (firstUsed / stride + i) * steps, taken[std::size_t(i)]);
         for (Index shift = 1; shift < steps; ++shift) {
-            const Spectrogram &other = shifted[static_cast<std::size_t>(shift - 1)];
+            const Spectrogram &other = shifted[std::size_t(shift - 1)];
             const Index there = std::min(used, other.time().count - first);
             if (there <= 0)
                 continue;
-            const auto values = std::span(block).first(static_cast<std::size_t>(there * cells));
+            const auto values = std::span(block).first(std::size_t(there * cells));
             other.read(first, there, values);
             const std::vector<float> more = levelsOf(values, own, background->bandCount, likeness);
             for (Index i = 0; i < there; ++i)
@@ -147,24 +143,22 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
         removeOffsets(levels, offsets, blockOfLevel);
         moveToBackground(levels, rows, *background, blockOfLevel);
     }
-    const double overlap = overlapFactor(window, static_cast<int>(steps));
+    const double overlap = overlapFactor(window, int(steps));
     background->lnLevel = finishLevels(levels, *background, overlap, likeness);
     if (background->bandCount == 0 || stride > 1)
         return background;
     constexpr Index stretchBlocks = 13;
     constexpr double noticeable = 1.5;
     const double expected = Unevenness::ofNoise(likeness);
-    const Index together = std::clamp<Index>(
-        static_cast<Index>(static_cast<double>(valuesPerBlock / cells) / blockFrames), 1, stretchBlocks);
+    const Index together = std::clamp<Index>(Index(double(valuesPerBlock / cells) / blockFrames), 1, stretchBlocks);
     for (Index b = 0; b < blockCount; b += together) {
-        const auto first = static_cast<Index>(std::floor(static_cast<double>(b) * blockFrames));
-        const Index end = b + together < blockCount
-                              ? static_cast<Index>(std::floor(static_cast<double>(b + together) * blockFrames))
-                              : frameCount;
+        const auto first = Index(std::floor(double(b) * blockFrames));
+        const Index end =
+            b + together < blockCount ? Index(std::floor(double(b + together) * blockFrames)) : frameCount;
         Unevenness change;
         for (Index each = b; each < std::min(blockCount, b + together); ++each) {
-            change.sum += changes[static_cast<std::size_t>(each)].sum;
-            change.freedom += changes[static_cast<std::size_t>(each)].freedom;
+            change.sum += changes[std::size_t(each)].sum;
+            change.freedom += changes[std::size_t(each)].freedom;
         }
         if (change.variance() > noticeable * expected)
             addStretch(*background, {first, end - first, steps, frames, shifted}, settings.halfWidthCells, likeness,

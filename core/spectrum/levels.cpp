@@ -28,9 +28,8 @@ namespace {
         const std::ptrdiff_t n = std::ssize(x);
         std::vector<double> result(x.size());
         for (std::ptrdiff_t i = 0; i < n; ++i)
-            result[static_cast<std::size_t>(i)] = 0.25 * x[static_cast<std::size_t>(reflected(i - lag, n))]
-                                                  + 0.5 * x[static_cast<std::size_t>(i)]
-                                                  + 0.25 * x[static_cast<std::size_t>(reflected(i + lag, n))];
+            result[std::size_t(i)] = 0.25 * x[std::size_t(reflected(i - lag, n))] + 0.5 * x[std::size_t(i)]
+                                     + 0.25 * x[std::size_t(reflected(i + lag, n))];
         return result;
     }
 
@@ -45,7 +44,7 @@ namespace {
             for (int scale = 0; scale < scales; ++scale) {
                 const std::vector<double> coarse = smoothed(impulse, std::ptrdiff_t(1) << scale);
                 for (std::size_t i = 0; i < impulse.size(); ++i)
-                    result[static_cast<std::size_t>(scale)] += (impulse[i] - coarse[i]) * (impulse[i] - coarse[i]);
+                    result[std::size_t(scale)] += (impulse[i] - coarse[i]) * (impulse[i] - coarse[i]);
                 impulse = coarse;
             }
             for (double &value : result)
@@ -68,7 +67,7 @@ namespace {
 
 float medianOf(std::vector<float> &values)
 {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
+    const auto middle = values.begin() + std::ptrdiff_t((values.size() - 1) / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
 }
@@ -83,8 +82,7 @@ double medianMean(int n)
 
 double lnMedianMean(std::ptrdiff_t n)
 {
-    return std::log(medianMean(static_cast<int>(n)))
-           - 0.5 * inverseLn2 * inverseLn2 * likeness / static_cast<double>(n);
+    return std::log(medianMean(int(n))) - 0.5 * inverseLn2 * inverseLn2 * likeness / double(n);
 }
 
 double medianScatter(double cells)
@@ -106,11 +104,11 @@ float truncatedMean(std::span<const float> cells, float guess)
         double count = 0.0;
         for (float value : cells)
             if (value < cut * guess) {
-                sum += static_cast<double>(value);
+                sum += double(value);
                 count += 1.0;
             }
         if (sum > 0.0)
-            guess = static_cast<float>(sum / count) / kept;
+            guess = float(sum / count) / kept;
     }
     return guess;
 }
@@ -133,24 +131,23 @@ std::vector<float> beyondScatter(const std::vector<float> &series, double scatte
         for (std::size_t i = 0; i < rest.size(); ++i)
             rest[i] -= coarse[i];
         const std::vector<double> energy = energyUpTo(rest);
-        const double deviation = scatter * detailDeviations()[static_cast<std::size_t>(scale)];
+        const double deviation = scatter * detailDeviations()[std::size_t(scale)];
         for (std::ptrdiff_t i = 0; i < n; ++i) {
             double factor = 0.0;
             for (const Neighbourhood &near : neighbourhoods) {
                 const std::ptrdiff_t from = std::max<std::ptrdiff_t>(0, i - near.half * lag);
                 const std::ptrdiff_t to = std::min(n, i + near.half * lag + 1);
-                const double mean = (energy[static_cast<std::size_t>(to)] - energy[static_cast<std::size_t>(from)])
-                                    / static_cast<double>(to - from);
+                const double mean = (energy[std::size_t(to)] - energy[std::size_t(from)]) / double(to - from);
                 if (mean > near.chance * deviation * deviation)
                     factor = std::max(factor, 1.0 - deviation * deviation / mean);
             }
-            kept[static_cast<std::size_t>(i)] += factor * rest[static_cast<std::size_t>(i)];
+            kept[std::size_t(i)] += factor * rest[std::size_t(i)];
         }
         rest = coarse;
     }
     std::vector<float> result(series.size());
     for (std::size_t i = 0; i < result.size(); ++i)
-        result[i] = static_cast<float>(kept[i] + rest[i]);
+        result[i] = float(kept[i] + rest[i]);
     return result;
 }
 
@@ -170,24 +167,24 @@ float latestBeyondScatter(std::span<const float> series, double scatter)
         const std::ptrdiff_t lag = std::ptrdiff_t(1) << scale;
         const std::ptrdiff_t first = 2 * lag - 1; // value whose mean lies in the series
         for (std::ptrdiff_t i = n - 1; i >= first; --i) {
-            const auto at = static_cast<std::size_t>(i);
-            detail[at] = 0.5 * (rest[at] - rest[static_cast<std::size_t>(i - lag)]);
+            const auto at = std::size_t(i);
+            detail[at] = 0.5 * (rest[at] - rest[std::size_t(i - lag)]);
             rest[at] -= detail[at];
         }
-        const double variance = scatter * scatter / static_cast<double>(2 * lag);
+        const double variance = scatter * scatter / double(2 * lag);
         double factor = 0.0;
         for (const Neighbourhood &near : neighbourhoods) {
             const std::ptrdiff_t from = std::max(first, n - 1 - near.before * lag);
             double mean = 0.0;
             for (std::ptrdiff_t i = from; i < n; ++i)
-                mean += detail[static_cast<std::size_t>(i)] * detail[static_cast<std::size_t>(i)];
-            mean /= static_cast<double>(n - from);
+                mean += detail[std::size_t(i)] * detail[std::size_t(i)];
+            mean /= double(n - from);
             if (mean > near.chance * variance)
                 factor = std::max(factor, 1.0 - variance / mean);
         }
         kept += factor * detail.back();
     }
-    return static_cast<float>(kept + rest.back());
+    return float(kept + rest.back());
 }
 
 } // namespace faintline

@@ -50,7 +50,7 @@ void columnMedians(std::span<const float> frames, std::span<float> out)
 {
     const std::size_t cells = out.size();
     const std::size_t rows = frames.size() / cells;
-    const auto rank = static_cast<std::int32_t>((rows - 1) / 2);
+    const auto rank = std::int32_t((rows - 1) / 2);
     // In a copy that lies together: rows whose distance is a power of two would push one another out of the cache.
     std::vector<float> columns(rows * lanes, 0.0f);
     std::array<float, lanes> medians;
@@ -59,7 +59,7 @@ void columnMedians(std::span<const float> frames, std::span<float> out)
         for (std::size_t row = 0; row < rows; ++row)
             std::copy_n(frames.data() + row * cells + cell, count, columns.data() + row * lanes);
         ranked(columns.data(), rows, rank, medians.data());
-        std::copy_n(medians.begin(), count, out.begin() + static_cast<std::ptrdiff_t>(cell));
+        std::copy_n(medians.begin(), count, out.begin() + std::ptrdiff_t(cell));
     }
 }
 
@@ -70,7 +70,7 @@ std::vector<float> runningMedian(const std::vector<float> &sequence, Index half)
     const auto pivot = [&](Index from) {
         std::vector<float> few;
         for (Index i = from; i < std::min(from + pivotCells, n); ++i)
-            few.push_back(sequence[static_cast<std::size_t>(i)]);
+            few.push_back(sequence[std::size_t(i)]);
         return medianOf(few);
     };
     const float low = pivot(0);
@@ -78,10 +78,10 @@ std::vector<float> runningMedian(const std::vector<float> &sequence, Index half)
     const Index centre = (std::min(pivotCells, n) - 1) / 2; // of a slope the pivot's value is that of its middle
     const auto at = [&](Index i) {
         if (i < 0)
-            return 2.0f * low - sequence[static_cast<std::size_t>(std::min(2 * centre - i, n - 1))];
+            return 2.0f * low - sequence[std::size_t(std::min(2 * centre - i, n - 1))];
         if (i >= n)
-            return 2.0f * high - sequence[static_cast<std::size_t>(std::max<Index>(0, 2 * (n - 1 - centre) - i))];
-        return sequence[static_cast<std::size_t>(i)];
+            return 2.0f * high - sequence[std::size_t(std::max<Index>(0, 2 * (n - 1 - centre) - i))];
+        return sequence[std::size_t(i)];
     };
     // A sorted window that one value enters and one leaves.
     std::vector<float> window;
@@ -90,7 +90,7 @@ std::vector<float> runningMedian(const std::vector<float> &sequence, Index half)
     std::sort(window.begin(), window.end());
     std::vector<float> medians(sequence.size());
     for (Index i = 0; i < n; ++i) {
-        medians[static_cast<std::size_t>(i)] = window[static_cast<std::size_t>(half)];
+        medians[std::size_t(i)] = window[std::size_t(half)];
         const auto leaving = std::lower_bound(window.begin(), window.end(), at(i - half));
         window.erase(leaving);
         const float entering = at(i + half + 1);
@@ -109,7 +109,7 @@ void runningMean(std::span<const double> values, std::span<const double> weights
         sum[i + 1] = sum[i] + weights[i] * values[i];
         weight[i + 1] = weight[i] + weights[i];
     }
-    const auto reach = static_cast<std::size_t>(half);
+    const auto reach = std::size_t(half);
     for (std::size_t i = 0; i < n; ++i) {
         const std::size_t from = i < reach ? 0 : i - reach;
         const std::size_t to = std::min(n, i + reach + 1);

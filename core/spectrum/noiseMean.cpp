@@ -13,7 +13,7 @@ double noiseMeanOf(const NormalisedFrames &frames)
 {
     constexpr Index most = 64;
     const Index count = frames.time().count;
-    const auto cells = static_cast<std::size_t>(frames.grid().size());
+    const auto cells = std::size_t(frames.grid().size());
     std::vector<float> frame(cells);
     std::vector<float> all;
     for (Index i = 0; i < std::min(count, most); ++i) {
@@ -24,7 +24,7 @@ double noiseMeanOf(const NormalisedFrames &frames)
         return 1.0;
     const auto middle = all.begin() + std::ssize(all) / 2;
     std::nth_element(all.begin(), middle, all.end());
-    return static_cast<double>(*middle) / std::numbers::ln2;
+    return double(*middle) / std::numbers::ln2;
 }
 
 std::string noiseMeanWarning(const NormalisedFrames &frames)

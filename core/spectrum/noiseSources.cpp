@@ -81,14 +81,14 @@ namespace {
             const float *colour = sources.colours.data() + k * frame.size();
             const double pull = product(colour, scratch.pull.data(), frame.size());
             const double inverse = product(colour, scratch.inverse.data(), frame.size());
-            levels[k] = static_cast<float>(static_cast<double>(levels[k]) * (inverse > 0.0 ? pull / inverse : 0.0));
+            levels[k] = float(double(levels[k]) * (inverse > 0.0 ? pull / inverse : 0.0));
         }
     }
 
     /// Every source with an equal part of what is there.
     std::vector<float> firstLevels(const NoiseSources &sources, std::span<const float> frame)
     {
-        const auto count = static_cast<std::size_t>(sources.count());
+        const auto count = std::size_t(sources.count());
         std::vector<float> levels(count);
         for (std::size_t k = 0; k < count; ++k) {
             std::vector<float> ratios(frame.size());
@@ -96,7 +96,7 @@ namespace {
                 ratios[cell] = frame[cell] / std::max(sources.colours[k * frame.size() + cell], least);
             const auto middle = ratios.begin() + std::ssize(ratios) / 2;
             std::nth_element(ratios.begin(), middle, ratios.end());
-            levels[k] = *middle / static_cast<float>(count);
+            levels[k] = *middle / float(count);
         }
         return levels;
     }
@@ -116,7 +116,7 @@ namespace {
         std::vector<float> sorted = profile;
         std::nth_element(sorted.begin(), sorted.begin() + parts / 2, sorted.end());
         for (float &value : profile)
-            value -= sorted[static_cast<std::size_t>(parts / 2)];
+            value -= sorted[std::size_t(parts / 2)];
         return profile;
     }
 
@@ -124,8 +124,8 @@ namespace {
     {
         double sum = 0.0;
         for (std::size_t i = 0; i < a.size(); ++i)
-            sum += std::abs(static_cast<double>(a[i] - b[i]));
-        return sum / static_cast<double>(a.size());
+            sum += std::abs(double(a[i] - b[i]));
+        return sum / double(a.size());
     }
 
     /// Colours to begin with: of the frames that lie farthest from those taken already, a few of the oddest left aside,
@@ -136,8 +136,7 @@ namespace {
         constexpr std::size_t alike = 5;
         std::vector<std::vector<float>> profiles;
         for (Index first = 0; first < std::ssize(frames); first += cells)
-            profiles.push_back(
-                profileOf(frames.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(cells))));
+            profiles.push_back(profileOf(frames.subspan(std::size_t(first), std::size_t(cells))));
         std::vector<float> centre(profiles.front().size());
         for (std::size_t part = 0; part < centre.size(); ++part) {
             std::vector<float> values;
@@ -154,7 +153,7 @@ namespace {
         for (Index k = 0; k < count; ++k) {
             std::iota(order.begin(), order.end(), std::size_t(0));
             std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return far[a] > far[b]; });
-            const std::size_t seed = order[static_cast<std::size_t>(oddest * static_cast<double>(order.size()))];
+            const std::size_t seed = order[std::size_t(oddest * double(order.size()))];
             std::vector<double> near(profiles.size());
             for (std::size_t i = 0; i < profiles.size(); ++i)
                 near[i] = distance(profiles[i], profiles[seed]);
@@ -164,11 +163,11 @@ namespace {
             const std::size_t taken = std::min(alike, order.size());
             const Index parts = std::ssize(centre);
             for (Index cell = 0; cell < cells; ++cell) {
-                const auto part = static_cast<std::size_t>(std::min(parts - 1, cell * parts / cells));
+                const auto part = std::size_t(std::min(parts - 1, cell * parts / cells));
                 double sum = 0.0;
                 for (std::size_t i = 0; i < taken; ++i)
-                    sum += static_cast<double>(profiles[order[i]][part]);
-                result.colours.push_back(static_cast<float>(std::exp(sum / static_cast<double>(taken))));
+                    sum += double(profiles[order[i]][part]);
+                result.colours.push_back(float(std::exp(sum / double(taken))));
             }
             for (std::size_t i = 0; i < profiles.size(); ++i)
                 far[i] = k == 0 ? near[i] : std::min(far[i], near[i]);
@@ -178,7 +177,7 @@ namespace {
 
     void smoothColours(NoiseSources &sources, Index half)
     {
-        std::vector<float> ln(static_cast<std::size_t>(sources.cells));
+        std::vector<float> ln(std::size_t(sources.cells));
         for (Index k = 0; k < sources.count(); ++k) {
             float *colour = sources.colours.data() + k * sources.cells;
             for (std::size_t cell = 0; cell < ln.size(); ++cell)
@@ -200,7 +199,7 @@ void NoiseSources::addUp(std::span<const float> levels, std::span<float> out) co
 
 std::vector<float> NoiseSources::levelsIn(std::span<const float> frame) const
 {
-    std::vector<float> levels(static_cast<std::size_t>(count()), 0.0f);
+    std::vector<float> levels(std::size_t(count()), 0.0f);
     if (std::none_of(frame.begin(), frame.end(), [](float y) { return y > 0.0f; }))
         return levels;
     levels = firstLevels(*this, frame);
@@ -212,7 +211,7 @@ std::vector<float> NoiseSources::levelsIn(std::span<const float> frame) const
 
 NoiseSources fitSources(std::span<const float> frames, Index cells, Index count, Index half)
 {
-    const auto size = static_cast<std::size_t>(cells);
+    const auto size = std::size_t(cells);
     std::vector<float> loud; // the frames that are no digital silence
     for (std::size_t first = 0; first < frames.size(); first += size)
         if (const auto row = frames.subspan(first, size);

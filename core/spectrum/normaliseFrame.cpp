@@ -31,11 +31,11 @@ namespace {
     void divideByBackground(float *y, std::size_t bins, const float *ln, double start, double perBin, double lastCell)
     {
         for (std::size_t bin = 0; bin < bins; ++bin) {
-            double position = start + static_cast<double>(static_cast<std::int32_t>(bin)) * perBin;
+            double position = start + double(std::int32_t(bin)) * perBin;
             position = position > 0.0 ? position : 0.0;
             position = position < lastCell ? position : lastCell;
-            const auto lower = static_cast<std::int32_t>(position);
-            const auto fraction = static_cast<float>(position - static_cast<double>(lower));
+            const auto lower = std::int32_t(position);
+            const auto fraction = float(position - double(lower));
             y[bin] = overPower(y[bin], ln[lower] + fraction * (ln[lower + 1] - ln[lower]));
         }
     }
@@ -61,21 +61,20 @@ namespace {
     {
         // What is shorter than the spacing of the levels. In most frames counting is enough: the median of a sub-band
         // exceeds a limit where more than half of its values do.
-        const auto bands =
-            static_cast<std::size_t>(NoiseBackground::subBandCount(static_cast<double>(values.size()) / binsPerCell));
+        const auto bands = std::size_t(NoiseBackground::subBandCount(double(values.size()) / binsPerCell));
         constexpr Index half = 20;
         const double allowed = 1.0 + 4.0 * inverseLn2 / std::sqrt(2.0 * half + 1.0);
-        const auto limit = static_cast<float>(allowed * std::numbers::ln2_v<double>);
+        const auto limit = float(allowed * std::numbers::ln2_v<double>);
         bool isLoud = false;
         for (std::size_t band = 0; band < bands; ++band) {
-            const auto from = static_cast<std::ptrdiff_t>(band * values.size() / bands);
-            const auto to = static_cast<std::ptrdiff_t>((band + 1) * values.size() / bands);
+            const auto from = std::ptrdiff_t(band * values.size() / bands);
+            const auto to = std::ptrdiff_t((band + 1) * values.size() / bands);
             isLoud = isLoud || 2 * countAbove(values.data() + from, to - from, limit) > to - from;
         }
         if (!isLoud)
             return;
         // The frame's own running median over frequency, which keeps the edges of what is loud.
-        const auto stride = static_cast<std::size_t>(std::max(1.0, std::floor(binsPerCell)));
+        const auto stride = std::size_t(std::max(1.0, std::floor(binsPerCell)));
         std::vector<float> ln;
         for (std::size_t bin = 0; bin < values.size(); bin += stride)
             ln.push_back(std::log(std::max(values[bin], 1e-6f)));
@@ -92,7 +91,7 @@ namespace {
 void normaliseFrame(const Spectrogram &spectrogram, const NoiseBackground &b, double seconds, bool guardsAgainstClicks,
                     std::span<float> values, std::vector<float> &ln)
 {
-    const auto cells = static_cast<std::size_t>(b.frequency.count);
+    const auto cells = std::size_t(b.frequency.count);
     ln.resize(cells + 1);
     b.readLnPower(seconds, std::span(ln).first(cells));
     ln[cells] = ln[cells - 1];
@@ -102,8 +101,7 @@ void normaliseFrame(const Spectrogram &spectrogram, const NoiseBackground &b, do
     if (start == 0.0 && perBin == 1.0 && values.size() <= cells)
         divideBinByBin(values.data(), values.size(), ln.data());
     else
-        divideByBackground(values.data(), values.size(), ln.data(), start, perBin,
-                           static_cast<double>(b.frequency.count - 1));
+        divideByBackground(values.data(), values.size(), ln.data(), start, perBin, double(b.frequency.count - 1));
     if (guardsAgainstClicks)
         guardAgainstClicks(spectrogram.binsPerCell(), values);
 }

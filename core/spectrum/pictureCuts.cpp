@@ -9,7 +9,7 @@ namespace {
     /// The time of the rows of the finest level, each in the middle of its frames.
     Axis rowTime(const PeakPyramid &picture)
     {
-        const auto frames = static_cast<double>(picture.framesPerRow(0));
+        const auto frames = double(picture.framesPerRow(0));
         Axis time = picture.time();
         time.first = time.value(0.5 * (frames - 1.0));
         time.step *= frames;
@@ -29,9 +29,9 @@ std::shared_ptr<const PeakPyramid> pictureAlong(const PeakPyramid &picture, cons
         const std::span<const std::uint8_t> row = picture.row(0, r);
         std::fill(merged.begin(), merged.end(), std::uint8_t(0));
         for (Index begin = 0; begin < std::ssize(row); begin += stride) {
-            std::uint8_t &highest = merged[static_cast<std::size_t>(begin / stride % count)];
+            std::uint8_t &highest = merged[std::size_t(begin / stride % count)];
             for (Index i = begin; i < begin + stride; ++i)
-                highest = std::max(highest, row[static_cast<std::size_t>(i)]);
+                highest = std::max(highest, row[std::size_t(i)]);
         }
         result->appendBytes(merged);
     }
@@ -46,7 +46,7 @@ std::shared_ptr<const PeakPyramid> pictureOfFrame(const PeakPyramid &picture, co
         picture.row(0, std::clamp<Index>(frame / picture.framesPerRow(0), 0, picture.rowCount(0) - 1));
     auto result = std::make_shared<PeakPyramid>(grid.axes[0], columns, picture.scale());
     for (Index i = 0; i < grid.axes[0].count; ++i)
-        result->appendBytes(row.subspan(static_cast<std::size_t>(i * columns), static_cast<std::size_t>(columns)));
+        result->appendBytes(row.subspan(std::size_t(i * columns), std::size_t(columns)));
     result->finish();
     return result;
 }

@@ -19,16 +19,16 @@ std::shared_ptr<const PeakPyramid> quickLook(std::shared_ptr<const Spectrogram> 
     const NormalisedSpectrogram frames(spectrogram, background, settings);
     const Index all = frames.time().count;
     const double perFrame = spectrogram->windowSamples() * spectrogram->settings().binsPerCell;
-    const auto affordable = static_cast<Index>(affordableSamples / perFrame);
+    const auto affordable = Index(affordableSamples / perFrame);
     const Index count = std::min(all, std::clamp(affordable, fewestFrames, mostFrames));
 
     Axis time = frames.time();
-    time.step *= static_cast<double>(all) / static_cast<double>(count);
+    time.step *= double(all) / double(count);
     time.count = count;
     auto picture = std::make_shared<PeakPyramid>(time, frames.grid().size(), ByteScale(ByteScale::Kind::PowerDb));
-    std::vector<float> frame(static_cast<std::size_t>(frames.grid().size()));
+    std::vector<float> frame(std::size_t(frames.grid().size()));
     for (Index i = 0; i < count; ++i) {
-        context.checkpoint(static_cast<double>(i) / static_cast<double>(count), "first look");
+        context.checkpoint(double(i) / double(count), "first look");
         frames.read((2 * i + 1) * all / (2 * count), 1, frame);
         picture->append(frame);
     }

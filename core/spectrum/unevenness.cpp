@@ -30,13 +30,13 @@ Unevenness unevenness(std::span<const float> frames, const std::vector<float> &o
             double mean = 0.0;
             for (Index frame = first; frame < first + Unevenness::tileFrames; ++frame) {
                 const float *row = frames.data() + frame * cells;
-                const float factor = ofFrame[static_cast<std::size_t>(frame)];
+                const float factor = ofFrame[std::size_t(frame)];
                 for (Index i = cell; i < cell + Unevenness::tileCells; ++i)
-                    mean += static_cast<double>(std::min(row[i] * factor * ofCell[static_cast<std::size_t>(i)], most));
+                    mean += double(std::min(row[i] * factor * ofCell[std::size_t(i)], most));
             }
             if (mean <= 0.0)
                 continue;
-            mean /= static_cast<double>(Unevenness::tileFrames * Unevenness::tileCells);
+            mean /= double(Unevenness::tileFrames * Unevenness::tileCells);
             const double ln = std::log(mean);
             sum += ln;
             squares += ln * ln;
@@ -60,7 +60,7 @@ Unevenness changesOf(const std::vector<float> &frames, const BlockBackground &bl
     for (const float ln : block.lnPower)
         ofCell.push_back(ln > silence ? std::exp(-ln) : 0.0f);
     std::vector<float> ofFrame;
-    for (std::size_t i = static_cast<std::size_t>(bands); i < levels.size(); i += static_cast<std::size_t>(bands + 1))
+    for (std::size_t i = std::size_t(bands); i < levels.size(); i += std::size_t(bands + 1))
         ofFrame.push_back(levels[i] < levelNotKnown ? std::exp(-levels[i]) : 0.0f);
     return unevenness(frames, ofCell, ofFrame);
 }

@@ -17,7 +17,7 @@ struct Unevenness {
     double variance() const { return freedom > 0.0 ? sum / freedom : 0.0; }
     double varianceOfMeans() const { return freedom > 0.0 ? sumOfMeans / freedom : 0.0; }
     /// That of steady noise, whose neighbouring cells are alike by the window.
-    static double ofNoise(double likeness) { return likeness / static_cast<double>(tileFrames * tileCells); }
+    static double ofNoise(double likeness) { return likeness / double(tileFrames * tileCells); }
 
     static constexpr Index tileFrames = 8;
     static constexpr Index tileCells = 24;

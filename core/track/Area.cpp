@@ -10,8 +10,7 @@ namespace {
 
     double sizeOf(const Area &area)
     {
-        return static_cast<double>(area.lastFrame - area.firstFrame + 1)
-               * static_cast<double>(area.lastCell - area.firstCell + 1);
+        return double(area.lastFrame - area.firstFrame + 1) * double(area.lastCell - area.firstCell + 1);
     }
 
     bool isBeside(const Area &a, const Area &b)
@@ -22,7 +21,7 @@ namespace {
 
     Area united(const Area &a, const Area &b)
     {
-        const auto frames = [](const Area &of) { return static_cast<double>(of.lastFrame - of.firstFrame + 1); };
+        const auto frames = [](const Area &of) { return double(of.lastFrame - of.firstFrame + 1); };
         return {std::min(a.firstFrame, b.firstFrame), std::max(a.lastFrame, b.lastFrame),
                 std::min(a.firstCell, b.firstCell), std::max(a.lastCell, b.lastCell),
                 (a.level * frames(a) + b.level * frames(b)) / (frames(a) + frames(b))};
@@ -44,8 +43,8 @@ std::vector<Area> joinAreas(std::vector<Area> areas)
             }
             area = both;
             size = std::min(size + taken[other], sizeOf(both));
-            joined.erase(joined.begin() + static_cast<std::ptrdiff_t>(other));
-            taken.erase(taken.begin() + static_cast<std::ptrdiff_t>(other));
+            joined.erase(joined.begin() + std::ptrdiff_t(other));
+            taken.erase(taken.begin() + std::ptrdiff_t(other));
             other = 0; // what has grown may touch others that it did not touch before
         }
         joined.push_back(area);

@@ -29,11 +29,11 @@ std::vector<Cluster> findClusters(const Grid &grid, std::span<const float> stati
                                   const std::vector<Index> &linkCells)
 {
     std::vector<Index> crossings;
-    if (!anyAbove(statistic, static_cast<float>(threshold)))
+    if (!anyAbove(statistic, float(threshold)))
         return {};
-    const auto limit = static_cast<float>(std::min(threshold, shoulder));
+    const auto limit = float(std::min(threshold, shoulder));
     for (Index cell = 0; cell < std::ssize(statistic); ++cell)
-        if (statistic[static_cast<std::size_t>(cell)] > limit)
+        if (statistic[std::size_t(cell)] > limit)
             crossings.push_back(cell);
     std::vector<Cluster> clusters;
     std::vector<bool> taken(crossings.size(), false);
@@ -53,8 +53,8 @@ std::vector<Cluster> findClusters(const Grid &grid, std::span<const float> stati
             cluster.cells.push_back(cell);
             CellBox{grid.coordinates(cell), linkCells}.forEachCell(grid, [&](Index neighbour) {
                 const std::ptrdiff_t position = positionOf(neighbour);
-                if (position >= 0 && !taken[static_cast<std::size_t>(position)]) {
-                    taken[static_cast<std::size_t>(position)] = true;
+                if (position >= 0 && !taken[std::size_t(position)]) {
+                    taken[std::size_t(position)] = true;
                     open.push_back(neighbour);
                 }
             });
@@ -62,10 +62,10 @@ std::vector<Cluster> findClusters(const Grid &grid, std::span<const float> stati
         std::sort(cluster.cells.begin(), cluster.cells.end());
         cluster.peakCell = cluster.cells.front();
         for (Index cell : cluster.cells)
-            if (statistic[static_cast<std::size_t>(cell)] > statistic[static_cast<std::size_t>(cluster.peakCell)])
+            if (statistic[std::size_t(cell)] > statistic[std::size_t(cluster.peakCell)])
                 cluster.peakCell = cell;
-        cluster.peakStatistic = statistic[static_cast<std::size_t>(cluster.peakCell)];
-        if (cluster.peakStatistic > static_cast<float>(threshold))
+        cluster.peakStatistic = statistic[std::size_t(cluster.peakCell)];
+        if (cluster.peakStatistic > float(threshold))
             clusters.push_back(std::move(cluster));
     }
     std::sort(clusters.begin(), clusters.end(),

@@ -22,7 +22,7 @@ const std::vector<Field<ConventionalSettings>> &ConventionalSettings::fields()
 
 int ConventionalTracker::Candidate::recentHits() const
 {
-    return static_cast<int>(std::count(recent.begin(), recent.end(), true));
+    return int(std::count(recent.begin(), recent.end(), true));
 }
 
 ConventionalTracker::ConventionalTracker(const Grid &grid, const ConventionalSettings &settings)
@@ -32,14 +32,14 @@ ConventionalTracker::ConventionalTracker(const Grid &grid, const ConventionalSet
 
 bool ConventionalTracker::isInGate(const TrackPoint &from, Index frame, Index cell) const
 {
-    const auto frames = static_cast<double>(frame - from.frame);
+    const auto frames = double(frame - from.frame);
     const std::vector<Index> a = m_grid.coordinates(from.cell);
     const std::vector<Index> b = m_grid.coordinates(cell);
     for (std::size_t axis = 0; axis < a.size(); ++axis) {
         Index distance = std::abs(a[axis] - b[axis]);
         if (m_grid.axes[axis].cyclic)
             distance = std::min(distance, m_grid.axes[axis].count - distance);
-        if (static_cast<double>(distance) > frames * (axis == 0 ? m_settings.fastestCells : m_settings.fastestAcross))
+        if (double(distance) > frames * (axis == 0 ? m_settings.fastestCells : m_settings.fastestAcross))
             return false;
     }
     return true;
@@ -61,12 +61,12 @@ void ConventionalTracker::take(Candidate &candidate, Index frame, const Hit &hit
     candidate.powers.push_back(hit.y);
     std::vector<float> strongest = candidate.powers;
     std::sort(strongest.begin(), strongest.end(), std::greater<>());
-    strongest.resize(std::min(strongest.size(), static_cast<std::size_t>(m_settings.hits)));
-    track.peakStatistic = std::accumulate(strongest.begin(), strongest.end(), 0.0,
-                                          [](double sum, float y) { return sum + static_cast<double>(y); })
-                          / static_cast<double>(strongest.size());
+    strongest.resize(std::min(strongest.size(), std::size_t(m_settings.hits)));
+    track.peakStatistic =
+        std::accumulate(strongest.begin(), strongest.end(), 0.0, [](double sum, float y) { return sum + double(y); })
+        / double(strongest.size());
     track.detectStatistic = track.peakStatistic;
-    track.points.push_back({frame, hit.cell, 0, static_cast<double>(hit.y)});
+    track.points.push_back({frame, hit.cell, 0, double(hit.y)});
     track.endFrame = frame;
 }
 
@@ -74,8 +74,8 @@ void ConventionalTracker::update(Index frame, std::span<const float> y)
 {
     std::vector<Hit> hits;
     for (std::size_t cell = 0; cell < y.size(); ++cell)
-        if (static_cast<double>(y[cell]) > m_settings.hitThreshold)
-            hits.push_back({static_cast<Index>(cell), y[cell], false});
+        if (double(y[cell]) > m_settings.hitThreshold)
+            hits.push_back({Index(cell), y[cell], false});
     for (Candidate &candidate : m_candidates) {
         Hit *hit = strongestInGate(candidate.track.points.back(), frame, hits);
         candidate.recent.push_back(hit != nullptr);
@@ -110,7 +110,7 @@ void ConventionalTracker::drop(Index frame)
         }
         // Hits that will still be in the window however long one waits: a young candidate's all, an old one's all but
         // the oldest.
-        const int frames = static_cast<int>(candidate.recent.size());
+        const int frames = int(candidate.recent.size());
         const bool isHopeless = found + (m_settings.window - frames) < m_settings.hits;
         if (!isHopeless)
             going.push_back(std::move(candidate));

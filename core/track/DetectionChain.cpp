@@ -20,7 +20,7 @@ namespace {
     /// Frames to remember: the newest one where nobody looks back.
     std::size_t framesOf(const Grid &grid, const ChainSettings &settings)
     {
-        const std::size_t most = memoryShares::pathRecord / (sizeof(float) * static_cast<std::size_t>(grid.size()));
+        const std::size_t most = memoryShares::pathRecord / (sizeof(float) * std::size_t(grid.size()));
         return settings.onsetFrames == 1 ? 1 : std::clamp<std::size_t>(most, 16, 4096);
     }
 
@@ -30,7 +30,7 @@ namespace {
             return 0;
         std::size_t states = 0;
         for (const MarkovModel &model : models)
-            states += static_cast<std::size_t>(model.space.stateCount());
+            states += std::size_t(model.space.stateCount());
         return memoryShares::pathRecord / (sizeof(float) * states);
     }
 
@@ -38,18 +38,18 @@ namespace {
     /// the score begins to grow: the change point between no growth and half the path's own mean growth.
     void trimOnset(std::vector<TrackPoint> &points)
     {
-        const double tilt = 0.5 * points.back().statistic / static_cast<double>(points.size());
+        const double tilt = 0.5 * points.back().statistic / double(points.size());
         std::size_t onset = 0;
         double least = 0.0;
         for (std::size_t i = 0; i < points.size(); ++i) {
             const double before = i == 0 ? 0.0 : points[i - 1].statistic;
-            const double tilted = before - tilt * static_cast<double>(i);
+            const double tilted = before - tilt * double(i);
             if (tilted < least) {
                 least = tilted;
                 onset = i;
             }
         }
-        points.erase(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(onset));
+        points.erase(points.begin(), points.begin() + std::ptrdiff_t(onset));
     }
 
 } // namespace
@@ -64,7 +64,7 @@ DetectionChain::DetectionChain(std::vector<MarkovModel> models, const Grid &grid
                                std::unique_ptr<PathDetector> detector, ChainSettings settings)
     : m_models(std::move(models)), m_grid(grid), m_detector(std::move(detector)), m_settings(std::move(settings)),
       m_seenLimit(framesOf(grid, m_settings)), m_checkpointLimit(checkpointsOf(m_models, m_settings)),
-      m_lambda(static_cast<std::size_t>(grid.size()))
+      m_lambda(std::size_t(grid.size()))
 {
     for (const MarkovModel &model : m_models)
         m_trackerModels.push_back(std::make_unique<TrackerModel>(
@@ -112,8 +112,8 @@ void DetectionChain::update(Index frame, std::span<const float> y, std::span<flo
             tracker.paint(statistic);
             continue;
         }
-        float &value = statistic[static_cast<std::size_t>(tracker.cell())];
-        value = std::max(value, static_cast<float>(tracker.track().detectStatistic));
+        float &value = statistic[std::size_t(tracker.cell())];
+        value = std::max(value, float(tracker.track().detectStatistic));
     }
 }
 
@@ -156,7 +156,7 @@ void DetectionChain::keepExcursions()
     // A whole excursion is forgotten with its track's start: in the frame after it, all of that is kept from the
     // detector, be it wider than the box its track has by now.
     m_excursions = m_settings.trackThreshold && m_settings.forgetCells.empty() ? m_newBoxes.size() : 0;
-    const auto begun = static_cast<std::ptrdiff_t>(m_excursions);
+    const auto begun = std::ptrdiff_t(m_excursions);
     m_boxes.erase(m_boxes.begin(), m_boxes.end() - begun);
     m_boxTracks.erase(m_boxTracks.begin(), m_boxTracks.end() - begun);
     m_newBoxes.clear();
@@ -167,7 +167,7 @@ void DetectionChain::keepFromDetector(std::span<const CellBox> boxes, std::vecto
     std::vector<Index> cells;
     for (const CellBox &box : boxes)
         box.forEachCell(m_grid, [&](Index cell) {
-            y[static_cast<std::size_t>(cell)] = 0.0f;
+            y[std::size_t(cell)] = 0.0f;
             cells.push_back(cell);
         });
     std::sort(cells.begin(), cells.end());
@@ -191,7 +191,7 @@ void DetectionChain::updateTrackers(Index frame, std::span<const float> y)
     for (const std::vector<Index> &place : m_settings.excluded) {
         const CellBox box = boxRound(place, y, excludedMargin);
         if (box.halfWidth.back() > m_settings.inhibitCells.back()) // there is a constant, with side lobes
-            box.forEachCell(m_grid, [this](Index cell) { m_lambda[static_cast<std::size_t>(cell)] = nothingSeen(); });
+            box.forEachCell(m_grid, [this](Index cell) { m_lambda[std::size_t(cell)] = nothingSeen(); });
     }
     std::vector<HmmTracker> going;
     std::vector<std::vector<Index>> places; // as of the last frame: some trackers are about to move or end
@@ -204,7 +204,7 @@ void DetectionChain::updateTrackers(Index frame, std::span<const float> y)
         const auto hidden = maskNeighbours(index, i);
         const bool goesOn = tracker.update(frame, m_lambda, m_detector->regulation(tracker.track().model).lnK);
         for (const auto &[cell, value] : hidden)
-            m_lambda[static_cast<std::size_t>(cell)] = value;
+            m_lambda[std::size_t(cell)] = value;
         if (goesOn)
             going.push_back(std::move(tracker));
         else
@@ -216,7 +216,7 @@ void DetectionChain::updateTrackers(Index frame, std::span<const float> y)
 
 float DetectionChain::nothingSeen() const
 {
-    return static_cast<float>(m_models.front().likelihood.at(0.0));
+    return float(m_models.front().likelihood.at(0.0));
 }
 
 std::vector<std::pair<Index, float>> DetectionChain::maskNeighbours(const PlaceIndex &places, std::size_t own)
@@ -243,7 +243,7 @@ std::vector<std::pair<Index, float>> DetectionChain::maskNeighbours(const PlaceI
             const std::vector<Index> c = m_grid.coordinates(cell);
             if (distance(c, centre) >= distance(c, mine))
                 return;
-            float &value = m_lambda[static_cast<std::size_t>(cell)];
+            float &value = m_lambda[std::size_t(cell)];
             hidden.emplace_back(cell, value);
             value = nothingSeen();
         });
@@ -287,7 +287,7 @@ void DetectionChain::endDuplicates()
         }
         if (2 * longest < young.age())
             m_ended.push_back(young.finish(false));
-        m_trackers.erase(m_trackers.begin() + static_cast<std::ptrdiff_t>(younger));
+        m_trackers.erase(m_trackers.begin() + std::ptrdiff_t(younger));
     }
 }
 
@@ -295,8 +295,7 @@ CellBox DetectionChain::boxRound(const std::vector<Index> &centre, std::span<con
 {
     CellBox box{centre, m_settings.inhibitCells};
     const Index middle = m_grid.cell(centre);
-    const double level =
-        static_cast<double>(std::max(0.0f, y[static_cast<std::size_t>(middle)])); // 0 where nothing was observed
+    const double level = double(std::max(0.0f, y[std::size_t(middle)])); // 0 where nothing was observed
     if (m_settings.leakageExtent)
         box.halfWidth.back() = std::max(box.halfWidth.back(), m_settings.leakageExtent(margin * level));
     if (m_settings.skirtStep <= 0 || level < skirtLevel)
@@ -309,7 +308,7 @@ CellBox DetectionChain::boxRound(const std::vector<Index> &centre, std::span<con
             float peak = 0.0f;
             for (Index i = 0; i < m_settings.skirtStep; ++i)
                 if (const Index cell = axis.wrapped(position + direction * (from + i)); cell >= 0)
-                    peak = std::max(peak, y[static_cast<std::size_t>(middle - position + cell)]);
+                    peak = std::max(peak, y[std::size_t(middle - position + cell)]);
             return peak;
         };
         Index reach = box.halfWidth.back();
@@ -317,7 +316,7 @@ CellBox DetectionChain::boxRound(const std::vector<Index> &centre, std::span<con
         float before = groupPeak(std::max<Index>(0, reach - m_settings.skirtStep + 1));
         while (reach < limit) {
             const float next = groupPeak(reach + 1);
-            if (static_cast<double>(next) < skirtLevel || next > before)
+            if (double(next) < skirtLevel || next > before)
                 break;
             before = next;
             reach += m_settings.skirtStep;
@@ -335,7 +334,7 @@ CellBox DetectionChain::boxRound(const std::vector<Index> &centre, std::span<con
 
 double DetectionChain::scoreOf(Index state, std::size_t model) const
 {
-    return static_cast<double>(m_detector->scores(model)[static_cast<std::size_t>(state)]);
+    return double(m_detector->scores(model)[std::size_t(state)]);
 }
 
 Index DetectionChain::bestState(Index cell) const
@@ -346,7 +345,7 @@ Index DetectionChain::bestState(Index cell) const
     Index best = cell;
     for (Index plane = 1; plane < space.planeCount(); ++plane) {
         const Index state = plane * space.cellCount() + cell;
-        if (scores[static_cast<std::size_t>(state)] > scores[static_cast<std::size_t>(best)])
+        if (scores[std::size_t(state)] > scores[std::size_t(best)])
             best = state;
     }
     return best;
@@ -356,9 +355,7 @@ RecursionRecord DetectionChain::record(std::size_t model) const
 {
     RecursionRecord result;
     result.firstFrame = m_firstSeen;
-    const auto at = [this](Index frame) -> const Seen & {
-        return m_seen[static_cast<std::size_t>(frame - m_firstSeen)];
-    };
+    const auto at = [this](Index frame) -> const Seen & { return m_seen[std::size_t(frame - m_firstSeen)]; };
     result.frame = [at](Index frame) { return std::span<const float>(at(frame).y); };
     result.lnK = [at, model](Index frame) { return at(frame).lnK[model]; };
     result.forgotten = [at](Index frame) { return std::span<const CellBox>(at(frame).forgotten); };
@@ -446,7 +443,7 @@ void DetectionChain::startTrack(Index frame, const Cluster &cluster, std::span<c
     track.isConfirmed = m_settings.track.confirmFrames <= 1 && m_settings.track.confirmNats <= 0.0;
     track.confirmFrame = track.isConfirmed ? frame : -1;
 
-    track.detectStatistic = static_cast<double>(cluster.peakStatistic);
+    track.detectStatistic = double(cluster.peakStatistic);
     const double offset = m_settings.trackThreshold ? 0.0 : track.detectStatistic - scoreOf(state, model);
     m_boxTracks.push_back(track.id);
     m_trackers.emplace_back(*m_trackerModels[model], std::move(track), state, cluster.cells, m_detector->scores(model),

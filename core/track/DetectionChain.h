@@ -102,7 +102,7 @@ public:
     /// The detector's best path into a state of the newest frame, by one of its models.
     std::vector<PathStep> detectorPathInto(Index state, std::size_t model = 0) const;
     /// So many frames back at most, the newest included: all that is remembered.
-    Index longestPath() const { return static_cast<Index>(m_seenLimit); }
+    Index longestPath() const { return Index(m_seenLimit); }
 
     /// Null where the detector cannot tell its state.
     std::shared_ptr<const ChainState> state() const;

@@ -20,7 +20,7 @@ namespace {
                                       ? 12.0
                                       : settings.windowCells[std::min(axis, settings.windowCells.size() - 1)];
             const Index largest = (space.axes()[axis].cells - 1) / 2;
-            result.push_back(std::clamp(static_cast<Index>(std::llround(wanted)), Index(0), largest));
+            result.push_back(std::clamp(Index(std::llround(wanted)), Index(0), largest));
         }
         return result;
     }
@@ -97,7 +97,7 @@ TrackerModel::TrackerModel(const MarkovModel &model, const Grid &frameGrid, cons
       transitionScale(model.transitionScale), halfWidth(halfWidths(space, settings)), reach(reaches(space)),
       window(space.window(sides(halfWidth, std::vector<Index>(halfWidth.size(), 0)))),
       padded(space.window(sides(halfWidth, reach))), recursion(padded, model.transitionScale),
-      scores(static_cast<std::size_t>(padded.stateCount()))
+      scores(std::size_t(padded.stateCount()))
 {
     for (std::size_t axis = 0; axis < halfWidth.size(); ++axis)
         largestExtent = std::max(largestExtent, 2 * (halfWidth[axis] + reach[axis]));
@@ -108,7 +108,7 @@ TrackerModel::TrackerModel(const MarkovModel &model, const Grid &frameGrid, cons
 Index TrackerModel::gridCell(const std::vector<Index> &centre, const std::vector<Index> &offsets, Index cell) const
 {
     const std::size_t axisCount = centre.size();
-    const Index *offset = offsets.data() + static_cast<std::size_t>(cell) * axisCount;
+    const Index *offset = offsets.data() + std::size_t(cell) * axisCount;
     Index flat = 0;
     for (std::size_t axis = 0; axis < axisCount; ++axis) {
         const Index inside = grid.axes[axis].wrapped(centre[axis] + offset[axis]);
@@ -122,7 +122,7 @@ Index TrackerModel::gridCell(const std::vector<Index> &centre, const std::vector
 Index TrackerModel::inPadded(Index cell, const std::vector<Index> &moved) const
 {
     const std::size_t axisCount = moved.size();
-    const Index *offset = windowOffsets.data() + static_cast<std::size_t>(cell) * axisCount;
+    const Index *offset = windowOffsets.data() + std::size_t(cell) * axisCount;
     Index flat = 0;
     for (std::size_t axis = 0; axis < axisCount; ++axis) {
         const Index cells = padded.axes()[axis].cells;
@@ -141,15 +141,15 @@ HmmTracker::HmmTracker(TrackerModel &model, Track start, Index state, std::span<
     Slice slice;
     slice.frame = m_track.detectFrame;
     slice.centre = model.grid.coordinates(model.space.cellOf(state));
-    slice.scores.assign(static_cast<std::size_t>(model.window.stateCount()), unreached);
-    m_statistic = static_cast<double>(detectorScores[static_cast<std::size_t>(state)]) + scoreOffset;
+    slice.scores.assign(std::size_t(model.window.stateCount()), unreached);
+    m_statistic = double(detectorScores[std::size_t(state)]) + scoreOffset;
     slice.offset = m_statistic;
     for (Index local = 0; local < model.window.stateCount(); ++local) {
         const Index cell = model.windowCell(slice.centre, model.window.cellOf(local));
         if (std::binary_search(cells.begin(), cells.end(), cell)) {
             const Index global = model.window.planeOf(local) * model.space.cellCount() + cell;
-            slice.scores[static_cast<std::size_t>(local)] = static_cast<float>(
-                static_cast<double>(detectorScores[static_cast<std::size_t>(global)]) + scoreOffset - slice.offset);
+            slice.scores[std::size_t(local)] =
+                float(double(detectorScores[std::size_t(global)]) + scoreOffset - slice.offset);
         }
     }
     m_history.push_back(std::move(slice));
@@ -191,7 +191,7 @@ std::size_t HmmTracker::bytes() const
 void HmmTracker::holdLevel()
 {
     const double tilt = 0.5 * m_model->settings.decayNats;
-    const double tilted = m_level + tilt * static_cast<double>(m_age);
+    const double tilted = m_level + tilt * double(m_age);
     if (m_age == 0 || tilted >= m_fallLevel) {
         m_fallLevel = tilted;
         m_fallFrame = m_age;
@@ -211,15 +211,14 @@ bool HmmTracker::update(Index frame, std::span<const float> lambda, double lnK)
     for (Index cell = 0; cell < windowCells; ++cell) {
         const Index target = model.inPadded(cell, unmoved);
         for (Index plane = 0; plane < model.window.planeCount(); ++plane)
-            model.scores[static_cast<std::size_t>(plane * cells + target)] =
-                last.scores[static_cast<std::size_t>(plane * windowCells + cell)];
+            model.scores[std::size_t(plane * cells + target)] = last.scores[std::size_t(plane * windowCells + cell)];
     }
     const std::span<float> predicted = model.recursion.predict(model.scores, frame);
     for (Index cell = 0; cell < cells; ++cell) {
         const Index global = model.paddedCell(last.centre, cell);
-        const float gain = global < 0 ? unreached : lambda[static_cast<std::size_t>(global)] + static_cast<float>(lnK);
+        const float gain = global < 0 ? unreached : lambda[std::size_t(global)] + float(lnK);
         for (Index plane = 0; plane < model.padded.planeCount(); ++plane) {
-            const auto n = static_cast<std::size_t>(plane * cells + cell);
+            const auto n = std::size_t(plane * cells + cell);
             model.scores[n] = gain == unreached ? unreached : predicted[n] + gain;
         }
     }
@@ -232,7 +231,7 @@ bool HmmTracker::update(Index frame, std::span<const float> lambda, double lnK)
     }
     m_level = std::min(m_level, ceiling);
     holdLevel();
-    const auto lag = static_cast<std::size_t>(model.settings.smoothingFrames);
+    const auto lag = std::size_t(model.settings.smoothingFrames);
     if (m_history.size() >= 2 * lag + 1)
         commit(lag);
     return m_level >= model.threshold - model.settings.endNats;
@@ -249,7 +248,7 @@ void HmmTracker::follow(Index frame, std::span<const float> lambda, double lnK)
         m_level = minusInfinity;
         return;
     }
-    m_statistic = last.offset + static_cast<double>(*best);
+    m_statistic = last.offset + double(*best);
     m_level += m_statistic - before - model.settings.decayNats;
     m_track.peakStatistic = std::max(m_track.peakStatistic, m_statistic);
 
@@ -266,11 +265,11 @@ HmmTracker::Slice HmmTracker::cutOut(Index frame, const std::vector<Index> &cent
 {
     const TrackerModel &model = *m_model;
     const Slice &last = m_history.back();
-    Slice slice{frame,       centre, std::vector<float>(static_cast<std::size_t>(model.window.stateCount()), unreached),
+    Slice slice{frame,       centre, std::vector<float>(std::size_t(model.window.stateCount()), unreached),
                 m_statistic, {},     lnK};
     for (Index cell = 0; cell < model.window.cellCount(); ++cell) {
         const Index global = model.windowCell(centre, cell);
-        slice.lambda.push_back(global < 0 ? 0.0f : lambda[static_cast<std::size_t>(global)]);
+        slice.lambda.push_back(global < 0 ? 0.0f : lambda[std::size_t(global)]);
     }
     const double shift = last.offset - m_statistic;
     std::vector<Index> moved;
@@ -280,9 +279,8 @@ HmmTracker::Slice HmmTracker::cutOut(Index frame, const std::vector<Index> &cent
     for (Index cell = 0; cell < cells; ++cell) {
         const Index source = model.inPadded(cell, moved);
         for (Index plane = 0; source >= 0 && plane < model.window.planeCount(); ++plane)
-            slice.scores[static_cast<std::size_t>(plane * cells + cell)] = static_cast<float>(
-                static_cast<double>(model.scores[static_cast<std::size_t>(plane * model.padded.cellCount() + source)])
-                + shift);
+            slice.scores[std::size_t(plane * cells + cell)] =
+                float(double(model.scores[std::size_t(plane * model.padded.cellCount() + source)]) + shift);
     }
     return slice;
 }
@@ -310,7 +308,7 @@ Index HmmTracker::predecessorIn(const Slice &earlier, Index state, PathStep &ste
         if (from < 0)
             continue;
         const double ln = p.lnProbability * model.transitionScale;
-        const float score = earlier.scores[static_cast<std::size_t>(from)] + static_cast<float>(ln);
+        const float score = earlier.scores[std::size_t(from)] + float(ln);
         if (score > best) {
             second = best;
             best = score;
@@ -321,7 +319,7 @@ Index HmmTracker::predecessorIn(const Slice &earlier, Index state, PathStep &ste
         }
     }
     if (second > unreached)
-        step.runnerUp = static_cast<double>(best - second);
+        step.runnerUp = double(best - second);
     return origin;
 }
 
@@ -334,7 +332,7 @@ double HmmTracker::scoreAt(Index cell, Index *state) const
         const Index local = localOf(slice, candidate);
         if (local < 0)
             break;
-        const double score = slice.offset + static_cast<double>(slice.scores[static_cast<std::size_t>(local)]);
+        const double score = slice.offset + double(slice.scores[std::size_t(local)]);
         if (score > best) {
             best = score;
             if (state)
@@ -351,7 +349,7 @@ std::vector<HmmTracker::Origin> HmmTracker::origins() const
     std::vector<Origin> result;
     for (Index local = 0; local < model.window.stateCount(); ++local) {
         const Index cell = model.windowCell(newest.centre, model.window.cellOf(local));
-        if (cell < 0 || newest.scores[static_cast<std::size_t>(local)] == unreached)
+        if (cell < 0 || newest.scores[std::size_t(local)] == unreached)
             continue;
         const Index state = model.window.planeOf(local) * model.space.cellCount() + cell;
         PathStep step;
@@ -370,10 +368,9 @@ std::vector<PathStep> HmmTracker::explain(Index state) const
         PathStep step;
         step.frame = slice.frame;
         step.state = state;
-        step.score = slice.offset + static_cast<double>(slice.scores[static_cast<std::size_t>(local)]);
+        step.score = slice.offset + double(slice.scores[std::size_t(local)]);
         if (i > 0) {
-            step.logLikelihoodRatio =
-                static_cast<double>(slice.lambda[static_cast<std::size_t>(m_model->window.cellOf(local))]);
+            step.logLikelihoodRatio = double(slice.lambda[std::size_t(m_model->window.cellOf(local))]);
             step.lnK = slice.lnK;
             state = predecessorIn(m_history[i - 1], state, step);
         }
@@ -393,14 +390,14 @@ void HmmTracker::commit(std::size_t count)
         const Slice &slice = m_history[i];
         const Index local = localOf(slice, state);
         path[i] = {slice.frame, model.space.cellOf(state), model.space.planeOf(state),
-                   slice.offset + static_cast<double>(slice.scores[static_cast<std::size_t>(local)])};
+                   slice.offset + double(slice.scores[std::size_t(local)])};
         if (i == 0)
             break;
         PathStep step;
         state = predecessorIn(m_history[i - 1], state, step);
     }
-    m_track.points.insert(m_track.points.end(), path.begin(), path.begin() + static_cast<std::ptrdiff_t>(count));
-    m_history.erase(m_history.begin(), m_history.begin() + static_cast<std::ptrdiff_t>(count));
+    m_track.points.insert(m_track.points.end(), path.begin(), path.begin() + std::ptrdiff_t(count));
+    m_history.erase(m_history.begin(), m_history.begin() + std::ptrdiff_t(count));
 }
 
 void HmmTracker::paint(std::span<float> statistic) const
@@ -413,9 +410,9 @@ void HmmTracker::paint(std::span<float> statistic) const
             continue;
         float best = unreached;
         for (Index plane = 0; plane < model.window.planeCount(); ++plane)
-            best = std::max(best, slice.scores[static_cast<std::size_t>(plane * model.window.cellCount() + cell)]);
-        float &value = statistic[static_cast<std::size_t>(global)];
-        value = std::max(value, best + static_cast<float>(slice.offset));
+            best = std::max(best, slice.scores[std::size_t(plane * model.window.cellCount() + cell)]);
+        float &value = statistic[std::size_t(global)];
+        value = std::max(value, best + float(slice.offset));
     }
 }
 
@@ -428,9 +425,9 @@ void HmmTracker::paintStates(std::span<float> scores) const
         if (global < 0)
             continue;
         for (Index plane = 0; plane < model.window.planeCount(); ++plane) {
-            float &value = scores[static_cast<std::size_t>(plane * model.space.cellCount() + global)];
-            value = std::max(value, slice.scores[static_cast<std::size_t>(plane * model.window.cellCount() + cell)]
-                                        + static_cast<float>(slice.offset));
+            float &value = scores[std::size_t(plane * model.space.cellCount() + global)];
+            value = std::max(value,
+                             slice.scores[std::size_t(plane * model.window.cellCount() + cell)] + float(slice.offset));
         }
     }
 }

@@ -15,16 +15,15 @@ struct PathStrip {
     std::vector<float> y;       ///< frames × width, NaN off the axis and where nothing was observed
 
     Index width() const { return 2 * halfWidth + 1; }
-    Index frameCount() const { return static_cast<Index>(centres.size()); }
-    Index firstCell(Index at) const { return centres[static_cast<std::size_t>(at)] - halfWidth; }
+    Index frameCount() const { return Index(centres.size()); }
+    Index firstCell(Index at) const { return centres[std::size_t(at)] - halfWidth; }
     float *row(Index at) { return y.data() + at * width(); }
 
     /// y of the cell at a position in frame number `at` of the strip, NaN outside of it.
     float valueAt(Index at, Index cell) const
     {
         const Index i = cell - firstCell(at);
-        return i < 0 || i >= width() ? std::numeric_limits<float>::quiet_NaN()
-                                     : y[static_cast<std::size_t>(at * width() + i)];
+        return i < 0 || i >= width() ? std::numeric_limits<float>::quiet_NaN() : y[std::size_t(at * width() + i)];
     }
 };
 

@@ -25,7 +25,7 @@ struct SmoothedPoint {
 
     /// Standard deviation of the position, in cells, by the 5-95 % band, which is 3.29 of them wide for a normal law; at
     /// least a tenth of a cell, for the posterior knows nothing of what its model leaves out.
-    double deviation() const { return std::max(0.1, static_cast<double>(high - low) / 3.2897); }
+    double deviation() const { return std::max(0.1, double(high - low) / 3.2897); }
 };
 
 /// One signal from its onset to its end, and the decision that started it.
@@ -48,8 +48,7 @@ struct Track {
     double lastPosition(std::size_t point, const Axis &axis) const
     {
         const Index cell = points[point].cell;
-        return !smoothed.empty() ? smoothed[point].position
-                                 : static_cast<double>(axis.count > 0 ? cell % axis.count : cell);
+        return !smoothed.empty() ? smoothed[point].position : double(axis.count > 0 ? cell % axis.count : cell);
     }
 
     /// The same on all axes, in their units.
@@ -58,7 +57,7 @@ struct Track {
         std::vector<double> position;
         const std::vector<Index> coordinates = grid.coordinates(points[point].cell);
         for (std::size_t axis = 0; axis + 1 < coordinates.size(); ++axis)
-            position.push_back(grid.axes[axis].value(static_cast<double>(coordinates[axis])));
+            position.push_back(grid.axes[axis].value(double(coordinates[axis])));
         position.push_back(grid.axes.back().value(lastPosition(point, grid.axes.back())));
         return position;
     }

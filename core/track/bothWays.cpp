@@ -21,12 +21,12 @@ namespace {
 
     Index inBins(double cells, double binsPerCell)
     {
-        return static_cast<Index>(std::ceil(cells * binsPerCell));
+        return Index(std::ceil(cells * binsPerCell));
     }
 
     Index nearest(double position)
     {
-        return static_cast<Index>(std::lround(position));
+        return Index(std::lround(position));
     }
 
     class Look
@@ -63,7 +63,7 @@ namespace {
         {
             BothWays seen;
             for (const Index centre : m_strip.centres)
-                seen.positions.push_back(static_cast<double>(centre));
+                seen.positions.push_back(double(centre));
             return seen;
         }
 
@@ -74,9 +74,9 @@ namespace {
             std::vector<double> values;
             std::vector<double> weights;
             for (Index at = 0; at < m_strip.frameCount(); ++at) {
-                const float y = m_strip.valueAt(at, nearest(seen.positions[static_cast<std::size_t>(at)]));
+                const float y = m_strip.valueAt(at, nearest(seen.positions[std::size_t(at)]));
                 weights.push_back(std::isnan(y) ? 0.0 : 1.0);
-                values.push_back(std::isnan(y) ? 0.0 : static_cast<double>(y));
+                values.push_back(std::isnan(y) ? 0.0 : double(y));
             }
             std::vector<double> result(values.size());
             runningMean(values, weights, levelFrames, result);
@@ -88,8 +88,8 @@ namespace {
         /// The likelihood at a track's own level, in half octaves.
         const Likelihood &likelihoodAt(double level)
         {
-            const auto step = static_cast<int>(
-                std::lround(2.0 * std::log2(std::clamp(level, leastLevel, largestLevel) / leastLevel)));
+            const auto step =
+                int(std::lround(2.0 * std::log2(std::clamp(level, leastLevel, largestLevel) / leastLevel)));
             const auto found = m_likelihoods.find(step);
             return found != m_likelihoods.end() ? found->second
                                                 : m_likelihoods
@@ -105,20 +105,19 @@ namespace {
             const Index cells = m_model.axis->cells;
             Corridor result;
             result.width = 2 * half + 1;
-            result.lambda.resize(static_cast<std::size_t>(m_strip.frameCount() * result.width));
-            std::vector<float> y(static_cast<std::size_t>(result.width));
+            result.lambda.resize(std::size_t(m_strip.frameCount() * result.width));
+            std::vector<float> y(std::size_t(result.width));
             for (Index at = 0; at < m_strip.frameCount(); ++at) {
-                const Index first = nearest(seen.positions[static_cast<std::size_t>(at)]) - half;
+                const Index first = nearest(seen.positions[std::size_t(at)]) - half;
                 result.firstCells.push_back(first);
                 for (Index i = 0; i < result.width; ++i)
-                    y[static_cast<std::size_t>(i)] = m_strip.valueAt(at, first + i);
+                    y[std::size_t(i)] = m_strip.valueAt(at, first + i);
                 const std::span<float> lambda =
-                    std::span(result.lambda).subspan(static_cast<std::size_t>(at * result.width), y.size());
-                (byDesign ? m_model.likelihood : likelihoodAt(seen.levels[static_cast<std::size_t>(at)]))
-                    .apply(y, lambda);
+                    std::span(result.lambda).subspan(std::size_t(at * result.width), y.size());
+                (byDesign ? m_model.likelihood : likelihoodAt(seen.levels[std::size_t(at)])).apply(y, lambda);
                 for (Index i = 0; i < result.width; ++i)
                     if (first + i < 0 || first + i >= cells)
-                        lambda[static_cast<std::size_t>(i)] = -std::numeric_limits<float>::infinity();
+                        lambda[std::size_t(i)] = -std::numeric_limits<float>::infinity();
             }
             return result;
         }
@@ -128,9 +127,8 @@ namespace {
             const double staying = std::log(m_model.axis->rateChange.front());
             std::vector<double> result;
             for (Index at = 0; at < m_strip.frameCount(); ++at) {
-                const float y = m_strip.valueAt(at, nearest(seen.presence.mean[static_cast<std::size_t>(at)]));
-                result.push_back(m_model.likelihood.at(static_cast<double>(y))
-                                 + m_model.lnK[static_cast<std::size_t>(at)] + staying);
+                const float y = m_strip.valueAt(at, nearest(seen.presence.mean[std::size_t(at)]));
+                result.push_back(m_model.likelihood.at(double(y)) + m_model.lnK[std::size_t(at)] + staying);
             }
             return result;
         }
@@ -138,12 +136,11 @@ namespace {
         /// y between cells, along the mean path.
         double powerBeside(const BothWays &seen, Index at, double offset) const
         {
-            const double position = seen.presence.mean[static_cast<std::size_t>(at)] + offset;
+            const double position = seen.presence.mean[std::size_t(at)] + offset;
             const double below = std::floor(position);
             const double share = position - below;
-            const auto cell = static_cast<Index>(below);
-            return (1.0 - share) * static_cast<double>(m_strip.valueAt(at, cell))
-                   + share * static_cast<double>(m_strip.valueAt(at, cell + 1));
+            const auto cell = Index(below);
+            return (1.0 - share) * double(m_strip.valueAt(at, cell)) + share * double(m_strip.valueAt(at, cell + 1));
         }
 
         std::vector<double> refined(const BothWays &seen) const
@@ -151,24 +148,21 @@ namespace {
             constexpr int farthest = 2; ///< bins that a parabola may stand on
             std::vector<double> result;
             for (Index at = 0; at < m_strip.frameCount(); ++at) {
-                const double level = seen.levels[static_cast<std::size_t>(at)];
-                const auto half =
-                    static_cast<Index>(std::clamp(levelOfOneFrame / std::max(level, 0.1), 1.0, framesAtMost));
+                const double level = seen.levels[std::size_t(at)];
+                const auto half = Index(std::clamp(levelOfOneFrame / std::max(level, 0.1), 1.0, framesAtMost));
                 std::array<double, 2 * farthest + 1> power{};
                 for (Index other = std::max<Index>(0, at - half);
                      other <= std::min(m_strip.frameCount() - 1, at + half); ++other)
                     for (std::size_t i = 0; i < power.size(); ++i)
-                        if (const double y = powerBeside(seen, other, static_cast<double>(i) - farthest);
-                            !std::isnan(y))
+                        if (const double y = powerBeside(seen, other, double(i) - farthest); !std::isnan(y))
                             power[i] += y;
-                const auto peak =
-                    static_cast<std::size_t>(std::max_element(power.begin() + 1, power.end() - 1) - power.begin());
+                const auto peak = std::size_t(std::max_element(power.begin() + 1, power.end() - 1) - power.begin());
                 const auto ln = [&](std::size_t i) { return std::log(std::max(power[i], 1e-9)); };
                 const double curvature = ln(peak - 1) - 2.0 * ln(peak) + ln(peak + 1);
                 const double within =
                     curvature < 0.0 ? std::clamp(0.5 * (ln(peak - 1) - ln(peak + 1)) / curvature, -0.5, 0.5) : 0.0;
-                result.push_back(seen.presence.mean[static_cast<std::size_t>(at)]
-                                 + std::clamp(static_cast<double>(peak) - farthest + within, -1.0, 1.0));
+                result.push_back(seen.presence.mean[std::size_t(at)]
+                                 + std::clamp(double(peak) - farthest + within, -1.0, 1.0));
             }
             return result;
         }

@@ -28,7 +28,7 @@ namespace {
         Range seconds;
         Range band;
 
-        double secondsAt(std::size_t i) const { return time->value(static_cast<double>(track->points[i].frame)); }
+        double secondsAt(std::size_t i) const { return time->value(double(track->points[i].frame)); }
 
         /// Where it is within a frame of that time.
         Range around(double at) const
@@ -36,10 +36,10 @@ namespace {
             Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
             const double frame = (at - seconds.low) / time->step;
             for (const double shift : {-1.0, 0.0, 1.0}) {
-                const double place = std::clamp(frame + shift, 0.0, static_cast<double>(hz.size() - 1));
-                const auto i = static_cast<std::size_t>(place);
+                const double place = std::clamp(frame + shift, 0.0, double(hz.size() - 1));
+                const auto i = std::size_t(place);
                 const double next = hz[std::min(i + 1, hz.size() - 1)];
-                const double value = hz[i] + (place - static_cast<double>(i)) * (next - hz[i]);
+                const double value = hz[i] + (place - double(i)) * (next - hz[i]);
                 range = {std::min(range.low, value), std::max(range.high, value)};
             }
             return range;
@@ -76,7 +76,7 @@ namespace {
                 if (at < path.seconds.low - marginSeconds || at > path.seconds.high + marginSeconds)
                     continue;
                 if (path.around(at).meets({curve.hz[i], curve.hz[i]}, marginHz))
-                    sum += static_cast<double>(curve.track->smoothed[i].level);
+                    sum += double(curve.track->smoothed[i].level);
             }
         }
         return sum;
@@ -108,8 +108,7 @@ double energyKept(const TracksOnAxes &shorter, const TracksOnAxes &longer, doubl
             continue;
         const double kept = energyNear(path, ofLonger, shorter.cellHz);
         if (kept > 0.0)
-            shares.emplace_back(kept / energyNear(path, ofShorter, shorter.cellHz),
-                                static_cast<double>(path.hz.size()));
+            shares.emplace_back(kept / energyNear(path, ofShorter, shorter.cellHz), double(path.hz.size()));
     }
     return weightedMedian(shares);
 }

@@ -18,47 +18,45 @@ namespace {
 
 Explanations::Explanations(Index cells, const std::function<double(double)> &leakage)
 {
-    const double farthest = std::min(farthestCells, static_cast<double>(cells));
+    const double farthest = std::min(farthestCells, double(cells));
     for (double distance = 0.0; distance <= farthest; distance += 1.0 / perCell)
-        m_leakage.push_back(static_cast<float>(leakage(distance)));
+        m_leakage.push_back(float(leakage(distance)));
 }
 
 double Explanations::leakageAt(double distance) const
 {
-    const auto at = static_cast<std::size_t>(distance * perCell);
-    return static_cast<double>(at < m_leakage.size() ? m_leakage[at] : m_leakage.back());
+    const auto at = std::size_t(distance * perCell);
+    return double(at < m_leakage.size() ? m_leakage[at] : m_leakage.back());
 }
 
 std::span<const float> Explanations::skirtAt(const ExplainedSignal &signal, std::size_t at) const
 {
     if (signal.skirts.empty())
         return {};
-    return signal
-        .skirts[std::min(at / static_cast<std::size_t>(ExplainedSignal::skirtFrames), signal.skirts.size() - 1)];
+    return signal.skirts[std::min(at / std::size_t(ExplainedSignal::skirtFrames), signal.skirts.size() - 1)];
 }
 
 /// Cells on either side over which a signal adds what is not negligible.
 double Explanations::reachAt(const ExplainedSignal &signal, std::size_t at) const
 {
-    const double least = negligible / (margin * std::max(1e-3, static_cast<double>(signal.levels[at])));
+    const double least = negligible / (margin * std::max(1e-3, double(signal.levels[at])));
     const auto end = std::partition_point(m_leakage.begin(), m_leakage.end(),
-                                          [least](float share) { return static_cast<double>(share) > least; });
-    return std::max(static_cast<double>(end - m_leakage.begin()) / perCell,
-                    static_cast<double>(skirtAt(signal, at).size()));
+                                          [least](float share) { return double(share) > least; });
+    return std::max(double(end - m_leakage.begin()) / perCell, double(skirtAt(signal, at).size()));
 }
 
 void Explanations::add(ExplainedSignal signal)
 {
-    const auto last = static_cast<std::size_t>(signal.endFrame() / piece); // with the frame behind it
+    const auto last = std::size_t(signal.endFrame() / piece); // with the frame behind it
     if (m_byTime.size() <= last)
         m_byTime.resize(last + 1);
-    for (auto i = static_cast<std::size_t>(std::max<Index>(0, signal.firstFrame - 1) / piece); i <= last; ++i) {
-        const Index begin = static_cast<Index>(i) * piece - signal.firstFrame;
+    for (auto i = std::size_t(std::max<Index>(0, signal.firstFrame - 1) / piece); i <= last; ++i) {
+        const Index begin = Index(i) * piece - signal.firstFrame;
         const Index end = std::ssize(signal.positions) - 1;
         Entry entry{m_signals.size(), std::numeric_limits<double>::infinity(),
                     -std::numeric_limits<double>::infinity()};
         for (Index at = std::clamp<Index>(begin, 0, end); at <= std::clamp<Index>(begin + piece - 1, 0, end); ++at) {
-            const auto number = static_cast<std::size_t>(at);
+            const auto number = std::size_t(at);
             const double reach = reachAt(signal, number);
             entry.lowest = std::min(entry.lowest, signal.positions[number] - reach);
             entry.highest = std::max(entry.highest, signal.positions[number] + reach);
@@ -71,30 +69,28 @@ void Explanations::add(ExplainedSignal signal)
 void Explanations::read(Index frame, Index firstCell, std::span<float> floor) const
 {
     std::fill(floor.begin(), floor.end(), 1.0f);
-    const auto number = static_cast<std::size_t>(frame / piece);
+    const auto number = std::size_t(frame / piece);
     if (number >= m_byTime.size())
         return;
     for (const Entry &entry : m_byTime[number]) {
         const ExplainedSignal &signal = m_signals[entry.signal];
-        const bool isBeside = entry.highest < static_cast<double>(firstCell)
-                              || entry.lowest > static_cast<double>(firstCell + std::ssize(floor));
+        const bool isBeside = entry.highest < double(firstCell) || entry.lowest > double(firstCell + std::ssize(floor));
         if (isBeside || frame < signal.firstFrame - 1 || frame > signal.endFrame())
             continue;
-        const auto at =
-            static_cast<std::size_t>(std::clamp<Index>(frame - signal.firstFrame, 0, std::ssize(signal.positions) - 1));
-        const double position = signal.positions[at] - static_cast<double>(firstCell);
-        const auto level = static_cast<double>(signal.levels[at]);
+        const auto at = std::size_t(std::clamp<Index>(frame - signal.firstFrame, 0, std::ssize(signal.positions) - 1));
+        const double position = signal.positions[at] - double(firstCell);
+        const auto level = double(signal.levels[at]);
         const std::span<const float> skirt = skirtAt(signal, at);
         const double end = reachAt(signal, at);
-        const auto size = static_cast<double>(floor.size());
-        const auto first = static_cast<Index>(std::clamp(std::floor(position - end), 0.0, size));
-        const auto last = static_cast<Index>(std::clamp(std::ceil(position + end) + 1.0, 0.0, size));
+        const auto size = double(floor.size());
+        const auto first = Index(std::clamp(std::floor(position - end), 0.0, size));
+        const auto last = Index(std::clamp(std::ceil(position + end) + 1.0, 0.0, size));
         for (Index cell = first; cell < last; ++cell) {
-            const double distance = std::abs(static_cast<double>(cell) - position);
+            const double distance = std::abs(double(cell) - position);
             double share = leakageAt(distance);
-            if (const auto step = static_cast<std::size_t>(std::lround(distance)); step < skirt.size())
-                share = std::max(share, static_cast<double>(skirt[step]));
-            floor[static_cast<std::size_t>(cell)] *= static_cast<float>(1.0 + margin * level * share);
+            if (const auto step = std::size_t(std::lround(distance)); step < skirt.size())
+                share = std::max(share, double(skirt[step]));
+            floor[std::size_t(cell)] *= float(1.0 + margin * level * share);
         }
     }
 }

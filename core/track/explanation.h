@@ -19,7 +19,7 @@ struct ExplainedSignal {
 
     static constexpr Index skirtFrames = 24;
 
-    Index endFrame() const { return firstFrame + static_cast<Index>(positions.size()); } ///< one behind the last
+    Index endFrame() const { return firstFrame + Index(positions.size()); } ///< one behind the last
 };
 
 /// The floor that explained signals raise under weaker ones:

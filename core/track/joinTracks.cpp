@@ -22,7 +22,7 @@ namespace {
     /// Nats a frame that a track gathered.
     double growth(const Track &track)
     {
-        return track.peakStatistic / static_cast<double>(track.points.size());
+        return track.peakStatistic / double(track.points.size());
     }
 
     /// Where a later track takes up an earlier one.
@@ -43,8 +43,7 @@ namespace {
             joint.gapFrames = later.points[i].frame - end.frame;
             if (joint.gapFrames < 1)
                 continue;
-            if (joint.gapFrames > rule.largestGapFrames
-                || static_cast<double>(joint.gapFrames - 1) * weaker > rule.threshold)
+            if (joint.gapFrames > rule.largestGapFrames || double(joint.gapFrames - 1) * weaker > rule.threshold)
                 return {};
             const std::vector<Index> to = grid.coordinates(later.points[i].cell);
             joint.distance = 0;
@@ -73,14 +72,13 @@ namespace {
         for (Index i = 1; i < joint.gapFrames; ++i) {
             std::vector<Index> c = from;
             for (std::size_t axis = 0; axis < c.size(); ++axis) {
-                const double share = static_cast<double>(i) / static_cast<double>(joint.gapFrames);
-                const auto steps =
-                    std::llround(share * static_cast<double>(stepsTo(grid.axes[axis], from[axis], to[axis])));
-                c[axis] = grid.axes[axis].wrapped(from[axis] + static_cast<Index>(steps));
+                const double share = double(i) / double(joint.gapFrames);
+                const auto steps = std::llround(share * double(stepsTo(grid.axes[axis], from[axis], to[axis])));
+                c[axis] = grid.axes[axis].wrapped(from[axis] + Index(steps));
             }
             earlier.points.push_back({end.frame + i, grid.cell(c), next.plane, end.statistic});
         }
-        earlier.points.insert(earlier.points.end(), later.points.begin() + static_cast<std::ptrdiff_t>(joint.point),
+        earlier.points.insert(earlier.points.end(), later.points.begin() + std::ptrdiff_t(joint.point),
                               later.points.end());
         earlier.endFrame = later.endFrame;
         earlier.detectStatistic = std::max(earlier.detectStatistic, later.detectStatistic);
@@ -123,7 +121,7 @@ std::vector<Track> joinTracks(std::vector<Track> tracks, const Grid &grid, const
     for (Track &track : tracks)
         joinTrack(joined, std::move(track), grid, rule);
     for (std::size_t i = 0; i < joined.size() && !rule.keepsNumbers; ++i)
-        joined[i].id = static_cast<int>(i) + 1;
+        joined[i].id = int(i) + 1;
     return joined;
 }
 

@@ -49,15 +49,14 @@ namespace {
         const Index end = std::min(strip.frameCount() - 1, at + reach);
         for (Index frame = std::max<Index>(0, at - reach); frame <= end; ++frame)
             for (Index bin = side.from; bin <= side.to; ++bin)
-                if (const float y = strip.valueAt(frame, strip.centres[static_cast<std::size_t>(frame)] + bin);
-                    !std::isnan(y))
+                if (const float y = strip.valueAt(frame, strip.centres[std::size_t(frame)] + bin); !std::isnan(y))
                     values.push_back(y);
         if (values.size() < fewestValues)
             return {1.0, 0.0};
-        const auto count = static_cast<double>(values.size());
-        const auto quantile = values.begin() + static_cast<std::ptrdiff_t>(share * count);
+        const auto count = double(values.size());
+        const auto quantile = values.begin() + std::ptrdiff_t(share * count);
         std::nth_element(values.begin(), quantile, values.end());
-        return {static_cast<double>(*quantile) / quantileOfNoise(), count / (framesPerWindow * binsPerCell)};
+        return {double(*quantile) / quantileOfNoise(), count / (framesPerWindow * binsPerCell)};
     }
 
     double leastOf(const Level &below, const Level &above)
@@ -70,14 +69,14 @@ namespace {
 
 Index levelBesideHalfWidth(double binsPerCell)
 {
-    return static_cast<Index>(std::ceil(farthestCells * binsPerCell));
+    return Index(std::ceil(farthestCells * binsPerCell));
 }
 
 std::vector<double> levelBeside(const PathStrip &strip, double binsPerCell)
 {
-    const auto near = static_cast<Index>(std::ceil(nearestCells * binsPerCell));
+    const auto near = Index(std::ceil(nearestCells * binsPerCell));
     const Index far = levelBesideHalfWidth(binsPerCell);
-    std::vector<double> levels(static_cast<std::size_t>(strip.frameCount()), 1.0);
+    std::vector<double> levels(std::size_t(strip.frameCount()), 1.0);
     std::vector<float> values;
     for (const Index reach : reaches) {
         const Index step = std::max<Index>(1, reach / valuesPerReach);
@@ -87,7 +86,7 @@ std::vector<double> levelBeside(const PathStrip &strip, double binsPerCell)
             const double least = leastOf(levelOf(strip, {-far, -near}, at, reach, binsPerCell, values),
                                          levelOf(strip, {near, far}, at, reach, binsPerCell, values));
             for (Index frame = from; frame < end; ++frame) {
-                double &level = levels[static_cast<std::size_t>(frame)];
+                double &level = levels[std::size_t(frame)];
                 level = std::max(level, least);
             }
         }

@@ -28,7 +28,7 @@ namespace {
     template <class Take>
     void forEachWay(const Corridor &corridor, const std::vector<Step> &steps, Index frame, Take take)
     {
-        const auto at = static_cast<std::size_t>(frame);
+        const auto at = std::size_t(frame);
         const Index drift = corridor.firstCells[at] - corridor.firstCells[at - 1];
         for (const Step &step : steps) {
             const Index shift = step.cells - drift; // target cell - source cell, in the corridors' own counting
@@ -56,7 +56,7 @@ namespace {
     public:
         Chain(const Corridor &corridor, const KinematicAxis &axis, double lnChange, Index firstStep)
             : m_corridor(corridor), m_width(corridor.width), m_rates(axis.rateCount), m_states(m_width * m_rates),
-              m_change(std::exp(lnChange)), m_birth(m_change / static_cast<double>(m_states)), m_firstStep(firstStep),
+              m_change(std::exp(lnChange)), m_birth(m_change / double(m_states)), m_firstStep(firstStep),
               m_steps(stepsOf(axis, corridor.width))
         {
         }
@@ -65,7 +65,7 @@ namespace {
 
         Weights start() const
         {
-            Weights weights(static_cast<std::size_t>(m_states) + 1, 0.5 / static_cast<double>(m_states));
+            Weights weights(std::size_t(m_states) + 1, 0.5 / double(m_states));
             weights.back() = 0.5;
             return weights;
         }
@@ -78,7 +78,7 @@ namespace {
                 std::fill(after.begin(), after.end(), before.front());
             else
                 forEachMove(frame, [&](Index from, Index to, double p) {
-                    after[static_cast<std::size_t>(to)] += p * before[static_cast<std::size_t>(from)];
+                    after[std::size_t(to)] += p * before[std::size_t(from)];
                 });
             double on = 0.0;
             for (std::size_t s = 0; s + 1 < before.size(); ++s)
@@ -98,7 +98,7 @@ namespace {
                 births += next[s];
             Weights before(next.size(), m_change * next.back());
             forEachMove(nextFrame, [&](Index from, Index to, double p) {
-                before[static_cast<std::size_t>(from)] += p * next[static_cast<std::size_t>(to)];
+                before[std::size_t(from)] += p * next[std::size_t(to)];
             });
             before.back() = (1.0 - m_change) * next.back() + m_birth * births;
             scale(before);
@@ -109,21 +109,20 @@ namespace {
         {
             std::vector<double> cells(static_cast<std::size_t>(m_width));
             for (Index s = 0; s < m_states; ++s)
-                cells[static_cast<std::size_t>(s % m_width)] +=
-                    alpha[static_cast<std::size_t>(s)] * beta[static_cast<std::size_t>(s)];
+                cells[std::size_t(s % m_width)] += alpha[std::size_t(s)] * beta[std::size_t(s)];
             const double off = alpha.back() * beta.back();
             double on = 0.0;
             double moment = 0.0;
             for (std::size_t c = 0; c < cells.size(); ++c) {
                 on += cells[c];
-                moment += cells[c] * static_cast<double>(c);
+                moment += cells[c] * double(c);
             }
-            const auto first = static_cast<double>(m_corridor.firstCells[static_cast<std::size_t>(frame)]);
-            const auto at = static_cast<std::size_t>(frame);
-            result.present[at] = static_cast<float>(on + off > 0.0 ? on / (on + off) : 0.0);
-            result.mean[at] = first + (on > 0.0 ? moment / on : 0.5 * static_cast<double>(m_width - 1));
-            result.low[at] = static_cast<float>(first + quantile(cells, lowQuantile * on));
-            result.high[at] = static_cast<float>(first + quantile(cells, highQuantile * on));
+            const auto first = double(m_corridor.firstCells[std::size_t(frame)]);
+            const auto at = std::size_t(frame);
+            result.present[at] = float(on + off > 0.0 ? on / (on + off) : 0.0);
+            result.mean[at] = first + (on > 0.0 ? moment / on : 0.5 * double(m_width - 1));
+            result.low[at] = float(first + quantile(cells, lowQuantile * on));
+            result.high[at] = float(first + quantile(cells, highQuantile * on));
         }
 
         /// Adds the probabilities that the slope changed by 0, 1, … steps on the way into that frame.
@@ -140,9 +139,8 @@ namespace {
                 before.back() * ((1.0 - m_change) * next.back() + m_birth * arrivals) + on * m_change * next.back();
             std::vector<double> found(changes.size());
             forEachWay(m_corridor, stepsInto(frame), frame, [&](Index from, Index to, const Step &step) {
-                const double weight =
-                    before[static_cast<std::size_t>(from)] * step.probability * next[static_cast<std::size_t>(to)];
-                found[static_cast<std::size_t>(std::abs(step.to - step.from) / m_width)] += weight;
+                const double weight = before[std::size_t(from)] * step.probability * next[std::size_t(to)];
+                found[std::size_t(std::abs(step.to - step.from) / m_width)] += weight;
                 all += weight;
             });
             for (std::size_t i = 0; i < changes.size() && all > 0.0; ++i)
@@ -152,7 +150,7 @@ namespace {
     private:
         const std::vector<Step> &stepsInto(Index frame) const
         {
-            return m_steps[static_cast<std::size_t>((m_firstStep + frame) % static_cast<Index>(m_steps.size()))];
+            return m_steps[std::size_t((m_firstStep + frame) % Index(m_steps.size()))];
         }
 
         template <class Take>
@@ -167,11 +165,11 @@ namespace {
             const float *lambda = m_corridor.lambda.data() + frame * m_width;
             double largest = 0.0;
             for (Index c = 0; c < m_width; ++c)
-                largest = std::max(largest, std::min(largestLambda, static_cast<double>(lambda[c])));
+                largest = std::max(largest, std::min(largestLambda, double(lambda[c])));
             for (Index c = 0; c < m_width; ++c) {
-                const double factor = std::exp(std::min(largestLambda, static_cast<double>(lambda[c])) - largest);
+                const double factor = std::exp(std::min(largestLambda, double(lambda[c])) - largest);
                 for (Index s = c; s < m_states; s += m_width)
-                    weights[static_cast<std::size_t>(s)] *= factor;
+                    weights[std::size_t(s)] *= factor;
             }
             weights.back() *= std::exp(-largest);
         }
@@ -192,10 +190,10 @@ namespace {
             double before = 0.0;
             for (std::size_t c = 0; c < cells.size(); ++c) {
                 if (before + cells[c] >= sum && cells[c] > 0.0)
-                    return static_cast<double>(c) - 0.5 + (sum - before) / cells[c];
+                    return double(c) - 0.5 + (sum - before) / cells[c];
                 before += cells[c];
             }
-            return 0.5 * static_cast<double>(cells.size() - 1);
+            return 0.5 * double(cells.size() - 1);
         }
 
         const Corridor &m_corridor;
@@ -213,7 +211,7 @@ namespace {
     void forwardBackward(const Chain &chain, Index frames, Take take)
     {
         // α at the beginning of each chunk; within one it is made again on the way back.
-        const auto chunk = std::max<Index>(16, static_cast<Index>(std::sqrt(static_cast<double>(frames))));
+        const auto chunk = std::max<Index>(16, Index(std::sqrt(double(frames))));
         std::vector<Weights> starts;
         Weights alpha = chain.start();
         for (Index frame = 0; frame < frames; ++frame) {
@@ -224,11 +222,11 @@ namespace {
         Weights beta(alpha.size(), 1.0);
         for (Index first = (std::ssize(starts) - 1) * chunk; first >= 0; first -= chunk) {
             const Index end = std::min(frames, first + chunk);
-            std::vector<Weights> alphas{starts[static_cast<std::size_t>(first / chunk)]};
+            std::vector<Weights> alphas{starts[std::size_t(first / chunk)]};
             for (Index frame = first; frame < end; ++frame)
                 alphas.push_back(chain.forward(alphas.back(), frame));
             for (Index frame = end; frame-- > first;) {
-                const auto at = static_cast<std::size_t>(frame - first);
+                const auto at = std::size_t(frame - first);
                 take(frame, alphas[at], alphas[at + 1], beta);
                 if (frame > 0)
                     beta = chain.backward(std::move(beta), frame);
@@ -241,7 +239,7 @@ namespace {
 Presence presenceIn(const Corridor &corridor, const KinematicAxis &axis, double lnChange, Index firstStep)
 {
     const Chain chain(corridor, axis, lnChange, firstStep);
-    const auto count = static_cast<std::size_t>(corridor.frameCount());
+    const auto count = std::size_t(corridor.frameCount());
     Presence result{std::vector<float>(count), std::vector<double>(count), std::vector<float>(count),
                     std::vector<float>(count)};
     forwardBackward(chain, corridor.frameCount(),
@@ -268,7 +266,7 @@ double strongestPath(const Corridor &corridor, const KinematicAxis &axis, const 
                      Index firstStep)
 {
     const auto steps = stepsOf(axis, corridor.width);
-    const auto states = static_cast<std::size_t>(corridor.width * axis.rateCount);
+    const auto states = std::size_t(corridor.width * axis.rateCount);
     constexpr double nowhere = -std::numeric_limits<double>::infinity();
     std::vector<double> scores(states, nowhere);
     std::vector<double> next;
@@ -276,15 +274,15 @@ double strongestPath(const Corridor &corridor, const KinematicAxis &axis, const 
     for (Index frame = 0; frame < corridor.frameCount(); ++frame) {
         next.assign(states, nowhere);
         if (frame > 0)
-            forEachWay(corridor, steps[static_cast<std::size_t>((firstStep + frame) % std::ssize(steps))], frame,
+            forEachWay(corridor, steps[std::size_t((firstStep + frame) % std::ssize(steps))], frame,
                        [&](Index from, Index to, const Step &step) {
-                           double &best = next[static_cast<std::size_t>(to)];
-                           best = std::max(best, scores[static_cast<std::size_t>(from)] + step.lnProbability);
+                           double &best = next[std::size_t(to)];
+                           best = std::max(best, scores[std::size_t(from)] + step.lnProbability);
                        });
         for (std::size_t s = 0; s < states; ++s) {
-            const auto cell = static_cast<Index>(s) % corridor.width;
-            next[s] = std::max(0.0, next[s] + lnK[static_cast<std::size_t>(frame)])
-                      + static_cast<double>(corridor.lambda[static_cast<std::size_t>(frame * corridor.width + cell)]);
+            const auto cell = Index(s) % corridor.width;
+            next[s] = std::max(0.0, next[s] + lnK[std::size_t(frame)])
+                      + double(corridor.lambda[std::size_t(frame * corridor.width + cell)]);
             largest = std::max(largest, next[s]);
         }
         std::swap(scores, next);

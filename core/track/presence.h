@@ -13,7 +13,7 @@ struct Corridor {
     std::vector<Index> firstCells; ///< lowest cell of each frame; may lie off the axis
     std::vector<float> lambda;     ///< frames × width; -∞ off the axis
 
-    Index frameCount() const { return static_cast<Index>(firstCells.size()); }
+    Index frameCount() const { return Index(firstCells.size()); }
 };
 
 /// Where a signal is, and whether it is there at all, given everything before and after. One value per frame of the

@@ -7,13 +7,13 @@ namespace faintline::python {
 std::size_t Result::valueCount() const
 {
     constexpr double most = 0x1p31;
-    const auto cells = static_cast<double>(m_analysis->grid().size());
-    const auto frames = static_cast<double>(m_analysis->time().count);
+    const auto cells = double(m_analysis->grid().size());
+    const auto frames = double(m_analysis->time().count);
     if (cells * frames > most)
         throw Error("result", "has more than 2³¹ values, which are not held in memory; detect in a shorter part "
                               "(from_seconds, to_seconds) or "
                               "save(statistic=...)");
-    return static_cast<std::size_t>(cells * frames);
+    return std::size_t(cells * frames);
 }
 
 Result::Values Result::input(const RunOptions &options)
@@ -26,11 +26,10 @@ Result::Values Result::input(const RunOptions &options)
     const Index atOnce = std::max<Index>(1, (Index(1) << 20) / cells);
     runInterruptibly(options, [&](const RunContext &context) {
         for (Index first = 0; first < frames.time().count; first += atOnce) {
-            context.checkpoint(static_cast<double>(first) / static_cast<double>(frames.time().count), "reading");
+            context.checkpoint(double(first) / double(frames.time().count), "reading");
             const Index count = std::min(atOnce, frames.time().count - first);
             frames.read(first, count,
-                        std::span(*values).subspan(static_cast<std::size_t>(first * cells),
-                                                   static_cast<std::size_t>(count * cells)));
+                        std::span(*values).subspan(std::size_t(first * cells), std::size_t(count * cells)));
         }
     });
     m_input = values;

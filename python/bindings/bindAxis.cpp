@@ -23,9 +23,9 @@ namespace {
 
     py::array valuesOf(const Axis &axis)
     {
-        std::vector<double> values(static_cast<std::size_t>(axis.count));
+        std::vector<double> values(std::size_t(axis.count));
         for (std::size_t i = 0; i < values.size(); ++i)
-            values[i] = axis.value(static_cast<double>(i));
+            values[i] = axis.value(double(i));
         return arrayOf(std::move(values));
     }
 

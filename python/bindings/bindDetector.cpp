@@ -34,20 +34,20 @@ namespace {
                 throw Error("frame",
                             "must have the shape " + shapeText() + ", or one more axis before it for several frames");
             for (py::ssize_t axis = 0; axis < axes; ++axis)
-                if (frame.shape(frame.ndim() - axes + axis) != m_axes[static_cast<std::size_t>(axis)].count)
+                if (frame.shape(frame.ndim() - axes + axis) != m_axes[std::size_t(axis)].count)
                     throw Error("frame", "must have the shape " + shapeText()
                                              + ", or one more axis before it for several frames");
-            const std::span<const float> y(frame.data(), static_cast<std::size_t>(frame.size()));
+            const std::span<const float> y(frame.data(), std::size_t(frame.size()));
             check(y);
             std::vector<float> statistic(y.size());
             const Index atOnce = std::max<Index>(1, (Index(1) << 18) / cells());
-            const auto count = static_cast<Index>(y.size()) / cells();
+            const auto count = Index(y.size()) / cells();
             const auto work = [&](const RunContext &context) {
                 m_detector->useThreads(context.threads);
                 for (Index first = 0; first < count; first += atOnce) {
-                    context.checkpoint(static_cast<double>(first) / static_cast<double>(count), "recursion");
-                    const auto from = static_cast<std::size_t>(first * cells());
-                    const auto size = static_cast<std::size_t>(std::min(atOnce, count - first) * cells());
+                    context.checkpoint(double(first) / double(count), "recursion");
+                    const auto from = std::size_t(first * cells());
+                    const auto size = std::size_t(std::min(atOnce, count - first) * cells());
                     m_detector->updateBlock(y.subspan(from, size), std::span(statistic).subspan(from, size), cells());
                     m_frames += std::min(atOnce, count - first);
                 }
@@ -68,7 +68,7 @@ namespace {
         {
             const std::span<const float> scores = m_detector->scores();
             std::vector<float> values(scores.begin(), scores.end());
-            if (const auto offset = static_cast<float>(m_detector->offset()); offset != 0.0f)
+            if (const auto offset = float(m_detector->offset()); offset != 0.0f)
                 for (float &value : values)
                     value += offset;
             std::vector<py::ssize_t> shape;

@@ -38,10 +38,10 @@ namespace {
             columns.push_back(column(self, name, take));
         };
         const bool isLine = grid.axes.size() == 1;
-        add("t", [&](const PathStep &s) { return self.analysis->time().value(static_cast<double>(s.frame)); });
+        add("t", [&](const PathStep &s) { return self.analysis->time().value(double(s.frame)); });
         for (std::size_t axis = 0; axis < grid.axes.size(); ++axis) {
             add(isLine ? "f" : grid.axes[axis].name, [&](const PathStep &s) {
-                return grid.axes[axis].value(static_cast<double>(grid.coordinates(space.cellOf(s.state))[axis]));
+                return grid.axes[axis].value(double(grid.coordinates(space.cellOf(s.state))[axis]));
             });
             add(isLine ? "rate" : grid.axes[axis].name + "_rate",
                 [&](const PathStep &s) { return space.ratesOfPlane(space.planeOf(s.state))[axis]; });
@@ -84,10 +84,7 @@ void bindExplanation(py::module_ &module)
         .def_property_readonly("is_tracked", member(&Explanation::isTracked),
                                "A tracker follows this cell; its path goes on without reset.")
         .def_property_readonly(
-            "reset",
-            [](const HeldExplanation &self) {
-                return resetNames[static_cast<std::size_t>(self.explanation.reset.kind)];
-            },
+            "reset", [](const HeldExplanation &self) { return resetNames[std::size_t(self.explanation.reset.kind)]; },
             "Why the path begins where it does: 'beginning', 'background' or 'forgotten' (a track took over what came "
             "before).")
         .def_property_readonly("steps", &steps,

@@ -32,7 +32,7 @@ namespace {
             throw Error("first = " + std::to_string(first),
                         "there are the frames 0 … " + std::to_string(frames.time().count - 1));
         const Index wanted = std::clamp<Index>(count.value_or(frames.time().count), 0, frames.time().count - first);
-        std::vector<float> values(static_cast<std::size_t>(wanted * frames.grid().size()));
+        std::vector<float> values(std::size_t(wanted * frames.grid().size()));
         {
             const py::gil_scoped_release released;
             frames.read(first, wanted, values);
@@ -43,7 +43,7 @@ namespace {
     Grid gridOf(const py::array &values, const py::object &axes)
     {
         Grid grid;
-        const auto cellAxes = static_cast<std::size_t>(values.ndim() - 1);
+        const auto cellAxes = std::size_t(values.ndim() - 1);
         if (!axes.is_none())
             grid.axes = py::cast<std::vector<Axis>>(axes);
         else

@@ -68,19 +68,17 @@ namespace {
 
     std::vector<double> initialOf(const py::object &given, const StateSpace &space)
     {
-        const auto states = static_cast<std::size_t>(space.stateCount());
-        const auto cells = static_cast<std::size_t>(space.cellCount());
+        const auto states = std::size_t(space.stateCount());
+        const auto cells = std::size_t(space.cellCount());
         if (given.is_none())
-            return std::vector<double>(states, 1.0 / static_cast<double>(states));
+            return std::vector<double>(states, 1.0 / double(states));
         const auto array = DoubleArray::ensure(given);
-        if (!array
-            || (static_cast<std::size_t>(array.size()) != states && static_cast<std::size_t>(array.size()) != cells))
+        if (!array || (std::size_t(array.size()) != states && std::size_t(array.size()) != cells))
             throw Error("initial", "must hold the probability of each of the " + std::to_string(cells)
                                        + " cells, or of each of the " + std::to_string(states) + " states");
         std::vector<double> initial(states);
-        const auto size = static_cast<std::size_t>(array.size());
-        const double share =
-            static_cast<double>(size) / static_cast<double>(states); // of a cell's probability for each of its rates
+        const auto size = std::size_t(array.size());
+        const double share = double(size) / double(states); // of a cell's probability for each of its rates
         for (std::size_t n = 0; n < states; ++n)
             initial[n] = array.data()[n % size] * share;
         if (!std::all_of(initial.begin(), initial.end(), [](double p) { return p >= 0.0 && p <= 1.0; }))
@@ -92,7 +90,7 @@ namespace {
     {
         if (logLikelihood.ndim() < 2 || logLikelihood.size() == 0)
             throw Error("loglik", "must have the shape (frames, cells…) with at least one of each");
-        const auto axes = static_cast<std::size_t>(logLikelihood.ndim() - 1);
+        const auto axes = std::size_t(logLikelihood.ndim() - 1);
         const bool isList = py::isinstance<py::list>(law) || py::isinstance<py::tuple>(law);
         const py::list laws = isList ? py::list(law) : py::list(py::make_tuple(law));
         if (laws.size() != axes)
@@ -138,12 +136,12 @@ namespace {
         SequentialModel model;
         model.markov = {lattice.space, Likelihood(LikelihoodKind::Given), 1.0};
         model.initial = lattice.initial;
-        const auto cells = static_cast<std::size_t>(lattice.space.cellCount());
+        const auto cells = std::size_t(lattice.space.cellCount());
         MapTrajectory map;
         runInterruptibly({1, progress}, [&](const RunContext &context) {
             MapEstimator estimator(model);
             const auto evidence = [&](Index stage, std::span<double> lambda) {
-                std::copy_n(lattice.lambda.begin() + static_cast<Index>(cells) * stage, cells, lambda.begin());
+                std::copy_n(lattice.lambda.begin() + Index(cells) * stage, cells, lambda.begin());
             };
             map = estimator.estimate(lattice.frames, evidence, context);
         });
@@ -169,8 +167,7 @@ namespace {
             const Index cells = lattice.space.cellCount();
             const Index states = lattice.space.stateCount();
             for (Index i = 0; i < std::ssize(posterior.probability); ++i)
-                ofCells[static_cast<std::size_t>(i / states * cells + i % states % cells)] +=
-                    posterior.probability[static_cast<std::size_t>(i)];
+                ofCells[std::size_t(i / states * cells + i % states % cells)] += posterior.probability[std::size_t(i)];
         });
         std::vector<py::ssize_t> shape{lattice.frames};
         for (const KinematicAxis &axis : lattice.space.axes())

@@ -34,7 +34,7 @@ namespace {
     py::object scaled(const py::array &samples)
     {
         const py::dtype type = samples.dtype();
-        const int bits = 8 * static_cast<int>(type.itemsize());
+        const int bits = 8 * int(type.itemsize());
         if (type.kind() != 'i' || bits > 32)
             return samples;
         const auto fullScale = py::float_(std::ldexp(1.0, bits - 1));
@@ -51,7 +51,7 @@ namespace {
             throw Error("first = " + std::to_string(first),
                         "the recording has the samples 0 … " + std::to_string(info.sampleCount - 1));
         const Index wanted = std::clamp<Index>(count.value_or(info.sampleCount), 0, info.sampleCount - first);
-        std::vector<float> samples(static_cast<std::size_t>(wanted * info.floatsPerSample()));
+        std::vector<float> samples(std::size_t(wanted * info.floatsPerSample()));
         {
             const py::gil_scoped_release released;
             self.recording->read(channel, first, wanted, samples);
@@ -101,7 +101,7 @@ HeldRecording recordingOfArray(const py::object &given, double rateHz, double ce
     ArrayLayout layout;
     layout.sampleRateHz = rateHz;
     layout.sampleCount = samples.shape(0);
-    layout.channelCount = samples.ndim() == 2 ? static_cast<int>(std::min<py::ssize_t>(samples.shape(1), 1 << 20)) : 1;
+    layout.channelCount = samples.ndim() == 2 ? int(std::min<py::ssize_t>(samples.shape(1), 1 << 20)) : 1;
     layout.isComplex = samples.dtype().kind() == 'c';
     layout.centreHz = centreHz;
     const auto floats = layout.isComplex ? floatsOf<std::complex<float>>(samples) : floatsOf<float>(samples);

@@ -16,11 +16,10 @@ namespace {
     {
         const Grid grid = scanGrid(scene);
         const std::vector<ScanCell> trajectory = scanTrajectory(scene);
-        std::vector<float> values(static_cast<std::size_t>(grid.size() * scene.stages));
-        const auto cells = static_cast<std::size_t>(grid.size());
+        std::vector<float> values(std::size_t(grid.size() * scene.stages));
+        const auto cells = std::size_t(grid.size());
         for (int stage = 0; stage < scene.stages; ++stage)
-            readScan(scene, trajectory, 0, stage,
-                     std::span(values).subspan(static_cast<std::size_t>(stage) * cells, cells));
+            readScan(scene, trajectory, 0, stage, std::span(values).subspan(std::size_t(stage) * cells, cells));
         const Axis time{"time", "s", 0.0, scene.secondsPerStage, scene.stages, false};
         return {std::make_shared<FrameArray>(time, grid, std::move(values)), scanTruth(scene, trajectory)};
     }

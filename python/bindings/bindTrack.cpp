@@ -38,9 +38,8 @@ namespace {
 
     py::array times(const HeldTrack &self)
     {
-        return ofPoints(self, [&](std::size_t i) {
-            return self.analysis->time().value(static_cast<double>(self.track().points[i].frame));
-        });
+        return ofPoints(
+            self, [&](std::size_t i) { return self.analysis->time().value(double(self.track().points[i].frame)); });
     }
 
     py::array lastPositions(const HeldTrack &self)
@@ -67,9 +66,7 @@ namespace {
 
     auto seconds(Index Track::*which)
     {
-        return [which](const HeldTrack &self) {
-            return self.analysis->time().value(static_cast<double>(self.track().*which));
-        };
+        return [which](const HeldTrack &self) { return self.analysis->time().value(double(self.track().*which)); };
     }
 
     std::string textOf(const HeldTrack &self)
@@ -98,21 +95,18 @@ of frames on several axes, of the linear likelihood, and with both_ways=False.)"
                 return ofPoints(self, [&](std::size_t i) { return self.track().points[i].statistic; });
             },
             "Score of the path up to each point, nat above background.")
-        .def_property_readonly("f05", smoothed([](const SmoothedPoint &p, const Axis &axis) {
-                                   return axis.value(static_cast<double>(p.low));
-                               }),
-                               "5 % of the position's posterior.")
-        .def_property_readonly("f95", smoothed([](const SmoothedPoint &p, const Axis &axis) {
-                                   return axis.value(static_cast<double>(p.high));
-                               }),
-                               "95 % of the position's posterior.")
         .def_property_readonly(
-            "p_present", smoothed([](const SmoothedPoint &p, const Axis &) { return static_cast<double>(p.presence); }),
-            "Probability that the signal is there.")
-        .def_property_readonly("snr_db", smoothed([](const SmoothedPoint &p, const Axis &) {
-                                   return dbFromRatio(static_cast<double>(p.level));
-                               }),
-                               "Mean power along the path over the noise's in one frame, dB.")
+            "f05", smoothed([](const SmoothedPoint &p, const Axis &axis) { return axis.value(double(p.low)); }),
+            "5 % of the position's posterior.")
+        .def_property_readonly(
+            "f95", smoothed([](const SmoothedPoint &p, const Axis &axis) { return axis.value(double(p.high)); }),
+            "95 % of the position's posterior.")
+        .def_property_readonly("p_present",
+                               smoothed([](const SmoothedPoint &p, const Axis &) { return double(p.presence); }),
+                               "Probability that the signal is there.")
+        .def_property_readonly(
+            "snr_db", smoothed([](const SmoothedPoint &p, const Axis &) { return dbFromRatio(double(p.level)); }),
+            "Mean power along the path over the noise's in one frame, dB.")
         .def_property_readonly("t_onset", seconds(&Track::onsetFrame), "s")
         .def_property_readonly("t_detect", seconds(&Track::detectFrame),
                                "Where the statistic first exceeded the threshold, s.")

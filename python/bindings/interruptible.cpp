@@ -63,7 +63,7 @@ namespace {
         if (asked < 0 || asked > most)
             throw Error("threads = " + std::to_string(asked),
                         "must lie in 1 … 1024, or be 0 for as many as the machine has");
-        return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+        return asked > 0 ? asked : std::max(1, int(std::thread::hardware_concurrency()));
     }
 
     /// Tells Python what there is to tell; answers the exception that this raised.

@@ -54,15 +54,13 @@ void tst_AnalysisSettings::roundTripOfRandomSettings()
                 field.set(settings, random.uniform() < 0.5);
                 break;
             case FieldKind::Integer:
-                field.set(settings,
-                          static_cast<int>(std::max(3.0, field.minimum) + std::floor(random.uniform() * 10.0)));
+                field.set(settings, int(std::max(3.0, field.minimum) + std::floor(random.uniform() * 10.0)));
                 break;
             case FieldKind::Number:
                 field.set(settings, field.minimum + random.uniform() * (std::min(field.maximum, 1e6) - field.minimum));
                 break;
             case FieldKind::Choice:
-                field.set(settings, field.choices[static_cast<std::size_t>(
-                                        random.uniform() * static_cast<double>(field.choices.size()))]);
+                field.set(settings, field.choices[std::size_t(random.uniform() * double(field.choices.size()))]);
                 break;
             case FieldKind::Numbers:
                 field.set(settings, std::vector<double>{1.0, 2.5});

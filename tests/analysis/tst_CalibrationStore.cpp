@@ -129,7 +129,7 @@ void tst_CalibrationStore::oldestFilesGo()
     QVERIFY(!store.load("first"));
     QVERIFY(store.load("0") && fs::exists(folder() / "someone else's"));
     QCOMPARE(std::distance(fs::directory_iterator(folder()), fs::directory_iterator()),
-             static_cast<std::ptrdiff_t>(CalibrationStore::largestFileCount + 1));
+             std::ptrdiff_t(CalibrationStore::largestFileCount + 1));
 }
 
 void tst_CalibrationStore::theEnvironmentDecides()

@@ -65,7 +65,7 @@ void tst_CorrelatedErrors::estimate()
     J.col(1) = Eigen::VectorXd::LinSpaced(n, -1.0, 1.0);
     std::vector<double> ratios;
     for (int run = 0; run < runs; ++run) {
-        Random random(4, static_cast<std::uint64_t>(run));
+        Random random(4, std::uint64_t(run));
         Eigen::VectorXd errors(n);
         for (Eigen::Index i = 0; i < n; ++i)
             errors[i] = i == 0 ? random.normal() : phi * errors[i - 1] + std::sqrt(1.0 - phi * phi) * random.normal();

@@ -31,11 +31,10 @@ Analysis analysisOf(const std::vector<std::pair<Index, std::vector<Index>>> &tra
 {
     Analysis analysis;
     const Axis time{"time", "s", 0.0, 1.0, 4, false};
-    analysis.frames =
-        std::make_shared<FrameArray>(time, grid, std::vector<float>(static_cast<std::size_t>(4 * grid.size()), 1.0f));
+    analysis.frames = std::make_shared<FrameArray>(time, grid, std::vector<float>(std::size_t(4 * grid.size()), 1.0f));
     for (const auto &[first, cells] : tracks) {
         Track track;
-        track.id = static_cast<int>(analysis.tracks.size()) + 1;
+        track.id = int(analysis.tracks.size()) + 1;
         track.onsetFrame = track.detectFrame = first;
         for (Index cell : cells)
             track.points.push_back({first + std::ssize(track.points), cell, 0, 1.0});

@@ -53,11 +53,11 @@ const Run &run()
     static const Run result = [] {
         Run made;
         const auto frames = std::make_shared<SimulatedPings>(scene());
-        const auto cells = static_cast<std::size_t>(frames->grid().size());
+        const auto cells = std::size_t(frames->grid().size());
         made.analysis = analyse(frames, settings(), {}, nullptr, [&](Index, std::span<const float> values) {
             for (std::size_t i = 0; i < values.size(); i += cells)
-                made.statistic.emplace_back(values.begin() + static_cast<std::ptrdiff_t>(i),
-                                            values.begin() + static_cast<std::ptrdiff_t>(i + cells));
+                made.statistic.emplace_back(values.begin() + std::ptrdiff_t(i),
+                                            values.begin() + std::ptrdiff_t(i + cells));
         });
         return made;
     }();
@@ -67,7 +67,7 @@ const Run &run()
 /// Largest value over the rates, cell by cell.
 std::vector<float> projected(const StateScores &states, Index cells)
 {
-    std::vector<float> best(static_cast<std::size_t>(cells), -std::numeric_limits<float>::infinity());
+    std::vector<float> best(std::size_t(cells), -std::numeric_limits<float>::infinity());
     for (std::size_t i = 0; i < states.values.size(); ++i)
         best[i % best.size()] = std::max(best[i % best.size()], states.values[i]);
     return best;
@@ -86,8 +86,7 @@ private slots:
         QVERIFY(!analysis.tracks.empty()); // so a tracker's window is among them
         StateReplay replay(run().analysis);
         for (const Index frame : {0, 3, 9, 15})
-            QCOMPARE(projected(*replay.at(frame), analysis.grid().size()),
-                     run().statistic[static_cast<std::size_t>(frame)]);
+            QCOMPARE(projected(*replay.at(frame), analysis.grid().size()), run().statistic[std::size_t(frame)]);
     }
 
     void backAndForthIsTheSame()
@@ -139,10 +138,10 @@ private slots:
     {
         constexpr Index frames = 400;
         constexpr Index cells = 48;
-        std::vector<float> y(static_cast<std::size_t>(frames * cells));
+        std::vector<float> y(std::size_t(frames * cells));
         Random(8, 1).exponentials(y);
         for (Index frame = 50; frame < 300; ++frame)
-            y[static_cast<std::size_t>(frame * cells + 20)] += 5.0f;
+            y[std::size_t(frame * cells + 20)] += 5.0f;
         AnalysisSettings chosen;
         chosen.detector = SmdSettings{SmdSettings::Reset::Fixed, 0.6};
         chosen.decide.by = DecideSettings::By::Nats;
@@ -228,7 +227,7 @@ private slots:
         const StateSpace space({{"a", 2, false, 0, 2, {0.5, 0.25}, {}}, {"b", 3, false, 0, 1, {1.0}, {}}});
         std::vector<float> scores(12);
         for (std::size_t i = 0; i < scores.size(); ++i)
-            scores[i] = static_cast<float>(i);
+            scores[i] = float(i);
         // (rate of a, rate of b, cell of a, cell of b)
         QCOMPARE(cutStates(space, scores, {0, 1, {{}, {}, 0, 0}}), (std::vector<float>{0, 1, 2, 3, 4, 5}));
         QCOMPARE(cutStates(space, scores, {0, 1, {{}, {}, {}, {}}}), (std::vector<float>{6, 7, 8, 9, 10, 11}));

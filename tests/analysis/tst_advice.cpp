@@ -37,7 +37,7 @@ RecordingPointer withoutNoise()
 {
     const auto samples = std::make_shared<std::vector<float>>();
     for (int i = 0; i < 24'000; ++i)
-        samples->push_back(static_cast<float>((i % 50) * (i % 50) % 37) - 18.0f);
+        samples->push_back(float((i % 50) * (i % 50) % 37) - 18.0f);
     const ArrayLayout layout{.sampleRateHz = 400.0, .sampleCount = std::ssize(*samples)};
     return std::make_shared<ArrayRecording>("pattern", std::shared_ptr<const float>(samples, samples->data()), layout);
 }

@@ -98,8 +98,8 @@ void tst_analyse::findsTheLine()
     double covered = 0.0;
     for (const Track &track : analysis->tracks)
         for (const TrackPoint &point : track.points) {
-            const double t = analysis->time().value(static_cast<double>(point.frame));
-            const double f = analysis->grid().axes[0].value(static_cast<double>(point.cell));
+            const double t = analysis->time().value(double(point.frame));
+            const double f = analysis->grid().axes[0].value(double(point.cell));
             if (t > 30.0 && t < 90.0 && std::abs(f - truth.frequencyAt(t)) < 4.0) // one resolution cell
                 covered += analysis->time().step;
         }
@@ -145,8 +145,8 @@ void tst_analyse::statisticSinkIsThePyramid()
     QCOMPARE(std::ssize(statistic), cells * analysis->time().count);
     for (Index frame : {Index(0), Index(400), analysis->time().count - 1}) {
         std::vector<std::uint8_t> bytes(static_cast<std::size_t>(cells));
-        analysis->statistic->scale().encode(
-            std::span(statistic).subspan(static_cast<std::size_t>(frame * cells), bytes.size()), bytes);
+        analysis->statistic->scale().encode(std::span(statistic).subspan(std::size_t(frame * cells), bytes.size()),
+                                            bytes);
         QVERIFY(std::equal(bytes.begin(), bytes.end(), analysis->statistic->row(0, frame).begin()));
     }
     for (float value : statistic)
@@ -161,17 +161,16 @@ void tst_analyse::explanationAddsUp()
     const Track &track = analysis->tracks.front();
     const Index cells = analysis->grid().size();
     std::vector<std::pair<Index, Index>> places{{0, 5}, {100, 20}, {700, 3}}; // frame, cell
-    places.emplace_back(track.detectFrame,
-                        track.points[static_cast<std::size_t>(track.detectFrame - track.onsetFrame)].cell);
+    places.emplace_back(track.detectFrame, track.points[std::size_t(track.detectFrame - track.onsetFrame)].cell);
     places.emplace_back(track.endFrame, track.points.back().cell);
     for (const auto &[frame, cell] : places) {
-        const Explanation why = explain(*analysis, analysis->time().value(static_cast<double>(frame)),
-                                        {analysis->grid().axes[0].value(static_cast<double>(cell))});
+        const Explanation why =
+            explain(*analysis, analysis->time().value(double(frame)), {analysis->grid().axes[0].value(double(cell))});
         double sum = 0.0;
         for (const PathStep &step : why.steps)
             sum += step.logLikelihoodRatio + step.lnTransition + step.lnK;
         QVERIFY(std::abs(sum - why.statistic) < 1e-6);
-        const auto shown = static_cast<double>(statistic[static_cast<std::size_t>(frame * cells + cell)]);
+        const auto shown = double(statistic[std::size_t(frame * cells + cell)]);
         QVERIFY2(std::abs(why.statistic - shown) < 1e-3,
                  qPrintable(QString("frame %1: terms %2, shown %3").arg(frame).arg(why.statistic).arg(shown)));
         QCOMPARE(why.steps.back().frame, frame);
@@ -213,7 +212,7 @@ void tst_analyse::falseAlarmsAsOrdered()
     AnalysisSettings s = settings();
     s.decide.falseAlarmsPerHour = 60.0;
     const auto analysis = analyse(std::make_shared<SimulatedRecording>(scene), s);
-    const auto count = static_cast<int>(analysis->tracks.size());
+    const auto count = int(analysis->tracks.size());
     QVERIFY2(count >= 33 && count <= 93, qPrintable(QString::number(count)));
 }
 
@@ -261,7 +260,7 @@ void tst_analyse::aConstantIsNoLine()
         scene.noise.deviation = 0.01;
         return scene;
     }());
-    std::vector<float> samples(static_cast<std::size_t>(noise->info().sampleCount));
+    std::vector<float> samples(std::size_t(noise->info().sampleCount));
     noise->read(0, 0, noise->info().sampleCount, samples);
     for (float &sample : samples)
         sample += 0.3f;
@@ -301,7 +300,7 @@ void tst_analyse::readyMadeFrames()
     Random random(8, 1);
     std::vector<float> y(40 * 200);
     for (std::size_t i = 0; i < y.size(); ++i)
-        y[i] = static_cast<float>(random.exponential()) + (i / 40 >= 50 && i / 40 < 150 && i % 40 == 12 ? 8.0f : 0.0f);
+        y[i] = float(random.exponential()) + (i / 40 >= 50 && i / 40 < 150 && i % 40 == 12 ? 8.0f : 0.0f);
     const auto frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 2.0, 200, false}, grid, std::move(y));
     AnalysisSettings s;
     const auto analysis = analyse(frames, makeModel(s.model, grid), s);

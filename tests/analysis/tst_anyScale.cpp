@@ -32,7 +32,7 @@ const std::vector<float> &samples()
         line.startSeconds = 15.0;
         line.frequencyHz = 90.0;
         scene.lines.push_back(line);
-        std::vector<float> values(static_cast<std::size_t>(rate * scene.durationSeconds));
+        std::vector<float> values(std::size_t(rate * scene.durationSeconds));
         SimulatedRecording(scene).read(0, 0, std::ssize(values), values);
         return values;
     }();
@@ -51,7 +51,7 @@ QByteArray bytesOf(const std::vector<float> &values, double scale)
 {
     QByteArray bytes;
     for (const float value : values) {
-        const auto number = static_cast<Number>(static_cast<double>(value) * scale);
+        const auto number = static_cast<Number>(double(value) * scale);
         bytes.append(reinterpret_cast<const char *>(&number), sizeof number);
     }
     return bytes;
@@ -209,7 +209,7 @@ private slots:
         QByteArray bytes;
         for (int i = 0; i < 4000; ++i) {
             const double number = i % 2 ? value : other;
-            const auto narrow = static_cast<float>(number);
+            const auto narrow = float(number);
             bytes.append(type == QLatin1String("rf64_le")
                              ? QByteArray(reinterpret_cast<const char *>(&number), sizeof number)
                              : QByteArray(reinterpret_cast<const char *>(&narrow), sizeof narrow));

@@ -32,7 +32,7 @@ void tst_bandCalibration::aNarrowBandKeepsItsOrder()
     settings.decide.falseAlarmsPerHour = 10.0;
     const auto analysis = analyse(std::make_shared<SimulatedRecording>(scene), settings);
     QVERIFY(analysis->grid().size() < 20);
-    const double ratio = static_cast<double>(analysis->tracks.size()) / 50.0;
+    const double ratio = double(analysis->tracks.size()) / 50.0;
     QVERIFY2(ratio > 0.7 && ratio < 1.8, qPrintable(QString::number(ratio))); // 50 events: ± 0.3 by chance
 }
 

@@ -49,8 +49,8 @@ void tst_causalAlarms::startsAreLikeTheRest()
         const auto analysis = analyse(std::make_shared<SimulatedRecording>(scene), settings, {}, nullptr, {}, {},
                                       CalibrationDepth::Refined, AnalysisDepth::Tracks);
         for (const Track &track : analysis->tracks) {
-            const double seconds = analysis->time().value(static_cast<double>(track.detectFrame));
-            ++minutes[std::min<std::size_t>(2, static_cast<std::size_t>(seconds / 60.0))];
+            const double seconds = analysis->time().value(double(track.detectFrame));
+            ++minutes[std::min<std::size_t>(2, std::size_t(seconds / 60.0))];
         }
     }
     const double all = std::accumulate(minutes.begin(), minutes.end(), 0.0);

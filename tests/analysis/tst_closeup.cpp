@@ -62,7 +62,7 @@ private:
     {
         QCOMPARE(closeup.framesPerRow(0), Index(1));
         QCOMPARE(closeup.frameCount(), stretch.end - stretch.begin);
-        QCOMPARE(closeup.time().first, whole.time().value(static_cast<double>(stretch.begin)));
+        QCOMPARE(closeup.time().first, whole.time().value(double(stretch.begin)));
         for (Index frame = stretch.begin; frame < stretch.end; ++frame)
             QVERIFY2(std::ranges::equal(closeup.row(0, frame - stretch.begin), whole.row(0, frame)),
                      QByteArray::number(qlonglong(frame)));
@@ -94,7 +94,7 @@ private slots:
     {
         const auto &analysis = analysedOnce();
         const PeakPyramid &single = *analysis->input;
-        const auto fours = merged(single, static_cast<std::size_t>(single.frameCount() * single.cells() / 2));
+        const auto fours = merged(single, std::size_t(single.frameCount() * single.cells() / 2));
         QCOMPARE(fours->framesPerRow(0), Index(4));
         const FrameStretch visible{101, 150};
         QVERIFY(closeupStretch(single, visible, 0.1, plenty).isEmpty());
@@ -106,8 +106,7 @@ private slots:
         QVERIFY(more.contains({77, 174}));
         QCOMPARE(more.begin % 4, Index(0));
         // Room for what is visible, not for as much again beside it.
-        const FrameStretch least =
-            closeupStretch(*fours, visible, 0.1, static_cast<std::size_t>(60 * single.cells() * 4 / 3));
+        const FrameStretch least = closeupStretch(*fours, visible, 0.1, std::size_t(60 * single.cells() * 4 / 3));
         QVERIFY(least.contains(visible) && more.contains(least) && least.end - least.begin < 60);
         QCOMPARE(closeupStretch(*fours, {0, 5}, 0.1, plenty).begin, Index(0));
         QCOMPARE(closeupStretch(*fours, {single.frameCount() - 3, single.frameCount()}, 0.1, plenty).end,
@@ -118,7 +117,7 @@ private slots:
     {
         const auto &analysis = analysedOnce();
         const FrameStretch stretch{64, 192};
-        const auto closeup = inputCloseup(*analysis, stretch, static_cast<std::size_t>(100 * analysis->input->cells()));
+        const auto closeup = inputCloseup(*analysis, stretch, std::size_t(100 * analysis->input->cells()));
         QCOMPARE(closeup->framesPerRow(0), Index(4));
         for (Index row = 0; row < closeup->rowCount(0); ++row)
             QVERIFY(std::ranges::equal(closeup->row(0, row), analysis->input->row(1, stretch.begin / 4 + row)));

@@ -56,22 +56,22 @@ Points pointsOf(const DopplerPass &pass, double c, double from, double to, int c
 /// under half a sine, as long windows and smoothed paths have them.
 std::vector<double> errorsOf(int count, double phi, int smoothing, std::uint64_t stream)
 {
-    std::vector<float> normals(static_cast<std::size_t>(count + smoothing + 1));
+    std::vector<float> normals(std::size_t(count + smoothing + 1));
     Random(31, stream).normals(normals, 1.0f);
     std::vector<double> errors;
-    double last = static_cast<double>(normals.back());
+    double last = double(normals.back());
     for (int i = 0; i < count; ++i) {
         if (smoothing > 0) {
             double sum = 0.0;
             double squares = 0.0;
             for (int k = 0; k < smoothing; ++k) {
                 const double weight = std::sin(std::numbers::pi * (k + 0.5) / smoothing);
-                sum += weight * static_cast<double>(normals[static_cast<std::size_t>(i + k)]);
+                sum += weight * double(normals[std::size_t(i + k)]);
                 squares += weight * weight;
             }
             errors.push_back(sum / std::sqrt(squares));
         } else {
-            last = phi * last + std::sqrt(1.0 - phi * phi) * static_cast<double>(normals[static_cast<std::size_t>(i)]);
+            last = phi * last + std::sqrt(1.0 - phi * phi) * double(normals[std::size_t(i)]);
             errors.push_back(last);
         }
     }
@@ -137,7 +137,7 @@ Drawn drawn(Random &random)
     const double heard = one.pass.closestSeconds + one.pass.rangeMetres / c;
     const double from = heard - time * between(2.0, 6.0);
     const double to = heard + time * between(2.0, 6.0);
-    const int count = static_cast<int>(between(60.0, 200.0));
+    const int count = int(between(60.0, 200.0));
     const double deviation = one.pass.restHz * one.pass.metresPerSecond / c * std::pow(10.0, between(-2.3, -1.0));
     one.points = pointsOf(one.pass, c, from, to, count, deviation);
     return one;
@@ -242,17 +242,16 @@ void tst_dopplerFit::coverage()
     }
     constexpr std::array names{"f0", "v", "R", "t0"};
     std::array<int, 4> counts{};
-    Random random(77, static_cast<std::uint64_t>(smoothing));
+    Random random(77, std::uint64_t(smoothing));
     for (int i = 0; i < passes; ++i) {
         Drawn one = drawn(random);
-        addErrors(one.points,
-                  errorsOf(static_cast<int>(one.points.size()), phi, smoothing, static_cast<std::uint64_t>(i)));
+        addErrors(one.points, errorsOf(int(one.points.size()), phi, smoothing, std::uint64_t(i)));
         const std::array<bool, 4> inside = covered(fitDopplerPass(one.points, propagation::air), one.pass);
         for (std::size_t k = 0; k < counts.size(); ++k)
             counts[k] += inside[k] ? 1 : 0;
     }
     for (std::size_t k = 0; k < counts.size(); ++k) {
-        const double share = static_cast<double>(counts[k]) / passes;
+        const double share = double(counts[k]) / passes;
         qInfo("%s: %.2f %% of %d intervals", names[k], 100.0 * share, passes);
         QVERIFY2(std::abs(share - 0.9) <= tolerance, names[k]);
     }

@@ -18,14 +18,14 @@ constexpr Index cellCount = 48;
 /// Noise with a line that climbs a cell every third frame from frame 20 to 59.
 std::shared_ptr<const Analysis> scaledInjection(double thresholdNats, double linkCells = 3.0, Index frames = frameCount)
 {
-    std::vector<float> y(static_cast<std::size_t>(frames * cellCount));
+    std::vector<float> y(std::size_t(frames * cellCount));
     Random random(8, 1);
     random.exponentials(y);
     for (Index frame = 20; frame < 60; ++frame)
-        y[static_cast<std::size_t>(frame * cellCount + 15 + (frame - 20) / 3)] += 5.0f;
+        y[std::size_t(frame * cellCount + 15 + (frame - 20) / 3)] += 5.0f;
     for (Index frame = frames - 300; frame < frames; ++frame)
         if (frames > frameCount)
-            y[static_cast<std::size_t>(frame * cellCount + 30)] += 4.0f;
+            y[std::size_t(frame * cellCount + 30)] += 4.0f;
     AnalysisSettings settings;
     settings.detector = SmdSettings{SmdSettings::Reset::Fixed, 0.6};
     settings.decide.by = DecideSettings::By::Nats;
@@ -39,8 +39,7 @@ std::shared_ptr<const Analysis> scaledInjection(double thresholdNats, double lin
 
 Explanation at(const Analysis &analysis, Index frame, Index cell)
 {
-    return explain(analysis, analysis.time().value(static_cast<double>(frame)),
-                   {analysis.grid().axes[0].value(static_cast<double>(cell))});
+    return explain(analysis, analysis.time().value(double(frame)), {analysis.grid().axes[0].value(double(cell))});
 }
 
 /// The best two of the ways into a state in a frame, from all states' scores in the frame before.
@@ -48,7 +47,7 @@ std::pair<double, double> bestWays(const StateSpace &space, const std::vector<fl
 {
     std::pair best{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
     for (const StateSpace::Predecessor &p : space.predecessors(state, frame)) {
-        const double score = static_cast<double>(before[static_cast<std::size_t>(p.state)]) + p.lnProbability;
+        const double score = double(before[std::size_t(p.state)]) + p.lnProbability;
         if (score > best.first)
             best = {score, best.first};
         else
@@ -110,11 +109,11 @@ private slots:
                 const Explanation why = at(*analysis, frame, cell);
                 std::vector<float> scores;
                 for (Index plane = 0; plane < analysis->model.space.planeCount(); ++plane)
-                    scores.push_back(replay.at(frame)->values[static_cast<std::size_t>(plane * cellCount + cell)]);
-                const float other = replay.at(frame)->values[static_cast<std::size_t>(*why.otherState)];
+                    scores.push_back(replay.at(frame)->values[std::size_t(plane * cellCount + cell)]);
+                const float other = replay.at(frame)->values[std::size_t(*why.otherState)];
                 std::sort(scores.rbegin(), scores.rend());
                 QCOMPARE(other, scores[1]);
-                QVERIFY(std::abs(why.otherMargin - static_cast<double>(scores[0] - scores[1])) < 1e-6);
+                QVERIFY(std::abs(why.otherMargin - double(scores[0] - scores[1])) < 1e-6);
             }
         }
     }
@@ -158,8 +157,8 @@ private slots:
         int tracked = 0;
         const std::pair<Index, Index> places[]{{frames - 1, 30}, {frames - 1, 5}, {4200, 40}};
         for (const auto &[frame, cell] : places) {
-            const double seconds = analysis->time().value(static_cast<double>(frame));
-            const double hz = analysis->grid().axes[0].value(static_cast<double>(cell));
+            const double seconds = analysis->time().value(double(frame));
+            const double hz = analysis->grid().axes[0].value(double(cell));
             const Explanation with = explain(*analysis, seconds, {hz});
             const Explanation without = explain(withoutAny, seconds, {hz});
             QCOMPARE(with.statistic, without.statistic);

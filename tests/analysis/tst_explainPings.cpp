@@ -51,9 +51,8 @@ Analysis plan(Motion motion, double bankOffset = 0.0)
 void check(const Analysis &analysis, Index ping, Index range, Index beam, bool isTracked)
 {
     const Grid &grid = analysis.grid();
-    const Explanation why =
-        explain(analysis, analysis.time().value(static_cast<double>(ping)),
-                {grid.axes[0].value(static_cast<double>(range)), grid.axes[1].value(static_cast<double>(beam))});
+    const Explanation why = explain(analysis, analysis.time().value(double(ping)),
+                                    {grid.axes[0].value(double(range)), grid.axes[1].value(double(beam))});
     QCOMPARE(why.isTracked, isTracked);
     double sum = why.offset;
     for (const PathStep &step : why.steps)

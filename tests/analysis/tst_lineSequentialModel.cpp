@@ -34,7 +34,7 @@ NormalisedFramesPointer frames(int stepsPerWindow, double windows)
 Grid part(const NormalisedFrames &whole, Index first, Index count)
 {
     Axis axis = whole.grid().axes[0];
-    axis.first = axis.value(static_cast<double>(first));
+    axis.first = axis.value(double(first));
     axis.count = count;
     axis.cyclic = false;
     return {{axis}};
@@ -49,25 +49,25 @@ class TargetInNoise final : public Recording
 {
 public:
     TargetInNoise(const SequentialModel &model, int windows, std::uint64_t stream)
-        : m_samples(static_cast<std::size_t>(2 * windows * windowSamples))
+        : m_samples(std::size_t(2 * windows * windowSamples))
     {
         m_info.sampleRateHz = 1.0;
         m_info.sampleCount = windows * windowSamples;
         m_info.channelCount = 1;
         m_info.isComplex = true;
         Random random(77, stream);
-        random.normals(m_samples, static_cast<float>(std::sqrt(0.5)));
+        random.normals(m_samples, float(std::sqrt(0.5)));
         const TrajectorySampler sampler(model);
         Index state = sampler.first(random);
         const double deviation = std::sqrt(0.5 * model.markov.likelihood.snr() * 1.5 / windowSamples);
         for (Index window = 0, stage = 0; window < windows; ++window) {
-            const double turns = static_cast<double>(state % model.markov.space.cellCount()) / (2.0 * windowSamples);
+            const double turns = double(state % model.markov.space.cellCount()) / (2.0 * windowSamples);
             const std::complex<double> amplitude(deviation * random.normal(), deviation * random.normal());
             for (Index n = window * windowSamples; n < (window + 1) * windowSamples; ++n) {
                 const std::complex<double> value =
-                    amplitude * std::polar(1.0, 2.0 * std::numbers::pi * turns * static_cast<double>(n));
-                m_samples[static_cast<std::size_t>(2 * n)] += static_cast<float>(value.real());
-                m_samples[static_cast<std::size_t>(2 * n + 1)] += static_cast<float>(value.imag());
+                    amplitude * std::polar(1.0, 2.0 * std::numbers::pi * turns * double(n));
+                m_samples[std::size_t(2 * n)] += float(value.real());
+                m_samples[std::size_t(2 * n + 1)] += float(value.imag());
             }
             for (Index i = 0; i < model.observedEvery; ++i)
                 state = sampler.next(state, random, ++stage);
@@ -149,8 +149,8 @@ void tst_lineSequentialModel::noModelLosesProbability_data()
                 if (highest > lowest || law[0] > 0.5)
                     for (const int slopesPerBin : {1, 2, 8})
                         QTest::addRow("%s, %d … %d of 1/%d, %s", name, lowest, highest, slopesPerBin,
-                                      roundingNames[static_cast<std::size_t>(rounding)].data())
-                            << lowest << highest << law << static_cast<int>(rounding) << slopesPerBin;
+                                      roundingNames[std::size_t(rounding)].data())
+                            << lowest << highest << law << int(rounding) << slopesPerBin;
 }
 
 void tst_lineSequentialModel::noModelLosesProbability()
@@ -162,8 +162,8 @@ void tst_lineSequentialModel::noModelLosesProbability()
     QFETCH(int, rounding);
     QFETCH(int, slopesPerBin);
     ModelSettings settings;
-    settings.lowestSlope = static_cast<double>(lowest) / slopesPerBin;
-    settings.highestSlope = static_cast<double>(highest) / slopesPerBin;
+    settings.lowestSlope = double(lowest) / slopesPerBin;
+    settings.highestSlope = double(highest) / slopesPerBin;
     settings.slopesPerBin = slopesPerBin;
     settings.slopeChange = law;
     settings.rounding = static_cast<Rounding>(rounding);
@@ -172,10 +172,9 @@ void tst_lineSequentialModel::noModelLosesProbability()
             if (isCyclic && (std::max(-lowest, highest) + slopesPerBin - 1) / slopesPerBin >= cells)
                 continue; // refused: a step goes round
             const Grid grid{{{"frequency", "Hz", 0.0, 1.0, cells, isCyclic}}};
-            const FrameArray none({"time", "s", 0.0, 1.0, 1, false}, grid,
-                                  std::vector<float>(static_cast<std::size_t>(cells)));
+            const FrameArray none({"time", "s", 0.0, 1.0, 1, false}, grid, std::vector<float>(std::size_t(cells)));
             LikelihoodRatio ratio(lineSequentialModel(settings, grid, none));
-            const std::vector<double> lambda(static_cast<std::size_t>(cells), 0.0);
+            const std::vector<double> lambda(std::size_t(cells), 0.0);
             for (int stage = 0; stage < 40; ++stage)
                 QVERIFY2(std::abs(ratio.update(lambda)) < 1e-12,
                          qPrintable(QString("%1 cells, stage %2: %3").arg(cells).arg(stage).arg(ratio.lnLambda())));
@@ -187,8 +186,8 @@ void tst_lineSequentialModel::likelihoodRatiosHaveMeanOne_data()
     QTest::addColumn<int>("kind");
     QTest::addColumn<double>("snr");
     for (const double snr : {0.1, 0.5, 1.0, 4.0}) {
-        QTest::addRow("rice, %g", snr) << static_cast<int>(LikelihoodKind::Rice) << snr;
-        QTest::addRow("exponential, %g", snr) << static_cast<int>(LikelihoodKind::Exponential) << snr;
+        QTest::addRow("rice, %g", snr) << int(LikelihoodKind::Rice) << snr;
+        QTest::addRow("exponential, %g", snr) << int(LikelihoodKind::Exponential) << snr;
     }
 }
 
@@ -286,10 +285,9 @@ void tst_lineSequentialModel::targetsAreFound()
                                    .space.axes()[0];
         SequentialModel model = makeSequentialModel({slopes}, {false}, Likelihood(LikelihoodKind::Exponential, 1.0));
         model.observedEvery = stepsPerWindow;
-        const Spectrogram spectrogram(std::make_shared<TargetInNoise>(model, 300, static_cast<std::uint64_t>(run)),
-                                      windows);
+        const Spectrogram spectrogram(std::make_shared<TargetInNoise>(model, 300, std::uint64_t(run)), windows);
         const Index firstCell = spectrogram.frequency().nearest(0.0);
-        std::vector<float> row(static_cast<std::size_t>(spectrogram.frequency().count));
+        std::vector<float> row(std::size_t(spectrogram.frequency().count));
         const SprtResult result =
             runSprt(model, {0.02, 0.02, 0}, spectrogram.time().count, [&](Index stage, std::span<double> y) {
                 spectrogram.read(stage, 1, row);

@@ -23,14 +23,14 @@ constexpr float unobservedValue = std::numeric_limits<float>::quiet_NaN();
 /// frames, is `masked`.
 std::vector<float> values(float masked)
 {
-    std::vector<float> y(static_cast<std::size_t>(frames * cells));
+    std::vector<float> y(std::size_t(frames * cells));
     Random random(8, 1);
     random.exponentials(y);
     for (Index frame = 60; frame < 180; ++frame)
-        y[static_cast<std::size_t>(frame * cells + 20)] += 9.0f;
+        y[std::size_t(frame * cells + 20)] += 9.0f;
     for (Index i = 0; i < std::ssize(y); ++i)
         if (random.uniform() < 0.33 || (i / cells) % 50 == 40)
-            y[static_cast<std::size_t>(i)] = masked;
+            y[std::size_t(i)] = masked;
     return y;
 }
 
@@ -61,7 +61,7 @@ class tst_notObserved : public QObject
 private slots:
     void isTheSameAsNoEvidence()
     {
-        const auto neutral = static_cast<float>(2.0 * std::numbers::ln2); // λ = y/2 - ln 2 = 0
+        const auto neutral = float(2.0 * std::numbers::ln2); // λ = y/2 - ln 2 = 0
         std::vector<float> shown;
         std::vector<float> expected;
         const auto sinkInto = [](std::vector<float> &all) {
@@ -87,15 +87,14 @@ private slots:
         const auto analysis = analyse(framesOf(values(unobservedValue)), settings());
         const Track &track = analysis->tracks.front();
         double sum = 0.0;
-        const Explanation why =
-            explain(*analysis, analysis->time().value(static_cast<double>(track.detectFrame)),
-                    {analysis->grid().axes[0].value(static_cast<double>(track.points.back().cell))});
+        const Explanation why = explain(*analysis, analysis->time().value(double(track.detectFrame)),
+                                        {analysis->grid().axes[0].value(double(track.points.back().cell))});
         int unobserved = 0;
         std::vector<float> y(cells);
         for (const PathStep &step : why.steps) {
             QVERIFY(std::isfinite(step.logLikelihoodRatio) && std::isfinite(step.score));
             analysis->frames->read(step.frame, 1, y);
-            if (std::isnan(y[static_cast<std::size_t>(analysis->model.space.cellOf(step.state))])) {
+            if (std::isnan(y[std::size_t(analysis->model.space.cellOf(step.state))])) {
                 QCOMPARE(step.logLikelihoodRatio, 0.0);
                 ++unobserved;
             }
@@ -122,7 +121,7 @@ private slots:
             std::vector<float> statistic(cells);
             float largest = -std::numeric_limits<float>::infinity();
             for (Index frame = 0; frame < frames; ++frame) {
-                detector->update(std::span(y).subspan(static_cast<std::size_t>(frame * cells), cells), statistic);
+                detector->update(std::span(y).subspan(std::size_t(frame * cells), cells), statistic);
                 for (const float value : statistic) {
                     QVERIFY2(!std::isnan(value),
                              qPrintable(QStringLiteral("detector %1, frame %2").arg(kind).arg(frame)));

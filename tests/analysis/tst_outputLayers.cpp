@@ -19,11 +19,11 @@ constexpr Index cellCount = 64;
 /// Noise with a line that climbs a cell every third frame from frame 30 to 89.
 std::shared_ptr<const Analysis> scaledInjection(SmdSettings::Reset reset)
 {
-    std::vector<float> y(static_cast<std::size_t>(frameCount * cellCount));
+    std::vector<float> y(std::size_t(frameCount * cellCount));
     Random random(5, 1);
     random.exponentials(y);
     for (Index frame = 30; frame < 90; ++frame)
-        y[static_cast<std::size_t>(frame * cellCount + 20 + (frame - 30) / 3)] += 5.0f;
+        y[std::size_t(frame * cellCount + 20 + (frame - 30) / 3)] += 5.0f;
     AnalysisSettings settings;
     settings.detector = SmdSettings{reset, 0.6};
     settings.decide.by = DecideSettings::By::Nats;
@@ -80,8 +80,8 @@ private slots:
     void ageAndRateAreThoseOfTheTracedPath_data()
     {
         QTest::addColumn<int>("reset");
-        QTest::newRow("fixed") << static_cast<int>(SmdSettings::Reset::Fixed);
-        QTest::newRow("half") << static_cast<int>(SmdSettings::Reset::Half);
+        QTest::newRow("fixed") << int(SmdSettings::Reset::Fixed);
+        QTest::newRow("half") << int(SmdSettings::Reset::Half);
     }
 
     void ageAndRateAreThoseOfTheTracedPath()
@@ -96,11 +96,11 @@ private slots:
             const CellLayers &layers = replay.at(frame);
             QCOMPARE(layers.frame, frame);
             for (Index cell = frame % 3; cell < cellCount; cell += 2) {
-                const Explanation why = explain(*analysis, analysis->time().value(static_cast<double>(frame)),
-                                                {analysis->grid().axes[0].value(static_cast<double>(cell))});
+                const Explanation why = explain(*analysis, analysis->time().value(double(frame)),
+                                                {analysis->grid().axes[0].value(double(cell))});
                 const QByteArray where = QByteArray::number(frame) + " " + QByteArray::number(cell);
-                const auto i = static_cast<std::size_t>(cell);
-                QVERIFY2(static_cast<double>(layers.statistic[i]) == why.displayed, where);
+                const auto i = std::size_t(cell);
+                QVERIFY2(double(layers.statistic[i]) == why.displayed, where);
                 QVERIFY2(layers.age[i] + 1 == std::ssize(why.steps), where);
                 QVERIFY2(layers.plane[i] == analysis->model.space.planeOf(why.steps.back().state), where);
                 tracked += why.isTracked ? 1 : 0;
@@ -114,8 +114,8 @@ private slots:
     void pingsAreThoseOfTheTracedPath_data()
     {
         QTest::addColumn<int>("motion");
-        QTest::newRow("one model") << static_cast<int>(Motion::Slopes);
-        QTest::newRow("bank") << static_cast<int>(Motion::Bank);
+        QTest::newRow("one model") << int(Motion::Slopes);
+        QTest::newRow("bank") << int(Motion::Bank);
     }
 
     void pingsAreThoseOfTheTracedPath()
@@ -132,13 +132,12 @@ private slots:
             const CellLayers &layers = replay.at(ping);
             for (Index cell = 1 + ping % 2; cell < grid.size(); cell += ping == 17 ? 7 : 31) {
                 const std::vector<Index> c = grid.coordinates(cell);
-                const Explanation why = explain(
-                    *analysis, analysis->time().value(static_cast<double>(ping)),
-                    {grid.axes[0].value(static_cast<double>(c[0])), grid.axes[1].value(static_cast<double>(c[1]))});
+                const Explanation why = explain(*analysis, analysis->time().value(double(ping)),
+                                                {grid.axes[0].value(double(c[0])), grid.axes[1].value(double(c[1]))});
                 const QByteArray where = QByteArray::number(ping) + " " + QByteArray::number(cell);
-                const auto i = static_cast<std::size_t>(cell);
+                const auto i = std::size_t(cell);
                 const StateSpace &space = analysis->modelAt(why.model).space;
-                QVERIFY2(static_cast<double>(layers.statistic[i]) == why.displayed, where);
+                QVERIFY2(double(layers.statistic[i]) == why.displayed, where);
                 QVERIFY2(std::abs(why.statistic - why.displayed) < 1e-3, where);
                 QVERIFY2(layers.model[i] == why.model, where);
                 QVERIFY2(layers.age[i] + 1 == std::ssize(why.steps), where);
@@ -179,18 +178,18 @@ private slots:
         const std::size_t target = (10 + 15 - 3) * 6 + 5;
         QVERIFY(layers.age[target] >= 10);
         QVERIFY(picture.inhibited[target] > 0.0f);
-        QVERIFY(std::abs(static_cast<double>(picture.rate[target]) - 10.0 / analysis->time().step) < 1e-5);
+        QVERIFY(std::abs(double(picture.rate[target]) - 10.0 / analysis->time().step) < 1e-5);
         QVERIFY(std::abs(largestRate(*analysis, 0) - 10.0 / analysis->time().step) < 1e-9);
         // Coarser, by 4 × 3: the cell of the largest D speaks for all.
         const LayerPicture coarse = layerPictureOf(replay, 15, {0, 40, 0, 6, 10, 2});
         QCOMPARE(coarse.rows * coarse.columns, Index(20));
-        QCOMPARE(coarse.age[static_cast<std::size_t>(coarse.pixelAt(22, 5))], picture.age[target]);
+        QCOMPARE(coarse.age[std::size_t(coarse.pixelAt(22, 5))], picture.age[target]);
         QCOMPARE(coarse.pixelAt(40, 0), Index(-1));
         // What is seen of a part begins on a whole pixel.
         const LayerPicture part = layerPictureOf(replay, 15, {21, 30, 4, 6, 5, 2});
         QCOMPARE(part.perRow, Index(2));
         QCOMPARE(part.firstRow, Index(10));
-        QCOMPARE(part.age[static_cast<std::size_t>(part.pixelAt(22, 5))], picture.age[target]);
+        QCOMPARE(part.age[std::size_t(part.pixelAt(22, 5))], picture.age[target]);
     }
 
     void backwardsIsTheSame()
@@ -200,10 +199,10 @@ private slots:
         for (Index frame = 0; frame < frameCount; ++frame)
             all.push_back(straight.at(frame));
         LayerReplay back(analysed(),
-                         2 * 6 * static_cast<std::size_t>(cellCount * 5) * sizeof(float)); // six checkpoints
+                         2 * 6 * std::size_t(cellCount * 5) * sizeof(float)); // six checkpoints
         for (const Index frame : {119, 118, 70, 40, 39, 60, 61, 20, 5, 0, 90}) {
             const CellLayers &layers = back.at(frame);
-            const CellLayers &expected = all[static_cast<std::size_t>(frame)];
+            const CellLayers &expected = all[std::size_t(frame)];
             QCOMPARE(layers.statistic, expected.statistic);
             QCOMPARE(layers.plane, expected.plane);
             QCOMPARE(layers.age, expected.age);
@@ -227,7 +226,7 @@ private slots:
             RunContext context;
             context.progress = [&](double, std::string_view) { ++steps; };
             const CellLayers &layers = replay.at(frame, context, {cell, cell + 1});
-            const auto i = static_cast<std::size_t>(cell);
+            const auto i = std::size_t(cell);
             const CellLayers &expected = straight.at(frame);
             QCOMPARE(layers.age[i], expected.age[i]);
             QCOMPARE(layers.plane, expected.plane);
@@ -255,11 +254,9 @@ private slots:
             const CellLayers &layers = replay.at(frame);
             double sum = 0.0;
             for (const float fraction : layers.resetFraction)
-                sum += static_cast<double>(fraction);
-            const double continued = 1.0 - sum / static_cast<double>(cellCount);
-            QVERIFY(
-                std::abs(continued - static_cast<double>(analysis->continuedFraction[static_cast<std::size_t>(frame)]))
-                < 1e-6);
+                sum += double(fraction);
+            const double continued = 1.0 - sum / double(cellCount);
+            QVERIFY(std::abs(continued - double(analysis->continuedFraction[std::size_t(frame)])) < 1e-6);
         }
     }
 
@@ -276,15 +273,15 @@ private slots:
         QCOMPARE(coarse.columns, Index(8));
         for (Index row = 0; row < coarse.rows; ++row)
             for (Index column = 0; column < coarse.columns; ++column) {
-                std::size_t best = static_cast<std::size_t>(10 * row * cellCount + 8 * column);
+                std::size_t best = std::size_t(10 * row * cellCount + 8 * column);
                 float inhibited = 0.0f;
                 for (Index frame = 10 * row; frame < 10 * row + 10; ++frame)
                     for (Index cell = 8 * column; cell < 8 * column + 8; ++cell) {
-                        const auto i = static_cast<std::size_t>(frame * cellCount + cell);
+                        const auto i = std::size_t(frame * cellCount + cell);
                         best = fine.statistic[i] > fine.statistic[best] ? i : best;
                         inhibited = std::max(inhibited, fine.inhibited[i]);
                     }
-                const auto pixel = static_cast<std::size_t>(row * 8 + column);
+                const auto pixel = std::size_t(row * 8 + column);
                 QCOMPARE(coarse.statistic[pixel], fine.statistic[best]);
                 QCOMPARE(coarse.rate[pixel], fine.rate[best]);
                 QCOMPARE(coarse.age[pixel], fine.age[best]);
@@ -292,7 +289,7 @@ private slots:
                 QCOMPARE(coarse.inhibited[pixel], inhibited);
             }
         // The line has lived for seconds, and climbs.
-        const auto onLine = static_cast<std::size_t>(8 * 8 + 4); // frames 80 … 89, cells 32 … 39
+        const auto onLine = std::size_t(8 * 8 + 4); // frames 80 … 89, cells 32 … 39
         QVERIFY(coarse.age[onLine] > 8.0f);
         QVERIFY(coarse.statistic[onLine] > 14.0f);
         QCOMPARE(coarse.inhibited[onLine], 1.0f);
@@ -310,9 +307,8 @@ private slots:
         QCOMPARE(part.firstColumn, Index(5));
         for (Index row = 0; row < part.rows; ++row)
             for (Index column = 0; column < part.columns; ++column)
-                QCOMPARE(part.age[static_cast<std::size_t>(row * part.columns + column)],
-                         whole.age[static_cast<std::size_t>((part.firstRow + row) * whole.columns + part.firstColumn
-                                                            + column)]);
+                QCOMPARE(part.age[std::size_t(row * part.columns + column)],
+                         whole.age[std::size_t((part.firstRow + row) * whole.columns + part.firstColumn + column)]);
     }
 
     void aCellsReading()

@@ -83,7 +83,7 @@ private slots:
         QCOMPARE(evidence.frames, Index(std::ssize(path)));
         // The steps' λ are in single precision.
         QVERIFY(std::abs(evidence.logLikelihoodRatio - sum)
-                < 1e-6 * static_cast<double>(path.size()) * std::max(1.0, std::abs(sum)));
+                < 1e-6 * double(path.size()) * std::max(1.0, std::abs(sum)));
     }
 };
 

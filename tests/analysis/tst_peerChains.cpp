@@ -35,10 +35,10 @@ AnalysisSettings settingsOf(std::size_t kind)
 std::shared_ptr<const FrameArray> framesOf(std::uint64_t seed, Index frames, float power = 0.0f, Index from = 0,
                                            Index to = 0)
 {
-    std::vector<float> y(static_cast<std::size_t>(frames * cellCount));
+    std::vector<float> y(std::size_t(frames * cellCount));
     Random(seed, 0).exponentials(y);
     for (Index frame = from; frame < to; ++frame)
-        y[static_cast<std::size_t>(frame * cellCount + 100)] += power;
+        y[std::size_t(frame * cellCount + 100)] += power;
     return std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, frames, false}, grid(), std::move(y));
 }
 
@@ -116,7 +116,7 @@ void tst_peerChains::aCrossingForgetsItsOwnPlace()
         QVERIFY(taken > 0);
         Index changed = 0;
         for (Index cell = 0; cell < cellCount; ++cell) {
-            const auto i = static_cast<std::size_t>(cell);
+            const auto i = std::size_t(cell);
             if (std::abs(statistic[i] - before[i]) < 0.15f) // a frame is a sixtieth of the mean
                 continue;
             ++changed;
@@ -137,7 +137,7 @@ void tst_peerChains::theShoulderIsAboveTheNoise()
     // Found on other noise, without an event to disturb it.
     Analysis analysis = prepared(kind, framesOf(6, 2000), 1e-6);
     const Index decision = framesPerDecision(analysis.settings.detector, {});
-    const double shoulder = analysis.calibration->levelExceededBy(1e-3 / static_cast<double>(decision));
+    const double shoulder = analysis.calibration->levelExceededBy(1e-3 / double(decision));
     QVERIFY(shoulder < analysis.threshold);
     const auto detector = makeDetector(analysis);
     std::vector<float> y(cellCount);
@@ -150,8 +150,8 @@ void tst_peerChains::theShoulderIsAboveTheNoise()
         if (frame < 300 || std::isinf(statistic.front()))
             continue;
         decided += cellCount;
-        above += static_cast<double>(std::count_if(statistic.begin(), statistic.end(),
-                                                   [&](float d) { return static_cast<double>(d) > shoulder; }));
+        above +=
+            double(std::count_if(statistic.begin(), statistic.end(), [&](float d) { return double(d) > shoulder; }));
     }
     // Nobody knows a thousandth of neighbouring cells and frames to better than a factor of two.
     QVERIFY2(above / decided < 2e-3, qPrintable(QString("%1 of %2").arg(above).arg(decided)));
@@ -179,10 +179,10 @@ void tst_peerChains::eventsHaveTheDetectorsUnit()
                                             [](const Event &a, const Event &b) { return a.statistic < b.statistic; });
     QVERIFY(std::abs(strongest->position.front() - 100.0) <= 1.0);
     QVERIFY(strongest->statistic > analysis.threshold);
-    QVERIFY(strongest->statistic <= static_cast<double>(largest) * 1.000001);
+    QVERIFY(strongest->statistic <= double(largest) * 1.000001);
     if (statisticUnit(analysis.settings.detector) == "nat")
         return;
-    QVERIFY2(largest < 60.0f, qPrintable(QString::number(static_cast<double>(largest))));
+    QVERIFY2(largest < 60.0f, qPrintable(QString::number(double(largest))));
     QVERIFY(analysis.tracks.front().peakStatistic > 100.0);
 }
 
@@ -191,7 +191,7 @@ void tst_peerChains::anOrderIsKept()
     QFETCH(std::size_t, kind);
     constexpr Index frames = 20000;
     constexpr double ordered = 60.0;
-    const double rate = ordered / (static_cast<double>(frames) * cellCount);
+    const double rate = ordered / (double(frames) * cellCount);
     const Analysis analysis = prepared(kind, framesOf(900 + kind, frames), rate);
     const auto chain = makeChain(analysis, makePathDetector(analysis), false);
     std::vector<float> y(cellCount);
@@ -201,7 +201,7 @@ void tst_peerChains::anOrderIsKept()
         chain->update(frame, y, statistic);
     }
     chain->finish();
-    const double ratio = static_cast<double>(chain->tracks().size()) / ordered;
+    const double ratio = double(chain->tracks().size()) / ordered;
     QVERIFY2(ratio > 0.7 && ratio < 1.4, qPrintable(QString::number(ratio)));
 }
 

@@ -47,7 +47,7 @@ std::vector<float> valuesOf(const PeakPyramid &picture)
     std::vector<float> values;
     for (Index row = 0; row < picture.rowCount(0); ++row)
         for (const std::uint8_t byte : picture.row(0, row))
-            values.push_back(static_cast<float>(picture.scale().value(byte)));
+            values.push_back(float(picture.scale().value(byte)));
     return values;
 }
 
@@ -117,7 +117,7 @@ private slots:
         QCOMPARE(preview.lnK, -0.7);
         Smd smd(makeModel(settings.model, before->grid()), {ResetLaw::Fixed, -0.7});
         PeakPyramid expected(before->time(), before->grid().size(), ByteScale(ByteScale::Kind::ScoreNats));
-        std::vector<float> y(static_cast<std::size_t>(before->grid().size())), statistic(y.size());
+        std::vector<float> y(std::size_t(before->grid().size())), statistic(y.size());
         for (Index frame = 0; frame < before->time().count; ++frame) {
             before->frames->read(frame, 1, y);
             smd.update(y, statistic);
@@ -167,7 +167,7 @@ private slots:
             for (std::size_t i = 0; i < now.size(); ++i)
                 parts[i].model = now[i];
             ModelBank bank(parts);
-            std::vector<float> y(static_cast<std::size_t>(before.grid().size())), statistic(y.size());
+            std::vector<float> y(std::size_t(before.grid().size())), statistic(y.size());
             for (Index ping = 4; ping <= 20; ++ping) {
                 before.frames->read(ping, 1, y);
                 bank.update(y, statistic);
@@ -208,7 +208,7 @@ private slots:
         const Index cells = before->grid().size();
         Index different = 0;
         for (std::size_t i = 0; i < here.size(); ++i)
-            different += here[i] != there[i + static_cast<std::size_t>(200 * cells)] ? 1 : 0;
+            different += here[i] != there[i + std::size_t(200 * cells)] ? 1 : 0;
         QVERIFY2(different < std::ssize(here) / 1000, qPrintable(QString::number(different)));
     }
 
@@ -218,7 +218,7 @@ private slots:
         AnalysisSettings settings = before->settings;
         settings.detector = EnergySettings{};
         const StatisticPreview energy = previewed(*before, settings, 10, 20);
-        std::vector<float> y(static_cast<std::size_t>(before->grid().size()));
+        std::vector<float> y(std::size_t(before->grid().size()));
         before->frames->read(10, 1, y);
         QVERIFY(std::abs(valuesOf(*energy.statistic)[7] - std::max(y[7], -4.0f)) <= 0.126f);
         settings = before->settings;
@@ -237,7 +237,7 @@ private slots:
         QVERIFY(!kept->holds(before->frames, 49, 150));
         QVERIFY(!kept->holds(before->frames, 60, 151));
         QVERIFY(!kept->holds(analysed()->frames, 60, 100));
-        std::vector<float> y(static_cast<std::size_t>(before->grid().size()));
+        std::vector<float> y(std::size_t(before->grid().size()));
         before->frames->read(149, 1, y);
         QVERIFY(std::equal(y.begin(), y.end(), kept->values.end() - std::ssize(y)));
     }

@@ -25,14 +25,14 @@ MarkovModel modelOf(const ModelSettings &settings, Index cells)
 double lnBruteRate(Detector &detector, NoiseStream &noise, double base, double level, int frames)
 {
     Random random(31, 0);
-    std::vector<float> y(static_cast<std::size_t>(noise.cells()));
+    std::vector<float> y(std::size_t(noise.cells()));
     std::vector<float> statistic(y.size());
     bool isBelow = false;
     double count = 0.0;
     for (int frame = 0; frame < frames; ++frame) {
         noise.next(random, y);
         detector.update(y, statistic);
-        const auto highest = static_cast<double>(*std::max_element(statistic.begin(), statistic.end()));
+        const auto highest = double(*std::max_element(statistic.begin(), statistic.end()));
         if (isBelow && highest > level) {
             ++count;
             isBelow = false;
@@ -40,7 +40,7 @@ double lnBruteRate(Detector &detector, NoiseStream &noise, double base, double l
             isBelow = true;
         }
     }
-    return std::log(count / (static_cast<double>(frames) * static_cast<double>(noise.cells())));
+    return std::log(count / (double(frames) * double(noise.cells())));
 }
 
 /// Lines of a design SNR on a band that closes on itself, put into noise on purpose: importance sampling with plain
@@ -57,14 +57,14 @@ class PlantedLines
 {
 public:
     PlantedLines(const ModelSettings &law, int cells, double snr)
-        : m_perBin(law.slopesPerBin), m_lowest(static_cast<int>(std::lround(law.lowestSlope * law.slopesPerBin))),
-          m_rates(static_cast<int>(std::lround((law.highestSlope - law.lowestSlope) * law.slopesPerBin)) + 1),
-          m_cells(cells), m_snr(snr), m_law(static_cast<std::size_t>(m_rates * m_rates))
+        : m_perBin(law.slopesPerBin), m_lowest(int(std::lround(law.lowestSlope * law.slopesPerBin))),
+          m_rates(int(std::lround((law.highestSlope - law.lowestSlope) * law.slopesPerBin)) + 1), m_cells(cells),
+          m_snr(snr), m_law(std::size_t(m_rates * m_rates))
     {
         for (int from = 0; from < m_rates; ++from) {
             double sum = 0.0;
             for (int to = 0; to < m_rates; ++to) {
-                const auto change = static_cast<std::size_t>(std::abs(to - from));
+                const auto change = std::size_t(std::abs(to - from));
                 sum += at(from, to) = change < law.slopeChange.size() ? law.slopeChange[change] : 0.0;
             }
             for (int to = 0; to < m_rates; ++to)
@@ -95,13 +95,11 @@ private:
     static constexpr int settled = 100;
     static constexpr int lastFrame = 250;
 
-    double &at(int from, int to) { return m_law[static_cast<std::size_t>(from * m_rates + to)]; }
+    double &at(int from, int to) { return m_law[std::size_t(from * m_rates + to)]; }
 
     int moved(int cell, int rate, int frame) const
     {
-        const auto place = [&](int t) {
-            return static_cast<int>(std::floor(static_cast<double>((m_lowest + rate) * t) / m_perBin + 0.5));
-        };
+        const auto place = [&](int t) { return int(std::floor(double((m_lowest + rate) * t) / m_perBin + 0.5)); };
         return (cell + place(frame + 1) - place(frame) + m_cells) % m_cells;
     }
 
@@ -117,17 +115,17 @@ private:
 
     void stepWeights(std::vector<double> &weights, const std::vector<float> &y, int frame)
     {
-        std::vector<double> next(weights.size(), 1.0 / static_cast<double>(weights.size()));
+        std::vector<double> next(weights.size(), 1.0 / double(weights.size()));
         for (int from = 0; from < m_rates; ++from)
             for (int to = 0; to < m_rates; ++to)
                 if (const double p = at(from, to); p > 0.0)
                     for (int cell = 0; cell < m_cells; ++cell)
-                        next[static_cast<std::size_t>(to * m_cells + moved(cell, to, frame))] +=
-                            p * weights[static_cast<std::size_t>(from * m_cells + cell)];
+                        next[std::size_t(to * m_cells + moved(cell, to, frame))] +=
+                            p * weights[std::size_t(from * m_cells + cell)];
         for (int cell = 0; cell < m_cells; ++cell) {
-            const double ratio = likelihoodRatio(static_cast<double>(y[static_cast<std::size_t>(cell)]));
+            const double ratio = likelihoodRatio(double(y[std::size_t(cell)]));
             for (int rate = 0; rate < m_rates; ++rate)
-                next[static_cast<std::size_t>(rate * m_cells + cell)] *= ratio;
+                next[std::size_t(rate * m_cells + cell)] *= ratio;
         }
         weights = std::move(next);
     }
@@ -143,7 +141,7 @@ private:
         int rate = rates(m_random);
         std::vector<float> y(static_cast<std::size_t>(m_cells));
         std::vector<float> statistic(y.size());
-        std::vector<double> weights(static_cast<std::size_t>(m_cells * m_rates));
+        std::vector<double> weights(std::size_t(m_cells * m_rates));
         for (int frame = 0; frame < lastFrame; ++frame) {
             for (float &value : y)
                 value = power(m_random);
@@ -156,11 +154,11 @@ private:
                 cell = moved(cell, rate, frame);
             }
             if (frame >= start)
-                y[static_cast<std::size_t>(cell)] = static_cast<float>(std::pow(std::sqrt(m_snr) + part(m_random), 2.0)
-                                                                       + std::pow(part(m_random), 2.0));
+                y[std::size_t(cell)] =
+                    float(std::pow(std::sqrt(m_snr) + part(m_random), 2.0) + std::pow(part(m_random), 2.0));
             detector.update(y, statistic);
             stepWeights(weights, y, frame);
-            if (static_cast<double>(*std::max_element(statistic.begin(), statistic.end())) > level) {
+            if (double(*std::max_element(statistic.begin(), statistic.end())) > level) {
                 const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
                 return frame < settled ? 0.0 : lastFrame / (sum + lastFrame - frame - 1);
             }
@@ -255,9 +253,8 @@ void tst_rareRates::agreesWithSimulation()
     const double expected =
         lnBruteRate(detector, *stream, base, upper, frames) - lnBruteRate(again, *other, base, lower, frames);
     const double found = rates.lnRates[3] - rates.lnRates[1];
-    const double error =
-        std::hypot(rates.relativeErrors[3],
-                   1.0 / std::sqrt(std::exp(rates.lnRates[3]) * frames * static_cast<double>(stream->cells())));
+    const double error = std::hypot(rates.relativeErrors[3],
+                                    1.0 / std::sqrt(std::exp(rates.lnRates[3]) * frames * double(stream->cells())));
     QVERIFY2(std::abs(found - expected) < 3.5 * error + 0.05,
              qPrintable(QString("%1, simulated %2 ± %3").arg(found).arg(expected).arg(error)));
 }
@@ -304,13 +301,13 @@ void tst_rareRates::spectralNoiseIsWhite()
 {
     const auto noise = spectralNoise({}, 32);
     Random random(32, 0);
-    std::vector<float> y(static_cast<std::size_t>(noise->cells()));
+    std::vector<float> y(std::size_t(noise->cells()));
     std::vector<double> sum(y.size());
     const int frames = 20000;
     for (int frame = 0; frame < frames; ++frame) {
         noise->next(random, y);
         for (std::size_t cell = 0; cell < y.size(); ++cell)
-            sum[cell] += static_cast<double>(y[cell]);
+            sum[cell] += double(y[cell]);
     }
     for (const double total : sum)
         QVERIFY(std::abs(total / frames - 1.0) < 5.0 * 1.2 / std::sqrt(frames)); // overlapping frames are correlated

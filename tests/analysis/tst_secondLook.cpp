@@ -46,7 +46,7 @@ std::shared_ptr<const Analysis> analysisOf(const std::vector<LineSettings> &line
 
 double secondsOf(const Analysis &analysis, Index frame)
 {
-    return analysis.time().value(static_cast<double>(frame));
+    return analysis.time().value(double(frame));
 }
 
 } // namespace
@@ -101,17 +101,14 @@ void tst_secondLook::placeAndBand()
                 if (std::abs(axis.value(point.position) - truth) > 3.0 * cellHz)
                     continue; // none of this line
                 ++frames;
-                inBand += truth >= axis.value(static_cast<double>(point.low))
-                                  && truth <= axis.value(static_cast<double>(point.high))
-                              ? 1
-                              : 0;
+                inBand += truth >= axis.value(double(point.low)) && truth <= axis.value(double(point.high)) ? 1 : 0;
                 errors.push_back(std::abs(axis.value(point.position) - truth) / cellHz);
             }
     }
     QVERIFY2(frames > 3 * 600, qPrintable(QString::number(frames)));
     std::sort(errors.begin(), errors.end());
     const double error = errors[errors.size() * 9 / 10];
-    const double share = static_cast<double>(inBand) / frames;
+    const double share = double(inBand) / frames;
     QVERIFY2(error < largestError, qPrintable(QString::number(error)));
     QVERIFY2(share > 0.8 && share <= 1.0, qPrintable(QString::number(share)));
 }
@@ -165,7 +162,7 @@ void tst_secondLook::aLongTrackIsOne()
     QVERIFY(longest != analysis->tracks.end());
     QVERIFY2(std::ssize(longest->points) > 20700, qPrintable(QString::number(longest->points.size())));
     for (std::size_t i = 0; i < longest->points.size(); ++i)
-        QCOMPARE(longest->points[i].frame, longest->onsetFrame + static_cast<Index>(i));
+        QCOMPARE(longest->points[i].frame, longest->onsetFrame + Index(i));
     QCOMPARE(longest->points.back().frame, longest->endFrame);
 }
 
@@ -245,23 +242,22 @@ void tst_secondLook::aCloudIsNoLine()
     // through it, plainly above.
     const auto found = [](bool withLine, bool bothWays) {
         Random random(5, 0);
-        std::vector<float> samples(static_cast<std::size_t>(120.0 * rateHz));
+        std::vector<float> samples(std::size_t(120.0 * rateHz));
         random.normals(samples, 1.0f);
         std::vector<float> cloud(samples.size());
         for (int tone = 0; tone < 400; ++tone) { // as many as are a narrow band of noise
             const double hz = 80.0 + 40.0 * random.uniform();
             const double phase = 2.0 * std::numbers::pi * random.uniform();
             for (std::size_t n = 0; n < cloud.size(); ++n)
-                cloud[n] +=
-                    static_cast<float>(std::cos(2.0 * std::numbers::pi * hz * static_cast<double>(n) / rateHz + phase));
+                cloud[n] += float(std::cos(2.0 * std::numbers::pi * hz * double(n) / rateHz + phase));
         }
         const double amplitude = std::sqrt(10.0 * 2.0 * 40.0 / (0.5 * rateHz) / 400.0);
         for (std::size_t n = 0; n < samples.size(); ++n) {
-            const double t = static_cast<double>(n) / rateHz;
+            const double t = double(n) / rateHz;
             if (t >= 50.0 && t < 60.0)
-                samples[n] += static_cast<float>(amplitude) * cloud[n];
+                samples[n] += float(amplitude) * cloud[n];
             if (withLine)
-                samples[n] += static_cast<float>(2.5 * std::cos(2.0 * std::numbers::pi * 100.0 * t));
+                samples[n] += float(2.5 * std::cos(2.0 * std::numbers::pi * 100.0 * t));
         }
         AnalysisSettings settings;
         settings.spectrogram.windowSeconds = windowSeconds;
@@ -270,9 +266,9 @@ void tst_secondLook::aCloudIsNoLine()
     };
     constexpr bool twice = true;
     constexpr bool once = false;
-    const auto paths = static_cast<int>(found(false, once)->tracks.size());
+    const auto paths = int(found(false, once)->tracks.size());
     const auto seen = found(false, twice);
-    const auto lines = static_cast<int>(seen->tracks.size());
+    const auto lines = int(seen->tracks.size());
     QVERIFY2(paths >= 4, qPrintable(QString::number(paths)));
     QVERIFY2(3 * lines <= paths, qPrintable(QString("%1 of %2").arg(lines).arg(paths)));
     const std::vector<AreaEvent> areas = areaEvents(*seen);

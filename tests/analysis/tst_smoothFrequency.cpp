@@ -22,7 +22,7 @@ AnalysisPlan planOf(Index frames)
     AnalysisPlan plan;
     plan.frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.5, 1.0, frames, false},
                                                Grid{{{"frequency", "Hz", 100.0, 1.0, 4000, false}}},
-                                               std::vector<float>(static_cast<std::size_t>(4000 * frames), 1.0f));
+                                               std::vector<float>(std::size_t(4000 * frames), 1.0f));
     return plan;
 }
 
@@ -30,11 +30,11 @@ Track trackAlong(const std::vector<double> &cells, const std::vector<float> &pre
 {
     Track track;
     for (std::size_t i = 0; i < cells.size(); ++i) {
-        track.points.push_back({static_cast<Index>(i) + 3, static_cast<Index>(std::lround(cells[i])), 0, 0.0});
+        track.points.push_back({Index(i) + 3, Index(std::lround(cells[i])), 0, 0.0});
         SmoothedPoint point;
         point.position = cells[i];
-        point.low = static_cast<float>(cells[i]) - 1.0f;
-        point.high = static_cast<float>(cells[i]) + 1.0f;
+        point.low = float(cells[i]) - 1.0f;
+        point.high = float(cells[i]) + 1.0f;
         point.presence = presence.empty() ? 1.0f : presence[i];
         track.smoothed.push_back(point);
     }
@@ -106,10 +106,10 @@ void tst_smoothFrequency::solvesWhittakersEquations()
     Eigen::VectorXd weights(n), values(n);
     double mean = 0.0;
     for (int i = 0; i < n; ++i)
-        mean += static_cast<double>(presence[static_cast<std::size_t>(i)]) / n;
+        mean += double(presence[std::size_t(i)]) / n;
     for (int i = 0; i < n; ++i) {
-        weights[i] = static_cast<double>(presence[static_cast<std::size_t>(i)]) / mean;
-        values[i] = 100.0 + cells[static_cast<std::size_t>(i)];
+        weights[i] = double(presence[std::size_t(i)]) / mean;
+        values[i] = 100.0 + cells[std::size_t(i)];
         if (i + 2 < n)
             difference.row(i).segment(i, 3) << 1.0, -2.0, 1.0;
     }

@@ -26,7 +26,7 @@ std::shared_ptr<const Analysis> noise(double deviation, bool isComplex)
 
 double meanOf(const std::vector<double> &values)
 {
-    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+    return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
 }
 
 } // namespace
@@ -76,13 +76,13 @@ private slots:
     void theFrameIsTheOneThere()
     {
         const auto analysis = noise(0.3, false);
-        std::vector<float> frame(static_cast<std::size_t>(analysis->grid().size()));
+        std::vector<float> frame(std::size_t(analysis->grid().size()));
         analysis->frames->read(17, 1, frame);
         const double seconds = analysis->time().value(17.2);
         const Spectra spectra = spectraOf(*analysis, seconds, seconds, seconds, SpectrumLevel::OverNoise);
         for (std::size_t cell = 0; cell < frame.size(); ++cell) {
-            QCOMPARE(spectra.frame[cell], static_cast<double>(frame[cell]));
-            QCOMPARE(spectra.mean[cell], static_cast<double>(frame[cell])); // of one frame
+            QCOMPARE(spectra.frame[cell], double(frame[cell]));
+            QCOMPARE(spectra.mean[cell], double(frame[cell])); // of one frame
         }
         QCOMPARE(spectra.position[3], analysis->grid().axes.back().value(3.0));
     }

@@ -33,8 +33,8 @@ void tst_startingUp::theFirstMinuteIsLikeTheRest()
         settings.decide.falseAlarmsPerHour = 60.0;
         const auto analysis = analyse(std::make_shared<SimulatedRecording>(scene), settings);
         for (const Track &track : analysis->tracks) {
-            const double seconds = analysis->time().value(static_cast<double>(track.detectFrame));
-            ++minutes[std::min<std::size_t>(3, static_cast<std::size_t>(seconds / 60.0))];
+            const double seconds = analysis->time().value(double(track.detectFrame));
+            ++minutes[std::min<std::size_t>(3, std::size_t(seconds / 60.0))];
         }
     }
     const double all = std::accumulate(minutes.begin(), minutes.end(), 0.0);

@@ -85,7 +85,7 @@ void tst_steadyLines::numbersFollowTheOrderOfDetection()
 {
     const auto analysis = analysed(sweepsBesideAFaintLine(-4.0));
     for (std::size_t i = 0; i < analysis->tracks.size(); ++i) {
-        QCOMPARE(analysis->tracks[i].id, static_cast<int>(i) + 1);
+        QCOMPARE(analysis->tracks[i].id, int(i) + 1);
         QVERIFY(i == 0 || analysis->tracks[i - 1].detectFrame <= analysis->tracks[i].detectFrame);
     }
 }

@@ -17,7 +17,7 @@ class tst_Closeup : public QObject
 
     static std::shared_ptr<const PeakPyramid> merged(const PeakPyramid &picture)
     {
-        const auto bytes = static_cast<std::size_t>(picture.frameCount() * picture.cells() / 8);
+        const auto bytes = std::size_t(picture.frameCount() * picture.cells() / 8);
         auto result = std::make_shared<PeakPyramid>(picture.time(), picture.cells(), picture.scale(), bytes);
         for (Index frame = 0; frame < picture.frameCount(); ++frame)
             result->appendBytes(picture.row(0, frame));

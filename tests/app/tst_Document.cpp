@@ -25,12 +25,11 @@ FieldValue randomValue(const FieldInfo &info, std::mt19937 &random)
     case FieldKind::Flag:
         return fraction < 0.5;
     case FieldKind::Integer:
-        return static_cast<int>(number);
+        return int(number);
     case FieldKind::Number:
         return number;
     case FieldKind::Choice:
-        return info.choices[std::min(info.choices.size() - 1,
-                                     static_cast<std::size_t>(fraction * double(info.choices.size())))];
+        return info.choices[std::min(info.choices.size() - 1, std::size_t(fraction * double(info.choices.size())))];
     case FieldKind::Numbers:
         return std::vector<double>{number};
     }

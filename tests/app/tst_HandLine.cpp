@@ -106,8 +106,8 @@ void tst_HandLine::theDetectorsPathDrawnByHandHasItsEvidence()
     const Track &track = analysis.tracks.front();
     std::vector<Viewport::Point> points;
     for (const TrackPoint &point : track.points)
-        points.push_back({analysis.time().value(static_cast<double>(point.frame)),
-                          analysis.grid().axes.back().value(static_cast<double>(point.cell))});
+        points.push_back(
+            {analysis.time().value(double(point.frame)), analysis.grid().axes.back().value(double(point.cell))});
     panel().line().setPoints(points);
     QTRY_VERIFY_WITH_TIMEOUT(isSettled(), patience);
     const auto &comparison = *panel().comparison();
@@ -126,7 +126,7 @@ void tst_HandLine::besideTheLineThereIsNothing()
     QTRY_VERIFY_WITH_TIMEOUT(isSettled(), patience);
     const auto &comparison = *panel().comparison();
     // Noise: mean 1 within five standard errors, and evidence against a signal.
-    const double error = 5.0 * std::sqrt(2.0 / static_cast<double>(comparison.own.frames)); // frames overlap by half
+    const double error = 5.0 * std::sqrt(2.0 / double(comparison.own.frames)); // frames overlap by half
     QVERIFY(std::abs(comparison.own.meanPower - 1.0) < error);
     QVERIFY(comparison.own.logLikelihoodRatio < 0.0);
     QVERIFY(comparison.detector.logLikelihoodRatio > 50.0);

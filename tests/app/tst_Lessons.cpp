@@ -55,10 +55,9 @@ void clickOnBrightest(MainWindow &window)
     const Axis &hz = view.frequencyAxis();
     for (Index t = time.nearest(box.time.low) + 1; t < time.nearest(box.time.high); ++t)
         for (Index f = hz.nearest(box.frequency.low) + 1; f < hz.nearest(box.frequency.high); ++f)
-            if (const auto value = view.valueAt(time.value(static_cast<double>(t)), hz.value(static_cast<double>(f)));
-                value && *value > level) {
+            if (const auto value = view.valueAt(time.value(double(t)), hz.value(double(f))); value && *value > level) {
                 level = *value;
-                best = {time.value(static_cast<double>(t)), hz.value(static_cast<double>(f))};
+                best = {time.value(double(t)), hz.value(double(f))};
             }
     clickAt(view, best.seconds, best.hz);
 }
@@ -94,11 +93,11 @@ void clickOnBlueWalk(MainWindow &window)
 {
     const auto &walks = window.sequentialTests().walks();
     WalkPlot &plot = window.sequential().walk();
-    for (int i = 0; i < static_cast<int>(walks.size()); ++i)
-        if (const auto &[run, result] = walks[static_cast<std::size_t>(i)];
+    for (int i = 0; i < int(walks.size()); ++i)
+        if (const auto &[run, result] = walks[std::size_t(i)];
             !run.hasTarget && window.sequentialTests().selected() != i) {
             QTest::mouseClick(plot.canvas(), Qt::LeftButton, {}, plot.position(i, result.stages).toPoint());
-            if (walks[static_cast<std::size_t>(window.sequentialTests().selected())].first.hasTarget == false)
+            if (walks[std::size_t(window.sequentialTests().selected())].first.hasTarget == false)
                 return;
         }
 }
@@ -209,14 +208,14 @@ void tst_Lessons::everyLessonIsTrueAndCanBeDone_data()
 void tst_Lessons::everyLessonIsTrueAndCanBeDone()
 {
     QFETCH(int, number);
-    const Lesson &lesson = lessons()[static_cast<std::size_t>(number)];
+    const Lesson &lesson = lessons()[std::size_t(number)];
     const QString name = QFileInfo(lesson.path).baseName();
     const auto window = newWindow();
     LessonGuide &guide = window->lessonGuide();
     LessonPanel &panel = guide.panel();
     window->open(lesson.path);
-    for (int i = 0; i < static_cast<int>(lesson.steps.size()); ++i) {
-        const LessonStep &step = lesson.steps[static_cast<std::size_t>(i)];
+    for (int i = 0; i < int(lesson.steps.size()); ++i) {
+        const LessonStep &step = lesson.steps[std::size_t(i)];
         const QByteArray where = QStringLiteral("%1, step %2: ").arg(name).arg(i + 1).toUtf8();
         const auto fails = [&](const LessonCondition &condition) {
             return where.toStdString() + failure(*window, condition);

@@ -35,14 +35,14 @@ namespace {
 /// 16-bit mono WAV: noise and a tone that drifts.
 QByteArray wav(int rate, double seconds)
 {
-    const int count = static_cast<int>(rate * seconds);
+    const int count = int(rate * seconds);
     std::mt19937 random(1);
     std::normal_distribution<double> noise(0.0, 2000.0);
     QByteArray samples;
     QDataStream data(&samples, QIODevice::WriteOnly);
     data.setByteOrder(QDataStream::LittleEndian);
     for (int i = 0; i < count; ++i) {
-        const double t = static_cast<double>(i) / rate;
+        const double t = double(i) / rate;
         const double phase = 2.0 * std::numbers::pi * (200.0 * t + 0.5 * t * t);
         data << static_cast<qint16>(std::lround(noise(random) + 800.0 * std::sin(phase)));
     }
@@ -63,7 +63,7 @@ QByteArray wav(int rate, double seconds)
 QPoint positionOf(ExceedancePlot &plot, double nats)
 {
     const QwtScaleMap map = plot.canvasMap(QwtAxis::XBottom);
-    return {static_cast<int>(std::lround(map.transform(nats))), plot.canvas()->height() / 2};
+    return {int(std::lround(map.transform(nats))), plot.canvas()->height() / 2};
 }
 
 void drop(QWidget &widget, const QString &path)
@@ -576,8 +576,7 @@ private slots:
         const std::vector<QString> names{"model.snr", "noise.blockWindows", "decide.thresholdNats",
                                          "spectrogram.windowSeconds"};
         for (int i = 0; i < 200; ++i) {
-            window->controller().edit(names[random() % names.size()], 0.25 + 0.01 * static_cast<double>(random() % 100),
-                                      "Change");
+            window->controller().edit(names[random() % names.size()], 0.25 + 0.01 * double(random() % 100), "Change");
             if (i % 7 == 0)
                 QCoreApplication::processEvents();
         }

@@ -89,7 +89,7 @@ private slots:
         Theme::apply(Theme::Kind::Light);
         writeFile(m_folder, "pings.json", scene);
         const SimulatedPings pings(*sourceOf(path("pings.json")).pings);
-        std::vector<float> y(static_cast<std::size_t>(pings.time().count * pings.grid().size()));
+        std::vector<float> y(std::size_t(pings.time().count * pings.grid().size()));
         pings.read(0, pings.time().count, y);
         NumPyWriter stack(path("stack.npy").toStdString(), {24, 120, 8});
         stack.write(y);
@@ -303,7 +303,7 @@ private slots:
         WhyPanel &why = w->why();
         const Explanation &explanation = why.explanation().value();
         QVERIFY2(why.sentence().startsWith("Detected"), qPrintable(why.sentence()));
-        QCOMPARE(why.ladder()->rowCount(), static_cast<int>(explanation.steps.size()));
+        QCOMPARE(why.ladder()->rowCount(), int(explanation.steps.size()));
         QCOMPARE(why.ladder()->columnCount(), 8); // time, range, bearing, λ, ln P, ln K, sum, second best
         QVERIFY(why.ladder()->horizontalHeaderItem(1)->text().startsWith("Range"));
         double sum = explanation.offset;
@@ -555,8 +555,7 @@ private slots:
                                         [&](const TrackPoint &p) { return p.frame == bench.ping(); });
         QVERIFY(point != track.points.end());
         const std::vector<Index> c = grid.coordinates(point->cell);
-        const PingMarks::Place place{grid.axes[0].value(static_cast<double>(c[0])),
-                                     grid.axes[1].value(static_cast<double>(c[1]))};
+        const PingMarks::Place place{grid.axes[0].value(double(c[0])), grid.axes[1].value(double(c[1]))};
         for (const bool isPolar : {false, true}) {
             bench.setPolar(isPolar);
             QCOMPARE(bench.output()->trackAt(place), track.id);

@@ -52,7 +52,7 @@ int editUntilKilled(const QString &scene, const QString &recoveryFolder)
     const auto window = openedWindow(scene, recoveryFolder);
     QSignalSpy kept(&window->recovery(), &Recovery::kept);
     for (int version = 2;; ++version) { // 1 is the default
-        window->controller().edit("decide.falseAlarmsPerHour", static_cast<double>(version), "false alarms");
+        window->controller().edit("decide.falseAlarmsPerHour", double(version), "false alarms");
         do {
             if (!kept.wait(patience))
                 return 1;

@@ -193,7 +193,7 @@ void tst_Sequential::resultsDoNotDependOnTheWindow()
     QVERIFY(settle());
     const SequentialModel model = scanModel(test.scene, test.designSnrDb);
     for (std::size_t i = 0; i < tests().walks().size(); ++i) {
-        const ScanRun run{i % 2 == 1, static_cast<int>(i / 2)};
+        const ScanRun run{i % 2 == 1, int(i / 2)};
         QVERIFY(tests().walks()[i].first == run);
         QVERIFY(tests().walks()[i].second.lnLambda == walkScan(test, model, run).lnLambda);
     }
@@ -209,18 +209,17 @@ void tst_Sequential::aClickSelectsEverywhere()
     // A walk on noise that no other one lies on: the one that stops last.
     int last = 0;
     for (int i = 0; i < 30; i += 2)
-        if (tests().walks()[static_cast<std::size_t>(i)].second.stages
-            > tests().walks()[static_cast<std::size_t>(last)].second.stages)
+        if (tests().walks()[std::size_t(i)].second.stages > tests().walks()[std::size_t(last)].second.stages)
             last = i;
-    const Index stages = tests().walks()[static_cast<std::size_t>(last)].second.stages;
+    const Index stages = tests().walks()[std::size_t(last)].second.stages;
     const auto posteriorBefore = panel().trajectory().posterior().values();
     QTest::mouseClick(walk.canvas(), Qt::LeftButton, {}, walk.position(last, stages).toPoint());
     const int selected = tests().selected();
-    QCOMPARE(tests().walks()[static_cast<std::size_t>(selected)].second.stages, stages);
+    QCOMPARE(tests().walks()[std::size_t(selected)].second.stages, stages);
     QVERIFY(settle());
     QCOMPARE(walk.selected(), selected);
     QCOMPARE(tests().stage(), stages);
-    QCOMPARE(panel().slider().maximum(), static_cast<int>(stages));
+    QCOMPARE(panel().slider().maximum(), int(stages));
     QVERIFY(panel().trajectory().posterior().values() != posteriorBefore);
     QCOMPARE(panel().trajectory().posterior().xAxis().count, stages);
     QVERIFY2(runSentence(tests()).contains("of noise only"), qPrintable(runSentence(tests())));
@@ -240,9 +239,8 @@ void tst_Sequential::aClickSelectsEverywhere()
     QCoreApplication::processEvents();
     BarPlot &stopping = panel().stopping();
     const Index place = tests().walks()[3].second.stages;
-    QTest::mouseClick(stopping.canvas(), Qt::LeftButton, {},
-                      stopping.canvasPosition(static_cast<double>(place), 0.1).toPoint());
-    QCOMPARE(tests().walks()[static_cast<std::size_t>(tests().selected())].second.stages, place);
+    QTest::mouseClick(stopping.canvas(), Qt::LeftButton, {}, stopping.canvasPosition(double(place), 0.1).toPoint());
+    QCOMPARE(tests().walks()[std::size_t(tests().selected())].second.stages, place);
 }
 
 void tst_Sequential::jAndLStepStages()
@@ -361,7 +359,7 @@ void tst_Sequential::theRecordingsViewIsTested()
     QCOMPARE(panel().trajectory().posterior().yAxis().unit, std::string("Hz"));
     // Its trajectory ends on the line.
     const auto &paths = panel().trajectory().posterior().paths();
-    QCOMPARE(paths[0].points.size(), static_cast<std::size_t>(found.stages));
+    QCOMPARE(paths[0].points.size(), std::size_t(found.stages));
     QVERIFY(std::abs(paths[0].points.back().y() - 120.0) < 4.0);
     QVERIFY(panel().trajectory().posterior().yAxis().first >= 99.0
             && panel().trajectory().posterior().yAxis().last() <= 141.0);

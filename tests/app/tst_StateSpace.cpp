@@ -36,7 +36,7 @@ double total(const std::vector<double> &law)
 /// Takes a bar a little below its top and moves it by so much of the ordinate.
 void dragBar(LawPlot &plot, int change, double by, bool isLetGo = true)
 {
-    const auto i = static_cast<std::size_t>(std::abs(change));
+    const auto i = std::size_t(std::abs(change));
     const double h = i < plot.law().size() ? plot.law()[i] : 0.0;
     const QPoint from = plot.canvasPosition(change, 0.5 * h).toPoint();
     const QPoint to = plot.canvasPosition(change, 0.5 * h + by).toPoint();
@@ -94,7 +94,7 @@ private slots:
         QVERIFY(states.marks().best());
         // The line's frames: the best state is the line's, and a track goes through it.
         Viewport &viewport = m_window->document().viewport();
-        const double seconds = analysis.time().value(static_cast<double>(analysis.time().nearest(30.0)));
+        const double seconds = analysis.time().value(double(analysis.time().nearest(30.0)));
         viewport.setCursor({seconds, 205.0});
         QVERIFY(settle(m_window->states()));
         QVERIFY(std::abs(states.marks().best()->column - (200.0 + 0.5 * seconds)) < 3.0);
@@ -135,7 +135,7 @@ private slots:
         StateSlicePanel &states = m_window->states();
         QCOMPARE(states.view()->picture()->rowCount(0), Index(17)); // -1 … 1 in eighths of a bin
         const Axis &time = m_window->document().analysis()->time();
-        m_window->document().viewport().setCursor({time.value(static_cast<double>(time.nearest(30.0))), 215.0});
+        m_window->document().viewport().setCursor({time.value(double(time.nearest(30.0))), 215.0});
         QVERIFY(settle(states));
         // The line drifts by 0.5 Hz/s; neighbouring slopes are 1 Hz / 0.25 s / 8 apart.
         QVERIFY(std::abs(states.marks().best()->column - 215.0) < 3.0);

@@ -80,7 +80,7 @@ private:
         injection.line.line.frequencyHz = number(10.0, 400.0);
         injection.line.line.durationSeconds = 5.0;
         injection.line.amplitude = number(0.01, 0.2);
-        injection.seed = static_cast<std::uint64_t>(upTo(1000));
+        injection.seed = std::uint64_t(upTo(1000));
         document.replaceOpened(withInjection(document.openedSource(), injection), "inject");
     }
 
@@ -88,7 +88,7 @@ private:
     {
         Annotations after = document.annotations();
         if (!after.boxes.empty() && upTo(3) == 0) {
-            after.boxes.erase(after.boxes.begin() + upTo(static_cast<int>(after.boxes.size())));
+            after.boxes.erase(after.boxes.begin() + upTo(int(after.boxes.size())));
         } else {
             const double start = number(0.0, 20.0);
             Annotation box{start, start + number(0.0, 5.0), {}, {}, "box " + std::to_string(upTo(99)),
@@ -106,7 +106,7 @@ private:
     {
         Annotations after = document.annotations();
         if (!after.reviews.empty() && upTo(2) == 0)
-            after.reviews[static_cast<std::size_t>(upTo(static_cast<int>(after.reviews.size())))].note =
+            after.reviews[std::size_t(upTo(int(after.reviews.size())))].note =
                 "note " + std::to_string(upTo(99)) + " ½";
         else
             after.reviews.push_back(
@@ -156,15 +156,13 @@ private slots:
         std::vector<Kept> states{before}; // by the undo stack's index
         for (int i = 0; i < 200; ++i) {
             edits.editOnce(document);
-            states.resize(static_cast<std::size_t>(document.undoStack().index()));
+            states.resize(std::size_t(document.undoStack().index()));
             states.push_back(keptOf(document));
         }
         QVERIFY(document.undoStack().count() > 100);
         QCOMPARE(std::size_t(document.undoStack().count()) + 1, states.size());
 
-        const auto isThere = [&] {
-            return keptOf(document) == states[static_cast<std::size_t>(document.undoStack().index())];
-        };
+        const auto isThere = [&] { return keptOf(document) == states[std::size_t(document.undoStack().index())]; };
         while (document.undoStack().canUndo()) {
             document.undoStack().undo();
             QVERIFY(isThere());

@@ -71,7 +71,7 @@ void tst_WhyPanel::termsAddUp()
     for (const PathStep &step : explanation.steps)
         sum += step.logLikelihoodRatio + step.lnTransition + step.lnK;
     QVERIFY(std::abs(sum - explanation.displayed) < 1e-3 * std::max(1.0, std::abs(sum)));
-    QCOMPARE(why.ladder()->rowCount(), static_cast<int>(explanation.steps.size()));
+    QCOMPARE(why.ladder()->rowCount(), int(explanation.steps.size()));
     QCOMPARE(why.ladder()->item(0, 5)->text().replace(QChar(0x2212), '-').toDouble(),
              std::round(100.0 * explanation.steps.back().score) / 100.0);
     QCOMPARE(why.plot().chart().curves.size(), std::size_t(2));

@@ -260,7 +260,7 @@ void tst_cliBadInput::changedBytes()
     for (int trial = 0; trial < 30; ++trial) {
         QByteArray bytes = whole;
         for (int change = 0; change <= trial % 3; ++change) {
-            const int at = random.bounded(static_cast<int>(std::min<qsizetype>(bytes.size(), 300)));
+            const int at = random.bounded(int(std::min<qsizetype>(bytes.size(), 300)));
             if (random.bounded(4) == 0)
                 bytes.remove(at, 1 + random.bounded(20));
             else

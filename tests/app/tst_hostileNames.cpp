@@ -251,7 +251,7 @@ void tst_hostileNames::gridsAreHarmless()
     // Frames with axes of hostile names and units beside them.
     QByteArray npy("\x93NUMPY\x01\x00", 8);
     QByteArray header("{'descr': '<f4', 'fortran_order': False, 'shape': (6, 12, 4), }");
-    header += QByteArray(static_cast<int>(64 - (10 + header.size() + 1) % 64), ' ') + '\n';
+    header += QByteArray(int(64 - (10 + header.size() + 1) % 64), ' ') + '\n';
     npy += char(header.size()) + QByteArray(1, '\0') + header;
     std::mt19937 random(1);
     std::exponential_distribution<float> power(1.0f);

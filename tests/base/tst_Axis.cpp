@@ -48,7 +48,7 @@ void tst_Axis::positionUndoesValue()
     for (const Axis &axis :
          {frequency, bearing, Axis{"f", "Hz", -0.3, 1e-3, 7, false}, Axis{"t", "s", 1e6, 0.125, 9, false}})
         for (Index i = -3; i < axis.count + 3; ++i) {
-            const auto index = static_cast<double>(i);
+            const auto index = double(i);
             QVERIFY(std::abs(axis.position(axis.value(index)) - index)
                     < 1e-9 * std::max(1.0, std::abs(axis.first / axis.step)));
         }

@@ -33,7 +33,7 @@ private slots:
             const std::vector<Index> at = framesOf(kept);
             QVERIFY(at.size() >= 5); // more than half of what there is room for
             for (std::size_t i = 0; i < at.size(); ++i)
-                QCOMPARE(at[i], static_cast<Index>(i + 1) * kept.interval());
+                QCOMPARE(at[i], Index(i + 1) * kept.interval());
         }
     }
 
@@ -43,7 +43,7 @@ private slots:
         std::size_t largest = 0;
         for (Index frame = 1; frame <= 200; ++frame)
             if (kept.lacks(frame)) {
-                kept.keep(frame, std::make_shared<const int>(0), static_cast<std::size_t>(frame));
+                kept.keep(frame, std::make_shared<const int>(0), std::size_t(frame));
                 largest = std::max(largest, kept.bytes());
             }
         QVERIFY(largest <= 1000);
@@ -72,7 +72,7 @@ private:
     {
         for (Index frame = 0; frame < frames; ++frame)
             if (kept.lacks(frame))
-                kept.keep(frame, std::make_shared<const int>(static_cast<int>(frame)), bytes);
+                kept.keep(frame, std::make_shared<const int>(int(frame)), bytes);
     }
 
     static std::vector<Index> framesOf(const Checkpoints<int> &kept)

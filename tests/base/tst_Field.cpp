@@ -284,7 +284,7 @@ void tst_Field::numbersReadBackBitForBit()
     Random random(1, 2);
     int tried = 0;
     while (tried < 20000) {
-        const std::uint64_t bits = static_cast<std::uint64_t>(random.bits()) << 32 | random.bits();
+        const std::uint64_t bits = std::uint64_t(random.bits()) << 32 | random.bits();
         double value;
         std::memcpy(&value, &bits, sizeof value);
         if (!std::isfinite(value) || value == 0.0)

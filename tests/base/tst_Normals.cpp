@@ -49,8 +49,8 @@ double normalLaw(double x)
 void tst_Normals::logarithm()
 {
     for (double x = 0x1p-32; x < 1e6; x *= 1.00037) {
-        const auto rounded = static_cast<float>(x);
-        const double exact = std::log(static_cast<double>(rounded));
+        const auto rounded = float(x);
+        const double exact = std::log(double(rounded));
         QVERIFY(std::abs(fastLn(rounded) - exact)
                 <= 2e-7 * std::max(std::abs(exact), 0.5 * std::abs(rounded - 1.0) + 1e-30));
     }
@@ -60,9 +60,9 @@ void tst_Normals::logarithm()
 void tst_Normals::sineAndCosine()
 {
     for (int i = -100000; i <= 100000; ++i) {
-        const auto turns = static_cast<float>(i * 5e-6);
+        const auto turns = float(i * 5e-6);
         const auto [sine, cosine] = fastSineCosineTurns(turns);
-        const double angle = 2.0 * std::numbers::pi * static_cast<double>(turns);
+        const double angle = 2.0 * std::numbers::pi * double(turns);
         QVERIFY(std::abs(sine - std::sin(angle)) < 2.5e-7);
         QVERIFY(std::abs(cosine - std::cos(angle)) < 2.5e-7);
     }
@@ -74,9 +74,9 @@ void tst_Normals::moments()
     std::array<double, 5> moment{};
     for (const float value : normals(1, 2, n))
         for (int power = 1; power <= 4; ++power)
-            moment[std::size_t(power)] += std::pow(static_cast<double>(value), power) / n;
+            moment[std::size_t(power)] += std::pow(double(value), power) / n;
     // Five standard errors each: those of the moments are √(1, 2, 15, 96)/√n.
-    const double unit = 5.0 / std::sqrt(static_cast<double>(n));
+    const double unit = 5.0 / std::sqrt(double(n));
     QVERIFY(std::abs(moment[1]) < unit);
     QVERIFY(std::abs(moment[2] - 1.0) < std::sqrt(2.0) * unit);
     QVERIFY(std::abs(moment[3]) < std::sqrt(15.0) * unit);
@@ -87,11 +87,11 @@ void tst_Normals::kolmogorovSmirnov()
 {
     std::vector<float> values = normals(3, 4, 1'000'000);
     std::sort(values.begin(), values.end());
-    const double n = static_cast<double>(values.size());
+    const double n = double(values.size());
     double largest = 0.0;
     for (std::size_t i = 0; i < values.size(); ++i) {
-        const double law = normalLaw(static_cast<double>(values[i]));
-        largest = std::max({largest, law - static_cast<double>(i) / n, static_cast<double>(i + 1) / n - law});
+        const double law = normalLaw(double(values[i]));
+        largest = std::max({largest, law - double(i) / n, double(i + 1) / n - law});
     }
     QVERIFY(largest * std::sqrt(n) < 1.95); // exceeded once in a thousand by normal numbers
     QVERIFY(values.front() > -6.8f && values.back() < 6.8f);
@@ -107,8 +107,8 @@ void tst_Normals::neighboursAreUncorrelated()
         double sum = 0.0;
         double squares = 0.0; // of the squares' correlation, where Box-Muller would fail first
         for (std::size_t i = lag; i < values.size(); ++i) {
-            const double a = static_cast<double>(values[i]);
-            const double b = static_cast<double>(values[i - lag]);
+            const double a = double(values[i]);
+            const double b = double(values[i - lag]);
             sum += a * b;
             squares += (a * a - 1.0) * (b * b - 1.0) / 2.0;
         }
@@ -138,8 +138,7 @@ void tst_Normals::theBlocksAreThoseOfBits()
     for (std::size_t i = 0; i < fast.size(); i += 2) {
         const double uniform = (random.bits() / 2 + 0.5) * 0x1p-31;
         const std::uint32_t word = random.bits();
-        const double angle =
-            2.0 * std::numbers::pi * static_cast<double>(static_cast<std::int32_t>(word << 2)) * 0x1p-34;
+        const double angle = 2.0 * std::numbers::pi * double(std::int32_t(word << 2)) * 0x1p-34;
         const double radius = std::sqrt(-2.0 * std::log(uniform)) * (word >> 31 ? -1.0 : 1.0);
         const bool mirrored = (word >> 30) & 1;
         QVERIFY(std::abs(fast[i] - radius * (mirrored ? std::sin(angle) : std::cos(angle))) < 3e-6);
@@ -159,7 +158,7 @@ void tst_Normals::exponential()
 {
     double worst = 0.0;
     for (float x = -86.9f; x < 87.9f; x += 0.0137f)
-        worst = std::max(worst, std::abs(static_cast<double>(fastExp(x)) / std::exp(static_cast<double>(x)) - 1.0));
+        worst = std::max(worst, std::abs(double(fastExp(x)) / std::exp(double(x)) - 1.0));
     QVERIFY(worst < 2e-7);
     QCOMPARE(fastExp(0.0f), 1.0f);
     QCOMPARE(fastExp(1000.0f), fastExp(88.0f));
@@ -175,12 +174,11 @@ void tst_Normals::exponentials()
     std::sort(sorted.begin(), sorted.end());
     double distance = 0.0;
     for (std::size_t i = 0; i < sorted.size(); ++i) {
-        const double law = -std::expm1(-static_cast<double>(sorted[i]));
-        const auto n = static_cast<double>(sorted.size());
-        distance = std::max(
-            {distance, std::abs(law - static_cast<double>(i) / n), std::abs(law - static_cast<double>(i + 1) / n)});
+        const double law = -std::expm1(-double(sorted[i]));
+        const auto n = double(sorted.size());
+        distance = std::max({distance, std::abs(law - double(i) / n), std::abs(law - double(i + 1) / n)});
     }
-    QVERIFY(distance < 1.95 / std::sqrt(static_cast<double>(sorted.size()))); // Kolmogorov-Smirnov, one in a thousand
+    QVERIFY(distance < 1.95 / std::sqrt(double(sorted.size()))); // Kolmogorov-Smirnov, one in a thousand
 
     // Cut at multiples of 4 it is the same stream, and each word is one value.
     std::vector<float> parts(1000);
@@ -191,8 +189,7 @@ void tst_Normals::exponentials()
     QVERIFY(std::equal(parts.begin(), parts.end(), values.begin()));
     Random words(7, 1);
     for (std::size_t i = 0; i < 1000; ++i)
-        QVERIFY(std::abs(static_cast<double>(values[i]) - words.exponential())
-                < 1e-6 * (1.0 + static_cast<double>(values[i])));
+        QVERIFY(std::abs(double(values[i]) - words.exponential()) < 1e-6 * (1.0 + double(values[i])));
 }
 
 QTEST_APPLESS_MAIN(tst_Normals)

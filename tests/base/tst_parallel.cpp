@@ -29,7 +29,7 @@ void tst_parallel::everyItemOnce()
         RunContext context;
         context.threads = threads;
         std::vector<int> done(1000, 0);
-        parallelFor(1000, context, "", [&] { return [&](Index i) { ++done[static_cast<std::size_t>(i)]; }; });
+        parallelFor(1000, context, "", [&] { return [&](Index i) { ++done[std::size_t(i)]; }; });
         QCOMPARE(done, std::vector<int>(1000, 1));
     }
     parallelFor(0, {}, "", [] { return [](Index) { QFAIL("there is nothing to do"); }; });
@@ -86,8 +86,7 @@ void tst_parallel::withinAnother()
     std::vector<int> done(64 * 64, 0);
     parallelFor(64, context, "", [&] {
         return [&](Index outer) {
-            parallelFor(64, context, "",
-                        [&] { return [&](Index inner) { ++done[static_cast<std::size_t>(outer * 64 + inner)]; }; });
+            parallelFor(64, context, "", [&] { return [&](Index inner) { ++done[std::size_t(outer * 64 + inner)]; }; });
         };
     });
     QCOMPARE(done, std::vector<int>(64 * 64, 1));

@@ -29,10 +29,8 @@ double likeness(const std::vector<float> &window, Index shift, Index bins, Index
 {
     std::complex<double> sum = 0.0;
     for (Index n = 0; n + shift < std::ssize(window); ++n) {
-        const double phase =
-            2.0 * std::numbers::pi * static_cast<double>(bins * n % length) / static_cast<double>(length);
-        sum += static_cast<double>(window[static_cast<std::size_t>(n)])
-               * static_cast<double>(window[static_cast<std::size_t>(n + shift)]) * std::polar(1.0, phase);
+        const double phase = 2.0 * std::numbers::pi * double(bins * n % length) / double(length);
+        sum += double(window[std::size_t(n)]) * double(window[std::size_t(n + shift)]) * std::polar(1.0, phase);
     }
     return std::norm(sum);
 }
@@ -41,13 +39,13 @@ double likeness(const std::vector<float> &window, Index shift, Index bins, Index
 double countingError(const Spectrogram &s, Index frames, Index bins)
 {
     const std::vector<float> window = sampleWindow(s.settings().window, s.windowSamples());
-    const auto reach = static_cast<Index>(std::ceil(4.0 * s.binsPerCell()));
+    const auto reach = Index(std::ceil(4.0 * s.binsPerCell()));
     double sum = 0.0;
     for (Index i = 0; i < std::min<Index>(frames, s.settings().stepsPerWindow); ++i)
         for (Index k = 0; k <= std::min(reach, bins - 1); ++k)
             sum += likeness(window, i * s.hopSamples(), k, s.transformLength()) * (i > 0 ? 2.0 : 1.0)
-                   * (k > 0 ? 2.0 : 1.0) * static_cast<double>((frames - i) * (bins - k));
-    return std::sqrt(sum) / static_cast<double>(frames * bins);
+                   * (k > 0 ? 2.0 : 1.0) * double((frames - i) * (bins - k));
+    return std::sqrt(sum) / double(frames * bins);
 }
 
 } // namespace
@@ -71,7 +69,7 @@ try {
                                            settings.noise);
     const Index frames = normalised.time().count;
     const Index bins = normalised.grid().size();
-    std::vector<float> y(static_cast<std::size_t>(frames * bins));
+    std::vector<float> y(std::size_t(frames * bins));
     normalised.read(0, frames, y);
     if (!dump.empty()) {
         NumPyWriter out(dump + ".y.npy", {frames, bins});
@@ -83,12 +81,11 @@ try {
         raw.write(power);
         raw.finish();
     }
-    const auto edge = static_cast<Index>(std::ceil(static_cast<double>(leftOut) * spectrogram->binsPerCell()));
+    const auto edge = Index(std::ceil(double(leftOut) * spectrogram->binsPerCell()));
     for (const auto &[tileFrames, tileCells] :
          {std::pair<Index, Index>{1, 200}, {4, 200}, {16, 40}, {16, 200}, {64, 40}, {64, 200}, {256, 20}}) {
         const Index tileBins =
-            std::min(static_cast<Index>(std::lround(static_cast<double>(tileCells) * spectrogram->binsPerCell())),
-                     bins - 2 * edge);
+            std::min(Index(std::lround(double(tileCells) * spectrogram->binsPerCell())), bins - 2 * edge);
         std::vector<double> errors;
         for (Index first = 0; first + tileFrames <= frames; first += tileFrames)
             for (Index bin = edge; bin + tileBins <= bins - edge; bin += tileBins) {
@@ -96,25 +93,23 @@ try {
                 double counted = 0.0;
                 for (Index frame = first; frame < first + tileFrames; ++frame)
                     for (Index k = bin; k < bin + tileBins; ++k) {
-                        const float value = y[static_cast<std::size_t>(frame * bins + k)];
-                        sum += static_cast<double>(value);
+                        const float value = y[std::size_t(frame * bins + k)];
+                        sum += double(value);
                         counted += value > 0.0f ? 1.0 : 0.0;
                     }
-                if (counted >= 0.9 * static_cast<double>(tileFrames * tileBins))
+                if (counted >= 0.9 * double(tileFrames * tileBins))
                     errors.push_back(sum / counted - 1.0);
             }
         if (errors.empty())
             continue;
         double mean = 0.0;
         for (const double error : errors)
-            mean += error / static_cast<double>(errors.size());
+            mean += error / double(errors.size());
         double square = 0.0;
         for (const double error : errors)
-            square += error * error / static_cast<double>(errors.size());
+            square += error * error / double(errors.size());
         std::sort(errors.begin(), errors.end());
-        const auto at = [&](double part) {
-            return errors[static_cast<std::size_t>(part * static_cast<double>(errors.size() - 1))];
-        };
+        const auto at = [&](double part) { return errors[std::size_t(part * double(errors.size() - 1))]; };
         const double counting = countingError(*spectrogram, tileFrames, tileBins);
         std::printf("%4lld x %-4lld %6zu tiles  mean %+7.4f  deviation %7.4f  counting %7.4f  ratio %6.2f  1 %% %+7.3f "
                     " 99 %% %+7.3f  most %+8.3f\n",

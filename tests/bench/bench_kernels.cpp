@@ -38,7 +38,7 @@ int main(int argc, char **argv)
                 const SpeedForm &form = formOf(kernel, name);
                 for ([[maybe_unused]] auto turn : state)
                     form.run();
-                state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(form.items));
+                state.SetItemsProcessed(state.iterations() * std::int64_t(form.items));
             })->UseRealTime();
     }
     benchmark::Initialize(&argc, argv);

@@ -40,13 +40,13 @@ double processorMilliseconds()
 {
     timespec time{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+    return 1e3 * double(time.tv_sec) + 1e-6 * double(time.tv_nsec);
 }
 
 double quantile(std::vector<double> values, double share)
 {
     std::sort(values.begin(), values.end());
-    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+    return values[std::size_t(share * double(values.size() - 1))];
 }
 
 /// One hour with a line every minute, as strong as to be found and as long as to be followed.
@@ -97,9 +97,8 @@ public:
     {
         const QPointF at = m_canvas->rect().center() + QPointF(20, 30);
         const QPointF inView = m_canvas->mapTo(m_window.workbench().output(), at);
-        QWheelEvent event(inView, m_canvas->mapToGlobal(at), {},
-                          QPoint(0, static_cast<int>(std::lround(120.0 * notches))), Qt::NoButton, Qt::ControlModifier,
-                          Qt::NoScrollPhase, false);
+        QWheelEvent event(inView, m_canvas->mapToGlobal(at), {}, QPoint(0, int(std::lround(120.0 * notches))),
+                          Qt::NoButton, Qt::ControlModifier, Qt::NoScrollPhase, false);
         QCoreApplication::sendEvent(m_window.workbench().output(), &event);
     }
 
@@ -114,7 +113,7 @@ public:
         QCoreApplication::sendPostedEvents();
         QCoreApplication::processEvents();
         cost.processor.push_back(processorMilliseconds() - before);
-        cost.clock.push_back(static_cast<double>(clock.nsecsElapsed()) * 1e-6);
+        cost.clock.push_back(double(clock.nsecsElapsed()) * 1e-6);
     }
 
     /// Drags the picture to and fro, a few pixels at a time.

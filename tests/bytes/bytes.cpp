@@ -63,7 +63,7 @@ void printLines()
     print("levels", background->lnLevel);
     const NormalisedSpectrogram normalised(spectrogram, background, settings.noise);
     const Index cells = normalised.grid().size();
-    std::vector<float> frames(static_cast<std::size_t>(normalised.time().count * cells));
+    std::vector<float> frames(std::size_t(normalised.time().count * cells));
     normalised.read(0, normalised.time().count, frames);
     print("normalised frames", frames);
 
@@ -93,7 +93,7 @@ void printPings()
     scene.rangeCells = 300;
     const SimulatedPings pings(scene);
     const Index cells = pings.grid().size();
-    std::vector<float> frames(static_cast<std::size_t>(4 * cells));
+    std::vector<float> frames(std::size_t(4 * cells));
     pings.read(0, 4, frames);
     print("pings", frames);
     AnalysisSettings settings = preset("sonar").settings;

@@ -33,20 +33,20 @@ struct Enumeration {
 
     void run()
     {
-        sums.assign(static_cast<std::size_t>(frames * space.stateCount()), 0.0);
+        sums.assign(std::size_t(frames * space.stateCount()), 0.0);
         for (Index n = 0; n < space.stateCount(); ++n)
-            descend(n, initial[static_cast<std::size_t>(n)]);
+            descend(n, initial[std::size_t(n)]);
     }
 
     void descend(Index state, double weight)
     {
         const Index t = std::ssize(path);
-        weight *= std::exp(lambda[static_cast<std::size_t>(t * space.cellCount() + space.cellOf(state))]);
+        weight *= std::exp(lambda[std::size_t(t * space.cellCount() + space.cellOf(state))]);
         path.push_back(state);
         if (t + 1 == frames) {
             total += weight;
             for (Index i = 0; i < frames; ++i)
-                sums[static_cast<std::size_t>(i * space.stateCount() + path[static_cast<std::size_t>(i)])] += weight;
+                sums[std::size_t(i * space.stateCount() + path[std::size_t(i)])] += weight;
         } else {
             for (Index next = 0; next < space.stateCount(); ++next)
                 for (const StateSpace::Predecessor &p : space.predecessors(next, t + 1))
@@ -89,10 +89,10 @@ void tst_ForwardBackward::equalsEnumeration()
         {axis(4, false, -1, 3, {0.8, 0.1}, {}, 2)},
         {axis(3, false, 0, 1, {1.0}, {0.6, 0.2}, 1), axis(2, false, -1, 2, {0.6, 0.2}, {}, 1)},
     };
-    const StateSpace space(laws[static_cast<std::size_t>(number)]);
+    const StateSpace space(laws[std::size_t(number)]);
     const Index frames = 4;
-    Random random(7, static_cast<std::uint64_t>(number));
-    std::vector<float> drawn(static_cast<std::size_t>(frames * space.cellCount() + space.stateCount()));
+    Random random(7, std::uint64_t(number));
+    std::vector<float> drawn(std::size_t(frames * space.cellCount() + space.stateCount()));
     random.exponentials(drawn);
     std::vector<double> lambda(drawn.begin(), drawn.begin() + frames * space.cellCount());
     for (double &value : lambda)

@@ -26,7 +26,7 @@ std::vector<float> noise(std::uint64_t frame)
     Random random(21, frame);
     std::vector<float> y(240);
     for (float &value : y)
-        value = static_cast<float>(random.exponential());
+        value = float(random.exponential());
     return y;
 }
 
@@ -63,7 +63,7 @@ void tst_ModelBank::isTheBestOfItsMembers()
         for (std::size_t cell = 0; cell < d.size(); ++cell) {
             QCOMPARE(d[cell], std::max(a[cell], b[cell] + 0.5f));
             const std::size_t winner = b[cell] + 0.5f > a[cell] ? 1 : 0;
-            QCOMPARE(bank.winnerAt(static_cast<Index>(cell)), winner);
+            QCOMPARE(bank.winnerAt(Index(cell)), winner);
             ++wins[winner];
         }
     }

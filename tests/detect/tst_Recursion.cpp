@@ -65,19 +65,18 @@ std::vector<Lattice> lattices()
 Index framesFor(const StateSpace &space)
 {
     Index frames = 1;
-    for (double paths = 1.0; frames < 5 && paths * static_cast<double>(space.stateCount()) < 3e4; ++frames)
-        paths *= static_cast<double>(space.stateCount());
+    for (double paths = 1.0; frames < 5 && paths * double(space.stateCount()) < 3e4; ++frames)
+        paths *= double(space.stateCount());
     return std::max<Index>(frames, 3);
 }
 
 std::vector<std::vector<float>> randomFrames(Index cells, Index frames, std::uint64_t stream)
 {
     Random random(77, stream);
-    std::vector<std::vector<float>> y(static_cast<std::size_t>(frames),
-                                      std::vector<float>(static_cast<std::size_t>(cells)));
+    std::vector<std::vector<float>> y(std::size_t(frames), std::vector<float>(std::size_t(cells)));
     for (auto &frame : y)
         for (float &value : frame)
-            value = static_cast<float>(random.exponential());
+            value = float(random.exponential());
     return y;
 }
 
@@ -112,13 +111,12 @@ private:
     {
         QTest::addColumn<int>("index");
         for (std::size_t i = 0; i < lattices().size(); ++i)
-            QTest::newRow(lattices()[i].name) << static_cast<int>(i);
+            QTest::newRow(lattices()[i].name) << int(i);
     }
     MarkovModel model() const
     {
         QFETCH(int, index);
-        return {StateSpace(lattices()[static_cast<std::size_t>(index)].axes), Likelihood(LikelihoodKind::Rice, 0.8),
-                1.0};
+        return {StateSpace(lattices()[std::size_t(index)].axes), Likelihood(LikelihoodKind::Rice, 0.8), 1.0};
     }
 };
 
@@ -144,9 +142,9 @@ void tst_Recursion::fractionalRatesKeepToTheirLine()
             for (const KinematicAxis::Move &move : axis.moves(step))
                 if (move.fromRate == rate && move.toRate == rate)
                     at += move.cells;
-            QVERIFY(std::abs(at - axis.rate(rate) * static_cast<double>(step + 1)) <= 0.5);
+            QVERIFY(std::abs(at - axis.rate(rate) * double(step + 1)) <= 0.5);
         }
-        QCOMPARE(at, static_cast<double>(5 * (rate - 8)));
+        QCOMPARE(at, double(5 * (rate - 8)));
     }
     QCOMPARE(axis.largestDisplacement(), 1);
     QCOMPARE(StateSpace({fractional(9, false, 8, 0, 2, {1.0}), fractional(9, false, 6, 0, 2, {1.0})}).phaseCount(),
@@ -158,14 +156,11 @@ void tst_Recursion::predecessorsAreTheDefinition()
     const MarkovModel m = model();
     for (Index step = 0; step < m.space.phaseCount() + 1; ++step)
         for (Index to = 0; to < m.space.stateCount(); ++to) {
-            std::vector<double> expected(static_cast<std::size_t>(m.space.stateCount()), 0.0);
+            std::vector<double> expected(std::size_t(m.space.stateCount()), 0.0);
             for (const StateSpace::Predecessor &p : m.space.predecessors(to, step))
-                expected[static_cast<std::size_t>(p.state)] =
-                    std::max(expected[static_cast<std::size_t>(p.state)], std::exp(p.lnProbability));
+                expected[std::size_t(p.state)] = std::max(expected[std::size_t(p.state)], std::exp(p.lnProbability));
             for (Index from = 0; from < m.space.stateCount(); ++from)
-                QVERIFY(
-                    std::abs(expected[static_cast<std::size_t>(from)] - transitionProbability(m.space, from, to, step))
-                    < 1e-12);
+                QVERIFY(std::abs(expected[std::size_t(from)] - transitionProbability(m.space, from, to, step)) < 1e-12);
         }
 }
 
@@ -177,7 +172,7 @@ void tst_Recursion::bestPathWithReset()
     const double lnK = 0.35;
     const auto y = randomFrames(m.space.cellCount(), frames, 1);
     Smd detector(m, {ResetLaw::Fixed, lnK});
-    std::vector<float> statistic(static_cast<std::size_t>(m.space.cellCount()));
+    std::vector<float> statistic(std::size_t(m.space.cellCount()));
     for (const auto &frame : y)
         detector.update(frame, statistic);
 
@@ -188,25 +183,23 @@ void tst_Recursion::bestPathWithReset()
             forEachPath(states, length, last, [&](const std::vector<Index> &path) {
                 double score = 0.0;
                 for (std::size_t i = 0; i < path.size(); ++i) {
-                    const auto t = static_cast<std::size_t>(frames - length) + i;
-                    score +=
-                        m.likelihood.at(static_cast<double>(y[t][static_cast<std::size_t>(m.space.cellOf(path[i]))]));
+                    const auto t = std::size_t(frames - length) + i;
+                    score += m.likelihood.at(double(y[t][std::size_t(m.space.cellOf(path[i]))]));
                     if (i > 0)
-                        score +=
-                            lnK + std::log(transitionProbability(m.space, path[i - 1], path[i], static_cast<Index>(t)));
+                        score += lnK + std::log(transitionProbability(m.space, path[i - 1], path[i], Index(t)));
                 }
                 best = std::max(best, score);
             });
         }
-        const auto found = static_cast<double>(detector.scores()[static_cast<std::size_t>(last)]);
+        const auto found = double(detector.scores()[std::size_t(last)]);
         QVERIFY2(std::abs(found - best) < 2e-5,
                  qPrintable(QString("state %1: %2, enumeration %3").arg(last).arg(found).arg(best)));
     }
     for (Index cell = 0; cell < m.space.cellCount(); ++cell) {
         float best = -1e30f;
         for (Index plane = 0; plane < m.space.planeCount(); ++plane)
-            best = std::max(best, detector.scores()[static_cast<std::size_t>(plane * m.space.cellCount() + cell)]);
-        QCOMPARE(statistic[static_cast<std::size_t>(cell)], best);
+            best = std::max(best, detector.scores()[std::size_t(plane * m.space.cellCount() + cell)]);
+        QCOMPARE(statistic[std::size_t(cell)], best);
     }
 }
 
@@ -217,7 +210,7 @@ void tst_Recursion::bestPathWithoutReset()
     const Index frames = framesFor(m.space);
     const auto y = randomFrames(m.space.cellCount(), frames, 2);
     Smd detector(m, {ResetLaw::None});
-    std::vector<float> statistic(static_cast<std::size_t>(m.space.cellCount()));
+    std::vector<float> statistic(std::size_t(m.space.cellCount()));
     for (const auto &frame : y)
         detector.update(frame, statistic);
     for (Index last = 0; last < states; ++last) {
@@ -225,13 +218,13 @@ void tst_Recursion::bestPathWithoutReset()
         forEachPath(states, frames, last, [&](const std::vector<Index> &path) {
             double score = 0.0;
             for (std::size_t i = 0; i < path.size(); ++i) {
-                score += m.likelihood.at(static_cast<double>(y[i][static_cast<std::size_t>(m.space.cellOf(path[i]))]));
+                score += m.likelihood.at(double(y[i][std::size_t(m.space.cellOf(path[i]))]));
                 if (i > 0)
-                    score += std::log(transitionProbability(m.space, path[i - 1], path[i], static_cast<Index>(i)));
+                    score += std::log(transitionProbability(m.space, path[i - 1], path[i], Index(i)));
             }
             best = std::max(best, score);
         });
-        const auto found = static_cast<double>(detector.scores()[static_cast<std::size_t>(last)]);
+        const auto found = double(detector.scores()[std::size_t(last)]);
         if (best == minus)
             QCOMPARE(found, minus); // nobody reaches this state
         else
@@ -246,18 +239,17 @@ void tst_Recursion::sumOverPaths()
     const Index frames = framesFor(m.space);
     const auto y = randomFrames(m.space.cellCount(), frames, 3);
     SumDetector detector(m, {ResetLaw::None});
-    std::vector<float> statistic(static_cast<std::size_t>(m.space.cellCount()));
+    std::vector<float> statistic(std::size_t(m.space.cellCount()));
     for (const auto &frame : y)
         detector.update(frame, statistic);
     double total = 0.0; // in the linear domain, uniform initial law
     for (Index last = 0; last < states; ++last)
         forEachPath(states, frames, last, [&](const std::vector<Index> &path) {
-            double product = 1.0 / static_cast<double>(states);
+            double product = 1.0 / double(states);
             for (std::size_t i = 0; i < path.size(); ++i) {
-                product *= std::exp(
-                    m.likelihood.at(static_cast<double>(y[i][static_cast<std::size_t>(m.space.cellOf(path[i]))])));
+                product *= std::exp(m.likelihood.at(double(y[i][std::size_t(m.space.cellOf(path[i]))])));
                 if (i > 0)
-                    product *= transitionProbability(m.space, path[i - 1], path[i], static_cast<Index>(i));
+                    product *= transitionProbability(m.space, path[i - 1], path[i], Index(i));
             }
             total += product;
         });
@@ -275,8 +267,8 @@ void tst_Recursion::sumWithReset()
     double expected = 0.0;
     for (float y : {0.5f, 1.25f, 0.0f, 2.0f}) {
         detector.update(std::vector<float>{y}, statistic);
-        expected = std::exp(static_cast<double>(y)) * (expected == 0.0 ? 1.0 : 0.5 * expected + 1.0);
-        QVERIFY(std::abs(static_cast<double>(statistic[0]) - std::log(expected)) < 1e-6);
+        expected = std::exp(double(y)) * (expected == 0.0 ? 1.0 : 0.5 * expected + 1.0);
+        QVERIFY(std::abs(double(statistic[0]) - std::log(expected)) < 1e-6);
     }
 }
 
@@ -290,20 +282,19 @@ void tst_Recursion::tracedTermsAddUp()
     const double lnK = 0.2;
     const auto y = randomFrames(m.space.cellCount(), frames, 4);
     Smd detector(m, {ResetLaw::Fixed, lnK});
-    std::vector<float> statistic(static_cast<std::size_t>(m.space.cellCount()));
+    std::vector<float> statistic(std::size_t(m.space.cellCount()));
     std::vector<std::vector<float>> scores;
     for (const auto &frame : y) {
         detector.update(frame, statistic);
         scores.emplace_back(detector.scores().begin(), detector.scores().end());
     }
     RecursionRecord record;
-    record.frame = [&](Index t) { return std::span<const float>(y[static_cast<std::size_t>(t)]); };
+    record.frame = [&](Index t) { return std::span<const float>(y[std::size_t(t)]); };
     record.lnK = [&](Index) { return lnK; };
     record.forgotten = [](Index) { return std::span<const CellBox>(); };
     for (Index state = 0; state < m.space.stateCount(); ++state) {
         const std::vector<PathStep> path =
-            tracePath(m, grid, record, frames - 1, state,
-                      static_cast<double>(detector.scores()[static_cast<std::size_t>(state)]));
+            tracePath(m, grid, record, frames - 1, state, double(detector.scores()[std::size_t(state)]));
         QCOMPARE(path.back().state, state);
         QCOMPARE(path.back().frame, frames - 1);
         double sum = 0.0;
@@ -317,17 +308,17 @@ void tst_Recursion::tracedTermsAddUp()
             }
             sum += path[i].logLikelihoodRatio + path[i].lnTransition + path[i].lnK;
         }
-        QVERIFY(std::abs(sum - static_cast<double>(detector.scores()[static_cast<std::size_t>(state)])) < 1e-4);
+        QVERIFY(std::abs(sum - double(detector.scores()[std::size_t(state)])) < 1e-4);
 
         // With checkpoints in every fifth frame, the newest forgotten: the same path.
         RecursionRecord cut = record;
         cut.checkpoint = [&](Index before) {
             const Index at = std::min<Index>((before - 1) / 5 * 5, 30);
-            return before > at ? RecursionRecord::Checkpoint{at, scores[static_cast<std::size_t>(at)]}
+            return before > at ? RecursionRecord::Checkpoint{at, scores[std::size_t(at)]}
                                : RecursionRecord::Checkpoint{};
         };
-        const std::vector<PathStep> again = tracePath(
-            m, grid, cut, frames - 1, state, static_cast<double>(detector.scores()[static_cast<std::size_t>(state)]));
+        const std::vector<PathStep> again =
+            tracePath(m, grid, cut, frames - 1, state, double(detector.scores()[std::size_t(state)]));
         QCOMPARE(again.size(), path.size());
         for (std::size_t i = 0; i < path.size(); ++i)
             QCOMPARE(again[i].state, path[i].state);
@@ -347,7 +338,7 @@ void tst_Recursion::aThousandFramesStayFinite()
     }
     QVERIFY(std::isfinite(sum.lnMean()));
     // The sum holds the best path and less than all of them at the best's score.
-    const double score = static_cast<double>(*std::max_element(statistic.begin(), statistic.end()));
+    const double score = double(*std::max_element(statistic.begin(), statistic.end()));
     QVERIFY(sum.lnMean() > score - std::log(18.0) - 1e-3);
 }
 
@@ -396,11 +387,11 @@ void tst_Recursion::tilesAreTheDefinition()
         {fractional(9000, false, 8, -8, 17, {0.9, 0.05})},
         {fractional(300, false, 2, -8, 17, {0.8, 0.1}), fractional(12, true, 3, -2, 5, {0.6, 0.2})}};
     QFETCH(int, index);
-    const StateSpace space(spaces[static_cast<std::size_t>(index)]);
+    const StateSpace space(spaces[std::size_t(index)]);
     Random random(78, 0);
-    std::vector<float> scores(static_cast<std::size_t>(space.stateCount()));
+    std::vector<float> scores(std::size_t(space.stateCount()));
     for (float &score : scores)
-        score = static_cast<float>(10.0 * random.exponential());
+        score = float(10.0 * random.exponential());
     Recursion<MaxPlus<float>> recursion(space);
     for (Index step = 0; step < space.phaseCount(); ++step) {
         const std::span<const float> predicted = recursion.predict(scores, step);
@@ -408,7 +399,7 @@ void tst_Recursion::tilesAreTheDefinition()
         Recursion<MaxPlus<float>> tiled(space);
         tiled.predict(scores, step, [&](Index plane, Index firstCell, std::span<const float> part) {
             for (std::size_t i = 0; i < part.size(); ++i) {
-                const std::size_t n = static_cast<std::size_t>(plane * space.cellCount() + firstCell) + i;
+                const std::size_t n = std::size_t(plane * space.cellCount() + firstCell) + i;
                 ++visits[n];
                 QCOMPARE(part[i], predicted[n]);
             }
@@ -416,8 +407,8 @@ void tst_Recursion::tilesAreTheDefinition()
         for (Index state = 0; state < space.stateCount(); state += state % 97 == 0 ? 1 : 61) {
             double best = minus;
             for (const StateSpace::Predecessor &p : space.predecessors(state, step))
-                best = std::max(best, static_cast<double>(scores[static_cast<std::size_t>(p.state)]) + p.lnProbability);
-            const auto found = static_cast<double>(predicted[static_cast<std::size_t>(state)]);
+                best = std::max(best, double(scores[std::size_t(p.state)]) + p.lnProbability);
+            const auto found = double(predicted[std::size_t(state)]);
             QVERIFY2(best == minus ? found == minus : std::abs(found - best) < 2e-5,
                      qPrintable(QString("state %1").arg(state)));
         }

@@ -24,7 +24,7 @@ std::vector<float> exponentials(Random &random, Index count)
 {
     std::vector<float> y(static_cast<std::size_t>(count));
     for (float &value : y)
-        value = static_cast<float>(random.exponential());
+        value = float(random.exponential());
     return y;
 }
 
@@ -67,7 +67,7 @@ void tst_Smd::lindley()
         continued += detector.regulation().continuedFraction;
         for (float u : statistic)
             for (std::size_t i = 0; i < levels.size(); ++i)
-                above[i] += static_cast<double>(u) + lnK > levels[i] ? 1.0 : 0.0;
+                above[i] += double(u) + lnK > levels[i] ? 1.0 : 0.0;
     }
     QVERIFY2(std::abs(continued / frames - sigma) < 0.002,
              qPrintable(QString("%1, closed form %2").arg(continued / frames).arg(sigma)));
@@ -93,11 +93,11 @@ void tst_Smd::meanLawBalances()
         detector.update(y, statistic);
         double scores = 0.0;
         for (float score : detector.scores())
-            scores += static_cast<double>(score) + detector.offset();
+            scores += double(score) + detector.offset();
         double mean = 0.0;
         for (float value : y)
-            mean += static_cast<double>(value);
-        QVERIFY(std::abs(scores / static_cast<double>(detector.scores().size()) - mean / 64.0) < 1e-5);
+            mean += double(value);
+        QVERIFY(std::abs(scores / double(detector.scores().size()) - mean / 64.0) < 1e-5);
     }
 }
 
@@ -147,7 +147,7 @@ void tst_Smd::forgetting()
     detector.forget(grid, {{20}, {3}});
     for (Index plane = 0; plane < 5; ++plane)
         for (Index cell = 17; cell <= 23; ++cell)
-            QVERIFY(detector.scores()[static_cast<std::size_t>(plane * 50 + cell)] <= 0.0f);
+            QVERIFY(detector.scores()[std::size_t(plane * 50 + cell)] <= 0.0f);
 }
 
 void tst_Smd::resumesFromMemory()
@@ -159,13 +159,13 @@ void tst_Smd::resumesFromMemory()
     for (int t = 0; t < 40; ++t)
         frames.push_back(exponentials(random, 100));
     for (int t = 0; t < 20; ++t)
-        whole.update(frames[static_cast<std::size_t>(t)], statistic);
+        whole.update(frames[std::size_t(t)], statistic);
     Smd resumed(fiveSlopes(100), {ResetLaw::Half, 0.5});
     resumed.setState(*whole.state());
     std::vector<float> again(100);
     for (int t = 20; t < 40; ++t) {
-        whole.update(frames[static_cast<std::size_t>(t)], statistic);
-        resumed.update(frames[static_cast<std::size_t>(t)], again);
+        whole.update(frames[std::size_t(t)], statistic);
+        resumed.update(frames[std::size_t(t)], again);
         QCOMPARE(again, statistic);
         QCOMPARE(resumed.regulation().lnK, whole.regulation().lnK);
     }
@@ -178,9 +178,8 @@ void tst_Smd::firstFrameIsTheLikelihood()
     detector.update(std::vector<float>{0.0f, 1.0f, 10.0f}, statistic);
     // -r0 + ln I0(2√(r0 y)), r0 = 0.5; I0(√2) = 1.56608, I0(√20) = 17.4989
     QVERIFY(std::abs(statistic[0] + 0.5f) < 1e-6f);
-    QVERIFY(std::abs(static_cast<double>(statistic[1]) - (-0.5 + std::log(1.5660829297563506))) < 1e-5);
-    QVERIFY(std::abs(static_cast<double>(statistic[2]) - (-0.5 + std::log(std::cyl_bessel_i(0.0, std::sqrt(20.0)))))
-            < 1e-5);
+    QVERIFY(std::abs(double(statistic[1]) - (-0.5 + std::log(1.5660829297563506))) < 1e-5);
+    QVERIFY(std::abs(double(statistic[2]) - (-0.5 + std::log(std::cyl_bessel_i(0.0, std::sqrt(20.0))))) < 1e-5);
 }
 
 QTEST_APPLESS_MAIN(tst_Smd)

@@ -50,7 +50,7 @@ KinematicAxis ring(double deviation)
 
 KinematicAxis matrix(std::vector<double> rows)
 {
-    KinematicAxis a = axis(static_cast<Index>(std::sqrt(static_cast<double>(rows.size()))));
+    KinematicAxis a = axis(Index(std::sqrt(double(rows.size()))));
     a.transition = std::move(rows);
     return a;
 }
@@ -153,15 +153,15 @@ SequentialModel unfolded(const World &world)
     Index folded = 1;
     for (std::size_t i = 0; i < axes.size(); ++i)
         if (world.isFolded[i]) {
-            const auto cells = static_cast<std::size_t>(axes[i].cells);
-            axes[i].transition.assign(cells * cells, 1.0 / static_cast<double>(cells));
+            const auto cells = std::size_t(axes[i].cells);
+            axes[i].transition.assign(cells * cells, 1.0 / double(cells));
             folded *= axes[i].cells;
         }
     SequentialModel model = makeSequentialModel(axes, std::vector<bool>(axes.size(), false), twoToOne);
     if (!world.initial.empty()) // of the worlds here the Doppler axis comes first
         for (Index d = 0; d < folded; ++d)
             for (const double p : world.initial)
-                model.initial.push_back(p / static_cast<double>(folded));
+                model.initial.push_back(p / double(folded));
     return model;
 }
 
@@ -194,11 +194,11 @@ double probability(const StateSpace &space, Index from, Index to, Index step)
         if (x.renormalised && x.step.empty()) {
             product *= sharedProbability(x, a.cells[i], a.rates[i], b.cells[i], b.rates[i], step);
         } else if (!x.transition.empty()) {
-            product *= x.transition[static_cast<std::size_t>(a.cells[i] * x.cells + b.cells[i])];
+            product *= x.transition[std::size_t(a.cells[i] * x.cells + b.cells[i])];
         } else if (x.renormalised) {
             const auto q = [&](Index cell) {
                 const Index apart = std::abs(cell - a.cells[i]);
-                const auto d = static_cast<std::size_t>(x.cyclic ? std::min(apart, x.cells - apart) : apart);
+                const auto d = std::size_t(x.cyclic ? std::min(apart, x.cells - apart) : apart);
                 return d < x.step.size() ? x.step[d] : 0.0;
             };
             double sum = 0.0;
@@ -226,11 +226,11 @@ Enumerated enumerate(const SequentialModel &model, const std::vector<std::vector
     Enumerated all;
     for (Index last = 0; last < space.stateCount(); ++last)
         forEachPath(space.stateCount(), stages, last, [&](const std::vector<Index> &path) {
-            double p = initial[static_cast<std::size_t>(path[0])];
+            double p = initial[std::size_t(path[0])];
             for (std::size_t k = 0; k < path.size(); ++k) {
                 if (k > 0)
-                    p *= probability(space, path[k - 1], path[k], static_cast<Index>(k));
-                p *= std::exp(twoToOne.at(y[k][static_cast<std::size_t>(space.cellOf(path[k]))]));
+                    p *= probability(space, path[k - 1], path[k], Index(k));
+                p *= std::exp(twoToOne.at(y[k][std::size_t(space.cellOf(path[k]))]));
             }
             all.lambda += p;
             if (p > all.best) {
@@ -244,8 +244,7 @@ Enumerated enumerate(const SequentialModel &model, const std::vector<std::vector
 std::vector<std::vector<double>> frames(Index cells, Index stages, std::uint64_t stream)
 {
     Random random(5, stream);
-    std::vector<std::vector<double>> y(static_cast<std::size_t>(stages),
-                                       std::vector<double>(static_cast<std::size_t>(cells)));
+    std::vector<std::vector<double>> y(std::size_t(stages), std::vector<double>(std::size_t(cells)));
     for (auto &frame : y)
         for (double &value : frame)
             value = random.exponential();
@@ -255,7 +254,7 @@ std::vector<std::vector<double>> frames(Index cells, Index stages, std::uint64_t
 StageSource source(const std::vector<std::vector<double>> &y)
 {
     return [&y](Index stage, std::span<double> out) {
-        std::copy(y[static_cast<std::size_t>(stage)].begin(), y[static_cast<std::size_t>(stage)].end(), out.begin());
+        std::copy(y[std::size_t(stage)].begin(), y[std::size_t(stage)].end(), out.begin());
     };
 }
 
@@ -296,12 +295,12 @@ private:
     {
         QTest::addColumn<int>("index");
         for (std::size_t i = 0; i < worlds().size(); ++i)
-            QTest::newRow(worlds()[i].name) << static_cast<int>(i);
+            QTest::newRow(worlds()[i].name) << int(i);
     }
     World world() const
     {
         QFETCH(int, index);
-        return worlds()[static_cast<std::size_t>(index)];
+        return worlds()[std::size_t(index)];
     }
 };
 
@@ -311,11 +310,11 @@ void tst_Sprt::allTrajectories()
     const SequentialModel whole = unfolded(world());
     const auto y = frames(model.reduction.frameCells(), 4, 1);
     LikelihoodRatio ratio(model);
-    std::vector<double> lambda(static_cast<std::size_t>(model.reduction.frameCells()));
-    std::vector<double> folded(static_cast<std::size_t>(model.reduction.stateCells()));
+    std::vector<double> lambda(std::size_t(model.reduction.frameCells()));
+    std::vector<double> folded(std::size_t(model.reduction.stateCells()));
     for (Index stages = 1; stages <= 4; ++stages) {
         for (std::size_t cell = 0; cell < lambda.size(); ++cell)
-            lambda[cell] = twoToOne.at(y[static_cast<std::size_t>(stages - 1)][cell]);
+            lambda[cell] = twoToOne.at(y[std::size_t(stages - 1)][cell]);
         model.reduction.sum(lambda, folded);
         const double lnLambda = ratio.update(folded);
         QVERIFY(std::abs(lnLambda - std::log(enumerate(whole, y, stages).lambda)) < 1e-9);
@@ -346,11 +345,11 @@ void tst_Sprt::everyModelIsALaw()
     const SequentialModel whole = unfolded(world());
     const StateSpace &space = whole.markov.space;
     for (Index step = 0; step < space.phaseCount(); ++step) {
-        std::vector<double> leaving(static_cast<std::size_t>(space.stateCount()), 0.0);
+        std::vector<double> leaving(std::size_t(space.stateCount()), 0.0);
         for (Index to = 0; to < space.stateCount(); ++to)
             for (const StateSpace::Predecessor &p : space.predecessors(to, step)) {
                 QVERIFY(std::abs(std::exp(p.lnProbability) - probability(space, p.state, to, step)) < 1e-14);
-                leaving[static_cast<std::size_t>(p.state)] += std::exp(p.lnProbability);
+                leaving[std::size_t(p.state)] += std::exp(p.lnProbability);
             }
         for (std::size_t from = 0; from < leaving.size(); ++from)
             QVERIFY(std::abs(leaving[from] - 1.0) < 1e-12);
@@ -362,7 +361,7 @@ void tst_Sprt::tiesGoToTheLowest()
     const SequentialModel model = makeSequentialModel({admissible(5)}, {false}, twoToOne);
     const std::vector<std::vector<double>> y(3, std::vector<double>(5, 2.0)); // all alike
     const MapTrajectory map = MapEstimator(model).estimate(3, [&](Index stage, std::span<double> out) {
-        std::copy(y[static_cast<std::size_t>(stage)].begin(), y[static_cast<std::size_t>(stage)].end(), out.begin());
+        std::copy(y[std::size_t(stage)].begin(), y[std::size_t(stage)].end(), out.begin());
     });
     // Row 0 has two admissible moves of ½, the others three of ⅓: 0 → 0 → 0 is as good as 0 → 0 → 1, 4 → 4 → 4 …
     QCOMPARE(map.states, (std::vector<Index>{0, 0, 0}));
@@ -375,13 +374,13 @@ void tst_Sprt::keptInPartsIsTheSame()
     KinematicAxis wide = rated(3000);
     wide.cyclic = false;
     const auto lambdaAt = [](Index stage, Index cell) {
-        return cell == 1400 + stage / 4 ? 8.0 : 0.001 * static_cast<double>((cell * 7 + stage * 13) % 97);
+        return cell == 1400 + stage / 4 ? 8.0 : 0.001 * double((cell * 7 + stage * 13) % 97);
     };
     const auto estimate = [&](KinematicAxis a, Index firstCell) {
         const SequentialModel model = makeSequentialModel({a}, {false}, twoToOne);
         const MapTrajectory map = MapEstimator(model).estimate(600, [&](Index stage, std::span<double> out) {
             for (std::size_t cell = 0; cell < out.size(); ++cell)
-                out[cell] = lambdaAt(stage, firstCell + static_cast<Index>(cell));
+                out[cell] = lambdaAt(stage, firstCell + Index(cell));
         });
         std::vector<Index> cells;
         for (const Index state : map.states)
@@ -418,8 +417,8 @@ void tst_Sprt::aThousandStages()
         sumOfMeans += std::log(mean);
         single.update(std::span<const double>(lambda).first(1));
         all.update(lambda);
-        QVERIFY(std::abs(single.lnLambda() - static_cast<double>(sum)) < 1e-9);
-        QVERIFY(std::abs(all.lnLambda() - static_cast<double>(sumOfMeans)) < 1e-9);
+        QVERIFY(std::abs(single.lnLambda() - double(sum)) < 1e-9);
+        QVERIFY(std::abs(all.lnLambda() - double(sumOfMeans)) < 1e-9);
     }
 }
 
@@ -518,8 +517,8 @@ void tst_Sprt::framesBetweenAreNotLookedAt()
     for (Index stage = 0; stage < 7; ++stage) {
         std::vector<double> lambda(5, 0.0);
         for (std::size_t cell = 0; cell < 5 && stage % 3 == 0; ++cell)
-            lambda[cell] = twoToOne.at(y[static_cast<std::size_t>(stage)][cell]);
-        QCOMPARE(result.lnLambda[static_cast<std::size_t>(stage)], ratio.update(lambda));
+            lambda[cell] = twoToOne.at(y[std::size_t(stage)][cell]);
+        QCOMPARE(result.lnLambda[std::size_t(stage)], ratio.update(lambda));
     }
 }
 
@@ -535,7 +534,7 @@ void tst_Sprt::meanOfTheRatioOnNoise()
         LikelihoodRatio ratio(model);
         std::vector<double> lambda(15);
         std::vector<double> folded(5);
-        Random random(9, static_cast<std::uint64_t>(run));
+        Random random(9, std::uint64_t(run));
         for (int stage = 0; stage < 5; ++stage) {
             for (double &value : lambda)
                 value = model.markov.likelihood.at(random.exponential());
@@ -568,7 +567,7 @@ void tst_Sprt::decisions_data()
     QTest::addColumn<int>("decision");
     const SprtBoundaries at = sprtBoundaries({1e-3, 1e-2, 7});
     const auto row = [](const char *name, double ln, int stage, SprtDecision d) {
-        QTest::newRow(name) << ln << stage << static_cast<int>(d);
+        QTest::newRow(name) << ln << stage << int(d);
     };
     row("between", 0.0, 6, SprtDecision::Undecided);
     row("at the upper boundary", at.lnUpper, 1, SprtDecision::H1);
@@ -585,7 +584,7 @@ void tst_Sprt::decisions()
     QFETCH(double, lnLambda);
     QFETCH(int, stage);
     QFETCH(int, decision);
-    QCOMPARE(static_cast<int>(decide({1e-3, 1e-2, 7}, lnLambda, stage)), decision);
+    QCOMPARE(int(decide({1e-3, 1e-2, 7}, lnLambda, stage)), decision);
 }
 
 void tst_Sprt::cutOff()

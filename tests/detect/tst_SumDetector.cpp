@@ -29,13 +29,13 @@ std::vector<double> inLogarithms(const MarkovModel &m, const std::vector<std::ve
 {
     std::vector<double> ln;
     for (const std::vector<float> &y : frames) {
-        std::vector<double> next(static_cast<std::size_t>(m.space.stateCount()), 0.0);
+        std::vector<double> next(std::size_t(m.space.stateCount()), 0.0);
         for (Index n = 0; n < m.space.stateCount(); ++n) {
-            double &sum = next[static_cast<std::size_t>(n)];
+            double &sum = next[std::size_t(n)];
             if (!ln.empty())
                 for (const StateSpace::Predecessor &p : m.space.predecessors(n))
-                    sum = lnSum(sum, lnK + p.lnProbability + ln[static_cast<std::size_t>(p.state)]);
-            sum += m.likelihood.at(static_cast<double>(y[static_cast<std::size_t>(m.space.cellOf(n))]));
+                    sum = lnSum(sum, lnK + p.lnProbability + ln[std::size_t(p.state)]);
+            sum += m.likelihood.at(double(y[std::size_t(m.space.cellOf(n))]));
         }
         ln = next;
     }
@@ -75,15 +75,15 @@ private slots:
             std::vector<float> y(cells);
             random.exponentials(y);
             if (t == 3 || t == 4)
-                y[1] += static_cast<float>(power);
+                y[1] += float(power);
             if (t == 5) // out of the reach of the first one's paths
-                y[5] += static_cast<float>(power);
+                y[5] += float(power);
             frames.push_back(y);
             detector.update(y, statistic);
             const std::vector<double> expected = inLogarithms(m, frames, lnK);
             const double best = *std::max_element(expected.begin(), expected.end());
             for (std::size_t n = 0; n < expected.size(); ++n) {
-                const auto score = static_cast<double>(detector.scores()[n]);
+                const auto score = double(detector.scores()[n]);
                 QVERIFY2(std::isfinite(score),
                          qPrintable(QStringLiteral("frame %1, state %2: %3").arg(t).arg(n).arg(score)));
                 if (expected[n] > best - 600.0)

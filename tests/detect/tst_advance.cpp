@@ -85,12 +85,12 @@ private:
     {
         QTest::addColumn<int>("index");
         for (std::size_t i = 0; i < cases().size(); ++i)
-            QTest::newRow(cases()[i].name) << static_cast<int>(i);
+            QTest::newRow(cases()[i].name) << int(i);
     }
     MarkovModel model() const
     {
         QFETCH(int, index);
-        return {StateSpace(cases()[static_cast<std::size_t>(index)].axes), Likelihood(LikelihoodKind::Linear), 1.0};
+        return {StateSpace(cases()[std::size_t(index)].axes), Likelihood(LikelihoodKind::Linear), 1.0};
     }
 };
 
@@ -107,14 +107,13 @@ void tst_advance::isTheFormula()
     detector.updateBlock(y, found, cells);
     FormulaRecursion formula(m.space, lnK);
     for (Index frame = 0; frame < frames; ++frame) {
-        formula.update(std::span(y).subspan(static_cast<std::size_t>(frame * cells), expected.size()), expected);
+        formula.update(std::span(y).subspan(std::size_t(frame * cells), expected.size()), expected);
         for (std::size_t cell = 0; cell < expected.size(); ++cell)
-            QVERIFY2(std::abs(found[static_cast<std::size_t>(frame * cells) + cell] - expected[cell])
-                         < 2e-5f * static_cast<float>(frame + 1),
+            QVERIFY2(std::abs(found[std::size_t(frame * cells) + cell] - expected[cell]) < 2e-5f * float(frame + 1),
                      qPrintable(QString("frame %1 cell %2").arg(frame).arg(cell)));
     }
     for (std::size_t state = 0; state < formula.scores().size(); ++state)
-        QVERIFY(std::abs(static_cast<double>(detector.scores()[state]) - formula.scores()[state]) < 4e-4);
+        QVERIFY(std::abs(double(detector.scores()[state]) - formula.scores()[state]) < 4e-4);
 }
 
 void tst_advance::blocksAndThreadsChangeNoBit()
@@ -127,8 +126,8 @@ void tst_advance::blocksAndThreadsChangeNoBit()
         detector.useThreads(threads);
         statistic.resize(y.size());
         for (Index done = 0; done < frames; done += block) {
-            const auto first = static_cast<std::size_t>(done * cells);
-            const auto count = static_cast<std::size_t>(std::min(block, frames - done) * cells);
+            const auto first = std::size_t(done * cells);
+            const auto count = std::size_t(std::min(block, frames - done) * cells);
             detector.updateBlock(std::span(y).subspan(first, count), std::span(statistic).subspan(first, count), cells);
         }
     };
@@ -177,8 +176,8 @@ void tst_advance::withoutReset()
     for (std::size_t cell = 0; cell < 100; ++cell) {
         double sum = 0.0;
         for (std::size_t frame = 0; frame < 9; ++frame)
-            sum += static_cast<double>(y[frame * 100 + cell]);
-        QVERIFY(std::abs(static_cast<double>(found[800 + cell]) - sum) < 1e-5);
+            sum += double(y[frame * 100 + cell]);
+        QVERIFY(std::abs(double(found[800 + cell]) - sum) < 1e-5);
     }
     QCOMPARE(detector.regulation().continuedFraction, 1.0);
 }
@@ -187,7 +186,7 @@ void tst_advance::EigenIsTheFormula()
 {
     // What the fast form is timed against does the same work.
     const MarkovModel m = model();
-    const auto cells = static_cast<std::size_t>(m.space.cellCount());
+    const auto cells = std::size_t(m.space.cellCount());
     const std::vector<float> y = noise(6 * m.space.cellCount());
     FormulaRecursion formula(m.space, -0.9);
     EigenRecursion eigen(m.space, -0.9f);

@@ -16,7 +16,7 @@ constexpr Index margin = 8;
 
 /// Rows of scores with a margin on either side, and what becomes of them.
 struct Planes {
-    explicit Planes(Index rows) : from(static_cast<std::size_t>(rows * rowCells)), to(from.size(), -1.0f)
+    explicit Planes(Index rows) : from(std::size_t(rows * rowCells)), to(from.size(), -1.0f)
     {
         Random(3, 0).exponentials(from);
         for (float &value : from)
@@ -35,7 +35,7 @@ struct List {
     {
         std::vector<TargetPlane> all;
         for (std::size_t k = 0; k < sources.size(); ++k)
-            all.push_back({sources[k], planes.to.data() + static_cast<Index>(k) * rowCells});
+            all.push_back({sources[k], planes.to.data() + Index(k) * rowCells});
         return all;
     }
 };
@@ -76,7 +76,7 @@ List anything(const Planes &planes, Index count)
     for (Index to = 0; to < count; ++to) {
         list.sources.emplace_back();
         for (Index k = 0; k < to % 6; ++k)
-            list.sources.back().push_back({planes.row((to + k) % count, k), -0.25f * static_cast<float>(k % 4)});
+            list.sources.back().push_back({planes.row((to + k) % count, k), -0.25f * float(k % 4)});
     }
     return list;
 }
@@ -140,18 +140,18 @@ void tst_joinKernels::finishMax()
                 float best = isFresh ? -std::numeric_limits<float>::infinity() : 2.0f;
                 for (Index k = 0; k < count; ++k) {
                     float m = -std::numeric_limits<float>::infinity();
-                    for (const ShiftedPlane<float> &source : list.sources[static_cast<std::size_t>(k)])
+                    for (const ShiftedPlane<float> &source : list.sources[std::size_t(k)])
                         m = std::max(m, source.from[i] + (source.weight + join.lnK));
                     const float kept = std::max(m, 0.0f);
-                    const float score = kept + lambda[static_cast<std::size_t>(i)];
-                    QVERIFY(planes.to[static_cast<std::size_t>(k * rowCells + i)] == score);
-                    went += score > lambda[static_cast<std::size_t>(i)] ? 1 : 0;
-                    sum += static_cast<double>(kept);
+                    const float score = kept + lambda[std::size_t(i)];
+                    QVERIFY(planes.to[std::size_t(k * rowCells + i)] == score);
+                    went += score > lambda[std::size_t(i)] ? 1 : 0;
+                    sum += double(kept);
                     best = std::max(best, score);
                 }
-                QVERIFY(statistic[static_cast<std::size_t>(i)] == best);
+                QVERIFY(statistic[std::size_t(i)] == best);
             }
-            QVERIFY(statistic[static_cast<std::size_t>(n)] == 2.0f); // what lies beyond is nobody's
+            QVERIFY(statistic[std::size_t(n)] == 2.0f); // what lies beyond is nobody's
             QCOMPARE(found.count, went);
             QVERIFY(std::abs(found.sum - sum) <= 1e-5 * (1.0 + sum));
         }

@@ -22,10 +22,10 @@ Grid gridOf(Index cells)
 Frames noise(Index frames, Index cells, std::uint64_t seed)
 {
     Random random(seed, 0);
-    Frames y(static_cast<std::size_t>(frames), std::vector<float>(static_cast<std::size_t>(cells)));
+    Frames y(std::size_t(frames), std::vector<float>(std::size_t(cells)));
     for (auto &frame : y)
         for (float &value : frame)
-            value = static_cast<float>(random.exponential());
+            value = float(random.exponential());
     return y;
 }
 
@@ -47,15 +47,15 @@ float pOfNByDefinition(const Frames &y, Index t, Index f, const PofNSettings &se
         float largest = 0.0f;
         for (Index bin = f - (width - 1) / 2; bin <= f + width / 2; ++bin)
             if (frame >= 0 && bin >= 0 && bin < std::ssize(y.front()))
-                largest = std::max(largest, y[static_cast<std::size_t>(frame)][static_cast<std::size_t>(bin)]);
+                largest = std::max(largest, y[std::size_t(frame)][std::size_t(bin)]);
         maxima.push_back(largest);
     }
     std::sort(maxima.begin(), maxima.end(), std::greater<>());
-    const auto isEvent = [&](float value) { return static_cast<double>(value) > settings.r1; };
+    const auto isEvent = [&](float value) { return double(value) > settings.r1; };
     if (std::count_if(maxima.begin(), maxima.end(), isEvent) < settings.p)
         return 0.0f;
     const double mean = std::accumulate(maxima.begin(), maxima.begin() + settings.p, 0.0) / settings.p;
-    return mean > settings.r2 ? static_cast<float>(mean) : 0.0f;
+    return mean > settings.r2 ? float(mean) : 0.0f;
 }
 
 MarkovModel threeSlopes(Index cells)
@@ -107,7 +107,7 @@ void tst_peers::pOfNSortsEveryWindow()
     QFETCH(int, n);
     QFETCH(double, r2);
     QFETCH(int, width);
-    const PofNSettings settings{p, n, 1.2, r2, static_cast<double>(width)};
+    const PofNSettings settings{p, n, 1.2, r2, double(width)};
     const Frames y = noise(30, 37, 4);
     PofN detector(gridOf(37), settings);
     const Frames statistic = run(detector, y);
@@ -115,7 +115,7 @@ void tst_peers::pOfNSortsEveryWindow()
     for (Index t = 0; t < 30; ++t)
         for (Index f = 0; f < 37; ++f) {
             const float expected = pOfNByDefinition(y, t, f, settings, width);
-            const float ours = statistic[static_cast<std::size_t>(t)][static_cast<std::size_t>(f)];
+            const float ours = statistic[std::size_t(t)][std::size_t(f)];
             QVERIFY2(std::abs(ours - expected) <= 1e-5f * std::max(1.0f, expected),
                      qPrintable(QString("frame %1, cell %2").arg(t).arg(f)));
             events += expected > 0.0f ? 1 : 0;
@@ -149,8 +149,8 @@ void tst_peers::boxcarIsTheMeanOfTheLastFrames()
         for (std::size_t f = 0; f < 5; ++f) {
             double sum = 0.0;
             for (std::size_t k = t >= 7 ? t - 7 : 0; k <= t; ++k)
-                sum += static_cast<double>(y[k][f]);
-            QVERIFY(std::abs(static_cast<double>(statistic[t][f]) - sum / 8.0) < 1e-6);
+                sum += double(y[k][f]);
+            QVERIFY(std::abs(double(statistic[t][f]) - sum / 8.0) < 1e-6);
         }
 }
 
@@ -159,8 +159,7 @@ void tst_peers::exponentialFades()
     Integrator detector(1, IntegratorSettings::Shape::Exponential, 10);
     const Frames statistic = run(detector, Frames(30, {1.0f}));
     for (std::size_t t = 0; t < statistic.size(); ++t) // a step's answer: 1 - a^(t+1)
-        QVERIFY(std::abs(static_cast<double>(statistic[t][0]) - (1.0 - std::exp(-0.1 * static_cast<double>(t + 1))))
-                < 1e-6);
+        QVERIFY(std::abs(double(statistic[t][0]) - (1.0 - std::exp(-0.1 * double(t + 1)))) < 1e-6);
 }
 
 void tst_peers::energyIsTheFrame()

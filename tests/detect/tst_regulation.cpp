@@ -18,7 +18,7 @@ std::vector<float> noise(std::size_t cells, std::uint64_t stream, std::uint64_t 
     Random random(1000 + stream, frame);
     std::vector<float> y(cells);
     for (float &value : y)
-        value = static_cast<float>(random.exponential());
+        value = float(random.exponential());
     return y;
 }
 
@@ -51,17 +51,17 @@ struct PlainParsons {
                         for (int b = 0; b < beams; ++b)
                             for (int u2 = 0; u2 < rangeRates; ++u2)
                                 for (int v2 = 0; v2 < bearingRates; ++v2) {
-                                    const auto du = static_cast<std::size_t>(std::abs(u2 - u));
-                                    const auto dv = static_cast<std::size_t>(std::abs(v2 - v));
+                                    const auto du = std::size_t(std::abs(u2 - u));
+                                    const auto dv = std::size_t(std::abs(v2 - v));
                                     if (du >= hRange.size() || dv >= hBearing.size())
                                         continue;
                                     const int r2 = r + (u - 2 + u2 - 2) / 2; // C++ division truncates
                                     const int b2 = (b + (v - 1 + v2 - 1) / 2 + beams) % beams;
                                     if (r2 < 0 || r2 >= ranges)
                                         continue;
-                                    double &to = best[static_cast<std::size_t>(index(u2, v2, r2, b2))];
+                                    double &to = best[std::size_t(index(u2, v2, r2, b2))];
                                     to = std::max(to, std::log(hRange[du]) + std::log(hBearing[dv])
-                                                          + lnL[static_cast<std::size_t>(index(u, v, r, b))]);
+                                                          + lnL[std::size_t(index(u, v, r, b))]);
                                 }
         isFirst = false;
         double sum = 0.0;
@@ -72,10 +72,9 @@ struct PlainParsons {
             sum += m;
         }
         lnK = -sum / states;
-        resetFraction = static_cast<double>(resets) / states;
+        resetFraction = double(resets) / states;
         for (int n = 0; n < states; ++n)
-            lnL[static_cast<std::size_t>(n)] = static_cast<double>(y[static_cast<std::size_t>(n % (ranges * beams))])
-                                               + best[static_cast<std::size_t>(n)] + lnK;
+            lnL[std::size_t(n)] = double(y[std::size_t(n % (ranges * beams))]) + best[std::size_t(n)] + lnK;
     }
 };
 
@@ -96,10 +95,10 @@ std::vector<double> regulated(const ResetRule &rule, int settling, int frames)
     motion.fastestRange = 3;
     const MarkovModel model = sonarModel(grid, motion);
     Smd detector(model, rule);
-    std::vector<float> d(static_cast<std::size_t>(grid.size()));
+    std::vector<float> d(std::size_t(grid.size()));
     std::vector<double> lnK;
     for (int t = 0; t < settling + frames; ++t) {
-        detector.update(noise(d.size(), 5, static_cast<std::uint64_t>(t)), d);
+        detector.update(noise(d.size(), 5, std::uint64_t(t)), d);
         if (t >= settling)
             lnK.push_back(detector.regulation().lnK);
     }
@@ -144,19 +143,18 @@ void tst_regulation::meanLawIsParsons()
     Smd detector(model, {ResetLaw::Mean});
     std::vector<float> d(144);
     for (int ping = 0; ping < 8; ++ping) {
-        std::vector<float> y = noise(144, 7, static_cast<std::uint64_t>(ping));
+        std::vector<float> y = noise(144, 7, std::uint64_t(ping));
         // A target of power 5 from range 4 and beam 4 on, two cells and a beam a ping: over the wrap and to the range's
         // end.
         if (const int range = 4 + 2 * ping; range < PlainParsons::ranges)
-            y[static_cast<std::size_t>(range * PlainParsons::beams + (4 + ping) % PlainParsons::beams)] += 5.0f;
+            y[std::size_t(range * PlainParsons::beams + (4 + ping) % PlainParsons::beams)] += 5.0f;
         plain.update(y);
         detector.update(y, d);
         QVERIFY(std::abs(detector.regulation().lnK - plain.lnK) < 1e-5);
         QVERIFY(std::abs(1.0 - detector.regulation().continuedFraction - plain.resetFraction) < 1e-12);
         double worst = 0.0;
         for (std::size_t n = 0; n < plain.lnL.size(); ++n)
-            worst =
-                std::max(worst, std::abs(static_cast<double>(detector.scores()[n]) + detector.offset() - plain.lnL[n]));
+            worst = std::max(worst, std::abs(double(detector.scores()[n]) + detector.offset() - plain.lnL[n]));
         QVERIFY2(worst < 1e-4, qPrintable(QString("ping %1: %2 nat").arg(ping).arg(worst)));
     }
 }
@@ -203,9 +201,9 @@ void tst_regulation::signalsDragK()
         if (inhibited)
             detector.inhibit(sources);
         for (int t = 0; t < 60; ++t) {
-            std::vector<float> y = noise(144, 9, static_cast<std::uint64_t>(t));
+            std::vector<float> y = noise(144, 9, std::uint64_t(t));
             for (Index cell : sources) {
-                float &value = y[static_cast<std::size_t>(cell)];
+                float &value = y[std::size_t(cell)];
                 value = inhibited ? 0.0f : value + power;
             }
             detector.update(y, d);
@@ -232,9 +230,9 @@ void tst_regulation::inhibitedCellsDoNotCount()
         double sum = 0.0;
         int continued = 0;
         for (std::size_t n = 0; n < detector.scores().size(); ++n) {
-            if (std::binary_search(inhibited.begin(), inhibited.end(), static_cast<Index>(n % 144)))
+            if (std::binary_search(inhibited.begin(), inhibited.end(), Index(n % 144)))
                 continue;
-            const double going = static_cast<double>(detector.scores()[n]) - static_cast<double>(y[n % 144]);
+            const double going = double(detector.scores()[n]) - double(y[n % 144]);
             sum += going;
             continued += going > 1e-5 ? 1 : 0;
         }
@@ -253,7 +251,7 @@ void tst_regulation::allCellsInhibitedKeepK()
     const double before = detector.regulation().lnK;
     std::vector<Index> all(144);
     for (Index i = 0; i < 144; ++i)
-        all[static_cast<std::size_t>(i)] = i;
+        all[std::size_t(i)] = i;
     detector.inhibit(all);
     detector.update(std::vector<float>(144, 0.0f), d);
     QCOMPARE(detector.regulation().lnK, before);

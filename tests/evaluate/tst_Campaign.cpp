@@ -202,13 +202,13 @@ void tst_Campaign::everyTrialCanBeMadeAgain()
     const RunOutcome outcome = runExperiment(experiment, {2}).front();
     for (const int signal : {0, 3, experiment.signalsPerRun() - 1}) {
         const LineTrial trial = remakeTrial(experiment, experiment.snrDb[1], 2, signal);
-        std::vector<float> y(static_cast<std::size_t>(trial.frames->grid().size()));
+        std::vector<float> y(std::size_t(trial.frames->grid().size()));
         float largest = 0.0f;
         for (std::size_t k = 0; k < trial.path.size(); ++k) {
-            trial.frames->read(trial.firstFrame + static_cast<Index>(k), 1, y);
-            largest = std::max(largest, y[static_cast<std::size_t>(trial.path[k])]);
+            trial.frames->read(trial.firstFrame + Index(k), 1, y);
+            largest = std::max(largest, y[std::size_t(trial.path[k])]);
         }
-        QCOMPARE(largest, outcome.signal[0][1][static_cast<std::size_t>(signal)]);
+        QCOMPARE(largest, outcome.signal[0][1][std::size_t(signal)]);
     }
 }
 
@@ -339,10 +339,9 @@ void tst_Campaign::thresholdsAreOfFalseAlarmsCounted()
     Calibration calibration;
     calibration.eventRate = 1e-3;
     const auto counted = [](const std::vector<float> &values, double threshold) {
-        const auto n = std::count_if(values.begin(), values.end(),
-                                     [&](float value) { return static_cast<double>(value) > threshold; });
-        return -static_cast<double>(values.size())
-               * std::log1p(-static_cast<double>(n) / static_cast<double>(values.size()));
+        const auto n =
+            std::count_if(values.begin(), values.end(), [&](float value) { return double(value) > threshold; });
+        return -double(values.size()) * std::log1p(-double(n) / double(values.size()));
     };
     // The calibration, wrong for both, does not matter where there is enough to count.
     for (const double wanted : {12.0, 100.0}) {

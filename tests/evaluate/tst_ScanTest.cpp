@@ -74,7 +74,7 @@ void tst_ScanTest::runsAreThoseThatAreSimulated()
     int accepted = 0;
     for (int run = 0; run < runs; ++run) {
         const SprtResult result = walkScan(test, model, {hasTarget, run});
-        const auto stages = static_cast<double>(result.stages);
+        const auto stages = double(result.stages);
         sum += stages;
         squares += stages * stages;
         accepted += result.decision == SprtDecision::H1 ? 1 : 0;
@@ -86,9 +86,9 @@ void tst_ScanTest::runsAreThoseThatAreSimulated()
     study.trials = 4000;
     const SequentialOutcome outcome = simulate(study);
     QVERIFY(std::abs(mean - outcome.stages.value) < 4.5 * std::hypot(error, outcome.stages.standardError));
-    const double p = static_cast<double>(outcome.acceptedH1) / 4000.0;
+    const double p = double(outcome.acceptedH1) / 4000.0;
     const double spread = std::sqrt(std::max(p * (1.0 - p), 1e-3) * (1.0 / runs + 1.0 / 4000.0));
-    QVERIFY(std::abs(static_cast<double>(accepted) / runs - p) < 4.5 * spread);
+    QVERIFY(std::abs(double(accepted) / runs - p) < 4.5 * spread);
 }
 
 void tst_ScanTest::noModelLosesProbability()
@@ -96,7 +96,7 @@ void tst_ScanTest::noModelLosesProbability()
     // Of no evidence ln Λ is 0 at all stages, whatever a scene says of the moves: E0[Λ_k] = 1.
     const auto check = [](const SequentialModel &model) {
         LikelihoodRatio ratio(model);
-        const std::vector<double> lambda(static_cast<std::size_t>(model.reduction.stateCells()), 0.0);
+        const std::vector<double> lambda(std::size_t(model.reduction.stateCells()), 0.0);
         for (int stage = 0; stage < 100; ++stage)
             QVERIFY2(std::abs(ratio.update(lambda)) < 1e-12,
                      qPrintable(QString("stage %1: %2").arg(stage).arg(ratio.lnLambda())));
@@ -170,7 +170,7 @@ void tst_ScanTest::thePosteriorIsTheRatios()
         double total = 0.0;
         for (std::size_t cell = 0; cell < 12; ++cell) {
             const double p = ratio.posterior()[cell] + ratio.posterior()[12 + cell];
-            const auto got = static_cast<double>(range.probability[static_cast<std::size_t>(stage) * 12 + cell]);
+            const auto got = double(range.probability[std::size_t(stage) * 12 + cell]);
             QVERIFY(std::abs(got - p) < 1e-6);
             total += got;
         }
@@ -186,7 +186,7 @@ void tst_ScanTest::longPicturesAreThinned()
     const SequentialModel model = makeSequentialModel({axis}, {false}, Likelihood(LikelihoodKind::Exponential, 0.1));
     const StageSource source = [](Index stage, std::span<double> y) {
         std::fill(y.begin(), y.end(), 1.04);
-        y[static_cast<std::size_t>(stage)] = 1.2;
+        y[std::size_t(stage)] = 1.2;
     };
     const InspectedTest inspected = inspectStages(model, {1e-9, 1e-9, 0}, 1000, source);
     const PosteriorPicture &picture = inspected.posterior[0];

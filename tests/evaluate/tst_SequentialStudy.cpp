@@ -41,10 +41,10 @@ StageSource framesOf(const SequentialStudy &made, SequentialTrial &trial)
 {
     return [&](Index, std::span<double> y) {
         const std::span<const float> blocks = trial.next();
-        const auto cells = static_cast<std::size_t>(made.model.reduction.stateCells());
+        const auto cells = std::size_t(made.model.reduction.stateCells());
         const std::size_t folded = blocks.size() / cells;
         for (std::size_t i = 0; i < blocks.size(); ++i)
-            y[i % cells * folded + i / cells] = static_cast<double>(blocks[i]);
+            y[i % cells * folded + i / cells] = double(blocks[i]);
     };
 }
 
@@ -96,7 +96,7 @@ void tst_SequentialStudy::isTheExactWalk()
     QVERIFY(std::abs(outcome.deviationStages / law.deviationStages - 1.0) < 0.05);
     QVERIFY(std::abs(outcome.variation.value - law.deviationStages / law.meanStages)
             < 4.0 * outcome.variation.standardError);
-    const double p = static_cast<double>(outcome.acceptedH1) / 20000.0;
+    const double p = double(outcome.acceptedH1) / 20000.0;
     QVERIFY(std::abs(p - law.acceptH1) < 4.0 * std::sqrt(law.acceptH1 * (1.0 - law.acceptH1) / 20000.0));
     Index counted = 0;
     for (const Index n : outcome.stopCounts)
@@ -148,11 +148,10 @@ void tst_SequentialStudy::isThePlainTest()
                 source(stage, y);
                 taken.emplace_back(y.begin(), y.end());
             }
-            std::copy(taken[static_cast<std::size_t>(stage)].begin(), taken[static_cast<std::size_t>(stage)].end(),
-                      y.begin());
+            std::copy(taken[std::size_t(stage)].begin(), taken[std::size_t(stage)].end(), y.begin());
         });
         acceptedH1 += result.decision == SprtDecision::H1 ? 1 : 0;
-        ++stopCounts[static_cast<std::size_t>(result.stages - 1)];
+        ++stopCounts[std::size_t(result.stages - 1)];
     }
     QCOMPARE(outcome.acceptedH1, acceptedH1);
     stopCounts.resize(outcome.stopCounts.size());
@@ -280,7 +279,7 @@ void tst_SequentialStudy::changeOfMeasureAgreesWithCounting()
     const SequentialOutcome onNoise = simulate(noise);
     const SequentialOutcome withTarget = simulate(target);
     const auto agrees = [](Index wrong, const Estimate &other) {
-        const double p = static_cast<double>(wrong) / 20000.0;
+        const double p = double(wrong) / 20000.0;
         return std::abs(p - other.value) < 4.0 * std::hypot(std::sqrt(p / 20000.0), other.standardError);
     };
     QVERIFY(onNoise.acceptedH1 > 30); // enough to compare
@@ -316,7 +315,7 @@ void tst_SequentialStudy::averagedNoiseKeepsItsErrors()
     SequentialStudy made = study({axis(40)}, {false}, 6.0, std::nullopt, 3000);
     made.averagedCells = 16;
     const SequentialOutcome averaged = simulate(made);
-    QVERIFY(static_cast<double>(averaged.acceptedH1) / 3000.0 < 0.01 + 4.0 * std::sqrt(0.01 / 3000.0));
+    QVERIFY(double(averaged.acceptedH1) / 3000.0 < 0.01 + 4.0 * std::sqrt(0.01 / 3000.0));
     made.averagedCells = 0;
     QVERIFY(averaged.stages.value > simulate(made).stages.value); // not to know the noise costs stages
 }

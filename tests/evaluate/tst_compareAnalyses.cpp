@@ -27,8 +27,7 @@ Track track(int id, Index onset, Index end, Index cell, double cellsPerFrame = 0
     result.endFrame = end;
     result.peakStatistic = 20.0 + id;
     for (Index frame = onset; frame <= end; ++frame)
-        result.points.push_back(
-            {frame, cell + std::llround(cellsPerFrame * static_cast<double>(frame - onset)), 0, 1.0});
+        result.points.push_back({frame, cell + std::llround(cellsPerFrame * double(frame - onset)), 0, 1.0});
     return result;
 }
 
@@ -36,8 +35,8 @@ Track track(int id, Index onset, Index end, Index cell, double cellsPerFrame = 0
 Analysis holding(std::vector<Track> tracks, double stepSeconds = 0.5, double stepHz = 2.0, bool isCyclic = false)
 {
     Analysis analysis;
-    const auto frames = static_cast<Index>(std::lround(frameCount * 0.5 / stepSeconds));
-    const auto cells = static_cast<Index>(std::lround(100.0 * 2.0 / stepHz));
+    const auto frames = Index(std::lround(frameCount * 0.5 / stepSeconds));
+    const auto cells = Index(std::lround(100.0 * 2.0 / stepHz));
     const Axis hertz{"frequency", "Hz", 0.0, stepHz, cells, isCyclic};
     analysis.frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, stepSeconds, frames, false}, Grid{{hertz}},
                                                    std::vector<float>());
@@ -85,7 +84,7 @@ Analysis withStatistic(const std::vector<std::vector<float>> &rows, double thres
 
 double valueOf(const PeakPyramid &picture, int level, Index row, Index cell)
 {
-    return picture.scale().value(picture.row(level, row)[static_cast<std::size_t>(cell)]);
+    return picture.scale().value(picture.row(level, row)[std::size_t(cell)]);
 }
 
 } // namespace

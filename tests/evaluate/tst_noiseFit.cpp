@@ -33,7 +33,7 @@ private:
             double sum = 0.0;
             for (int i = 0; i < looks; ++i)
                 sum += random.exponential();
-            value = static_cast<float>(sum / looks);
+            value = float(sum / looks);
         }
         return y;
     }

@@ -20,7 +20,7 @@ Reproduction tableOf(int cells, double shift, std::uint64_t seed)
             successes += random.uniform() < reference ? 1 : 0;
         ReproducedCell cell;
         cell.reference = i == 0 ? reference + shift : reference;
-        cell.ours = static_cast<double>(successes) / trials;
+        cell.ours = double(successes) / trials;
         cell.interval = wilsonInterval(successes, trials);
         made.cells.push_back(cell);
     }

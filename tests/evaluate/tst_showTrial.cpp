@@ -45,7 +45,7 @@ void tst_showTrial::everySignalIsATrial()
     const auto trials = trialsOf(m_campaign, 1, 0);
     QCOMPARE(trials.size(), std::size_t(5)); // one block in time, five in frequency
     for (std::size_t i = 0; i < trials.size(); ++i) {
-        QCOMPARE(trials[i].place, (TrialPlace{0, static_cast<int>(i)}));
+        QCOMPARE(trials[i].place, (TrialPlace{0, int(i)}));
         QCOMPARE(trials[i].isDetected, trials[i].statistic > shownThreshold(m_campaign, 1));
     }
     // 6 dB for forty windows: nobody misses that.
@@ -62,7 +62,7 @@ void tst_showTrial::theTrialAnswersAsInTheCampaign_data()
 void tst_showTrial::theTrialAnswersAsInTheCampaign()
 {
     QFETCH(int, index);
-    const auto d = static_cast<std::size_t>(index);
+    const auto d = std::size_t(index);
     const TrialOutcome outcome = trialsOf(m_campaign, d, 0)[2];
     const ShownTrial shown = showTrial(m_campaign, nullptr, d, 0, outcome.place);
     const Analysis &analysis = *shown.analysis;
@@ -76,17 +76,15 @@ void tst_showTrial::theTrialAnswersAsInTheCampaign()
     const Axis &frequency = analysis.grid().axes.front();
     double largest = -1e9;
     const auto detector = makeDetector(analysis); // without the tracks' own scores that a chain paints over it
-    std::vector<float> y(static_cast<std::size_t>(frequency.count));
+    std::vector<float> y(std::size_t(frequency.count));
     std::vector<float> statistic(y.size());
     for (Index frame = 0; frame < time.count; ++frame) {
         analysis.frames->read(frame, 1, y);
         detector->update(y, statistic);
-        const double seconds = time.value(static_cast<double>(frame));
+        const double seconds = time.value(double(frame));
         if (seconds < truth.startSeconds - 1e-9 || seconds > truth.endSeconds + 1e-9)
             continue;
-        largest = std::max(
-            largest,
-            static_cast<double>(statistic[static_cast<std::size_t>(frequency.nearest(truth.frequencyAt(seconds)))]));
+        largest = std::max(largest, double(statistic[std::size_t(frequency.nearest(truth.frequencyAt(seconds)))]));
     }
     QVERIFY2(std::abs(largest - outcome.statistic) < 1e-3 * (1.0 + std::abs(outcome.statistic)),
              qPrintable(QString("%1 in the trial, %2 in the campaign").arg(largest).arg(outcome.statistic)));

@@ -58,7 +58,7 @@ void tst_theory::integratorAgainstMarcumQ()
     for (const int looks : {1, 10, 100})
         for (const double pd : {0.2, 0.5, 0.8, 0.95}) {
             const double snr = snrOfMeanPower(pd, pfa, looks);
-            const auto threshold = static_cast<float>(thresholdOfMeanPower(pfa, looks));
+            const auto threshold = float(thresholdOfMeanPower(pfa, looks));
             Random random(11, stream++);
             std::vector<float> noise(2 * trials);
             std::vector<float> y(trials);
@@ -67,14 +67,14 @@ void tst_theory::integratorAgainstMarcumQ()
             for (int look = 0; look < looks; ++look) {
                 random.normals(noise, std::sqrt(0.5f));
                 for (std::size_t i = 0; i < y.size(); ++i) {
-                    const float re = noise[2 * i] + static_cast<float>(std::sqrt(snr));
+                    const float re = noise[2 * i] + float(std::sqrt(snr));
                     y[i] = re * re + noise[2 * i + 1] * noise[2 * i + 1];
                 }
                 detector.update(y, mean);
             }
             const auto found = std::count_if(mean.begin(), mean.end(), [&](float d) { return d > threshold; });
             const double error = std::sqrt(pd * (1.0 - pd) / trials);
-            QVERIFY2(std::abs(static_cast<double>(found) / trials - pd) < 4.5 * error,
+            QVERIFY2(std::abs(double(found) / trials - pd) < 4.5 * error,
                      qPrintable(QString("%1 looks, Pd %2").arg(looks).arg(pd)));
         }
 }
@@ -94,15 +94,14 @@ void tst_theory::estimatedNoise()
         double own = 0.0;
         double others = 0.0;
         for (int i = 0; i < looks + references; ++i) {
-            const double re =
-                static_cast<double>(normals[static_cast<std::size_t>(2 * i)]) + (i < looks ? std::sqrt(snr) : 0.0);
-            const double im = static_cast<double>(normals[static_cast<std::size_t>(2 * i + 1)]);
+            const double re = double(normals[std::size_t(2 * i)]) + (i < looks ? std::sqrt(snr) : 0.0);
+            const double im = double(normals[std::size_t(2 * i + 1)]);
             (i < looks ? own : others) += re * re + im * im;
         }
         found += own / looks > threshold * others / references ? 1 : 0;
     }
     const double pd = pdOfMeanPowerEstimated(threshold, looks, references, snr);
-    QVERIFY(std::abs(static_cast<double>(found) / trials - pd) < 4.5 * std::sqrt(pd * (1.0 - pd) / trials));
+    QVERIFY(std::abs(double(found) / trials - pd) < 4.5 * std::sqrt(pd * (1.0 - pd) / trials));
 }
 
 void tst_theory::pOfNAgainstBinomial()
@@ -111,18 +110,17 @@ void tst_theory::pOfNAgainstBinomial()
     constexpr Index cells = 40000;
     for (const auto &[p, n] : {std::pair{3, 4}, std::pair{6, 8}, std::pair{2, 5}}) {
         PofN detector({{Axis{"cell", "", 0.0, 1.0, cells, false}}}, {p, n, 0.7, 0.0, 1.0});
-        Random random(13, static_cast<std::uint64_t>(n));
+        Random random(13, std::uint64_t(n));
         std::vector<float> y(cells);
         std::vector<float> statistic(cells);
         for (int frame = 0; frame < n; ++frame) {
             for (float &value : y)
-                value = static_cast<float>(random.exponential());
+                value = float(random.exponential());
             detector.update(y, statistic);
         }
         const double expected = pdOfPofN(p, n, std::exp(-0.7));
         const double found =
-            static_cast<double>(std::count_if(statistic.begin(), statistic.end(), [](float d) { return d > 0.0f; }))
-            / cells;
+            double(std::count_if(statistic.begin(), statistic.end(), [](float d) { return d > 0.0f; })) / cells;
         QVERIFY(std::abs(found - expected) < 4.5 * std::sqrt(expected * (1.0 - expected) / cells));
     }
 }
@@ -145,18 +143,17 @@ void tst_theory::lindley()
     double above = 0.0;
     for (int frame = 0; frame < 1100; ++frame) {
         for (float &value : y)
-            value = static_cast<float>(random.exponential());
+            value = float(random.exponential());
         detector.update(y, statistic);
         if (frame < 100 || frame % 20 != 0) // frames twenty apart are nearly independent
             continue;
         ++frames;
         // Before this frame's y is added the score is L of Lindley's recursion; with it, D = max(L, 0) + y.
-        above +=
-            static_cast<double>(std::count_if(statistic.begin(), statistic.end(), [](float d) { return d > 6.0f; }));
+        above += double(std::count_if(statistic.begin(), statistic.end(), [](float d) { return d > 6.0f; }));
     }
     // P(L⁺ + y > T) in closed form: L⁺ + y + ln K is the next L, so P = P(L > T + ln K).
     const double expected = lindleyExceedance(6.0 + lnK, lnK);
-    const double n = static_cast<double>(cells) * frames;
+    const double n = double(cells) * frames;
     QVERIFY(std::abs(above / n - expected) < 5.0 * std::sqrt(2.0 * expected / n));
 }
 

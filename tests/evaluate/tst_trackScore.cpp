@@ -19,9 +19,9 @@ TruthTarget target(Index beam)
     TruthTarget truth;
     truth.firstPing = 5;
     for (Index k = 0; k < 10; ++k) {
-        truth.rangeMetres.push_back(static_cast<double>(20 + k));
-        truth.bearingDegrees.push_back(36.0 * static_cast<double>(beam));
-        truth.cell.push_back(static_cast<double>(at(20 + k, beam)));
+        truth.rangeMetres.push_back(double(20 + k));
+        truth.bearingDegrees.push_back(36.0 * double(beam));
+        truth.cell.push_back(double(at(20 + k, beam)));
     }
     return truth;
 }

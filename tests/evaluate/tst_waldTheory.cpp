@@ -49,8 +49,8 @@ Counted simulateWalk(const SprtSettings &settings, double designSnr, double data
             lnLambda += dataMean * random.exponential() * designSnr / (1.0 + designSnr) - std::log1p(designSnr);
             decision = decide(settings, lnLambda, ++stage);
         }
-        counted.mean += static_cast<double>(stage) / runs;
-        counted.square += static_cast<double>(stage) * stage / runs;
+        counted.mean += double(stage) / runs;
+        counted.square += double(stage) * stage / runs;
         counted.acceptH1 += decision == SprtDecision::H1 ? 1.0 / runs : 0.0;
     }
     return counted;
@@ -188,23 +188,23 @@ void tst_waldTheory::walkByShooting()
     const double c = std::log(2.0);
     const double s = isTarget ? 1.0 : 0.5;
     const auto shoot = [&](std::size_t perC, double guess, double &atZero) {
-        const double h = c / static_cast<double>(perC);
+        const double h = c / double(perC);
         std::vector<double> N;
         std::vector<double> J;
-        for (double x = a; J.empty() || x < b + h; x = a + static_cast<double>(J.size()) * h) {
+        for (double x = a; J.empty() || x < b + h; x = a + double(J.size()) * h) {
             const double end = std::min(x, b);
             double delayed = guess; // J at x - c, or at a
             if (J.size() > perC) {
                 const double t = (end - c - a) / h;
-                const auto k = std::min(static_cast<std::size_t>(t), J.size() - 2);
-                delayed = std::lerp(J[k], J[k + 1], t - static_cast<double>(k));
+                const auto k = std::min(std::size_t(t), J.size() - 2);
+                delayed = std::lerp(J[k], J[k + 1], t - double(k));
             }
             N.push_back(1.0 + std::exp((end - c - a) / s) * delayed);
             if (J.empty()) {
                 J.push_back(guess);
                 continue;
             }
-            const double start = a + static_cast<double>(J.size() - 1) * h;
+            const double start = a + double(J.size() - 1) * h;
             J.push_back(J.back()
                         - 0.5 * (N[N.size() - 2] * std::exp(-(start - a) / s) + N.back() * std::exp(-(end - a) / s)) / s
                               * (end - start));
@@ -212,8 +212,8 @@ void tst_waldTheory::walkByShooting()
                 break;
         }
         const double t = -a / h;
-        const auto k = static_cast<std::size_t>(t);
-        const double f = t - static_cast<double>(k);
+        const auto k = std::size_t(t);
+        const double f = t - double(k);
         atZero = -f * (f - 1.0) * (f - 2.0) / 6.0 * N[k - 1] + (f + 1.0) * (f - 1.0) * (f - 2.0) / 2.0 * N[k]
                  - (f + 1.0) * f * (f - 2.0) / 2.0 * N[k + 1] + (f + 1.0) * f * (f - 1.0) / 6.0 * N[k + 2];
         return J.back();
@@ -250,7 +250,7 @@ void tst_waldTheory::fixedSize()
     const double needed = std::log(0.01) / std::log1p(-0.05) - 1.0; // the SNR at which one stage is just enough
     QCOMPARE(fixedSampleSize({0.01, 0.05, 0}, needed * 1.001), Index(1));
     QCOMPARE(fixedSampleSize({0.01, 0.05, 0}, needed * 0.999), Index(2));
-    QVERIFY(fixedSampleSize({}, 1.0) > 2 * static_cast<Index>(deterministicSprt({}, 1.0, 1.0).h0.meanStages));
+    QVERIFY(fixedSampleSize({}, 1.0) > 2 * Index(deterministicSprt({}, 1.0, 1.0).h0.meanStages));
 }
 
 void tst_waldTheory::refusals()

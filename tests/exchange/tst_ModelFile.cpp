@@ -208,7 +208,7 @@ void tst_ModelFile::sequentialModelsLoseNothing()
     writeBytes(path("m.json"), R"({"likelihood": {"kind": "exponential", "snr": 1}, "axes": [)" + axes + "]}");
     const SequentialModel model = readSequentialModel(path("m.json"));
     LikelihoodRatio ratio(model);
-    const std::vector<double> lambda(static_cast<std::size_t>(model.reduction.stateCells()), 0.0);
+    const std::vector<double> lambda(std::size_t(model.reduction.stateCells()), 0.0);
     for (int stage = 0; stage < 200; ++stage)
         QVERIFY2(std::abs(ratio.update(lambda)) < 1e-12,
                  qPrintable(QString("stage %1: %2").arg(stage).arg(ratio.lnLambda())));
@@ -479,7 +479,7 @@ void tst_ModelFile::framesRefused()
     Index count = 1;
     for (Index n : shape)
         count *= n;
-    std::vector<float> values(static_cast<std::size_t>(count), 1.0f);
+    std::vector<float> values(std::size_t(count), 1.0f);
     if (count > 3)
         values[3] = odd;
     const std::string said = errorOf([&] { readFrames(frames(shape, values), ""); });

@@ -71,7 +71,7 @@ QByteArray dictionary(const char *type, const char *shape, const char *order = "
 template <class T>
 QByteArray bytesOf(const std::vector<T> &values)
 {
-    return {reinterpret_cast<const char *>(values.data()), static_cast<qsizetype>(values.size() * sizeof(T))};
+    return {reinterpret_cast<const char *>(values.data()), qsizetype(values.size() * sizeof(T))};
 }
 
 void write(const std::string &path, const std::vector<Index> &shape, const std::vector<float> &values)

@@ -65,7 +65,7 @@ Analysis twoTracks()
     Track rising{1, 2, 3, 5, 14.75, true, false, {{2, 4, 0, 2.0}, {3, 5, 0, 13.0}, {4, 6, 0, 14.75}, {5, 7, 0, 9.5}}};
     Track steady{2, 1, 4, 7, 1.0 / 3.0, false, true, {}};
     for (Index frame = 1; frame <= 7; ++frame)
-        steady.points.push_back({frame, 1, 0, 0.1 * static_cast<double>(frame)});
+        steady.points.push_back({frame, 1, 0, 0.1 * double(frame)});
     analysis.tracks = {rising, steady};
     return analysis;
 }

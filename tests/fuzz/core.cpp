@@ -49,7 +49,7 @@ namespace {
 void readSome(const RecordingPointer &recording)
 {
     const RecordingInfo &info = recording->info();
-    std::vector<float> samples(static_cast<std::size_t>(4096 * info.floatsPerSample()));
+    std::vector<float> samples(std::size_t(4096 * info.floatsPerSample()));
     for (const Index first : {Index(0), info.sampleCount / 2, info.sampleCount - 2048})
         recording->read(info.channelCount - 1, first, 4096, samples);
 }
@@ -60,8 +60,8 @@ void readRaw(const Input &input)
     const std::size_t end = input.text.find('\n');
     options.rawType = input.text.substr(0, end);
     options.rawRateHz = 1000.0;
-    options.rawChannels = 1 + static_cast<int>(input.text.size() % 3);
-    options.rawHeaderBytes = static_cast<Index>(input.text.size() % 7);
+    options.rawChannels = 1 + int(input.text.size() % 3);
+    options.rawHeaderBytes = Index(input.text.size() % 7);
     readSome(openRecording(input.path, options));
 }
 
@@ -96,8 +96,7 @@ void readReceiverChunk(const Input &input)
         return bytes;
     };
     const auto chunk = [&](const std::string &name, const std::string &content) {
-        return name + littleEndian(static_cast<std::uint32_t>(content.size())) + content
-               + std::string(content.size() % 2, '\0');
+        return name + littleEndian(std::uint32_t(content.size())) + content + std::string(content.size() % 2, '\0');
     };
     constexpr std::array<char, 16> stereo{1, 0, 2, 0, -24, 3, 0, 0, -96, 15, 0, 0, 4, 0, 16, 0}; // 16 bits, 1000 Hz
     writeFile(input.path,
@@ -116,7 +115,7 @@ void readSomeFrames(const NormalisedFramesPointer &frames)
     constexpr Index values = 1 << 16;
     const Index cells = frames->grid().size();
     const Index count = std::min(frames->time().count, std::max<Index>(1, values / cells));
-    std::vector<float> out(static_cast<std::size_t>(count * cells));
+    std::vector<float> out(std::size_t(count * cells));
     for (const Index first : {Index(0), frames->time().count - count})
         frames->read(first, count, out);
 }

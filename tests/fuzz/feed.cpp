@@ -37,7 +37,7 @@ void feed(const Parser &parser, const std::string &text)
         if (oneLine(error.what()).empty())
             std::abort(); // a refusal says something
     }
-    if (static_cast<double>(std::clock() - begin) > mostSeconds * CLOCKS_PER_SEC) {
+    if (double(std::clock() - begin) > mostSeconds * CLOCKS_PER_SEC) {
         std::fprintf(stderr, "%s takes more than %g s of a processor\n", parser.name, mostSeconds);
         std::abort();
     }

@@ -32,7 +32,7 @@ bool isOver()
 {
     static const char *seconds = std::getenv("FAINTLINE_FUZZ_SECONDS");
     static const double most = seconds ? std::atof(seconds) : 0.0;
-    return most > 0.0 && static_cast<double>(std::clock()) > most * CLOCKS_PER_SEC;
+    return most > 0.0 && double(std::clock()) > most * CLOCKS_PER_SEC;
 }
 
 } // namespace

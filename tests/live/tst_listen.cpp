@@ -111,13 +111,12 @@ std::vector<Heard> piecesOf(const std::vector<float> &samples, const std::vector
             at += gap++->length;
             continue;
         }
-        Index count = 1 + static_cast<Index>(random.uniform() * 3000.0);
+        Index count = 1 + Index(random.uniform() * 3000.0);
         count = std::min(count, std::ssize(samples) - at);
         if (gap != gaps.end())
             count = std::min(count, gap->at - at);
         Heard heard;
-        heard.bytes =
-            bytesOf(std::span(samples).subspan(static_cast<std::size_t>(at), static_cast<std::size_t>(count)));
+        heard.bytes = bytesOf(std::span(samples).subspan(std::size_t(at), std::size_t(count)));
         heard.lostSamples = std::exchange(lost, 0);
         if (heard.lostSamples > 0)
             heard.incident = Heard::Incident::Lost;
@@ -133,9 +132,8 @@ std::vector<Gap> randomGaps(int count, Index samples, Index longest, std::uint64
     std::vector<Gap> gaps;
     const Index share = samples / count;
     for (int i = 0; i < count; ++i) {
-        const auto length = 1 + static_cast<Index>(random.uniform() * static_cast<double>(longest));
-        gaps.push_back(
-            {i * share + 1 + static_cast<Index>(random.uniform() * static_cast<double>(share - length - 2)), length});
+        const auto length = 1 + Index(random.uniform() * double(longest));
+        gaps.push_back({i * share + 1 + Index(random.uniform() * double(share - length - 2)), length});
     }
     return gaps;
 }
@@ -266,7 +264,7 @@ void tst_listen::changesOfAnEvent()
         const bool hasParts = std::any_of(changes.begin(), changes.end(),
                                           [id](const auto &other) { return other.second.back().partOf == id; });
         const double lasted = found->endSeconds - found->detectSeconds;
-        QVERIFY(hasParts || static_cast<double>(count(State::Updated)) >= std::floor(lasted / 5.0) - 1.0);
+        QVERIFY(hasParts || double(count(State::Updated)) >= std::floor(lasted / 5.0) - 1.0);
     }
     QCOMPARE(ownEvents, live.events.size());
     QVERIFY(hasJoined);
@@ -285,8 +283,8 @@ void tst_listen::gapsArePlacedToTheSample()
     sinks.notice = [&](const ListenNotice &notice, const StreamFormat &) {
         if (notice.kind != ListenNotice::Kind::Lost)
             return;
-        QCOMPARE(notice.sample, gaps[static_cast<std::size_t>(told)].at);
-        QCOMPARE(notice.sampleCount, gaps[static_cast<std::size_t>(told)].length);
+        QCOMPARE(notice.sample, gaps[std::size_t(told)].at);
+        QCOMPARE(notice.sampleCount, gaps[std::size_t(told)].length);
         lost += notice.sampleCount;
         ++told;
     };
@@ -350,7 +348,7 @@ void tst_listen::rotates()
     for (const std::string &file : live.files) {
         const SigmfRecording part(file);
         if (!all.empty()) // begins where the one before ended, by the clock
-            QVERIFY(std::abs(*part.info().startUnixSeconds - start - static_cast<double>(all.size()) / rate) < 1e-4);
+            QVERIFY(std::abs(*part.info().startUnixSeconds - start - double(all.size()) / rate) < 1e-4);
         else
             start = *part.info().startUnixSeconds;
         const std::vector<float> own = readAll(part);

@@ -47,16 +47,13 @@ public:
     {
         sockaddr_in to = {};
         to.sin_family = AF_INET;
-        to.sin_port = htons(static_cast<std::uint16_t>(port));
+        to.sin_port = htons(std::uint16_t(port));
         to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
         if (::connect(m_socket, reinterpret_cast<const sockaddr *>(&to), sizeof to) != 0)
             qFatal("cannot send to this machine");
     }
     ~Sender() { ::close(m_socket); }
-    void send(const QByteArray &bytes) const
-    {
-        (void)!::send(m_socket, bytes.data(), static_cast<std::size_t>(bytes.size()), 0);
-    }
+    void send(const QByteArray &bytes) const { (void)!::send(m_socket, bytes.data(), std::size_t(bytes.size()), 0); }
 
 private:
     int m_socket;
@@ -120,7 +117,7 @@ std::vector<int> hearAll(SampleSource &source, int calls)
     std::vector<int> all;
     for (int call = 0; call < calls; ++call) {
         const Heard heard = source.hear(patience);
-        all.insert(all.end(), static_cast<std::size_t>(heard.lostSamples), -1);
+        all.insert(all.end(), std::size_t(heard.lostSamples), -1);
         for (const std::byte byte : heard.bytes)
             all.push_back(std::to_integer<int>(byte));
     }
@@ -152,8 +149,8 @@ void tst_networkSources::numberedDatagrams()
     Random random(3, first);
     std::vector<int> expected;
     const auto datagram = [&](int i) {
-        return numbered(first + static_cast<quint64>(i), sequence.bytes, sequence.isBigEndian,
-                        static_cast<char>(1 + i % 200), samples);
+        return numbered(first + quint64(i), sequence.bytes, sequence.isBigEndian, static_cast<char>(1 + i % 200),
+                        samples);
     };
     std::vector<int> heard;
     for (int i = 0; i < 200; ++i) {
@@ -204,8 +201,8 @@ void tst_networkSources::aSenderThatIsSilentForAWhile()
     Heard back = source.hear(patience);
     QCOMPARE(back.incident, Heard::Incident::Back);
     QCOMPARE(back.bytes.size(), std::size_t(80));
-    const double seconds = static_cast<double>(back.lostSamples) / rate;
-    QVERIFY2(std::abs(seconds - static_cast<double>(elapsed) / 1000.0) < 0.3, qPrintable(QString::number(seconds)));
+    const double seconds = double(back.lostSamples) / rate;
+    QVERIFY2(std::abs(seconds - double(elapsed) / 1000.0) < 0.3, qPrintable(QString::number(seconds)));
 }
 
 void tst_networkSources::receiverIsSetAndHeard()
@@ -262,11 +259,11 @@ void tst_networkSources::receiverThatComesBack()
             incidents.push_back(heard.incident);
         lost += heard.lostSamples;
     }
-    const double seconds = static_cast<double>(timer.elapsed()) / 1000.0;
+    const double seconds = double(timer.elapsed()) / 1000.0;
     isOver = true;
     QCOMPARE(bytes, QByteArray("first!second"));
     QCOMPARE(incidents, (std::vector{Heard::Incident::Gone, Heard::Incident::Back}));
-    QVERIFY2(lost > 500 && static_cast<double>(lost) / 1000.0 < seconds, qPrintable(QString::number(lost)));
+    QVERIFY2(lost > 500 && double(lost) / 1000.0 < seconds, qPrintable(QString::number(lost)));
 }
 
 void tst_networkSources::mistakes()

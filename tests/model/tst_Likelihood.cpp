@@ -38,21 +38,19 @@ void tst_Likelihood::rice()
     const Likelihood likelihood(LikelihoodKind::Rice, snr);
     std::vector<float> y{0.0f};
     for (double value = 1e-6; value <= 1e4; value *= 1.003)
-        y.push_back(static_cast<float>(value));
+        y.push_back(float(value));
     std::vector<float> lambda(y.size());
     likelihood.apply(y, lambda);
     double worst = 0.0;
     for (std::size_t i = 0; i < y.size(); ++i) {
         // I0 overflows beyond 700: e^{-x} I0(x) from its asymptotic series there, to a part in 10¹⁰.
-        const double x = 2.0 * std::sqrt(snr * static_cast<double>(y[i]));
+        const double x = 2.0 * std::sqrt(snr * double(y[i]));
         const double lnI0 =
             x < 600.0 ? std::log(boost::math::cyl_bessel_i(0, x))
                       : x - 0.5 * std::log(2.0 * M_PI * x) + std::log1p(1.0 / (8.0 * x) + 9.0 / (128.0 * x * x));
         const double expected = -snr + lnI0;
-        worst =
-            std::max(worst, std::abs(static_cast<double>(lambda[i]) - expected) / std::max(1.0, std::abs(expected)));
-        QVERIFY(std::abs(likelihood.at(static_cast<double>(y[i])) - expected)
-                < 1e-9 * std::max(1.0, std::abs(expected)));
+        worst = std::max(worst, std::abs(double(lambda[i]) - expected) / std::max(1.0, std::abs(expected)));
+        QVERIFY(std::abs(likelihood.at(double(y[i])) - expected) < 1e-9 * std::max(1.0, std::abs(expected)));
     }
     QVERIFY2(worst < 1e-6, qPrintable(QString::number(worst)));
 }
@@ -65,9 +63,7 @@ void tst_Likelihood::affine()
     std::vector<float> lambda(3);
     exponential.apply(y, lambda);
     for (std::size_t i = 0; i < 3; ++i) // ln of the two densities' ratio
-        QVERIFY(std::abs(static_cast<double>(lambda[i])
-                         - std::log(0.25 * std::exp(-static_cast<double>(y[i]) / 4.0)
-                                    / std::exp(-static_cast<double>(y[i]))))
+        QVERIFY(std::abs(double(lambda[i]) - std::log(0.25 * std::exp(-double(y[i]) / 4.0) / std::exp(-double(y[i]))))
                 < 1e-6);
     linear.apply(y, lambda);
     QCOMPARE(lambda, y);
@@ -83,11 +79,11 @@ void tst_Likelihood::badValuesAreNoEvidence()
         std::vector<float> lambda(y.size());
         likelihood.apply(y, lambda);
         for (std::size_t i = 0; i < 3; ++i)
-            QCOMPARE(lambda[i], static_cast<float>(likelihood.at(0.0)));
+            QCOMPARE(lambda[i], float(likelihood.at(0.0)));
         QVERIFY(std::isfinite(lambda[3]) && lambda[3] > 1e10f);
         QCOMPARE(lambda[4], 0.0f); // not observed: for neither hypothesis
-        QCOMPARE(likelihood.at(static_cast<double>(nan)), 0.0);
-        QVERIFY(std::abs(static_cast<double>(lambda[5]) - likelihood.at(1.0)) < 1e-6);
+        QCOMPARE(likelihood.at(double(nan)), 0.0);
+        QVERIFY(std::abs(double(lambda[5]) - likelihood.at(1.0)) < 1e-6);
     }
 }
 

@@ -24,7 +24,7 @@ void signalFrame(Random &random, double snr, std::vector<float> &y)
     for (float &value : y) {
         const double re = std::sqrt(snr) + random.normal() * std::numbers::sqrt2 / 2.0;
         const double im = random.normal() * std::numbers::sqrt2 / 2.0;
-        value = static_cast<float>(re * re + im * im);
+        value = float(re * re + im * im);
     }
 }
 
@@ -48,7 +48,7 @@ std::pair<double, double> growth(const Likelihood &likelihood, double snr, doubl
     double sum = 0.0;
     double squares = 0.0;
     for (std::size_t i = 0; i < cells; ++i) {
-        const double gain = static_cast<double>(after[i] - before[i]) / frames;
+        const double gain = double(after[i] - before[i]) / frames;
         sum += gain;
         squares += gain * gain;
     }
@@ -121,10 +121,10 @@ private slots:
             double sum = 0.0;
             double squares = 0.0;
             for (const float value : lambda) {
-                sum += static_cast<double>(value);
-                squares += static_cast<double>(value) * static_cast<double>(value);
+                sum += double(value);
+                squares += double(value) * double(value);
             }
-            const auto count = static_cast<double>(y.size());
+            const auto count = double(y.size());
             const double mean = sum / count;
             const double error = std::sqrt((squares / count - mean * mean) / count);
             QVERIFY2(std::abs(meanEvidence(likelihood, snr) - mean) < 5.0 * error, qPrintable(QString::number(snr)));

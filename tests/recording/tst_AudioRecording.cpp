@@ -59,7 +59,7 @@ QByteArray wave(int channels, int rate, const std::vector<int> &samples, std::ui
 {
     QByteArray data;
     for (const int sample : samples)
-        data += littleEndian(static_cast<std::uint16_t>(sample), 2);
+        data += littleEndian(std::uint16_t(sample), 2);
     const QByteArray format = "fmt " + littleEndian(16, 4) + littleEndian(1, 2)
                               + littleEndian(std::uint64_t(channels), 2) + littleEndian(std::uint64_t(rate), 4)
                               + littleEndian(std::uint64_t(rate * channels * 2), 4)

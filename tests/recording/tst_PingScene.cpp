@@ -35,7 +35,7 @@ std::vector<Index> cellsOf(const PingScene &scene)
     std::vector<Index> cells;
     const PingTruth truth = pingTruth(scene);
     for (double cell : truth.targets.front().cell)
-        cells.push_back(static_cast<Index>(cell));
+        cells.push_back(Index(cell));
     return cells;
 }
 

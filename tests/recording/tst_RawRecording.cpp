@@ -54,15 +54,15 @@ QByteArray numberBytes(const SampleType &type, double x)
     const bool isBig = type.isBigEndian;
     switch (type.number) {
     case SampleType::Number::Float:
-        return type.bytes == 4 ? bytesOf(static_cast<float>(x), isBig) : bytesOf(x, isBig);
+        return type.bytes == 4 ? bytesOf(float(x), isBig) : bytesOf(x, isBig);
     case SampleType::Number::Signed:
         return type.bytes == 1   ? bytesOf(static_cast<qint8>(scaled), isBig)
                : type.bytes == 2 ? bytesOf(static_cast<qint16>(scaled), isBig)
                                  : bytesOf(static_cast<qint32>(scaled), isBig);
     case SampleType::Number::Unsigned:
         return type.bytes == 1   ? bytesOf(static_cast<quint8>(shifted), isBig)
-               : type.bytes == 2 ? bytesOf(static_cast<quint16>(shifted), isBig)
-                                 : bytesOf(static_cast<quint32>(shifted), isBig);
+               : type.bytes == 2 ? bytesOf(quint16(shifted), isBig)
+                                 : bytesOf(quint32(shifted), isBig);
     }
     return {};
 }
@@ -145,7 +145,7 @@ void tst_RawRecording::knownBytes()
     QFETCH(double, value);
     writeBytes(path("bytes"), bytes);
     const RawRecording recording(path("bytes"), {parseSampleType(type.toStdString(), ""), 1.0, 1, 0, 0});
-    QCOMPARE(static_cast<double>(readAll(recording).at(0)), value);
+    QCOMPARE(double(readAll(recording).at(0)), value);
 }
 
 void tst_RawRecording::channelsAndHeader()
@@ -162,8 +162,8 @@ void tst_RawRecording::channelsAndHeader()
     QVERIFY(recording.info().notes.empty());
     const std::vector<float> last = readInPieces(recording, 7, 2);
     for (std::size_t i = 0; i < 500; ++i) {
-        QCOMPARE(last[2 * i], (128.0f + static_cast<float>(i)) / 32768.0f);
-        QCOMPARE(last[2 * i + 1], -static_cast<float>(i) / 32768.0f);
+        QCOMPARE(last[2 * i], (128.0f + float(i)) / 32768.0f);
+        QCOMPARE(last[2 * i + 1], -float(i) / 32768.0f);
     }
 }
 

@@ -27,7 +27,7 @@ namespace {
 
 std::vector<float> scan(const ScanScene &scene, Index stage, int run = 0)
 {
-    std::vector<float> y(static_cast<std::size_t>(scanGrid(scene).size()));
+    std::vector<float> y(std::size_t(scanGrid(scene).size()));
     readScan(scene, scanTrajectory(scene, run), run, stage, y);
     return y;
 }
@@ -44,8 +44,8 @@ void tst_ScanScene::noiseIsExponential()
     double n = 0.0;
     for (Index stage = 0; stage < scene.stages; ++stage)
         for (const float y : scan(scene, stage)) {
-            sum += static_cast<double>(y);
-            squares += static_cast<double>(y) * static_cast<double>(y);
+            sum += double(y);
+            squares += double(y) * double(y);
             above3 += y > 3.0f ? 1.0 : 0.0;
             n += 1.0;
         }
@@ -67,18 +67,18 @@ void tst_ScanScene::targetStandsInItsCell()
     for (Index stage = 0; stage < scene.stages; ++stage) {
         const std::vector<float> with = scan(scene, stage);
         const std::vector<float> without = scan(empty, stage);
-        const ScanCell &at = trajectory[static_cast<std::size_t>(stage)];
+        const ScanCell &at = trajectory[std::size_t(stage)];
         const Index cell = scanGrid(scene).cell({at.begin(), at.end()});
         for (std::size_t i = 0; i < with.size(); ++i)
-            QCOMPARE(with[i], static_cast<Index>(i) == cell ? 11.0f * without[i] : without[i]);
+            QCOMPARE(with[i], Index(i) == cell ? 11.0f * without[i] : without[i]);
     }
 }
 
 void tst_ScanScene::targetMovesAsAllowed_data()
 {
     QTest::addColumn<int>("moves");
-    QTest::newRow("uniform") << static_cast<int>(ScanMoves::Uniform);
-    QTest::newRow("Gaussian") << static_cast<int>(ScanMoves::Gaussian);
+    QTest::newRow("uniform") << int(ScanMoves::Uniform);
+    QTest::newRow("Gaussian") << int(ScanMoves::Gaussian);
 }
 
 void tst_ScanScene::targetMovesAsAllowed()
@@ -103,7 +103,7 @@ void tst_ScanScene::targetMovesAsAllowed()
             fromEdge += 1.0;
             stays += path[k][2] == 0 ? 1.0 : 0.0;
         }
-        doppler[static_cast<std::size_t>(path[k][3])] += 1.0;
+        doppler[std::size_t(path[k][3])] += 1.0;
     }
     // At the edge of range: one of two, or the Gaussian's share among what exists, q(0) : q(1) : q(2) : q(3).
     const auto q = [](double d) {

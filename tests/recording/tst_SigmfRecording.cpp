@@ -140,7 +140,7 @@ void tst_SigmfRecording::gapsKeepTheirPlaces()
     writeBytes(path("a.sigmf-data"), "abcdefghijklmnopqrst");
     const SigmfRecording recording(
         write(R"({"global": {"core:datatype": "ri8", "core:sample_rate": 100}, "captures": [)" + captures + "]}"));
-    QCOMPARE(static_cast<int>(recording.info().notes.size()), notes);
+    QCOMPARE(int(recording.info().notes.size()), notes);
     QCOMPARE(recording.info().sampleCount, Index(expected.size()));
     QByteArray heard;
     for (const float value : readAll(recording))

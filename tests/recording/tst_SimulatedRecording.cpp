@@ -74,19 +74,18 @@ double density(const std::vector<float> &samples, bool isComplex, double turns)
 {
     constexpr Index window = 4096;
     const Index count = std::ssize(samples) / (isComplex ? 2 : 1) / window;
-    std::vector<float> tapered(static_cast<std::size_t>(window) * (isComplex ? 2 : 1));
+    std::vector<float> tapered(std::size_t(window) * (isComplex ? 2 : 1));
     double sum = 0.0;
     for (Index w = 0; w < count; ++w) {
         const float *from = samples.data() + w * std::ssize(tapered);
         for (std::size_t i = 0; i < tapered.size(); ++i) {
-            const double phase = (static_cast<double>(i / (isComplex ? 2u : 1u)) + 0.5) / window;
-            tapered[i] =
-                from[i] * static_cast<float>(std::pow(std::sin(std::numbers::pi * phase), 2) / std::sqrt(0.375));
+            const double phase = (double(i / (isComplex ? 2u : 1u)) + 0.5) / window;
+            tapered[i] = from[i] * float(std::pow(std::sin(std::numbers::pi * phase), 2) / std::sqrt(0.375));
         }
         for (int k = -2; k <= 2; ++k)
             sum += std::norm(fourier(tapered.data(), window, isComplex, turns + k * 2.0 / window)) / window / 5.0;
     }
-    return sum / static_cast<double>(count);
+    return sum / double(count);
 }
 
 } // namespace
@@ -135,8 +134,8 @@ void tst_SimulatedRecording::seedsDiffer()
     const std::vector<float> two = readAll(SimulatedRecording(other));
     double product = 0.0;
     for (std::size_t i = 0; i < one.size(); ++i)
-        product += static_cast<double>(one[i]) * static_cast<double>(two[i]);
-    QVERIFY(std::abs(product / static_cast<double>(one.size())) < 1e-3);
+        product += double(one[i]) * double(two[i]);
+    QVERIFY(std::abs(product / double(one.size())) < 1e-3);
 }
 
 void tst_SimulatedRecording::noiseHasItsDeviation_data()
@@ -160,7 +159,7 @@ void tst_SimulatedRecording::noiseHasItsDeviation()
     double squares = 0.0;
     for (const float value : samples) {
         sum += value;
-        squares += static_cast<double>(value) * static_cast<double>(value);
+        squares += double(value) * double(value);
     }
     const double count = 8000.0 * 400.0;
     QVERIFY(std::abs(sum / count) < 5.0 * 0.1 * std::sqrt(2000.0 / count));
@@ -233,9 +232,8 @@ void tst_SimulatedRecording::ornsteinUhlenbeckCorrelation()
         double sum = 0.0;
         for (std::size_t i = lag; i < path.size(); ++i)
             sum += path[i] * path[i - lag];
-        const double correlation = sum / static_cast<double>(path.size() - lag);
-        QVERIFY(std::abs(correlation - std::exp(-step * static_cast<double>(lag)))
-                < 5.0 * std::sqrt(2.0 / (step * 1e6)));
+        const double correlation = sum / double(path.size() - lag);
+        QVERIFY(std::abs(correlation - std::exp(-step * double(lag))) < 5.0 * std::sqrt(2.0 / (step * 1e6)));
     }
 }
 
@@ -296,14 +294,14 @@ void tst_SimulatedRecording::truthIsTheFrequencyMeasured()
     double worst = 0.0;
     for (Index at = 8100; at < 8000 * 26 - 200; at += 997) {
         const Index floats = isComplex ? 2 : 1;
-        const double between = (static_cast<double>(at + window) - 0.5) / 8000.0;
+        const double between = (double(at + window) - 0.5) / 8000.0;
         const double expected = (truth.frequencyAt(between) - centreHz) / 8000.0;
         const std::complex<double> before = fourier(samples.data() + at * floats, window, isComplex, expected);
         const std::complex<double> after =
             fourier(samples.data() + (at + window) * floats, window, isComplex, expected);
         const double advance = std::arg(after / before) / (2.0 * std::numbers::pi); // in turns, but for whole ones
-        const double error = advance - expected * static_cast<double>(window);
-        worst = std::max(worst, std::abs(error - std::round(error)) / static_cast<double>(window) * 8000.0);
+        const double error = advance - expected * double(window);
+        worst = std::max(worst, std::abs(error - std::round(error)) / double(window) * 8000.0);
     }
     QVERIFY2(worst < (isComplex ? 0.5 : 3.0), qPrintable(QString::number(worst)));
 }
@@ -374,10 +372,10 @@ void tst_SimulatedRecording::rayleighFading()
     constexpr std::size_t lag = 200; // one correlation time
     const auto at = [&](std::size_t i) { return std::complex<double>(samples[2 * i], samples[2 * i + 1]) / amplitude; };
     for (std::size_t i = 0; i < count; ++i) {
-        power += std::norm(at(i)) / static_cast<double>(count);
-        squaredPower += std::pow(std::norm(at(i)), 2) / static_cast<double>(count);
+        power += std::norm(at(i)) / double(count);
+        squaredPower += std::pow(std::norm(at(i)), 2) / double(count);
         if (i >= lag)
-            lagged += at(i) * std::conj(at(i - lag)) / static_cast<double>(count - lag);
+            lagged += at(i) * std::conj(at(i - lag)) / double(count - lag);
     }
     QVERIFY(std::abs(power - 1.0) < 0.06);                       // ten thousand independent stretches
     QVERIFY(std::abs(squaredPower / power / power - 2.0) < 0.2); // exponential law of the power
@@ -412,7 +410,7 @@ void tst_SimulatedRecording::slopeOfTheNoise()
         if (isComplex) // the same on either side of the centre
             QVERIFY(std::abs(dbFromRatio(density(samples, true, -hz / 8000.0) / measured)) < 0.8);
     }
-    const double octaves = static_cast<double>(levels.size() - 1);
+    const double octaves = double(levels.size() - 1);
     QVERIFY2(std::abs((levels.back() - levels.front()) / octaves - slope) < 0.2,
              qPrintable(QString::number(levels.back() - levels.front())));
 }
@@ -427,17 +425,17 @@ void tst_SimulatedRecording::levelDrift()
     for (std::size_t i = 0; i + 1000 <= samples.size(); i += 1000) {
         double sum = 0.0;
         for (std::size_t k = i; k < i + 1000; ++k)
-            sum += static_cast<double>(samples[k]) * static_cast<double>(samples[k]) / 1000.0;
+            sum += double(samples[k]) * double(samples[k]) / 1000.0;
         levels.push_back(dbFromRatio(sum / 0.01));
     }
     double mean = 0.0;
     for (const double level : levels)
-        mean += level / static_cast<double>(levels.size());
+        mean += level / double(levels.size());
     double variance = 0.0;
     double lagged = 0.0;
     for (std::size_t i = 0; i < levels.size(); ++i) {
-        variance += std::pow(levels[i] - mean, 2) / static_cast<double>(levels.size());
-        lagged += i < 20 ? 0.0 : (levels[i] - mean) * (levels[i - 20] - mean) / static_cast<double>(levels.size() - 20);
+        variance += std::pow(levels[i] - mean, 2) / double(levels.size());
+        lagged += i < 20 ? 0.0 : (levels[i] - mean) * (levels[i - 20] - mean) / double(levels.size() - 20);
     }
     QVERIFY(std::abs(mean) < 0.1);
     QVERIFY(std::abs(std::sqrt(variance) - 3.0) < 0.1);

@@ -188,9 +188,8 @@ void tst_openRecording::changedAnywhere()
     for (int trial = 0; trial < 200; ++trial) {
         QByteArray changed = whole;
         for (int i = 0; i < 3; ++i) { // mostly in the header
-            const double where =
-                std::pow(random.uniform(), 3.0) * static_cast<double>(std::min<qsizetype>(whole.size(), 400));
-            changed[static_cast<qsizetype>(where)] = static_cast<char>(random.bits());
+            const double where = std::pow(random.uniform(), 3.0) * double(std::min<qsizetype>(whole.size(), 400));
+            changed[qsizetype(where)] = static_cast<char>(random.bits());
         }
         writeBytes(path("changed.wav"), changed);
         QVERIFY2(isHandled(path("changed.wav")), qPrintable(QString::number(trial)));

@@ -30,11 +30,11 @@ void tst_BlockFilter::leavesASignalAsItIs()
         std::vector<std::complex<float>> samples(96);
         for (Index n = 0; n < 96; ++n)
             if (const Index at = filter.beginOf(block) + n; at >= 0 && at < count)
-                samples[static_cast<std::size_t>(n)] = x[static_cast<std::size_t>(at)];
+                samples[std::size_t(n)] = x[std::size_t(at)];
         filter.apply(samples, gains);
         for (Index n = 0; n < 96; ++n)
             if (const Index at = filter.beginOf(block) + n; at >= 0 && at < count)
-                sum[static_cast<std::size_t>(at)] += samples[static_cast<std::size_t>(n)].real();
+                sum[std::size_t(at)] += samples[std::size_t(n)].real();
     }
     for (std::size_t n = 0; n < x.size(); ++n)
         QVERIFY(std::abs(sum[n] - x[n]) < 1e-5f);

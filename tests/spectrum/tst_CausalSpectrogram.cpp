@@ -89,14 +89,14 @@ CausalSpectrogram causal(std::vector<float> samples, int steps = 2)
 
 std::vector<float> readFrames(const CausalSpectrogram &frames, Index first, Index count)
 {
-    std::vector<float> y(static_cast<std::size_t>(count * frames.grid().size()));
+    std::vector<float> y(std::size_t(count * frames.grid().size()));
     frames.read(first, count, y);
     return y;
 }
 
 double meanOf(std::span<const float> y)
 {
-    return std::accumulate(y.begin(), y.end(), 0.0) / static_cast<double>(y.size());
+    return std::accumulate(y.begin(), y.end(), 0.0) / double(y.size());
 }
 
 /// Of frames first … end-1, bins from … to-1.
@@ -106,8 +106,8 @@ double meanOf(const CausalSpectrogram &frames, Index first, Index end, Index fro
     const std::vector<float> y = readFrames(frames, first, end - first);
     for (Index frame = 0; frame < end - first; ++frame)
         for (Index bin = from; bin < to; ++bin)
-            sum += static_cast<double>(y[static_cast<std::size_t>(frame * frames.grid().size() + bin)]);
-    return sum / static_cast<double>((end - first) * (to - from));
+            sum += double(y[std::size_t(frame * frames.grid().size() + bin)]);
+    return sum / double((end - first) * (to - from));
 }
 
 QByteArray said(double value)
@@ -146,7 +146,7 @@ void tst_CausalSpectrogram::theFutureChangesNothing()
         QVERIFY(same >= (blockWindows - 1) * 2 + 1);
         QVERIFY(readFrames(known, 0, same) == readFrames(changed, 0, same));
         QVERIFY(readFrames(known, same, 4) != readFrames(changed, same, 4));
-        other.resize(static_cast<std::size_t>(cut)); // and one that ends there
+        other.resize(std::size_t(cut)); // and one that ends there
         QVERIFY(readFrames(known, 0, same) == readFrames(causal(other), 0, same));
     }
 }
@@ -163,7 +163,7 @@ void tst_CausalSpectrogram::framesAreAFunctionOfTheirIndex()
     const Index cells = inOrder.grid().size();
     Random random(5, 1);
     for (int i = 0; i < 60; ++i) {
-        const auto first = static_cast<Index>(random.uniform() * static_cast<double>(count - 8));
+        const auto first = Index(random.uniform() * double(count - 8));
         const Index run = 1 + i % 8;
         const std::vector<float> some = readFrames(anyhow, first, run);
         QVERIFY(std::equal(some.begin(), some.end(), all.begin() + first * cells));
@@ -190,13 +190,11 @@ void tst_CausalSpectrogram::stepOfLevel()
         const Index step = 40'000 / frames.spectrogram()->hopSamples();
         for (Index frame = step - 2; frame < step + 12; ++frame) {
             const double mean = meanOf(frames, frame, frame + 1, 4, 120);
-            QVERIFY2(mean > 0.4 && mean < 1.5,
-                     (said(static_cast<double>(frame - step)) + ": " + said(mean)).constData());
+            QVERIFY2(mean > 0.4 && mean < 1.5, (said(double(frame - step)) + ": " + said(mean)).constData());
         }
         for (Index frame = step; frame < step + 150; frame += 10) { // while the block fills with it
             const double after = meanOf(frames, frame, frame + 10, 4, 120);
-            QVERIFY2(std::abs(after - 0.97) < 0.3,
-                     (said(static_cast<double>(frame - step)) + ": " + said(after)).constData());
+            QVERIFY2(std::abs(after - 0.97) < 0.3, (said(double(frame - step)) + ": " + said(after)).constData());
         }
     }
 }
@@ -209,7 +207,7 @@ void tst_CausalSpectrogram::newColourIsLearned()
     for (std::size_t i = 60'000; i < samples.size(); ++i)
         samples[i] = before = 0.6f * before + samples[i];
     const CausalSpectrogram frames = causal(samples);
-    const Index from = (60'000 + static_cast<Index>(1.3 * blockWindows * windowSeconds * rate)) / 125;
+    const Index from = (60'000 + Index(1.3 * blockWindows * windowSeconds * rate)) / 125;
     for (const Index bin : {10, 60, 110}) {
         const double mean = meanOf(frames, from, frames.time().count, bin - 6, bin + 6);
         QVERIFY2(std::abs(mean - 1.0) < 0.08, said(mean));
@@ -226,8 +224,7 @@ void tst_CausalSpectrogram::steadyLineKeepsItsLevel()
     for (std::uint64_t run = 0; run < runs; ++run) {
         std::vector<float> samples = gaussian(60'000, 900 + run);
         for (std::size_t n = 0; n < samples.size(); ++n)
-            samples[n] += static_cast<float>(
-                amplitude * std::cos(2.0 * std::numbers::pi * 200.0 * static_cast<double>(n) / rate));
+            samples[n] += float(amplitude * std::cos(2.0 * std::numbers::pi * 200.0 * double(n) / rate));
         const CausalSpectrogram frames = causal(samples);
         const Index bin = frames.grid().axes[0].nearest(200.0);
         early += meanOf(frames, 0, 90, bin, bin + 1) / runs;
@@ -294,7 +291,7 @@ void tst_CausalSpectrogram::latestLevel()
     for (std::uint64_t run = 0; run < 400; ++run) {
         std::vector<float> noise(256);
         Random(9, run).normals(noise, 0.1f);
-        const auto level = static_cast<double>(latestBeyondScatter(noise, 0.1));
+        const auto level = double(latestBeyondScatter(noise, 0.1));
         square += level * level / 400.0;
     }
     QVERIFY2(std::sqrt(square) < 0.045, said(std::sqrt(square))); // a mean of 128 alone: 0.009

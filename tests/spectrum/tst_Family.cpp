@@ -36,7 +36,7 @@ std::vector<float> noise(std::uint64_t stream)
 
 std::vector<float> applied(const FamilyMap &map, const std::vector<float> &y)
 {
-    std::vector<float> out(static_cast<std::size_t>(map.frequency().count));
+    std::vector<float> out(std::size_t(map.frequency().count));
     map.apply(y, out);
     return out;
 }
@@ -71,12 +71,11 @@ void tst_Family::sumsSidebands()
         double count = 0.0;
         for (const Index member : {cell - 40, cell, cell + 40})
             if (member >= 0 && member < bins) {
-                sum += static_cast<double>(y[static_cast<std::size_t>(member)]);
+                sum += double(y[std::size_t(member)]);
                 count += 1.0;
             }
         const double expected = -std::log(boost::math::gamma_q(count, sum));
-        QVERIFY(std::abs(static_cast<double>(out[static_cast<std::size_t>(cell)]) - expected)
-                < 2e-3 * std::max(0.1, expected));
+        QVERIFY(std::abs(double(out[std::size_t(cell)]) - expected) < 2e-3 * std::max(0.1, expected));
     }
 }
 
@@ -89,9 +88,9 @@ void tst_Family::takesTheLargestTone()
     y[50] = 40.0f; // far beyond what 1 - e^-m still tells apart
     const std::vector<float> out = applied(map, y);
     for (std::size_t cell : {std::size_t(50), std::size_t(60), std::size_t(200)}) {
-        const double m = static_cast<double>(std::max({y[cell], y[cell + 2], y[cell + 4], y[cell + 6]}));
+        const double m = double(std::max({y[cell], y[cell + 2], y[cell + 4], y[cell + 6]}));
         const double expected = m > 20.0 ? m - std::log(4.0) : -std::log(1.0 - std::pow(1.0 - std::exp(-m), 4.0));
-        QVERIFY(std::abs(static_cast<double>(out[cell]) - expected) < 1e-4 * std::max(1.0, expected));
+        QVERIFY(std::abs(double(out[cell]) - expected) < 1e-4 * std::max(1.0, expected));
     }
 }
 
@@ -99,16 +98,14 @@ void tst_Family::placesHarmonicsToTheNearestBin()
 {
     const FamilyMap map(family(FamilySettings::Relation::Harmonics, {1.0, 2.0, 5.0}), band(), false);
     QCOMPARE(map.frequency().step, 0.1); // the fifth harmonic moves by a bin
-    std::vector<float> y(static_cast<std::size_t>(bins), 0.0f);
+    std::vector<float> y(std::size_t(bins), 0.0f);
     const double fundamental = 17.3;
     for (const double member : {1.0, 2.0, 5.0})
-        y[static_cast<std::size_t>(std::lround(member * fundamental / 0.5))] = 10.0f;
+        y[std::size_t(std::lround(member * fundamental / 0.5))] = 10.0f;
     const std::vector<float> out = applied(map, y);
     const auto best = std::max_element(out.begin(), out.end()) - out.begin();
-    QVERIFY(std::abs(map.frequency().value(static_cast<double>(best)) - fundamental) <= 0.1);
-    QVERIFY(
-        std::abs(static_cast<double>(out[static_cast<std::size_t>(best)]) + std::log(boost::math::gamma_q(3.0, 30.0)))
-        < 0.1);
+    QVERIFY(std::abs(map.frequency().value(double(best)) - fundamental) <= 0.1);
+    QVERIFY(std::abs(double(out[std::size_t(best)]) + std::log(boost::math::gamma_q(3.0, 30.0))) < 0.1);
     // The highest fundamental has all of its members in the band.
     QVERIFY(5.0 * map.frequency().last() <= band().last() + 1e-9);
     QVERIFY(5.0 * (map.frequency().last() + map.frequency().step) > band().last());
@@ -136,15 +133,15 @@ void tst_Family::keepsTheLawOfNoise()
     std::vector<double> above(4, 0.0);
     double cells = 0.0;
     for (int frame = 0; frame < frames; ++frame)
-        for (const float value : applied(map, noise(static_cast<std::uint64_t>(100 + frame)))) {
+        for (const float value : applied(map, noise(std::uint64_t(100 + frame)))) {
             if (std::isnan(value)) // nothing of the family in the band
                 continue;
             cells += 1.0;
             for (std::size_t i = 0; i < above.size(); ++i)
-                above[i] += value > 0.5f + 2.0f * static_cast<float>(i) ? 1.0 : 0.0;
+                above[i] += value > 0.5f + 2.0f * float(i) ? 1.0 : 0.0;
         }
     for (std::size_t i = 0; i < above.size(); ++i) {
-        const double expected = std::exp(-0.5 - 2.0 * static_cast<double>(i));
+        const double expected = std::exp(-0.5 - 2.0 * double(i));
         // Cells of a frame share members: at most one in 40 is counted as independent.
         const double deviation = std::sqrt(expected * 40.0 / cells);
         QVERIFY2(std::abs(above[i] / cells - expected) < 4.0 * deviation + 1e-3 * expected,
@@ -167,10 +164,10 @@ void tst_Family::leavesOutWhatWasNotObserved()
 void tst_Family::closesOnItself()
 {
     const FamilyMap near = FamilyMap::onRing(family(FamilySettings::Relation::Offsets, {0.0, 5.0}), bins, 2.0);
-    std::vector<float> y(static_cast<std::size_t>(bins), 0.0f);
+    std::vector<float> y(std::size_t(bins), 0.0f);
     y[3] = 8.0f;
     const std::vector<float> out = applied(near, y);
-    QVERIFY(out[3] > 5.0f && out[static_cast<std::size_t>(bins - 7)] > 5.0f && out[13] < 0.1f);
+    QVERIFY(out[3] > 5.0f && out[std::size_t(bins - 7)] > 5.0f && out[13] < 0.1f);
     // Members farther apart than the ring is wide share no bin.
     const FamilyMap far = FamilyMap::onRing(family(FamilySettings::Relation::Offsets, {0.0, 200.0}), bins, 2.0);
     QCOMPARE(far.frequency().count, bins / 2);

@@ -48,12 +48,10 @@ std::complex<double> definition(const std::vector<float> &samples, bool isComple
 {
     std::complex<double> sum = 0.0;
     for (int n = 0; n < length; ++n) {
-        const auto i = static_cast<std::size_t>(n);
+        const auto i = std::size_t(n);
         const std::complex<double> x =
             isComplex ? std::complex<double>(samples[2 * i], samples[2 * i + 1]) : samples[i];
-        sum += x
-               * std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(static_cast<long>(bin) * n % length)
-                                     / length);
+        sum += x * std::polar(1.0, -2.0 * std::numbers::pi * double(long(bin) * n % length) / length);
     }
     return sum;
 }
@@ -80,7 +78,7 @@ void tst_Fft::equalsTheDefinition()
     QCOMPARE(std::ssize(bins), std::ptrdiff_t(fft.binCount()));
     for (int bin = 0; bin < fft.binCount(); ++bin) {
         const std::complex<double> difference =
-            std::complex<double>(bins[static_cast<std::size_t>(bin)]) - definition(samples, isComplex, length, bin);
+            std::complex<double>(bins[std::size_t(bin)]) - definition(samples, isComplex, length, bin);
         QVERIFY2(std::abs(difference) < 1e-6 * std::sqrt(length) * 4.0,
                  qPrintable(QString("bin %1: off by %2").arg(bin).arg(std::abs(difference))));
     }
@@ -100,8 +98,8 @@ void tst_Fft::aToneFallsIntoItsBin()
     // Negative frequencies follow the positive ones: -2 turns in 15 samples is bin 13.
     std::vector<float> samples;
     for (int n = 0; n < 15; ++n) {
-        samples.push_back(static_cast<float>(std::cos(-2.0 * std::numbers::pi * 2.0 * n / 15.0)));
-        samples.push_back(static_cast<float>(std::sin(-2.0 * std::numbers::pi * 2.0 * n / 15.0)));
+        samples.push_back(float(std::cos(-2.0 * std::numbers::pi * 2.0 * n / 15.0)));
+        samples.push_back(float(std::sin(-2.0 * std::numbers::pi * 2.0 * n / 15.0)));
     }
     const auto bins = transform(Fft(15, Fft::Input::Complex), samples);
     for (std::size_t bin = 0; bin < 15; ++bin)
@@ -138,7 +136,7 @@ void tst_Fft::fastLengths()
                 isFast[n * prime] = true;
     for (int wanted = 1; wanted < 2800; ++wanted) {
         int expected = wanted;
-        while (!isFast[static_cast<std::size_t>(expected)])
+        while (!isFast[std::size_t(expected)])
             ++expected;
         QCOMPARE(Fft::fastLength(wanted), expected);
     }

@@ -65,8 +65,7 @@ void addTone(std::vector<float> &samples, double hz, double db, double windowSam
 {
     const double amplitude = std::sqrt(6.0 * std::pow(10.0, db / 10.0) / windowSamples);
     for (std::size_t n = 0; n < samples.size(); ++n)
-        samples[n] +=
-            static_cast<float>(amplitude * std::cos(2.0 * std::numbers::pi * hz * static_cast<double>(n) / rate));
+        samples[n] += float(amplitude * std::cos(2.0 * std::numbers::pi * hz * double(n) / rate));
 }
 
 /// All frames of a recording after the normaliser.
@@ -77,15 +76,15 @@ struct Normalised {
     std::vector<float> y;
 
     Index binAt(double hz) const { return frames->grid().axes[0].nearest(hz); }
-    float at(Index frame, Index bin) const { return y[static_cast<std::size_t>(frame * bins + bin)]; }
+    float at(Index frame, Index bin) const { return y[std::size_t(frame * bins + bin)]; }
 
     double mean(Index firstFrame, Index endFrame, Index firstBin, Index endBin) const
     {
         double sum = 0.0;
         for (Index frame = firstFrame; frame < endFrame; ++frame)
             for (Index bin = firstBin; bin < endBin; ++bin)
-                sum += static_cast<double>(at(frame, bin));
-        return sum / static_cast<double>((endFrame - firstFrame) * (endBin - firstBin));
+                sum += double(at(frame, bin));
+        return sum / double((endFrame - firstFrame) * (endBin - firstBin));
     }
     double mean() const { return mean(0, frameCount, 0, bins); }
     double meanOfBin(Index bin) const { return mean(0, frameCount, bin, bin + 1); }
@@ -106,7 +105,7 @@ Normalised normalised(std::vector<float> samples, const SpectrogramSettings &spe
         std::make_shared<NormalisedSpectrogram>(spectrogram, estimateBackground(*spectrogram, settings), settings);
     result.frameCount = result.frames->time().count;
     result.bins = result.frames->grid().size();
-    result.y.resize(static_cast<std::size_t>(result.frameCount * result.bins));
+    result.y.resize(std::size_t(result.frameCount * result.bins));
     result.frames->read(0, result.frameCount, result.y);
     return result;
 }
@@ -132,12 +131,11 @@ void tst_NoiseNormaliser::whiteNoiseHasMeanOne_data()
     QTest::addColumn<int>("shape");
     for (bool isComplex : {false, true}) {
         const char *kind = isComplex ? "I/Q" : "real";
-        QTest::addRow("%s", kind) << isComplex << 0.5 << 2 << 2 << static_cast<int>(WindowShape::Hann);
-        QTest::addRow("%s, short window", kind) << isComplex << 0.1 << 2 << 2 << static_cast<int>(WindowShape::Hann);
-        QTest::addRow("%s, no overlap", kind) << isComplex << 0.1 << 1 << 1 << static_cast<int>(WindowShape::Hann);
-        QTest::addRow("%s, Billon", kind) << isComplex << 0.5 << 2 << 4 << static_cast<int>(WindowShape::Rectangular);
-        QTest::addRow("%s, Blackman-Harris", kind)
-            << isComplex << 0.25 << 4 << 1 << static_cast<int>(WindowShape::BlackmanHarris);
+        QTest::addRow("%s", kind) << isComplex << 0.5 << 2 << 2 << int(WindowShape::Hann);
+        QTest::addRow("%s, short window", kind) << isComplex << 0.1 << 2 << 2 << int(WindowShape::Hann);
+        QTest::addRow("%s, no overlap", kind) << isComplex << 0.1 << 1 << 1 << int(WindowShape::Hann);
+        QTest::addRow("%s, Billon", kind) << isComplex << 0.5 << 2 << 4 << int(WindowShape::Rectangular);
+        QTest::addRow("%s, Blackman-Harris", kind) << isComplex << 0.25 << 4 << 1 << int(WindowShape::BlackmanHarris);
     }
 }
 
@@ -173,7 +171,7 @@ void tst_NoiseNormaliser::noWindowShiftsTheMean()
          {WindowShape::Rectangular, WindowShape::Hann, WindowShape::Blackman, WindowShape::BlackmanHarris}) {
         const double mean = normalised(samples, {0.25, 2, 1, shape}, true).mean();
         QVERIFY2(std::abs(mean - 1.0) < 0.002,
-                 said(windowShapeNames[static_cast<std::size_t>(shape)].data(), mean)); // 0.0003 by chance
+                 said(windowShapeNames[std::size_t(shape)].data(), mean)); // 0.0003 by chance
     }
 }
 
@@ -192,8 +190,8 @@ void tst_NoiseNormaliser::steepSlope()
     for (int pole = 0; pole < 4; ++pole) {
         double state = 0.0;
         for (float &sample : samples) {
-            state = 0.9 * state + static_cast<double>(sample);
-            sample = static_cast<float>(state);
+            state = 0.9 * state + double(sample);
+            sample = float(state);
         }
     }
     const Normalised n = normalised(samples);
@@ -290,8 +288,7 @@ void tst_NoiseNormaliser::driftingLevel()
     // left.
     std::vector<float> samples = gaussian(400000, 21);
     for (std::size_t i = 0; i < samples.size(); ++i)
-        samples[i] *= static_cast<float>(
-            std::pow(10.0, 0.075 * std::sin(2.0 * std::numbers::pi * static_cast<double>(i) / (30.0 * rate))));
+        samples[i] *= float(std::pow(10.0, 0.075 * std::sin(2.0 * std::numbers::pi * double(i) / (30.0 * rate))));
     const Normalised n = normalised(samples);
     double sum = 0.0;
     double counted = 0.0;
@@ -316,7 +313,7 @@ std::vector<float> gains(std::size_t count, const Pieces &pieces)
     while (result.size() < count)
         for (const auto &[length, db] : pieces) {
             for (double i = 0.0; i < length && result.size() < count; i += 1.0)
-                result.push_back(static_cast<float>(std::pow(10.0, 0.05 * (before + (db - before) * i / length))));
+                result.push_back(float(std::pow(10.0, 0.05 * (before + (db - before) * i / length))));
             before = db;
         }
     return result;
@@ -334,7 +331,7 @@ std::pair<double, double> tileErrors(const Normalised &n)
         sum += std::pow(n.mean(first, first + tile, edge, n.bins - edge) - 1.0, 2.0);
         counted += 1.0;
     }
-    const double cells = 0.5 * static_cast<double>(n.bins - 2 * edge);
+    const double cells = 0.5 * double(n.bins - 2 * edge);
     return {std::sqrt(sum / counted), std::sqrt(1.94 * 1.06 / (cells * tile))};
 }
 
@@ -366,7 +363,7 @@ void tst_NoiseNormaliser::levelsAreFollowed()
     QVERIFY2(deviation < 1.3 * counting, said("deviation over that of counting", deviation / counting));
     // The background itself, against the known power of each frame: in tiles, no farther off than counting tells.
     const std::vector<float> window = sampleWindow(WindowShape::Hann, 500);
-    std::vector<float> ln(static_cast<std::size_t>(n.frames->background().frequency.count));
+    std::vector<float> ln(std::size_t(n.frames->background().frequency.count));
     double sum = 0.0;
     double counted = 0.0;
     for (Index first = 0; first + 16 <= n.frameCount; first += 16) {
@@ -374,12 +371,11 @@ void tst_NoiseNormaliser::levelsAreFollowed()
         for (Index frame = first; frame < first + 16; ++frame) {
             double power = 0.0;
             for (std::size_t i = 0; i < 500; ++i)
-                power +=
-                    std::pow(static_cast<double>(window[i] * gain[static_cast<std::size_t>(frame) * 250 + i]), 2.0);
-            n.frames->background().readLnPower(n.frames->time().value(static_cast<double>(frame)), ln);
+                power += std::pow(double(window[i] * gain[std::size_t(frame) * 250 + i]), 2.0);
+            n.frames->background().readLnPower(n.frames->time().value(double(frame)), ln);
             double over = 0.0;
             for (std::size_t cell = 6; cell + 6 < ln.size(); ++cell)
-                over += power / std::exp(static_cast<double>(ln[cell])) / static_cast<double>(ln.size() - 12);
+                over += power / std::exp(double(ln[cell])) / double(ln.size() - 12);
             error += (over - 1.0) / 16.0;
         }
         sum += error * error;
@@ -432,8 +428,7 @@ void tst_NoiseNormaliser::coloursThatTakeTurns()
         const double phase = 2.0 * std::numbers::pi * i / (taps - 1);
         const double blackman = 0.42 - 0.5 * std::cos(phase) + 0.08 * std::cos(2.0 * phase);
         const double sine = t == 0.0 ? 0.2 : std::sin(0.2 * std::numbers::pi * t) / (std::numbers::pi * t);
-        filter[static_cast<std::size_t>(i)] =
-            static_cast<float>(2.0 * blackman * sine * std::cos(0.4 * std::numbers::pi * t));
+        filter[std::size_t(i)] = float(2.0 * blackman * sine * std::cos(0.4 * std::numbers::pi * t));
     }
     const std::vector<float> white = gaussian(400000 + taps, 35);
     const std::vector<float> gain =
@@ -441,8 +436,7 @@ void tst_NoiseNormaliser::coloursThatTakeTurns()
     std::vector<float> samples = gaussian(400000, 36);
     for (std::size_t i = 0; i < samples.size(); ++i)
         samples[i] +=
-            10.0f * gain[i]
-            * std::inner_product(filter.begin(), filter.end(), white.begin() + static_cast<std::ptrdiff_t>(i), 0.0f);
+            10.0f * gain[i] * std::inner_product(filter.begin(), filter.end(), white.begin() + std::ptrdiff_t(i), 0.0f);
     const Normalised n = normalised(samples);
     QVERIFY(!n.frames->background().stretches.empty());
     double sum = 0.0;
@@ -467,10 +461,8 @@ void tst_NoiseNormaliser::sameAtTheEdges()
         double sum = 0.0;
         for (Index block = 0; block < background.time.count; ++block)
             for (Index cell = from; cell < to; ++cell)
-                sum += std::pow(static_cast<double>(background.lnPower[static_cast<std::size_t>(block * cells + cell)])
-                                    - std::numbers::ln2,
-                                2.0);
-        return std::sqrt(sum / static_cast<double>(background.time.count * (to - from)));
+                sum += std::pow(double(background.lnPower[std::size_t(block * cells + cell)]) - std::numbers::ln2, 2.0);
+        return std::sqrt(sum / double(background.time.count * (to - from)));
     };
     const double atEdges = std::max(deviation(0, 5), deviation(cells - 5, cells));
     QVERIFY2(atEdges < 0.06, said("at the edges", atEdges));
@@ -487,15 +479,15 @@ void tst_NoiseNormaliser::nothingAboveABandEdge()
         const double t = i - taps / 2;
         const double phase = 2.0 * std::numbers::pi * i / (taps - 1);
         const double blackman = 0.42 - 0.5 * std::cos(phase) + 0.08 * std::cos(2.0 * phase);
-        filter[static_cast<std::size_t>(i)] =
+        filter[std::size_t(i)] =
             blackman * (t == 0.0 ? 0.5 : std::sin(0.5 * std::numbers::pi * t) / (std::numbers::pi * t));
     }
     std::vector<float> samples(white.size() - taps);
     for (std::size_t n = 0; n < samples.size(); ++n) {
         double sum = 0.0;
         for (std::size_t i = 0; i < filter.size(); ++i)
-            sum += filter[i] * static_cast<double>(white[n + i]);
-        samples[n] = static_cast<float>(sum);
+            sum += filter[i] * double(white[n + i]);
+        samples[n] = float(sum);
     }
     const Normalised n = normalised(samples);
     QVERIFY(n.isSound());
@@ -601,7 +593,7 @@ void tst_NoiseNormaliser::narrowBand()
     std::vector<float> samples = gaussian(400000, 13);
     const Normalised quiet = normalised(samples, {0.5, 2, 2}, false, band);
     QVERIFY2(std::abs(quiet.mean() - 1.0) < 0.2, said("mean", quiet.mean()));
-    const double hz = quiet.frames->grid().axes[0].value(static_cast<double>(quiet.bins / 2));
+    const double hz = quiet.frames->grid().axes[0].value(double(quiet.bins / 2));
     if (low > 0.0 && high < 500.0) {
         addTone(samples, hz, 30.0, 500.0);
         const Normalised n = normalised(samples, {0.5, 2, 2}, false, band);
@@ -634,8 +626,7 @@ void tst_NoiseNormaliser::framesAreAFunctionOfTheirIndex()
         for (Index end = n.frameCount; end > 0; end = std::max<Index>(0, end - 7)) {
             const Index first = std::max<Index>(0, end - 7);
             n.frames->read(first, end - first,
-                           std::span(pieces).subspan(static_cast<std::size_t>(first * n.bins),
-                                                     static_cast<std::size_t>((end - first) * n.bins)));
+                           std::span(pieces).subspan(std::size_t(first * n.bins), std::size_t((end - first) * n.bins)));
         }
     }
     QCOMPARE(pieces, n.y);

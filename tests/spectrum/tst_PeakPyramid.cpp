@@ -46,9 +46,9 @@ Axis timeOf(Index frames)
 std::vector<float> someScores(Index frames, Index cells, std::uint64_t stream)
 {
     Random random(7, stream);
-    std::vector<float> values(static_cast<std::size_t>(frames * cells));
+    std::vector<float> values(std::size_t(frames * cells));
     for (float &value : values)
-        value = static_cast<float>(std::floor(random.uniform() * 180.0) / 4.0 - 3.0);
+        value = float(std::floor(random.uniform() * 180.0) / 4.0 - 3.0);
     return values;
 }
 
@@ -72,9 +72,9 @@ bool hasTheMaxima(const PeakPyramid &pyramid, const std::vector<float> &values, 
             for (Index cell = 0; cell < cells; ++cell) {
                 float largest = -INFINITY;
                 for (Index frame = row * perRow; frame < std::min(frames, (row + 1) * perRow); ++frame)
-                    largest = std::max(largest, values[static_cast<std::size_t>(frame * cells + cell)]);
-                const std::uint8_t byte = pyramid.row(level, row)[static_cast<std::size_t>(cell)];
-                if (pyramid.scale().value(byte) != static_cast<double>(largest))
+                    largest = std::max(largest, values[std::size_t(frame * cells + cell)]);
+                const std::uint8_t byte = pyramid.row(level, row)[std::size_t(cell)];
+                if (pyramid.scale().value(byte) != double(largest))
                     return false;
             }
     }
@@ -86,8 +86,8 @@ bool hasTheMaxima(const PeakPyramid &pyramid, const std::vector<float> &values, 
 void tst_PeakPyramid::everyByteReadsBack_data()
 {
     QTest::addColumn<int>("kind");
-    QTest::newRow("dB") << static_cast<int>(ByteScale::Kind::PowerDb);
-    QTest::newRow("nat") << static_cast<int>(ByteScale::Kind::ScoreNats);
+    QTest::newRow("dB") << int(ByteScale::Kind::PowerDb);
+    QTest::newRow("nat") << int(ByteScale::Kind::ScoreNats);
 }
 
 void tst_PeakPyramid::everyByteReadsBack()
@@ -106,8 +106,8 @@ void tst_PeakPyramid::byteIsTheNearest_data()
     QTest::addColumn<int>("kind");
     QTest::addColumn<double>("value");
     QTest::addColumn<double>("shown");
-    const int dB = static_cast<int>(ByteScale::Kind::PowerDb);
-    const int nat = static_cast<int>(ByteScale::Kind::ScoreNats);
+    const int dB = int(ByteScale::Kind::PowerDb);
+    const int nat = int(ByteScale::Kind::ScoreNats);
     QTest::newRow("0 dB") << dB << 0.0 << 0.0;
     QTest::newRow("a third of a dB") << dB << 0.33 << 0.5;
     QTest::newRow("below") << dB << -40.0 << -15.0;
@@ -164,8 +164,7 @@ void tst_PeakPyramid::encodingIsTheScale()
         const ByteScale scale(kind);
         for (int i = 0; i < 20000; ++i) {
             const double wanted = -20.0 + 140.0 * random.uniform() * (i % 3 == 0 ? 10.0 : 1.0);
-            const auto stored =
-                static_cast<float>(kind == ByteScale::Kind::PowerDb ? std::pow(10.0, wanted / 10.0) : wanted);
+            const auto stored = float(kind == ByteScale::Kind::PowerDb ? std::pow(10.0, wanted / 10.0) : wanted);
             std::uint8_t byte = 0;
             scale.encode({&stored, 1}, {&byte, 1});
             const double nearest = std::abs(scale.value(scale.byte(wanted)) - wanted);
@@ -259,7 +258,7 @@ void tst_PeakPyramid::budgetKeepsMaximaAndGeometry()
     QFETCH(int, frames);
     QFETCH(int, budget);
     const std::vector<float> values = someScores(frames, 3, 3);
-    const PeakPyramid pyramid = built(values, frames, 3, static_cast<std::size_t>(budget));
+    const PeakPyramid pyramid = built(values, frames, 3, std::size_t(budget));
     QCOMPARE(pyramid.frameCount(), Index(frames));
     QCOMPARE(pyramid.time().count, Index(frames));
     QVERIFY(hasTheMaxima(pyramid, values, frames, 3));
@@ -286,8 +285,7 @@ void tst_PeakPyramid::soFarIsAPictureOfItsOwn()
     const std::vector<Index> ends = {0, 1, 7, 873, 874, 1333, 3001, 4999, 5000};
     Index done = 0;
     for (Index end : ends) {
-        pyramid.append(std::span(values).subspan(static_cast<std::size_t>(done * cells),
-                                                 static_cast<std::size_t>((end - done) * cells)));
+        pyramid.append(std::span(values).subspan(std::size_t(done * cells), std::size_t((end - done) * cells)));
         done = end;
         taken.push_back(pyramid.soFar());
     }
@@ -328,7 +326,7 @@ void tst_PeakPyramid::roomForWhatItIsInTheEndIsEnough()
     for (const std::size_t share : {1, 40, 100, 1000, 5000})
         for (const Index frames : {1, 7, 64, 100, 333, 1024, 1500}) {
             const Axis time{"time", "s", 0.0, 1.0, frames, false};
-            const std::size_t least = memoryShares::inTheEnd(share, static_cast<std::size_t>(frames), cells);
+            const std::size_t least = memoryShares::inTheEnd(share, std::size_t(frames), cells);
             QVERIFY(least <= share);
             PeakPyramid with(time, cells, ByteScale(ByteScale::Kind::ScoreNats), share);
             PeakPyramid within(time, cells, ByteScale(ByteScale::Kind::ScoreNats), least);

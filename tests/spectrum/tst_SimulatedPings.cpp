@@ -21,7 +21,7 @@ PingScene scene(int pings = 20, int looks = 1)
 
 std::vector<float> allOf(const SimulatedPings &pings)
 {
-    std::vector<float> y(static_cast<std::size_t>(pings.time().count * pings.grid().size()));
+    std::vector<float> y(std::size_t(pings.time().count * pings.grid().size()));
     pings.read(0, pings.time().count, y);
     return y;
 }
@@ -35,10 +35,9 @@ Moments momentsOf(const std::vector<float> &values)
 {
     Moments m;
     for (float value : values)
-        m.mean += static_cast<double>(value) / static_cast<double>(values.size());
+        m.mean += double(value) / double(values.size());
     for (float value : values)
-        m.variance += (static_cast<double>(value) - m.mean) * (static_cast<double>(value) - m.mean)
-                      / static_cast<double>(values.size());
+        m.variance += (double(value) - m.mean) * (double(value) - m.mean) / double(values.size());
     return m;
 }
 
@@ -56,7 +55,7 @@ std::vector<float> targetCell(Echo echo, double snrDb, int pings, int looks = 1)
     const std::vector<float> y = allOf(simulated);
     std::vector<float> values;
     for (int ping = 0; ping < pings; ++ping)
-        values.push_back(y[static_cast<std::size_t>(ping * simulated.grid().size() + 5 * 10)]);
+        values.push_back(y[std::size_t(ping * simulated.grid().size() + 5 * 10)]);
     return values;
 }
 
@@ -83,23 +82,22 @@ private slots:
 void tst_SimulatedPings::noiseIsExponential()
 {
     const std::vector<float> y = allOf(SimulatedPings(scene(100))); // 200 000 cells
-    const double n = static_cast<double>(y.size());
+    const double n = double(y.size());
     const Moments m = momentsOf(y);
     QVERIFY2(std::abs(m.mean - 1.0) < 4.5 / std::sqrt(n), qPrintable(QString::number(m.mean)));
     QVERIFY2(std::abs(m.variance - 1.0) < 4.5 * std::sqrt(8.0 / n),
              qPrintable(QString::number(m.variance))); // var of Exp's variance: 8
     for (double level : {0.5, 2.0, 5.0}) {
-        const auto above =
-            std::count_if(y.begin(), y.end(), [level](float v) { return static_cast<double>(v) > level; });
+        const auto above = std::count_if(y.begin(), y.end(), [level](float v) { return double(v) > level; });
         const double p = std::exp(-level);
-        QVERIFY(std::abs(static_cast<double>(above) / n - p) < 4.5 * std::sqrt(p * (1.0 - p) / n));
+        QVERIFY(std::abs(double(above) / n - p) < 4.5 * std::sqrt(p * (1.0 - p) / n));
     }
 }
 
 void tst_SimulatedPings::looksAverage()
 {
     const std::vector<float> y = allOf(SimulatedPings(scene(40, 5))); // χ² with 10 degrees of freedom, mean 1
-    const double n = static_cast<double>(y.size());
+    const double n = double(y.size());
     const Moments m = momentsOf(y);
     QVERIFY(std::abs(m.mean - 1.0) < 4.5 * std::sqrt(0.2 / n));
     QVERIFY(std::abs(m.variance - 0.2)
@@ -116,11 +114,11 @@ void tst_SimulatedPings::anyPingAlone()
     made.reverberation = Reverberation{20.0, 3.0, PingNormalisation::Estimated};
     const SimulatedPings pings(made);
     const std::vector<float> all = allOf(pings);
-    const auto cells = static_cast<std::size_t>(pings.grid().size());
+    const auto cells = std::size_t(pings.grid().size());
     for (Index ping : {Index(13), Index(2), Index(19)}) {
         std::vector<float> one(cells);
         SimulatedPings(made).read(ping, 1, one);
-        QVERIFY(std::equal(one.begin(), one.end(), all.begin() + ping * static_cast<Index>(cells)));
+        QVERIFY(std::equal(one.begin(), one.end(), all.begin() + ping * Index(cells)));
     }
 }
 
@@ -137,12 +135,12 @@ void tst_SimulatedPings::echoes_data()
     QTest::addColumn<int>("echo");
     QTest::addColumn<int>("looks");
     QTest::addColumn<double>("variance"); // at S = 5
-    QTest::newRow("constant power") << static_cast<int>(Echo::Constant) << 1 << 1.0;
-    QTest::newRow("fluctuating") << static_cast<int>(Echo::Fluctuating) << 1 << 36.0;
-    QTest::newRow("constant amplitude") << static_cast<int>(Echo::Complex) << 1 << 11.0; // 1 + 2S
-    QTest::newRow("constant power, four looks") << static_cast<int>(Echo::Constant) << 4 << 0.25;
-    QTest::newRow("fluctuating, four looks") << static_cast<int>(Echo::Fluctuating) << 4 << 9.0;
-    QTest::newRow("constant amplitude, four looks") << static_cast<int>(Echo::Complex) << 4 << 2.75;
+    QTest::newRow("constant power") << int(Echo::Constant) << 1 << 1.0;
+    QTest::newRow("fluctuating") << int(Echo::Fluctuating) << 1 << 36.0;
+    QTest::newRow("constant amplitude") << int(Echo::Complex) << 1 << 11.0; // 1 + 2S
+    QTest::newRow("constant power, four looks") << int(Echo::Constant) << 4 << 0.25;
+    QTest::newRow("fluctuating, four looks") << int(Echo::Fluctuating) << 4 << 9.0;
+    QTest::newRow("constant amplitude, four looks") << int(Echo::Complex) << 4 << 2.75;
 }
 
 void tst_SimulatedPings::echoes()
@@ -175,7 +173,7 @@ void tst_SimulatedPings::twoTargetsInACell()
     const SimulatedPings none(made);
     made.targets = {target, target};
     const SimulatedPings two(made);
-    const auto cell = static_cast<std::size_t>(two.truth().targets[0].cellAt(0));
+    const auto cell = std::size_t(two.truth().targets[0].cellAt(0));
     QVERIFY(std::abs(allOf(two)[cell] - allOf(none)[cell] - 20.0f) < 1e-4f);
 }
 
@@ -204,7 +202,7 @@ void tst_SimulatedPings::reverberationIsTakenOut()
         double count = 0.0;
         for (Index ping = 0; ping < 300; ++ping)
             for (Index cell = first * 10; cell < (first + 20) * 10; ++cell) {
-                sum += static_cast<double>(y[static_cast<std::size_t>(ping * 2000 + cell)]);
+                sum += double(y[std::size_t(ping * 2000 + cell)]);
                 count += 1.0;
             }
         QVERIFY2(std::abs(sum / count - 1.0) < bias + 4.5 / std::sqrt(count * looks),

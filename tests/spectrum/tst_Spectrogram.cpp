@@ -63,7 +63,7 @@ std::shared_ptr<MemoryRecording> noise(Index samples, bool isComplex, std::uint6
 
 std::vector<float> allOf(const Spectrogram &spectrogram)
 {
-    std::vector<float> values(static_cast<std::size_t>(spectrogram.time().count * spectrogram.frequency().count));
+    std::vector<float> values(std::size_t(spectrogram.time().count * spectrogram.frequency().count));
     spectrogram.read(0, spectrogram.time().count, values);
     return values;
 }
@@ -72,8 +72,8 @@ double mean(const std::vector<float> &values)
 {
     double sum = 0.0;
     for (float value : values)
-        sum += static_cast<double>(value);
-    return sum / static_cast<double>(values.size());
+        sum += double(value);
+    return sum / double(values.size());
 }
 
 } // namespace
@@ -108,7 +108,7 @@ void tst_Spectrogram::equalsTheDefinition()
     const std::vector<float> window = sampleWindow(c.shape, c.windowSamples);
     const Index floats = c.isComplex ? 2 : 1;
 
-    const int hop = std::max(1, static_cast<int>(std::lround(static_cast<double>(c.windowSamples) / c.steps)));
+    const int hop = std::max(1, int(std::lround(double(c.windowSamples) / c.steps)));
     QCOMPARE(spectrogram.hopSamples(), hop);
     QCOMPARE(spectrogram.time().count, Index((2 * c.windowSamples + 5) / hop + 1));
     QVERIFY(spectrogram.transformLength() >= c.windowSamples * c.binsPerCell);
@@ -118,11 +118,11 @@ void tst_Spectrogram::equalsTheDefinition()
         std::vector<float> windowed(samples.begin() + frame * hop * floats,
                                     samples.begin() + (frame * hop + c.windowSamples) * floats);
         for (std::size_t i = 0; i < windowed.size(); ++i)
-            windowed[i] *= window[i / static_cast<std::size_t>(floats)];
+            windowed[i] *= window[i / std::size_t(floats)];
         for (Index bin = 0; bin < bins; ++bin) {
-            const double turns = spectrogram.frequency().value(static_cast<double>(bin)) / rate;
+            const double turns = spectrogram.frequency().value(double(bin)) / rate;
             const double expected = std::norm(fourier(windowed.data(), c.windowSamples, c.isComplex, turns));
-            const auto value = static_cast<double>(found[static_cast<std::size_t>(frame * bins + bin)]);
+            const auto value = double(found[std::size_t(frame * bins + bin)]);
             QVERIFY2(
                 std::abs(value - expected) < 1e-5 * (expected + 0.04),
                 qPrintable(QString("frame %1, bin %2: %3, directly %4").arg(frame).arg(bin).arg(value).arg(expected)));
@@ -220,15 +220,14 @@ void tst_Spectrogram::chunkedEqualsWhole()
     for (const Case &c : {Case{false, 37, 3, 2}, Case{true, 64, 2, 2}}) {
         const Spectrogram spectrogram(noise(2000, c.isComplex), settingsOf(c));
         const std::vector<float> whole = allOf(spectrogram);
-        const auto bins = static_cast<std::size_t>(spectrogram.frequency().count);
+        const auto bins = std::size_t(spectrogram.frequency().count);
         std::vector<float> pieces(whole.size());
         Index count = 1;
         // Backwards, so that no frame can lean on the one before it.
         for (Index end = spectrogram.time().count; end > 0; end -= count) {
             count = std::min<Index>(count % 5 + 1, end);
             spectrogram.read(end - count, count,
-                             std::span(pieces).subspan(static_cast<std::size_t>(end - count) * bins,
-                                                       static_cast<std::size_t>(count) * bins));
+                             std::span(pieces).subspan(std::size_t(end - count) * bins, std::size_t(count) * bins));
         }
         QCOMPARE(pieces, whole);
     }
@@ -242,7 +241,7 @@ void tst_Spectrogram::longRequestsAreCutInside()
     band.highHz = 103.0;
     const Spectrogram spectrogram(noise(2'500'000, false), settingsOf({false, 4000, 1, 1}), band);
     const std::vector<float> whole = allOf(spectrogram);
-    const auto bins = static_cast<std::size_t>(spectrogram.frequency().count);
+    const auto bins = std::size_t(spectrogram.frequency().count);
     std::vector<float> alone(bins);
     for (Index frame = 255; frame < 270; ++frame) {
         spectrogram.read(frame, 1, alone);
@@ -271,7 +270,7 @@ void tst_Spectrogram::whiteNoiseHasItsVariance_data()
     for (std::size_t shape = 0; shape < windowShapeNames.size(); ++shape)
         for (bool isComplex : {false, true})
             QTest::addRow("%s %s", windowShapeNames[shape].data(), isComplex ? "complex" : "real")
-                << isComplex << static_cast<int>(shape);
+                << isComplex << int(shape);
 }
 
 void tst_Spectrogram::whiteNoiseHasItsVariance()
@@ -284,12 +283,12 @@ void tst_Spectrogram::whiteNoiseHasItsVariance()
     const Spectrogram spectrogram(recording, settingsOf({isComplex, 100, 1, 1, static_cast<WindowShape>(shape)}));
     const std::vector<float> values = allOf(spectrogram);
     // Independent frames, and bins of which not more than three in a row tell the same: y ~ Exp(1), deviation 1.
-    const double error = std::sqrt(3.0 / static_cast<double>(values.size()));
+    const double error = std::sqrt(3.0 / double(values.size()));
     QVERIFY2(std::abs(mean(values) - 1.0) < 4.0 * error, qPrintable(QString("%1 ± %2").arg(mean(values)).arg(error)));
     // The lowest and the highest bin as well (800 values each; for real samples their y is χ² of one degree, variance
     // 2).
-    for (std::size_t bin : {std::size_t(0), static_cast<std::size_t>(spectrogram.frequency().count - 1)})
-        QVERIFY(std::abs(mean(every(values, static_cast<std::size_t>(spectrogram.frequency().count), bin)) - 1.0)
+    for (std::size_t bin : {std::size_t(0), std::size_t(spectrogram.frequency().count - 1)})
+        QVERIFY(std::abs(mean(every(values, std::size_t(spectrogram.frequency().count), bin)) - 1.0)
                 < 4.0 * std::sqrt(2.0 / 800.0));
 }
 
@@ -314,9 +313,9 @@ void tst_Spectrogram::toneHasItsLevelAndBin()
     std::vector<float> samples;
     for (int n = 0; n < 500; ++n) {
         const double phase = 2.0 * std::numbers::pi * hz * n / rate + 0.3;
-        samples.push_back(static_cast<float>(amplitude * std::cos(phase)));
+        samples.push_back(float(amplitude * std::cos(phase)));
         if (isComplex)
-            samples.push_back(static_cast<float>(amplitude * std::sin(phase)));
+            samples.push_back(float(amplitude * std::sin(phase)));
     }
     const Spectrogram spectrogram(std::make_shared<MemoryRecording>(samples, rate, isComplex),
                                   settingsOf({isComplex, 100, 2, 2, static_cast<WindowShape>(shape)}));
@@ -326,12 +325,12 @@ void tst_Spectrogram::toneHasItsLevelAndBin()
     const double expected = amplitude * amplitude * 100.0 * coherentGain * (isComplex ? 1.0 : 0.25);
     const Index bins = spectrogram.frequency().count;
     const Index wanted = spectrogram.frequency().nearest(hz);
-    QVERIFY(std::abs(spectrogram.frequency().value(static_cast<double>(wanted)) - hz) < 1e-9);
+    QVERIFY(std::abs(spectrogram.frequency().value(double(wanted)) - hz) < 1e-9);
     const std::vector<float> values = allOf(spectrogram);
     for (Index frame = 0; frame < spectrogram.time().count; ++frame) {
         const auto row = values.begin() + frame * bins;
         QCOMPARE(std::max_element(row, row + bins) - row, wanted);
-        const double db = 10.0 * std::log10(static_cast<double>(row[wanted]) / expected);
+        const double db = 10.0 * std::log10(double(row[wanted]) / expected);
         // The rectangular window's side lobes let the real tone's own mirror in.
         QVERIFY2(std::abs(db) < (shape == 0 && !isComplex ? 0.2 : 0.01), qPrintable(QString::number(db)));
     }
@@ -375,7 +374,7 @@ void tst_Spectrogram::otherChannel()
         }
         void read(int channel, Index, Index, std::span<float> out) const override
         {
-            std::ranges::fill(out, static_cast<float>(channel));
+            std::ranges::fill(out, float(channel));
         }
     };
     SelectionSettings selection;
@@ -455,7 +454,7 @@ void tst_Spectrogram::automaticWindow()
     QFETCH(double, window);
     RecordingInfo info;
     info.sampleRateHz = rateHz;
-    info.sampleCount = static_cast<Index>(std::llround(seconds * rateHz));
+    info.sampleCount = Index(std::llround(seconds * rateHz));
     QVERIFY2(std::abs(Spectrogram::automaticWindowSeconds(info) - window) < 1e-9 * window,
              qPrintable(QString::number(Spectrogram::automaticWindowSeconds(info))));
 }

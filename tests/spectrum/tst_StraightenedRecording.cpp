@@ -31,10 +31,10 @@ RecordingPointer chirp(bool isComplex)
 {
     const auto samples = std::make_shared<std::vector<float>>();
     for (Index n = 0; n < count; ++n) {
-        const double angle = 2.0 * std::numbers::pi * cyclesAt(static_cast<double>(n) / rate);
-        samples->push_back(static_cast<float>(std::cos(angle)));
+        const double angle = 2.0 * std::numbers::pi * cyclesAt(double(n) / rate);
+        samples->push_back(float(std::cos(angle)));
         if (isComplex)
-            samples->push_back(static_cast<float>(std::sin(angle)));
+            samples->push_back(float(std::sin(angle)));
     }
     return std::make_shared<ArrayRecording>("chirp", std::shared_ptr<const float>(samples, samples->data()),
                                             ArrayLayout{rate, count, 1, isComplex, 0.0});
@@ -45,23 +45,22 @@ FrequencyCurve curve()
     const Axis time{"time", "s", 0.0, 0.02, 1501, false};
     std::vector<double> hz;
     for (Index i = 0; i < time.count; ++i)
-        hz.push_back(frequencyAt(time.value(static_cast<double>(i))));
+        hz.push_back(frequencyAt(time.value(double(i))));
     return {time, hz};
 }
 
 /// Amplitude of a frequency in samples first … first+length-1.
 double amplitudeAt(const Recording &recording, double hz, Index first, Index length)
 {
-    const auto floats = static_cast<std::size_t>(recording.info().floatsPerSample());
-    std::vector<float> samples(static_cast<std::size_t>(length) * floats);
+    const auto floats = std::size_t(recording.info().floatsPerSample());
+    std::vector<float> samples(std::size_t(length) * floats);
     recording.read(0, first, length, samples);
     std::complex<double> sum = 0.0;
-    for (std::size_t n = 0; n < static_cast<std::size_t>(length); ++n) {
-        const std::complex<double> x(static_cast<double>(samples[floats * n]),
-                                     floats > 1 ? static_cast<double>(samples[floats * n + 1]) : 0.0);
-        sum += x * std::polar(1.0, -2.0 * std::numbers::pi * hz * static_cast<double>(n) / rate);
+    for (std::size_t n = 0; n < std::size_t(length); ++n) {
+        const std::complex<double> x(double(samples[floats * n]), floats > 1 ? double(samples[floats * n + 1]) : 0.0);
+        sum += x * std::polar(1.0, -2.0 * std::numbers::pi * hz * double(n) / rate);
     }
-    return std::abs(sum) / static_cast<double>(length) * (floats > 1 ? 1.0 : 2.0);
+    return std::abs(sum) / double(length) * (floats > 1 ? 1.0 : 2.0);
 }
 
 } // namespace

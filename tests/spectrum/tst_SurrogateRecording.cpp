@@ -39,14 +39,13 @@ std::shared_ptr<const Samples> colouredNoise(bool isComplex)
 {
     constexpr Index count = 40000;
     const std::size_t floats = isComplex ? 2 : 1;
-    std::vector<float> values(static_cast<std::size_t>(count) * floats);
+    std::vector<float> values(std::size_t(count) * floats);
     Random(7, 0).normals(values, 0.05f);
     for (std::size_t i = floats; i < values.size(); ++i)
         values[i] += 0.7f * values[i - floats];
     for (std::size_t i = values.size() / 2; i < values.size(); ++i)
         values[i] *= 2.0f;
-    std::fill(values.begin() + static_cast<std::ptrdiff_t>(4000 * floats),
-              values.begin() + static_cast<std::ptrdiff_t>(6000 * floats), 0.0f);
+    std::fill(values.begin() + std::ptrdiff_t(4000 * floats), values.begin() + std::ptrdiff_t(6000 * floats), 0.0f);
     return std::make_shared<Samples>(std::move(values), isComplex, isComplex ? "cf32" : "float32");
 }
 
@@ -128,7 +127,7 @@ void tst_SurrogateRecording::keepsTheQuantisationStep()
     std::vector<float> values(20000);
     Random random(9, 0);
     for (float &value : values)
-        value = static_cast<float>(std::round(1.5 * random.normal()) / 32768.0);
+        value = float(std::round(1.5 * random.normal()) / 32768.0);
     SpectrogramSettings settings;
     settings.windowSeconds = 2.0;
     const Spectrogram original(std::make_shared<Samples>(std::move(values), false, "int16"), settings);
@@ -136,7 +135,7 @@ void tst_SurrogateRecording::keepsTheQuantisationStep()
     std::vector<float> read(2000);
     surrogate.read(0, 100, 2000, read);
     for (const float value : read)
-        QCOMPARE(static_cast<double>(value) * 32768.0, std::round(static_cast<double>(value) * 32768.0));
+        QCOMPARE(double(value) * 32768.0, std::round(double(value) * 32768.0));
     QVERIFY(std::any_of(read.begin(), read.end(), [](float value) { return value != 0.0f; }));
 }
 

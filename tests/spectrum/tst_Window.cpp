@@ -33,7 +33,7 @@ private:
         QTest::addColumn<double>("sideLobeDb"); ///< highest, from the tables (Harris 1978)
         const double levels[] = {-13.3, -31.5, -42.7, -58.1, -92.0, -105.0};
         for (std::size_t i = 0; i < windowShapeNames.size(); ++i)
-            QTest::newRow(windowShapeNames[i].data()) << static_cast<int>(i) << levels[i];
+            QTest::newRow(windowShapeNames[i].data()) << int(i) << levels[i];
     }
 };
 
@@ -43,20 +43,20 @@ double energy(const std::vector<float> &window)
 {
     double sum = 0.0;
     for (float w : window)
-        sum += static_cast<double>(w) * static_cast<double>(w);
+        sum += double(w) * double(w);
     return sum;
 }
 
 /// |W(Δ)|²/|W(0)|² straight from the definition; the phase is taken about the window's middle, so W is real.
 double response(const std::vector<float> &window, double distanceCells)
 {
-    const auto length = static_cast<double>(window.size());
+    const auto length = double(window.size());
     double sum = 0.0;
     double atZero = 0.0;
     for (std::size_t n = 0; n < window.size(); ++n) {
-        const double t = (static_cast<double>(n) + 0.5) / length - 0.5;
-        sum += static_cast<double>(window[n]) * std::cos(2.0 * std::numbers::pi * distanceCells * t);
-        atZero += static_cast<double>(window[n]);
+        const double t = (double(n) + 0.5) / length - 0.5;
+        sum += double(window[n]) * std::cos(2.0 * std::numbers::pi * distanceCells * t);
+        atZero += double(window[n]);
     }
     return sum * sum / (atZero * atZero);
 }
@@ -68,8 +68,8 @@ void tst_Window::knownValues()
     // Sampled in the middle of each interval: Hann sin²(π(n + ½)/4), n = 0 … 3, is 0.1464, 0.8536, 0.8536, 0.1464; Σ w²
     // = 1.5.
     const std::vector<float> hann = sampleWindow(WindowShape::Hann, 4);
-    QVERIFY(std::abs(static_cast<double>(hann[0]) - 0.14644661 / std::sqrt(1.5)) < 1e-7);
-    QVERIFY(std::abs(static_cast<double>(hann[1]) - 0.85355339 / std::sqrt(1.5)) < 1e-7);
+    QVERIFY(std::abs(double(hann[0]) - 0.14644661 / std::sqrt(1.5)) < 1e-7);
+    QVERIFY(std::abs(double(hann[1]) - 0.85355339 / std::sqrt(1.5)) < 1e-7);
     QCOMPARE(sampleWindow(WindowShape::Rectangular, 4), (std::vector<float>{0.5f, 0.5f, 0.5f, 0.5f}));
     for (int shape = 0; shape < 6; ++shape)
         QCOMPARE(sampleWindow(static_cast<WindowShape>(shape), 1), std::vector<float>{1.0f});

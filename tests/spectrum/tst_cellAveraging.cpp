@@ -65,16 +65,14 @@ void tst_cellAveraging::evidenceIsExact()
     // t/N(1+ρ))^{-N} and (1 + t/N)^{-N}.
     constexpr Index N = 16;
     constexpr double snr = 4.0;
-    const auto tail = [](double t, double mean) {
-        return std::pow(1.0 + t / (static_cast<double>(N) * mean), -static_cast<double>(N));
-    };
+    const auto tail = [](double t, double mean) { return std::pow(1.0 + t / (double(N) * mean), -double(N)); };
     for (const double t : {0.1, 1.0, 5.0, 40.0}) {
         constexpr double h = 1e-5;
         const double target = tail(t - h, 1.0 + snr) - tail(t + h, 1.0 + snr);
         const double noise = tail(t - h, 1.0) - tail(t + h, 1.0);
-        std::vector<float> value{static_cast<float>(t)};
+        std::vector<float> value{float(t)};
         correctAveraged(value, N, snr);
-        const double lambda = static_cast<double>(value[0]) * snr / (1.0 + snr) - std::log1p(snr);
+        const double lambda = double(value[0]) * snr / (1.0 + snr) - std::log1p(snr);
         QVERIFY(std::abs(lambda - std::log(target / noise)) < 1e-5 * (1.0 + std::abs(lambda)));
     }
 }

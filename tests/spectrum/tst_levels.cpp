@@ -22,8 +22,8 @@ struct Walk {
         double level = 0.0;
         for (std::size_t i = 0; i < length; ++i) {
             level += step * random.normal();
-            walk.push_back(static_cast<float>(level));
-            series.push_back(static_cast<float>(level + noise * random.normal()));
+            walk.push_back(float(level));
+            series.push_back(float(level + noise * random.normal()));
         }
     }
 };
@@ -32,8 +32,8 @@ double deviation(const std::vector<float> &a, const std::vector<float> &b)
 {
     double sum = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i)
-        sum += std::pow(static_cast<double>(a[i] - b[i]), 2.0);
-    return std::sqrt(sum / static_cast<double>(a.size()));
+        sum += std::pow(double(a[i] - b[i]), 2.0);
+    return std::sqrt(sum / double(a.size()));
 }
 
 } // namespace
@@ -70,7 +70,7 @@ void tst_levels::truncatedMeanOfExponentials()
     Random random(32, 1);
     std::vector<float> cells(20000);
     for (float &cell : cells)
-        cell = static_cast<float>(3.0 * random.exponential());
+        cell = float(3.0 * random.exponential());
     const float mean = truncatedMean(cells, 3.0f);
     QVERIFY2(std::abs(mean / 3.0f - 1.0f) < 5.0f * 1.1f / std::sqrt(20000.0f), qPrintable(QString::number(mean)));
     // From a guess a tenth away it comes to the same within a three-hundredth.
@@ -100,10 +100,10 @@ void tst_levels::meansOfCells()
         }
         std::vector<float> y;
         for (std::size_t i = 1; i + 1 < re.size(); ++i)
-            y.push_back(static_cast<float>((std::pow(re[i] - 0.5 * (re[i - 1] + re[i + 1]), 2.0)
-                                            + std::pow(im[i] - 0.5 * (im[i - 1] + im[i + 1]), 2.0))
-                                           / 3.0));
-        sum += std::pow(std::log(static_cast<double>(truncatedMean(y, 1.0f))), 2.0);
+            y.push_back(float((std::pow(re[i] - 0.5 * (re[i - 1] + re[i + 1]), 2.0)
+                               + std::pow(im[i] - 0.5 * (im[i - 1] + im[i + 1]), 2.0))
+                              / 3.0));
+        sum += std::pow(std::log(double(truncatedMean(y, 1.0f))), 2.0);
     }
     const double measured = std::sqrt(sum / trials);
     QVERIFY2(std::abs(measured / meanScatter(cells, 35.0 / 18.0) - 1.0) < 0.1, qPrintable(QString::number(measured)));
@@ -139,7 +139,7 @@ void tst_levels::stepsAndClicksAreKept()
     // Away from them it is averaged as if they were not there.
     double sum = 0.0;
     for (std::size_t i = 1000; i < 1200; ++i)
-        sum += std::pow(static_cast<double>(level[i] - 30.0f), 2.0) / 200.0;
+        sum += std::pow(double(level[i] - 30.0f), 2.0) / 200.0;
     QVERIFY2(std::sqrt(sum) < 0.4, qPrintable(QString::number(std::sqrt(sum))));
 }
 
@@ -147,13 +147,13 @@ void tst_levels::aRampCostsNothing()
 {
     Walk w(2000, 0.0, 1.0, 5);
     for (std::size_t i = 0; i < w.series.size(); ++i) {
-        w.walk[i] = 0.2f * static_cast<float>(i);
+        w.walk[i] = 0.2f * float(i);
         w.series[i] += w.walk[i];
     }
     const std::vector<float> level = beyondScatter(w.series, 1.0);
     double sum = 0.0;
     for (std::size_t i = 200; i < 1800; ++i)
-        sum += std::pow(static_cast<double>(level[i] - w.walk[i]), 2.0) / 1600.0;
+        sum += std::pow(double(level[i] - w.walk[i]), 2.0) / 1600.0;
     QVERIFY2(std::sqrt(sum) < 0.2, qPrintable(QString::number(std::sqrt(sum))));
 }
 
@@ -164,7 +164,7 @@ void tst_levels::swingsAreFollowed()
     for (const auto &[period, most] : {std::pair{6.0, 1.05}, {30.0, 0.75}, {200.0, 0.4}, {1000.0, 0.25}}) {
         Walk w(4000, 0.0, 1.0, 6);
         for (std::size_t i = 0; i < w.series.size(); ++i) {
-            w.walk[i] = static_cast<float>(10.0 * std::sin(6.2832 * static_cast<double>(i) / period));
+            w.walk[i] = float(10.0 * std::sin(6.2832 * double(i) / period));
             w.series[i] += w.walk[i];
         }
         const double left = deviation(beyondScatter(w.series, 1.0), w.walk);

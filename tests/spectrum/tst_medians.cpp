@@ -35,10 +35,10 @@ void tst_medians::columns()
 {
     QFETCH(int, rows);
     QFETCH(int, cells);
-    const auto r = static_cast<std::size_t>(rows);
-    const auto c = static_cast<std::size_t>(cells);
+    const auto r = std::size_t(rows);
+    const auto c = std::size_t(cells);
     std::vector<float> frames(r * c);
-    Random(9, static_cast<std::uint64_t>(rows)).exponentials(frames);
+    Random(9, std::uint64_t(rows)).exponentials(frames);
     std::vector<float> found(c);
     columnMedians(frames, found);
     for (std::size_t cell = 0; cell < c; ++cell) {

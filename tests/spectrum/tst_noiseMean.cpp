@@ -44,8 +44,8 @@ void tst_noiseMean::ofExponentialNoise()
     std::vector<float> values(200 * 100);
     for (std::size_t i = 0; i < values.size(); ++i)
         values[i] = i % 7 == 0    ? std::numeric_limits<float>::quiet_NaN() // not observed
-                    : i % 50 == 3 ? 1000.0f * static_cast<float>(mean)      // a signal
-                                  : static_cast<float>(power(random));
+                    : i % 50 == 3 ? 1000.0f * float(mean)                   // a signal
+                                  : float(power(random));
     const FrameArray made = frames(200, 100, values);
     QVERIFY2(std::abs(noiseMeanOf(made) / mean - 1.0) < 0.08, qPrintable(QString::number(noiseMeanOf(made))));
     QCOMPARE(!noiseMeanWarning(made).empty(), isTold);

@@ -23,18 +23,15 @@ struct Scene {
     {
         Random random(77, stream);
         for (Index frame = 0; frame < frames; ++frame) {
-            const double level = frame / 20 % 5 == 4 ? 0.0 : std::pow(10.0, static_cast<double>(frame / 20 % 5));
+            const double level = frame / 20 % 5 == 4 ? 0.0 : std::pow(10.0, double(frame / 20 % 5));
             for (Index cell = 0; cell < cells; ++cell) {
                 const double b = 1.0 + (cell >= 60 && cell < 150 ? level : 0.0);
-                power.push_back(static_cast<float>(b));
-                y.push_back(static_cast<float>(b * random.exponential()));
+                power.push_back(float(b));
+                y.push_back(float(b * random.exponential()));
             }
         }
     }
-    std::span<const float> frame(Index i) const
-    {
-        return std::span(y).subspan(static_cast<std::size_t>(i * cells), cells);
-    }
+    std::span<const float> frame(Index i) const { return std::span(y).subspan(std::size_t(i * cells), cells); }
 };
 
 /// Root mean square of ln(B/power), over all cells but those nearest to the edges, and the largest next to them.
@@ -47,8 +44,7 @@ std::pair<double, double> errors(const Scene &scene, const NoiseSources &sources
     for (Index i = 0; i < frames; ++i) {
         sources.addUp(sources.levelsIn(scene.frame(i)), b);
         for (Index cell = 0; cell < cells; ++cell) {
-            const double error = std::log(static_cast<double>(
-                b[static_cast<std::size_t>(cell)] / scene.power[static_cast<std::size_t>(i * cells + cell)]));
+            const double error = std::log(double(b[std::size_t(cell)] / scene.power[std::size_t(i * cells + cell)]));
             largest = std::max(largest, std::abs(error));
             sum += error * error;
             counted += 1.0;
@@ -88,21 +84,20 @@ void tst_noiseSources::aLineIsNoColour()
     Scene scene(2);
     for (Index i = 0; i < frames; ++i)
         for (Index cell = 200; cell < 203; ++cell)
-            scene.y[static_cast<std::size_t>(i * cells + cell)] += 100.0f;
+            scene.y[std::size_t(i * cells + cell)] += 100.0f;
     const NoiseSources sources = fitSources(scene.y, cells, 2, 20);
     std::vector<float> b(cells);
     double ln = 0.0;
     for (Index i = 0; i < frames; ++i) {
         sources.addUp(sources.levelsIn(scene.frame(i)), b);
-        ln += std::log(static_cast<double>(b[201])) / frames;
+        ln += std::log(double(b[201])) / frames;
     }
     QVERIFY2(std::abs(ln) < 0.2, qPrintable(QString::number(ln)));
 }
 
 void tst_noiseSources::silence()
 {
-    QCOMPARE(fitSources(std::vector<float>(static_cast<std::size_t>(10 * cells), 0.0f), cells, 2, 20).count(),
-             Index(0));
+    QCOMPARE(fitSources(std::vector<float>(std::size_t(10 * cells), 0.0f), cells, 2, 20).count(), Index(0));
     Scene scene(3);
     std::fill(scene.y.begin(), scene.y.begin() + 50 * cells, 0.0f);
     const NoiseSources sources = fitSources(scene.y, cells, 2, 20);

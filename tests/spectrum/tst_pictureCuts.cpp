@@ -63,10 +63,10 @@ private slots:
         auto picture = std::make_shared<PeakPyramid>(Axis{"time", "s", 0.0, 1.0, 16, false}, 6,
                                                      ByteScale(ByteScale::Kind::ScoreNats), 40);
         for (int frame = 0; frame < 16; ++frame)
-            picture->append(std::vector<float>(6, static_cast<float>(frame)));
+            picture->append(std::vector<float>(6, float(frame)));
         picture->finish();
         QVERIFY(picture->framesPerRow(0) > 1);
-        const auto last = static_cast<double>(picture->framesPerRow(0) - 1);
+        const auto last = double(picture->framesPerRow(0) - 1);
         QCOMPARE(valuesOf(*pictureOfFrame(*picture, grid(), 0)).front(), last);
         const auto ranges = pictureAlong(*picture, grid(), 0);
         QCOMPARE(ranges->time().first, 0.5 * last); // in the middle of what it stands for

@@ -26,22 +26,22 @@ inline double axisProbability(const KinematicAxis &axis, Index p, int rateIndex,
         double sum = 0.0;
         for (Index delta = -(std::ssize(axis.step) - 1); delta < std::ssize(axis.step); ++delta)
             if (displaced(delta))
-                sum = std::max(sum, axis.step[static_cast<std::size_t>(std::abs(delta))]);
+                sum = std::max(sum, axis.step[std::size_t(std::abs(delta))]);
         return sum;
     }
     const int change = std::abs(rateIndexNext - rateIndex);
-    if (change >= static_cast<int>(axis.rateChange.size()))
+    if (change >= int(axis.rateChange.size()))
         return 0.0;
     if (axis.ratesPerCell > 1) { // the rounded place on a straight line, minus that of the step before
-        const double slope = static_cast<double>(axis.firstRate + rateIndexNext) / axis.ratesPerCell;
-        const auto reached = [&](Index t) { return std::floor(slope * static_cast<double>(t) + 0.5); };
-        const auto displacement = static_cast<Index>(reached(step + 1) - reached(step));
-        return displaced(displacement) ? axis.rateChange[static_cast<std::size_t>(change)] : 0.0;
+        const double slope = double(axis.firstRate + rateIndexNext) / axis.ratesPerCell;
+        const auto reached = [&](Index t) { return std::floor(slope * double(t) + 0.5); };
+        const auto displacement = Index(reached(step + 1) - reached(step));
+        return displaced(displacement) ? axis.rateChange[std::size_t(change)] : 0.0;
     }
     const double mean = 0.5 * (axis.firstRate + rateIndex + axis.firstRate + rateIndexNext);
     // Half-open interval: -1/2 <= displacement - mean < 1/2; or the part toward zero.
     const double displacement = axis.rounding == Rounding::Trunc ? std::trunc(mean) : std::ceil(mean - 0.5);
-    return displaced(static_cast<Index>(displacement)) ? axis.rateChange[static_cast<std::size_t>(change)] : 0.0;
+    return displaced(Index(displacement)) ? axis.rateChange[std::size_t(change)] : 0.0;
 }
 
 /// P(n | m) of two states in step number `step`: the product over the axes.
@@ -59,7 +59,7 @@ inline double transitionProbability(const StateSpace &space, Index from, Index t
 inline void forEachPath(Index stateCount, Index length, Index last,
                         const std::function<void(const std::vector<Index> &)> &visit)
 {
-    std::vector<Index> path(static_cast<std::size_t>(length), 0);
+    std::vector<Index> path(std::size_t(length), 0);
     path.back() = last;
     const std::function<void(std::size_t)> descend = [&](std::size_t position) {
         if (position + 1 == path.size()) {

@@ -89,16 +89,16 @@ inline std::vector<float> decodeAudio(const std::string &path)
 {
     SF_INFO info = {};
     SNDFILE *file = sf_open(path.c_str(), SFM_READ, &info);
-    std::vector<float> all(file ? static_cast<std::size_t>(info.frames * info.channels) : 0);
+    std::vector<float> all(file ? std::size_t(info.frames * info.channels) : 0);
     const sf_count_t got = file ? sf_readf_float(file, all.data(), info.frames) : 0;
     sf_close(file);
-    all.resize(static_cast<std::size_t>(got * info.channels));
+    all.resize(std::size_t(got * info.channels));
     return all;
 }
 
 inline std::vector<float> readAll(const Recording &recording, int channel = 0)
 {
-    std::vector<float> all(static_cast<std::size_t>(recording.info().sampleCount * recording.info().floatsPerSample()));
+    std::vector<float> all(std::size_t(recording.info().sampleCount * recording.info().floatsPerSample()));
     recording.read(channel, 0, recording.info().sampleCount, all);
     return all;
 }
@@ -112,18 +112,16 @@ inline std::vector<float> readInPieces(const Recording &recording, Index longest
     Random random(seed, 0);
     std::vector<std::pair<Index, Index>> pieces;
     for (Index first = 0; first < count;) {
-        const Index length =
-            std::min(count - first, 1 + static_cast<Index>(random.uniform() * static_cast<double>(longestPiece)));
+        const Index length = std::min(count - first, 1 + Index(random.uniform() * double(longestPiece)));
         pieces.emplace_back(first, length);
         first += length;
     }
     for (std::size_t i = pieces.size(); i > 1; --i)
-        std::swap(pieces[i - 1], pieces[static_cast<std::size_t>(random.uniform() * static_cast<double>(i))]);
-    std::vector<float> all(static_cast<std::size_t>(count * floats));
+        std::swap(pieces[i - 1], pieces[std::size_t(random.uniform() * double(i))]);
+    std::vector<float> all(std::size_t(count * floats));
     for (const auto &[first, length] : pieces)
         recording.read(channel, first, length,
-                       std::span(all).subspan(static_cast<std::size_t>(first * floats),
-                                              static_cast<std::size_t>(length * floats)));
+                       std::span(all).subspan(std::size_t(first * floats), std::size_t(length * floats)));
     return all;
 }
 
@@ -142,7 +140,7 @@ inline double largestDifference(const std::vector<float> &a, const std::vector<f
         return INFINITY;
     double largest = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i)
-        largest = std::max(largest, std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i])));
+        largest = std::max(largest, std::abs(double(a[i]) - double(b[i])));
     return largest;
 }
 

@@ -20,12 +20,12 @@ ConventionalSettings threeOfFive(double speed)
 std::vector<Track> run(const std::vector<std::string> &frames, const ConventionalSettings &settings,
                        const Grid *grid = nullptr)
 {
-    ConventionalTracker tracker(grid ? *grid : line(static_cast<Index>(frames.front().size())), settings);
+    ConventionalTracker tracker(grid ? *grid : line(Index(frames.front().size())), settings);
     Index frame = 0;
     for (const std::string &text : frames) {
         std::vector<float> y;
         for (const char c : text)
-            y.push_back(c >= '2' && c <= '9' ? 10.0f * static_cast<float>(c - '0') : 1.0f);
+            y.push_back(c >= '2' && c <= '9' ? 10.0f * float(c - '0') : 1.0f);
         tracker.update(frame++, y);
     }
     return tracker.tracks();

@@ -48,10 +48,10 @@ struct Scene {
     {
         std::vector<float> y(static_cast<std::size_t>(cells));
         for (float &value : y)
-            value = static_cast<float>(random.exponential());
+            value = float(random.exponential());
         for (const auto &line : lines)
             if (const Index cell = line(t); cell >= 0)
-                y[static_cast<std::size_t>(cell)] += static_cast<float>(power);
+                y[std::size_t(cell)] += float(power);
         return y;
     }
 };
@@ -62,7 +62,7 @@ std::vector<Track> run(const Scene &scene, const ChainSettings &chainSettings, c
     const MarkovModel m = model(scene.cells);
     DetectionChain chain(m, grid, std::make_unique<Smd>(m, ResetRule{ResetLaw::Fixed, 0.69}), chainSettings);
     Random random(11, 1);
-    std::vector<float> statistic(static_cast<std::size_t>(scene.cells));
+    std::vector<float> statistic(std::size_t(scene.cells));
     for (Index t = 0; t < scene.frames; ++t) {
         chain.update(t, scene.frame(t, random), statistic);
         if (shown)
@@ -115,7 +115,7 @@ void tst_DetectionChain::clustersKeepFlanks()
 {
     std::vector<float> d(64, 0.0f);
     for (int i = 0; i < 9; ++i)
-        d[static_cast<std::size_t>(20 + i)] = static_cast<float>(12 - 2 * std::abs(i - 4));
+        d[std::size_t(20 + i)] = float(12 - 2 * std::abs(i - 4));
     const auto clusters = findClusters(line64, d, 10.0, 5.0, {1});
     QCOMPARE(clusters.size(), std::size_t(1));
     QCOMPARE(clusters[0].cells, (std::vector<Index>{21, 22, 23, 24, 25, 26, 27}));
@@ -143,10 +143,10 @@ void tst_DetectionChain::followsALineFromOnsetToEnd()
     QVERIFY(!track.isOpen);
     int onLine = 0;
     for (std::size_t i = 0; i < track.points.size(); ++i) {
-        QCOMPARE(track.points[i].frame, track.onsetFrame + static_cast<Index>(i)); // one point a frame
+        QCOMPARE(track.points[i].frame, track.onsetFrame + Index(i)); // one point a frame
         onLine += std::abs(track.points[i].cell - line(std::clamp<Index>(track.points[i].frame, 50, 149))) <= 1 ? 1 : 0;
     }
-    QVERIFY(onLine >= static_cast<int>(track.points.size()) - 2);
+    QVERIFY(onLine >= int(track.points.size()) - 2);
 }
 
 void tst_DetectionChain::oneTrackForOneStrongLine()
@@ -225,7 +225,7 @@ void tst_DetectionChain::statisticIsAboveThresholdWhileTracked()
     QCOMPARE(tracks.size(), std::size_t(1));
     for (const TrackPoint &point : tracks[0].points)
         if (point.frame > tracks[0].detectFrame + 1)
-            QVERIFY(shown[static_cast<std::size_t>(point.frame)][static_cast<std::size_t>(point.cell)] > 15.0f);
+            QVERIFY(shown[std::size_t(point.frame)][std::size_t(point.cell)] > 15.0f);
     // Away from the track there is nothing but noise: the peak does not spread.
     QVERIFY(shown[100][50] < 15.0f);
 }
@@ -282,7 +282,7 @@ void tst_DetectionChain::aStateDoesNotGrowWithATracksAge()
     resumed->setState(*young);
     std::vector<float> again(64);
     for (std::size_t i = 0; i < after.size(); ++i)
-        resumed->update(5500 + static_cast<Index>(i), after[i], again);
+        resumed->update(5500 + Index(i), after[i], again);
     QCOMPARE(again, statistic);
     chain->finish();
     resumed->finish();
@@ -308,13 +308,13 @@ void tst_DetectionChain::manyLinesCostLittleMoreThanTheirNumber()
         DetectionChain chain(m, grid, std::make_unique<Smd>(m, ResetRule{ResetLaw::Fixed, 0.69}), settings(grid, 14.0));
         std::vector<float> statistic(static_cast<std::size_t>(cells));
         for (Index t = 0; t < frames / 2; ++t)
-            chain.update(t, y[static_cast<std::size_t>(t)], statistic);
+            chain.update(t, y[std::size_t(t)], statistic);
         if (std::ssize(chain.trackers()) < lines)
             qFatal("not all lines are followed");
         const std::clock_t begin = std::clock();
         for (Index t = frames / 2; t < frames; ++t)
-            chain.update(t, y[static_cast<std::size_t>(t)], statistic);
-        return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+            chain.update(t, y[std::size_t(t)], statistic);
+        return double(std::clock() - begin) / CLOCKS_PER_SEC;
     };
     double few = std::min(seconds(50), seconds(50));
     double many = std::min(seconds(800), seconds(800));

@@ -29,8 +29,7 @@ private slots:
         Random random(3, 1);
         std::vector<std::vector<Index>> places;
         for (int i = 0; i < 30; ++i)
-            places.push_back(
-                {static_cast<Index>(random.uniform() * count), static_cast<Index>(random.uniform() * 5.0)});
+            places.push_back({Index(random.uniform() * count), Index(random.uniform() * 5.0)});
         const PlaceIndex index(grid, places);
         for (std::size_t own = 0; own < places.size(); ++own) {
             std::vector<std::size_t> expected;

@@ -25,10 +25,10 @@ Track track(const Axis &time, const Axis &cells, double from, double to, const s
 {
     Track result;
     result.peakStatistic = statistic;
-    for (Index frame = static_cast<Index>(from / time.step); static_cast<double>(frame) * time.step < to; ++frame) {
-        const double position = cells.position(hz(time.value(static_cast<double>(frame))));
-        result.points.push_back({frame, static_cast<Index>(std::lround(position)), 0, 0.0});
-        result.smoothed.push_back({position, 0.0f, 0.0f, 1.0f, static_cast<float>(level)});
+    for (Index frame = Index(from / time.step); double(frame) * time.step < to; ++frame) {
+        const double position = cells.position(hz(time.value(double(frame))));
+        result.points.push_back({frame, Index(std::lround(position)), 0, 0.0});
+        result.smoothed.push_back({position, 0.0f, 0.0f, 1.0f, float(level)});
     }
     return result;
 }

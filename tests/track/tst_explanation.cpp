@@ -35,10 +35,10 @@ void tst_explanation::floorIsTheProductOfAll()
     std::vector<float> floor(5);
     explanations.read(13, 39, floor);
     for (Index i = 0; i < 5; ++i) {
-        const double cell = 39.0 + static_cast<double>(i);
+        const double cell = 39.0 + double(i);
         const double expected =
             (1.0 + 2.0 * 50.0 * tenths(std::abs(cell - 40.0))) * (1.0 + 2.0 * 8.0 * tenths(std::abs(cell - 42.5)));
-        QVERIFY(std::abs(static_cast<double>(floor[static_cast<std::size_t>(i)]) - expected) < 0.03 * expected);
+        QVERIFY(std::abs(double(floor[std::size_t(i)]) - expected) < 0.03 * expected);
     }
     explanations.read(311, 0, floor); // far off, at the second one's last frame
     for (const float level : floor)

@@ -17,7 +17,7 @@ Track track(Index onset, const std::vector<Index> &cells, double growth = 0.25, 
     result.onsetFrame = onset;
     result.detectFrame = onset + after;
     for (std::size_t i = 0; i < cells.size(); ++i)
-        result.points.push_back({onset + static_cast<Index>(i), cells[i], 0, growth * static_cast<double>(i + 1)});
+        result.points.push_back({onset + Index(i), cells[i], 0, growth * double(i + 1)});
     result.endFrame = result.points.back().frame;
     result.peakStatistic = result.points.back().statistic;
     return result;
@@ -25,7 +25,7 @@ Track track(Index onset, const std::vector<Index> &cells, double growth = 0.25, 
 
 std::vector<Index> steady(Index cell, Index frames)
 {
-    return std::vector<Index>(static_cast<std::size_t>(frames), cell);
+    return std::vector<Index>(std::size_t(frames), cell);
 }
 
 std::vector<Index> cellsOf(const Track &track)
@@ -69,7 +69,7 @@ void tst_joinTracks::aGapIsBridged()
     QVERIFY(one.isOpen && one.isConfirmed);
     QCOMPARE(std::ssize(one.points), Index(93));
     for (Index i = 0; i < 93; ++i)
-        QCOMPARE(one.points[static_cast<std::size_t>(i)].frame, i);
+        QCOMPARE(one.points[std::size_t(i)].frame, i);
     const std::vector<Index> cells = cellsOf(one);
     QCOMPARE(std::vector<Index>(cells.begin() + 59, cells.begin() + 64), (std::vector<Index>{40, 41, 42, 43, 44}));
 }
@@ -113,7 +113,7 @@ void tst_joinTracks::signalsApartStayApart()
         joinTracks({track(0, steady(40, 60), 3.0), track(onset, steady(cell, 60), growth)}, line100, rule);
     QCOMPARE(joined.size(), isJoined ? std::size_t(1) : std::size_t(2));
     for (std::size_t i = 0; i < joined.size(); ++i)
-        QCOMPARE(joined[i].id, static_cast<int>(i) + 1);
+        QCOMPARE(joined[i].id, int(i) + 1);
 }
 
 void tst_joinTracks::threePiecesAreOneTrack()

@@ -21,9 +21,9 @@ PathStrip noise(Index frames, std::uint64_t seed)
     for (Index at = 0; at < frames; ++at)
         strip.centres.push_back(100 + at / 2);
     Random random(seed, 0);
-    strip.y.resize(static_cast<std::size_t>(frames * strip.width()));
+    strip.y.resize(std::size_t(frames * strip.width()));
     for (float &y : strip.y)
-        y = static_cast<float>(random.exponential());
+        y = float(random.exponential());
     return strip;
 }
 
@@ -37,7 +37,7 @@ void raise(PathStrip &strip, Index firstFrame, Index endFrame, Index from, Index
 
 double mean(const std::vector<double> &values, Index from, Index to)
 {
-    return std::accumulate(values.begin() + from, values.begin() + to, 0.0) / static_cast<double>(to - from);
+    return std::accumulate(values.begin() + from, values.begin() + to, 0.0) / double(to - from);
 }
 
 } // namespace

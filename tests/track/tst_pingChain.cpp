@@ -70,7 +70,7 @@ std::unique_ptr<DetectionChain> run(const SimulatedPings &pings, const ChainSett
     else
         chain = std::make_unique<DetectionChain>(
             turning, pings.grid(), std::make_unique<Smd>(turning, ResetRule{ResetLaw::Mean}), chainSettings);
-    std::vector<float> y(static_cast<std::size_t>(pings.grid().size()));
+    std::vector<float> y(std::size_t(pings.grid().size()));
     std::vector<float> statistic(y.size());
     for (Index ping = 0; ping < pings.time().count; ++ping) {
         pings.read(ping, 1, y);
@@ -191,14 +191,14 @@ void tst_pingChain::pathTermsAddUp()
             const std::span<const float> scores = chain->detector().scores(model);
             Index best = cell;
             for (Index state = cell; state < std::ssize(scores); state += pings.grid().size())
-                if (scores[static_cast<std::size_t>(state)] > scores[static_cast<std::size_t>(best)])
+                if (scores[std::size_t(state)] > scores[std::size_t(best)])
                     best = state;
             const std::vector<PathStep> path = chain->detectorPathInto(best, model);
-            QVERIFY2(std::abs(path.back().score - static_cast<double>(scores[static_cast<std::size_t>(best)])) < 1e-3,
+            QVERIFY2(std::abs(path.back().score - double(scores[std::size_t(best)])) < 1e-3,
                      qPrintable(QString("cell %1: %2, detector %3")
                                     .arg(cell)
                                     .arg(path.back().score)
-                                    .arg(scores[static_cast<std::size_t>(best)])));
+                                    .arg(scores[std::size_t(best)])));
         }
     }
 }

@@ -30,7 +30,7 @@ Corridor smallCorridor(std::uint64_t seed)
     corridor.width = 3;
     corridor.firstCells = {4, 5, 5, 4};
     for (std::size_t i = 0; i < 12; ++i)
-        corridor.lambda.push_back(static_cast<float>(4.0 * random.uniform() - 1.5));
+        corridor.lambda.push_back(float(4.0 * random.uniform() - 1.5));
     return corridor;
 }
 
@@ -43,13 +43,13 @@ struct State {
 double transition(const KinematicAxis &axis, const Corridor &corridor, Index frame, const State &from, const State &to,
                   double change, Index firstStep)
 {
-    const double states = static_cast<double>(axis.rateCount) * static_cast<double>(corridor.width);
+    const double states = double(axis.rateCount) * double(corridor.width);
     if (from.rate < 0)
         return to.rate < 0 ? 1.0 - change : change / states;
     if (to.rate < 0)
         return change;
-    const Index moved = corridor.firstCells[static_cast<std::size_t>(frame)] + to.cell
-                        - corridor.firstCells[static_cast<std::size_t>(frame - 1)] - from.cell;
+    const Index moved =
+        corridor.firstCells[std::size_t(frame)] + to.cell - corridor.firstCells[std::size_t(frame - 1)] - from.cell;
     double p = 0.0;
     for (const KinematicAxis::Move &move : axis.moves(firstStep + frame))
         if (move.fromRate == from.rate && move.toRate == to.rate && move.cells == moved)
@@ -75,12 +75,11 @@ void enumerate(const KinematicAxis &axis, const Corridor &corridor, double chang
         for (const State &state : states) {
             double w = weight;
             if (frame == 0)
-                w *= state.rate < 0 ? 0.5 : 0.5 / static_cast<double>(states.size() - 1);
+                w *= state.rate < 0 ? 0.5 : 0.5 / double(states.size() - 1);
             else
                 w *= transition(axis, corridor, frame, sequence.back(), state, change, firstStep);
             if (state.rate >= 0)
-                w *= std::exp(static_cast<double>(
-                    corridor.lambda[static_cast<std::size_t>(frame * corridor.width + state.cell)]));
+                w *= std::exp(double(corridor.lambda[std::size_t(frame * corridor.width + state.cell)]));
             if (w == 0.0)
                 continue;
             sequence.push_back(state);
@@ -124,23 +123,23 @@ void tst_presence::isTheSumOverAllSequences()
     const double lnChange = std::log(0.07);
     const Presence found = presenceIn(corridor, axis, lnChange, firstStep);
     for (Index frame = 0; frame < corridor.frameCount(); ++frame) {
-        std::vector<double> cells(static_cast<std::size_t>(corridor.width));
+        std::vector<double> cells(std::size_t(corridor.width));
         double off = 0.0;
         enumerate(axis, corridor, std::exp(lnChange), firstStep,
                   [&](const std::vector<State> &sequence, double weight) {
-                      const State &state = sequence[static_cast<std::size_t>(frame)];
-                      (state.rate < 0 ? off : cells[static_cast<std::size_t>(state.cell)]) += weight;
+                      const State &state = sequence[std::size_t(frame)];
+                      (state.rate < 0 ? off : cells[std::size_t(state.cell)]) += weight;
                   });
         const double on = cells[0] + cells[1] + cells[2];
-        const auto at = static_cast<std::size_t>(frame);
-        const auto first = static_cast<double>(corridor.firstCells[at]);
-        QVERIFY(std::abs(static_cast<double>(found.present[at]) - on / (on + off)) < 1e-6); // stored as float
+        const auto at = std::size_t(frame);
+        const auto first = double(corridor.firstCells[at]);
+        QVERIFY(std::abs(double(found.present[at]) - on / (on + off)) < 1e-6); // stored as float
         QVERIFY(std::abs(found.mean[at] - (first + (cells[1] + 2.0 * cells[2]) / on)) < 1e-9);
         // 5 % of the whole, linear inside a cell: in the first one here, or not at all.
         if (cells[0] > 0.05 * on)
-            QVERIFY(std::abs(static_cast<double>(found.low[at]) - (first - 0.5 + 0.05 * on / cells[0])) < 1e-5);
+            QVERIFY(std::abs(double(found.low[at]) - (first - 0.5 + 0.05 * on / cells[0])) < 1e-5);
         if (cells[2] > 0.05 * on)
-            QVERIFY(std::abs(static_cast<double>(found.high[at]) - (first + 2.5 - 0.05 * on / cells[2])) < 1e-5);
+            QVERIFY(std::abs(double(found.high[at]) - (first + 2.5 - 0.05 * on / cells[2])) < 1e-5);
     }
 }
 
@@ -156,7 +155,7 @@ void tst_presence::slopeChangesAreTheSumOverAllSequences()
         all += weight;
         for (std::size_t frame = 1; frame < sequence.size(); ++frame)
             if (sequence[frame - 1].rate >= 0 && sequence[frame].rate >= 0)
-                expected[static_cast<std::size_t>(std::abs(sequence[frame].rate - sequence[frame - 1].rate))] += weight;
+                expected[std::size_t(std::abs(sequence[frame].rate - sequence[frame - 1].rate))] += weight;
     });
     const std::vector<double> found = expectedSlopeChanges(corridor, axis, lnChange, firstStep);
     QCOMPARE(found.size(), expected.size());
@@ -181,17 +180,15 @@ void tst_presence::strongestPathIsTheBestOfAll()
                     const State next{rate, cell};
                     if (const double p = transition(axis, corridor, frame + 1, state, next, 0.1, 5); p > 0.0)
                         self(self, frame + 1, next,
-                             score + std::log(p) + lnK[static_cast<std::size_t>(frame + 1)]
-                                 + static_cast<double>(
-                                     corridor.lambda[static_cast<std::size_t>((frame + 1) * corridor.width + cell)]));
+                             score + std::log(p) + lnK[std::size_t(frame + 1)]
+                                 + double(corridor.lambda[std::size_t((frame + 1) * corridor.width + cell)]));
                 }
         };
         for (Index frame = 0; frame < corridor.frameCount(); ++frame)
             for (int rate = 0; rate < axis.rateCount; ++rate)
                 for (Index cell = 0; cell < corridor.width; ++cell)
-                    descend(
-                        descend, frame, {rate, cell},
-                        static_cast<double>(corridor.lambda[static_cast<std::size_t>(frame * corridor.width + cell)]));
+                    descend(descend, frame, {rate, cell},
+                            double(corridor.lambda[std::size_t(frame * corridor.width + cell)]));
         QVERIFY(std::abs(strongestPath(corridor, axis, lnK, 5) - best) < 1e-6);
     }
 }
@@ -207,11 +204,11 @@ void tst_presence::chunksChangeNothing()
     for (Index frame = 0; frame < 300; ++frame)
         shorter.firstCells.push_back(100 + frame / 4);
     for (Index i = 0; i < 300 * 13; ++i)
-        shorter.lambda.push_back(static_cast<float>(random.uniform() - 0.7));
+        shorter.lambda.push_back(float(random.uniform() - 0.7));
     Corridor longer = shorter;
     for (Index frame = 300; frame < 1000; ++frame)
         longer.firstCells.push_back(175);
-    longer.lambda.resize(static_cast<std::size_t>(1000 * 13), -3.0f);
+    longer.lambda.resize(std::size_t(1000 * 13), -3.0f);
     const Presence a = presenceIn(shorter, axis, -5.0, 0);
     const Presence b = presenceIn(longer, axis, -5.0, 0);
     for (std::size_t frame = 0; frame < 200; ++frame) {

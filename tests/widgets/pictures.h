@@ -29,7 +29,7 @@ inline std::shared_ptr<const PeakPyramid> picture(Index frames, Index cells,
     std::vector<float> row(static_cast<std::size_t>(cells));
     for (Index frame = 0; frame < frames; ++frame) {
         for (Index cell = 0; cell < cells; ++cell)
-            row[static_cast<std::size_t>(cell)] = value(frame, cell);
+            row[std::size_t(cell)] = value(frame, cell);
         result->append(row);
     }
     result->finish();
@@ -39,7 +39,7 @@ inline std::shared_ptr<const PeakPyramid> picture(Index frames, Index cells,
 /// Nats that differ from cell to cell: cell + 10·frame, as far as the byte scale is even.
 inline std::shared_ptr<const PeakPyramid> countingPicture(Index frames, Index cells)
 {
-    return picture(frames, cells, [](Index frame, Index cell) { return static_cast<float>(cell + 10 * frame); });
+    return picture(frames, cells, [](Index frame, Index cell) { return float(cell + 10 * frame); });
 }
 
 inline Event event(int id, double onset, double end, double hz, double statistic = 20.0)

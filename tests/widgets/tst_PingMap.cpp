@@ -34,8 +34,8 @@ Grid grid()
 /// Nothing but one bright cell.
 std::shared_ptr<const PeakPyramid> picture(Index range, Index beam)
 {
-    std::vector<float> values(static_cast<std::size_t>(ranges * beams), 1.0f);
-    values[static_cast<std::size_t>(range * beams + beam)] = 30.0f;
+    std::vector<float> values(std::size_t(ranges * beams), 1.0f);
+    values[std::size_t(range * beams + beam)] = 30.0f;
     return pictureOf(grid().axes[0], grid().axes[1], values, ByteScale(ByteScale::Kind::ScoreNats));
 }
 
@@ -282,9 +282,9 @@ private slots:
         map.show();
         QVERIFY(QTest::qWaitForWindowExposed(&map));
         const Span range = map.plane()->range();
-        std::vector<float> louder(static_cast<std::size_t>(ranges * beams));
+        std::vector<float> louder(std::size_t(ranges * beams));
         for (std::size_t i = 0; i < louder.size(); ++i)
-            louder[i] = 40.0f + static_cast<float>(i % 40);
+            louder[i] = 40.0f + float(i % 40);
         map.setPicture(pictureOf(grid().axes[0], grid().axes[1], louder, ByteScale(ByteScale::Kind::ScoreNats)),
                        grid().axes[1]);
         QCOMPARE(map.plane()->range(), range);

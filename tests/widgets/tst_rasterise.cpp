@@ -28,7 +28,7 @@ private slots:
 private:
     static std::vector<std::uint8_t> raster(const PeakPyramid &picture, const PixelRow &time, const PixelRow &cells)
     {
-        std::vector<std::uint8_t> out(static_cast<std::size_t>(time.count * cells.count));
+        std::vector<std::uint8_t> out(std::size_t(time.count * cells.count));
         rasterise(picture, time, cells, out);
         return out;
     }
@@ -40,7 +40,7 @@ void tst_rasterise::zoomedInEveryCellIsARectangle()
     const auto out = raster(*picture, {0.0, 0.5, 4}, {0.0, 1.0 / 3.0, 9});
     for (int t = 0; t < 4; ++t)
         for (int c = 0; c < 9; ++c)
-            QCOMPARE(picture->scale().value(out[static_cast<std::size_t>(9 * t + c)]), double(10 * (t / 2) + c / 3));
+            QCOMPARE(picture->scale().value(out[std::size_t(9 * t + c)]), double(10 * (t / 2) + c / 3));
 }
 
 void tst_rasterise::zoomedOutAgainstTheDefinition()
@@ -51,16 +51,15 @@ void tst_rasterise::zoomedOutAgainstTheDefinition()
     const auto out = raster(*picture, time, hz);
     // max over ⌈step⌉ cells from the first one whose centre the pixel covers
     const auto first = [](const PixelRow &row, int pixel) {
-        return static_cast<Index>(std::ceil(row.first + pixel * row.step - 0.5));
+        return Index(std::ceil(row.first + pixel * row.step - 0.5));
     };
     for (int t = 0; t < time.count; ++t)
         for (int c = 0; c < hz.count; ++c) {
             double highest = -100.0;
             for (Index f = first(time, t); f < std::min<Index>(first(time, t) + 2, frames); ++f)
                 for (Index cell = first(hz, c); cell < std::min<Index>(first(hz, c) + 3, cells); ++cell)
-                    highest =
-                        std::max(highest, picture->scale().value(picture->row(0, f)[static_cast<std::size_t>(cell)]));
-            QCOMPARE(picture->scale().value(out[static_cast<std::size_t>(t * hz.count + c)]), highest);
+                    highest = std::max(highest, picture->scale().value(picture->row(0, f)[std::size_t(cell)]));
+            QCOMPARE(picture->scale().value(out[std::size_t(t * hz.count + c)]), highest);
         }
 }
 
@@ -78,7 +77,7 @@ void tst_rasterise::aHotCellSurvivesAnyZoom()
             const auto found = std::find(out.begin(), out.end(), hot);
             QVERIFY2(found != out.end(),
                      qPrintable(QString("frame %1 cell %2 at %3 pixels").arg(frame).arg(cell).arg(pixels)));
-            const auto index = static_cast<int>(found - out.begin());
+            const auto index = int(found - out.begin());
             QVERIFY(std::abs(index / pixels - (double(frame) + 0.5) / perTime) <= std::max(2.0, 1.0 / perTime));
             QVERIFY(std::abs(index % pixels - (double(cell) + 0.5) / perHz) <= std::max(2.0, 1.0 / perHz));
         }
@@ -92,7 +91,7 @@ void tst_rasterise::aOneBinLineSurvivesLongRecordings()
     const auto out = raster(*picture, {0.0, double(frames) / 50.0, 50}, {0.0, 8.0, 8});
     for (int t = 0; t < 50; ++t)
         for (int c = 0; c < 8; ++c)
-            QCOMPARE(picture->scale().value(out[static_cast<std::size_t>(8 * t + c)]), c == 5 ? 30.0 : 1.0);
+            QCOMPARE(picture->scale().value(out[std::size_t(8 * t + c)]), c == 5 ? 30.0 : 1.0);
 }
 
 void tst_rasterise::theLastFrameIsShown()

@@ -50,7 +50,7 @@ namespace {
 
     QColor mixed(const QColor &a, const QColor &b, double share)
     {
-        const auto mix = [share](int x, int y) { return static_cast<int>(x + share * (y - x) + 0.5); };
+        const auto mix = [share](int x, int y) { return int(x + share * (y - x) + 0.5); };
         return {mix(a.red(), b.red()), mix(a.green(), b.green()), mix(a.blue(), b.blue())};
     }
 
@@ -69,7 +69,7 @@ namespace {
 
     int scaled(int pixelSize)
     {
-        return static_cast<int>(std::lround(wordScale * pixelSize));
+        return int(std::lround(wordScale * pixelSize));
     }
 
     void loadFonts()
@@ -339,7 +339,7 @@ void Theme::style(QwtPlot &plot)
     plot.setAutoFillBackground(true);
     plot.setCanvasBackground(c.canvas);
     if (auto *canvas = qobject_cast<QwtPlotCanvas *>(plot.canvas())) {
-        canvas->setFrameStyle(static_cast<int>(QFrame::Box) | static_cast<int>(QFrame::Plain));
+        canvas->setFrameStyle(int(QFrame::Box) | int(QFrame::Plain));
         canvas->setLineWidth(1);
         // Our items are cheap to paint; a second copy of the canvas costs more than it saves.
         canvas->setPaintAttribute(QwtPlotCanvas::BackingStore, false);

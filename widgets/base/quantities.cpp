@@ -24,7 +24,7 @@ int decimalsFor(double resolution)
 {
     if (!(resolution > 0.0) || !std::isfinite(resolution))
         return 0;
-    return std::clamp(static_cast<int>(std::ceil(-std::log10(resolution) - 1e-9)), 0, 9);
+    return std::clamp(int(std::ceil(-std::log10(resolution) - 1e-9)), 0, 9);
 }
 
 QString numberText(double value, int decimals)
@@ -43,10 +43,10 @@ QString clockText(double seconds, int decimals, bool withHours)
     const double scale = std::pow(10.0, decimals);
     const double units = std::round(std::abs(seconds) * scale); // so that 59.99 s becomes 1:00, not 0:60
     const auto whole = static_cast<long long>(units / scale);
-    const double fraction = units / scale - static_cast<double>(whole);
-    QString text = withHours ? QString::number(whole / 3600) + QLatin1Char(':') + pad(static_cast<int>(whole / 60 % 60))
+    const double fraction = units / scale - double(whole);
+    QString text = withHours ? QString::number(whole / 3600) + QLatin1Char(':') + pad(int(whole / 60 % 60))
                              : QString::number(whole / 60);
-    text += QLatin1Char(':') + pad(static_cast<int>(whole % 60));
+    text += QLatin1Char(':') + pad(int(whole % 60));
     if (decimals > 0)
         text += QString::number(fraction, 'f', decimals).mid(1);
     return seconds < 0.0 && units > 0.0 ? minusSign + text : text;

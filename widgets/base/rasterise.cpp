@@ -21,9 +21,9 @@ namespace {
     /// The items (cells, or rows of `size` frames) of each pixel.
     std::vector<Range> itemsOfPixels(const PixelRow &pixels, double size, Index itemCount)
     {
-        std::vector<Range> ranges(static_cast<std::size_t>(pixels.count));
+        std::vector<Range> ranges(std::size_t(pixels.count));
         const double step = pixels.step / size;
-        const auto perPixel = static_cast<Index>(std::ceil(step - 1e-6));
+        const auto perPixel = Index(std::ceil(step - 1e-6));
         // On a grid that starts with the axis a pixel's cells depend on nothing but its number on the grid.
         double number = pixels.first / pixels.step;
         if (std::abs(number - std::round(number)) < 1e-6)
@@ -31,8 +31,8 @@ namespace {
         for (int p = 0; p < pixels.count; ++p) {
             const double low = (number + p) * step;
             const double begin = step > 1.0 ? std::ceil(low - 0.5 - 1e-6) : std::floor(low + 0.5 * step);
-            Range &range = ranges[static_cast<std::size_t>(p)];
-            range.begin = std::clamp<Index>(static_cast<Index>(begin), 0, std::max<Index>(itemCount - perPixel, 0));
+            Range &range = ranges[std::size_t(p)];
+            range.begin = std::clamp<Index>(Index(begin), 0, std::max<Index>(itemCount - perPixel, 0));
             range.end = std::min(range.begin + perPixel, itemCount);
         }
         return ranges;
@@ -70,7 +70,7 @@ namespace {
         void draw(const std::uint8_t *values, std::size_t lowest, const std::vector<Range> &cellsOfPixel,
                   std::uint8_t *line)
         {
-            const auto cells = static_cast<std::size_t>(cellsOfPixel.front().end - cellsOfPixel.front().begin);
+            const auto cells = std::size_t(cellsOfPixel.front().end - cellsOfPixel.front().begin);
             std::size_t stretch = 1;
             for (; 2 * stretch <= cells; stretch *= 2) {
                 higherOf(values, values + stretch, m_one.data(), m_one.size() - 2 * stretch + 1);
@@ -78,7 +78,7 @@ namespace {
                 std::swap(m_one, m_other);
             }
             for (std::size_t i = 0; i < cellsOfPixel.size(); ++i) {
-                const std::size_t begin = static_cast<std::size_t>(cellsOfPixel[i].begin) - lowest;
+                const std::size_t begin = std::size_t(cellsOfPixel[i].begin) - lowest;
                 line[i] = std::max(values[begin], values[begin + cells - stretch]);
             }
         }
@@ -94,7 +94,7 @@ namespace {
         const double total = std::accumulate(counts.begin() + 1, counts.end(), 0.0);
         double sum = 0.0;
         for (int byte = 1; byte < 256; ++byte) {
-            sum += counts[static_cast<std::size_t>(byte)];
+            sum += counts[std::size_t(byte)];
             if (sum >= share * total)
                 return scale.value(byte);
         }
@@ -109,7 +109,7 @@ namespace {
         double sum = 0.0;
         double magnitude = 0.0;
         for (int byte = 0; byte < 256 && sum < 0.998 * total; ++byte) {
-            sum += counts[static_cast<std::size_t>(byte)];
+            sum += counts[std::size_t(byte)];
             magnitude = std::abs(scale.value(byte));
         }
         const double half = std::clamp(std::ceil(magnitude), smallest, largest);
@@ -144,20 +144,20 @@ void rasterise(const PeakPyramid &picture, int level, const PixelRow &time, cons
     const Index firstRow = frames.first / perRow;
     const Index wholeCount =
         std::max(firstRow + rowCount, (std::max(frames.all, picture.time().count) + perRow - 1) / perRow);
-    auto rowsOfPixel = itemsOfPixels(time, static_cast<double>(perRow), wholeCount);
+    auto rowsOfPixel = itemsOfPixels(time, double(perRow), wholeCount);
     for (Range &rows : rowsOfPixel)
         rows = {rows.end > firstRow ? std::max<Index>(rows.begin - firstRow, 0) : -1, rows.end - firstRow};
     const auto cellsOfPixel = itemsOfPixels(cells, 1.0, picture.cells());
-    const auto lowest = static_cast<std::size_t>(cellsOfPixel.front().begin);
-    const auto width = static_cast<std::size_t>(cellsOfPixel.back().end) - lowest;
+    const auto lowest = std::size_t(cellsOfPixel.front().begin);
+    const auto width = std::size_t(cellsOfPixel.back().end) - lowest;
 
     const auto drawLines = [&](Index begin, Index end) {
         std::vector<std::uint8_t> merged(width);
         LineMaxima maxima(width);
         Range done;
         for (Index p = begin; p < end; ++p) {
-            std::uint8_t *line = out.data() + static_cast<std::size_t>(p) * cellsOfPixel.size();
-            const Range rows = rowsOfPixel[static_cast<std::size_t>(p)];
+            std::uint8_t *line = out.data() + std::size_t(p) * cellsOfPixel.size();
+            const Range rows = rowsOfPixel[std::size_t(p)];
             if (p > begin && rows.begin == done.begin && rows.end == done.end) {
                 std::copy_n(line - cellsOfPixel.size(), cellsOfPixel.size(), line);
                 continue;
@@ -179,11 +179,10 @@ void rasterise(const PeakPyramid &picture, int level, const PixelRow &time, cons
     };
 
     constexpr double bytesWorthAThread = 2e6;
-    const double bytes =
-        std::max(time.step / static_cast<double>(perRow), 1.0) * time.count * static_cast<double>(width);
+    const double bytes = std::max(time.step / double(perRow), 1.0) * time.count * double(width);
     RunContext context;
-    const auto processors = static_cast<double>(std::thread::hardware_concurrency());
-    context.threads = static_cast<int>(std::min({bytes / bytesWorthAThread, processors, 8.0}));
+    const auto processors = double(std::thread::hardware_concurrency());
+    context.threads = int(std::min({bytes / bytesWorthAThread, processors, 8.0}));
     if (context.threads < 2)
         return drawLines(0, time.count);
     const Index bands = 4 * context.threads;
@@ -199,14 +198,14 @@ std::vector<double> countPixels(const PeakPyramid &picture, double framesPerPixe
     const Index rowCount = picture.rowCount(level);
     if (rowCount == 0 || picture.cells() == 0)
         return counts;
-    const Index cellsPerGroup = std::clamp<Index>(static_cast<Index>(std::lround(cellsPerPixel)), 1, picture.cells());
+    const Index cellsPerGroup = std::clamp<Index>(Index(std::lround(cellsPerPixel)), 1, picture.cells());
     constexpr Index cellLimit = 2'000'000;
     const Index stride = std::max<Index>(rowCount * picture.cells() / cellLimit, 1);
     for (Index row = 0; row < rowCount; row += stride) {
         const auto values = picture.row(level, row);
         for (Index cell = 0; cell < picture.cells(); cell += cellsPerGroup) {
             const Index count = std::min(cellsPerGroup, picture.cells() - cell);
-            counts[highest(values.data() + cell, count)] += static_cast<double>(stride);
+            counts[highest(values.data() + cell, count)] += double(stride);
         }
     }
     return counts;
@@ -215,19 +214,19 @@ std::vector<double> countPixels(const PeakPyramid &picture, double framesPerPixe
 BoxValues boxValues(const PeakPyramid &picture, Index beginFrame, Index endFrame, Index beginCell, Index endCell)
 {
     constexpr double affordableCells = 4e6;
-    const auto frames = static_cast<double>(endFrame - beginFrame);
-    const int level = picture.levelFor(frames * static_cast<double>(endCell - beginCell) / affordableCells);
+    const auto frames = double(endFrame - beginFrame);
+    const int level = picture.levelFor(frames * double(endCell - beginCell) / affordableCells);
     const Index perRow = picture.framesPerRow(level);
     const Index endRow = std::min((endFrame + perRow - 1) / perRow, picture.rowCount(level));
     std::vector<double> counts(256, 0.0);
     for (Index row = beginFrame / perRow; row < endRow; ++row)
         for (Index cell = beginCell; cell < endCell; ++cell)
-            counts[picture.row(level, row)[static_cast<std::size_t>(cell)]] += 1.0;
+            counts[picture.row(level, row)[std::size_t(cell)]] += 1.0;
 
     BoxValues values;
     double power = 0.0, count = 0.0;
     for (int byte = 0; byte < 256; ++byte) {
-        const double here = counts[static_cast<std::size_t>(byte)];
+        const double here = counts[std::size_t(byte)];
         if (here > 0.0)
             values.peak = picture.scale().value(byte);
         power += here * ratioFromDb(picture.scale().value(byte));

@@ -116,7 +116,7 @@ int EventModel::rowOf(int id) const
 {
     for (std::size_t row = 0; row < m_events.size(); ++row)
         if (m_events[row].id == id)
-            return static_cast<int>(row);
+            return int(row);
     return -1;
 }
 
@@ -128,7 +128,7 @@ QString EventModel::stateText(const Event &event)
 
 int EventModel::rowCount(const QModelIndex &parent) const
 {
-    return parent.isValid() ? 0 : static_cast<int>(m_events.size());
+    return parent.isValid() ? 0 : int(m_events.size());
 }
 
 int EventModel::columnCount(const QModelIndex &parent) const
@@ -187,7 +187,7 @@ QVariant EventModel::data(const QModelIndex &index, int role) const
 {
     if (!index.isValid() || index.row() >= rowCount())
         return {};
-    const Event &event = m_events[static_cast<std::size_t>(index.row())];
+    const Event &event = m_events[std::size_t(index.row())];
     switch (role) {
     case Qt::DisplayRole:
         return text(event, index.column());

@@ -18,7 +18,7 @@ void EventProxy::setFilter(const EventFilter &filter)
 bool EventProxy::filterAcceptsRow(int row, const QModelIndex &) const
 {
     const auto *model = static_cast<const EventModel *>(sourceModel());
-    const Event &event = model->events()[static_cast<std::size_t>(row)];
+    const Event &event = model->events()[std::size_t(row)];
     return m_filter.accepts(event, model->review(event));
 }
 

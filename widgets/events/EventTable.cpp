@@ -183,7 +183,7 @@ std::vector<int> EventTable::selectedEvents() const
 {
     std::vector<int> ids;
     for (const QModelIndex &index : m_table->selectionModel()->selectedRows())
-        ids.push_back(m_model->events()[static_cast<std::size_t>(m_proxy->mapToSource(index).row())].id);
+        ids.push_back(m_model->events()[std::size_t(m_proxy->mapToSource(index).row())].id);
     std::sort(ids.begin(), ids.end());
     return ids;
 }
@@ -216,15 +216,14 @@ int EventTable::selectedEvent() const
     const QModelIndex index = m_table->currentIndex();
     if (!index.isValid() || !m_table->selectionModel()->isRowSelected(index.row()))
         return 0;
-    return m_model->events()[static_cast<std::size_t>(m_proxy->mapToSource(index).row())].id;
+    return m_model->events()[std::size_t(m_proxy->mapToSource(index).row())].id;
 }
 
 std::vector<int> EventTable::shownIds() const
 {
     std::vector<int> ids;
     for (int row = 0; row < m_proxy->rowCount(); ++row)
-        ids.push_back(
-            m_model->events()[static_cast<std::size_t>(m_proxy->mapToSource(m_proxy->index(row, 0)).row())].id);
+        ids.push_back(m_model->events()[std::size_t(m_proxy->mapToSource(m_proxy->index(row, 0)).row())].id);
     return ids;
 }
 
@@ -283,7 +282,7 @@ void EventTable::applyFilter(const QString &text)
 
 void EventTable::updateCount()
 {
-    const auto all = static_cast<int>(m_model->events().size());
+    const auto all = int(m_model->events().size());
     const int shown = m_proxy->rowCount();
     const QString &unknown = m_proxy->filter().misunderstood();
     if (!unknown.isEmpty())

@@ -173,7 +173,7 @@ void SettingRow::makeEditor()
     }
     case FieldKind::Integer: {
         auto *box = new QSpinBox;
-        box->setRange(static_cast<int>(m_info.minimum), static_cast<int>(m_info.maximum));
+        box->setRange(int(m_info.minimum), int(m_info.maximum));
         box->setKeyboardTracking(false);
         connect(box, &QSpinBox::valueChanged, this, [this](int value) { accept(value); });
         m_editor = box;

@@ -58,7 +58,7 @@ bool PingMap::isPolar() const
 
 void PingMap::setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &bearing)
 {
-    m_overlay->turn = bearing.cyclic ? bearing.step * static_cast<double>(bearing.count) : 0.0;
+    m_overlay->turn = bearing.cyclic ? bearing.step * double(bearing.count) : 0.0;
     m_overlay->setVisible(picture != nullptr);
     if (picture && m_plane->picture() && m_plane->frequencyAxis() == bearing)
         m_plane->setNextPicture(std::move(picture));

@@ -10,15 +10,14 @@ namespace {
     PingMarks::Place placeOf(const Grid &grid, Index cell)
     {
         const Index beams = grid.axes[1].count;
-        return {grid.axes[0].value(static_cast<double>(cell / beams)),
-                grid.axes[1].value(static_cast<double>(cell % beams))};
+        return {grid.axes[0].value(double(cell / beams)), grid.axes[1].value(double(cell % beams))};
     }
 
     /// The spans that cells centre ± half fill on an axis: two where they go over the end of a cyclic one.
     std::vector<Span> spansOf(const Axis &axis, Index centre, Index half)
     {
         const auto span = [&](Index first, Index last) {
-            return Span{axis.value(static_cast<double>(first) - 0.5), axis.value(static_cast<double>(last) + 0.5)};
+            return Span{axis.value(double(first) - 0.5), axis.value(double(last) + 0.5)};
         };
         const Index last = axis.count - 1;
         if (!axis.cyclic || 2 * half + 1 >= axis.count)
@@ -40,7 +39,7 @@ namespace {
                                [track](const auto &one) { return one.track == track; });
         };
         int count = 0;
-        while (ping >= count && isIn(analysis.inhibitions[static_cast<std::size_t>(ping - count)]))
+        while (ping >= count && isIn(analysis.inhibitions[std::size_t(ping - count)]))
             ++count;
         return count;
     }
@@ -49,7 +48,7 @@ namespace {
     {
         std::vector<PingMarks::Box> boxes;
         const Grid &grid = analysis.grid();
-        for (const auto &[track, box] : analysis.inhibitions[static_cast<std::size_t>(ping)])
+        for (const auto &[track, box] : analysis.inhibitions[std::size_t(ping)])
             for (const Span &range : spansOf(grid.axes[0], box.centre[0], box.halfWidth[0]))
                 for (const Span &bearing : spansOf(grid.axes[1], box.centre[1], box.halfWidth[1]))
                     boxes.push_back({track, pingsInhibited(analysis, track, ping), range, bearing});
@@ -74,7 +73,7 @@ namespace {
             return {};
         PingMarks::Trail trail{id, {}, true, true};
         for (Index k = std::max<Index>(target.firstPing, ping - tailPings + 1); k <= ping; ++k) {
-            const auto i = static_cast<std::size_t>(k - target.firstPing);
+            const auto i = std::size_t(k - target.firstPing);
             if (target.cell[i] >= 0.0)
                 trail.places.push_back({target.rangeMetres[i], target.bearingDegrees[i]});
         }
@@ -83,7 +82,7 @@ namespace {
 
     bool isJump(const Axis &axis, double from, double to)
     {
-        return axis.cyclic && 2.0 * std::abs(to - from) > axis.step * static_cast<double>(axis.count);
+        return axis.cyclic && 2.0 * std::abs(to - from) > axis.step * double(axis.count);
     }
 
 } // namespace
@@ -111,7 +110,7 @@ PingMarks pingMarks(const Analysis &analysis, const std::vector<Track> &tracks, 
         if (auto trail = trailOf(track, grid, ping, tailPings))
             marks.conventional.push_back(std::move(*trail));
     for (std::size_t i = 0; i < truth.targets.size(); ++i)
-        if (auto trail = trailOf(truth.targets[i], static_cast<int>(i) + 1, ping, tailPings))
+        if (auto trail = trailOf(truth.targets[i], int(i) + 1, ping, tailPings))
             marks.truth.push_back(std::move(*trail));
     if (analysis.settings.decide.inhibits && ping < std::ssize(analysis.inhibitions))
         marks.boxes = boxesOf(analysis, ping);
@@ -129,7 +128,7 @@ std::vector<Track> tracksAlong(const std::vector<Track> &tracks, const Grid &gri
         double before = 0.0;
         for (TrackPoint point : track.points) {
             point.cell = point.cell / stride % along.count;
-            const double here = along.value(static_cast<double>(point.cell));
+            const double here = along.value(double(point.cell));
             if (!result.back().points.empty() && isJump(along, before, here)) {
                 result.push_back(track);
                 result.back().points.clear();
@@ -166,12 +165,12 @@ std::vector<TruthLine> truthAlong(const PingTruth &truth, const Grid &grid, cons
                 TruthLine line;
                 line.snrDb = target.snrDb;
                 line.stepSeconds = time.step;
-                line.startSeconds = time.value(static_cast<double>(target.firstPing) + static_cast<double>(i));
+                line.startSeconds = time.value(double(target.firstPing) + double(i));
                 lines.push_back(line);
             }
             isOn = true;
             lines.back().frequencyHz.push_back(here);
-            lines.back().endSeconds = time.value(static_cast<double>(target.firstPing) + static_cast<double>(i));
+            lines.back().endSeconds = time.value(double(target.firstPing) + double(i));
         }
     }
     return lines;

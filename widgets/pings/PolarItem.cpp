@@ -54,32 +54,30 @@ QImage PolarItem::image(const Span &x, const Span &y, const QSize &size) const
     const double perPixel = x.width() / size.width();
     const double cellsPerPixel = perPixel / range.step;
     // Rings one pixel wide, from the first cell's near side on.
-    const int rings = std::max(1, static_cast<int>(std::ceil(static_cast<double>(range.count) / cellsPerPixel)));
-    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(rings) * static_cast<std::size_t>(m_bearing.count));
-    rasterise(*m_picture, {0.0, cellsPerPixel, rings}, {0.0, 1.0, static_cast<int>(m_bearing.count)}, bytes);
+    const int rings = std::max(1, int(std::ceil(double(range.count) / cellsPerPixel)));
+    std::vector<std::uint8_t> bytes(std::size_t(rings) * std::size_t(m_bearing.count));
+    rasterise(*m_picture, {0.0, cellsPerPixel, rings}, {0.0, 1.0, int(m_bearing.count)}, bytes);
 
-    std::vector<int> values(static_cast<std::size_t>(size.width()) * static_cast<std::size_t>(size.height()), nothing);
+    std::vector<int> values(std::size_t(size.width()) * std::size_t(size.height()), nothing);
     visitPolar(x, y, size, range, m_bearing, [&](std::size_t pixel, double distance, Index beam) {
-        if (const auto ring = static_cast<Index>(distance / perPixel); ring < rings)
-            values[pixel] = bytes[static_cast<std::size_t>(ring * m_bearing.count + beam)];
+        if (const auto ring = Index(distance / perPixel); ring < rings)
+            values[pixel] = bytes[std::size_t(ring * m_bearing.count + beam)];
     });
 
     std::array<QRgb, 256> table;
     for (int byte = 0; byte < 256; ++byte)
-        table[static_cast<std::size_t>(byte)] =
-            m_map->at((m_picture->scale().value(byte) - m_range.low) / m_range.width());
+        table[std::size_t(byte)] = m_map->at((m_picture->scale().value(byte) - m_range.low) / m_range.width());
     const int contourByte = m_contour ? m_picture->scale().byte(*m_contour) : 256;
     QImage image(size, QImage::Format_RGB32);
     const auto at = [&](int row, int column) {
         const int r = std::clamp(row, 0, size.height() - 1), c = std::clamp(column, 0, size.width() - 1);
-        return values[static_cast<std::size_t>(r) * static_cast<std::size_t>(size.width())
-                      + static_cast<std::size_t>(c)];
+        return values[std::size_t(r) * std::size_t(size.width()) + std::size_t(c)];
     };
     for (int row = 0; row < size.height(); ++row) {
         auto *line = reinterpret_cast<QRgb *>(image.scanLine(row));
         for (int column = 0; column < size.width(); ++column) {
             const int here = at(row, column);
-            line[column] = here == nothing ? m_ground.rgb() : table[static_cast<std::size_t>(here)];
+            line[column] = here == nothing ? m_ground.rgb() : table[std::size_t(here)];
             if (here != nothing && here < contourByte && contourByte < 256
                 && std::max({at(row - 1, column), at(row + 1, column), at(row, column - 1), at(row, column + 1)})
                        >= contourByte)

@@ -23,8 +23,7 @@ void PolarLayerItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtS
         return;
     const double ratio = painter->device()->devicePixelRatioF();
     const QRect rect = canvasRect.toAlignedRect();
-    const QSize size(static_cast<int>(std::lround(rect.width() * ratio)),
-                     static_cast<int>(std::lround(rect.height() * ratio)));
+    const QSize size(int(std::lround(rect.width() * ratio)), int(std::lround(rect.height() * ratio)));
     const Span x{xMap.invTransform(rect.left()), xMap.invTransform(rect.right() + 1.0)};
     const Span y{yMap.invTransform(rect.bottom() + 1.0), yMap.invTransform(rect.top())};
     QImage image(size, QImage::Format_ARGB32_Premultiplied);
@@ -34,7 +33,7 @@ void PolarLayerItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtS
     auto *to = reinterpret_cast<QRgb *>(image.bits());
     const Axis &range = m_layer.rows();
     visitPolar(x, y, size, range, m_layer.columns(), [&](std::size_t pixel, double distance, Index beam) {
-        if (const Index from = picture.pixelAt(static_cast<Index>(distance / range.step), beam); from >= 0)
+        if (const Index from = picture.pixelAt(Index(distance / range.step), beam); from >= 0)
             to[pixel] = colours[from];
     });
     painter->drawImage(QRectF(rect), image);

@@ -19,7 +19,7 @@ void visitPolar(const Span &x, const Span &y, const QSize &size, const Axis &ran
 {
     const double nearSide = range.value(-0.5);
     const double low = bearing.value(-0.5);
-    const double turn = bearing.step * static_cast<double>(bearing.count);
+    const double turn = bearing.step * double(bearing.count);
     std::size_t pixel = 0;
     for (int row = 0; row < size.height(); ++row) {
         const double north = y.high - (row + 0.5) * y.width() / size.height();
@@ -31,8 +31,7 @@ void visitPolar(const Span &x, const Span &y, const QSize &size, const Axis &ran
             double angle = std::atan2(east, north) * 180.0 / std::numbers::pi;
             angle -= 360.0 * std::floor((angle - low) / 360.0);
             if (angle - low < turn)
-                visit(pixel, distance,
-                      std::min<Index>(static_cast<Index>((angle - low) / bearing.step), bearing.count - 1));
+                visit(pixel, distance, std::min<Index>(Index((angle - low) / bearing.step), bearing.count - 1));
         }
     }
 }

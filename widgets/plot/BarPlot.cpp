@@ -22,16 +22,15 @@ public:
     void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap, const QRectF &) const override
     {
         const Theme::Colours &colours = Theme::colours(m_owner);
-        const double share = m_owner.m_isWide ? 1.0 : 1.0 / static_cast<double>(m_owner.series().size());
+        const double share = m_owner.m_isWide ? 1.0 : 1.0 / double(m_owner.series().size());
         constexpr double width = 0.8; // of a place
         for (std::size_t s = 0; s < m_owner.series().size(); ++s) {
             const Series &series = m_owner.series()[s];
             for (std::size_t i = 0; i < series.values.size(); ++i) {
                 if (!(series.values[i] > 0.0))
                     continue;
-                const int place = m_owner.first() + static_cast<int>(i);
-                const double left =
-                    place - 0.5 * width + (m_owner.m_isWide ? 0.0 : width * share * static_cast<double>(s));
+                const int place = m_owner.first() + int(i);
+                const double left = place - 0.5 * width + (m_owner.m_isWide ? 0.0 : width * share * double(s));
                 QColor colour = colours.curves[series.colour];
                 if (m_owner.m_selected >= m_owner.first() && place != m_owner.m_selected)
                     colour.setAlpha(170);
@@ -85,7 +84,7 @@ void BarPlot::layOut()
         for (const double value : series.values)
             highest = std::max(highest, value);
     }
-    setSpans({m_first - 0.6, m_first + static_cast<double>(places) - 0.4}, {0.0, highest > 0.0 ? 1.25 * highest : 1.0});
+    setSpans({m_first - 0.6, m_first + double(places) - 0.4}, {0.0, highest > 0.0 ? 1.25 * highest : 1.0});
     setEmpty(places == 0);
     m_key->setVisible(places > 0);
 }
@@ -106,8 +105,8 @@ void BarPlot::restyle()
 void BarPlot::clicked(const QPointF &canvas)
 {
     MarkedPlot::clicked(canvas);
-    const int place = static_cast<int>(std::lround(invTransform(QwtAxis::XBottom, canvas.x())));
-    if (!m_series.empty() && place >= m_first && place < m_first + static_cast<int>(m_series.front().values.size()))
+    const int place = int(std::lround(invTransform(QwtAxis::XBottom, canvas.x())));
+    if (!m_series.empty() && place >= m_first && place < m_first + int(m_series.front().values.size()))
         emit barActivated(place);
 }
 

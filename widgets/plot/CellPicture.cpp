@@ -28,7 +28,7 @@ namespace {
     Span outline(const Axis &axis)
     {
         const double a = axis.value(-0.5);
-        const double b = axis.value(static_cast<double>(axis.count) - 0.5);
+        const double b = axis.value(double(axis.count) - 0.5);
         return {std::min(a, b), std::max(a, b)};
     }
 
@@ -39,9 +39,9 @@ namespace {
     };
     Cells cellsOf(int pixel, int pixels, Index cells)
     {
-        const auto share = static_cast<double>(cells) / pixels;
-        const auto first = std::min(cells - 1, static_cast<Index>(pixel * share));
-        const auto end = std::min(cells, std::max(first + 1, static_cast<Index>((pixel + 1) * share)));
+        const auto share = double(cells) / pixels;
+        const auto first = std::min(cells - 1, Index(pixel * share));
+        const auto end = std::min(cells, std::max(first + 1, Index((pixel + 1) * share)));
         return {first, end - first};
     }
 
@@ -95,7 +95,7 @@ private:
                     const float *column = m_owner.values().data() + c * rows + down.first;
                     highest = std::max(highest, *std::max_element(column, column + down.count));
                 }
-                line[px] = map.at((static_cast<double>(highest) - m_owner.m_range.low) / m_owner.m_range.width());
+                line[px] = map.at((double(highest) - m_owner.m_range.low) / m_owner.m_range.width());
             }
         }
     }

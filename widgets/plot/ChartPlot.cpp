@@ -218,9 +218,8 @@ double ChartPlot::ordinate(double y) const
 std::optional<std::size_t> ChartPlot::styleOf(std::size_t curve) const
 {
     const auto countBefore = [this](std::size_t end) {
-        return static_cast<std::size_t>(std::count_if(m_chart.curves.begin(),
-                                                      m_chart.curves.begin() + static_cast<std::ptrdiff_t>(end),
-                                                      [](const Curve &c) { return c.kind == Curve::Kind::Measured; }));
+        return std::size_t(std::count_if(m_chart.curves.begin(), m_chart.curves.begin() + std::ptrdiff_t(end),
+                                         [](const Curve &c) { return c.kind == Curve::Kind::Measured; }));
     };
     if (isMeasured(curve))
         return countBefore(curve);
@@ -427,7 +426,7 @@ void ChartPlot::placeKey()
     int widest = 0;
     for (const QCheckBox *box : m_boxes)
         widest = std::max(widest, box->sizeHint().width() + 26);
-    const int heightBelow = std::min(76, 8 + 24 * static_cast<int>(m_boxes.size()));
+    const int heightBelow = std::min(76, 8 + 24 * int(m_boxes.size()));
     const bool isNarrow = 3 * widest > width(), isVeryNarrow = 2 * widest > width();
     const bool isBelow = (isNarrow && height() > 4 * 76) || (isVeryNarrow && height() > 90 + 2 * heightBelow);
     m_row->setDirection(isBelow ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
@@ -531,10 +530,9 @@ void ChartPlot::move(int points, int curves)
         return showPlace(Place{shown.front(), 0});
     const auto at = std::find(shown.begin(), shown.end(), m_place->curve) - shown.begin();
     const auto next = std::clamp<std::ptrdiff_t>(at + curves, 0, std::ssize(shown) - 1);
-    Place place{shown[static_cast<std::size_t>(next)], m_place->point};
+    Place place{shown[std::size_t(next)], m_place->point};
     const auto last = std::ssize(m_chart.curves[place.curve].points) - 1;
-    place.point = static_cast<std::size_t>(
-        std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(place.point) + points, 0, last));
+    place.point = std::size_t(std::clamp<std::ptrdiff_t>(std::ptrdiff_t(place.point) + points, 0, last));
     showPlace(place);
 }
 

@@ -54,11 +54,11 @@ namespace {
 ColourMap::ColourMap(QString name, const QList<QRgb> &stops) : m_name(std::move(name))
 {
     for (std::size_t i = 0; i < m_entries.size(); ++i) {
-        const double position = static_cast<double>(i) / 255.0 * static_cast<double>(stops.size() - 1);
-        const auto lower = std::min<qsizetype>(static_cast<qsizetype>(position), stops.size() - 2);
-        const double share = position - static_cast<double>(lower);
+        const double position = double(i) / 255.0 * double(stops.size() - 1);
+        const auto lower = std::min<qsizetype>(qsizetype(position), stops.size() - 2);
+        const double share = position - double(lower);
         const QRgb a = stops[lower], b = stops[lower + 1];
-        const auto mix = [share](int x, int y) { return static_cast<int>(std::lround(x + share * (y - x))); };
+        const auto mix = [share](int x, int y) { return int(std::lround(x + share * (y - x))); };
         m_entries[i] = qRgb(mix(qRed(a), qRed(b)), mix(qGreen(a), qGreen(b)), mix(qBlue(a), qBlue(b)));
     }
 }
@@ -82,7 +82,7 @@ const QString &ColourMap::defaultName()
 const ColourMap &ColourMap::named(const QString &name)
 {
     const auto index = names().indexOf(name);
-    return maps()[static_cast<std::size_t>(std::max<qsizetype>(index, 0))];
+    return maps()[std::size_t(std::max<qsizetype>(index, 0))];
 }
 
 QString ColourMap::next(const QString &name)
@@ -93,7 +93,7 @@ QString ColourMap::next(const QString &name)
 QRgb ColourMap::at(double position) const
 {
     const double index = std::clamp(position, 0.0, 1.0) * 255.0;
-    return m_entries[static_cast<std::size_t>(std::lround(index))];
+    return m_entries[std::size_t(std::lround(index))];
 }
 
 } // namespace faintline

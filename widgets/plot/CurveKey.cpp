@@ -28,7 +28,7 @@ void CurveKey::draw(QPainter *painter, const QwtScaleMap &, const QwtScaleMap &,
     for (const Entry &entry : entries)
         widest = std::max(widest, metrics.horizontalAdvance(entry.name));
     const double line = std::ceil(metrics.height());
-    const QSizeF size(std::ceil(widest) + sample + gap + 2 * margin, line * static_cast<double>(entries.size()) + 4.0);
+    const QSizeF size(std::ceil(widest) + sample + gap + 2 * margin, line * double(entries.size()) + 4.0);
     if (size.width() > 0.75 * canvasRect.width()) { // the curves are worth more than their names
         painter->restore();
         return;
@@ -41,7 +41,7 @@ void CurveKey::draw(QPainter *painter, const QwtScaleMap &, const QwtScaleMap &,
     painter->setBrush(plate);
     painter->drawRoundedRect(QRectF(QPointF(x, y), size), 3.0, 3.0);
     for (std::size_t i = 0; i < entries.size(); ++i) {
-        const double middle = y + 2.0 + line * (static_cast<double>(i) + 0.5);
+        const double middle = y + 2.0 + line * (double(i) + 0.5);
         const QRectF piece(x + margin, middle - 4.0, sample, 8.0);
         if (entries[i].isArea) {
             painter->fillRect(piece, entries[i].pen.color());

@@ -218,7 +218,7 @@ Span ExceedancePlot::natSpan() const
         // Signals lie beyond: the threshold can be dragged among the faint ones, and the noise's curve keeps half of
         // the width.
         const auto highest = std::find_if(m_counts.rbegin(), m_counts.rend(), [](double count) { return count > 0.0; });
-        const double recorded = lowestNats + quarterNat * static_cast<double>(m_counts.rend() - highest);
+        const double recorded = lowestNats + quarterNat * double(m_counts.rend() - highest);
         high = std::clamp(recorded, high, low + 2.0 * (high - low));
     }
     // Room beyond the threshold, in steps, so that the scale does not follow every touch of it.
@@ -299,7 +299,7 @@ void ExceedancePlot::drawRecording()
     const double highest = natSpan().high;
     double above = total;
     for (std::size_t i = 0; i < m_counts.size() && m_calibration; ++i) {
-        const double nats = lowestNats + quarterNat * static_cast<double>(i);
+        const double nats = lowestNats + quarterNat * double(i);
         if (above > 0.0 && !isRate())
             measured << QPointF(nats, std::log10(above / total));
         above -= m_counts[i];

@@ -24,7 +24,7 @@ namespace {
 
     double heightOf(const std::vector<double> &law, int change)
     {
-        const auto i = static_cast<std::size_t>(std::abs(change));
+        const auto i = std::size_t(std::abs(change));
         return i < law.size() ? law[i] : 0.0;
     }
 
@@ -82,7 +82,7 @@ LawPlot::LawPlot(QWidget *parent) : MarkedPlot(parent), m_item(new BarItem(*this
 
 int LawPlot::reach() const
 {
-    const int known = static_cast<int>(std::max(m_law.size(), m_shown.size())) - 1;
+    const int known = int(std::max(m_law.size(), m_shown.size())) - 1;
     return std::min(m_isEditable ? known + 1 : known, std::max(m_mostChange, known));
 }
 
@@ -122,7 +122,7 @@ void LawPlot::select(int change)
 
 void LawPlot::drag(double y)
 {
-    m_shown = withProbability(m_law, static_cast<std::size_t>(m_selected), y + m_grip);
+    m_shown = withProbability(m_law, std::size_t(m_selected), y + m_grip);
     layOut();
     emit lawDragged(m_shown);
 }
@@ -153,7 +153,7 @@ void LawPlot::keyPressEvent(QKeyEvent *event)
         // To whole steps, so that up and down again is where one was.
         const double after =
             std::clamp(std::round((before + sign * size) / size) * size, 0.0, m_selected == 0 ? 1.0 : 0.5);
-        m_shown = withProbability(m_law, static_cast<std::size_t>(m_selected), after);
+        m_shown = withProbability(m_law, std::size_t(m_selected), after);
         drop(true);
     };
     switch (event->key()) {
@@ -192,7 +192,7 @@ bool LawPlot::eventFilter(QObject *watched, QEvent *event)
     const auto yAt = [&] { return invTransform(QwtAxis::YLeft, static_cast<QMouseEvent *>(event)->position().y()); };
     if (event->type() == QEvent::MouseButtonPress && static_cast<QMouseEvent *>(event)->button() == Qt::LeftButton) {
         const double x = invTransform(QwtAxis::XBottom, static_cast<QMouseEvent *>(event)->position().x());
-        select(static_cast<int>(std::lround(x)));
+        select(int(std::lround(x)));
         m_isDragging = true;
         m_grip = heightOf(m_law, m_selected) - yAt(); // a bar does not jump to where it was taken
     } else if (event->type() == QEvent::MouseMove && m_isDragging) {

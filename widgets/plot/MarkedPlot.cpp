@@ -98,7 +98,7 @@ void MarkedPlot::setSpans(const Span &x, const Span &y)
 void MarkedPlot::layAxes()
 {
     const QSize size = canvas()->contentsRect().size();
-    QwtScaleDiv x = linearScaleDiv(m_x, std::clamp(std::min(size.width() / 50, static_cast<int>(m_x.width())), 1, 12));
+    QwtScaleDiv x = linearScaleDiv(m_x, std::clamp(std::min(size.width() / 50, int(m_x.width())), 1, 12));
     if (majorStep(x) <= 1.0) // whole numbers have nothing between them
         x = QwtScaleDiv(m_x.low, m_x.high, {}, {}, x.ticks(QwtScaleDiv::MajorTick));
     setAxisScaleDiv(QwtAxis::XBottom, x);

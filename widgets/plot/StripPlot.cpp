@@ -60,13 +60,12 @@ struct StripPlot::Series {
         if (values.empty())
             return polygon;
         const auto indexAt = [this](double seconds, double toward) {
-            return static_cast<Index>(
-                std::clamp(std::floor(time.position(seconds)) + toward, 0.0, static_cast<double>(values.size() - 1)));
+            return Index(std::clamp(std::floor(time.position(seconds)) + toward, 0.0, double(values.size() - 1)));
         };
         const Index first = indexAt(span.low, 0.0), last = indexAt(span.high, 1.0);
         const Index stride = std::max<Index>((last - first) / std::max(pixels, 1), 1);
         for (Index i = first - first % stride; i <= last; i += stride) {
-            const Index end = std::min(i + stride, static_cast<Index>(values.size()));
+            const Index end = std::min(i + stride, Index(values.size()));
             appendExtremes(i, end, polygon);
         }
         return polygon;
@@ -77,19 +76,19 @@ private:
     {
         Index low = -1, high = -1;
         for (Index i = begin; i < end; ++i) {
-            const float value = values[static_cast<std::size_t>(i)];
+            const float value = values[std::size_t(i)];
             if (!std::isfinite(value))
                 continue;
-            if (low < 0 || value < values[static_cast<std::size_t>(low)])
+            if (low < 0 || value < values[std::size_t(low)])
                 low = i;
-            if (high < 0 || value > values[static_cast<std::size_t>(high)])
+            if (high < 0 || value > values[std::size_t(high)])
                 high = i;
         }
         if (low < 0)
             return;
         const auto add = [&](Index i) {
-            const double value = static_cast<double>(values[static_cast<std::size_t>(i)]);
-            polygon << QPointF(time.value(static_cast<double>(i)), value);
+            const double value = double(values[std::size_t(i)]);
+            polygon << QPointF(time.value(double(i)), value);
             seen = {std::min(seen.low, value), std::max(seen.high, value)};
         };
         add(std::min(low, high));
@@ -215,12 +214,12 @@ void StripPlot::readProfile()
         removeSeries(m_profileName);
         return;
     }
-    const auto cell = static_cast<std::size_t>(m_profileFrequency.nearest(m_viewport->cursor()->hz));
-    std::vector<float> values(static_cast<std::size_t>(m_profile->rowCount(0)));
+    const auto cell = std::size_t(m_profileFrequency.nearest(m_viewport->cursor()->hz));
+    std::vector<float> values(std::size_t(m_profile->rowCount(0)));
     for (std::size_t row = 0; row < values.size(); ++row)
-        values[row] = static_cast<float>(m_profile->scale().value(m_profile->row(0, static_cast<Index>(row))[cell]));
+        values[row] = float(m_profile->scale().value(m_profile->row(0, Index(row))[cell]));
     Axis time = m_profile->time();
-    const auto frames = static_cast<double>(m_profile->framesPerRow(0));
+    const auto frames = double(m_profile->framesPerRow(0));
     time.first = time.value(0.5 * (frames - 1.0)); // a row stands for the middle of its frames
     time.step *= frames;
     time.count = m_profile->rowCount(0);
@@ -229,7 +228,7 @@ void StripPlot::readProfile()
 
 void StripPlot::setFixedScale(Side side, const Span &span)
 {
-    m_fixed[static_cast<int>(side)] = span;
+    m_fixed[int(side)] = span;
     followSpan();
 }
 
@@ -282,7 +281,7 @@ void StripPlot::restyle()
 int StripPlot::widthOfRightAxis() const
 {
     // Half a label of the time axis stands out into that room anyway.
-    const int width = axisWidget(QwtAxis::YRight)->sizeHint().width() + static_cast<int>(plotLayout()->spacing());
+    const int width = axisWidget(QwtAxis::YRight)->sizeHint().width() + int(plotLayout()->spacing());
     return std::max(width - axisWidget(QwtAxis::XBottom)->endBorderDist(), 0);
 }
 
@@ -351,7 +350,7 @@ void StripPlot::updateOrdinate(Side side)
         span = {std::min(span.low, m_levelValue), std::max(span.high, m_levelValue)};
     if (side == Side::Left && m_band)
         span = {std::min(span.low, m_band->low), std::max(span.high, m_band->high)};
-    const auto &fixed = m_fixed[static_cast<int>(side)];
+    const auto &fixed = m_fixed[int(side)];
     if (fixed)
         span = *fixed;
     else if (!std::isfinite(span.low))
@@ -399,10 +398,9 @@ bool StripPlot::eventFilter(QObject *watched, QEvent *event)
         }
         if (!m_series.empty() && !m_series.front()->values.empty()) {
             const Series &first = *m_series.front();
-            const double last = static_cast<double>(first.values.size() - 1);
-            const auto index =
-                static_cast<std::size_t>(std::clamp(std::round(first.time.position(seconds)), 0.0, last));
-            emit hovered(seconds, static_cast<double>(first.values[index]));
+            const double last = double(first.values.size() - 1);
+            const auto index = std::size_t(std::clamp(std::round(first.time.position(seconds)), 0.0, last));
+            emit hovered(seconds, double(first.values[index]));
         }
     }
     if (event->type() == QEvent::MouseButtonRelease && m_dragLow) {
@@ -437,7 +435,7 @@ QSize StripPlot::minimumSizeHint() const
 {
     constexpr int least = 84;
     const int titleLength = QFontMetrics(Theme::plotTitleFont()).horizontalAdvance(axisTitle(QwtAxis::YLeft).text());
-    const int timeAxis = static_cast<int>(std::lround(48.0 * Theme::plotScale()));
+    const int timeAxis = int(std::lround(48.0 * Theme::plotScale()));
     return {220, std::max(least, titleLength + timeAxis)};
 }
 

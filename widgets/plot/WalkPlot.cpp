@@ -61,10 +61,10 @@ public:
         painter->save();
         painter->setRenderHint(QPainter::Antialiasing);
         for (std::size_t i = 0; i < m_owner.walks().size(); ++i)
-            if (static_cast<int>(i) != m_owner.selected())
+            if (int(i) != m_owner.selected())
                 drawWalk(*painter, m_owner.walks()[i], xMap, yMap, canvas, false);
         if (m_owner.selected() >= 0)
-            drawWalk(*painter, m_owner.walks()[static_cast<std::size_t>(m_owner.selected())], xMap, yMap, canvas, true);
+            drawWalk(*painter, m_owner.walks()[std::size_t(m_owner.selected())], xMap, yMap, canvas, true);
         painter->restore();
     }
 
@@ -79,7 +79,7 @@ private:
         for (std::size_t i = 0; i < walk.lnLambda.size(); ++i)
             if (i % every == 0 || i + 1 == walk.lnLambda.size()) {
                 const double y = yMap.transform(walk.lnLambda[i]);
-                points << QPointF(xMap.transform(static_cast<double>(i + 1)),
+                points << QPointF(xMap.transform(double(i + 1)),
                                   std::clamp(y, canvas.top() - 1e4, canvas.bottom() + 1e4));
             }
         if (!isSelected && m_owner.walks().size() > 1)
@@ -130,7 +130,7 @@ void WalkPlot::setTest(const SprtSettings &settings, std::optional<Index> fixedS
 void WalkPlot::setWalks(std::vector<Walk> walks)
 {
     m_walks = std::move(walks);
-    if (m_selected >= static_cast<int>(m_walks.size()))
+    if (m_selected >= int(m_walks.size()))
         m_selected = -1;
     WalkPlot::restyle();
     layOut();
@@ -138,7 +138,7 @@ void WalkPlot::setWalks(std::vector<Walk> walks)
 
 void WalkPlot::setSelected(int walk)
 {
-    m_selected = walk < static_cast<int>(m_walks.size()) ? walk : -1;
+    m_selected = walk < int(m_walks.size()) ? walk : -1;
     replot();
 }
 
@@ -148,21 +148,20 @@ void WalkPlot::layOut()
     const double height = at.lnUpper - at.lnLower;
     constexpr int leastStages = 4;
     constexpr int mostStages = 1000; // a later cut-off would leave the walks no room
-    auto longest = static_cast<std::size_t>(
-        std::max(leastStages, m_settings.cutOffStage <= mostStages ? m_settings.cutOffStage : 0));
+    auto longest =
+        std::size_t(std::max(leastStages, m_settings.cutOffStage <= mostStages ? m_settings.cutOffStage : 0));
     for (const Walk &walk : m_walks)
         longest = std::max(longest, walk.lnLambda.size());
     if (m_fixedSize)
-        longest = std::max(longest, static_cast<std::size_t>(*m_fixedSize));
-    setSpans({0.0, 1.03 * static_cast<double>(longest)}, {at.lnLower - 0.22 * height, at.lnUpper + 0.36 * height});
+        longest = std::max(longest, std::size_t(*m_fixedSize));
+    setSpans({0.0, 1.03 * double(longest)}, {at.lnLower - 0.22 * height, at.lnUpper + 0.36 * height});
 
     std::vector<Mark> marks{{at.lnUpper, false, tr("ln γ₁ = %1: a target").arg(numberText(at.lnUpper, 2)), false},
                             {at.lnLower, false, tr("ln γ₀ = %1: noise only").arg(numberText(at.lnLower, 2)), false}};
     if (m_fixedSize)
-        marks.push_back({static_cast<double>(*m_fixedSize), true, tr("fixed size: about %1").arg(*m_fixedSize)});
-    if (m_settings.cutOffStage > 0 && static_cast<std::size_t>(m_settings.cutOffStage) <= longest)
-        marks.push_back(
-            {static_cast<double>(m_settings.cutOffStage), true, tr("cut-off: %1").arg(m_settings.cutOffStage)});
+        marks.push_back({double(*m_fixedSize), true, tr("fixed size: about %1").arg(*m_fixedSize)});
+    if (m_settings.cutOffStage > 0 && std::size_t(m_settings.cutOffStage) <= longest)
+        marks.push_back({double(m_settings.cutOffStage), true, tr("cut-off: %1").arg(m_settings.cutOffStage)});
     setMarks(std::move(marks));
     setEmpty(m_walks.empty());
     m_key->setVisible(!m_walks.empty());
@@ -188,10 +187,9 @@ void WalkPlot::restyle()
 
 QPointF WalkPlot::position(int walk, Index stage) const
 {
-    const double value =
-        stage == 0 ? 0.0 : m_walks[static_cast<std::size_t>(walk)].lnLambda[static_cast<std::size_t>(stage - 1)];
-    QPointF at = canvasPosition(static_cast<double>(stage), value);
-    at.setY(std::clamp(at.y(), 0.0, static_cast<double>(canvas()->height())));
+    const double value = stage == 0 ? 0.0 : m_walks[std::size_t(walk)].lnLambda[std::size_t(stage - 1)];
+    QPointF at = canvasPosition(double(stage), value);
+    at.setY(std::clamp(at.y(), 0.0, double(canvas()->height())));
     return at;
 }
 
@@ -199,10 +197,10 @@ void WalkPlot::clicked(const QPointF &canvas)
 {
     int best = -1;
     double shortest = reach;
-    for (int walk = 0; walk < static_cast<int>(m_walks.size()); ++walk) {
-        const auto stages = static_cast<Index>(m_walks[static_cast<std::size_t>(walk)].lnLambda.size());
+    for (int walk = 0; walk < int(m_walks.size()); ++walk) {
+        const auto stages = Index(m_walks[std::size_t(walk)].lnLambda.size());
         // Only the stages beside the pointer can be near it.
-        const auto middle = static_cast<Index>(std::lround(invTransform(QwtAxis::XBottom, canvas.x())));
+        const auto middle = Index(std::lround(invTransform(QwtAxis::XBottom, canvas.x())));
         for (Index stage = std::max<Index>(1, middle - 2); stage <= std::min(stages, middle + 2); ++stage) {
             const QPointF gap = position(walk, stage) - canvas;
             if (const double distance = std::hypot(gap.x(), gap.y()); distance < shortest) {
@@ -218,7 +216,7 @@ void WalkPlot::clicked(const QPointF &canvas)
 
 void WalkPlot::keyPressEvent(QKeyEvent *event)
 {
-    const int count = static_cast<int>(m_walks.size());
+    const int count = int(m_walks.size());
     if (count > 0 && (event->key() == Qt::Key_Up || event->key() == Qt::Key_Down))
         return emit walkActivated(std::clamp(m_selected + (event->key() == Qt::Key_Down ? 1 : -1), 0, count - 1));
     MarkedPlot::keyPressEvent(event);

@@ -32,7 +32,7 @@ std::string plotCsv(const QwtPlot &plot, bool isLogarithmicY)
         const std::string name =
             quoted(curve.title().isEmpty() ? QStringLiteral("curve %1").arg(number) : curve.title().text());
         for (std::size_t i = 0; i < curve.dataSize(); ++i) {
-            const QPointF point = curve.sample(static_cast<int>(i));
+            const QPointF point = curve.sample(int(i));
             csv += name + "," + formatNumber(point.x()) + ","
                    + formatNumber(isLogarithmicY ? std::pow(10.0, point.y()) : point.y()) + "\n";
         }

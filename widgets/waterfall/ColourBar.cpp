@@ -120,8 +120,8 @@ void ColourBar::chooseScale()
 {
     // As much of the data as fits into the range and a half of it on either side.
     Span all = m_range;
-    for (int byte = 1; byte < static_cast<int>(m_counts.size()); ++byte)
-        if (m_counts[static_cast<std::size_t>(byte)] > 0.0)
+    for (int byte = 1; byte < int(m_counts.size()); ++byte)
+        if (m_counts[std::size_t(byte)] > 0.0)
             all = {std::min(all.low, m_byteScale.value(byte)), std::max(all.high, m_byteScale.value(byte))};
     const double room = 0.5 * m_range.width(), edge = 0.06 * m_range.width();
     m_scale = {std::max(all.low, m_range.low - room) - edge, std::min(all.high, m_range.high + room) + edge};
@@ -130,7 +130,7 @@ void ColourBar::chooseScale()
 /// The bar, its histogram, and the numbers beside it.
 int ColourBar::usualWidth()
 {
-    return 33 + static_cast<int>(std::lround(33.0 * Theme::plotScale()));
+    return 33 + int(std::lround(33.0 * Theme::plotScale()));
 }
 
 QRectF ColourBar::barRect() const
@@ -171,7 +171,7 @@ void ColourBar::paintBar(QPainter &painter) const
 {
     const QRectF bar = barRect();
     const double ratio = devicePixelRatioF();
-    const int height = std::max(static_cast<int>(ratio * bar.height()), 1);
+    const int height = std::max(int(ratio * bar.height()), 1);
     QImage image(1, height, QImage::Format_RGB32);
     for (int y = 0; y < height; ++y)
         image.setPixel(0, y, m_map->at((valueAt(bar.top() + (y + 0.5) / ratio) - m_range.low) / m_range.width()));
@@ -191,7 +191,7 @@ void ColourBar::paintHistogram(QPainter &painter) const
     const auto widthOf = [&](std::size_t i) { return m_byteScale.value(bytes[i]) - m_byteScale.value(bytes[i - 1]); };
     const auto density = [&](std::size_t i) {
         const double width = widthOf(i);
-        return width > 0.0 ? std::pow(m_counts[static_cast<std::size_t>(bytes[i])] / width, 0.25) : 0.0;
+        return width > 0.0 ? std::pow(m_counts[std::size_t(bytes[i])] / width, 0.25) : 0.0;
     };
     double highest = 0.0;
     for (std::size_t i = 1; i < bytes.size(); ++i)
@@ -220,7 +220,7 @@ void ColourBar::paintTicks(QPainter &painter) const
     const Theme::Colours &colours = Theme::colours(*this);
     painter.setFont(Theme::plotFont());
     const QFontMetricsF metrics(painter.font());
-    const QwtScaleDiv div = linearScaleDiv(m_scale, std::max(static_cast<int>(bar.height() / 36.0), 2));
+    const QwtScaleDiv div = linearScaleDiv(m_scale, std::max(int(bar.height() / 36.0), 2));
     const int decimals = decimalsFor(majorStep(div));
     for (const double value : div.ticks(QwtScaleDiv::MajorTick)) {
         const double y = std::round(yOf(value)) + 0.5;

@@ -9,12 +9,12 @@ namespace faintline {
 
 bool ColourLevels::count(const PeakPyramid &picture, double framesPerPixel, double cellsPerPixel)
 {
-    const auto group = static_cast<Index>(std::exp2(std::round(std::log2(std::max(cellsPerPixel, 1.0)))));
+    const auto group = Index(std::exp2(std::round(std::log2(std::max(cellsPerPixel, 1.0)))));
     const std::pair key{picture.levelFor(std::max(framesPerPixel, 1.0)), group};
     if (key == m_key)
         return false;
     m_key = key;
-    m_histogram = countPixels(picture, framesPerPixel, static_cast<double>(group));
+    m_histogram = countPixels(picture, framesPerPixel, double(group));
     return true;
 }
 

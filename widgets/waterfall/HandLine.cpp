@@ -66,7 +66,7 @@ void HandLine::setPoints(std::vector<Viewport::Point> points)
     std::stable_sort(points.begin(), points.end(), [](const auto &a, const auto &b) { return a.seconds < b.seconds; });
     m_points = std::move(points);
     m_held = -1;
-    m_last = static_cast<int>(m_points.size()) - 1;
+    m_last = int(m_points.size()) - 1;
     update();
 }
 
@@ -81,7 +81,7 @@ void HandLine::removeLast()
     if (m_last < 0)
         return;
     m_points.erase(m_points.begin() + m_last);
-    m_last = static_cast<int>(m_points.size()) - 1;
+    m_last = int(m_points.size()) - 1;
     update();
 }
 
@@ -95,7 +95,7 @@ int HandLine::insert(const Viewport::Point &point)
         *at = point;
     else
         m_points.insert(at, point);
-    return static_cast<int>(place);
+    return int(place);
 }
 
 int HandLine::vertexAt(const QPointF &position) const
@@ -106,7 +106,7 @@ int HandLine::vertexAt(const QPointF &position) const
         const QPointF way = m_view.positionOf(m_points[i]) - position;
         if (const double distance = std::hypot(way.x(), way.y()); distance <= least) {
             least = distance;
-            nearest = static_cast<int>(i);
+            nearest = int(i);
         }
     }
     return nearest;

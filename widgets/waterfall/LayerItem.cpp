@@ -68,10 +68,9 @@ void LayerItem::setColours(const QColor &text, const QColor &plate)
 
 QRgb LayerItem::colourOf(std::size_t pixel) const
 {
-    const auto value = static_cast<double>(m_picture->values(m_layer)[pixel]);
+    const auto value = double(m_picture->values(m_layer)[pixel]);
     const auto clear = [](QRgb colour, double opacity) {
-        return qPremultiply(
-            qRgba(qRed(colour), qGreen(colour), qBlue(colour), static_cast<int>(std::lround(255.0 * opacity))));
+        return qPremultiply(qRgba(qRed(colour), qGreen(colour), qBlue(colour), int(std::lround(255.0 * opacity))));
     };
     if (m_layer == OutputLayer::Inhibited)
         return value > 0.0 ? clear(inhibitedColour, m_isOverlay ? 0.55 : 1.0)
@@ -83,15 +82,14 @@ QRgb LayerItem::colourOf(std::size_t pixel) const
         return clear(colour, 1.0);
     if (m_layer == OutputLayer::Reset)
         return clear(colour, 0.7 * std::clamp(value, 0.0, 1.0));
-    return clear(colour, std::clamp(static_cast<double>(m_picture->statistic[pixel]) / m_opaqueNats, 0.0, 1.0));
+    return clear(colour, std::clamp(double(m_picture->statistic[pixel]) / m_opaqueNats, 0.0, 1.0));
 }
 
 const QImage &LayerItem::image() const
 {
     if (!m_image.isNull())
         return m_image;
-    m_image = QImage(static_cast<int>(m_picture->columns), static_cast<int>(m_picture->rows),
-                     QImage::Format_ARGB32_Premultiplied);
+    m_image = QImage(int(m_picture->columns), int(m_picture->rows), QImage::Format_ARGB32_Premultiplied);
     std::size_t pixel = 0;
     for (int row = 0; row < m_image.height(); ++row) {
         auto *to = reinterpret_cast<QRgb *>(m_image.scanLine(row));
@@ -106,7 +104,7 @@ void LayerItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleM
 {
     if (!isShown())
         return;
-    const auto edge = [](const Axis &axis, Index cell) { return axis.value(static_cast<double>(cell) - 0.5); };
+    const auto edge = [](const Axis &axis, Index cell) { return axis.value(double(cell) - 0.5); };
     const QwtScaleMap &timeMap = m_isTimeVertical ? yMap : xMap;
     const QwtScaleMap &hzMap = m_isTimeVertical ? xMap : yMap;
     const double time0 = timeMap.transform(edge(m_rows, m_picture->firstRow * m_picture->perRow));
@@ -165,7 +163,7 @@ void LayerItem::drawKey(QPainter *painter, const QRectF &canvas) const
                           QColor(inhibitedColour));
     } else {
         const QRectF strip(inner.left(), inner.top() + metrics.height() + 2.0, inner.width(), 9.0);
-        for (int x = 0; x < static_cast<int>(strip.width()); ++x)
+        for (int x = 0; x < int(strip.width()); ++x)
             painter->fillRect(QRectF(strip.left() + x, strip.top(), 1.0, strip.height()),
                               QColor(mapOf(m_layer).at(x / strip.width())));
         const QRectF numbers(inner.left(), strip.bottom() + 1.0, inner.width(), metrics.height());

@@ -87,8 +87,7 @@ struct OverlayItem::Canvas {
         double width = 0.0;
         for (const QString &line : lines)
             width = std::max(width, metrics.horizontalAdvance(line));
-        QRectF box(corner, QSizeF(std::ceil(width) + 8.0,
-                                  static_cast<double>(lines.size()) * std::ceil(metrics.height()) + 1.0));
+        QRectF box(corner, QSizeF(std::ceil(width) + 8.0, double(lines.size()) * std::ceil(metrics.height()) + 1.0));
         box.moveLeft(std::clamp(box.left(), rect.left(), std::max(rect.right() - box.width(), rect.left())));
         box.moveTop(std::clamp(box.top(), rect.top(), std::max(rect.bottom() - box.height(), rect.top())));
         painter.setPen(Qt::NoPen);
@@ -99,8 +98,8 @@ struct OverlayItem::Canvas {
         if (lines.size() == 1)
             painter.drawText(box, Qt::AlignCenter, text);
         for (qsizetype i = 0; lines.size() > 1 && i < lines.size(); ++i)
-            painter.drawText(QRectF(box.left() + 4.0, box.top() + static_cast<double>(i) * std::ceil(metrics.height()),
-                                    box.width(), std::ceil(metrics.height())),
+            painter.drawText(QRectF(box.left() + 4.0, box.top() + double(i) * std::ceil(metrics.height()), box.width(),
+                                    std::ceil(metrics.height())),
                              Qt::AlignLeft | Qt::AlignVCenter, lines[i]);
     }
 };
@@ -117,16 +116,16 @@ std::vector<OverlayItem::Line> OverlayItem::linesOf(const std::vector<Track> &fo
     lines.reserve(followed.size());
     for (const Track &track : followed) {
         Line line{track.id, {}};
-        line.points.reserve(static_cast<qsizetype>(track.points.size()));
+        line.points.reserve(qsizetype(track.points.size()));
         const auto at = [&](std::size_t i, double cell) {
-            return QPointF(time.value(static_cast<double>(track.points[i].frame)), frequency.value(cell));
+            return QPointF(time.value(double(track.points[i].frame)), frequency.value(cell));
         };
         for (std::size_t i = 0; i < track.points.size(); ++i)
             line.points << at(i, track.lastPosition(i, frequency));
         for (std::size_t i = 0; i < track.smoothed.size(); ++i)
-            line.band << at(i, static_cast<double>(track.smoothed[i].low));
+            line.band << at(i, double(track.smoothed[i].low));
         for (std::size_t i = track.smoothed.size(); i-- > 0;)
-            line.band << at(i, static_cast<double>(track.smoothed[i].high));
+            line.band << at(i, double(track.smoothed[i].high));
         lines.push_back(std::move(line));
     }
     return lines;
@@ -150,7 +149,7 @@ std::vector<OverlayItem::Line> OverlayItem::linesOf(const std::vector<TruthLine>
             continue;
         Line line;
         for (std::size_t i = 0; i < one.frequencyHz.size(); ++i) {
-            const double seconds = one.startSeconds + static_cast<double>(i) * one.stepSeconds;
+            const double seconds = one.startSeconds + double(i) * one.stepSeconds;
             line.points << QPointF(std::min(seconds, one.endSeconds), one.frequencyHz[i]);
         }
         if (line.points.back().x() < one.endSeconds)
@@ -313,7 +312,7 @@ void OverlayItem::drawEvents(const Canvas &canvas) const
     const auto rectOfMark = [&](const Mark &mark) {
         return frameOf(rectOf(mark.box, canvas.x, canvas.y, isTimeVertical));
     };
-    const auto inSight = static_cast<std::size_t>(std::count_if(
+    const auto inSight = std::size_t(std::count_if(
         marks.begin(), marks.end(), [&](const Mark &mark) { return rectOfMark(mark).intersects(canvas.rect); }));
     const bool areLabelled = inSight <= labelLimit;
     const auto drawOne = [&](const Mark &mark) {

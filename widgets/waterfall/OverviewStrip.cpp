@@ -116,11 +116,10 @@ void OverviewStrip::render()
     const QRectF rect = pictureRect();
     if (m_picture && m_picture->frameCount() > 0 && rect.width() > 1.0 && rect.height() > 1.0) {
         const double ratio = devicePixelRatioF();
-        const QSize size(static_cast<int>(std::lround(rect.width() * ratio)),
-                         static_cast<int>(std::lround(rect.height() * ratio)));
+        const QSize size(int(std::lround(rect.width() * ratio)), int(std::lround(rect.height() * ratio)));
         const Viewport::Box box = WaterfallView::extents(m_picture->time(), m_frequency);
-        const double frames = static_cast<double>(m_picture->frameCount()) / size.width();
-        const double cells = static_cast<double>(m_frequency.count) / size.height();
+        const double frames = double(m_picture->frameCount()) / size.width();
+        const double cells = double(m_frequency.count) / size.height();
         RasterItem raster;
         raster.setPicture(m_picture, m_frequency);
         raster.setTimeVertical(false);
@@ -160,7 +159,7 @@ void OverviewStrip::paintTicks(QPainter &painter) const
     const bool isClock = m_viewport->full().time.high > 600.0;
     painter.setFont(Theme::plotFont());
     const QFontMetricsF metrics(painter.font());
-    const QwtScaleDiv div = timeScaleDiv(m_viewport->full().time, std::max(static_cast<int>(rect.width() / 110.0), 1));
+    const QwtScaleDiv div = timeScaleDiv(m_viewport->full().time, std::max(int(rect.width() / 110.0), 1));
     const int decimals = decimalsFor(majorStep(div));
     for (const double seconds : div.ticks(QwtScaleDiv::MajorTick)) {
         const double x = std::round(xOf(seconds)) + 0.5;

@@ -39,7 +39,7 @@ namespace {
         if (from.step != to.step || from.count != to.count)
             return {};
         const double shift = std::round(to.first / to.step) - std::round(from.first / from.step);
-        return std::abs(shift) < to.count ? std::optional(static_cast<int>(shift)) : std::nullopt;
+        return std::abs(shift) < to.count ? std::optional(int(shift)) : std::nullopt;
     }
 
     /// `count` pixels of a row from its pixel `begin` on.
@@ -53,7 +53,7 @@ namespace {
     {
         to.resize(from.size());
         const auto at = [](int row, int column, int width) {
-            return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
+            return std::size_t(row) * std::size_t(width) + std::size_t(column);
         };
         for (int r0 = 0; r0 < rows; r0 += blockSize)
             for (int c0 = 0; c0 < columns; c0 += blockSize)
@@ -98,7 +98,7 @@ void RasterItem::setPicture(std::shared_ptr<const PeakPyramid> picture, const Ax
 
 void RasterItem::draw(const PixelRow &time, const PixelRow &cells, int level, std::span<std::uint8_t> out) const
 {
-    const auto first = static_cast<Index>(std::lround(m_time.position(m_picture->time().first)));
+    const auto first = Index(std::lround(m_time.position(m_picture->time().first)));
     rasterise(*m_picture, level, time, cells, out, {first, m_time.count});
 }
 
@@ -118,8 +118,7 @@ std::vector<QRgb> RasterItem::colourTable() const
 {
     std::vector<QRgb> table(256);
     for (int byte = 0; byte < 256; ++byte)
-        table[static_cast<std::size_t>(byte)] =
-            m_map->at((m_picture->scale().value(byte) - m_range.low) / m_range.width());
+        table[std::size_t(byte)] = m_map->at((m_picture->scale().value(byte) - m_range.low) / m_range.width());
     return table;
 }
 
@@ -133,7 +132,7 @@ void RasterItem::updateBytes(const PixelRow &time, const PixelRow &cells) const
     if (key.picture == m_bytesKey.picture && down && right) {
         scroll(time, cells, *down, *right);
     } else {
-        m_bytes.resize(static_cast<std::size_t>(time.count) * static_cast<std::size_t>(cells.count));
+        m_bytes.resize(std::size_t(time.count) * std::size_t(cells.count));
         draw(time, cells, levelToRead(*m_picture, time, cells), m_bytes);
     }
     m_bytesKey = key;
@@ -144,29 +143,27 @@ void RasterItem::updateBytes(const PixelRow &time, const PixelRow &cells) const
 void RasterItem::scroll(const PixelRow &time, const PixelRow &cells, int down, int right) const
 {
     const int level = levelToRead(*m_picture, time, cells);
-    const auto line = [&](int row) { return m_bytes.data() + static_cast<std::ptrdiff_t>(row) * cells.count; };
+    const auto line = [&](int row) { return m_bytes.data() + std::ptrdiff_t(row) * cells.count; };
     const int firstKept = std::max(-down, 0);
     const int endKept = time.count - std::max(down, 0);
     const int width = cells.count - std::abs(right);
     for (int i = firstKept; i < endKept; ++i) {
         const int row = down >= 0 ? i : firstKept + endKept - 1 - i; // what is still to be moved is not written over
-        std::memmove(line(row) + std::max(-right, 0), line(row + down) + std::max(right, 0),
-                     static_cast<std::size_t>(width));
+        std::memmove(line(row) + std::max(-right, 0), line(row + down) + std::max(right, 0), std::size_t(width));
     }
     if (down != 0) {
         const int first = down > 0 ? endKept : 0;
         draw(part(time, first, std::abs(down)), cells, level,
-             std::span(m_bytes).subspan(static_cast<std::size_t>(first) * static_cast<std::size_t>(cells.count),
-                                        static_cast<std::size_t>(std::abs(down))
-                                            * static_cast<std::size_t>(cells.count)));
+             std::span(m_bytes).subspan(std::size_t(first) * std::size_t(cells.count),
+                                        std::size_t(std::abs(down)) * std::size_t(cells.count)));
     }
     if (right != 0) {
         const int first = right > 0 ? width : 0;
         const int rows = endKept - firstKept;
-        std::vector<std::uint8_t> side(static_cast<std::size_t>(rows) * static_cast<std::size_t>(std::abs(right)));
+        std::vector<std::uint8_t> side(std::size_t(rows) * std::size_t(std::abs(right)));
         draw(part(time, firstKept, rows), part(cells, first, std::abs(right)), level, side);
         for (int i = 0; i < rows; ++i)
-            std::copy_n(side.data() + static_cast<std::ptrdiff_t>(i) * std::abs(right), std::abs(right),
+            std::copy_n(side.data() + std::ptrdiff_t(i) * std::abs(right), std::abs(right),
                         line(firstKept + i) + first);
     }
 }
@@ -182,13 +179,13 @@ void RasterItem::paint(const ImageKey &key, const QSize &size) const
     const int lastRow = size.height() - 1;
     const auto row = [&](int y) {
         const int shown = std::clamp(y, 0, lastRow);
-        return bytes.data() + static_cast<std::ptrdiff_t>(key.isUpward ? lastRow - shown : shown) * size.width();
+        return bytes.data() + std::ptrdiff_t(key.isUpward ? lastRow - shown : shown) * size.width();
     };
 
     if (m_image.size() != size)
         m_image = QImage(size, QImage::Format_RGB32);
     const std::vector<QRgb> table = colourTable();
-    std::vector<std::uint8_t> highest(static_cast<std::size_t>(size.width()));
+    std::vector<std::uint8_t> highest(std::size_t(size.width()));
     for (int y = 0; y <= lastRow; ++y) {
         const std::uint8_t *from = row(y);
         auto *to = reinterpret_cast<QRgb *>(m_image.scanLine(y));
@@ -198,8 +195,7 @@ void RasterItem::paint(const ImageKey &key, const QSize &size) const
             continue;
         raiseNeighbours(row(y - 1), from, row(y + 1), highest);
         for (int x = 0; x < size.width(); ++x) {
-            const bool isBeside =
-                (from[x] < key.contourByte) & (highest[static_cast<std::size_t>(x)] >= key.contourByte);
+            const bool isBeside = (from[x] < key.contourByte) & (highest[std::size_t(x)] >= key.contourByte);
             to[x] = isBeside ? key.contourColour : to[x];
         }
     }

@@ -18,7 +18,7 @@ struct Sidebands {
     int nearestOrder(double hz) const
     {
         const double n = spacingHz > 0.0 ? std::round((hz - carrierHz) / spacingHz) : 0.0;
-        return static_cast<int>(n < -orders ? -orders : n > orders ? +orders : n);
+        return int(n < -orders ? -orders : n > orders ? +orders : n);
     }
 
     /// The spacing that puts the line of an order other than 0 on a frequency.

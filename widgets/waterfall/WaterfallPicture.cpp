@@ -112,8 +112,8 @@ void WaterfallPicture::choosePicture()
     const auto shows = [this](const PeakPyramid &closeup) {
         const Span time = extents(closeup.time(), m_frequency).time;
         const double slack = 1e-6 * closeup.time().step;
-        return framesPerPixel() < static_cast<double>(m_picture->framesPerRow(0))
-               && visible().time.low > time.low - slack && visible().time.high < time.high + slack;
+        return framesPerPixel() < double(m_picture->framesPerRow(0)) && visible().time.low > time.low - slack
+               && visible().time.high < time.high + slack;
     };
     const auto &shown = m_picture && m_closeup && shows(*m_closeup) ? m_closeup : m_picture;
     if (shown == m_shown)
@@ -140,8 +140,8 @@ bool WaterfallPicture::hasTime() const
 
 Viewport::Box WaterfallPicture::extents(const Axis &time, const Axis &frequency)
 {
-    return {{time.value(-0.5), time.value(static_cast<double>(time.count) - 0.5)},
-            {frequency.value(-0.5), frequency.value(static_cast<double>(frequency.count) - 0.5)}};
+    return {{time.value(-0.5), time.value(double(time.count) - 0.5)},
+            {frequency.value(-0.5), frequency.value(double(frequency.count) - 0.5)}};
 }
 
 void WaterfallPicture::setEmptySentence(const QString &sentence)
@@ -174,11 +174,10 @@ std::optional<double> WaterfallPicture::valueAt(double seconds, double hz) const
         return {};
     const PeakPyramid &picture = finestPicture({seconds, seconds});
     const double frame = std::floor(picture.time().position(seconds) + 0.5);
-    if (frame > static_cast<double>(picture.frameCount()))
+    if (frame > double(picture.frameCount()))
         return {}; // still to come
-    const Index row =
-        std::clamp<Index>(static_cast<Index>(frame) / picture.framesPerRow(0), 0, picture.rowCount(0) - 1);
-    return picture.scale().value(picture.row(0, row)[static_cast<std::size_t>(m_frequency.nearest(hz))]);
+    const Index row = std::clamp<Index>(Index(frame) / picture.framesPerRow(0), 0, picture.rowCount(0) - 1);
+    return picture.scale().value(picture.row(0, row)[std::size_t(m_frequency.nearest(hz))]);
 }
 
 std::optional<Viewport::Point> WaterfallPicture::peakAround(const Viewport::Point &point) const
@@ -188,7 +187,7 @@ std::optional<Viewport::Point> WaterfallPicture::peakAround(const Viewport::Poin
     const auto around = [](double p, double q, double middle, double step) {
         return Span{std::min({p, q, middle - step}), std::max({p, q, middle + step})};
     };
-    const double row = m_picture->time().step * static_cast<double>(m_picture->framesPerRow(0));
+    const double row = m_picture->time().step * double(m_picture->framesPerRow(0));
     return faintline::peakNear(
         *m_picture, m_frequency,
         {around(a.seconds, b.seconds, point.seconds, row), around(a.hz, b.hz, point.hz, m_frequency.step)});
@@ -306,7 +305,7 @@ void WaterfallPicture::setOrientation(Orientation orientation)
 
 void WaterfallPicture::cycleOrientation()
 {
-    setOrientation(static_cast<Orientation>((static_cast<int>(m_orientation) + 1) % 3));
+    setOrientation(static_cast<Orientation>((int(m_orientation) + 1) % 3));
 }
 
 // ---- colours -------------------------------------------------------------------------------------------------------

@@ -10,12 +10,12 @@ std::optional<Viewport::Point> peakNear(const PeakPyramid &picture, const Axis &
 {
     std::array<double, 256> values;
     for (std::size_t byte = 0; byte < values.size(); ++byte)
-        values[byte] = picture.scale().value(static_cast<int>(byte));
-    const auto framesPerRow = static_cast<double>(picture.framesPerRow(0));
-    const auto rowMiddle = [&](Index row) { return (static_cast<double>(row) + 0.5) * framesPerRow - 0.5; };
+        values[byte] = picture.scale().value(int(byte));
+    const auto framesPerRow = double(picture.framesPerRow(0));
+    const auto rowMiddle = [&](Index row) { return (double(row) + 0.5) * framesPerRow - 0.5; };
     const auto within = [](double low, double high, Index count) {
-        return std::pair(std::max<Index>(static_cast<Index>(std::ceil(low - 1e-9)), 0),
-                         std::min(static_cast<Index>(std::floor(high + 1e-9)) + 1, count));
+        return std::pair(std::max<Index>(Index(std::ceil(low - 1e-9)), 0),
+                         std::min(Index(std::floor(high + 1e-9)) + 1, count));
     };
     const auto rowOf = [&](double seconds) { return (picture.time().position(seconds) + 0.5) / framesPerRow - 0.5; };
     const auto [firstRow, endRow] = within(rowOf(box.time.low), rowOf(box.time.high), picture.rowCount(0));
@@ -27,11 +27,11 @@ std::optional<Viewport::Point> peakNear(const PeakPyramid &picture, const Axis &
     for (Index row = firstRow; row < endRow; ++row) {
         const auto bytes = picture.row(0, row);
         for (Index cell = firstCell; cell < endCell; ++cell) {
-            const double value = values[static_cast<unsigned char>(bytes[static_cast<std::size_t>(cell)])];
+            const double value = values[static_cast<unsigned char>(bytes[std::size_t(cell)])];
             if (best && value <= highest)
                 continue;
             highest = value;
-            best = Viewport::Point{picture.time().value(rowMiddle(row)), frequency.value(static_cast<double>(cell))};
+            best = Viewport::Point{picture.time().value(rowMiddle(row)), frequency.value(double(cell))};
         }
     }
     return best;

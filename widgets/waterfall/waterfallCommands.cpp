@@ -27,8 +27,8 @@ namespace {
         const int hzSteps = view.isTimeVertical() ? right : up;
         // From cell centre to cell centre, so that every key press reads another cell.
         const auto moved = [](const Axis &axis, Index count, double value, Index by) {
-            const auto index = static_cast<Index>(std::lround(axis.position(value)));
-            return axis.value(static_cast<double>(std::clamp<Index>(index + by, 0, count - 1)));
+            const auto index = Index(std::lround(axis.position(value)));
+            return axis.value(double(std::clamp<Index>(index + by, 0, count - 1)));
         };
         const Axis &frequency = view.frequencyAxis();
         point.seconds = moved(view.picture()->time(), view.picture()->frameCount(), point.seconds, timeSteps * cells);

@@ -37,8 +37,8 @@ namespace {
     {
     public:
         Running(D detector, Index cells, Index frames)
-            : m_detector(std::move(detector)), m_cells(static_cast<std::size_t>(cells)),
-              m_frames(static_cast<std::size_t>(frames)), m_y(exponentials(m_cells * m_frames)), m_statistic(m_y.size())
+            : m_detector(std::move(detector)), m_cells(std::size_t(cells)), m_frames(std::size_t(frames)),
+              m_y(exponentials(m_cells * m_frames)), m_statistic(m_y.size())
         {
             oneByOne();
         }
@@ -50,7 +50,7 @@ namespace {
                                   std::span(m_statistic).subspan(i * m_cells, m_cells));
         }
 
-        void atOnce() { m_detector.updateBlock(m_y, m_statistic, static_cast<Index>(m_cells)); }
+        void atOnce() { m_detector.updateBlock(m_y, m_statistic, Index(m_cells)); }
 
     private:
         D m_detector;
@@ -69,7 +69,7 @@ namespace {
         if constexpr (requires(D d) { d.updateBlock({}, {}, 0); })
             if (atOnce)
                 run = [it] { it->atOnce(); };
-        return {name, static_cast<double>(space.stateCount() * frames), threads, run};
+        return {name, double(space.stateCount() * frames), threads, run};
     }
 
     SpeedForm smd(const std::string &name, const MarkovModel &model, Index frames, double lnK, int threads = 1)
@@ -81,9 +81,9 @@ namespace {
 
     SpeedForm passOver(const StateSpace &space)
     {
-        const std::vector<float> some = exponentials(static_cast<std::size_t>(space.stateCount()));
+        const std::vector<float> some = exponentials(std::size_t(space.stateCount()));
         const auto values = std::make_shared<LargeVector<float>>(some.begin(), some.end());
-        return {pass, static_cast<double>(space.stateCount()), 1, [values] { sweep(*values); }};
+        return {pass, double(space.stateCount()), 1, [values] { sweep(*values); }};
     }
 
     // ---- one axis --------------------------------------------------------------------------------------------------
@@ -105,7 +105,7 @@ namespace {
         const MarkovModel model = slopes(count, cells);
         return {smd(ours, model, blockFrames, slopesLnK),
                 running(formula, FormulaRecursion(model.space, slopesLnK), model.space, 1),
-                running(eigen, EigenRecursion(model.space, static_cast<float>(slopesLnK)), model.space, 2),
+                running(eigen, EigenRecursion(model.space, float(slopesLnK)), model.space, 2),
                 passOver(model.space),
                 running("frame by frame", Smd(model, {ResetLaw::Fixed, slopesLnK}), model.space, blockFrames),
                 smd(twoThreads, model, blockFrames, slopesLnK, 2)};
@@ -114,19 +114,18 @@ namespace {
     /// Largest difference between the statistics of a detector and of the formula over some frames.
     double difference(const MarkovModel &model, double lnK, Index frames)
     {
-        const auto cells = static_cast<std::size_t>(model.space.cellCount());
-        const std::vector<float> y = exponentials(cells * static_cast<std::size_t>(frames));
+        const auto cells = std::size_t(model.space.cellCount());
+        const std::vector<float> y = exponentials(cells * std::size_t(frames));
         std::vector<float> found(y.size());
         std::vector<float> expected(cells);
         Smd detector(model, {ResetLaw::Fixed, lnK});
         detector.updateBlock(y, found, model.space.cellCount());
         FormulaRecursion plain(model.space, lnK);
         double largest = 0.0;
-        for (std::size_t frame = 0; frame < static_cast<std::size_t>(frames); ++frame) {
+        for (std::size_t frame = 0; frame < std::size_t(frames); ++frame) {
             plain.update(std::span<const float>(y).subspan(frame * cells, cells), expected);
             for (std::size_t cell = 0; cell < cells; ++cell)
-                largest =
-                    std::max(largest, static_cast<double>(std::abs(found[frame * cells + cell] - expected[cell])));
+                largest = std::max(largest, double(std::abs(found[frame * cells + cell] - expected[cell])));
         }
         return largest;
     }
@@ -157,8 +156,8 @@ namespace {
         const MarkovModel model = sonar(motion, 2500);
         const double lnK = sonarLnK(motion);
         std::vector<SpeedForm> forms{
-            smd(ours, model, sonarFrames, lnK),
-            running(eigen, EigenRecursion(model.space, static_cast<float>(lnK)), model.space, 1), passOver(model.space),
+            smd(ours, model, sonarFrames, lnK), running(eigen, EigenRecursion(model.space, float(lnK)), model.space, 1),
+            passOver(model.space),
             running("frame by frame", Smd(model, {ResetLaw::Fixed, lnK}), model.space, sonarFrames),
             smd(twoThreads, model, sonarFrames, lnK, 2)};
         if (withFormula)
@@ -188,7 +187,7 @@ namespace {
         return {{ours, n, 1, [work] { work->rice.apply(work->y, work->out); }},
                 {"scalar Bessel", n / 64, 1, [work] {
                      for (std::size_t i = 0; i < n; i += 64)
-                         work->sum += work->rice.at(static_cast<double>(work->y[i]));
+                         work->sum += work->rice.at(double(work->y[i]));
                  }}};
     }
 
@@ -197,12 +196,12 @@ namespace {
         const Likelihood rice(LikelihoodKind::Rice, 0.5);
         std::vector<float> y;
         for (double value = 1e-4; value < 100.0; value *= 1.001)
-            y.push_back(static_cast<float>(value));
+            y.push_back(float(value));
         std::vector<float> out(y.size());
         rice.apply(y, out);
         double largest = 0.0;
         for (std::size_t i = 0; i < y.size(); ++i)
-            largest = std::max(largest, std::abs(static_cast<double>(out[i]) - rice.at(static_cast<double>(y[i]))));
+            largest = std::max(largest, std::abs(double(out[i]) - rice.at(double(y[i]))));
         return largest;
     }
 
@@ -242,14 +241,14 @@ namespace {
         };
         const auto work = std::make_shared<Work>();
         constexpr Index frames = 64;
-        const auto recording = std::make_shared<NoiseInMemory>(static_cast<std::size_t>(length) * 80);
+        const auto recording = std::make_shared<NoiseInMemory>(std::size_t(length) * 80);
         work->spectrogram = std::make_shared<Spectrogram>(recording, settings);
         const NormaliserSettings noise;
         work->normalised = std::make_shared<NormalisedSpectrogram>(
             work->spectrogram, estimateBackground(*work->spectrogram, noise), noise);
         work->fft = std::make_shared<Fft>(length, Fft::Input::Real);
         work->buffer = work->fft->buffer();
-        work->out.resize(static_cast<std::size_t>(frames * work->spectrogram->frequency().count));
+        work->out.resize(std::size_t(frames * work->spectrogram->frequency().count));
         RunContext two;
         two.threads = 2;
         return {{ours, frames, 1, [work] { work->spectrogram->read(0, frames, work->out); }},
@@ -272,7 +271,7 @@ namespace {
         };
         const auto work = std::make_shared<Work>();
         for (float value : exponentials(n))
-            work->values.push_back(static_cast<double>(value));
+            work->values.push_back(double(value));
         const auto over = [work](Index half) {
             return [work, half] { runningMean(work->values, work->weights, half, work->mean); };
         };
@@ -284,8 +283,8 @@ namespace {
         constexpr Index rows = 48;
         constexpr Index cells = 4096;
         struct Work {
-            std::vector<float> frames = exponentials(static_cast<std::size_t>(rows * cells));
-            std::vector<float> out = std::vector<float>(static_cast<std::size_t>(cells));
+            std::vector<float> frames = exponentials(std::size_t(rows * cells));
+            std::vector<float> out = std::vector<float>(std::size_t(cells));
         };
         const auto work = std::make_shared<Work>();
         return {{ours, cells, 1, [work] { columnMedians(work->frames, work->out); }},
@@ -307,16 +306,13 @@ namespace {
         };
         const StateSpace space({walk("azimuth", 3), walk("elevation", 3), walk("range", 100)});
         struct Work {
-            explicit Work(const StateSpace &s)
-                : recursion(s), dense(s), weights(static_cast<std::size_t>(s.stateCount()), 1.0)
-            {
-            }
+            explicit Work(const StateSpace &s) : recursion(s), dense(s), weights(std::size_t(s.stateCount()), 1.0) {}
             Recursion<SumProduct> recursion;
             DenseSumProduct dense;
             std::vector<double> weights;
         };
         const auto work = std::make_shared<Work>(space);
-        const auto states = static_cast<double>(space.stateCount());
+        const auto states = double(space.stateCount());
         return {{ours, states, 1, [work] { work->recursion.predict(work->weights); }},
                 {"dense", states, 1, [work] {
                      std::vector<double> weights = work->weights;

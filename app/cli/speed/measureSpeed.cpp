@@ -22,7 +22,7 @@ namespace {
             timespec used{};
             clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
             return {std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(),
-                    static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec)};
+                    double(used.tv_sec) + 1e-9 * double(used.tv_nsec)};
         }
     };
 
@@ -43,17 +43,17 @@ namespace {
     double quantile(std::vector<double> values, double fraction)
     {
         std::sort(values.begin(), values.end());
-        const double position = fraction * static_cast<double>(values.size() - 1);
-        const auto lower = static_cast<std::size_t>(position);
+        const double position = fraction * double(values.size() - 1);
+        const auto lower = std::size_t(position);
         const std::size_t upper = std::min(lower + 1, values.size() - 1);
-        return values[lower] + (position - static_cast<double>(lower)) * (values[upper] - values[lower]);
+        return values[lower] + (position - double(lower)) * (values[upper] - values[lower]);
     }
 
     std::size_t indexOf(const std::vector<SpeedForm> &forms, const std::string &name)
     {
         const auto found =
             std::find_if(forms.begin(), forms.end(), [&](const SpeedForm &form) { return form.name == name; });
-        return static_cast<std::size_t>(found - forms.begin());
+        return std::size_t(found - forms.begin());
     }
 
     std::string rateText(double perSecond)
@@ -86,7 +86,7 @@ SpeedResult measureSpeed(const SpeedKernel &kernel, const SpeedOptions &options,
     std::vector<std::vector<Seconds>> times(forms.size());
     for (int round = 0; round < options.rounds; ++round)
         for (std::size_t i = 0; i < forms.size(); ++i) {
-            context.checkpoint(static_cast<double>(round) / options.rounds, kernel.name);
+            context.checkpoint(double(round) / options.rounds, kernel.name);
             times[i].push_back(timeOf(forms[i], options.secondsPerForm));
         }
     for (std::size_t i = 0; i < forms.size(); ++i) {

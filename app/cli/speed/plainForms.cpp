@@ -33,14 +33,14 @@ namespace {
 } // namespace
 
 FormulaRecursion::FormulaRecursion(const StateSpace &space, double lnK)
-    : m_space(space), m_lnK(lnK), m_scores(static_cast<std::size_t>(space.stateCount())), m_next(m_scores.size())
+    : m_space(space), m_lnK(lnK), m_scores(std::size_t(space.stateCount())), m_next(m_scores.size())
 {
     for (Index phase = 0; phase < space.phaseCount(); ++phase) {
         Moves &moves = m_moves.emplace_back();
         for (std::size_t axis = 0; axis < 2; ++axis) {
-            moves[axis].resize(static_cast<std::size_t>(ratesAlong(space, axis)));
+            moves[axis].resize(std::size_t(ratesAlong(space, axis)));
             for (const KinematicAxis::Move &move : movesAlong(space, axis, phase))
-                moves[axis][static_cast<std::size_t>(move.toRate)].push_back(move);
+                moves[axis][std::size_t(move.toRate)].push_back(move);
         }
     }
 }
@@ -54,8 +54,7 @@ double FormulaRecursion::bestOfLine(const std::vector<KinematicAxis::Move> &move
         if (axis.cyclic)
             from = (from + axis.cells) % axis.cells;
         if (from >= 0 && from < axis.cells)
-            best = std::max(best,
-                            m_scores[static_cast<std::size_t>(move.fromRate * axis.cells + from)] + move.lnProbability);
+            best = std::max(best, m_scores[std::size_t(move.fromRate * axis.cells + from)] + move.lnProbability);
     }
     return best;
 }
@@ -78,7 +77,7 @@ double FormulaRecursion::bestOfPlane(const std::vector<KinematicAxis::Move> &alo
                 continue;
             const Index plane = a.fromRate * second.rateCount + b.fromRate;
             const Index from = (plane * first.cells + fromRow) * second.cells + fromColumn;
-            best = std::max(best, m_scores[static_cast<std::size_t>(from)] + a.lnProbability + b.lnProbability);
+            best = std::max(best, m_scores[std::size_t(from)] + a.lnProbability + b.lnProbability);
         }
     return best;
 }
@@ -87,7 +86,7 @@ void FormulaRecursion::update(std::span<const float> y, std::span<float> statist
 {
     std::fill(statistic.begin(), statistic.end(), -std::numeric_limits<float>::infinity());
     const Index columns = columnsOf(m_space);
-    const Moves &moves = m_moves[static_cast<std::size_t>(m_frames) % m_moves.size()];
+    const Moves &moves = m_moves[std::size_t(m_frames) % m_moves.size()];
     std::size_t state = 0;
     for (const auto &alongFirst : moves[0])
         for (const auto &alongSecond : moves[1])
@@ -99,9 +98,9 @@ void FormulaRecursion::update(std::span<const float> y, std::span<float> statist
                                                         : bestOfLine(alongFirst, row);
                         continued = std::max(m_lnK + best, 0.0);
                     }
-                    const auto cell = static_cast<std::size_t>(row * columns + column);
-                    m_next[state] = static_cast<double>(y[cell]) + continued;
-                    statistic[cell] = std::max(statistic[cell], static_cast<float>(m_next[state]));
+                    const auto cell = std::size_t(row * columns + column);
+                    m_next[state] = double(y[cell]) + continued;
+                    statistic[cell] = std::max(statistic[cell], float(m_next[state]));
                 }
     std::swap(m_scores, m_next);
     ++m_frames;
@@ -122,7 +121,7 @@ EigenRecursion::EigenRecursion(const StateSpace &space, float lnK) : m_lnK(lnK)
         m_phases.push_back(stepsOf(space, phase));
     const Plane nothing = Plane::Constant(m_cells[1] + 2 * m_margin[1], m_cells[0] + 2 * m_margin[0],
                                           -std::numeric_limits<float>::infinity());
-    m_scores.assign(static_cast<std::size_t>(m_rates[0] * m_rates[1]), nothing);
+    m_scores.assign(std::size_t(m_rates[0] * m_rates[1]), nothing);
     m_next = m_scores;
 }
 
@@ -132,27 +131,23 @@ std::vector<EigenRecursion::Step> EigenRecursion::stepsOf(const StateSpace &spac
     for (std::size_t i = 0; i < 2; ++i)
         moves[i] = movesAlong(space, space.axes().size() == 1 ? 1 - i : i, phase);
     std::vector<Step> steps;
-    const auto emptyStep = Step(static_cast<std::size_t>(m_rates[0] * m_rates[1]));
-    const auto plane = [&](Index a, Index b) { return static_cast<std::size_t>(a * m_rates[1] + b); };
+    const auto emptyStep = Step(std::size_t(m_rates[0] * m_rates[1]));
+    const auto plane = [&](Index a, Index b) { return std::size_t(a * m_rates[1] + b); };
     if (std::ssize(moves[0]) == m_rates[0]
         || std::ssize(moves[1]) == m_rates[1]) { // along one of them from one rate: in one expression
         steps.push_back(emptyStep);
         for (const KinematicAxis::Move &a : moves[0])
             for (const KinematicAxis::Move &b : moves[1])
                 steps.back()[plane(a.toRate, b.toRate)].push_back(
-                    {plane(a.fromRate, b.fromRate),
-                     {a.cells, b.cells},
-                     static_cast<float>(a.lnProbability + b.lnProbability)});
+                    {plane(a.fromRate, b.fromRate), {a.cells, b.cells}, float(a.lnProbability + b.lnProbability)});
     } else {
         steps.assign(2, emptyStep);
         for (const KinematicAxis::Move &a : moves[0])
             for (Index b = 0; b < m_rates[1]; ++b)
-                steps[0][plane(a.toRate, b)].push_back(
-                    {plane(a.fromRate, b), {a.cells, 0}, static_cast<float>(a.lnProbability)});
+                steps[0][plane(a.toRate, b)].push_back({plane(a.fromRate, b), {a.cells, 0}, float(a.lnProbability)});
         for (const KinematicAxis::Move &b : moves[1])
             for (Index a = 0; a < m_rates[0]; ++a)
-                steps[1][plane(a, b.toRate)].push_back(
-                    {plane(a, b.fromRate), {0, b.cells}, static_cast<float>(b.lnProbability)});
+                steps[1][plane(a, b.toRate)].push_back({plane(a, b.fromRate), {0, b.cells}, float(b.lnProbability)});
     }
     return steps;
 }
@@ -190,7 +185,7 @@ void EigenRecursion::update(std::span<const float> y, std::span<float> statistic
     const Eigen::Map<const Eigen::ArrayXXf> lambda(y.data(), m_cells[1], m_cells[0]);
     Eigen::Map<Eigen::ArrayXXf> best(statistic.data(), m_cells[1], m_cells[0]);
     best.setConstant(-std::numeric_limits<float>::infinity());
-    const std::vector<Step> &steps = m_phases[static_cast<std::size_t>(m_frames) % m_phases.size()];
+    const std::vector<Step> &steps = m_phases[std::size_t(m_frames) % m_phases.size()];
     for (std::size_t step = 0; step < steps.size(); ++step) {
         for (std::size_t plane = 0; plane < m_next.size(); ++plane) {
             join(steps[step][plane], m_next[plane]);
@@ -211,7 +206,7 @@ void EigenRecursion::update(std::span<const float> y, std::span<float> statistic
 
 float EigenRecursion::score(Index plane, Index cell) const
 {
-    return m_scores[static_cast<std::size_t>(plane)](m_margin[1] + cell % m_cells[1], m_margin[0] + cell / m_cells[1]);
+    return m_scores[std::size_t(plane)](m_margin[1] + cell % m_cells[1], m_margin[0] + cell / m_cells[1]);
 }
 
 FAINTLINE_MULTIVERSION
@@ -224,11 +219,11 @@ void sweep(std::span<float> values)
 }
 
 DenseSumProduct::DenseSumProduct(const StateSpace &space)
-    : m_states(static_cast<std::size_t>(space.stateCount())), m_probabilities(m_states * m_states), m_product(m_states)
+    : m_states(std::size_t(space.stateCount())), m_probabilities(m_states * m_states), m_product(m_states)
 {
     for (std::size_t to = 0; to < m_states; ++to)
-        for (const StateSpace::Predecessor &from : space.predecessors(static_cast<Index>(to)))
-            m_probabilities[to * m_states + static_cast<std::size_t>(from.state)] += std::exp(from.lnProbability);
+        for (const StateSpace::Predecessor &from : space.predecessors(Index(to)))
+            m_probabilities[to * m_states + std::size_t(from.state)] += std::exp(from.lnProbability);
 }
 
 void DenseSumProduct::update(std::vector<double> &weights)

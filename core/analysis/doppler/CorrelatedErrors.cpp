@@ -27,7 +27,7 @@ namespace {
         const Eigen::VectorXd rotated = qr.householderQ().transpose() * r;
         const Eigen::Index freedom = r.size() - J.cols();
         double result = errors.logDeterminant();
-        result += static_cast<double>(freedom) * std::log(std::max(1e-300, rotated.tail(freedom).squaredNorm()));
+        result += double(freedom) * std::log(std::max(1e-300, rotated.tail(freedom).squaredNorm()));
         constexpr double rounding = 1e-12;
         for (Eigen::Index i = 0; i < J.cols(); ++i)
             result += 2.0 * std::log(std::max(std::abs(qr.matrixR()(i, i)), rounding * qr.maxPivot()));
@@ -56,17 +56,17 @@ void CorrelatedErrors::whiten(Eigen::Ref<Eigen::VectorXd> values) const
     if (order() == 0)
         return;
     for (Eigen::Index i = values.size() - 1; i >= 0; --i) {
-        const std::size_t known = m_known[static_cast<std::size_t>(i)];
+        const std::size_t known = m_known[std::size_t(i)];
         double predicted = 0.0;
         for (std::size_t j = 0; j < known; ++j)
-            predicted += m_predictors[known][j] * values[i - 1 - static_cast<Eigen::Index>(j)];
+            predicted += m_predictors[known][j] * values[i - 1 - Eigen::Index(j)];
         values[i] = (values[i] - predicted) / std::sqrt(m_variances[known]);
     }
 }
 
 double CorrelatedErrors::effectiveCount() const
 {
-    Eigen::VectorXd ones = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(m_known.size()));
+    Eigen::VectorXd ones = Eigen::VectorXd::Ones(Eigen::Index(m_known.size()));
     whiten(ones);
     return ones.squaredNorm();
 }
@@ -98,8 +98,8 @@ CorrelatedErrors likeliestErrors(const Eigen::VectorXd &r, const Eigen::MatrixXd
                 std::tie(partial[i], value) =
                     boost::math::tools::brent_find_minima(at, -mostPartial, mostPartial, searchBits);
             }
-        if (value + 2.0 * static_cast<double>(order) < least) {
-            least = value + 2.0 * static_cast<double>(order);
+        if (value + 2.0 * double(order) < least) {
+            least = value + 2.0 * double(order);
             best = partial;
         }
     }

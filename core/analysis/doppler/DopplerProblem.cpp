@@ -60,8 +60,7 @@ namespace {
     {
     public:
         Reduced(const DopplerProblem &problem, int held, double own)
-            : DenseFunctor(held < 0 ? 4 : 3, static_cast<int>(problem.count())), m_problem(&problem), m_held(held),
-              m_own(own)
+            : DenseFunctor(held < 0 ? 4 : 3, int(problem.count())), m_problem(&problem), m_held(held), m_own(own)
         {
         }
 
@@ -232,20 +231,20 @@ void DopplerProblem::estimateCorrelation(const DopplerCoordinates &x)
     const Eigen::VectorXd r = residuals(x, &J);
     CorrelatedErrors errors = likeliestErrors(r, J, isFirst);
     constexpr double mostGain = 1.5;
-    if (errors.effectiveCount() < mostGain * static_cast<double>(count()))
+    if (errors.effectiveCount() < mostGain * double(count()))
         m_errors = std::move(errors);
 }
 
 Eigen::VectorXd DopplerProblem::residuals(const DopplerCoordinates &x, Eigen::MatrixXd *derivatives) const
 {
-    const auto n = static_cast<Eigen::Index>(count());
+    const auto n = Eigen::Index(count());
     Eigen::VectorXd values(n);
     if (derivatives)
         derivatives->resize(n, 4);
     const Shape shape(x);
     const Dual rest(m_middleHz + x[0] * m_spanHz, m_spanHz * Eigen::Vector4d::Unit(0));
     for (Eigen::Index i = 0; i < n; ++i) {
-        const DopplerPoint &point = m_points[static_cast<std::size_t>(i)];
+        const DopplerPoint &point = m_points[std::size_t(i)];
         const Dual fitted = rest * shape.at((point.seconds - m_middleSeconds) / m_spanSeconds);
         values[i] = (point.hz - fitted.value()) / point.deviationHz;
         if (derivatives)
@@ -259,11 +258,11 @@ Eigen::VectorXd DopplerProblem::residuals(const DopplerCoordinates &x, Eigen::Ma
 
 double DopplerProblem::straightLineCost() const
 {
-    const auto n = static_cast<Eigen::Index>(count());
+    const auto n = Eigen::Index(count());
     Eigen::VectorXd values(n);
     Eigen::MatrixXd terms(n, 2);
     for (Eigen::Index i = 0; i < n; ++i) {
-        const DopplerPoint &point = m_points[static_cast<std::size_t>(i)];
+        const DopplerPoint &point = m_points[std::size_t(i)];
         values[i] = (point.hz - m_middleHz) / point.deviationHz;
         terms(i, 0) = 1.0 / point.deviationHz;
         terms(i, 1) = (point.seconds - m_middleSeconds) / (m_spanSeconds * point.deviationHz);
@@ -281,7 +280,7 @@ DopplerCoordinates DopplerProblem::minimum(const DopplerCoordinates &from) const
 
 DopplerCoordinates DopplerProblem::minimum(const DopplerCoordinates &from, DopplerParameter held, double own) const
 {
-    return minimise(Reduced(*this, static_cast<int>(held), own), from);
+    return minimise(Reduced(*this, int(held), own), from);
 }
 
 } // namespace faintline

@@ -143,7 +143,7 @@ namespace {
         DopplerOptimum optimum;
         optimum.x = settling.x;
         optimum.cost = settling.problem.cost(settling.x);
-        const double freedom = static_cast<double>(settling.problem.count()) - parameterCount;
+        const double freedom = double(settling.problem.count()) - parameterCount;
         optimum.variance = std::max(leastScale * leastScale, optimum.cost / freedom);
         const double rest = std::max(1.0, settling.problem.errors().effectiveCount() - parameterCount);
         optimum.critical =
@@ -172,7 +172,7 @@ namespace {
         for (std::size_t i = 0; i < fit.residualHz.size(); ++i)
             if (!fit.isLeftOut[i])
                 sum += fit.residualHz[i] * fit.residualHz[i];
-        fit.rmsHz = std::sqrt(sum / static_cast<double>(settling.problem.count()));
+        fit.rmsHz = std::sqrt(sum / double(settling.problem.count()));
         fit.deviationScale = std::sqrt(optimum.variance);
         fit.effectivePoints = settling.problem.errors().effectiveCount();
     }
@@ -190,10 +190,10 @@ DopplerFit fitDopplerPass(const std::vector<DopplerPoint> &points, double propag
     DopplerFit fit;
     fit.pass = settling.problem.passOf(optimum.x);
     fit.propagation = propagation;
-    fit.restHz = bounds[static_cast<std::size_t>(DopplerParameter::RestHz)];
-    fit.metresPerSecond = bounds[static_cast<std::size_t>(DopplerParameter::Speed)];
-    fit.rangeMetres = bounds[static_cast<std::size_t>(DopplerParameter::Range)];
-    fit.closestSeconds = bounds[static_cast<std::size_t>(DopplerParameter::Closest)];
+    fit.restHz = bounds[std::size_t(DopplerParameter::RestHz)];
+    fit.metresPerSecond = bounds[std::size_t(DopplerParameter::Speed)];
+    fit.rangeMetres = bounds[std::size_t(DopplerParameter::Range)];
+    fit.closestSeconds = bounds[std::size_t(DopplerParameter::Closest)];
     fit.residualHz = residualsOf(points, propagation, fit.pass);
     fit.isLeftOut = settling.isOut;
     describeResiduals(fit, settling, optimum);

@@ -113,7 +113,7 @@ namespace {
             m_problem.residuals(m_optimum.x, &J);
             const double beta = 1.0 / (1.0 + std::exp(-m_optimum.x[1]));
             const double time = std::exp(m_optimum.x[2]);
-            Eigen::Vector4d gradient = Eigen::Vector4d::Unit(static_cast<int>(m_parameter));
+            Eigen::Vector4d gradient = Eigen::Vector4d::Unit(int(m_parameter));
             if (m_parameter == DopplerParameter::Range)
                 gradient[1] = 1.0 - beta;
             if (m_parameter == DopplerParameter::Closest) {

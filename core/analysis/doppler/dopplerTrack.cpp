@@ -49,13 +49,13 @@ namespace {
         constexpr std::ptrdiff_t reach = 2;
         const Slopes slopes(space);
         const std::ptrdiff_t count = std::ssize(track.points);
-        const auto at = [&](std::ptrdiff_t i) { return track.lastPosition(static_cast<std::size_t>(i), axis); };
+        const auto at = [&](std::ptrdiff_t i) { return track.lastPosition(std::size_t(i), axis); };
         std::vector<char> isSteep(track.points.size(), 0);
         for (std::ptrdiff_t i = 0; i < count; ++i) {
             const std::ptrdiff_t from = std::max<std::ptrdiff_t>(0, i - reach);
             const std::ptrdiff_t to = std::min(count - 1, i + reach);
-            const double mean = to > from ? (at(to) - at(from)) / static_cast<double>(to - from) : 0.0;
-            const Index plane = track.points[static_cast<std::size_t>(i)].plane;
+            const double mean = to > from ? (at(to) - at(from)) / double(to - from) : 0.0;
+            const Index plane = track.points[std::size_t(i)].plane;
             if (slopes.isLimit(space.ratesOfPlane(plane).back()) || (!track.smoothed.empty() && slopes.isLimit(mean)))
                 std::fill(isSteep.begin() + from, isSteep.begin() + to + 1, char(1));
         }
@@ -91,7 +91,7 @@ DopplerTrack dopplerTrack(const AnalysisPlan &plan, const Track &track, double c
         if (cells && isSteep[i])
             ++result.steepCount;
         else if (cells)
-            result.points.push_back({plan.time().value(static_cast<double>(track.points[i].frame)),
+            result.points.push_back({plan.time().value(double(track.points[i].frame)),
                                      centreHz + axis.value(track.lastPosition(i, axis)), *cells * std::abs(axis.step)});
     }
     return result;

@@ -30,17 +30,16 @@ namespace {
         }
 
         bool isEmpty() const { return m_track->points.empty(); }
-        double start() const { return m_time->value(static_cast<double>(m_track->points.front().frame)); }
-        double end() const { return m_time->value(static_cast<double>(m_track->points.back().frame)); }
+        double start() const { return m_time->value(double(m_track->points.front().frame)); }
+        double end() const { return m_time->value(double(m_track->points.back().frame)); }
         const std::vector<double> &low() const { return m_low; }
         const std::vector<double> &high() const { return m_high; }
 
         std::vector<double> at(double seconds) const
         {
-            const auto last = static_cast<double>(m_track->points.size() - 1);
-            const double index =
-                std::round(m_time->position(seconds)) - static_cast<double>(m_track->points.front().frame);
-            return positionOf(m_track->points[static_cast<std::size_t>(std::clamp(index, 0.0, last))]);
+            const auto last = double(m_track->points.size() - 1);
+            const double index = std::round(m_time->position(seconds)) - double(m_track->points.front().frame);
+            return positionOf(m_track->points[std::size_t(std::clamp(index, 0.0, last))]);
         }
 
     private:
@@ -49,7 +48,7 @@ namespace {
             std::vector<double> position;
             const std::vector<Index> coordinates = m_grid->coordinates(point.cell);
             for (std::size_t axis = 0; axis < coordinates.size(); ++axis)
-                position.push_back(m_grid->axes[axis].value(static_cast<double>(coordinates[axis])));
+                position.push_back(m_grid->axes[axis].value(double(coordinates[axis])));
             return position;
         }
 
@@ -78,7 +77,7 @@ namespace {
                 const Axis &own = a.grid().axes[axis];
                 const Axis &other = b.grid().axes[axis];
                 m_reach.push_back((tolerance.cells + 1e-6) * std::max(std::abs(own.step), std::abs(other.step)));
-                m_turn.push_back(own.cyclic ? std::abs(own.step) * static_cast<double>(own.count) : 0.0);
+                m_turn.push_back(own.cyclic ? std::abs(own.step) * double(own.count) : 0.0);
             }
         }
 

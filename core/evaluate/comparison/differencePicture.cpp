@@ -26,8 +26,8 @@ namespace {
         std::array<float, 256> result{};
         for (int byte = 0; byte < 256; ++byte) {
             const double statistic = analysis.statistic->scale().value(byte);
-            result[static_cast<std::size_t>(byte)] = static_cast<float>(
-                isPlain ? statistic - analysis.threshold : rarity(statistic) - rarity(analysis.threshold));
+            result[std::size_t(byte)] =
+                float(isPlain ? statistic - analysis.threshold : rarity(statistic) - rarity(analysis.threshold));
         }
         return result;
     }
@@ -42,9 +42,9 @@ namespace {
     {
         std::vector<Range> ranges;
         for (Index i = 0; i < to.count; ++i) {
-            const double low = from.position(to.value(static_cast<double>(i) - 0.5));
-            const double high = from.position(to.value(static_cast<double>(i) + 0.5));
-            Range range{static_cast<Index>(std::ceil(low - 1e-9)), static_cast<Index>(std::ceil(high - 1e-9))};
+            const double low = from.position(to.value(double(i) - 0.5));
+            const double high = from.position(to.value(double(i) + 0.5));
+            Range range{Index(std::ceil(low - 1e-9)), Index(std::ceil(high - 1e-9))};
             range = {std::clamp<Index>(range.begin, 0, from.count), std::clamp<Index>(range.end, 0, from.count)};
             if (range.begin >= range.end) {
                 const Index nearest = std::clamp<Index>(std::llround(0.5 * (low + high)), 0, from.count - 1);
@@ -58,7 +58,7 @@ namespace {
     /// The rows of a picture as an axis of time.
     Axis rowsOf(const PeakPyramid &picture)
     {
-        const auto frames = static_cast<double>(picture.framesPerRow(0));
+        const auto frames = double(picture.framesPerRow(0));
         const Axis &time = picture.time();
         return {time.name, time.unit, time.value(0.5 * (frames - 1.0)), frames * time.step, picture.rowCount(0), false};
     }
@@ -91,11 +91,11 @@ std::shared_ptr<const PeakPyramid> differencePicture(const Analysis &a, const An
     const auto result = std::make_shared<PeakPyramid>(
         rowsB, b.grid().size(), ByteScale(ByteScale::Kind::DifferenceNats), memoryShares::picture);
     std::vector<std::uint8_t> highest;
-    std::vector<float> difference(static_cast<std::size_t>(b.grid().size()));
+    std::vector<float> difference(std::size_t(b.grid().size()));
     for (Index row = 0; row < rowsB.count; ++row) {
         if (row % 256 == 0)
-            context.checkpoint(static_cast<double>(row) / static_cast<double>(rowsB.count), "comparing");
-        const Range range = rows[static_cast<std::size_t>(row)];
+            context.checkpoint(double(row) / double(rowsB.count), "comparing");
+        const Range range = rows[std::size_t(row)];
         const auto first = a.statistic->row(0, range.begin);
         highest.assign(first.begin(), first.end());
         for (Index other = range.begin + 1; other < range.end; ++other)

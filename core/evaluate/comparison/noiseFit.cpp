@@ -12,14 +12,14 @@ namespace faintline {
 
 // ---- the law --------------------------------------------------------------------------------------------------------
 
-NoiseLaw::NoiseLaw() : m_counts(static_cast<std::size_t>(stepsPerUnit) * largest + 1, 0) {}
+NoiseLaw::NoiseLaw() : m_counts(std::size_t(stepsPerUnit) * largest + 1, 0) {}
 
 void NoiseLaw::add(std::span<const float> y)
 {
-    const auto last = static_cast<float>(m_counts.size() - 1);
+    const auto last = float(m_counts.size() - 1);
     for (const float value : y) {
-        ++m_counts[static_cast<std::size_t>(std::clamp(value * static_cast<float>(stepsPerUnit), 0.0f, last))];
-        m_sum += static_cast<double>(value);
+        ++m_counts[std::size_t(std::clamp(value * float(stepsPerUnit), 0.0f, last))];
+        m_sum += double(value);
     }
     m_count += std::ssize(y);
 }
@@ -36,23 +36,23 @@ double NoiseLaw::exceedance(double t) const
 {
     if (m_count == 0 || t <= 0.0)
         return 1.0;
-    const double position = std::min(t * stepsPerUnit, static_cast<double>(m_counts.size() - 1));
-    const auto step = static_cast<std::size_t>(position);
+    const double position = std::min(t * stepsPerUnit, double(m_counts.size() - 1));
+    const auto step = std::size_t(position);
     std::int64_t above = 0;
     for (std::size_t i = step + 1; i < m_counts.size(); ++i)
         above += m_counts[i];
-    const double within = (1.0 - (position - static_cast<double>(step))) * static_cast<double>(m_counts[step]);
-    return (static_cast<double>(above) + within) / static_cast<double>(m_count);
+    const double within = (1.0 - (position - double(step))) * double(m_counts[step]);
+    return (double(above) + within) / double(m_count);
 }
 
 double NoiseLaw::quantile(double probability) const
 {
-    const double wanted = probability * static_cast<double>(m_count);
+    const double wanted = probability * double(m_count);
     double above = 0.0;
     for (std::size_t i = m_counts.size(); i-- > 0;) {
-        const auto here = static_cast<double>(m_counts[i]);
+        const auto here = double(m_counts[i]);
         if (here > 0.0 && above + here >= wanted)
-            return (static_cast<double>(i) + 1.0 - (wanted - above) / here) / stepsPerUnit;
+            return (double(i) + 1.0 - (wanted - above) / here) / stepsPerUnit;
         above += here;
     }
     return 0.0;
@@ -66,8 +66,8 @@ double NoiseLaw::distance() const
     std::int64_t below = 0;
     for (std::size_t i = 0; i + 1 < m_counts.size(); ++i) {
         below += m_counts[i];
-        const double law = -std::expm1(-static_cast<double>(i + 1) / stepsPerUnit);
-        worst = std::max(worst, std::abs(static_cast<double>(below) / static_cast<double>(m_count) - law));
+        const double law = -std::expm1(-double(i + 1) / stepsPerUnit);
+        worst = std::max(worst, std::abs(double(below) / double(m_count) - law));
     }
     return worst;
 }
@@ -91,23 +91,23 @@ std::vector<FittedBand> fitNoise(const NormalisedFrames &frames, int bands, cons
     std::vector<FittedBand> result(static_cast<std::size_t>(wanted));
     const auto edge = [&](Index band) { return beyond + band * looked / wanted; };
     for (Index band = 0; band < wanted; ++band) {
-        result[static_cast<std::size_t>(band)].low = axis.value(static_cast<double>(edge(band)));
-        result[static_cast<std::size_t>(band)].high = axis.value(static_cast<double>(edge(band + 1)));
+        result[std::size_t(band)].low = axis.value(double(edge(band)));
+        result[std::size_t(band)].high = axis.value(double(edge(band + 1)));
     }
     const Index stride = std::max<Index>(1, frameCount * size / std::max<std::int64_t>(cells, 1));
     std::vector<float> y(static_cast<std::size_t>(size));
     for (Index frame = 0; frame < frameCount; frame += stride) {
-        context.checkpoint(static_cast<double>(frame) / static_cast<double>(frameCount), "measuring noise");
+        context.checkpoint(double(frame) / double(frameCount), "measuring noise");
         frames.read(frame, 1, y);
         for (Index row = 0; row < size; row += axis.count)
             for (Index band = 0; band < wanted; ++band)
-                result[static_cast<std::size_t>(band)].law.add(std::span<const float>(y).subspan(
-                    static_cast<std::size_t>(row + edge(band)), static_cast<std::size_t>(edge(band + 1) - edge(band))));
+                result[std::size_t(band)].law.add(std::span<const float>(y).subspan(
+                    std::size_t(row + edge(band)), std::size_t(edge(band + 1) - edge(band))));
     }
     const double overlap =
-        std::max(1.0, geometry.framesPerWindow / static_cast<double>(stride)) * std::max(1.0, geometry.binsPerCell);
+        std::max(1.0, geometry.framesPerWindow / double(stride)) * std::max(1.0, geometry.binsPerCell);
     for (FittedBand &band : result)
-        band.independent = static_cast<double>(band.law.count()) / overlap;
+        band.independent = double(band.law.count()) / overlap;
     return result;
 }
 
@@ -129,22 +129,21 @@ namespace {
         explicit Quantiles(const NoiseLaw &law)
         {
             // Equal steps of -ln P, which is where an exponential law is straight.
-            const double vouched = std::log(std::max<double>(static_cast<double>(law.count()), 100.0) / 30.0);
+            const double vouched = std::log(std::max<double>(double(law.count()), 100.0) / 30.0);
             const double slope =
                 (law.quantile(std::exp(-vouched)) - law.quantile(std::exp(-0.5 * vouched))) / (0.5 * vouched);
-            for (int i = 0; i <= static_cast<int>(longest * stepsPerNat); ++i) {
-                const double x = static_cast<double>(i) / stepsPerNat;
+            for (int i = 0; i <= int(longest * stepsPerNat); ++i) {
+                const double x = double(i) / stepsPerNat;
                 m_values.push_back(law.quantile(std::exp(-std::min(x, vouched))) + slope * std::max(0.0, x - vouched));
             }
         }
 
         float at(double minusLnProbability) const
         {
-            const double position =
-                std::min(minusLnProbability * stepsPerNat, static_cast<double>(m_values.size() - 1) - 1e-9);
-            const auto i = static_cast<std::size_t>(position);
-            const double share = position - static_cast<double>(i);
-            return static_cast<float>(m_values[i] + share * (m_values[i + 1] - m_values[i]));
+            const double position = std::min(minusLnProbability * stepsPerNat, double(m_values.size() - 1) - 1e-9);
+            const auto i = std::size_t(position);
+            const double share = position - double(i);
+            return float(m_values[i] + share * (m_values[i + 1] - m_values[i]));
         }
 
     private:
@@ -157,14 +156,13 @@ namespace {
     double exceedanceOf(std::vector<float> &statistic, double threshold)
     {
         std::sort(statistic.begin(), statistic.end(), std::greater<>());
-        const auto n = static_cast<double>(statistic.size());
-        const auto above =
-            static_cast<double>(std::lower_bound(statistic.begin(), statistic.end(), threshold,
-                                                 [](float value, double t) { return static_cast<double>(value) > t; })
-                                - statistic.begin());
+        const auto n = double(statistic.size());
+        const auto above = double(std::lower_bound(statistic.begin(), statistic.end(), threshold,
+                                                   [](float value, double t) { return double(value) > t; })
+                                  - statistic.begin());
         if (above >= wellCounted * n)
             return above / n;
-        const auto level = [&](double p) { return static_cast<double>(statistic[static_cast<std::size_t>(p * n)]); };
+        const auto level = [&](double p) { return double(statistic[std::size_t(p * n)]); };
         const double slope = std::log(tailBegin / wellCounted) / std::max(level(wellCounted) - level(tailBegin), 1e-6);
         return wellCounted * std::exp(-slope * (threshold - level(wellCounted)));
     }
@@ -174,8 +172,8 @@ namespace {
     {
         std::sort(statistic.begin(), statistic.end(), std::greater<>());
         const auto level = [&](double p) {
-            const auto index = static_cast<std::size_t>(p * static_cast<double>(statistic.size()));
-            return static_cast<double>(statistic[std::min(index, statistic.size() - 1)]);
+            const auto index = std::size_t(p * double(statistic.size()));
+            return double(statistic[std::min(index, statistic.size() - 1)]);
         };
         if (pfa >= wellCounted)
             return level(pfa);
@@ -197,9 +195,9 @@ namespace {
             return {};
         constexpr Index fitFrames = 1500;
         Random random(1, 1);
-        std::vector<float> y(static_cast<std::size_t>(bins * fitFrames));
+        std::vector<float> y(std::size_t(bins * fitFrames));
         for (float &value : y)
-            value = static_cast<float>(random.exponential());
+            value = float(random.exponential());
         const auto field =
             std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, fitFrames, false}, gridOfBins(), std::move(y));
         return resetRule(*smd, fitReset({field}, makeModel(settings.model, gridOfBins()), *smd).lnK);
@@ -215,13 +213,12 @@ namespace {
         std::vector<float> y(static_cast<std::size_t>(bins));
         std::vector<float> row(y.size());
         std::vector<float> all;
-        all.reserve(static_cast<std::size_t>(bins * frames));
+        all.reserve(std::size_t(bins * frames));
         for (Index frame = 0; frame < frames + settling; ++frame) {
-            context.checkpoint(static_cast<double>(frame) / static_cast<double>(frames + settling),
-                               "false alarms of this noise");
+            context.checkpoint(double(frame) / double(frames + settling), "false alarms of this noise");
             for (float &value : y) {
                 const double drawn = random.exponential();
-                value = law ? law->at(drawn) : static_cast<float>(drawn);
+                value = law ? law->at(drawn) : float(drawn);
             }
             detector->update(y, row);
             if (frame >= settling)
@@ -235,7 +232,7 @@ namespace {
 std::vector<MisfitPfa> misfitPfa(std::span<const FittedBand> bands, const AnalysisSettings &settings, double pfa,
                                  const RunContext &context)
 {
-    const double passes = static_cast<double>(bands.size()) + 1.0;
+    const double passes = double(bands.size()) + 1.0;
     const auto statistic = [&, rule = ruleOf(settings)](double pass, const Quantiles *law) {
         return statisticOn(settings, rule, context.part(pass / passes, (pass + 1.0) / passes), law);
     };
@@ -244,7 +241,7 @@ std::vector<MisfitPfa> misfitPfa(std::span<const FittedBand> bands, const Analys
     std::vector<MisfitPfa> result;
     for (const FittedBand &band : bands) {
         const Quantiles law(band.law);
-        std::vector<float> actual = statistic(static_cast<double>(result.size()) + 1.0, &law);
+        std::vector<float> actual = statistic(double(result.size()) + 1.0, &law);
         result.push_back({pfa, exceedanceOf(actual, threshold)});
     }
     return result;

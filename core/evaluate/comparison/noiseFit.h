@@ -25,7 +25,7 @@ public:
     void add(const NoiseLaw &other);
 
     std::int64_t count() const { return m_count; }
-    double mean() const { return m_count > 0 ? m_sum / static_cast<double>(m_count) : 0.0; }
+    double mean() const { return m_count > 0 ? m_sum / double(m_count) : 0.0; }
 
     /// P(y > t), the share of the values counted.
     double exceedance(double t) const;

@@ -15,7 +15,7 @@ namespace {
     {
         for (std::size_t i = 0; i < DecideSettings::byNames.size(); ++i)
             if (name == "decide." + std::string(DecideSettings::byNames[i]))
-                return i != static_cast<std::size_t>(decide.by);
+                return i != std::size_t(decide.by);
         return false;
     }
 

@@ -53,7 +53,7 @@ namespace {
             }
             if (matched > most && 2 * matched >= present) {
                 most = matched;
-                owner = static_cast<int>(i);
+                owner = int(i);
             }
         }
         return owner;
@@ -82,7 +82,7 @@ TrackScore scoreTracks(std::span<const Track> tracks, const PingTruth &truth, co
             score.falseConfirmed += track.isConfirmed ? 1 : 0;
             continue;
         }
-        const auto i = static_cast<std::size_t>(owner);
+        const auto i = std::size_t(owner);
         const TruthTarget &target = truth.targets[i];
         TargetScore &own = score.targets[i];
         ++own.tracks;
@@ -94,7 +94,7 @@ TrackScore scoreTracks(std::span<const Track> tracks, const PingTruth &truth, co
             const std::vector<Index> offsets = offsetsFrom(target, point, grid, gateCells);
             own.matchedPoints += offsets.empty() ? 0 : 1;
             for (std::size_t axis = 0; axis < offsets.size(); ++axis)
-                squares[i][axis] += static_cast<double>(offsets[axis] * offsets[axis]);
+                squares[i][axis] += double(offsets[axis] * offsets[axis]);
         }
     }
     for (std::size_t i = 0; i < score.targets.size(); ++i) {
@@ -102,17 +102,16 @@ TrackScore scoreTracks(std::span<const Track> tracks, const PingTruth &truth, co
         for (double cell : truth.targets[i].cell)
             own.presentPings += cell >= 0.0 ? 1 : 0;
         for (double sum : squares[i])
-            own.rmsCells.push_back(own.matchedPoints > 0 ? std::sqrt(sum / static_cast<double>(own.matchedPoints))
-                                                         : 0.0);
+            own.rmsCells.push_back(own.matchedPoints > 0 ? std::sqrt(sum / double(own.matchedPoints)) : 0.0);
     }
     return score;
 }
 
 std::vector<int> latencyHistogram(std::span<const Index> latencies, Index longest)
 {
-    std::vector<int> counts(static_cast<std::size_t>(longest) + 1, 0);
+    std::vector<int> counts(std::size_t(longest) + 1, 0);
     for (Index latency : latencies)
-        ++counts[static_cast<std::size_t>(latency < 1 || latency > longest ? longest : latency - 1)];
+        ++counts[std::size_t(latency < 1 || latency > longest ? longest : latency - 1)];
     return counts;
 }
 
@@ -122,8 +121,8 @@ std::vector<double> pdAgainstPings(std::span<const Index> latencies, Index longe
     std::vector<double> pd;
     int sum = 0;
     for (Index i = 0; i < longest; ++i) {
-        sum += counts[static_cast<std::size_t>(i)];
-        pd.push_back(static_cast<double>(sum) / static_cast<double>(std::ssize(latencies)));
+        sum += counts[std::size_t(i)];
+        pd.push_back(double(sum) / double(std::ssize(latencies)));
     }
     return pd;
 }

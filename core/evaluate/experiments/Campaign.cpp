@@ -149,8 +149,7 @@ Campaign merge(std::vector<Campaign> parts)
         if (whole.outcomes[i].run == whole.outcomes[i - 1].run)
             throw Error("merge", "run " + std::to_string(whole.outcomes[i].run) + " is in two parts");
     for (int run = 0; run < runCount(whole.experiment); ++run)
-        if (static_cast<std::size_t>(run) >= whole.outcomes.size()
-            || whole.outcomes[static_cast<std::size_t>(run)].run != run)
+        if (std::size_t(run) >= whole.outcomes.size() || whole.outcomes[std::size_t(run)].run != run)
             throw Error("merge", "run " + std::to_string(run) + " of " + std::to_string(runCount(whole.experiment))
                                      + " is missing from all parts; add the missing shard");
     return whole;

@@ -59,11 +59,11 @@ namespace {
     template <class Take>
     void forEachFrame(const NormalisedFrames &frames, const RunContext &context, const char *what, Take take)
     {
-        std::vector<float> y(static_cast<std::size_t>(frames.grid().size()));
+        std::vector<float> y(std::size_t(frames.grid().size()));
         const Index count = frames.time().count;
         for (Index frame = 0; frame < count; ++frame) {
             if (frame % 64 == 0)
-                context.checkpoint(static_cast<double>(frame) / static_cast<double>(count), what);
+                context.checkpoint(double(frame) / double(count), what);
             frames.read(frame, 1, y);
             take(frame, std::span<float>(y));
         }
@@ -77,7 +77,7 @@ namespace {
         std::vector<std::unique_ptr<DetectionChain>> chains;
         for (const Analysis &analysis : analyses)
             chains.push_back(makeChain(analysis));
-        std::vector<float> statistic(static_cast<std::size_t>(frames.grid().size()));
+        std::vector<float> statistic(std::size_t(frames.grid().size()));
         forEachFrame(frames, context, "searching for signals", [&](Index frame, std::span<float> y) {
             for (const auto &chain : chains) {
                 chain->update(frame, y, statistic);
@@ -89,7 +89,7 @@ namespace {
         for (std::size_t d = 0; d < chains.size(); ++d) {
             chains[d]->finish();
             const SpectrogramSettings &settings = analyses[d].settings.spectrogram;
-            const auto aside = static_cast<Index>(
+            const auto aside = Index(
                 std::ceil(analyses[d].settings.decide.inhibitCells.front() * frameGeometry(settings).binsPerCell));
             for (const Track &track : chains[d]->tracks())
                 for (const TrackPoint &point : track.points)
@@ -128,18 +128,18 @@ namespace {
         forEachFrame(frames, context, "counting false alarms", [&](Index frame, std::span<float> y) {
             if (frame % blockFrames == 0) {
                 close();
-                open.assign(detectors.size(), std::vector<float>(static_cast<std::size_t>(columns), lowest));
+                open.assign(detectors.size(), std::vector<float>(std::size_t(columns), lowest));
                 isFree.assign(isFree.size(), false);
             }
             mask.blank(frame, 0, y);
             for (std::size_t d = 0; d < detectors.size(); ++d) {
                 detectors[d]->update(y, statistic);
                 for (Index bin = 0; bin < bins; ++bin) {
-                    if (y[static_cast<std::size_t>(bin)] == 0.0f)
+                    if (y[std::size_t(bin)] == 0.0f)
                         continue;
-                    const auto column = static_cast<std::size_t>(std::min(bin / blockBins, columns - 1));
+                    const auto column = std::size_t(std::min(bin / blockBins, columns - 1));
                     isFree[column] = true;
-                    open[d][column] = std::max(open[d][column], statistic[static_cast<std::size_t>(bin)]);
+                    open[d][column] = std::max(open[d][column], statistic[std::size_t(bin)]);
                 }
             }
         });
@@ -214,21 +214,19 @@ InjectionTrials::InjectionTrials(const InjectionExperiment &experiment, Recordin
     shared->spectrogram = std::make_shared<Spectrogram>(shared->recording, experiment.settings.spectrogram,
                                                         experiment.settings.selection);
     const Axis &time = shared->spectrogram->time();
-    if (experiment.durationSeconds >= static_cast<double>(time.count) * time.step)
+    if (experiment.durationSeconds >= double(time.count) * time.step)
         throw fieldError("durationSeconds", formatNumber(experiment.durationSeconds),
-                         "must be shorter than the selection, "
-                             + formatNumber(static_cast<double>(time.count) * time.step) + " s");
+                         "must be shorter than the selection, " + formatNumber(double(time.count) * time.step) + " s");
     shared->background = estimateBackground(*shared->spectrogram, experiment.settings.noise, context.part(0.0, 0.2));
-    const double cellFramesPerHour = static_cast<double>(shared->spectrogram->frequency().count) * 3600.0 / time.step;
+    const double cellFramesPerHour = double(shared->spectrogram->frequency().count) * 3600.0 / time.step;
     const double ordered = experiment.falseAlarmsPerHour / cellFramesPerHour;
     const auto frames = framesOf(shared->spectrogram, shared->background, experiment.settings.noise);
     std::vector<Analysis> analyses;
     for (std::size_t d = 0; d < experiment.detectors.size(); ++d) {
         const AnalysisSettings settings = settingsOfDetector(experiment, d, shared->spectrogram->recording().info());
-        const auto n = static_cast<double>(experiment.detectors.size());
-        const auto calibration = calibrateBand(
-            settings, *shared->spectrogram,
-            context.part(0.2 + 0.6 * static_cast<double>(d) / n, 0.2 + 0.6 * static_cast<double>(d + 1) / n));
+        const auto n = double(experiment.detectors.size());
+        const auto calibration = calibrateBand(settings, *shared->spectrogram,
+                                               context.part(0.2 + 0.6 * double(d) / n, 0.2 + 0.6 * double(d + 1) / n));
         const auto *smd = std::get_if<SmdSettings>(&settings.detector);
         shared->rules.push_back(smd ? resetRule(*smd, calibration->lnK) : ResetRule{});
         Analysis analysis;
@@ -240,12 +238,11 @@ InjectionTrials::InjectionTrials(const InjectionExperiment &experiment, Recordin
         analyses.push_back(std::move(analysis));
     }
     shared->signals = signalsFoundBy(analyses, context.part(0.8, 0.9));
-    const auto blockFrames =
-        std::max<Index>(1, static_cast<Index>(std::lround(experiment.durationSeconds / time.step)));
-    const auto blockBins = static_cast<Index>(std::lround(cellsOfBlock * shared->spectrogram->binsPerCell()));
+    const auto blockFrames = std::max<Index>(1, Index(std::lround(experiment.durationSeconds / time.step)));
+    const auto blockBins = Index(std::lround(cellsOfBlock * shared->spectrogram->binsPerCell()));
     const auto maxima = blockMaxima(analyses, *shared->signals, blockFrames, blockBins, context.part(0.9, 1.0));
-    const double falseAlarms = ordered * shared->signals->freeShare() * static_cast<double>(time.count)
-                               * static_cast<double>(frames->grid().size());
+    const double falseAlarms =
+        ordered * shared->signals->freeShare() * double(time.count) * double(frames->grid().size());
     for (std::size_t d = 0; d < analyses.size(); ++d)
         m_thresholds.push_back(measuredThreshold(maxima[d], falseAlarms, *analyses[d].calibration, ordered));
     m_shared = std::move(shared);
@@ -257,13 +254,13 @@ InjectionTrials::Made InjectionTrials::remake(int trial, double snrDb) const
 {
     const Spectrogram &spectrogram = *m_shared->spectrogram;
     const RecordingInfo &info = m_shared->recording->info();
-    const auto seed = static_cast<std::uint64_t>(m_experiment.seed);
-    Random places(seed, static_cast<std::uint64_t>(trial));
+    const auto seed = std::uint64_t(m_experiment.seed);
+    Random places(seed, std::uint64_t(trial));
     const Axis &time = spectrogram.time();
     const Axis &frequency = spectrogram.frequency();
     const double window = spectrogram.windowSeconds();
     const double begin = time.first - 0.5 * window;
-    const double room = static_cast<double>(time.count - 1) * time.step + window - m_experiment.durationSeconds;
+    const double room = double(time.count - 1) * time.step + window - m_experiment.durationSeconds;
     const double travel = m_experiment.driftHzPerSecond * m_experiment.durationSeconds;
     const double margin = 2.0 / window + 4.0 * m_experiment.wanderHz;
     const double low = frequency.first + margin + std::max(0.0, -travel);
@@ -278,12 +275,11 @@ InjectionTrials::Made InjectionTrials::remake(int trial, double snrDb) const
     line.durationSeconds = m_experiment.durationSeconds;
     double offsetHz = 0.0;
     const auto isFree = [&] {
-        const auto aside = static_cast<Index>(
-            std::ceil(cellsToSignals * spectrogram.binsPerCell() + 4.0 * m_experiment.wanderHz / frequency.step));
-        const auto last = static_cast<Index>(std::ceil(time.position(line.startSeconds + line.durationSeconds)));
-        for (auto frame = static_cast<Index>(std::floor(time.position(line.startSeconds))); frame <= last; ++frame) {
-            const double elapsed =
-                std::clamp(time.value(static_cast<double>(frame)) - line.startSeconds, 0.0, line.durationSeconds);
+        const auto aside =
+            Index(std::ceil(cellsToSignals * spectrogram.binsPerCell() + 4.0 * m_experiment.wanderHz / frequency.step));
+        const auto last = Index(std::ceil(time.position(line.startSeconds + line.durationSeconds)));
+        for (auto frame = Index(std::floor(time.position(line.startSeconds))); frame <= last; ++frame) {
+            const double elapsed = std::clamp(time.value(double(frame)) - line.startSeconds, 0.0, line.durationSeconds);
             const Index bin = frequency.nearest(offsetHz + m_experiment.driftHzPerSecond * elapsed);
             if (m_shared->signals->touches(frame, bin - aside, bin + aside))
                 return false;
@@ -304,10 +300,9 @@ InjectionTrials::Made InjectionTrials::remake(int trial, double snrDb) const
     line.wanderSeconds = m_experiment.wanderSeconds;
     const double middle = line.startSeconds + 0.5 * line.durationSeconds;
     const double noisePower = std::exp(m_shared->background->lnPowerAt(middle, offsetHz + 0.5 * travel));
-    injected.amplitude =
-        toneAmplitude(snrDb, noisePower, static_cast<double>(spectrogram.windowSamples()), info.isComplex);
+    injected.amplitude = toneAmplitude(snrDb, noisePower, double(spectrogram.windowSamples()), info.isComplex);
     // The tone's phase and wander belong to the trial too.
-    const std::uint64_t own = seed * 1000003 + static_cast<std::uint64_t>(trial);
+    const std::uint64_t own = seed * 1000003 + std::uint64_t(trial);
     const auto made = std::make_shared<InjectedRecording>(m_shared->recording, std::vector{injected},
                                                           m_experiment.settings.selection.channel, own);
     return {made, made->truth().lines.front()};
@@ -330,10 +325,9 @@ std::vector<RunOutcome> InjectionTrials::run(const std::vector<int> &trials, con
         selection.lowHz = std::max(frequency.first, *low - centreHz - cellsAside * cellHz);
         selection.highHz = std::min(frequency.last(), *high - centreHz + cellsAside * cellHz);
         const Axis &time = whole.time();
-        const Index lastNeeded =
-            std::min(time.count - 1, static_cast<Index>(std::ceil(time.position(truth.endSeconds))));
+        const Index lastNeeded = std::min(time.count - 1, Index(std::ceil(time.position(truth.endSeconds))));
         const Index firstNeeded =
-            std::max<Index>(0, static_cast<Index>(std::floor(time.position(truth.startSeconds))) - framesBefore);
+            std::max<Index>(0, Index(std::floor(time.position(truth.startSeconds))) - framesBefore);
         const auto spectrogram =
             std::make_shared<Spectrogram>(hasLine ? made.recording : m_shared->recording, whole.settings(), selection);
         const auto frames = framesOf(spectrogram, m_shared->background, m_experiment.settings.noise);
@@ -352,12 +346,11 @@ std::vector<RunOutcome> InjectionTrials::run(const std::vector<int> &trials, con
                                                       frameGeometry(settings.spectrogram), m_shared->rules[d]));
         }
         std::vector<float> largest(detectors, lowest);
-        std::vector<float> y(static_cast<std::size_t>(grid.size()));
+        std::vector<float> y(std::size_t(grid.size()));
         std::vector<float> statistic(y.size());
         const Axis &axis = grid.axes.front();
-        const auto onLine = static_cast<Index>(std::floor(0.5 * whole.binsPerCell()));
-        const auto afterIt =
-            static_cast<Index>(std::ceil(m_experiment.settings.decide.inhibitCells.front() * whole.binsPerCell()));
+        const auto onLine = Index(std::floor(0.5 * whole.binsPerCell()));
+        const auto afterIt = Index(std::ceil(m_experiment.settings.decide.inhibitCells.front() * whole.binsPerCell()));
         const Index first = std::min_element(looks.begin(), looks.end(), [](const Look &a, const Look &b) {
                                 return a.first < b.first;
                             })->first;
@@ -367,7 +360,7 @@ std::vector<RunOutcome> InjectionTrials::run(const std::vector<int> &trials, con
         for (Index frame = first; frame <= last; ++frame) {
             frames->read(frame, 1, y);
             m_shared->signals->blank(frame, firstBin, y);
-            const double seconds = time.value(static_cast<double>(frame));
+            const double seconds = time.value(double(frame));
             const bool isOver = seconds > truth.endSeconds;
             const Index bin = axis.nearest(truth.frequencyAt(std::min(seconds, truth.endSeconds)) - centreHz);
             const Index aside = isOver ? afterIt : onLine;
@@ -378,7 +371,7 @@ std::vector<RunOutcome> InjectionTrials::run(const std::vector<int> &trials, con
                 if (seconds < truth.startSeconds || (isOver && !looks[d].waits))
                     continue;
                 for (Index i = std::max<Index>(0, bin - aside); i <= std::min(axis.count - 1, bin + aside); ++i)
-                    largest[d] = std::max(largest[d], statistic[static_cast<std::size_t>(i)]);
+                    largest[d] = std::max(largest[d], statistic[std::size_t(i)]);
             }
         }
         return largest;
@@ -388,8 +381,8 @@ std::vector<RunOutcome> InjectionTrials::run(const std::vector<int> &trials, con
     std::mutex guard;
     parallelFor(std::ssize(trials), context, "injecting lines", [&] {
         return [&](Index i) {
-            RunOutcome &outcome = outcomes[static_cast<std::size_t>(i)];
-            outcome.run = trials[static_cast<std::size_t>(i)];
+            RunOutcome &outcome = outcomes[std::size_t(i)];
+            outcome.run = trials[std::size_t(i)];
             outcome.signal.assign(detectors, std::vector<std::vector<float>>(m_experiment.snrDb.size()));
             for (const float value : largestOn(remake(outcome.run, 0.0), false))
                 outcome.noise.push_back({value});

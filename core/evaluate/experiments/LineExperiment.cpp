@@ -44,8 +44,8 @@ namespace {
         info.sampleRateHz = LineExperiment::windowSamples;
         info.isComplex = true;
         info.centreHz = 0.5 * LineExperiment::windowSamples; // frequencies 0 … 250 cells
-        info.sampleCount = static_cast<Index>(LineExperiment::windowSamples)
-                           * (experiment.frames + experiment.stepsPerWindow - 1) / experiment.stepsPerWindow;
+        info.sampleCount = Index(LineExperiment::windowSamples) * (experiment.frames + experiment.stepsPerWindow - 1)
+                           / experiment.stepsPerWindow;
         return info;
     }
 
@@ -62,7 +62,7 @@ namespace {
 
         void run(std::span<const float> samples, std::vector<Complex> &out)
         {
-            out.resize(static_cast<std::size_t>(m_frames * m_bins));
+            out.resize(std::size_t(m_frames * m_bins));
             for (Index frame = 0; frame < m_frames; ++frame) {
                 const float *from = samples.data() + 2 * frame * m_hop;
                 const std::span<float> input = m_buffer->input();
@@ -70,7 +70,7 @@ namespace {
                     input[2 * i] = from[2 * i] * m_window[i];
                     input[2 * i + 1] = from[2 * i + 1] * m_window[i];
                 }
-                std::fill(input.begin() + static_cast<std::ptrdiff_t>(2 * m_window.size()), input.end(), 0.0f);
+                std::fill(input.begin() + std::ptrdiff_t(2 * m_window.size()), input.end(), 0.0f);
                 m_fft.run(*m_buffer);
                 // The centre frequency stands in the middle of the axis.
                 const auto spectrum = m_buffer->output();
@@ -94,7 +94,7 @@ namespace {
     Index strongestBin(const LineExperiment &experiment, const std::vector<Complex> &signal, Index frame, double cells,
                        Index lowest)
     {
-        const auto expected = static_cast<Index>(std::lround(cells * experiment.binsPerCell));
+        const auto expected = Index(std::lround(cells * experiment.binsPerCell));
         const Index reach = 2 * experiment.binsPerCell;
         const Index from = std::clamp<Index>(expected - reach, lowest, lowest + experiment.blockBins - 1);
         const Index to = std::clamp<Index>(expected + reach, lowest, lowest + experiment.blockBins - 1);
@@ -118,9 +118,9 @@ namespace {
 
     void makeNoise(const LineExperiment &experiment, int run, Transform &transform, NoisyField &field)
     {
-        std::vector<float> samples(static_cast<std::size_t>(2 * recordingInfo(experiment).sampleCount));
-        Random(static_cast<std::uint64_t>(experiment.seed), static_cast<std::uint64_t>(run) * streamsPerRun)
-            .normals(samples, static_cast<float>(std::sqrt(0.5)));
+        std::vector<float> samples(std::size_t(2 * recordingInfo(experiment).sampleCount));
+        Random(std::uint64_t(experiment.seed), std::uint64_t(run) * streamsPerRun)
+            .normals(samples, float(std::sqrt(0.5)));
         transform.run(samples, field.noise);
     }
 
@@ -129,11 +129,11 @@ namespace {
         NoisyField field;
         makeNoise(experiment, run, transform, field);
         const RecordingInfo info = recordingInfo(experiment);
-        const auto seed = static_cast<std::uint64_t>(experiment.seed);
-        std::vector<float> samples(static_cast<std::size_t>(2 * info.sampleCount));
-        Random places(seed, static_cast<std::uint64_t>(run) * streamsPerRun + 1);
+        const auto seed = std::uint64_t(experiment.seed);
+        std::vector<float> samples(std::size_t(2 * info.sampleCount));
+        Random places(seed, std::uint64_t(run) * streamsPerRun + 1);
         const double amplitude = toneAmplitude(0.0, 1.0, LineExperiment::windowSamples, true);
-        const double blockCells = static_cast<double>(experiment.blockBins) / experiment.binsPerCell;
+        const double blockCells = double(experiment.blockBins) / experiment.binsPerCell;
         const double travel = experiment.driftCellsPerWindow * experiment.durationWindows;
         std::vector<TruthLine> truths;
         for (int i = 0; i < experiment.signalsPerRun(); ++i) {
@@ -141,15 +141,15 @@ namespace {
             const int blockInFrequency = i % experiment.blocksInFrequency();
             Place place;
             const Index room = experiment.blockFrames - experiment.signalFrames() + 1;
-            place.firstFrame = static_cast<Index>(blockInTime) * experiment.blockFrames
-                               + std::min(room - 1, static_cast<Index>(places.uniform() * static_cast<double>(room)));
+            place.firstFrame = Index(blockInTime) * experiment.blockFrames
+                               + std::min(room - 1, Index(places.uniform() * double(room)));
             const double margin = 1.0;
             const double lowest = blockInFrequency * blockCells + margin + std::max(0.0, -travel);
             const double highest = (blockInFrequency + 1) * blockCells - margin - std::max(0.0, travel);
             LineSettings line;
             line.snrDb = 0.0;
             line.referenceSeconds = 1.0;
-            line.startSeconds = static_cast<double>(place.firstFrame) / experiment.stepsPerWindow;
+            line.startSeconds = double(place.firstFrame) / experiment.stepsPerWindow;
             line.durationSeconds = experiment.durationWindows;
             line.frequencyHz = lowest + places.uniform() * (highest - lowest);
             line.driftHzPerSecond = experiment.driftCellsPerWindow;
@@ -157,7 +157,7 @@ namespace {
             line.wanderSeconds = experiment.wanderWindows;
             line.fading = experiment.fading;
             line.fadingSeconds = experiment.fadingWindows;
-            const Tone tone(line, amplitude, info, seed, static_cast<Index>(run) * experiment.signalsPerRun() + i);
+            const Tone tone(line, amplitude, info, seed, Index(run) * experiment.signalsPerRun() + i);
             tone.addTo(0, samples);
             truths.push_back(tone.truth());
             field.places.push_back(std::move(place));
@@ -165,10 +165,10 @@ namespace {
         transform.run(samples, field.signal);
         for (std::size_t i = 0; i < truths.size(); ++i) {
             Place &place = field.places[i];
-            const Index lowest = static_cast<Index>(i) % experiment.blocksInFrequency() * experiment.blockBins;
+            const Index lowest = Index(i) % experiment.blocksInFrequency() * experiment.blockBins;
             for (Index k = 0; k < experiment.signalFrames(); ++k) {
                 const Index frame = place.firstFrame + k;
-                const double start = static_cast<double>(frame) / experiment.stepsPerWindow;
+                const double start = double(frame) / experiment.stepsPerWindow;
                 place.bins.push_back(
                     strongestBin(experiment, field.signal, frame, meanFrequency(truths[i], start), lowest));
             }
@@ -215,17 +215,15 @@ namespace {
         parallelFor(fields, context, "calibrating K on noise", [&] {
             return [&, transform = std::make_shared<Transform>(experiment)](Index i) {
                 NoisyField field;
-                makeNoise(experiment, std::numeric_limits<int>::max() - static_cast<int>(i), *transform, field);
+                makeNoise(experiment, std::numeric_limits<int>::max() - int(i), *transform, field);
                 field.signal.assign(field.noise.size(), Complex());
                 std::vector<float> y(field.noise.size());
                 const Index bins = experiment.bins();
                 for (Index frame = 0; frame < experiment.frames; ++frame)
-                    powerOf(
-                        field, bins, frame, 0.0f,
-                        std::span(y).subspan(static_cast<std::size_t>(frame * bins), static_cast<std::size_t>(bins)));
+                    powerOf(field, bins, frame, 0.0f,
+                            std::span(y).subspan(std::size_t(frame * bins), std::size_t(bins)));
                 const Axis time{"time", "windows", 0.0, 1.0 / experiment.stepsPerWindow, experiment.frames, false};
-                noise[static_cast<std::size_t>(i)] =
-                    std::make_shared<FrameArray>(time, gridOf(experiment), std::move(y));
+                noise[std::size_t(i)] = std::make_shared<FrameArray>(time, gridOf(experiment), std::move(y));
             };
         });
         return noise;
@@ -241,7 +239,7 @@ namespace {
         const auto noise = calibrationNoise(experiment, context);
         parallelFor(std::ssize(recipes), context, "calibrating K on noise", [&] {
             return [&](Index i) {
-                Recipe &recipe = recipes[static_cast<std::size_t>(i)];
+                Recipe &recipe = recipes[std::size_t(i)];
                 if (const auto *smd = std::get_if<SmdSettings>(&recipe.detector))
                     recipe.rule = resetRule(*smd, fitReset(noise, recipe.model, *smd).lnK);
             };
@@ -251,7 +249,7 @@ namespace {
 
     FrameGeometry geometryOf(const LineExperiment &experiment)
     {
-        return {static_cast<double>(experiment.stepsPerWindow), static_cast<double>(experiment.binsPerCell)};
+        return {double(experiment.stepsPerWindow), double(experiment.binsPerCell)};
     }
 
     /// Lines begin at random in their noise blocks, a detector's own blocks at random in the run: by the golden ratio,
@@ -259,7 +257,7 @@ namespace {
     Index blockPhase(int run, Index framesPerBlock)
     {
         const double turns = 0.6180339887498949 * (run + 1);
-        return static_cast<Index>((turns - std::floor(turns)) * static_cast<double>(framesPerBlock));
+        return Index((turns - std::floor(turns)) * double(framesPerBlock));
     }
 
     std::vector<std::unique_ptr<Detector>> detectorsOf(const LineExperiment &experiment,
@@ -282,7 +280,7 @@ namespace {
                 float amplitude, Index frames, Look look)
     {
         const auto detectors = detectorsOf(experiment, recipes, run);
-        std::vector<float> y(static_cast<std::size_t>(experiment.bins()));
+        std::vector<float> y(std::size_t(experiment.bins()));
         std::vector<float> statistic(y.size());
         for (Index frame = 0; frame < frames; ++frame) {
             powerOf(field, experiment.bins(), frame, amplitude, y);
@@ -297,17 +295,17 @@ namespace {
                      Transform &transform)
     {
         const NoisyField field = makeField(experiment, run, transform);
-        const auto signals = static_cast<std::size_t>(experiment.signalsPerRun());
+        const auto signals = std::size_t(experiment.signalsPerRun());
         RunOutcome outcome;
         outcome.run = run;
         outcome.noise.assign(recipes.size(), std::vector<float>(signals, lowest));
-        const Index frames = static_cast<Index>(experiment.blocksInTime()) * experiment.blockFrames;
+        const Index frames = Index(experiment.blocksInTime()) * experiment.blockFrames;
         detect(experiment, run, recipes, field, 0.0f, frames,
                [&](std::size_t d, Index frame, const std::vector<float> &statistic) {
                    const Index row = frame / experiment.blockFrames * experiment.blocksInFrequency();
                    for (Index column = 0; column < experiment.blocksInFrequency(); ++column) {
                        const auto from = statistic.begin() + column * experiment.blockBins;
-                       float &largest = outcome.noise[d][static_cast<std::size_t>(row + column)];
+                       float &largest = outcome.noise[d][std::size_t(row + column)];
                        largest = std::max(largest, *std::max_element(from, from + experiment.blockBins));
                    }
                });
@@ -321,7 +319,7 @@ namespace {
         outcome.signal.assign(recipes.size(), std::vector<std::vector<float>>(experiment.snrDb.size(),
                                                                               std::vector<float>(signals, lowest)));
         for (std::size_t s = 0; s < experiment.snrDb.size(); ++s) {
-            const auto amplitude = static_cast<float>(std::sqrt(ratioFromDb(experiment.snrDb[s])));
+            const auto amplitude = float(std::sqrt(ratioFromDb(experiment.snrDb[s])));
             const auto see = [&](std::size_t d, Index frame, const std::vector<float> &statistic) {
                 for (std::size_t i = 0; i < signals; ++i) {
                     const Place &place = field.places[i];
@@ -330,14 +328,13 @@ namespace {
                         continue;
                     float &largest = outcome.signal[d][s][i];
                     if (k < std::ssize(place.bins)) {
-                        largest = std::max(
-                            largest, statistic[static_cast<std::size_t>(place.bins[static_cast<std::size_t>(k)])]);
+                        largest = std::max(largest, statistic[std::size_t(place.bins[std::size_t(k)])]);
                         continue;
                     }
                     const Index end = place.bins.back();
                     for (Index bin = std::max<Index>(0, end - onLine);
                          bin <= std::min<Index>(experiment.bins() - 1, end + onLine); ++bin)
-                        largest = std::max(largest, statistic[static_cast<std::size_t>(bin)]);
+                        largest = std::max(largest, statistic[std::size_t(bin)]);
                 }
             };
             detect(experiment, run, recipes, field, amplitude, longestWait > 0 ? experiment.frames : frames, see);
@@ -372,7 +369,7 @@ const std::vector<Field<LineExperiment>> &LineExperiment::fields()
 
 int LineExperiment::signalFrames() const
 {
-    return static_cast<int>(std::lround(durationWindows * stepsPerWindow));
+    return int(std::lround(durationWindows * stepsPerWindow));
 }
 
 void checkExperiment(const LineExperiment &experiment)
@@ -391,7 +388,7 @@ void checkExperiment(const LineExperiment &experiment)
     if (experiment.signalFrames() < 1 || experiment.signalFrames() > experiment.blockFrames)
         throw fieldError("durationWindows", formatNumber(experiment.durationWindows),
                          "a line must last 1 … blockFrames = " + std::to_string(experiment.blockFrames) + " frames");
-    const double room = static_cast<double>(experiment.blockBins) / experiment.binsPerCell - 4.0;
+    const double room = double(experiment.blockBins) / experiment.binsPerCell - 4.0;
     if (std::abs(experiment.driftCellsPerWindow) * experiment.durationWindows + 4.0 * experiment.wanderCells > room)
         throw Error("driftCellsPerWindow, wanderCells", "a line must stay within its block of blockBins = "
                                                             + std::to_string(experiment.blockBins) + " bins");
@@ -465,8 +462,8 @@ std::vector<RunOutcome> runExperiment(const LineExperiment &experiment, const st
     std::mutex guard;
     parallelFor(std::ssize(runs), context.part(0.1, 1.0), "simulating", [&] {
         return [&, transform = std::make_shared<Transform>(experiment)](Index i) {
-            RunOutcome &outcome = outcomes[static_cast<std::size_t>(i)];
-            outcome = doRun(experiment, runs[static_cast<std::size_t>(i)], recipes, *transform);
+            RunOutcome &outcome = outcomes[std::size_t(i)];
+            outcome = doRun(experiment, runs[std::size_t(i)], recipes, *transform);
             if (sink) {
                 const std::lock_guard lock(guard);
                 sink(outcome);
@@ -481,24 +478,21 @@ LineTrial remakeTrial(const LineExperiment &experiment, double snrDb, int run, i
     checkExperiment(experiment);
     Transform transform(experiment);
     const NoisyField field = makeField(experiment, run, transform);
-    const Index firstFrame = static_cast<Index>(signal / experiment.blocksInFrequency()) * experiment.blockFrames;
-    const Index firstBin = static_cast<Index>(signal % experiment.blocksInFrequency()) * experiment.blockBins;
-    std::vector<float> y(static_cast<std::size_t>(experiment.bins()));
+    const Index firstFrame = Index(signal / experiment.blocksInFrequency()) * experiment.blockFrames;
+    const Index firstBin = Index(signal % experiment.blocksInFrequency()) * experiment.blockBins;
+    std::vector<float> y(std::size_t(experiment.bins()));
     std::vector<float> block;
     for (Index frame = firstFrame; frame < firstFrame + experiment.blockFrames; ++frame) {
-        powerOf(field, experiment.bins(), frame, static_cast<float>(std::sqrt(ratioFromDb(snrDb))), y);
+        powerOf(field, experiment.bins(), frame, float(std::sqrt(ratioFromDb(snrDb))), y);
         block.insert(block.end(), y.begin() + firstBin, y.begin() + firstBin + experiment.blockBins);
     }
     LineTrial trial;
     const Axis time{"time", "windows", 0.0, 1.0 / experiment.stepsPerWindow, experiment.blockFrames, false};
-    const Axis frequency{"frequency",
-                         "cells",
-                         static_cast<double>(firstBin) / experiment.binsPerCell,
-                         1.0 / experiment.binsPerCell,
-                         experiment.blockBins,
-                         false};
+    const Axis frequency{
+        "frequency",          "cells", double(firstBin) / experiment.binsPerCell, 1.0 / experiment.binsPerCell,
+        experiment.blockBins, false};
     trial.frames = std::make_shared<FrameArray>(time, Grid{{frequency}}, std::move(block));
-    const Place &place = field.places[static_cast<std::size_t>(signal)];
+    const Place &place = field.places[std::size_t(signal)];
     trial.firstFrame = place.firstFrame - firstFrame;
     for (const Index bin : place.bins)
         trial.path.push_back(bin - firstBin);

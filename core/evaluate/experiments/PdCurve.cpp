@@ -30,7 +30,7 @@ namespace {
     std::int64_t countAbove(const std::vector<float> &ascending, double threshold)
     {
         const auto first = std::upper_bound(ascending.begin(), ascending.end(), threshold,
-                                            [](double t, float value) { return t < static_cast<double>(value); });
+                                            [](double t, float value) { return t < double(value); });
         return ascending.end() - first;
     }
 
@@ -38,7 +38,7 @@ namespace {
     {
         const std::int64_t wins = countAbove(ascending, threshold);
         const std::int64_t trials = std::ssize(ascending);
-        return {snrDb, static_cast<double>(wins) / static_cast<double>(trials), wilsonInterval(wins, trials), trials};
+        return {snrDb, double(wins) / double(trials), wilsonInterval(wins, trials), trials};
     }
 
 } // namespace
@@ -56,15 +56,15 @@ PdPoint pdAgainstBlocks(const LineExperiment &experiment, std::span<const RunOut
         std::int64_t wins = 0;
         for (const float d1 : signals)
             wins += std::count_if(blocks.begin(), blocks.end(), [d1](float d0) { return d1 > d0; });
-        const double pd = static_cast<double>(wins) / static_cast<double>(signals.size() * blocks.size());
+        const double pd = double(wins) / double(signals.size() * blocks.size());
         sum += pd;
         sumOfSquares += pd * pd;
         point.trials += std::ssize(signals);
     }
-    const auto runs = static_cast<double>(outcomes.size());
+    const auto runs = double(outcomes.size());
     point.pd = sum / runs;
     if (outcomes.size() < runsForScatter) {
-        point.interval = wilsonInterval(std::llround(point.pd * static_cast<double>(point.trials)), point.trials);
+        point.interval = wilsonInterval(std::llround(point.pd * double(point.trials)), point.trials);
         return point;
     }
     const double variance = std::max(0.0, sumOfSquares / runs - point.pd * point.pd) / (runs - 1.0);
@@ -82,26 +82,25 @@ PdPoint pdAtThreshold(const LineExperiment &experiment, std::span<const RunOutco
 double blockThreshold(std::span<const RunOutcome> outcomes, std::size_t detector, double probability)
 {
     const std::vector<float> maxima = pooledNoise(outcomes, detector);
-    const double position = (1.0 - probability) * static_cast<double>(maxima.size());
-    const auto index =
-        std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(std::ceil(position)) - 1, 0, std::ssize(maxima) - 1);
-    return static_cast<double>(maxima[static_cast<std::size_t>(index)]);
+    const double position = (1.0 - probability) * double(maxima.size());
+    const auto index = std::clamp<std::ptrdiff_t>(std::ptrdiff_t(std::ceil(position)) - 1, 0, std::ssize(maxima) - 1);
+    return double(maxima[std::size_t(index)]);
 }
 
 std::vector<RocPoint> rocCurve(const LineExperiment &experiment, std::span<const RunOutcome> outcomes,
                                std::size_t detector, std::size_t snr)
 {
     std::vector<float> thresholds = pooledNoise(outcomes, detector);
-    const auto blocks = static_cast<double>(thresholds.size());
+    const auto blocks = double(thresholds.size());
     const std::vector<float> maxima = thresholds;
     thresholds.erase(std::unique(thresholds.begin(), thresholds.end()), thresholds.end());
     std::reverse(thresholds.begin(), thresholds.end());
     const std::vector<float> signals = pooledSignal(outcomes, detector, snr);
     std::vector<RocPoint> curve;
     for (const float threshold : thresholds) {
-        const auto above = static_cast<double>(countAbove(maxima, static_cast<double>(threshold)));
-        const PdPoint pd = pdOf(signals, experiment.snrDb[snr], static_cast<double>(threshold));
-        curve.push_back({static_cast<double>(threshold), -std::log1p(-above / blocks), pd.pd, pd.interval});
+        const auto above = double(countAbove(maxima, double(threshold)));
+        const PdPoint pd = pdOf(signals, experiment.snrDb[snr], double(threshold));
+        curve.push_back({double(threshold), -std::log1p(-above / blocks), pd.pd, pd.interval});
     }
     return curve;
 }

@@ -12,7 +12,7 @@ namespace {
 
     PingScene seeded(PingScene scene, std::uint64_t seed)
     {
-        scene.seed = static_cast<int>(seed & 0x7fffffff);
+        scene.seed = int(seed & 0x7fffffff);
         return scene;
     }
 
@@ -38,10 +38,10 @@ namespace {
         scene.pings = std::max(1, experiment.settlingPings);
         const SimulatedPings noise(scene);
         Smd detector(plan.model, rule);
-        std::vector<float> y(static_cast<std::size_t>(noise.grid().size()));
+        std::vector<float> y(std::size_t(noise.grid().size()));
         std::vector<float> statistic(y.size());
         for (int ping = 0; ping < experiment.settlingPings; ++ping) {
-            context.checkpoint(static_cast<double>(ping) / experiment.settlingPings, "settling on noise");
+            context.checkpoint(double(ping) / experiment.settlingPings, "settling on noise");
             noise.read(ping, 1, y);
             detector.update(y, statistic);
         }
@@ -55,7 +55,7 @@ namespace {
         auto detector = std::make_unique<Smd>(plan.model, rule);
         detector->setState(settled);
         const auto chain = makeChain(plan, std::move(detector));
-        std::vector<float> y(static_cast<std::size_t>(pings.grid().size()));
+        std::vector<float> y(std::size_t(pings.grid().size()));
         std::vector<float> statistic(y.size());
         for (Index ping = 0; ping < pings.time().count; ++ping) {
             if (context.stop.stop_requested())
@@ -78,11 +78,10 @@ std::vector<TrackScore> runPings(const PingExperiment &experiment, const RunCont
     const AnalysisPlan plan = planOf(experiment);
     const ResetRule rule = resetRule(*smd, smd->lnK);
     const auto settled = settle(experiment, plan, rule, context.part(0.0, 0.2));
-    std::vector<TrackScore> scores(static_cast<std::size_t>(experiment.runs));
+    std::vector<TrackScore> scores(std::size_t(experiment.runs));
     parallelFor(experiment.runs, context.part(0.2, 1.0), "following targets", [&]() -> std::function<void(Index)> {
         return [&](Index run) {
-            scores[static_cast<std::size_t>(run)] =
-                runOnce(experiment, plan, rule, *settled, static_cast<std::uint64_t>(run), context);
+            scores[std::size_t(run)] = runOnce(experiment, plan, rule, *settled, std::uint64_t(run), context);
         };
     });
     return scores;

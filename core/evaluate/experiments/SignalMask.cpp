@@ -4,7 +4,7 @@
 
 namespace faintline {
 
-SignalMask::SignalMask(Index frames, Index bins) : m_bins(bins), m_stretches(static_cast<std::size_t>(frames)) {}
+SignalMask::SignalMask(Index frames, Index bins) : m_bins(bins), m_stretches(std::size_t(frames)) {}
 
 void SignalMask::add(Index frame, Index low, Index high)
 {
@@ -12,7 +12,7 @@ void SignalMask::add(Index frame, Index low, Index high)
     high = std::min(high, m_bins - 1);
     if (frame < 0 || frame >= std::ssize(m_stretches) || low > high)
         return;
-    auto &stretches = m_stretches[static_cast<std::size_t>(frame)];
+    auto &stretches = m_stretches[std::size_t(frame)];
     const auto first =
         std::find_if(stretches.begin(), stretches.end(), [low](const auto &one) { return one.second + 1 >= low; });
     auto last = first;
@@ -27,18 +27,18 @@ bool SignalMask::touches(Index frame, Index low, Index high) const
 {
     if (frame < 0 || frame >= std::ssize(m_stretches))
         return false;
-    const auto &stretches = m_stretches[static_cast<std::size_t>(frame)];
+    const auto &stretches = m_stretches[std::size_t(frame)];
     return std::any_of(stretches.begin(), stretches.end(),
                        [&](const auto &one) { return one.first <= high && one.second >= low; });
 }
 
 void SignalMask::blank(Index frame, Index firstBin, std::span<float> y) const
 {
-    for (const auto &[low, high] : m_stretches[static_cast<std::size_t>(frame)]) {
+    for (const auto &[low, high] : m_stretches[std::size_t(frame)]) {
         const Index from = std::max<Index>(low - firstBin, 0);
         const Index to = std::min(high - firstBin, std::ssize(y) - 1);
         for (Index i = from; i <= to; ++i)
-            y[static_cast<std::size_t>(i)] = 0.0f;
+            y[std::size_t(i)] = 0.0f;
     }
 }
 
@@ -47,8 +47,8 @@ double SignalMask::freeShare() const
     double taken = 0.0;
     for (const auto &stretches : m_stretches)
         for (const auto &[low, high] : stretches)
-            taken += static_cast<double>(high - low + 1);
-    return 1.0 - taken / (static_cast<double>(m_bins) * static_cast<double>(m_stretches.size()));
+            taken += double(high - low + 1);
+    return 1.0 - taken / (double(m_bins) * double(m_stretches.size()));
 }
 
 } // namespace faintline

@@ -40,7 +40,7 @@ namespace {
             return value;
         if (value != std::round(value))
             throw Error(field.name + " = " + formatNumber(value), "must be a whole number");
-        return static_cast<int>(value);
+        return int(value);
     }
 
     /// How a track lies with the line.
@@ -57,8 +57,8 @@ namespace {
         int on = 0;
         bool isTouching = false;
         for (const TrackPoint &point : track.points) {
-            const double seconds = analysis.time().value(static_cast<double>(point.frame));
-            const double hz = frequency.value(static_cast<double>(point.cell));
+            const double seconds = analysis.time().value(double(point.frame));
+            const double hz = frequency.value(double(point.cell));
             const bool isNear = std::abs(hz - (truth.frequencyAt(seconds) - centreHz)) <= reach;
             if (seconds >= truth.startSeconds && seconds <= truth.endSeconds) {
                 ++during;
@@ -79,12 +79,10 @@ namespace {
             falseAlarms += bond == Bond::None ? 1 : 0;
             if (bond != Bond::OnIt)
                 continue;
-            const double after =
-                std::max(0.0, analysis.time().value(static_cast<double>(track.detectFrame)) - truth.startSeconds);
+            const double after = std::max(0.0, analysis.time().value(double(track.detectFrame)) - truth.startSeconds);
             latency = latency < 0.0 ? after : std::min(latency, after);
         }
-        return sweepOutcome(run, falseAlarms, static_cast<double>(analysis.time().count) * analysis.time().step,
-                            latency);
+        return sweepOutcome(run, falseAlarms, double(analysis.time().count) * analysis.time().step, latency);
     }
 
     /// The values of "values": a list, or a range.
@@ -110,7 +108,7 @@ namespace {
         const double steps = number("steps");
         if (steps != std::round(steps) || steps < 2.0 || steps > 1000.0)
             throw Error(jsonName(name, "steps") + " = " + formatNumber(steps), "must be a whole number in 2 … 1000");
-        return sweepValues(parameter, number("from"), number("to"), static_cast<int>(steps), scale == "log");
+        return sweepValues(parameter, number("from"), number("to"), int(steps), scale == "log");
     }
 
 } // namespace
@@ -147,7 +145,7 @@ std::vector<double> sweepValues(const std::string &parameter, double from, doubl
         throw Error("values.from, values.to", "must be above 0 on a logarithmic scale");
     std::vector<double> values;
     for (int i = 0; i < steps; ++i) {
-        const double share = steps > 1 ? static_cast<double>(i) / (steps - 1) : 0.0;
+        const double share = steps > 1 ? double(i) / (steps - 1) : 0.0;
         double value = isLogarithmic ? from * std::pow(to / from, share) : from + (to - from) * share;
         // Nobody wants to read, or type, the digits that a division leaves behind.
         const double scale = std::pow(10.0, 5.0 - std::ceil(std::log10(std::max(std::abs(value), 1e-300))));
@@ -179,7 +177,7 @@ void checkExperiment(const SweepExperiment &experiment)
     if (experiment.values.empty())
         throw Error("values", "must hold at least one value");
     constexpr std::size_t mostRuns = 10'000'000;
-    if (experiment.values.size() > mostRuns / static_cast<std::size_t>(experiment.trials))
+    if (experiment.values.size() > mostRuns / std::size_t(experiment.trials))
         throw fieldError("trials", std::to_string(experiment.trials),
                          "times " + std::to_string(experiment.values.size())
                              + " values gives more than 10 million trials");
@@ -229,8 +227,8 @@ RunOutcome sweepOutcome(int run, std::ptrdiff_t falseAlarms, double seconds, dou
 {
     RunOutcome outcome;
     outcome.run = run;
-    outcome.noise = {{static_cast<float>(falseAlarms), static_cast<float>(seconds)}};
-    outcome.signal = {{{static_cast<float>(latencySeconds)}}};
+    outcome.noise = {{float(falseAlarms), float(seconds)}};
+    outcome.signal = {{{float(latencySeconds)}}};
     return outcome;
 }
 
@@ -258,15 +256,15 @@ SweepTrials::SweepTrials(const SweepExperiment &experiment, RecordingPointer rec
         // What is chosen for a recording must not change with the stretch that is looked at.
         RecordingInfo info;
         info.sampleRateHz = experiment.sampleRateHz;
-        info.sampleCount = static_cast<Index>(experiment.trialSeconds() * experiment.sampleRateHz);
+        info.sampleCount = Index(experiment.trialSeconds() * experiment.sampleRateHz);
         m_experiment.settings.spectrogram.windowSeconds =
             Spectrogram::automaticWindowSeconds(m_recording ? m_recording->info() : info);
     }
-    const auto count = static_cast<double>(experiment.values.size());
+    const auto count = double(experiment.values.size());
     for (std::size_t i = 0; i < experiment.values.size(); ++i) {
-        const RunContext part = context.part(static_cast<double>(i) / count, static_cast<double>(i + 1) / count);
+        const RunContext part = context.part(double(i) / count, double(i + 1) / count);
         const AnalysisSettings settings = settingsOfTrial(m_experiment, i, m_recording.get());
-        const Made made = remake(static_cast<int>(i));
+        const Made made = remake(int(i));
         const Spectrogram spectrogram(made.recording, settings.spectrogram, made.settings.selection);
         const double cellFramesPerHour = cellFramesInAnHour(settings.family, spectrogram);
         m_thresholds.push_back(
@@ -277,10 +275,8 @@ SweepTrials::SweepTrials(const SweepExperiment &experiment, RecordingPointer rec
 SweepTrials::Made SweepTrials::remake(int run) const
 {
     const int trial = m_experiment.trialOf(run);
-    Made made{nullptr,
-              {},
-              settingsOfTrial(m_experiment, static_cast<std::size_t>(m_experiment.valueOf(run)), m_recording.get())};
-    Random places(static_cast<std::uint64_t>(m_experiment.seed), static_cast<std::uint64_t>(trial));
+    Made made{nullptr, {}, settingsOfTrial(m_experiment, std::size_t(m_experiment.valueOf(run)), m_recording.get())};
+    Random places(std::uint64_t(m_experiment.seed), std::uint64_t(trial));
     const double wherePlaced = places.uniform();
     const double whenPlaced = places.uniform();
     const double whole = m_experiment.trialSeconds();
@@ -310,13 +306,12 @@ SweepTrials::Made SweepTrials::remake(int run) const
     line.wanderHz = m_experiment.wanderHz;
     line.wanderSeconds = m_experiment.wanderSeconds;
     // Noise, phase and wander belong to the trial.
-    const std::uint64_t own =
-        static_cast<std::uint64_t>(m_experiment.seed) * 1000003 + static_cast<std::uint64_t>(trial);
+    const std::uint64_t own = std::uint64_t(m_experiment.seed) * 1000003 + std::uint64_t(trial);
     if (!m_recording) {
         LineScene scene;
         scene.sampleRateHz = m_experiment.sampleRateHz;
         scene.durationSeconds = whole;
-        scene.seed = static_cast<int>(own % 2147483647);
+        scene.seed = int(own % 2147483647);
         scene.lines = {line};
         const auto simulated = std::make_shared<SimulatedRecording>(scene);
         made.truth = simulated->truth().lines.front();
@@ -352,8 +347,8 @@ std::vector<RunOutcome> SweepTrials::run(const std::vector<int> &runs, const Run
     std::mutex guard;
     parallelFor(std::ssize(runs), context, "trying values", [&] {
         return [&](Index i) {
-            RunOutcome &outcome = outcomes[static_cast<std::size_t>(i)];
-            const int run = runs[static_cast<std::size_t>(i)];
+            RunOutcome &outcome = outcomes[std::size_t(i)];
+            const int run = runs[std::size_t(i)];
             const Made made = remake(run);
             RunContext quiet;
             quiet.stop = context.stop;
@@ -373,9 +368,8 @@ std::vector<double> SweepTrials::costs(const RunContext &context) const
     RunContext quiet;
     quiet.stop = context.stop;
     for (std::size_t i = 0; i < m_experiment.values.size(); ++i) {
-        context.checkpoint(static_cast<double>(i) / static_cast<double>(m_experiment.values.size()),
-                           "measuring the cost");
-        const Made made = remake(static_cast<int>(i));
+        context.checkpoint(double(i) / double(m_experiment.values.size()), "measuring the cost");
+        const Made made = remake(int(i));
         seconds.push_back(measureCost(*analyse(made.recording, made.settings, quiet), quiet));
     }
     return seconds;

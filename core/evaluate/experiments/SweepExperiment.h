@@ -43,9 +43,9 @@ struct SweepExperiment {
     bool operator==(const SweepExperiment &) const = default;
 
     double trialSeconds() const { return durationSeconds + 2.0 * marginSeconds; }
-    int runs() const { return trials * static_cast<int>(values.size()); }
-    int valueOf(int run) const { return run % static_cast<int>(values.size()); }
-    int trialOf(int run) const { return run / static_cast<int>(values.size()); }
+    int runs() const { return trials * int(values.size()); }
+    int valueOf(int run) const { return run % int(values.size()); }
+    int trialOf(int run) const { return run / int(values.size()); }
 };
 
 /// `steps` values from `from` to `to`, evenly spaced or by equal factors; whole where the setting is, without repeats.

@@ -28,9 +28,8 @@ namespace {
     /// Pd of the integrator for a mean number of false alarms per block.
     double integratorPd(const LineExperiment &lines, double falseAlarms, double snrDb)
     {
-        const int looks = static_cast<int>(std::lround(lines.durationWindows));
-        const double cells =
-            static_cast<double>(lines.blockFrames) / lines.stepsPerWindow * lines.blockBins / lines.binsPerCell;
+        const int looks = int(std::lround(lines.durationWindows));
+        const double cells = double(lines.blockFrames) / lines.stepsPerWindow * lines.blockBins / lines.binsPerCell;
         const double pfa = std::min(1.0, falseAlarms * lines.durationWindows / cells);
         return pfa >= 1.0 ? 1.0 : pdOfMeanPower(thresholdOfMeanPower(pfa, looks), looks, ratioFromDb(snrDb));
     }
@@ -50,7 +49,7 @@ namespace {
         constexpr int points = 60;
         Curve curve{name + ", Marcum Q", Curve::Kind::Theory, {}};
         for (int i = 0; i <= points; ++i) {
-            const double falseAlarms = low * std::pow(high / low, static_cast<double>(i) / points);
+            const double falseAlarms = low * std::pow(high / low, double(i) / points);
             curve.points.push_back({falseAlarms, integratorPd(lines, falseAlarms, snrDb), {}});
         }
         return curve;
@@ -99,8 +98,7 @@ namespace {
                 if (falseAlarms == 0 || (threshold != noise.rbegin() && *threshold == threshold[-1]))
                     continue;
                 const auto detections = above(signal, *threshold);
-                curve.points.push_back({static_cast<double>(falseAlarms) / static_cast<double>(trials),
-                                        static_cast<double>(detections) / static_cast<double>(trials),
+                curve.points.push_back({double(falseAlarms) / double(trials), double(detections) / double(trials),
                                         wilsonInterval(detections, trials)});
             }
             chart.curves.push_back(std::move(curve));
@@ -134,7 +132,7 @@ namespace {
         for (const RunOutcome &outcome : campaign.outcomes)
             for (const float value : listOf(outcome)) {
                 ++all;
-                above += static_cast<double>(value) > threshold ? 1 : 0;
+                above += double(value) > threshold ? 1 : 0;
             }
         return {above, all};
     }
@@ -145,7 +143,7 @@ namespace {
             return outcome.signal[detector][snr];
         };
         const auto [above, all] = countAbove(campaign, threshold, signals);
-        return {x, static_cast<double>(above) / static_cast<double>(all), wilsonInterval(above, all)};
+        return {x, double(above) / double(all), wilsonInterval(above, all)};
     }
 
 } // namespace
@@ -174,8 +172,7 @@ std::optional<Curve> operatingPoint(const Campaign &campaign, std::size_t snr, c
         countAbove(campaign, threshold,
                    [&](const RunOutcome &outcome) -> const std::vector<float> & { return outcome.noise[*detector]; });
     // None above, or all, has no place on a logarithmic axis: half a block away from it.
-    const double share =
-        std::clamp(static_cast<double>(above), 0.5, static_cast<double>(all) - 0.5) / static_cast<double>(all);
+    const double share = std::clamp(double(above), 0.5, double(all) - 0.5) / double(all);
     const bool isInBlocks = std::holds_alternative<LineExperiment>(campaign.experiment);
     return Curve{nameAt(campaign, *detector, threshold),
                  Curve::Kind::Paper,

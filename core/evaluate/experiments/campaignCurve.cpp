@@ -26,9 +26,9 @@ namespace {
         std::int64_t detections = 0;
         for (const RunOutcome &outcome : campaign.outcomes) {
             ++point.trials;
-            detections += static_cast<double>(outcome.signal[detector][snr].front()) > threshold ? 1 : 0;
+            detections += double(outcome.signal[detector][snr].front()) > threshold ? 1 : 0;
         }
-        point.pd = point.trials > 0 ? static_cast<double>(detections) / static_cast<double>(point.trials) : 0.0;
+        point.pd = point.trials > 0 ? double(detections) / double(point.trials) : 0.0;
         point.interval = wilsonInterval(detections, point.trials);
         return point;
     }

@@ -16,7 +16,7 @@ namespace {
     {
         std::timespec now{};
         clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-        return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+        return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
     }
 
 } // namespace
@@ -34,16 +34,14 @@ double measureCost(const Analysis &analysis, const RunContext &context)
     while (done < frames && spent < enoughSeconds) {
         context.checkpoint(spent / enoughSeconds, "measuring the cost");
         const Index count = std::min(blockFrames, frames - done);
-        block.resize(static_cast<std::size_t>(count * cells));
+        block.resize(std::size_t(count * cells));
         analysis.frames->read(done, count, block);
         for (Index i = 0; i < count; ++i)
-            chain->update(
-                done + i,
-                std::span(block).subspan(static_cast<std::size_t>(i * cells), static_cast<std::size_t>(cells)), scores);
+            chain->update(done + i, std::span(block).subspan(std::size_t(i * cells), std::size_t(cells)), scores);
         done += count;
         spent = threadSeconds() - start;
     }
-    return done == 0 ? 0.0 : spent / (static_cast<double>(done) * analysis.time().step) * 3600.0;
+    return done == 0 ? 0.0 : spent / (double(done) * analysis.time().step) * 3600.0;
 }
 
 } // namespace faintline

@@ -10,14 +10,14 @@ double measuredThreshold(std::vector<float> maxima, double falseAlarms, const Ca
                          double eventsPerCellFrame)
 {
     constexpr double least = 10.0;
-    const auto blocks = static_cast<double>(maxima.size());
+    const auto blocks = double(maxima.size());
     const double counted = std::max(falseAlarms, std::min(least, 0.5 * blocks));
-    const auto exceeding = static_cast<std::size_t>(std::llround(blocks * -std::expm1(-counted / blocks)));
+    const auto exceeding = std::size_t(std::llround(blocks * -std::expm1(-counted / blocks)));
     std::sort(maxima.begin(), maxima.end(), std::greater<>());
     const double calibrated = calibration.thresholdForEventRate(eventsPerCellFrame);
     if (exceeding == 0 || exceeding >= maxima.size() || !std::isfinite(maxima[exceeding]))
         return calibrated;
-    const double measured = 0.5 * (static_cast<double>(maxima[exceeding - 1]) + static_cast<double>(maxima[exceeding]));
+    const double measured = 0.5 * (double(maxima[exceeding - 1]) + double(maxima[exceeding]));
     return measured + calibrated - calibration.thresholdForEventRate(eventsPerCellFrame * counted / falseAlarms);
 }
 

@@ -44,13 +44,13 @@ namespace {
         const Axis &time = trial.frames->time();
         const Axis &frequency = trial.frames->grid().axes.front();
         TruthLine truth;
-        truth.startSeconds = time.value(static_cast<double>(trial.firstFrame));
-        truth.endSeconds = time.value(static_cast<double>(trial.firstFrame + std::ssize(trial.path) - 1));
+        truth.startSeconds = time.value(double(trial.firstFrame));
+        truth.endSeconds = time.value(double(trial.firstFrame + std::ssize(trial.path) - 1));
         truth.snrDb = lines.snrDb[snr];
         truth.referenceSeconds = 1.0;
         truth.stepSeconds = time.step;
         for (const Index bin : trial.path)
-            truth.frequencyHz.push_back(frequency.value(static_cast<double>(bin)));
+            truth.frequencyHz.push_back(frequency.value(double(bin)));
         return {
             analyse(trial.frames, makeModel(settings.model, trial.frames->grid()), settings, context.part(0.4, 1.0)),
             {{truth}}};
@@ -79,8 +79,8 @@ std::vector<TrialOutcome> trialsOf(const Campaign &campaign, std::size_t detecto
     for (const RunOutcome &outcome : campaign.outcomes) {
         const std::vector<float> &signals = outcome.signal[detector][snr];
         for (std::size_t i = 0; i < signals.size(); ++i) {
-            const auto statistic = static_cast<double>(signals[i]);
-            result.push_back({{outcome.run, static_cast<int>(i)}, statistic, statistic > threshold});
+            const auto statistic = double(signals[i]);
+            result.push_back({{outcome.run, int(i)}, statistic, statistic > threshold});
         }
     }
     return result;

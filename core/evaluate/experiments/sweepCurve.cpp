@@ -40,12 +40,12 @@ std::vector<SweepPoint> sweepCurve(const Campaign &campaign)
     std::vector<SweepPoint> curve(experiment.values.size());
     std::vector<double> sum(curve.size()), sumOfSquares(curve.size());
     for (const RunOutcome &outcome : campaign.outcomes) {
-        const auto i = static_cast<std::size_t>(experiment.valueOf(outcome.run));
+        const auto i = std::size_t(experiment.valueOf(outcome.run));
         SweepPoint &point = curve[i];
-        const auto latency = static_cast<double>(outcome.signal[0][0][0]);
+        const auto latency = double(outcome.signal[0][0][0]);
         ++point.trials;
         point.falseAlarms += std::llround(outcome.noise[0][0]);
-        point.hours += static_cast<double>(outcome.noise[0][1]) / 3600.0;
+        point.hours += double(outcome.noise[0][1]) / 3600.0;
         if (!(latency >= 0.0))
             continue;
         ++point.detections;
@@ -58,14 +58,14 @@ std::vector<SweepPoint> sweepCurve(const Campaign &campaign)
             continue;
         point.value = experiment.values[i];
         point.threshold = i < campaign.thresholds.size() ? campaign.thresholds[i] : 0.0;
-        point.pd = static_cast<double>(point.detections) / static_cast<double>(point.trials);
+        point.pd = double(point.detections) / double(point.trials);
         point.pdInterval = wilsonInterval(point.detections, point.trials);
         const Interval counts = poissonInterval(point.falseAlarms);
-        point.falseAlarmsPerHour = static_cast<double>(point.falseAlarms) / point.hours;
+        point.falseAlarmsPerHour = double(point.falseAlarms) / point.hours;
         point.falseAlarmInterval = {counts.low / point.hours, counts.high / point.hours};
         if (point.detections == 0)
             continue;
-        const auto n = static_cast<double>(point.detections);
+        const auto n = double(point.detections);
         point.latencySeconds = sum[i] / n;
         const double squares = std::max(0.0, sumOfSquares[i] - n * point.latencySeconds * point.latencySeconds);
         const double variance = n > 1.0 ? squares / (n - 1.0) : 0.0;

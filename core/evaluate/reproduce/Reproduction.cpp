@@ -47,7 +47,7 @@ void judgeTogether(Reproduction &reproduction)
     const auto judged = std::count_if(reproduction.cells.begin(), reproduction.cells.end(),
                                       [](const ReproducedCell &cell) { return cell.isJudged(); });
     for (ReproducedCell &cell : reproduction.cells)
-        cell.judgedTogether = static_cast<int>(judged);
+        cell.judgedTogether = int(judged);
 }
 
 } // namespace faintline

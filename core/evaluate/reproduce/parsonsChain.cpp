@@ -64,7 +64,7 @@ namespace {
     void addChainCells(const ChainCase &wanted, const std::vector<TrackScore> &scores, int runs, Reproduction &made)
     {
         const std::string row = wanted.preset + ", " + formatNumber(wanted.snrDb) + " dB";
-        const double share = static_cast<double>(runs) / chainRuns;
+        const double share = double(runs) / chainRuns;
         double falseConfirmed = 0.0;
         double falseTracks = 0.0;
         for (const TrackScore &score : scores) {
@@ -81,12 +81,12 @@ namespace {
             for (const TrackScore &score : scores) {
                 const TargetScore &own = score.targets[target];
                 confirmed += own.isConfirmed() ? 1.0 : 0.0;
-                squares += own.rmsCells[0] * own.rmsCells[0] * static_cast<double>(own.matchedPoints);
-                points += static_cast<double>(own.matchedPoints);
+                squares += own.rmsCells[0] * own.rmsCells[0] * double(own.matchedPoints);
+                points += double(own.matchedPoints);
                 if (own.isDetected())
-                    detect.push_back(static_cast<double>(own.detectLatency));
+                    detect.push_back(double(own.detectLatency));
                 if (own.isConfirmed())
-                    confirm.push_back(static_cast<double>(own.confirmLatency));
+                    confirm.push_back(double(own.confirmLatency));
             }
             // As well or better: judged from below only, all runs at the top.
             const double reference = share * (target == 0 ? wanted.confirmedSteady : wanted.confirmedWeaving);
@@ -112,7 +112,7 @@ namespace {
                           {},
                           {},
                           {}};
-        const auto count = static_cast<double>(chainCases().size());
+        const auto count = double(chainCases().size());
         const int runs = options.quick ? 3 : chainRuns;
         for (std::size_t i = 0; i < chainCases().size(); ++i) {
             PingExperiment experiment;
@@ -120,8 +120,7 @@ namespace {
             experiment.settings = preset(chainCases()[i].preset).settings;
             experiment.runs = runs;
             experiment.seed = options.seed;
-            const auto scores =
-                runPings(experiment, context.part(static_cast<double>(i) / count, static_cast<double>(i + 1) / count));
+            const auto scores = runPings(experiment, context.part(double(i) / count, double(i + 1) / count));
             addChainCells(chainCases()[i], scores, runs, made);
         }
         made.notes = {"The paper's Figure 1 is a diagram: the references are an independent program's chain. Confirmed "

@@ -44,9 +44,8 @@ namespace {
     /// Four targets in one field that move by three range cells and one beam a ping, from places of the field's own.
     PingScene targetScene(std::uint64_t seed, int chain, int field, double snrDb)
     {
-        PingScene scene =
-            noiseScene(seed + 1000003u * static_cast<std::uint64_t>(1 + chain * fieldsPerChain + field), targetPings);
-        Random random(seed, static_cast<std::uint64_t>(1 + chain * fieldsPerChain + field));
+        PingScene scene = noiseScene(seed + 1000003u * std::uint64_t(1 + chain * fieldsPerChain + field), targetPings);
+        Random random(seed, std::uint64_t(1 + chain * fieldsPerChain + field));
         const Grid grid = pingGrid(scene);
         for (int i = 0; i < targetsPerField; ++i) {
             PingTarget target;
@@ -63,7 +62,7 @@ namespace {
     /// Ping (from 1) at which each target's own cell first exceeded the threshold; 0: never.
     std::vector<int> firstCrossings(Smd &detector, const SimulatedPings &pings, double threshold)
     {
-        std::vector<float> y(static_cast<std::size_t>(pings.grid().size()));
+        std::vector<float> y(std::size_t(pings.grid().size()));
         std::vector<float> statistic(y.size());
         std::vector<int> first(pings.truth().targets.size(), 0);
         for (int ping = 0; ping < targetPings; ++ping) {
@@ -71,8 +70,7 @@ namespace {
             detector.update(y, statistic);
             for (std::size_t i = 0; i < first.size(); ++i) {
                 const Index cell = pings.truth().targets[i].cellAt(ping);
-                if (first[i] == 0 && cell >= 0
-                    && static_cast<double>(statistic[static_cast<std::size_t>(cell)]) > threshold)
+                if (first[i] == 0 && cell >= 0 && double(statistic[std::size_t(cell)]) > threshold)
                     first[i] = ping + 1;
             }
             if (std::find(first.begin(), first.end(), 0) == first.end())
@@ -86,21 +84,21 @@ namespace {
                                          const RunContext &context)
     {
         const int chainCount = options.quick ? 1 : chains;
-        std::vector<std::vector<std::vector<int>>> found(static_cast<std::size_t>(chainCount),
+        std::vector<std::vector<std::vector<int>>> found(std::size_t(chainCount),
                                                          std::vector<std::vector<int>>(figure.curves.size()));
         const MarkovModel model = sonarModel(pingGrid(PingScene{}), sonarMotion(figure.motion));
         parallelFor(chainCount, context, "detecting targets", [&]() -> std::function<void(Index)> {
             const auto detector = std::make_shared<Smd>(model, ResetRule{ResetLaw::Mean});
             return [&, detector](Index chain) {
                 *detector = Smd(model, {ResetLaw::Mean});
-                const SimulatedPings noise(noiseScene(options.seed + 17u * static_cast<std::uint64_t>(chain + 1),
+                const SimulatedPings noise(noiseScene(options.seed + 17u * std::uint64_t(chain + 1),
                                                       settlingPings + fieldsPerChain * pingsBetweenFields));
-                std::vector<float> y(static_cast<std::size_t>(noise.grid().size()));
+                std::vector<float> y(std::size_t(noise.grid().size()));
                 std::vector<float> statistic(y.size());
                 int ping = 0;
                 const auto advance = [&](int pings) {
                     for (int end = ping + pings; ping < end; ++ping) {
-                        context.checkpoint(static_cast<double>(chain) / chainCount, "detecting targets");
+                        context.checkpoint(double(chain) / chainCount, "detecting targets");
                         noise.read(ping, 1, y);
                         detector->update(y, statistic);
                     }
@@ -110,9 +108,9 @@ namespace {
                     const auto settled = detector->state();
                     for (std::size_t c = 0; c < figure.curves.size(); ++c) {
                         const SimulatedPings pings(
-                            targetScene(options.seed, static_cast<int>(chain), field, figure.curves[c].snrDb));
+                            targetScene(options.seed, int(chain), field, figure.curves[c].snrDb));
                         const std::vector<int> first = firstCrossings(*detector, pings, figure.threshold);
-                        auto &all = found[static_cast<std::size_t>(chain)][c];
+                        auto &all = found[std::size_t(chain)][c];
                         all.insert(all.end(), first.begin(), first.end());
                         detector->setState(*settled);
                     }
@@ -135,7 +133,7 @@ namespace {
                           {},          {},           {}};
         Chart chart{figure.title, "ping", "Pd", false, false, {}};
         Chart latency{figure.title + ": latency", "pings until the first crossing", "targets", false, false, {}};
-        const double tolerance = 0.10 * (options.quick ? std::sqrt(static_cast<double>(chains)) : 1.0);
+        const double tolerance = 0.10 * (options.quick ? std::sqrt(double(chains)) : 1.0);
         for (std::size_t c = 0; c < figure.curves.size(); ++c) {
             const DetectionCurve &wanted = figure.curves[c];
             const std::string row = formatNumber(wanted.snrDb) + " dB";
@@ -147,13 +145,13 @@ namespace {
                 const auto crossed =
                     std::count_if(first[c].begin(), first[c].end(), [ping](int at) { return at > 0 && at <= ping; });
                 const auto now = std::count(first[c].begin(), first[c].end(), ping);
-                pd.push_back(static_cast<double>(crossed) / static_cast<double>(first[c].size()));
+                pd.push_back(double(crossed) / double(first[c].size()));
                 intervals.push_back(wilsonInterval(crossed, std::ssize(first[c])));
-                curve.points.push_back({static_cast<double>(ping), pd.back(), intervals.back()});
-                counts.points.push_back({static_cast<double>(ping), static_cast<double>(now), {}});
+                curve.points.push_back({double(ping), pd.back(), intervals.back()});
+                counts.points.push_back({double(ping), double(now), {}});
             }
             for (std::size_t i = 0; i < judgedPings().size(); ++i) {
-                const auto at = static_cast<std::size_t>(judgedPings()[i] - 1);
+                const auto at = std::size_t(judgedPings()[i] - 1);
                 ReproducedCell cell = cellOf(row, "ping " + std::to_string(judgedPings()[i]), pd[at], intervals[at]);
                 made.cells.push_back(judged(cell, wanted.reference[i], tolerance));
             }

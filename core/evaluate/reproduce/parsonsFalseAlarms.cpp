@@ -53,7 +53,7 @@ namespace {
 
     Interval intervalOfBlocks(const std::vector<double> &values)
     {
-        const auto n = static_cast<double>(values.size());
+        const auto n = double(values.size());
         const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
         double squares = 0.0;
         for (double value : values)
@@ -63,7 +63,7 @@ namespace {
 
     double meanOf(const std::vector<double> &values)
     {
-        return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+        return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
     }
 
     NoiseRun runOnNoise(const FalseAlarmFigure &figure, const ReproduceOptions &options, const RunContext &context)
@@ -71,27 +71,27 @@ namespace {
         const int pings = figure.pings / (options.quick ? 4 : 1);
         const SimulatedPings noise(noiseScene(options.seed, settlingPings + pings));
         Smd detector(sonarModel(noise.grid(), sonarMotion(figure.motion)), {ResetLaw::Mean});
-        std::vector<float> y(static_cast<std::size_t>(noise.grid().size()));
+        std::vector<float> y(std::size_t(noise.grid().size()));
         std::vector<float> statistic(y.size());
         NoiseRun run;
         run.blockLargest.resize(blocks);
         std::vector<double> lnK(blocks, 0.0);
         std::vector<double> reset(blocks, 0.0);
         for (int ping = 0; ping < settlingPings + pings; ++ping) {
-            context.checkpoint(static_cast<double>(ping) / (settlingPings + pings), "detecting in noise");
+            context.checkpoint(double(ping) / (settlingPings + pings), "detecting in noise");
             noise.read(ping, 1, y);
             detector.update(y, statistic);
             if (ping < settlingPings)
                 continue;
             const int k = ping - settlingPings;
-            const auto block = static_cast<std::size_t>(k * blocks / pings);
+            const auto block = std::size_t(k * blocks / pings);
             lnK[block] += detector.regulation().lnK * blocks / pings;
             reset[block] += (1.0 - detector.regulation().continuedFraction) * blocks / pings;
             if (k % figure.countEvery != 0)
                 continue;
-            run.cells += static_cast<double>(statistic.size());
+            run.cells += double(statistic.size());
             std::partial_sort(statistic.begin(), statistic.begin() + keptPerPing, statistic.end(), std::greater<>());
-            run.peaks.push_back(static_cast<double>(statistic.front()));
+            run.peaks.push_back(double(statistic.front()));
             run.blockLargest[block].insert(run.blockLargest[block].end(), statistic.begin(),
                                            statistic.begin() + keptPerPing);
         }
@@ -109,16 +109,15 @@ namespace {
 
     double exceedance(const std::vector<float> &descending, double cells, double threshold)
     {
-        const auto end =
-            std::lower_bound(descending.begin(), descending.end(), static_cast<float>(threshold), std::greater<>());
-        return static_cast<double>(end - descending.begin()) / cells;
+        const auto end = std::lower_bound(descending.begin(), descending.end(), float(threshold), std::greater<>());
+        return double(end - descending.begin()) / cells;
     }
 
     /// The threshold that a share of the counted cells exceeds.
     double thresholdOf(const std::vector<float> &descending, double cells, double pfa)
     {
-        const auto rank = static_cast<std::size_t>(std::llround(pfa * cells));
-        return static_cast<double>(descending[std::min(rank, descending.size() - 1)]);
+        const auto rank = std::size_t(std::llround(pfa * cells));
+        return double(descending[std::min(rank, descending.size() - 1)]);
     }
 
     std::vector<double> perBlock(const NoiseRun &run,
@@ -167,10 +166,10 @@ namespace {
         } else {
             std::vector<double> means;
             std::vector<double> highest;
-            const std::size_t perPart = static_cast<std::size_t>(20);
+            const std::size_t perPart = std::size_t(20);
             for (std::size_t first = 0; first + perPart <= run.peaks.size(); first += perPart) {
-                const std::vector<double> part(run.peaks.begin() + static_cast<std::ptrdiff_t>(first),
-                                               run.peaks.begin() + static_cast<std::ptrdiff_t>(first + perPart));
+                const std::vector<double> part(run.peaks.begin() + std::ptrdiff_t(first),
+                                               run.peaks.begin() + std::ptrdiff_t(first + perPart));
                 means.push_back(meanOf(part));
                 highest.push_back(*std::max_element(part.begin(), part.end()));
             }

@@ -25,7 +25,7 @@ inline PingScene noiseScene(std::uint64_t seed, int pings)
 {
     PingScene scene;
     scene.pings = pings;
-    scene.seed = static_cast<int>(seed & 0x7fffffff);
+    scene.seed = int(seed & 0x7fffffff);
     return scene;
 }
 

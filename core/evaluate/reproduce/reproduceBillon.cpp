@@ -109,7 +109,7 @@ namespace {
     LineExperiment experimentOf(const Table &table, const ReproduceOptions &options)
     {
         LineExperiment experiment;
-        experiment.seed = static_cast<int>(options.seed);
+        experiment.seed = int(options.seed);
         experiment.runs = options.quick ? quickRuns : runs;
         experiment.durationWindows = table.durationWindows;
         for (const Row &row : table.rows)
@@ -122,7 +122,7 @@ namespace {
                                               const RunContext &context)
     {
         LineExperiment experiment = experimentOf(table, options);
-        std::vector<int> all(static_cast<std::size_t>(experiment.runs));
+        std::vector<int> all(std::size_t(experiment.runs));
         std::iota(all.begin(), all.end(), 0);
         std::vector<std::vector<PdPoint>> points(table.rows.size());
         const auto add = [&](const RunContext &part) {
@@ -139,8 +139,8 @@ namespace {
         experiment.snrDb = {table.snrDb};
         for (std::size_t i = 0; i < table.columns.size(); ++i) {
             experiment.wanderCells = table.columns[i];
-            const auto n = static_cast<double>(table.columns.size());
-            add(context.part(static_cast<double>(i) / n, static_cast<double>(i + 1) / n));
+            const auto n = double(table.columns.size());
+            add(context.part(double(i) / n, double(i + 1) / n));
         }
         return points;
     }
@@ -165,7 +165,7 @@ namespace {
             chart.curves.push_back(std::move(curve));
         }
         if (table.sweep == Sweep::Snr) {
-            const int looks = static_cast<int>(table.durationWindows);
+            const int looks = int(table.durationWindows);
             const double pfaOut = table.durationWindows / (300.0 / 2.0 * 200.0 / 4.0);
             Curve theory{"integrator, Marcum Q", Curve::Kind::Theory, {}};
             for (double db = table.columns.front(); db <= table.columns.back() + 1e-9; db += 0.25)
@@ -227,7 +227,7 @@ namespace {
     Reproduction reproduceFigure1(const ReproduceOptions &options, const RunContext &context)
     {
         LineExperiment experiment;
-        experiment.seed = static_cast<int>(options.seed);
+        experiment.seed = int(options.seed);
         experiment.runs = 1;
         experiment.wanderCells = 3.0;
         experiment.detectors = {detectorOf("SMD 5 slopes", 100.0)};
@@ -243,13 +243,13 @@ namespace {
         double onNoise = 0.0;
         Smd withLine(model, rule);
         Smd withoutLine(model, rule);
-        std::vector<float> y(static_cast<std::size_t>(grid.size()));
+        std::vector<float> y(std::size_t(grid.size()));
         std::vector<float> statistic(y.size());
         for (Index frame = 0; frame < trial.frames->time().count; ++frame) {
-            const double windows = trial.frames->time().value(static_cast<double>(frame));
+            const double windows = trial.frames->time().value(double(frame));
             noise.frames->read(frame, 1, y);
             withoutLine.update(y, statistic);
-            const auto largest = static_cast<double>(*std::max_element(statistic.begin(), statistic.end()));
+            const auto largest = double(*std::max_element(statistic.begin(), statistic.end()));
             elsewhere.points.push_back({windows, largest, {}});
             onNoise = std::max(onNoise, largest);
             trial.frames->read(frame, 1, y);
@@ -257,8 +257,7 @@ namespace {
             const Index k = frame - trial.firstFrame;
             if (k < 0 || k >= std::ssize(trial.path))
                 continue;
-            const auto value =
-                static_cast<double>(statistic[static_cast<std::size_t>(trial.path[static_cast<std::size_t>(k)])]);
+            const auto value = double(statistic[std::size_t(trial.path[std::size_t(k)])]);
             along.points.push_back({windows, value, {}});
             onLine = std::max(onLine, value);
         }

@@ -69,8 +69,8 @@ namespace {
     ReproducedCell frequencyCell(std::string row, std::string column, Index successes, Index trials, double reference,
                                  double referenceTrials, double rounding)
     {
-        const auto n = static_cast<double>(trials);
-        const double p = static_cast<double>(successes) / n;
+        const auto n = double(trials);
+        const double p = double(successes) / n;
         ReproducedCell cell;
         cell.row = std::move(row);
         cell.column = std::move(column);
@@ -247,8 +247,7 @@ namespace {
                 study.trials = trialsOf(reference.trials, options);
                 for (std::size_t i = 0; i < deviations.size(); ++i) {
                     study.model = walkOnLine(reference.cells, deviations[i], 1.0);
-                    study.seed =
-                        options.seed * 1000 + static_cast<std::uint64_t>(reference.cells * 10 + (isTarget ? 5 : 0)) + i;
+                    study.seed = options.seed * 1000 + std::uint64_t(reference.cells * 10 + (isTarget ? 5 : 0)) + i;
                     const SequentialOutcome outcome = simulate(study, context.part(done, done + 0.025));
                     done += 0.025;
                     const AsnReference &asn = isTarget ? reference.h1[i] : reference.h0[i];
@@ -259,7 +258,7 @@ namespace {
                                             outcome.stages.interval()});
                     if (reference.cells == 10 && deviations[i] == 1.0) {
                         const std::string errorRow = row + ", σ = 1";
-                        const double trials = static_cast<double>(study.trials);
+                        const double trials = double(study.trials);
                         ReproducedCell measured = measuredCell(
                             errorRow, isTarget ? "α by change of measure" : "β by change of measure",
                             outcome.otherError, isTarget ? 6.107e-4 : 8.785e-4, isTarget ? 4e-7 : 1e-7, 1e-7);
@@ -328,7 +327,7 @@ namespace {
             study.actualSnr = snr;
             for (std::size_t i = 0; i < deviations.size(); ++i) {
                 study.model = walkOnLine(100, deviations[i], snr);
-                study.seed = options.seed * 1000 + static_cast<std::uint64_t>(500.0 + 10.0 * reference.snrDb) + i;
+                study.seed = options.seed * 1000 + std::uint64_t(500.0 + 10.0 * reference.snrDb) + i;
                 const SequentialOutcome outcome = simulate(study, context.part(done, done + 0.05));
                 done += 0.05;
                 misses += study.trials - outcome.acceptedH1;
@@ -348,7 +347,7 @@ namespace {
                 frequencyCell(name, "P(miss), all σ", misses, trials, 1e-3 * reference.missesPerThousand,
                               5.0 * figure3ReferenceTrials, 1e-5);
             missed.tolerance = within(frequencyError(*missed.reference, 5.0 * figure3ReferenceTrials),
-                                      frequencyError(*missed.reference, static_cast<double>(trials)), 1e-5);
+                                      frequencyError(*missed.reference, double(trials)), 1e-5);
             made.cells.push_back(std::move(missed));
             lastChart.curves.push_back(std::move(last));
             trackChart.curves.push_back(std::move(track));
@@ -390,14 +389,13 @@ namespace {
             const std::string column = reference.snrDb ? formatNumber(*reference.snrDb) + " dB" : "H0";
             study.actualSnr = reference.snrDb ? std::optional(ratioFromDb(*reference.snrDb)) : std::nullopt;
             study.seed = options.seed * 1000 + 900 + i;
-            const double from = 0.1 * static_cast<double>(i);
+            const double from = 0.1 * double(i);
             const SequentialOutcome outcome = simulate(study, context.part(from, from + 0.1));
             made.cells.push_back(
                 measuredCell("ASN", column, outcome.stages, reference.stages.value, reference.stages.error, 1e-3));
             ReproducedCell cv = measuredCell(
                 "CV", column, outcome.variation, reference.variation,
-                outcome.variation.standardError * std::sqrt(static_cast<double>(study.trials) / figure4ReferenceTrials),
-                1e-3);
+                outcome.variation.standardError * std::sqrt(double(study.trials) / figure4ReferenceTrials), 1e-3);
             cv.tolerance *= 2.0;
             made.cells.push_back(std::move(cv));
             made.cells.push_back(frequencyCell("P(accept H1)", column, outcome.acceptedH1, study.trials,

@@ -31,7 +31,7 @@ namespace {
     {
         ScanScene scene = test.scene;
         scene.hasTarget = run.hasTarget;
-        scene.stages = static_cast<int>(stageLimit(test));
+        scene.stages = int(stageLimit(test));
         return scene;
     }
 
@@ -106,7 +106,7 @@ void checkScanTest(const ScanTest &test)
     ScanScene scene = test.scene;
     scene.stages = 1;
     checkScene(scene);
-    const double cells = static_cast<double>(scanGrid(scene).size());
+    const double cells = double(scanGrid(scene).size());
     if (cells > mostCells)
         throw fieldError("scene.rangeCells", std::to_string(scene.rangeCells),
                          "gives a scan of " + formatNumber(cells) + " cells; at most 2²⁰ are simulated");
@@ -143,8 +143,8 @@ StageSource scanStages(const ScanTest &test, const ScanRun &run)
 {
     const ScanScene scene = sceneOf(test, run);
     StageSource source = [scene, stream = streamOf(run), path = scanTrajectory(scene, streamOf(run)),
-                          y = std::vector<float>(static_cast<std::size_t>(scanGrid(scene).size()))](
-                             Index stage, std::span<double> out) mutable {
+                          y = std::vector<float>(std::size_t(scanGrid(scene).size()))](Index stage,
+                                                                                       std::span<double> out) mutable {
         readScan(scene, path, stream, stage, y);
         std::copy(y.begin(), y.end(), out.begin());
     };
@@ -156,15 +156,14 @@ StageSource scanStages(const ScanTest &test, const ScanRun &run)
 
 std::vector<float> rangeDopplerDb(const ScanTest &test, const ScanRun &run, Index stage)
 {
-    const auto plane =
-        static_cast<std::size_t>(test.scene.rangeCells) * static_cast<std::size_t>(test.scene.dopplerCells);
-    std::vector<double> y(static_cast<std::size_t>(scanGrid(test.scene).size()));
+    const auto plane = std::size_t(test.scene.rangeCells) * std::size_t(test.scene.dopplerCells);
+    std::vector<double> y(std::size_t(scanGrid(test.scene).size()));
     scanStages(test, run)(stage, y);
     std::vector<float> map(plane, 0.0f);
     for (std::size_t cell = 0; cell < y.size(); ++cell)
-        map[cell % plane] = std::max(map[cell % plane], static_cast<float>(y[cell]));
+        map[cell % plane] = std::max(map[cell % plane], float(y[cell]));
     for (float &value : map)
-        value = static_cast<float>(dbFromRatio(std::max(1e-6, static_cast<double>(value))));
+        value = float(dbFromRatio(std::max(1e-6, double(value))));
     return map;
 }
 
@@ -184,8 +183,8 @@ bool holdsTarget(const ScanTest &test, Index sector)
 Survey surveyScans(const ScanTest &test, Index fixedSize, const RunContext &context)
 {
     const auto source = [&](const SectorVisit &visit) {
-        return scanStages(test, {holdsTarget(test, visit.sector),
-                                 firstLook + static_cast<int>(visit.round * test.sectors + visit.sector)});
+        return scanStages(
+            test, {holdsTarget(test, visit.sector), firstLook + int(visit.round * test.sectors + visit.sector)});
     };
     return survey(scanModel(test.scene, test.designSnrDb), test.sprt, test.sectors, test.rounds, stageLimit(test),
                   fixedSize, source, context);
@@ -199,7 +198,7 @@ SequentialStudy studyOf(const ScanTest &test, double designSnrDb, std::optional<
     if (actualSnrDb)
         study.actualSnr = ratioFromDb(*actualSnrDb);
     study.trials = test.trials;
-    study.seed = static_cast<std::uint64_t>(test.scene.seed);
+    study.seed = std::uint64_t(test.scene.seed);
     study.averagedCells = test.averagedCells;
     return study;
 }
@@ -208,7 +207,7 @@ std::optional<Index> fixedSizeOf(const ScanTest &test, const RunContext &context
 {
     constexpr Index largest = 40;
     SequentialStudy study = studyOf(test, test.designSnrDb, {});
-    study.trials = static_cast<Index>(std::clamp(3.0 / test.sprt.miss, 200.0, 2000.0));
+    study.trials = Index(std::clamp(3.0 / test.sprt.miss, 200.0, 2000.0));
     return simulatedFixedSampleSize(study, largest, context);
 }
 

@@ -45,9 +45,8 @@ namespace {
     void foldedRatios(const SequentialModel &model, std::span<const float> y, std::span<float> ratio)
     {
         const double snr = model.markov.likelihood.snr();
-        likelihoodRatios(y.data(), y.size(), static_cast<float>(snr / (1.0 + snr)),
-                         static_cast<float>(-std::log1p(snr)), ratio.data());
-        const auto cells = static_cast<std::size_t>(model.reduction.stateCells());
+        likelihoodRatios(y.data(), y.size(), float(snr / (1.0 + snr)), float(-std::log1p(snr)), ratio.data());
+        const auto cells = std::size_t(model.reduction.stateCells());
         for (std::size_t other = cells; other < ratio.size(); other += cells)
             addFolded(ratio.data(), ratio.data() + other, cells);
     }
@@ -107,10 +106,9 @@ namespace {
             : m_study(study), m_sampler(sampler), m_cells(study.model.markov.space.cellCount()),
               m_states(study.model.markov.space.stateCount()), m_lanes(lanesFor(m_states)),
               m_initial(study.model.initialLaw()), m_recursion(withLanes(study.model.markov.space, m_lanes)),
-              m_weights(static_cast<std::size_t>(m_states * m_lanes), 0.0),
-              m_ratio(static_cast<std::size_t>(m_cells * m_lanes), 0.0), m_total(static_cast<std::size_t>(m_lanes)),
-              m_cellRatio(static_cast<std::size_t>(study.model.reduction.frameCells())),
-              m_slot(static_cast<std::size_t>(m_lanes))
+              m_weights(std::size_t(m_states * m_lanes), 0.0), m_ratio(std::size_t(m_cells * m_lanes), 0.0),
+              m_total(std::size_t(m_lanes)), m_cellRatio(std::size_t(study.model.reduction.frameCells())),
+              m_slot(std::size_t(m_lanes))
         {
         }
 
@@ -169,10 +167,10 @@ namespace {
         void takeFrame(std::size_t lane)
         {
             foldedRatios(m_study.model, m_slot[lane].trial->next(), m_cellRatio);
-            const auto cells = static_cast<std::size_t>(m_cells);
-            const double share = static_cast<double>(m_cells) / static_cast<double>(m_cellRatio.size());
+            const auto cells = std::size_t(m_cells);
+            const double share = double(m_cells) / double(m_cellRatio.size());
             for (std::size_t cell = 0; cell < cells; ++cell)
-                m_ratio[cell * m_slot.size() + lane] = share * static_cast<double>(m_cellRatio[cell]);
+                m_ratio[cell * m_slot.size() + lane] = share * double(m_cellRatio[cell]);
         }
 
         /// Whether the lane's trial is over; its outcome is written and its lane cleared then.
@@ -190,7 +188,7 @@ namespace {
             slot.trial.reset();
             for (std::size_t n = 0; n < m_initial.size(); ++n)
                 m_weights[n * m_slot.size() + lane] = 0.0;
-            for (std::size_t cell = 0; cell < static_cast<std::size_t>(m_cells); ++cell)
+            for (std::size_t cell = 0; cell < std::size_t(m_cells); ++cell)
                 m_ratio[cell * m_slot.size() + lane] = 0.0;
             return true;
         }
@@ -223,10 +221,10 @@ namespace {
         {
             const Index cells = m_study.model.reduction.stateCells();
             const Index folded = m_study.model.reduction.foldedCells();
-            const double lnFolded = std::log(static_cast<double>(folded));
+            const double lnFolded = std::log(double(folded));
             SequentialTrial trial(m_study, m_sampler, number);
             std::vector<Index> truth;
-            m_lambda.assign(static_cast<std::size_t>(outcome.stages * cells), 0.0);
+            m_lambda.assign(std::size_t(outcome.stages * cells), 0.0);
             m_best.assign(m_lambda.size(), 0);
             for (Index stage = 0; stage < outcome.stages; ++stage) {
                 const std::span<const float> y = trial.next();
@@ -234,14 +232,12 @@ namespace {
                 for (Index cell = 0; cell < cells; ++cell) {
                     Index best = 0;
                     for (Index d = 1; d < folded; ++d)
-                        if (y[static_cast<std::size_t>(d * cells + cell)]
-                            > y[static_cast<std::size_t>(best * cells + cell)])
+                        if (y[std::size_t(d * cells + cell)] > y[std::size_t(best * cells + cell)])
                             best = d;
-                    const auto at = static_cast<std::size_t>(stage * cells + cell);
+                    const auto at = std::size_t(stage * cells + cell);
                     m_best[at] = best;
-                    m_lambda[at] = m_study.model.markov.likelihood.at(
-                                       static_cast<double>(y[static_cast<std::size_t>(best * cells + cell)]))
-                                   - lnFolded;
+                    m_lambda[at] =
+                        m_study.model.markov.likelihood.at(double(y[std::size_t(best * cells + cell)])) - lnFolded;
                 }
             }
             const MapTrajectory map = m_map.estimate(outcome.stages, [&](Index stage, std::span<double> out) {
@@ -250,10 +246,9 @@ namespace {
             Index worst = 0;
             Index error = 0;
             for (Index stage = 0; stage < outcome.stages; ++stage) {
-                const Index state = map.states[static_cast<std::size_t>(stage)];
-                const Index best =
-                    m_best[static_cast<std::size_t>(stage * cells + m_study.model.markov.space.cellOf(state))];
-                error = distance(position(state, best), truth[static_cast<std::size_t>(stage)]);
+                const Index state = map.states[std::size_t(stage)];
+                const Index best = m_best[std::size_t(stage * cells + m_study.model.markov.space.cellOf(state))];
+                error = distance(position(state, best), truth[std::size_t(stage)]);
                 worst = std::max(worst, error);
             }
             outcome.isLastCorrect = error <= m_study.lastWithinCells;
@@ -303,15 +298,15 @@ namespace {
     /// Mean, deviation, and coefficient of variation with its standard error by the delta method.
     void summariseStages(const std::vector<TrialOutcome> &outcomes, SequentialOutcome &result)
     {
-        const auto n = static_cast<double>(outcomes.size());
+        const auto n = double(outcomes.size());
         double mean = 0.0;
         for (const TrialOutcome &o : outcomes)
-            mean += static_cast<double>(o.stages) / n;
+            mean += double(o.stages) / n;
         double m2 = 0.0;
         double m3 = 0.0;
         double m4 = 0.0;
         for (const TrialOutcome &o : outcomes) {
-            const double d = static_cast<double>(o.stages) - mean;
+            const double d = double(o.stages) - mean;
             m2 += d * d / n;
             m3 += d * d * d / n;
             m4 += d * d * d * d / n;
@@ -340,25 +335,25 @@ namespace {
             sum += error;
             sumOfSquares += error * error;
             if (o.stages > std::ssize(result.stopCounts))
-                result.stopCounts.resize(static_cast<std::size_t>(o.stages), 0);
-            ++result.stopCounts[static_cast<std::size_t>(o.stages - 1)];
+                result.stopCounts.resize(std::size_t(o.stages), 0);
+            ++result.stopCounts[std::size_t(o.stages - 1)];
         }
         summariseStages(outcomes, result);
-        result.otherError = meanOf(sum, sumOfSquares, static_cast<double>(outcomes.size()));
+        result.otherError = meanOf(sum, sumOfSquares, double(outcomes.size()));
         return result;
     }
 
 } // namespace
 
 SequentialTrial::SequentialTrial(const SequentialStudy &study, const TrajectorySampler &sampler, Index trial)
-    : m_study(&study), m_sampler(&sampler), m_noise(study.seed, 2 * static_cast<std::uint64_t>(trial)),
-      m_target(study.seed, 2 * static_cast<std::uint64_t>(trial) + 1), m_frameCells(study.model.reduction.frameCells())
+    : m_study(&study), m_sampler(&sampler), m_noise(study.seed, 2 * std::uint64_t(trial)),
+      m_target(study.seed, 2 * std::uint64_t(trial) + 1), m_frameCells(study.model.reduction.frameCells())
 {
     // Whole blocks of four random words at a time, about 256 cells or a frame.
     m_bufferFrames =
         m_frameCells % 4 == 0 ? std::max<Index>(1, 256 / m_frameCells) : 4 * std::max<Index>(1, 64 / m_frameCells);
     m_used = m_bufferFrames;
-    m_buffer.resize(static_cast<std::size_t>(m_bufferFrames * m_frameCells));
+    m_buffer.resize(std::size_t(m_bufferFrames * m_frameCells));
 }
 
 std::span<const float> SequentialTrial::next()
@@ -367,16 +362,16 @@ std::span<const float> SequentialTrial::next()
         m_noise.exponentials(m_buffer);
         m_used = 0;
     }
-    const std::span<float> y(m_buffer.data() + m_used * m_frameCells, static_cast<std::size_t>(m_frameCells));
+    const std::span<float> y(m_buffer.data() + m_used * m_frameCells, std::size_t(m_frameCells));
     ++m_used;
     if (m_study->actualSnr) {
         m_state = m_state < 0 ? m_sampler->first(m_target) : m_sampler->next(m_state, m_target, m_stage);
         ++m_stage;
         const StateSpace &space = m_study->model.markov.space;
         if (const Index folded = m_study->model.reduction.foldedCells(); folded > 1)
-            m_folded = static_cast<Index>(m_target.uniform() * static_cast<double>(folded));
-        float &cell = y[static_cast<std::size_t>(m_folded * space.cellCount() + space.cellOf(m_state))];
-        cell *= static_cast<float>(1.0 + *m_study->actualSnr);
+            m_folded = Index(m_target.uniform() * double(folded));
+        float &cell = y[std::size_t(m_folded * space.cellCount() + space.cellOf(m_state))];
+        cell *= float(1.0 + *m_study->actualSnr);
     }
     if (m_study->averagedCells > 0) {
         averageCells(y, m_study->model.markov.space.axes().back().cells, m_study->averagedCells);
@@ -389,7 +384,7 @@ SequentialOutcome simulate(const SequentialStudy &study, const RunContext &conte
 {
     check(study);
     const TrajectorySampler sampler(study.model);
-    std::vector<TrialOutcome> outcomes(static_cast<std::size_t>(study.trials));
+    std::vector<TrialOutcome> outcomes(std::size_t(study.trials));
     const Index items = (study.trials + trialsOfAnItem - 1) / trialsOfAnItem;
     parallelFor(items, context, "sequential tests", [&]() -> std::function<void(Index)> {
         const auto runner = std::make_shared<Runner>(study, sampler);
@@ -414,21 +409,20 @@ namespace {
     std::vector<double> lnRatios(const SequentialStudy &study, Index largest, const RunContext &context)
     {
         const TrajectorySampler sampler(study.model);
-        const auto trials = static_cast<std::size_t>(study.trials);
-        std::vector<double> lnLambda(trials * static_cast<std::size_t>(largest));
+        const auto trials = std::size_t(study.trials);
+        std::vector<double> lnLambda(trials * std::size_t(largest));
         parallelFor(study.trials, context, "fixed-size tests", [&]() -> std::function<void(Index)> {
             return [&](Index trial) {
                 SequentialTrial run(study, sampler, trial);
                 LikelihoodRatio ratio(study.model);
-                std::vector<float> cellRatio(static_cast<std::size_t>(study.model.reduction.frameCells()));
-                std::vector<double> lambda(static_cast<std::size_t>(study.model.reduction.stateCells()));
-                const double lnFolded = std::log(static_cast<double>(study.model.reduction.foldedCells()));
+                std::vector<float> cellRatio(std::size_t(study.model.reduction.frameCells()));
+                std::vector<double> lambda(std::size_t(study.model.reduction.stateCells()));
+                const double lnFolded = std::log(double(study.model.reduction.foldedCells()));
                 for (Index stage = 0; stage < largest; ++stage) {
                     foldedRatios(study.model, run.next(), cellRatio);
                     for (std::size_t cell = 0; cell < lambda.size(); ++cell)
-                        lambda[cell] = std::log(static_cast<double>(cellRatio[cell])) - lnFolded;
-                    lnLambda[static_cast<std::size_t>(stage) * trials + static_cast<std::size_t>(trial)] =
-                        ratio.update(lambda);
+                        lambda[cell] = std::log(double(cellRatio[cell])) - lnFolded;
+                    lnLambda[std::size_t(stage) * trials + std::size_t(trial)] = ratio.update(lambda);
                 }
             };
         });
@@ -440,10 +434,10 @@ namespace {
     bool suffices(std::span<double> lnLambda, const SprtSettings &sprt)
     {
         std::sort(lnLambda.begin(), lnLambda.end());
-        const auto missed = static_cast<std::size_t>(sprt.miss * static_cast<double>(lnLambda.size()));
+        const auto missed = std::size_t(sprt.miss * double(lnLambda.size()));
         double falseAlarm = 0.0;
         for (std::size_t i = lnLambda.size(); i-- > missed;)
-            falseAlarm += std::exp(-lnLambda[i]) / static_cast<double>(lnLambda.size());
+            falseAlarm += std::exp(-lnLambda[i]) / double(lnLambda.size());
         return falseAlarm <= sprt.falseAlarm;
     }
 
@@ -457,12 +451,10 @@ std::optional<Index> simulatedFixedSampleSize(const SequentialStudy &study, Inde
     // Few stages first: most of the work lies in those beyond the answer.
     Index known = 0;
     for (Index count = std::min<Index>(largest, 8); known < largest; count = std::min(largest, 2 * count)) {
-        const double done = static_cast<double>(known) / static_cast<double>(largest);
-        std::vector<double> lnLambda =
-            lnRatios(own, count, context.part(done, static_cast<double>(count) / static_cast<double>(largest)));
+        const double done = double(known) / double(largest);
+        std::vector<double> lnLambda = lnRatios(own, count, context.part(done, double(count) / double(largest)));
         for (Index stage = known; stage < count; ++stage)
-            if (suffices(std::span(lnLambda).subspan(static_cast<std::size_t>(stage * own.trials),
-                                                     static_cast<std::size_t>(own.trials)),
+            if (suffices(std::span(lnLambda).subspan(std::size_t(stage * own.trials), std::size_t(own.trials)),
                          own.sprt))
                 return stage + 1;
         known = count;

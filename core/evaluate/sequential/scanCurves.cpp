@@ -86,9 +86,8 @@ ScanPoint measureScanPoint(const ScanTest &test, double snrDb, const ScanPoint *
     point.snrDb = snrDb;
     point.designSnrDb = test.designFollows ? snrDb : test.designSnrDb;
     const bool isKnown = before && before->designSnrDb == point.designSnrDb;
-    point.bounds =
-        isKnown ? before->bounds
-                : waldBounds(test.sprt, ratioFromDb(point.designSnrDb), static_cast<int>(scanGrid(test.scene).size()));
+    point.bounds = isKnown ? before->bounds
+                           : waldBounds(test.sprt, ratioFromDb(point.designSnrDb), int(scanGrid(test.scene).size()));
     point.h0 = isKnown ? before->h0 : simulate(studyOf(test, point.designSnrDb, {}), context.part(0.0, 0.5));
     SequentialStudy study = studyOf(test, point.designSnrDb, snrDb);
     study.seed += std::uint64_t(1) << 32; // not the noise of H0 again
@@ -140,7 +139,7 @@ PriorPoint measurePriorPoint(const ScanTest &test, const PriorCurve &curve, doub
     study.sprt = test.sprt;
     study.sprt.cutOffStage = 0;
     study.trials = test.trials;
-    study.seed = static_cast<std::uint64_t>(test.scene.seed);
+    study.seed = std::uint64_t(test.scene.seed);
     PriorPoint point{deviation, relativeEntropyRate(curve.cells, deviation), {}, {}};
     point.h0 = simulate(study, context.part(0.0, 0.5));
     study.actualSnr = snr;

@@ -29,19 +29,18 @@ std::vector<ExceedancePoint> boxExceedance(const PeakPyramid &statistic, Index b
     std::int64_t total = 0;
     for (Index frame = beginFrame; frame < endFrame; frame += stride) {
         const auto row = statistic.row(0, frame);
-        for (const std::uint8_t byte :
-             row.subspan(static_cast<std::size_t>(beginCell), static_cast<std::size_t>(width)))
+        for (const std::uint8_t byte : row.subspan(std::size_t(beginCell), std::size_t(width)))
             ++counts[byte];
         total += width;
     }
     // Half the way to the next byte's value lies what rounding takes for it.
     std::int64_t above = total;
     for (int byte = 0; byte < 255; ++byte) {
-        above -= counts[static_cast<std::size_t>(byte)];
+        above -= counts[std::size_t(byte)];
         if (above < fewest)
             break;
-        points.push_back({0.5 * (statistic.scale().value(byte) + statistic.scale().value(byte + 1)),
-                          static_cast<double>(above) / static_cast<double>(total)});
+        points.push_back(
+            {0.5 * (statistic.scale().value(byte) + statistic.scale().value(byte + 1)), double(above) / double(total)});
     }
     return points;
 }

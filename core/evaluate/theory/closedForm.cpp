@@ -23,8 +23,8 @@ namespace {
             return [](double level) { return std::exp(-level); };
         if (const auto *integrator = std::get_if<IntegratorSettings>(&settings.detector);
             integrator && isIndependentInTime && integrator->shape == IntegratorSettings::Shape::Boxcar) {
-            const int looks = static_cast<int>(std::lround(integrator->durationWindows));
-            if (looks >= 1 && static_cast<double>(looks) == integrator->durationWindows)
+            const int looks = int(std::lround(integrator->durationWindows));
+            if (looks >= 1 && double(looks) == integrator->durationWindows)
                 return [looks](double level) { return level > 0.0 ? pfaOfMeanPower(level, looks) : 1.0; };
         }
         const auto *smd = std::get_if<SmdSettings>(&settings.detector);

@@ -16,12 +16,12 @@ namespace math = boost::math;
 
 double pfaOfMeanPower(double threshold, int looks)
 {
-    return threshold <= 0.0 ? 1.0 : math::gamma_q(static_cast<double>(looks), looks * threshold);
+    return threshold <= 0.0 ? 1.0 : math::gamma_q(double(looks), looks * threshold);
 }
 
 double thresholdOfMeanPower(double pfa, int looks)
 {
-    return math::gamma_q_inv(static_cast<double>(looks), pfa) / looks;
+    return math::gamma_q_inv(double(looks), pfa) / looks;
 }
 
 double pdOfMeanPower(double threshold, int looks, double snr)

@@ -106,24 +106,24 @@ namespace {
             const double panels = std::ceil((high - low) / c - 1e-9);
             if (!(panels <= 256.0))
                 throw Error("SNR", "is too low for the exact solution; use Wald's approximation");
-            for (double edge = low; std::ssize(m_edges) < static_cast<Index>(panels); edge += c)
+            for (double edge = low; std::ssize(m_edges) < Index(panels); edge += c)
                 m_edges.push_back(edge);
             m_edges.push_back(high);
-            const auto size = static_cast<Index>((m_edges.size() - 1) * order);
+            const auto size = Index((m_edges.size() - 1) * order);
             Eigen::MatrixXd system = Eigen::MatrixXd::Identity(size, size);
             for (Index i = 0; i < size; ++i) {
                 const Nodes row = weights(node(i));
                 for (Index j = 0; j < size; ++j)
-                    system(i, j) -= row[static_cast<std::size_t>(j)];
+                    system(i, j) -= row[std::size_t(j)];
             }
             m_solver.compute(system);
         }
 
-        Index size() const { return static_cast<Index>((m_edges.size() - 1) * order); }
+        Index size() const { return Index((m_edges.size() - 1) * order); }
         double node(Index i) const
         {
-            const auto panel = static_cast<std::size_t>(i) / order;
-            return toPanel(panel, gaussRule().x[static_cast<std::size_t>(i) % order]);
+            const auto panel = std::size_t(i) / order;
+            return toPanel(panel, gaussRule().x[std::size_t(i) % order]);
         }
 
         template <class Given>
@@ -155,7 +155,7 @@ namespace {
         /// Weights of ∫ N(z) f(z - x) dz on N at the nodes; f begins at z = x - c, often inside a panel.
         Nodes weights(double x) const
         {
-            Nodes row(static_cast<std::size_t>(size()), 0.0);
+            Nodes row(std::size_t(size()), 0.0);
             const double begin = x - m_c;
             for (std::size_t panel = 0; panel + 1 < m_edges.size(); ++panel) {
                 const double from = std::max(begin, m_edges[panel]);
@@ -213,7 +213,7 @@ Divergences mixtureDivergences(double snr, int cells)
         throw fieldError("SNR", formatNumber(snr), "is too high for the quadrature; at most 1000 is possible");
     if (cells < 1)
         throw Error("cells", "must be at least 1");
-    const auto M = static_cast<double>(cells);
+    const auto M = double(cells);
     // E ln W = ∫ (e^{-t} - E e^{-tW}) d ln t; the trapezoidal rule is as good as exact for such a smooth bell.
     constexpr double spacing = 0.3;
     double h0 = 0.0;
@@ -258,7 +258,7 @@ Index fixedSampleSize(const SprtSettings &settings, double snr)
     checkSprt(settings, "sprt");
     checkSnr(snr);
     const auto isEnough = [&](Index n) {
-        const auto shape = static_cast<double>(n);
+        const auto shape = double(n);
         const double threshold = boost::math::gamma_q_inv(shape, settings.falseAlarm);
         return boost::math::gamma_p(shape, threshold / (1.0 + snr)) <= settings.miss;
     };

@@ -15,12 +15,11 @@ SequentialModel walkOnLine(Index cells, double deviation, double snr)
         return makeSequentialModel({axis}, {true}, likelihood);
     axis.step = gaussianStep(deviation, cells);
     axis.renormalised = true;
-    std::vector<double> initial(static_cast<std::size_t>(cells), 0.0);
+    std::vector<double> initial(std::size_t(cells), 0.0);
     const Index centre = cells / 2;
     for (Index cell = 0; cell < cells; ++cell)
         if (const Index d = std::abs(cell - centre); d < std::ssize(axis.step))
-            initial[static_cast<std::size_t>(cell)] =
-                axis.step[static_cast<std::size_t>(d)] * std::exp(axis.lnDeparture(centre));
+            initial[std::size_t(cell)] = axis.step[std::size_t(d)] * std::exp(axis.lnDeparture(centre));
     return makeSequentialModel({axis}, {false}, likelihood, std::move(initial));
 }
 
@@ -41,13 +40,13 @@ double relativeEntropyRate(Index cells, double deviation)
         double entropy = 0.0;
         for (Index to = 0; to < cells; ++to)
             if (const Index d = std::abs(to - from); d < std::ssize(axis.step)) {
-                const double p = axis.step[static_cast<std::size_t>(d)] / rowSum;
+                const double p = axis.step[std::size_t(d)] / rowSum;
                 entropy -= p > 0.0 ? p * std::log(p) : 0.0;
             }
         rate += rowSum * entropy;
         mass += rowSum;
     }
-    return rate / mass / std::log(static_cast<double>(cells));
+    return rate / mass / std::log(double(cells));
 }
 
 } // namespace faintline

@@ -23,9 +23,7 @@ private:
     {
         rusage used = {};
         getrusage(RUSAGE_CHILDREN, &used);
-        const auto seconds = [](const timeval &time) {
-            return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-        };
+        const auto seconds = [](const timeval &time) { return double(time.tv_sec) + 1e-6 * double(time.tv_usec); };
         return seconds(used.ru_utime) + seconds(used.ru_stime);
     }
 

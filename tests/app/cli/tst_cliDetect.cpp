@@ -61,11 +61,10 @@ std::shared_ptr<const Analysis> inLibrary(const std::string &path, std::vector<f
 QByteArray wav(quint32 rate, quint16 channels, const std::vector<float> &samples)
 {
     const auto number = [](auto value) { return QByteArray(reinterpret_cast<const char *>(&value), sizeof value); };
-    const QByteArray data(reinterpret_cast<const char *>(samples.data()), static_cast<qsizetype>(4 * samples.size()));
-    return "RIFF" + number(static_cast<quint32>(36 + data.size())) + "WAVEfmt " + number(quint32(16))
-           + number(quint16(3)) + number(channels) + number(rate) + number(static_cast<quint32>(rate * channels * 4))
-           + number(static_cast<quint16>(channels * 4)) + number(quint16(32)) + "data"
-           + number(static_cast<quint32>(data.size())) + data;
+    const QByteArray data(reinterpret_cast<const char *>(samples.data()), qsizetype(4 * samples.size()));
+    return "RIFF" + number(quint32(36 + data.size())) + "WAVEfmt " + number(quint32(16)) + number(quint16(3))
+           + number(channels) + number(rate) + number(quint32(rate * channels * 4)) + number(quint16(channels * 4))
+           + number(quint16(32)) + "data" + number(quint32(data.size())) + data;
 }
 
 } // namespace
@@ -88,7 +87,7 @@ void tst_cliDetect::findsTheLine()
     const auto rows = numbersOf(tracksCsv);
     QCOMPARE(rows.front()[1], event[1]); // from onset …
     QCOMPARE(rows.back()[1], event[3]);  // … to end, a row per frame
-    QCOMPARE(std::ssize(rows), static_cast<Index>(std::llround((event[3] - event[1]) / 0.25)) + 1);
+    QCOMPARE(std::ssize(rows), Index(std::llround((event[3] - event[1]) / 0.25)) + 1);
     for (const std::vector<double> &row : rows)
         if (row[1] > 10.0 && row[1] < 22.0)
             QVERIFY2(std::abs(row[2] - (210.0 + 0.2 * (row[1] - 8.0))) <= 3.0, tracksCsv.data());
@@ -175,7 +174,7 @@ void tst_cliDetect::isTheLibrary()
     // Noise is explained as the followed line is.
     const Explanation noise = explain(*analysis, 18.0, {400.0});
     QVERIFY(!noise.isTracked);
-    QVERIFY(std::abs(noise.statistic - static_cast<double>(statistic[71 * 501 + 400])) < 1e-3);
+    QVERIFY(std::abs(noise.statistic - double(statistic[71 * 501 + 400])) < 1e-3);
     QVERIFY(contains(errorOf([&] { explain(*analysis, 99.0, {100.0}); }), "time 99 s: must lie in 0.25 … 29.75 s"));
     QVERIFY(contains(errorOf([&] { explain(*analysis, NAN, {100.0}); }), "time nan s: must lie in"));
     QVERIFY(contains(errorOf([&] { explain(*analysis, 9.0, {NAN}); }), "frequency nan: must be a number"));
@@ -202,9 +201,9 @@ void tst_cliDetect::explainsItsTerms()
     QCOMPARE(json["margin"].get<double>(), statistic - json["threshold"].get<double>());
 
     const NumPyArray D = readNumPy(pathOf("D.npy"));
-    const auto frame = static_cast<std::size_t>(std::llround((json["time"].get<double>() - 0.25) / 0.25));
-    const auto bin = static_cast<std::size_t>(std::llround(json["position"][0].get<double>()));
-    const auto shown = static_cast<double>(D.values[frame * 501 + bin]);
+    const auto frame = std::size_t(std::llround((json["time"].get<double>() - 0.25) / 0.25));
+    const auto bin = std::size_t(std::llround(json["position"][0].get<double>()));
+    const auto shown = double(D.values[frame * 501 + bin]);
     QVERIFY2(std::abs(shown - statistic) < 1e-3,
              qPrintable(QString("D.npy %1, explained %2").arg(shown).arg(statistic)));
     QVERIFY(std::abs(shown - json["displayed"].get<double>()) < 1e-5);
@@ -216,7 +215,7 @@ void tst_cliDetect::framesInPlaceOfARecording()
     Random random(1, 1);
     std::vector<float> y(40 * 50);
     for (float &value : y)
-        value = static_cast<float>(random.exponential());
+        value = float(random.exponential());
     for (std::size_t frame = 10; frame < 30; ++frame)
         y[frame * 50 + frame + 5] += 9.0f;
     writeArray(pathOf("y.npy"), {40, 50}, y);

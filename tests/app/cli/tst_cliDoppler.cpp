@@ -52,17 +52,17 @@ private:
     /// 1000 Hz are taken off.
     void writePass(const char *name, const Pass &pass, bool isComplex) const
     {
-        const auto count = static_cast<std::size_t>(length * rate);
+        const auto count = std::size_t(length * rate);
         std::vector<float> noise(2 * count);
         Random(12, 0).normals(noise, 0.1f);
         const double amplitude = 0.1 * std::pow(10.0, 12.0 / 20.0) * 2.0 / std::sqrt(rate);
         std::vector<float> samples;
         for (std::size_t i = 0; i < count; ++i) {
-            const double t = static_cast<double>(i) / rate;
+            const double t = double(i) / rate;
             const double angle = 2.0 * std::numbers::pi * (turns(pass, t) - (isComplex ? 1000.0 * t : 0.0));
-            samples.push_back(noise[2 * i] + static_cast<float>(amplitude * std::cos(angle)));
+            samples.push_back(noise[2 * i] + float(amplitude * std::cos(angle)));
             if (isComplex)
-                samples.push_back(noise[2 * i + 1] + static_cast<float>(amplitude * std::sin(angle)));
+                samples.push_back(noise[2 * i + 1] + float(amplitude * std::sin(angle)));
         }
         writeAudio(pathOf(name), SF_FORMAT_WAV | SF_FORMAT_FLOAT, isComplex ? 2 : 1, rate, samples);
     }

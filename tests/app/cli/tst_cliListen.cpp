@@ -56,11 +56,10 @@ QByteArray little(quint32 value, int bytes)
 /// A header as programs write it that do not know how much will follow.
 QByteArray tst_cliListen::wav(const QByteArray &samples, int bits, quint32 length, quint16 channels)
 {
-    const auto sampleBytes = static_cast<quint32>(channels * bits / 8);
+    const auto sampleBytes = quint32(channels * bits / 8);
     return "RIFF" + little(length, 4) + "WAVEfmt " + little(16, 4) + little(1, 2) + little(channels, 2)
-           + little(1000, 4) + little(1000 * sampleBytes, 4) + little(sampleBytes, 2)
-           + little(static_cast<quint32>(bits), 2) + "LIST" + little(5, 4) + "INFO0" + QByteArray(1, '\0') + "data"
-           + little(length, 4) + samples;
+           + little(1000, 4) + little(1000 * sampleBytes, 4) + little(sampleBytes, 2) + little(quint32(bits), 2)
+           + "LIST" + little(5, 4) + "INFO0" + QByteArray(1, '\0') + "data" + little(length, 4) + samples;
 }
 
 tst_cliListen::Outcome tst_cliListen::listen(const QStringList &arguments, const QByteArray &input) const
@@ -248,7 +247,7 @@ void tst_cliListen::aKillLosesNoMoreThanASecond()
         process.start(program, QStringList{"listen", "-", "--record", record} + settings);
         QVERIFY(process.waitForStarted());
         process.write(wav({}));
-        const qint64 end = 400 + static_cast<qint64>(random.uniform() * 2000.0);
+        const qint64 end = 400 + qint64(random.uniform() * 2000.0);
         QElapsedTimer timer;
         timer.start();
         qsizetype written = 0;
@@ -325,7 +324,7 @@ void tst_cliListen::memoryStaysFlat()
     random.normals(noise, 3000.0f);
     QByteArray block;
     for (const float value : noise)
-        block += little(static_cast<quint32>(static_cast<qint32>(value)), 2);
+        block += little(quint32(static_cast<qint32>(value)), 2);
     const auto most = [&] {
         QFile status(QString("/proc/%1/status").arg(process.processId()));
         (void)status.open(QIODevice::ReadOnly);

@@ -126,9 +126,8 @@ void tst_cliSequential::sequentialInARecording()
 void tst_cliSequential::everyStageHoldsWithoutEvidence()
 {
     // y = 2 ln 2 is λ = 0 at ρ = 1: five slopes stay undecided for as long as the frames last.
-    writeArray(pathOf("zero.npy"), {300, 41}, std::vector<float>(300 * 41, static_cast<float>(2.0 * std::log(2.0))));
-    const double lambda =
-        static_cast<double>(static_cast<float>(2.0 * std::log(2.0))) / 2.0 - std::log(2.0); // a float's rounding
+    writeArray(pathOf("zero.npy"), {300, 41}, std::vector<float>(300 * 41, float(2.0 * std::log(2.0))));
+    const double lambda = double(float(2.0 * std::log(2.0))) / 2.0 - std::log(2.0); // a float's rounding
     for (const char *cyclic : {"false", "true"}) {
         writeBytes(pathOf("five.json"), QByteArray(R"({"axes": [{"cells": 41, "rates": [-2, -1, 0, 1, 2],
             "rateChange": [0.3333333333333333, 0.3333333333333333], "cyclic": )")
@@ -139,7 +138,7 @@ void tst_cliSequential::everyStageHoldsWithoutEvidence()
         QCOMPARE(json["stop"].get<int>(), 300);
         QCOMPARE(json["observedEvery"].get<int>(), 1);
         for (std::size_t stage = 0; stage < 300; ++stage)
-            QVERIFY(std::abs(json["lnLambda"][stage].get<double>() - lambda * static_cast<double>(stage + 1)) < 1e-12);
+            QVERIFY(std::abs(json["lnLambda"][stage].get<double>() - lambda * double(stage + 1)) < 1e-12);
     }
 }
 
@@ -165,7 +164,7 @@ void tst_cliSequential::overlappingFramesCountOnce()
         const std::vector<std::size_t> moved = changes(json);
         QVERIFY(moved.size() > 5);
         for (const std::size_t stage : moved)
-            QCOMPARE(stage % static_cast<std::size_t>(steps), std::size_t(0));
+            QCOMPARE(stage % std::size_t(steps), std::size_t(0));
     }
     QCOMPARE(test({"--every", "3"})["observedEvery"].get<int>(), 3);
 }

@@ -53,7 +53,7 @@ void tst_cliStatistic::billonsVectors()
     QCOMPARE(expected.size(), std::size_t(12 * 16));
     std::vector<float> y;
     for (const auto &row : expected)
-        y.push_back(static_cast<float>(row[2]));
+        y.push_back(float(row[2]));
     writeArray(pathOf("billon.npy"), {12, 16}, y);
     writeBytes(pathOf("billon.json"),
                R"({"axes": [{"name": "frequency", "cells": 16, )" + axis
@@ -69,17 +69,16 @@ void tst_cliStatistic::billonsVectors()
     QCOMPARE(projected.shape, (std::vector<Index>{12, 16}));
     for (std::size_t i = 0; i < expected.size(); ++i) {
         // The vectors' ln Λ starts from ln P_n = -ln N; L = ln NΛ.
-        const double wanted = expected[i][static_cast<std::size_t>(column)] + std::log(states);
-        QVERIFY2(std::abs(static_cast<double>(projected.values[i]) - wanted) < 1e-5,
+        const double wanted = expected[i][std::size_t(column)] + std::log(states);
+        QVERIFY2(std::abs(double(projected.values[i]) - wanted) < 1e-5,
                  qPrintable(QString("frame %1, bin %2: %3, vector %4")
                                 .arg(i / 16)
                                 .arg(i % 16)
                                 .arg(double(projected.values[i]))
                                 .arg(wanted)));
         float largest = -INFINITY;
-        for (std::size_t rate = 0; rate < static_cast<std::size_t>(states / 16); ++rate)
-            largest =
-                std::max(largest, L.values[(i / 16 * static_cast<std::size_t>(states / 16) + rate) * 16 + i % 16]);
+        for (std::size_t rate = 0; rate < std::size_t(states / 16); ++rate)
+            largest = std::max(largest, L.values[(i / 16 * std::size_t(states / 16) + rate) * 16 + i % 16]);
         QCOMPARE(projected.values[i], largest);
     }
 }
@@ -94,8 +93,7 @@ void tst_cliStatistic::parsonsVectors()
     std::vector<float> y(6 * 24 * 6);
     for (const auto &row : input)
         for (std::size_t range = 0; range < 24; ++range)
-            y[static_cast<std::size_t>(row[0]) * 144 + range * 6 + static_cast<std::size_t>(row[1])] =
-                static_cast<float>(row[2 + range]);
+            y[std::size_t(row[0]) * 144 + range * 6 + std::size_t(row[1])] = float(row[2 + range]);
     writeArray(pathOf("pings.npy"), {6, 24, 6}, y);
     writeBytes(
         pathOf("parsons.json"),
@@ -113,10 +111,10 @@ void tst_cliStatistic::parsonsVectors()
     QCOMPARE(log.size(), std::size_t(6));
     std::vector<double> largest(6, -INFINITY);
     for (const auto &row : expected) { // ping, K, reset, r, b, u, v, lnL
-        const auto ping = static_cast<std::size_t>(row[0]);
-        const auto rate = static_cast<std::size_t>((row[5] + 2.0) * 3.0 + row[6] + 1.0);
-        const auto cell = static_cast<std::size_t>(row[3] * 6.0 + row[4]);
-        const auto found = static_cast<double>(L.values[(ping * 15 + rate) * 144 + cell]);
+        const auto ping = std::size_t(row[0]);
+        const auto rate = std::size_t((row[5] + 2.0) * 3.0 + row[6] + 1.0);
+        const auto cell = std::size_t(row[3] * 6.0 + row[4]);
+        const auto found = double(L.values[(ping * 15 + rate) * 144 + cell]);
         QVERIFY2(std::abs(found - row[7]) < 1e-4,
                  qPrintable(QString("ping %1: %2, vector %3").arg(ping).arg(found).arg(row[7])));
         QVERIFY(std::abs(log[ping][1] - row[1]) < 1e-5);

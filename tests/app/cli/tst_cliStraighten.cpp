@@ -74,18 +74,17 @@ void tst_cliStraighten::writeMessage(const std::vector<int> &tones, double drift
 {
     constexpr double rate = 12000.0;
     constexpr Index symbol = 8192;
-    const auto samples = std::make_shared<std::vector<float>>(static_cast<std::size_t>(120.0 * rate));
+    const auto samples = std::make_shared<std::vector<float>>(std::size_t(120.0 * rate));
     Random random(17, 0);
     random.normals(*samples, 0.05f);
     const double amplitude = 0.05 * std::sqrt(2.0 * std::pow(10.0, 0.1 * snrDb) * 2500.0 / (0.5 * rate));
     const Index length = std::ssize(tones) * symbol;
     double cycles = 0.0;
     for (Index n = 0; n < length; ++n) {
-        const double tone = tones[static_cast<std::size_t>(n / symbol)];
-        const double part = static_cast<double>(n) / static_cast<double>(length);
+        const double tone = tones[std::size_t(n / symbol)];
+        const double part = double(n) / double(length);
         cycles += (1470.0 + tone * rate / symbol + driftHz * (part - 0.5)) / rate;
-        (*samples)[static_cast<std::size_t>(n) + 12000] +=
-            static_cast<float>(amplitude * std::sin(2.0 * std::numbers::pi * cycles));
+        (*samples)[std::size_t(n) + 12000] += float(amplitude * std::sin(2.0 * std::numbers::pi * cycles));
     }
     const ArrayRecording recording("message", std::shared_ptr<const float>(samples, samples->data()),
                                    ArrayLayout{rate, std::ssize(*samples), 1, false, 0.0});
