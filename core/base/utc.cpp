@@ -64,8 +64,8 @@ namespace {
 std::optional<double> unixSeconds(int year, int month, int day, int hour, int minute, double second)
 {
     using namespace std::chrono;
-    const year_month_day date(std::chrono::year(year), std::chrono::month(unsigned(month)),
-                              std::chrono::day(unsigned(day)));
+    const year_month_day date{std::chrono::year{year}, std::chrono::month{unsigned(month)},
+                              std::chrono::day{unsigned(day)}};
     // A leap second (60) reads as the first one of the next minute.
     if (!date.ok() || hour < 0 || hour > 23 || minute < 0 || minute > 59 || !(second >= 0.0 && second < 61.0))
         return std::nullopt;
