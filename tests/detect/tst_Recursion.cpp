@@ -73,7 +73,7 @@ Index framesFor(const StateSpace &space)
 std::vector<std::vector<float>> randomFrames(Index cells, Index frames, std::uint64_t stream)
 {
     Random random(77, stream);
-    std::vector<std::vector<float>> y(std::size_t(frames), std::vector<float>(std::size_t(cells)));
+    std::vector<std::vector<float>> y(std::size_t(frames), std::vector<float>(std::size_t(cells), 0.0f));
     for (auto &frame : y)
         for (float &value : frame)
             value = float(random.exponential());

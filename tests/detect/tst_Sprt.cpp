@@ -244,7 +244,7 @@ Enumerated enumerate(const SequentialModel &model, const std::vector<std::vector
 std::vector<std::vector<double>> frames(Index cells, Index stages, std::uint64_t stream)
 {
     Random random(5, stream);
-    std::vector<std::vector<double>> y(std::size_t(stages), std::vector<double>(std::size_t(cells)));
+    std::vector<std::vector<double>> y(std::size_t(stages), std::vector<double>(std::size_t(cells), 0.0));
     for (auto &frame : y)
         for (double &value : frame)
             value = random.exponential();

@@ -22,7 +22,7 @@ Grid gridOf(Index cells)
 Frames noise(Index frames, Index cells, std::uint64_t seed)
 {
     Random random(seed, 0);
-    Frames y(std::size_t(frames), std::vector<float>(std::size_t(cells)));
+    Frames y(std::size_t(frames), std::vector<float>(std::size_t(cells), 0.0f));
     for (auto &frame : y)
         for (float &value : frame)
             value = float(random.exponential());
