@@ -101,6 +101,10 @@ namespace {
                 std::printf(", found with a window of %.4g s", e.windowSeconds);
             std::printf("\n");
         }
+        if (!analysis.explainedByNoise.empty())
+            std::printf("%zu path(s) above the threshold not reported: cells as strong are common in this recording's "
+                        "noise\n",
+                        analysis.explainedByNoise.size());
         const std::vector<AreaEvent> areas = areaEvents(analysis);
         if (areas.empty())
             return;
@@ -286,6 +290,7 @@ namespace {
         json["unit"] = unit;
         json["margin"] = decided - explanation.threshold;
         json["tracked"] = explanation.isTracked;
+        json["explained_by_noise"] = explanation.isExplainedByNoise;
         json["offset"] = explanation.offset;
         json["reset"]["cause"] = resetNames[std::size_t(explanation.reset.kind)];
         json["reset"]["lost"] = explanation.reset.lost;
@@ -324,6 +329,8 @@ namespace {
             std::printf(
                 "a sequential Markov detector guides its tracks; the path of that detector has %.4f nat here:\n",
                 explanation.statistic);
+        if (explanation.isExplainedByNoise)
+            std::printf("its path is not reported: cells as strong are common in this recording's noise\n");
         std::printf("the best path began %zu frame(s) ago, when it was reset\n", explanation.steps.size() - 1);
         if (axes.size() == 1)
             std::printf("%12s %14s %8s %10s %10s %10s %12s\n", "t (s)", "f", "rate", "llr", "ln P", "ln K", "sum");

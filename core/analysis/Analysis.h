@@ -57,7 +57,9 @@ struct Analysis : AnalysisPlan {
     /// Of frames on several axes: what was kept from the detector in each of them, and for which track.
     std::vector<std::vector<DetectionChain::Inhibition>> inhibitions;
     std::vector<Track> tracks; ///< ordered by detection, then cell
-    std::vector<Area> areas;   ///< of raised level without a line, ordered by time (secondLook.h)
+    /// Not among them: what the recording's own noise explains (overOwnNoise.h).
+    std::vector<Track> explainedByNoise;
+    std::vector<Area> areas; ///< of raised level without a line, ordered by time (secondLook.h)
     /// Of frames on several axes: what thresholding each frame by itself would have found.
     std::vector<Track> conventional;
     std::vector<float> lnK;               ///< per frame

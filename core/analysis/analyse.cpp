@@ -3,6 +3,7 @@
 #include "analysis/ProgressPublisher.h"
 #include "analysis/chain.h"
 #include "analysis/familyGhosts.h"
+#include "analysis/overOwnNoise.h"
 #include "analysis/plan.h"
 #include "analysis/regulation.h"
 #include "analysis/secondLook.h"
@@ -170,11 +171,16 @@ namespace {
         pings.finish();
         analysis.tracks = chain->takeJoinedTracks();
         if (looksTwice(analysis)) {
-            SecondView seen = lookTwice(analysis, std::move(analysis.tracks), context.part(0.9, 1.0));
+            SecondView seen = lookTwice(analysis, std::move(analysis.tracks), context.part(0.9, 0.95));
             analysis.tracks = std::move(seen.tracks);
             analysis.areas = std::move(seen.areas);
         }
         analysis.tracks = withoutGhosts(analysis, std::move(analysis.tracks));
+        if (depth == AnalysisDepth::Whole && isHeldAgainstOwnNoise(analysis)) {
+            OverOwnNoise held = holdAgainstOwnNoise(analysis, std::move(analysis.tracks), context.part(0.95, 1.0));
+            analysis.tracks = std::move(held.kept);
+            analysis.explainedByNoise = std::move(held.explained);
+        }
     }
 
     /// A recording that is not over has no length to choose a window by.

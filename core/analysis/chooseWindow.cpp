@@ -30,17 +30,25 @@ namespace {
         return model;
     }
 
-    TracksOnAxes tracksOf(const Analysis &analysis)
+    double resolutionHz(const Analysis &analysis)
     {
         const Spectrogram &spectrogram = *analysis.frames->spectrogram();
-        return {analysis.tracks, analysis.time(), analysis.grid().axes.back(),
-                spectrogram.recording().info().sampleRateHz / spectrogram.windowSamples()};
+        return spectrogram.recording().info().sampleRateHz / spectrogram.windowSamples();
     }
 
     double windowSecondsOf(const Analysis &analysis)
     {
         const double asked = analysis.settings.spectrogram.windowSeconds;
-        return asked > 0.0 ? asked : 1.0 / tracksOf(analysis).cellHz;
+        return asked > 0.0 ? asked : 1.0 / resolutionHz(analysis);
+    }
+
+    /// Those that the noise explains, too: a fast line breaks into short, strong pieces in a window too long for it,
+    /// and that tells of the window.
+    std::vector<Track> foundIn(const Analysis &analysis)
+    {
+        std::vector<Track> found = analysis.tracks;
+        found.insert(found.end(), analysis.explainedByNoise.begin(), analysis.explainedByNoise.end());
+        return found;
     }
 
     /// What another window is compared with, and what a change of the threshold goes on from.
@@ -49,6 +57,7 @@ namespace {
         auto result = std::make_shared<Analysis>();
         static_cast<AnalysisPlan &>(*result) = analysis;
         result->tracks = analysis.tracks;
+        result->explainedByNoise = analysis.explainedByNoise;
         return result;
     }
 
@@ -167,13 +176,19 @@ namespace {
 
         static bool isSure(const Analysis &analysis)
         {
-            return std::any_of(analysis.tracks.begin(), analysis.tracks.end(),
+            const std::vector<Track> found = foundIn(analysis);
+            return std::any_of(found.begin(), found.end(),
                                [&](const Track &track) { return track.peakStatistic >= sureStatistic(analysis); });
         }
 
         static double shareKept(const Analysis &shorter, const Analysis &longer)
         {
-            return energyKept(tracksOf(shorter), tracksOf(longer), sureStatistic(shorter));
+            const std::vector<Track> ofShorter = foundIn(shorter);
+            const std::vector<Track> ofLonger = foundIn(longer);
+            const auto onAxes = [](const Analysis &analysis, const std::vector<Track> &tracks) {
+                return TracksOnAxes{tracks, analysis.time(), analysis.grid().axes.back(), resolutionHz(analysis)};
+            };
+            return energyKept(onAxes(shorter, ofShorter), onAxes(longer, ofLonger), sureStatistic(shorter));
         }
 
         RecordingPointer m_recording;

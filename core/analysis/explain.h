@@ -37,7 +37,8 @@ struct Explanation {
     double otherMargin = 0.0;
     /// The track for which the cell was kept from the detector in this frame; 0: a blind place, -1: one dropped later.
     std::optional<int> inhibitedFor;
-    bool isTracked = false; ///< a tracker follows this cell; its path runs on without reset
+    bool isExplainedByNoise = false; ///< on a path that the recording's own noise explains (overOwnNoise.h)
+    bool isTracked = false;          ///< a tracker follows this cell; its path runs on without reset
 };
 
 /// Runs an analysis's chain again up to the frame nearest to `seconds` and traces the path to the cell nearest to

@@ -1,0 +1,73 @@
+#include "analysis/overOwnNoise.h"
+
+#include "analysis/ownNoiseLaw.h"
+#include "analysis/pathStrips.h"
+#include "analysis/secondLook.h"
+#include "spectrum/Spectrogram.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace faintline {
+
+namespace {
+
+    /// ln Λ of n exponential cells with this mean, their own, against noise.
+    double evidence(double count, double mean)
+    {
+        return mean > 1.0 ? count * (mean - 1.0 - std::log(mean)) : 0.0;
+    }
+
+    PathStrip stripOf(const Track &track)
+    {
+        PathStrip strip;
+        strip.firstFrame = track.points.front().frame;
+        for (const TrackPoint &point : track.points)
+            strip.centres.push_back(point.cell);
+        return strip;
+    }
+
+    /// What is left of a track's evidence under the noise's own law, as a share.
+    double shareLeft(const PathStrip &strip, const OwnNoiseLaw &law)
+    {
+        double count = 0.0;
+        double power = 0.0;
+        double own = 0.0;
+        for (std::size_t i = 0; i < strip.centres.size(); ++i)
+            if (const float y = strip.y[i]; !std::isnan(y)) {
+                count += 1.0;
+                power += double(y);
+                own += double(law(strip.centres[i], y));
+            }
+        const double all = evidence(count, power / count);
+        return all > 0.0 ? evidence(count, own / count) / all : 1.0;
+    }
+
+} // namespace
+
+bool isHeldAgainstOwnNoise(const AnalysisPlan &analysis)
+{
+    return looksTwice(analysis) && analysis.settings.family.isNone();
+}
+
+OverOwnNoise holdAgainstOwnNoise(const Analysis &analysis, std::vector<Track> tracks, const RunContext &context)
+{
+    const OwnNoiseLaw law(*analysis.frames, tracks, analysis.frames->spectrogram()->binsPerCell(),
+                          context.part(0.0, 0.5));
+    if (law.isExponential())
+        return {std::move(tracks), {}};
+    std::vector<PathStrip> strips(tracks.size());
+    std::transform(tracks.begin(), tracks.end(), strips.begin(), stripOf);
+    std::vector<PathStrip *> wanted(strips.size());
+    std::transform(strips.begin(), strips.end(), wanted.begin(), [](PathStrip &strip) { return &strip; });
+    readStrips(analysis, std::move(wanted), context.part(0.5, 1.0), "holding tracks against the noise");
+    OverOwnNoise result;
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+        const bool isKept = tracks[i].peakStatistic * shareLeft(strips[i], law) >= analysis.threshold;
+        (isKept ? result.kept : result.explained).push_back(std::move(tracks[i]));
+    }
+    return result;
+}
+
+} // namespace faintline
