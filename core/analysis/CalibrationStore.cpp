@@ -155,6 +155,16 @@ void CalibrationStore::save(const std::string &key, const Calibration &calibrati
     }
 }
 
+bool CalibrationStore::lock(std::optional<CalibrationLock> &lock, const std::string &key) const
+{
+    if (m_folder.empty())
+        return true;
+    std::error_code ignored;
+    fs::create_directories(m_folder, ignored);
+    lock.emplace(m_folder / ("making-" + checksum(key)));
+    return lock->isHeld();
+}
+
 void CalibrationStore::removeOldest() const
 {
     std::error_code code;

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "analysis/Calibration.h"
+#include "analysis/CalibrationLock.h"
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace faintline {
@@ -34,6 +36,10 @@ public:
     std::shared_ptr<const Calibration> load(const std::string &key) const;
 
     void save(const std::string &key, const Calibration &calibration) const;
+
+    /// Tries to be the one, of those that share the folder, who makes a key's calibration. True where that is so, or where
+    /// nothing is kept.
+    bool lock(std::optional<CalibrationLock> &lock, const std::string &key) const;
 
     /// Where a key's calibration is kept.
     std::filesystem::path fileFor(const std::string &key) const;

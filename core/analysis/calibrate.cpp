@@ -34,14 +34,18 @@ std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, c
     if (depth == CalibrationDepth::FirstEstimate && !isScoreOfPaths(settings.detector))
         return calibrate(settings, context);
     const CalibrationEffort effort = effortOf(depth);
-    const auto result = keptCalibration(calibrationKey(bare, depth), [&] {
-        const double perSegment = double(segmentWindows) * bare.spectrogram.stepsPerWindow
-                                  * double(Fft::fastLength(calibrationWindowSamples * bare.spectrogram.binsPerCell));
-        const int segments = std::max(4, int(std::ceil(effort.cellFrames / perSegment)));
-        const NoiseSegment segment =
-            rememberedSegments([&](int number) { return noiseSegment(bare, number); }, segments);
-        return calibrateOn(segment, segments, makeModel(bare.model, segment(0)->grid()), bare, effort, context);
-    });
+    const auto result = keptCalibration(
+        calibrationKey(bare, depth),
+        [&] {
+            const double perSegment =
+                double(segmentWindows) * bare.spectrogram.stepsPerWindow
+                * double(Fft::fastLength(calibrationWindowSamples * bare.spectrogram.binsPerCell));
+            const int segments = std::max(4, int(std::ceil(effort.cellFrames / perSegment)));
+            const NoiseSegment segment =
+                rememberedSegments([&](int number) { return noiseSegment(bare, number); }, segments);
+            return calibrateOn(segment, segments, makeModel(bare.model, segment(0)->grid()), bare, effort, context);
+        },
+        context);
     return result ? result : calibrate(settings, context);
 }
 

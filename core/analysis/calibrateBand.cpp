@@ -67,7 +67,8 @@ std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &setting
                 closed.isEmpty() ? closed
                                  : followBand(bare, wide->lnK, simulated, false, splitting, context.part(0.8, 1.0));
             return band.isEmpty() ? wide : narrowed(*wide, band, closed);
-        });
+        },
+        context);
     return bins == simulated ? narrow : withShareOfEnds(*wide, *narrow, double(simulated) / double(bins));
 }
 

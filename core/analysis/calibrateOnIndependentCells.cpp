@@ -79,8 +79,9 @@ std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel
     bare.conventional = {};
     bare.decide = withoutThreshold(bare.decide);
     bare.track.bothWays = TrackSettings{}.bothWays;
-    return keptCalibration(nameOf(model) + settingsToJson(bare) + formatNumber(cellFrames),
-                           [&] { return calibrateOn(segment, segments, model, settings, {cellFrames}, context); });
+    return keptCalibration(
+        nameOf(model) + settingsToJson(bare) + formatNumber(cellFrames),
+        [&] { return calibrateOn(segment, segments, model, settings, {cellFrames}, context); }, context);
 }
 
 } // namespace faintline

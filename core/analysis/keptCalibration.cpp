@@ -5,8 +5,11 @@
 #include "analysis/knownCalibration.h"
 #include "base/Field.h"
 
+#include <chrono>
 #include <map>
 #include <mutex>
+#include <optional>
+#include <thread>
 
 namespace faintline {
 
@@ -37,31 +40,75 @@ std::string calibrationKey(const AnalysisSettings &bare, CalibrationDepth depth)
     return settingsToJson(bare) + formatNumber(effortOf(depth).cellFrames);
 }
 
-std::shared_ptr<const Calibration> keptCalibration(const std::string &key,
-                                                   const std::function<std::shared_ptr<const Calibration>()> &make)
-{
-    static std::mutex mutex;
-    static std::map<std::string, std::shared_ptr<const Calibration>> known;
+namespace {
+
+    using Made = std::shared_ptr<const Calibration>;
+
+    /// What this program knows of one key.
+    struct Entry {
+        std::mutex making; ///< held by the thread that makes it
+        std::mutex guard;
+        Made made;
+    };
+
+    Entry &entryOf(const std::string &key)
     {
-        const std::scoped_lock lock(mutex);
-        if (const auto found = known.find(key); found != known.end())
-            return found->second;
+        static std::mutex guard;
+        static std::map<std::string, Entry> entries;
+        const std::scoped_lock lock(guard);
+        return entries[key];
     }
+
+    /// From memory or from disk; null where it has to be made.
+    Made known(Entry &entry, const std::string &key, const CalibrationStore &store)
+    {
+        const std::scoped_lock lock(entry.guard);
+        if (!entry.made)
+            entry.made = store.load(key);
+        return entry.made;
+    }
+
+    /// Until `isSo`, but not forever: who makes it may have been suspended.
+    template <class Condition>
+    void waitUntil(Condition isSo, const RunContext &context)
+    {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+        while (!isSo() && std::chrono::steady_clock::now() < end) {
+            if (context.stop.stop_requested())
+                throw Cancelled();
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+    }
+
+} // namespace
+
+std::shared_ptr<const Calibration> keptCalibration(const std::string &key, const std::function<Made()> &make,
+                                                   const RunContext &context)
+{
     const CalibrationStore store(CalibrationStore::usualFolder());
-    auto made = store.load(key);
-    if (!made) {
-        made = make();
-        if (!made)
-            return nullptr;
-        store.save(key, *made);
-    }
-    const std::scoped_lock lock(mutex);
-    return known.emplace(key, std::move(made)).first->second;
+    Entry &entry = entryOf(key);
+    if (Made made = known(entry, key, store))
+        return made;
+    std::unique_lock making(entry.making, std::defer_lock);
+    waitUntil([&] { return making.try_lock(); }, context);
+    std::optional<CalibrationLock> lock;
+    waitUntil([&] { return store.lock(lock, key); }, context);
+    if (Made made = known(entry, key, store))
+        return made;
+    Made made = make();
+    if (!made)
+        return nullptr;
+    store.save(key, *made);
+    const std::scoped_lock keeping(entry.guard);
+    if (!entry.made)
+        entry.made = std::move(made);
+    return entry.made;
 }
 
 std::shared_ptr<const Calibration> knownCalibration(const AnalysisSettings &settings)
 {
-    return keptCalibration(calibrationKey(dimensionless(settings), CalibrationDepth::Refined), [] { return nullptr; });
+    const std::string key = calibrationKey(dimensionless(settings), CalibrationDepth::Refined);
+    return known(entryOf(key), key, CalibrationStore(CalibrationStore::usualFolder()));
 }
 
 } // namespace faintline

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/Calibration.h"
+#include "base/RunContext.h"
 
 #include <functional>
 #include <memory>
@@ -20,8 +21,11 @@ AnalysisSettings dimensionless(AnalysisSettings settings);
 
 std::string calibrationKey(const AnalysisSettings &bare, CalibrationDepth depth);
 
-/// Null only where `make` answers that.
+/// What is known under a key, or else what `make` answers, which is kept. Of the threads and programs that want the same
+/// at a time, one makes it and the others wait for it. Null only where `make` answers that. Throws what `make` throws,
+/// and Cancelled.
 std::shared_ptr<const Calibration> keptCalibration(const std::string &key,
-                                                   const std::function<std::shared_ptr<const Calibration>()> &make);
+                                                   const std::function<std::shared_ptr<const Calibration>()> &make,
+                                                   const RunContext &context);
 
 } // namespace faintline

@@ -1,9 +1,13 @@
 #include "analysis/CalibrationStore.h"
 
+#include "analysis/keptCalibration.h"
 #include "base/AtomicFile.h"
 
 #include <QTemporaryDir>
 #include <QtTest>
+
+#include <atomic>
+#include <thread>
 
 using namespace faintline;
 namespace fs = std::filesystem;
@@ -41,6 +45,10 @@ private slots:
     void foldersThatCannotBe();
     void oldestFilesGo();
     void theEnvironmentDecides();
+    void oneHoldsTheLock();
+    void oneMakesWhatManyWant_data();
+    void oneMakesWhatManyWant();
+    void whoWaitsCanBeStopped();
 
 private:
     fs::path folder() const { return m_folder->path().toStdString(); }
@@ -155,6 +163,85 @@ void tst_CalibrationStore::theEnvironmentDecides()
     const char *names[]{"FAINTLINE_CACHE", "XDG_CACHE_HOME", "HOME"};
     for (std::size_t i = 0; i < 3; ++i)
         set(names[i], before[i].isNull() ? nullptr : before[i].constData());
+}
+
+void tst_CalibrationStore::oneHoldsTheLock()
+{
+    const CalibrationStore store(folder());
+    std::optional<CalibrationLock> first;
+    std::optional<CalibrationLock> second;
+    QVERIFY(store.lock(first, "a"));
+    QVERIFY(!store.lock(second, "a"));
+    second.reset(); // takes nothing from who holds it
+    QVERIFY(!store.lock(second, "a"));
+    std::optional<CalibrationLock> other;
+    QVERIFY(store.lock(other, "b"));
+    first.reset();
+    QVERIFY(store.lock(second, "a"));
+    second.reset();
+    other.reset();
+    QVERIFY(fs::is_empty(folder()));
+    QVERIFY(CalibrationStore({}).lock(first, "a")); // where nothing is kept nobody waits
+    QVERIFY(CalibrationStore("/dev/null").lock(first, "a"));
+}
+
+void tst_CalibrationStore::oneMakesWhatManyWant_data()
+{
+    QTest::addColumn<QByteArray>("cache");
+    QTest::newRow("kept") << QByteArray("in a folder");
+    QTest::newRow("not kept") << QByteArray("off");
+}
+
+void tst_CalibrationStore::oneMakesWhatManyWant()
+{
+    QFETCH(QByteArray, cache);
+    qputenv("FAINTLINE_CACHE", cache == "off" ? cache : m_folder->path().toUtf8());
+    const std::string key = "wanted by many, " + cache.toStdString();
+    std::atomic<int> made = 0;
+    std::atomic<int> right = 0;
+    {
+        std::vector<std::jthread> threads;
+        for (int i = 0; i < 6; ++i)
+            threads.emplace_back([&] {
+                const auto make = [&]() -> std::shared_ptr<const Calibration> {
+                    if (++made == 1) {
+                        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+                        throw Cancelled(); // and so the next one makes it
+                    }
+                    return std::make_shared<const Calibration>(sample());
+                };
+                try {
+                    right += *keptCalibration(key, make, {}) == sample() ? 1 : 0;
+                } catch (const Cancelled &) {
+                }
+            });
+    }
+    QCOMPARE(made.load(), 2);
+    QCOMPARE(right.load(), 5);
+}
+
+void tst_CalibrationStore::whoWaitsCanBeStopped()
+{
+    qputenv("FAINTLINE_CACHE", m_folder->path().toUtf8());
+    const CalibrationStore store(folder());
+    std::optional<CalibrationLock> another; // program
+    QVERIFY(store.lock(another, "stopped"));
+    std::stop_source stop;
+    RunContext context;
+    context.stop = stop.get_token();
+    bool isCancelled = false;
+    std::jthread waiting([&] {
+        try {
+            keptCalibration(
+                "stopped", [] { return std::make_shared<const Calibration>(sample()); }, context);
+        } catch (const Cancelled &) {
+            isCancelled = true;
+        }
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    stop.request_stop();
+    waiting.join();
+    QVERIFY(isCancelled);
 }
 
 QTEST_APPLESS_MAIN(tst_CalibrationStore)
