@@ -1,7 +1,7 @@
 #!/bin/sh
-# Kills the command line with SIGKILL at random moments, COUNT times in all, while it detects, simulates and carries out a campaign:
+# Kills the command line with SIGKILL at random moments, COUNT times in all, while it detects, simulates, carries out a campaign and a survey:
 #     sh tests/kill.sh CLI [COUNT]
-# Nothing half-written may stay, no result without its provenance, and the campaign is resumed to the bytes of one that nobody killed. A test
+# Nothing half-written may stay, no result without its provenance, and campaign and survey are resumed to the bytes of one that nobody killed. A test
 # does it a few times; the whole is `sh tests/kill.sh build/app/faintline-cli 200`.
 set -eu
 
@@ -33,19 +33,24 @@ become() {
     detect) exec "$cli" detect line.wav --set spectrogram.windowSeconds=0.5 --events e.csv --tracks t.csv --statistic s.npy ;;
     simulate) exec "$cli" simulate scene.json --out made.sigmf-meta --truth made.json ;;
     evaluate) exec "$cli" evaluate experiment.json --threads 1 --out curve.csv ;;
+    survey) exec "$cli" survey night --set spectrogram.windowSeconds=0.5 --out survey.sqlite ;;
     esac
 }
 
 "$cli" simulate scene.json --out line.wav
-mkdir whole
+mkdir whole night
+for i in 1 2 3 4 5 6 7 8; do
+    cp line.wav night/$i.wav
+done
 now() { date +%s%N; }
-for job in detect simulate evaluate; do
+for job in detect simulate evaluate survey; do
     (become $job)
+    rm -f survey.sqlite
     begin=$(now)
     (become $job)
     eval "${job}Nanoseconds=$(($(now) - begin))"
 done
-for file in e.csv t.csv s.npy made.sigmf-meta made.sigmf-data made.json curve.csv; do
+for file in e.csv t.csv s.npy made.sigmf-meta made.sigmf-data made.json curve.csv survey.sqlite; do
     mv "$file" whole/
 done
 rm -f -- *.provenance.json
@@ -65,12 +70,13 @@ resumed=0
 i=0
 while [ "$killed" -lt "$count" ]; do # some have ended before
     i=$((i + 1))
-    case $((i % 3)) in
+    case $((i % 4)) in
     0) job=detect ;;
     1) job=simulate ;;
     2) job=evaluate ;;
+    3) job=survey ;;
     esac
-    [ "$job" = evaluate ] || rm -f e.csv t.csv s.npy made.sigmf-meta made.sigmf-data made.json ./*.provenance.json
+    [ "$job" = evaluate ] || [ "$job" = survey ] || rm -f e.csv t.csv s.npy made.sigmf-meta made.sigmf-data made.json ./*.provenance.json
     eval "nanoseconds=\$${job}Nanoseconds"
     random=$(od -An -N4 -tu4 /dev/urandom | tr -d ' ')
     (become $job) 2> said &
@@ -91,16 +97,24 @@ while [ "$killed" -lt "$count" ]; do # some have ended before
             resumed=$((resumed + 1))
         fi
         ;;
+    survey)
+        if cmp -s survey.sqlite whole/survey.sqlite; then
+            rm -f survey.sqlite
+        else
+            resumed=$((resumed + 1))
+        fi
+        ;;
     esac
 done
 
 # The next run takes up or removes what they left.
-for job in detect simulate evaluate; do
+for job in detect simulate evaluate survey; do
     (become $job)
 done
 check e.csv t.csv s.npy made.sigmf-meta made.sigmf-data made.json
 cmp curve.csv whole/curve.csv || fail "the campaign was resumed to other bytes"
-for left in ./*.part; do
+cmp survey.sqlite whole/survey.sqlite || fail "the survey was resumed to other bytes"
+for left in ./*.part ./*-journal; do
     [ -e "$left" ] && fail "$left was left"
 done
-echo "killed $killed times, $resumed of them in a campaign that was taken up again: nothing half-written, the same bytes"
+echo "killed $killed times, $resumed of them in a campaign or a survey that was taken up again: nothing half-written, the same bytes"

@@ -47,6 +47,7 @@ struct AnalysisOptions {
     OpenOptions open;
 
     void addTo(CLI::App &command, Common &common);
+    void addSettingsTo(CLI::App &command, Common &common); ///< all but the recording
     AnalysisSettings settings() const;
     RecordingPointer recording() const;
     /// The frames of a file that is no recording: simulated pings, a stack (FILE.npy), power over time and frequency;
@@ -72,6 +73,7 @@ void addReplay(CLI::App &app, Common &common);
 void addListen(CLI::App &app, Common &common);
 void addStraighten(CLI::App &app, Common &common);
 void addDoppler(CLI::App &app, Common &common);
+void addSurvey(CLI::App &app, Common &common);
 
 /// Does what a command line asks for. Throws CLI::ParseError, Error, Cancelled.
 void runCommandLine(const std::vector<std::string> &arguments, Common common);
@@ -89,6 +91,15 @@ CLI::Option *addInput(CLI::App &command, Common &common, const std::string &name
                       const std::string &description);
 CLI::Option *addOutput(CLI::App &command, Common &common, const std::string &name, std::string &path,
                        const std::string &description);
+
+/// Part `index` of `count` of a computation.
+struct Shard {
+    int index = 0;
+    int count = 1;
+};
+
+/// "2/8": counted from 0 or from 1, whichever suits the job scheduler; 0 and N name the same. Throws Error.
+Shard shardFrom(const std::string &text);
 
 /// Throws where one of these files cannot be written, before anything is computed that would be lost. Empty names are
 /// none.

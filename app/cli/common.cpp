@@ -62,6 +62,11 @@ void AnalysisOptions::addTo(CLI::App &command, Common &common)
 {
     addInput(command, common, "FILE", file, "Recording (WAV, FLAC, SigMF …), or a scene to simulate (.json)")
         ->required();
+    addSettingsTo(command, common);
+}
+
+void AnalysisOptions::addSettingsTo(CLI::App &command, Common &common)
+{
     addInput(command, common, "--session", session, "Session or settings file to start from");
     command.add_option("--preset", preset, "Named settings to start from (see 'describe')");
     command.add_option("--set", assignments, "A setting, name=value; may be repeated")
@@ -125,6 +130,18 @@ std::vector<std::string> AnalysisOptions::inputs() const
     if (open.rawType.empty() && SigmfRecording::isNamedSo(file))
         return {SigmfRecording::metaPath(file), SigmfRecording::dataPath(file), session};
     return {file, session};
+}
+
+Shard shardFrom(const std::string &text)
+{
+    const std::size_t slash = text.find('/');
+    const std::optional<double> index = slash == std::string::npos ? std::nullopt : parseNumber(text.substr(0, slash));
+    const std::optional<double> count = slash == std::string::npos ? std::nullopt : parseNumber(text.substr(slash + 1));
+    const auto isWhole = [](double value) { return value == std::floor(value); };
+    if (!index || !count || !isWhole(*index) || !isWhole(*count) || *count < 1.0 || *count > 1e6 || *index < 0.0
+        || *index > *count)
+        throw Error("--shard " + text, "must be I/N with 0 ≤ I ≤ N (0 and N name the same shard)");
+    return {int(*index), int(*count)};
 }
 
 void checkOutputs(const std::vector<std::string> &paths)

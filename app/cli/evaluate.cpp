@@ -22,26 +22,6 @@ namespace faintline::cli {
 
 namespace {
 
-    struct Shard {
-        int index = 0;
-        int count = 1;
-    };
-
-    /// "2/8": counted from 0 or from 1, whichever suits the job scheduler.
-    Shard shardFrom(const std::string &text)
-    {
-        const std::size_t slash = text.find('/');
-        const std::optional<double> index =
-            slash == std::string::npos ? std::nullopt : parseNumber(text.substr(0, slash));
-        const std::optional<double> count =
-            slash == std::string::npos ? std::nullopt : parseNumber(text.substr(slash + 1));
-        const auto isWhole = [](double value) { return value == std::floor(value); };
-        if (!index || !count || !isWhole(*index) || !isWhole(*count) || *count < 1.0 || *count > 1e6 || *index < 0.0
-            || *index > *count)
-            throw Error("--shard " + text, "must be I/N with 0 ≤ I ≤ N (0 and N name the same shard)");
-        return {int(*index), int(*count)};
-    }
-
     void mergeFiles(const std::vector<std::string> &paths, const std::string &out)
     {
         std::vector<Campaign> parts;

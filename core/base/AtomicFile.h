@@ -29,6 +29,8 @@ public:
 
     /// Where the bytes go until the commit, for writers that want a descriptor.
     int descriptor() const { return m_descriptor; }
+    /// The same for writers that want a name.
+    const std::string &temporaryPath() const { return m_temporaryPath; }
     const std::string &path() const { return m_path; }
 
     void write(std::span<const std::byte> bytes);

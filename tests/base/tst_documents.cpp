@@ -47,9 +47,10 @@ QStringList found(const QString &text, const char *pattern)
 void tst_documents::documents()
 {
     QTest::addColumn<QString>("path");
-    for (const char *path : {"README.md", "CONTRIBUTING.md", "CHANGELOG.md", "core/README.md", "docs/design.md",
-                             "docs/theory.md", "docs/performance.md", "docs/reference/scenes.md",
-                             "docs/reference/grids.md", "docs/reference/experiments.md", "docs/reference/lessons.md"})
+    for (const char *path :
+         {"README.md", "CONTRIBUTING.md", "CHANGELOG.md", "core/README.md", "docs/design.md", "docs/theory.md",
+          "docs/performance.md", "docs/reference/scenes.md", "docs/reference/grids.md", "docs/reference/experiments.md",
+          "docs/reference/lessons.md", "docs/reference/survey.md"})
         QTest::newRow(path) << QString::fromLatin1(path);
 }
 

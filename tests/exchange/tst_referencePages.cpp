@@ -3,6 +3,7 @@
 #include "evaluate/experiments/LineExperiment.h"
 #include "evaluate/experiments/SweepExperiment.h"
 #include "exchange/ModelFile.h"
+#include "exchange/survey/surveySchema.h"
 #include "recording/LineScene.h"
 #include "recording/PingScene.h"
 #include "recording/ScanScene.h"
@@ -108,6 +109,7 @@ private slots:
     void noKeyIsLeftOut();
     void examplesAreRead_data();
     void examplesAreRead();
+    void tablesOfASurvey();
 };
 
 void tst_referencePages::keysWithTheirRanges_data()
@@ -200,6 +202,19 @@ void tst_referencePages::examplesAreRead()
         scanSceneFromJson(json);
     else
         lineSceneFromJson(json);
+}
+
+void tst_referencePages::tablesOfASurvey()
+{
+    const QString text = contentOf(QStringLiteral("survey.md"));
+    QString schema;
+    for (const std::string &statement : surveySchema())
+        schema += QString::fromStdString(statement) + QStringLiteral(";\n");
+    QCOMPARE(text.section(QStringLiteral("```sql\n"), 1).section(QStringLiteral("```"), 0, 0), schema);
+    QVERIFY(text.contains(QStringLiteral("0x%1").arg(surveyApplicationId, 0, 16)));
+    QVERIFY(text.contains(QStringLiteral("`user_version` %1").arg(surveyFormat)));
+    for (const SurveyTable &table : surveyTables())
+        QVERIFY(text.contains(QStringLiteral("\n| `%1` |").arg(QString::fromStdString(table.name))));
 }
 
 QTEST_GUILESS_MAIN(tst_referencePages)

@@ -18,6 +18,7 @@
 #include "exchange/NumPy.h"
 #include "exchange/openFrames.h"
 #include "exchange/readAnnotations.h"
+#include "exchange/survey/exportSurvey.h"
 #include "live/wavHeader.h"
 #include "recording/KiwiRecording.h"
 #include "recording/PingTruth.h"
@@ -230,6 +231,17 @@ void readWindowExport(const Input &input)
     }
 }
 
+void readSurvey(const Input &input)
+{
+    SurveyDatabase survey(input.path);
+    settingsOf(survey.origin(), input.path);
+    exportEvents(survey, input.path + ".csv");
+    exportTracks(survey, input.path + ".csv");
+    exportStoneSoup(survey, input.path + ".csv", 0.0);
+    for (const SurveyRecording &one : survey.recordings())
+        survey.areas(one.id), pathBelow(one.file.path, input.path);
+}
+
 void readStream(const Input &input)
 {
     std::size_t at = 0;
@@ -293,6 +305,7 @@ const std::vector<Parser> &faintline::fuzz::parsers()
         {"curve", ".csv", [](const Input &input) { readCurve(input.path); }},
         {"annotations", ".txt", [](const Input &input) { readAnnotations(input.path, {}); }},
         {"calibration", ".json", readCalibration},
+        {"survey", ".sqlite", readSurvey},
         {"json", ".json", [](const Input &input) { parseJson(input.text, "json"); }},
         {"names", ".txt", readNames},
         {"wavStream", ".wav", readStream},

@@ -1,0 +1,187 @@
+#include "exchange/survey/Sqlite.h"
+
+#include "base/Error.h"
+
+#include <sqlite3.h>
+
+#include <cmath>
+#include <filesystem>
+#include <new>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int patienceMilliseconds = 10'000; ///< with others that write the same file
+    constexpr int longestText = 64 << 20;
+
+    [[noreturn]] void fail(sqlite3 *database, const std::string &path, int code)
+    {
+        if (code == SQLITE_READONLY_DBMOVED)
+            throw Error(path, "was replaced by another program while it was in use", Error::Kind::Failure);
+        switch (code & 0xff) {
+        case SQLITE_NOMEM:
+            throw std::bad_alloc();
+        case SQLITE_NOTADB:
+            throw Error(path, "is not an SQLite database");
+        case SQLITE_CORRUPT:
+            throw Error(path, "is a damaged SQLite database");
+        case SQLITE_BUSY:
+        case SQLITE_LOCKED:
+            throw Error(path, "is in use by another program", Error::Kind::Failure);
+        default:
+            throw Error(path, std::string("SQLite: ") + (database ? sqlite3_errmsg(database) : sqlite3_errstr(code)),
+                        Error::Kind::Failure);
+        }
+    }
+
+    /// SQLite gives a meaning to names such as ":memory:"; a whole path has none but its own.
+    std::string wholePath(const std::string &path)
+    {
+        std::error_code code;
+        const bool isFile = std::filesystem::is_regular_file(path, code);
+        if (!isFile)
+            throw Error(path, std::filesystem::exists(path, code) ? "is not a file; expected a survey, .sqlite"
+                                                                  : "there is no such file");
+        return std::filesystem::absolute(path).string();
+    }
+
+} // namespace
+
+// ---- statements ----------------------------------------------------------------------------------------------------
+
+void SqliteStatement::Finalise::operator()(sqlite3_stmt *statement) const
+{
+    sqlite3_finalize(statement);
+}
+
+SqliteStatement::SqliteStatement(sqlite3 *database, const std::string &path, std::string_view sql)
+    : m_database(database), m_path(path)
+{
+    sqlite3_stmt *statement = nullptr;
+    check(sqlite3_prepare_v2(database, sql.data(), int(sql.size()), &statement, nullptr));
+    m_statement.reset(statement);
+}
+
+void SqliteStatement::check(int code) const
+{
+    if (code != SQLITE_OK)
+        fail(m_database, m_path, code);
+}
+
+bool SqliteStatement::next()
+{
+    const int code = sqlite3_step(m_statement.get());
+    if (code == SQLITE_ROW)
+        return true;
+    if (code != SQLITE_DONE)
+        fail(m_database, m_path, code);
+    reset();
+    return false;
+}
+
+void SqliteStatement::reset()
+{
+    sqlite3_reset(m_statement.get());
+}
+
+void SqliteStatement::bind(int place, double value)
+{
+    check(sqlite3_bind_double(m_statement.get(), place, value));
+}
+
+void SqliteStatement::bind(int place, std::int64_t value)
+{
+    check(sqlite3_bind_int64(m_statement.get(), place, value));
+}
+
+void SqliteStatement::bind(int place, const std::string &text)
+{
+    check(sqlite3_bind_text64(m_statement.get(), place, text.data(), text.size(), SQLITE_TRANSIENT, SQLITE_UTF8));
+}
+
+void SqliteStatement::bind(int place, const std::optional<double> &value)
+{
+    check(value ? sqlite3_bind_double(m_statement.get(), place, *value) : sqlite3_bind_null(m_statement.get(), place));
+}
+
+void SqliteStatement::bindColumn(int place, const SqliteStatement &from, int column)
+{
+    check(sqlite3_bind_value(m_statement.get(), place, sqlite3_column_value(from.m_statement.get(), column)));
+}
+
+int SqliteStatement::columnCount() const
+{
+    return sqlite3_column_count(m_statement.get());
+}
+
+bool SqliteStatement::isNull(int column) const
+{
+    return sqlite3_column_type(m_statement.get(), column) == SQLITE_NULL;
+}
+
+std::int64_t SqliteStatement::integer(int column) const
+{
+    return sqlite3_column_int64(m_statement.get(), column);
+}
+
+double SqliteStatement::number(int column) const
+{
+    return isNull(column) ? std::nan("") : sqlite3_column_double(m_statement.get(), column);
+}
+
+std::optional<double> SqliteStatement::optionalNumber(int column) const
+{
+    return isNull(column) ? std::nullopt : std::optional(sqlite3_column_double(m_statement.get(), column));
+}
+
+std::string SqliteStatement::text(int column) const
+{
+    const unsigned char *text = sqlite3_column_text(m_statement.get(), column);
+    const int bytes = sqlite3_column_bytes(m_statement.get(), column);
+    return text ? std::string(reinterpret_cast<const char *>(text), std::size_t(bytes)) : std::string();
+}
+
+// ---- connections ---------------------------------------------------------------------------------------------------
+
+void Sqlite::Close::operator()(sqlite3 *database) const
+{
+    sqlite3_close_v2(database);
+}
+
+Sqlite::Sqlite(const std::string &path, Access access) : m_path(path)
+{
+    // Who only reads may have to roll back what a killed program left, and so to write.
+    const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE;
+    sqlite3 *database = nullptr;
+    const int code =
+        sqlite3_open_v2(wholePath(path).c_str(), &database, flags, access == Access::Fill ? "unix-none" : nullptr);
+    m_database.reset(database);
+    if (code != SQLITE_OK)
+        fail(database, path, code);
+    sqlite3_busy_timeout(database, patienceMilliseconds);
+    sqlite3_limit(database, SQLITE_LIMIT_LENGTH, longestText);
+    if (access == Access::Fill) {
+        execute("PRAGMA journal_mode = OFF");
+        execute("PRAGMA synchronous = OFF");
+        return;
+    }
+    sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+    sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+    execute("PRAGMA cell_size_check = ON");
+    if (access == Access::Read)
+        execute("PRAGMA query_only = ON");
+}
+
+SqliteStatement Sqlite::prepare(std::string_view sql)
+{
+    return SqliteStatement(m_database.get(), m_path, sql);
+}
+
+std::int64_t Sqlite::integer(std::string_view sql)
+{
+    SqliteStatement statement = prepare(sql);
+    return statement.next() ? statement.integer(0) : 0;
+}
+
+} // namespace faintline

@@ -1,0 +1,246 @@
+#include "exchange/survey/SurveyDatabase.h"
+
+#include "base/Error.h"
+#include "base/fileName.h"
+#include "exchange/survey/surveySchema.h"
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <utility>
+
+namespace faintline {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+    fs::path folderOf(const std::string &database)
+    {
+        return fs::absolute(database).lexically_normal().parent_path();
+    }
+
+    std::string absolutePath(const std::string &stored, const fs::path &folder)
+    {
+        return (folder / fileNameFromText(stored)).lexically_normal().string();
+    }
+
+    /// A number of a row, finite.
+    double number(const SqliteStatement &row, int column, const std::string &path)
+    {
+        const double value = row.number(column);
+        if (!std::isfinite(value))
+            throw Error(path, "contains a number that is missing or not finite");
+        return value;
+    }
+
+    int whole(const SqliteStatement &row, int column, const std::string &path)
+    {
+        const std::int64_t value = row.integer(column);
+        if (!std::in_range<int>(value))
+            throw Error(path, "contains a number of an event or a track that is too large");
+        return int(value);
+    }
+
+} // namespace
+
+std::string storedPath(const std::string &recording, const std::string &database)
+{
+    const fs::path relative = fs::path(recording).lexically_relative(folderOf(database));
+    const bool isBelow = !relative.empty() && *relative.begin() != "..";
+    return textFromFileName(isBelow ? relative.string() : recording);
+}
+
+// ---- reading -------------------------------------------------------------------------------------------------------
+
+SurveyDatabase::SurveyDatabase(const std::string &path, Sqlite::Access access) : m_database(path, access)
+{
+    check();
+    m_origin = readOrigin();
+}
+
+void SurveyDatabase::check()
+{
+    if (m_database.integer("PRAGMA application_id") != surveyApplicationId)
+        throw Error(path(), "is not a survey; 'faintline-cli survey' writes one");
+    if (const auto format = m_database.integer("PRAGMA user_version"); format != surveyFormat)
+        throw Error(path(), "is a survey of format " + std::to_string(format) + "; this program reads format "
+                                + std::to_string(surveyFormat));
+    std::vector<std::string> found;
+    SqliteStatement objects =
+        m_database.prepare("SELECT coalesce(sql, '') FROM sqlite_schema WHERE name NOT LIKE 'sqlite\\_%' ESCAPE '\\' "
+                           "ORDER BY rowid");
+    while (objects.next())
+        found.push_back(objects.text(0));
+    if (found != surveySchema())
+        throw Error(path(), "is not a survey: its tables are not those of docs/reference/survey.md");
+}
+
+SurveyOrigin SurveyDatabase::readOrigin()
+{
+    SurveyOrigin origin;
+    SqliteStatement settings = m_database.prepare("SELECT settings, reading, version FROM settings");
+    if (!settings.next())
+        throw Error(path(), "is not a survey: it contains no settings");
+    origin.settings = settings.text(0);
+    origin.reading = settings.text(1);
+    origin.version = settings.text(2);
+    SqliteStatement provenance = m_database.prepare("SELECT key, value FROM provenance");
+    while (provenance.next()) {
+        if (provenance.text(0) == "sources")
+            origin.sources = provenance.text(1);
+        if (provenance.text(0) == "shard")
+            origin.shard = provenance.text(1);
+    }
+    return origin;
+}
+
+bool SurveyDatabase::isFinished()
+{
+    return m_database.integer("SELECT count(*) FROM provenance WHERE key = 'unfinished'") == 0;
+}
+
+std::vector<SurveyRecording> SurveyDatabase::recordings()
+{
+    const fs::path folder = folderOf(path());
+    std::vector<SurveyRecording> result;
+    SqliteStatement row =
+        m_database.prepare("SELECT id, path, " + surveyRecordingColumns + " FROM recordings ORDER BY id");
+    while (row.next()) {
+        SurveyRecording &one = result.emplace_back();
+        one.id = row.integer(0);
+        one.file.path = absolutePath(row.text(1), folder);
+        one.reason = row.text(2) == "done" ? std::string() : row.text(3);
+        if (row.text(2) != "done" && one.reason.empty())
+            one.reason = "unknown";
+        one.file.bytes = row.integer(4);
+        one.file.modified = row.integer(5);
+        one.file.hash = row.text(6);
+        one.container = row.text(7);
+        one.sampleRateHz = row.optionalNumber(8);
+        one.durationSeconds = row.optionalNumber(9);
+        one.centreHz = row.optionalNumber(10);
+        one.startUnixSeconds = row.optionalNumber(11);
+        one.settings = row.text(12);
+        one.windowSeconds = row.optionalNumber(13);
+        one.threshold = row.optionalNumber(14);
+        one.unit = row.text(15);
+        one.lnK = row.optionalNumber(16);
+    }
+    return result;
+}
+
+std::vector<SurveyEvent> SurveyDatabase::events(std::int64_t recording)
+{
+    SqliteStatement row = m_database.prepare(
+        "SELECT event, t_onset, t_detect, t_end, f, drift_hz_per_s, statistic, confirmed, open, snr_db, band_hz, "
+        "noise_probability, window_s, f_low, f_high, verdict, note "
+        "FROM events LEFT JOIN reviews USING (recording, event) WHERE events.recording = ? ORDER BY id");
+    row.with(recording);
+    std::vector<SurveyEvent> result;
+    while (row.next()) {
+        SurveyEvent one;
+        Event &event = one.event;
+        event.id = whole(row, 0, path());
+        event.onsetSeconds = number(row, 1, path());
+        event.detectSeconds = number(row, 2, path());
+        event.endSeconds = number(row, 3, path());
+        event.position = {number(row, 4, path())};
+        event.driftPerSecond = number(row, 5, path());
+        event.ratesPerSecond = {event.driftPerSecond};
+        event.statistic = number(row, 6, path());
+        event.isConfirmed = row.integer(7) != 0;
+        event.isOpen = row.integer(8) != 0;
+        event.snrDb = row.number(9);
+        event.bandWidth = row.number(10);
+        event.noiseProbability = row.number(11);
+        event.windowSeconds = row.number(12);
+        one.box.startSeconds = event.onsetSeconds;
+        one.box.endSeconds = event.endSeconds;
+        one.box.lowHz = number(row, 13, path());
+        one.box.highHz = number(row, 14, path());
+        one.box.label = "event " + std::to_string(event.id);
+        one.box.verdict = verdictNamed(row.text(15));
+        one.box.note = row.text(16);
+        result.push_back(std::move(one));
+    }
+    return result;
+}
+
+std::vector<SurveyPoint> SurveyDatabase::points(std::int64_t recording)
+{
+    SqliteStatement row =
+        m_database.prepare("SELECT track, t, f, statistic, f_low, f_high, presence, snr_db FROM tracks "
+                           "WHERE recording = ? ORDER BY track, point");
+    row.with(recording);
+    std::vector<SurveyPoint> result;
+    while (row.next())
+        result.push_back({whole(row, 0, path()), number(row, 1, path()), number(row, 2, path()), number(row, 3, path()),
+                          row.number(4), row.number(5), row.number(6), row.number(7)});
+    return result;
+}
+
+std::vector<AreaEvent> SurveyDatabase::areas(std::int64_t recording)
+{
+    SqliteStatement row = m_database.prepare(
+        "SELECT t_onset, t_end, f_low, f_high, level_db FROM areas WHERE recording = ? ORDER BY area");
+    row.with(recording);
+    std::vector<AreaEvent> result;
+    while (row.next())
+        result.push_back({number(row, 0, path()), number(row, 1, path()), number(row, 2, path()),
+                          number(row, 3, path()), number(row, 4, path())});
+    return result;
+}
+
+// ---- writing -------------------------------------------------------------------------------------------------------
+
+void SurveyDatabase::setUnfinished()
+{
+    m_database.execute("INSERT OR REPLACE INTO provenance(key, value) VALUES ('unfinished', 'yes')");
+}
+
+void SurveyDatabase::put(const SurveyOutcome &outcome)
+{
+    const SurveyRecording &r = outcome.recording;
+    const std::string stored = storedPath(r.file.path, path());
+    for (const SurveyTable &one : surveyTables())
+        m_database.prepare("DELETE FROM " + one.name + " WHERE recording = (SELECT id FROM recordings WHERE path = ?)")
+            .run(stored);
+    m_database.prepare("DELETE FROM recordings WHERE path = ?").run(stored);
+    m_database.prepare(insertionInto("recordings", "path, " + surveyRecordingColumns))
+        .run(stored, std::string(r.isAnalysed() ? "done" : "failed"), r.reason, r.file.bytes, r.file.modified,
+             r.file.hash, r.container, r.sampleRateHz, r.durationSeconds, r.centreHz, r.startUnixSeconds, r.settings,
+             r.windowSeconds, r.threshold, r.unit, r.lnK);
+    const std::int64_t id = m_database.integer("SELECT last_insert_rowid()");
+
+    SqliteStatement event = m_database.prepare(surveyTable("events").insertion());
+    for (const auto &[e, box] : outcome.events)
+        event.run(id, e.id, e.onsetSeconds, e.detectSeconds, e.endSeconds, e.position.back(), e.driftPerSecond,
+                  e.statistic, int(e.isConfirmed), int(e.isOpen), e.snrDb, e.bandWidth, e.noiseProbability,
+                  e.windowSeconds, box.lowHz, box.highHz);
+    SqliteStatement point = m_database.prepare(surveyTable("tracks").insertion());
+    std::map<int, int> count;
+    for (const SurveyPoint &p : outcome.points)
+        point.run(id, p.track, count[p.track]++, p.seconds, p.position, p.statistic, p.low, p.high, p.presence,
+                  p.snrDb);
+    SqliteStatement area = m_database.prepare(surveyTable("areas").insertion());
+    for (int i = 0; i < std::ssize(outcome.areas); ++i) {
+        const AreaEvent &a = outcome.areas[std::size_t(i)];
+        area.run(id, i + 1, a.onsetSeconds, a.endSeconds, a.low, a.high, a.levelDb);
+    }
+}
+
+void SurveyDatabase::setModified(std::int64_t recording, const SurveyFile &file)
+{
+    m_database.prepare("UPDATE recordings SET bytes = ?, modified_ns = ? WHERE id = ?")
+        .run(file.bytes, file.modified, recording);
+}
+
+void SurveyDatabase::setReview(std::int64_t recording, int event, Verdict verdict, const std::string &note)
+{
+    m_database.prepare("INSERT OR REPLACE INTO reviews(recording, event, verdict, note) VALUES (?, ?, ?, ?)")
+        .run(recording, event, nameOf(verdict), note);
+    m_database.prepare("DELETE FROM reviews WHERE verdict = '' AND note = ''").run();
+}
+
+} // namespace faintline

@@ -1,0 +1,232 @@
+#include "exchange/survey/carryOutSurvey.h"
+
+#include "base/Error.h"
+#include "exchange/survey/surveyRecording.h"
+#include "exchange/survey/writeSurvey.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <filesystem>
+#include <latch>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+namespace faintline {
+
+namespace {
+
+    /// A recording that is to be looked at.
+    struct Task {
+        SurveyFile file;
+        std::int64_t known = 0; ///< its number in the database, where it was analysed before
+        std::string knownHash;
+    };
+
+    /// What became of it; no outcome: its content has not changed.
+    struct Result {
+        Task task;
+        std::optional<SurveyOutcome> outcome;
+    };
+
+    Result resultOf(Task task, const SurveySettings &settings, const RunContext &context)
+    {
+        task.file.hash = hashOf(task.file, settings);
+        if (task.known != 0 && task.file.hash == task.knownHash)
+            return {task, std::nullopt};
+        return {task, surveyRecording(task.file, settings, context)};
+    }
+
+    /// Threads that do tasks in order, each one task at a time; whoever made them takes the results. They end with the
+    /// object.
+    class Workers
+    {
+    public:
+        Workers(const std::vector<Task> &tasks, const SurveySettings &settings, int jobs, const RunContext &context)
+            : m_tasks(tasks), m_settings(settings), m_stopWith(context.stop, [this] { m_stop.request_stop(); }),
+              m_fractions(std::size_t(jobs))
+        {
+            for (int i = 0; i < std::min<std::ptrdiff_t>(jobs, std::ssize(tasks)); ++i)
+                m_threads.emplace_back(
+                    [this, i, threads = context.threads, jobs] { work(std::size_t(i), threads, jobs); });
+        }
+        ~Workers() { m_stop.request_stop(); }
+        Workers(const Workers &) = delete;
+        Workers &operator=(const Workers &) = delete;
+
+        /// The results that are there, or come within a time.
+        std::vector<Result> take(std::chrono::milliseconds patience)
+        {
+            std::unique_lock lock(m_guard);
+            m_arrived.wait_for(lock, patience, [this] { return !m_results.empty(); });
+            return std::exchange(m_results, {});
+        }
+
+        /// How much of the tasks in work is done, in tasks.
+        double inWork() const
+        {
+            double sum = 0.0;
+            for (const std::atomic<double> &fraction : m_fractions)
+                sum += fraction;
+            return sum;
+        }
+
+    private:
+        /// The first task has all threads to itself: it calibrates, and the others find its calibration.
+        void work(std::size_t own, int threads, int jobs)
+        {
+            if (own > 0)
+                m_firstIsDone.wait();
+            for (std::size_t task = m_next++; task < m_tasks.size(); task = m_next++) {
+                RunContext context;
+                context.stop = m_stop.get_token();
+                context.threads = task == 0 ? threads : std::max(1, threads / jobs);
+                context.progress = [this, own](double fraction, std::string_view) { m_fractions[own] = fraction; };
+                const bool goesOn = carryOut(m_tasks[task], own, context);
+                if (task == 0)
+                    m_firstIsDone.count_down();
+                if (!goesOn)
+                    return;
+            }
+        }
+
+        bool carryOut(const Task &task, std::size_t own, const RunContext &context)
+        {
+            if (m_stop.stop_requested())
+                return false;
+            try {
+                Result result = resultOf(task, m_settings, context);
+                const std::lock_guard lock(m_guard);
+                m_fractions[own] = 0.0;
+                m_results.push_back(std::move(result));
+            } catch (const Cancelled &) {
+                return false;
+            }
+            m_arrived.notify_one();
+            return true;
+        }
+
+        const std::vector<Task> &m_tasks;
+        const SurveySettings &m_settings;
+        std::stop_source m_stop;
+        std::stop_callback<std::function<void()>> m_stopWith;
+        std::vector<std::atomic<double>> m_fractions; ///< of each worker's task
+        std::atomic<std::size_t> m_next = 0;
+        std::latch m_firstIsDone{1};
+        std::mutex m_guard;
+        std::condition_variable m_arrived;
+        std::vector<Result> m_results;
+        std::vector<std::jthread> m_threads; // last: they end before the rest goes
+    };
+
+    /// The recordings of the shard that the database does not have as they are now.
+    std::vector<Task> tasksOf(const SurveyRun &run, SurveyDatabase &database, int &kept)
+    {
+        std::map<std::string, SurveyRecording> known;
+        for (SurveyRecording &one : database.recordings())
+            if (one.isAnalysed())
+                known.emplace(one.file.path, one);
+        std::vector<Task> tasks;
+        const auto count = std::size_t(run.shard.count);
+        for (std::size_t i = std::size_t(run.shard.index) % count; i < run.recordings.size(); i += count) {
+            Task task{fileOf(run.recordings[i], run.settings), 0, {}};
+            const auto there = known.find(run.recordings[i]);
+            if (there != known.end()) {
+                const SurveyFile &before = there->second.file;
+                task.known = there->second.id;
+                task.knownHash = before.hash;
+                if (before.bytes == task.file.bytes && before.modified == task.file.modified) {
+                    ++kept;
+                    continue;
+                }
+            }
+            tasks.push_back(std::move(task));
+        }
+        return tasks;
+    }
+
+    void put(const std::vector<Result> &results, SurveyDatabase &database)
+    {
+        database.begin();
+        for (const Result &result : results)
+            if (result.outcome)
+                database.put(*result.outcome);
+            else
+                database.setModified(result.task.known, result.task.file);
+        database.commit();
+    }
+
+    SurveyTally analyseAll(const std::vector<Task> &tasks, const SurveyRun &run, SurveyDatabase &database,
+                           const RunContext &context, const SurveyWarning &warn)
+    {
+        SurveyTally tally;
+        using Clock = std::chrono::steady_clock;
+        constexpr std::size_t mostPending = 50; // recordings that a kill may cost; each commit waits for the disk
+        Workers workers(tasks, run.settings, run.jobs, context);
+        std::vector<Result> pending;
+        auto committed = Clock::now();
+        for (std::size_t done = 0; done < tasks.size();) {
+            const bool isStopped = context.stop.stop_requested(); // what has come until now is still kept
+            for (Result &result : workers.take(std::chrono::milliseconds(100))) {
+                ++done;
+                if (!result.outcome)
+                    ++tally.kept;
+                else if (result.outcome->recording.isAnalysed())
+                    ++tally.analysed;
+                else if (++tally.failed; warn)
+                    warn(result.task.file.path, result.outcome->recording.reason);
+                pending.push_back(std::move(result));
+            }
+            const bool isDue = done == tasks.size() || isStopped || pending.size() >= mostPending
+                               || Clock::now() > committed + std::chrono::seconds(1);
+            if (isDue && !pending.empty()) {
+                put(std::exchange(pending, {}), database);
+                committed = Clock::now();
+            }
+            if (isStopped)
+                throw Cancelled();
+            if (context.progress)
+                context.progress((double(done) + workers.inWork()) / double(tasks.size()),
+                                 std::to_string(done) + " of " + std::to_string(tasks.size()) + " recordings");
+        }
+        return tally;
+    }
+
+    bool isThere(const std::string &path)
+    {
+        std::error_code code;
+        return std::filesystem::exists(path, code)
+               && !(std::filesystem::is_regular_file(path, code) && std::filesystem::file_size(path, code) == 0);
+    }
+
+} // namespace
+
+std::string SurveyShard::name() const
+{
+    return isWhole() ? std::string() : std::to_string(index % count) + "/" + std::to_string(count);
+}
+
+SurveyTally carryOutSurvey(const SurveyRun &run, const std::string &out, const RunContext &context,
+                           const SurveyWarning &warn)
+{
+    const SurveyOrigin origin = originOf(run.settings, run.shard.name());
+    if (!isThere(out))
+        beginSurvey(origin, out);
+    SurveyDatabase database(out, Sqlite::Access::Write);
+    checkOrigin(database.origin(), origin, out);
+    int kept = 0;
+    const std::vector<Task> tasks = tasksOf(run, database, kept);
+    if (tasks.empty() && database.isFinished())
+        return {0, kept, 0};
+    database.setUnfinished();
+    SurveyTally tally = analyseAll(tasks, run, database, context, warn);
+    tally.kept += kept;
+    database.lock(); // nobody's review falls between the reading and the new file
+    writeSurvey({&database}, origin, out);
+    return tally;
+}
+
+} // namespace faintline

@@ -1,0 +1,279 @@
+#include "app/cli/CommandLineTest.h"
+
+#include "exchange/survey/SurveyDatabase.h"
+
+#include <QElapsedTimer>
+
+#include <csignal>
+
+using namespace faintline;
+using namespace faintline::test;
+
+/// `survey`: what it finds in each recording is what `detect` finds, and its file has the same bytes whatever happened on
+/// the way.
+class tst_cliSurvey : public CommandLineTest
+{
+    Q_OBJECT
+
+private slots:
+    void initTestCase();
+    void eventsAreThoseOfDetect();
+    void sameBytesWhateverTheShards();
+    void killedIsResumed();
+    void endsWithinASecond();
+    void changedAndTouchedFiles();
+    void unreadableFilesAreRows();
+    void exports();
+    void mistakes_data();
+    void mistakes();
+
+private:
+    static constexpr int many = 200; ///< recordings in the folder of that name
+
+    /// Runs a survey of `folder` into `out`.
+    Outcome survey(const QString &out, const QStringList &more = {},
+                   const QString &from = QStringLiteral("night")) const
+    {
+        return run(QStringList{"survey", from, "--out", out} + lineSettings + more);
+    }
+    /// A recording with a line at its own frequency.
+    void simulate(const QString &name, int seed) const
+    {
+        writeBytes(pathOf("one.json"),
+                   QByteArray(R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "seed": %1,
+            "lines": [{"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 4, "durationSeconds": 12, "frequencyHz": 1%2}]})")
+                       .replace("%1", QByteArray::number(seed))
+                       .replace("%2", QByteArray::number(10 + seed % 80)));
+        const Outcome made = run({"simulate", "one.json", "--out", name});
+        QCOMPARE(made.err, QByteArray());
+        QCOMPARE(made.code, 0);
+    }
+    SurveyDatabase database(const char *name) const { return SurveyDatabase(pathOf(name)); }
+    /// The rows of an exported table that belong to a recording, without what stands before their own columns.
+    QByteArray rowsOf(const QByteArray &table, const QByteArray &recording, int columnsBefore, int columns) const
+    {
+        QByteArray rows;
+        for (const QByteArray &line : table.split('\n'))
+            if (line.startsWith('"' + recording + '"'))
+                rows += line.split(',').mid(columnsBefore, columns).join(',') + '\n';
+        return rows;
+    }
+};
+
+void tst_cliSurvey::initTestCase()
+{
+    QVERIFY2(QFile::exists(program), "faintline-cli is not built");
+    for (const char *name : {"night/b", "night/a", "night/.hidden", "many"})
+        QVERIFY(QDir(folder()).mkpath(name));
+    simulate("night/one.wav", 1);
+    simulate("night/a/two.wav", 2);
+    simulate("night/b/three.flac", 3);
+    simulate("night/b/four.sigmf-meta", 4);
+    writeBytes(pathOf("night/notes.txt"), "not a recording");
+    writeBytes(pathOf("night/._one.wav"), "what a file manager left");
+    writeBytes(pathOf("night/.hidden/five.wav"), "");
+    const Outcome first = survey("first.sqlite");
+    QCOMPARE(first.err, QByteArray());
+    QCOMPARE(first.out, QByteArray());
+    QCOMPARE(first.code, 0);
+    QStringList files(QDir(folder()).entryList({"first*"}));
+    QCOMPARE(files, QStringList{"first.sqlite"}); // and nothing beside it
+}
+
+void tst_cliSurvey::eventsAreThoseOfDetect()
+{
+    QCOMPARE(run({"survey", "export", "first.sqlite", "--events", "all.csv", "--tracks", "tracks.csv"}).code, 0);
+    QStringList names;
+    for (const SurveyRecording &one : database("first.sqlite").recordings())
+        names << QDir(folder()).relativeFilePath(QString::fromStdString(one.file.path));
+    QCOMPARE(names, (QStringList{"night/a/two.wav", "night/b/four.sigmf-meta", "night/b/three.flac", "night/one.wav"}));
+    for (const QString &name : names) {
+        const Outcome found = run(QStringList{"detect", name, "--events", "e.csv", "--tracks", "t.csv"} + lineSettings);
+        QCOMPARE(found.code, 0);
+        const auto rows = [](const QByteArray &csv) { return csv.mid(csv.indexOf('\n') + 1); };
+        QVERIFY(rows(content("e.csv")).count('\n') >= 1);
+        QCOMPARE(rowsOf(content("all.csv"), name.toUtf8(), 2, 13), rows(content("e.csv")));
+        QCOMPARE(rowsOf(content("tracks.csv"), name.toUtf8(), 1, 8), rows(content("t.csv")));
+    }
+}
+
+void tst_cliSurvey::sameBytesWhateverTheShards()
+{
+    const QByteArray whole = content("first.sqlite");
+    QVERIFY(whole.size() > 1000);
+    QCOMPARE(survey("jobs.sqlite", {"--jobs", "3", "--threads", "1"}).code, 0);
+    QCOMPARE(content("jobs.sqlite"), whole);
+    QCOMPARE(survey("p1.sqlite", {"--shard", "1/3"}).code, 0);
+    QCOMPARE(survey("p0.sqlite", {"--shard", "3/3"}).code, 0); // the same as 0/3
+    QCOMPARE(survey("p2.sqlite", {"--shard", "2/3"}).code, 0);
+    QCOMPARE(run({"survey", "merge", "p1.sqlite", "p2.sqlite", "p0.sqlite", "--out", "merged.sqlite"}).code, 0);
+    QCOMPARE(content("merged.sqlite"), whole);
+    const Outcome missing = run({"survey", "merge", "p1.sqlite", "p2.sqlite", "--out", "half.sqlite"});
+    QCOMPARE(missing.code, 2);
+    QCOMPARE(missing.err, QByteArray("error: half.sqlite: shard 0/3 is missing\n"));
+    // Once more: nothing is left to do, and nothing is written.
+    const QDateTime before = QFileInfo(path("first.sqlite")).lastModified();
+    QCOMPARE(survey("first.sqlite").code, 0);
+    QCOMPARE(QFileInfo(path("first.sqlite")).lastModified(), before);
+}
+
+void tst_cliSurvey::killedIsResumed()
+{
+    for (int i = 0; i < many; ++i)
+        QVERIFY(QFile::copy(path("night/one.wav"), path(QString("many/%1.wav").arg(i, 3, 10, QChar('0')))));
+    QElapsedTimer timer;
+    timer.start();
+    QCOMPARE(survey("undisturbed.sqlite", {"--threads", "2"}, "many").code, 0);
+    const qint64 needed = timer.elapsed();
+    int left = many;
+    for (const double share : {0.4, 0.4, 0.4}) {
+        QProcess process;
+        process.setWorkingDirectory(folder());
+        process.start(program,
+                      QStringList{"survey", "many", "--out", "killed.sqlite", "--threads", "2"} + lineSettings);
+        process.waitForFinished(int(share * double(needed)));
+        process.kill();
+        QVERIFY(process.waitForFinished());
+        if (!QFile::exists(path("killed.sqlite")))
+            continue; // it had not begun
+        SurveyDatabase database(pathOf("killed.sqlite"));
+        const int now = many - int(database.recordings().size());
+        QVERIFY(now <= left);
+        left = now;
+    }
+    const Outcome last = survey("killed.sqlite", {}, "many");
+    QCOMPARE(last.err, QByteArray());
+    QCOMPARE(last.code, 0);
+    QCOMPARE(content("killed.sqlite"), content("undisturbed.sqlite"));
+    QCOMPARE(QDir(folder()).entryList({"killed*"}), QStringList{"killed.sqlite"});
+}
+
+void tst_cliSurvey::endsWithinASecond()
+{
+    QProcess process;
+    process.setWorkingDirectory(folder());
+    process.start(program, QStringList{"survey", "many", "--out", "stopped.sqlite", "--jobs", "1", "--progress", "json"}
+                               + lineSettings);
+    process.setReadChannel(QProcess::StandardError);
+    QByteArray said;
+    while (!said.contains("\"progress\": 0.3") && process.waitForReadyRead(patience))
+        said += process.readAll();
+    process.terminate();
+    QElapsedTimer timer;
+    timer.start();
+    QVERIFY(process.waitForFinished(patience));
+    QVERIFY(timer.elapsed() < 1000 * slowdown);
+    if (process.exitCode() == 0)
+        QSKIP("it was faster");
+    QCOMPARE(process.exitCode(), 1);
+    SurveyDatabase database(pathOf("stopped.sqlite"));
+    QVERIFY(!database.isFinished());
+    const int kept = int(database.recordings().size());
+    QVERIFY(kept >= many * 3 / 10 - 2 && kept < many);
+}
+
+void tst_cliSurvey::changedAndTouchedFiles()
+{
+    QVERIFY(QDir(folder()).mkpath("changing"));
+    QVERIFY(QFile::copy(path("night/one.wav"), path("changing/a.wav")));
+    QVERIFY(QFile::copy(path("night/a/two.wav"), path("changing/b.wav")));
+    QCOMPARE(survey("changing.sqlite", {}, "changing").code, 0);
+    simulate("changing/a.wav", 9);
+    QFile touched(path("changing/b.wav"));
+    QVERIFY(touched.open(QIODevice::ReadWrite)
+            && touched.setFileTime(QDateTime::currentDateTime().addDays(-1), QFileDevice::FileModificationTime));
+    touched.close();
+    QVERIFY(QFile::copy(path("night/one.wav"), path("changing/c.wav"))); // and one more
+    QCOMPARE(survey("changing.sqlite", {}, "changing").code, 0);
+    QCOMPARE(survey("fresh.sqlite", {}, "changing").code, 0);
+    QCOMPARE(content("changing.sqlite"), content("fresh.sqlite"));
+    QCOMPARE(database("fresh.sqlite").recordings().size(), std::size_t(3));
+}
+
+void tst_cliSurvey::unreadableFilesAreRows()
+{
+    QVERIFY(QDir(folder()).mkpath("broken"));
+    QVERIFY(QFile::copy(path("night/one.wav"), path("broken/good.wav")));
+    writeBytes(pathOf("broken/bad.wav"), "no sound");
+    writeBytes(pathOf("broken/lone.sigmf-meta"), "{}");
+    const Outcome half = survey("broken.sqlite", {}, "broken");
+    QCOMPARE(half.code, 1);
+    QCOMPARE(half.err.count("warning: "), qsizetype(2));
+    QVERIFY(
+        half.err.contains("error: broken.sqlite: 2 recording(s) and 0 folder(s) could not be read; 1 were analysed"));
+    std::vector<SurveyRecording> rows = database("broken.sqlite").recordings();
+    QCOMPARE(rows.size(), std::size_t(3));
+    QVERIFY(!rows[0].isAnalysed() && rows[1].isAnalysed() && !rows[2].isAnalysed());
+    QVERIFY(!rows[0].reason.empty() && !contains(rows[0].reason, "\n"));
+    // Repaired, they are analysed.
+    QVERIFY(QFile::remove(path("broken/lone.sigmf-meta")) && QFile::remove(path("broken/bad.wav")));
+    QVERIFY(QFile::copy(path("night/one.wav"), path("broken/bad.wav")));
+    QCOMPARE(survey("broken.sqlite", {}, "broken").code, 0);
+    rows = database("broken.sqlite").recordings();
+    QVERIFY(rows[0].isAnalysed());
+}
+
+void tst_cliSurvey::exports()
+{
+    const Outcome made = run({"survey", "export", "first.sqlite", "--stone-soup", "s.csv", "--start",
+                              "2024-07-26T00:00:00Z", "--raven", "raven", "--audacity", "audacity", "--sigmf", "sigmf",
+                              "--camtrap", "package", "--latitude", "52", "--longitude", "13"});
+    QCOMPARE(made.err, QByteArray());
+    QCOMPARE(made.code, 0);
+    QVERIFY(content("s.csv").contains("\n2024-07-26T00:00:0"));
+    for (const char *name : {"raven/night/one.wav.selections.txt", "audacity/night/b/three.flac.txt",
+                             "sigmf/night/b/four.sigmf-meta.sigmf-meta", "package/observations.csv"})
+        QVERIFY2(!content(name).isEmpty(), name);
+    // A list read back is annotations of the recording, and the events match them.
+    const Outcome judged = run(QStringList{"detect", "night/one.wav", "--annotations",
+                                           "raven/night/one.wav.selections.txt", "--events", "judged.csv", "--summary"}
+                               + lineSettings);
+    QCOMPARE(judged.code, 0);
+    QVERIFY(judged.out.contains("annotation(s)"));
+}
+
+void tst_cliSurvey::mistakes_data()
+{
+    QTest::addColumn<QStringList>("arguments");
+    QTest::addColumn<QByteArray>("complaint");
+    const auto row = [](const char *name, const QStringList &arguments, const char *complaint) {
+        QTest::newRow(name) << QStringList{"survey"} + arguments << QByteArray("error: ") + complaint;
+    };
+    row("nothing", {}, "survey: needs folders or recordings, and --out\n");
+    row("no output", {"night"}, "survey: needs folders or recordings, and --out\n");
+    row("no such folder", {"nowhere", "--out", "x.sqlite"}, "nowhere: there is no such file or folder\n");
+    row("no recordings", {"night/.hidden/..", "--out", "x.sqlite", "--raw-type", "ci16_le", "--raw-rate", "1"},
+        "night/.hidden/..: contains no recordings\n");
+    row("no folder for it", {"night", "--out", "nowhere/x.sqlite"}, "nowhere/x.sqlite: cannot be written:");
+    row("a recording as output", {"night", "--out", "night/one.wav"}, "night/one.wav: is not an SQLite database\n");
+    row("other settings", {"night", "--out", "first.sqlite"}, "first.sqlite: is a survey with other settings: ");
+    row("shard of a whole", QStringList{"night", "--out", "first.sqlite", "--shard", "1/2"} + lineSettings,
+        "first.sqlite: contains a whole survey, not shard 1/2;");
+    row("shard", {"night", "--out", "x.sqlite", "--shard", "3/2"}, "--shard 3/2: must be I/N");
+    row("setting", {"night", "--out", "x.sqlite", "--set", "no.such=1"}, "no.such");
+    row("export nothing", {"export", "first.sqlite"}, "survey export: no output requested;");
+    row("export of none", {"export", "night/one.wav", "--events", "x.csv"},
+        "night/one.wav: is not an SQLite database\n");
+    row("export to", {"export", "first.sqlite", "--events", "x.txt"}, "x.txt: must end in .csv\n");
+    row("no place", {"export", "first.sqlite", "--camtrap", "x"}, "--camtrap: requires --latitude and --longitude\n");
+    row("no date", {"export", "first.sqlite", "--stone-soup", "x.csv"},
+        "first.sqlite: 4 recording(s) do not know when they began");
+    row("start", {"export", "first.sqlite", "--stone-soup", "x.csv", "--start", "noon"},
+        "--start noon: must be a date");
+}
+
+void tst_cliSurvey::mistakes()
+{
+    QFETCH(QStringList, arguments);
+    QFETCH(QByteArray, complaint);
+    const QByteArray before = content("first.sqlite");
+    const Outcome refused = run(arguments);
+    QVERIFY2(refused.err.startsWith(complaint), refused.err.constData());
+    QCOMPARE(refused.err.count('\n'), qsizetype(1));
+    QCOMPARE(refused.code, 2);
+    QCOMPARE(content("first.sqlite"), before);
+    QVERIFY(QDir(folder()).entryList({"x*"}).isEmpty());
+}
+
+QTEST_GUILESS_MAIN(tst_cliSurvey)
+#include "tst_cliSurvey.moc"
