@@ -75,7 +75,7 @@ QString openFilter()
     for (const QString &ending : recordingEndings())
         patterns << QStringLiteral("*.") + ending << QStringLiteral("*.") + ending.toUpper();
     return QStringList{tr("Recordings (%1)").arg(patterns.join(QLatin1Char(' '))), tr("Sessions (*.faintline)"),
-                       tr("Scenarios and lessons (*.json)"), tr("All files (*)")}
+                       tr("Surveys (*.sqlite)"), tr("Scenarios and lessons (*.json)"), tr("All files (*)")}
         .join(QStringLiteral(";;"));
 }
 

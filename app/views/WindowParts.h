@@ -29,6 +29,7 @@ class ReproductionPanel;
 class SequentialPanel;
 class StateSlicePanel;
 class SpectrumPanel;
+class SurveyPanel;
 class SweepPanel;
 class WelcomePage;
 class WhyPanel;
@@ -68,6 +69,7 @@ public:
     ComparePanel &comparePanel() const { return *m_compare; }
     EvaluatePanel &evaluation() const { return *m_evaluate; }
     SpectrumPanel &spectrum() const { return *m_spectrum; }
+    SurveyPanel &survey() const { return *m_survey; }
     SweepPanel &sweep() const { return *m_sweep; }
     ExperimentsPanel &experimentList() const { return *m_experimentList; }
     ReproductionPanel &reproduction() const { return *m_reproduction; }
@@ -112,6 +114,7 @@ protected:
     ComparePanel *m_compare = nullptr;
     EvaluatePanel *m_evaluate = nullptr;
     SpectrumPanel *m_spectrum = nullptr;
+    SurveyPanel *m_survey = nullptr;
     SweepPanel *m_sweep = nullptr;
     ExperimentsPanel *m_experimentList = nullptr;
     ReproductionPanel *m_reproduction = nullptr;

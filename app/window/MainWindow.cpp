@@ -32,6 +32,7 @@
 #include "app/panels/SequentialPanel.h"
 #include "app/panels/SpectrumPanel.h"
 #include "app/panels/StateSlicePanel.h"
+#include "app/panels/SurveyPanel.h"
 #include "app/panels/SweepPanel.h"
 #include "app/panels/ThresholdPanel.h"
 #include "app/panels/TrialViewer.h"
@@ -105,6 +106,7 @@ MainWindow::MainWindow(std::unique_ptr<QSettings> memory, const QString &recover
     connectDocument();
     connectController();
     connectViews();
+    connectSurvey();
     connectEvaluation();
     m_keys = new KeysOverlay(this);
     m_equation = new EquationSheet(this);
@@ -189,6 +191,7 @@ void MainWindow::buildDocks()
     m_sweep = new SweepPanel(m_document, m_experiments);
     m_experimentList = new ExperimentsPanel(m_experiments);
     m_reproduction = new ReproductionPanel;
+    m_survey = new SurveyPanel(m_document, m_controller);
     m_sequential = new SequentialPanel(m_document, m_sequentialTests);
 
     using Place = Panels::Place;
@@ -207,6 +210,7 @@ void MainWindow::buildDocks()
     m_panels->add(QStringLiteral("spectrumDock"), tr("Spectrum"), m_spectrum, Place::Bottom);
     m_panels->add(QStringLiteral("compareDock"), tr("Compare"), m_compare, Place::Bottom);
     m_panels->add(QStringLiteral("sweepDock"), tr("Sweep"), m_sweep, Place::Bottom);
+    m_panels->add(QStringLiteral("surveyDock"), tr("Survey"), m_survey, Place::Bottom);
     m_panels->add(QStringLiteral("experimentsDock"), tr("Experiments"), m_experimentList, Place::Bottom);
     m_panels->add(QStringLiteral("reproductionDock"), tr("Reproduction"), m_reproduction, Place::Bottom);
     m_panels->add(QStringLiteral("sequentialDock"), tr("Sequential test"), m_sequential, Place::Bottom);
@@ -249,6 +253,8 @@ void MainWindow::buildStatusBar()
 
 void MainWindow::open(const QString &path, const OpenOptions &options, const AnalysisController::Adjust &adjust)
 {
+    if (SurveyPanel::isSurvey(path))
+        return openSurvey(path);
     if (const bool isOfScans = isScanScenario(path); isOfScans || isLesson(path)) {
         try {
             return isOfScans ? openScans(readScanTest(path)) : startLesson(readLesson(path));
@@ -328,6 +334,23 @@ void MainWindow::openScans(const ScanTest &test)
     }
     m_panels->show(m_sequential);
     m_sequential->start(test);
+}
+
+void MainWindow::openSurvey(const QString &path)
+{
+    try {
+        m_survey->open(path);
+    } catch (const Error &error) {
+        return showError(error);
+    }
+    m_welcome->stop();
+    m_messages->dismiss();
+    if (m_document.isEmpty()) {
+        m_pages->hide(); // the panel gets its room
+        setWindowTitle(tr("Survey — Faintline"));
+        m_hint->setText(tr("Double-click an event to open its recording there."));
+    }
+    m_panels->show(m_survey);
 }
 
 void MainWindow::chooseFile()

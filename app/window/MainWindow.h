@@ -97,6 +97,7 @@ private:
     void connectDocument();
     void connectController();
     void connectViews();
+    void connectSurvey();
     void connectEvaluation();
     /// An action that makes sense only while a recording is shown.
     QAction *addViewAction(QMenu &menu, const QString &text, const QKeySequence &key, std::function<void()> action);
@@ -111,6 +112,7 @@ private:
     void showFailure(const Error &error);
     void offerIq();
     void openScenario(ScenarioCard *card);
+    void openSurvey(const QString &path);
     void chooseFile();
     void chooseRawFile();
     void openDropped(const QStringList &files);

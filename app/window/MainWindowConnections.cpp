@@ -20,6 +20,7 @@
 #include "app/panels/PipelinePanel.h"
 #include "app/panels/SequentialPanel.h"
 #include "app/panels/StateSlicePanel.h"
+#include "app/panels/SurveyPanel.h"
 #include "app/panels/SweepPanel.h"
 #include "app/panels/TrialViewer.h"
 #include "app/views/ChartMenus.h"
@@ -191,6 +192,22 @@ void MainWindow::connectViews()
     connect(m_reviews, &EventReviews::written, this, &MainWindow::showWritten);
     connect(m_sequential, &SequentialPanel::written, this, &MainWindow::showWritten);
     connect(new FileDrop(this), &FileDrop::dropped, this, &MainWindow::openDropped);
+}
+
+void MainWindow::connectSurvey()
+{
+    connect(m_survey, &SurveyPanel::eventReached, this, [this](int id) {
+        m_panels->show(m_survey); // the first recording brings the panels of a recording in its place
+        emit m_events->eventActivated(id);
+    });
+    connect(m_survey, &SurveyPanel::failed, this, &MainWindow::showError);
+    connect(m_survey, &SurveyPanel::openRequested, this,
+            [this](const QString &path, const OpenOptions &options, const AnalysisController::Adjust &adjust) {
+                // The settings go along: only what was said about events could be lost.
+                const auto next = [this, path, options, adjust] { openNow(path, options, adjust); };
+                if (m_document.annotations().isEmpty() || m_saver->mayLose(tr("opening something else"), next))
+                    next();
+            });
 }
 
 void MainWindow::connectEvaluation()

@@ -1,0 +1,147 @@
+#include "app/panels/SurveyPanel.h"
+
+#include "app/base/filePath.h"
+#include "app/panels/SurveyModel.h"
+#include "widgets/base/labelText.h"
+
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QPushButton>
+#include <QSortFilterProxyModel>
+#include <QTableView>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <utility>
+
+namespace faintline {
+
+SurveyPanel::SurveyPanel(const Document &document, const AnalysisController &controller, QWidget *parent)
+    : QWidget(parent), m_document(document), m_model(new SurveyModel(this)), m_proxy(new QSortFilterProxyModel(this)),
+      m_table(new QTableView), m_summary(plainLabel())
+{
+    m_proxy->setSourceModel(m_model);
+    m_proxy->setSortRole(Qt::UserRole);
+    m_table->setModel(m_proxy);
+    m_table->setSortingEnabled(true);
+    m_table->sortByColumn(SurveyModel::Statistic, Qt::DescendingOrder);
+    m_table->verticalHeader()->hide();
+    m_table->verticalHeader()->setDefaultSectionSize(22);
+    m_table->horizontalHeader()->setHighlightSections(false);
+    m_table->horizontalHeader()->setStretchLastSection(true);
+    m_table->setSelectionBehavior(QAbstractItemView::SelectRows);
+    m_table->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    m_table->setShowGrid(false);
+    m_table->setFrameShape(QFrame::NoFrame);
+    m_table->setColumnWidth(SurveyModel::Recording, 220);
+    m_table->installEventFilter(this);
+    m_table->setAccessibleName(tr("Events of the survey"));
+
+    auto *bottom = new QHBoxLayout;
+    bottom->setContentsMargins(8, 4, 8, 4);
+    bottom->addWidget(m_summary, 1);
+    addVerdict(*bottom, tr("Accept"), tr("Accept the selected events, in the survey's file (Y)"), Qt::Key_Y,
+               Verdict::Accepted);
+    addVerdict(*bottom, tr("Reject"), tr("Reject the selected events, in the survey's file (X)"), Qt::Key_X,
+               Verdict::Rejected);
+    addVerdict(*bottom, tr("Clear"), tr("Remove the review of the selected events (U)"), Qt::Key_U, Verdict::None);
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(m_table, 1);
+    layout->addLayout(bottom);
+    m_summary->setText(tr("File > Open opens a survey, .sqlite, that faintline-cli survey has written."));
+
+    connect(&controller, &AnalysisController::settled, this, &SurveyPanel::reach);
+    connect(m_table, &QTableView::activated, this, &SurveyPanel::activate);
+    connect(m_table->selectionModel(), &QItemSelectionModel::selectionChanged, this, &SurveyPanel::followSelection);
+    followSelection();
+}
+
+void SurveyPanel::addVerdict(QBoxLayout &layout, const QString &text, const QString &tip, Qt::Key key, Verdict verdict)
+{
+    auto *button = new QPushButton(text);
+    button->setToolTip(tip);
+    layout.addWidget(button);
+    m_buttons.append(button);
+    connect(button, &QPushButton::clicked, this, [this, verdict] { judge(verdict); });
+    m_keys.insert(key, verdict);
+}
+
+/// In this table the keys of reviews are for the survey's events, not for those of the recording that is open.
+bool SurveyPanel::eventFilter(QObject *watched, QEvent *event)
+{
+    if (event->type() != QEvent::ShortcutOverride && event->type() != QEvent::KeyPress)
+        return QWidget::eventFilter(watched, event);
+    const auto *pressed = static_cast<QKeyEvent *>(event);
+    const auto verdict = m_keys.constFind(pressed->key());
+    if (verdict == m_keys.constEnd() || pressed->modifiers() != Qt::NoModifier)
+        return QWidget::eventFilter(watched, event);
+    if (event->type() == QEvent::KeyPress)
+        judge(*verdict);
+    event->accept();
+    return true;
+}
+
+bool SurveyPanel::isSurvey(const QString &path)
+{
+    return path.endsWith(QLatin1String(".sqlite"), Qt::CaseInsensitive);
+}
+
+void SurveyPanel::open(const QString &path)
+{
+    m_model->read(path);
+    const auto &recordings = m_model->recordings();
+    const auto failed = std::count_if(recordings.begin(), recordings.end(),
+                                      [](const SurveyRecording &one) { return !one.isAnalysed(); });
+    QString summary = tr("%1: %2 events in %3 recordings")
+                          .arg(fileLabel(path))
+                          .arg(m_model->rowCount())
+                          .arg(qlonglong(recordings.size()));
+    if (failed > 0)
+        summary += tr(", %1 could not be analysed").arg(qlonglong(failed));
+    m_summary->setText(summary);
+}
+
+void SurveyPanel::followSelection()
+{
+    for (QPushButton *button : m_buttons)
+        button->setEnabled(m_table->selectionModel()->hasSelection());
+}
+
+void SurveyPanel::judge(Verdict verdict)
+{
+    std::vector<int> rows;
+    for (const QModelIndex &index : m_table->selectionModel()->selectedRows())
+        rows.push_back(m_proxy->mapToSource(index).row());
+    try {
+        m_model->judge(rows, verdict);
+    } catch (const Error &error) {
+        emit failed(error);
+    }
+}
+
+void SurveyPanel::activate(const QModelIndex &index)
+{
+    const SurveyModel::Row &row = m_model->row(m_proxy->mapToSource(index).row());
+    const QString path = pathText(m_model->recordings()[row.recording].file.path);
+    const int event = row.event.event.id;
+    const SurveySettings &settings = m_model->settings();
+    if (absolutePath(m_document.source().path) == path && m_document.settings() == settings.analysis
+        && m_document.analysis())
+        return emit eventReached(event);
+    m_wanted = {path, event};
+    emit openRequested(path, settings.open,
+                       [analysis = settings.analysis](AnalysisSettings &opened) { opened = analysis; });
+}
+
+void SurveyPanel::reach()
+{
+    if (m_wanted.event == 0 || !m_document.analysis() || absolutePath(m_document.source().path) != m_wanted.path)
+        return;
+    emit eventReached(std::exchange(m_wanted, {}).event);
+}
+
+} // namespace faintline

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "app/control/AnalysisController.h"
+#include "base/Error.h"
+#include "recording/openRecording.h"
+
+#include <QHash>
+#include <QWidget>
+
+class QBoxLayout;
+class QLabel;
+class QPushButton;
+class QSortFilterProxyModel;
+class QTableView;
+
+namespace faintline {
+
+class SurveyModel;
+
+/// The events of a survey of many recordings (faintline-cli survey): one table for all of them, from which a double click
+/// opens the recording at the event. Reviews are written into the survey's file at once.
+class SurveyPanel : public QWidget
+{
+    Q_OBJECT
+
+public:
+    SurveyPanel(const Document &document, const AnalysisController &controller, QWidget *parent = nullptr);
+
+    /// Shows the survey in a file. Throws Error.
+    void open(const QString &path);
+    /// Whether a file is opened here: by its name.
+    static bool isSurvey(const QString &path);
+
+    QTableView *table() const { return m_table; }
+    /// Writes a verdict for the selected events into the survey.
+    void judge(Verdict verdict);
+
+    QSize sizeHint() const override { return {720, 240}; }
+
+signals:
+    /// A recording is to be opened with the settings of the survey.
+    void openRequested(const QString &path, const faintline::OpenOptions &options,
+                       const faintline::AnalysisController::Adjust &adjust);
+    /// The recording is open and analysed; this is the event that was asked for.
+    void eventReached(int id);
+    void failed(const faintline::Error &error);
+
+protected:
+    bool eventFilter(QObject *watched, QEvent *event) override;
+
+private:
+    void addVerdict(QBoxLayout &layout, const QString &text, const QString &tip, Qt::Key key, Verdict verdict);
+    void activate(const QModelIndex &index);
+    void reach();
+    void followSelection();
+
+    const Document &m_document;
+    SurveyModel *m_model;
+    QSortFilterProxyModel *m_proxy;
+    QTableView *m_table;
+    QLabel *m_summary;
+    QList<QPushButton *> m_buttons;
+    QHash<int, Verdict> m_keys;
+
+    /// The event that was asked for, while its recording is being opened and analysed.
+    struct {
+        QString path;
+        int event = 0;
+    } m_wanted;
+};
+
+} // namespace faintline

@@ -1,0 +1,124 @@
+// A survey in the window: one table of all events, from which recordings are opened at an event and reviewed.
+
+#include "app/panels/SurveyPanel.h"
+
+#include "app/openWindow.h"
+#include "app/panels/SurveyModel.h"
+#include "app/workspace/Workbench.h"
+#include "exchange/survey/carryOutSurvey.h"
+#include "recording/SimulatedRecording.h"
+#include "recording/writeRecording.h"
+#include "support/recordings.h"
+#include "widgets/base/Theme.h"
+#include "widgets/events/EventTable.h"
+
+#include <QPushButton>
+#include <QTableView>
+
+using namespace faintline;
+using namespace faintline::test;
+
+class tst_SurveyPanel : public QObject
+{
+    Q_OBJECT
+
+    QTemporaryDir m_folder;
+    std::unique_ptr<MainWindow> m_window;
+    SurveySettings m_settings;
+
+    std::string path(const char *name) const { return m_folder.filePath(name).toStdString(); }
+    SurveyPanel &panel() const { return m_window->survey(); }
+    QTableView &table() const { return *panel().table(); }
+    QString text(int row, int column) const { return table().model()->index(row, column).data().toString(); }
+    void simulate(const char *name, double frequencyHz) const
+    {
+        LineScene scene;
+        scene.sampleRateHz = 1000.0;
+        scene.durationSeconds = 30.0;
+        LineSettings line;
+        line.snrDb = 9.0;
+        line.referenceSeconds = 0.5;
+        line.startSeconds = 5.0;
+        line.durationSeconds = 20.0;
+        line.frequencyHz = frequencyHz;
+        scene.lines = {line};
+        writeRecording(SimulatedRecording(scene), path(name));
+    }
+
+private slots:
+    void initTestCase()
+    {
+        Theme::apply(Theme::Kind::Light);
+        simulate("a.wav", 120.0);
+        simulate("b.wav", 240.0);
+        writeBytes(path("c.wav"), "no sound");
+        m_settings.analysis.spectrogram.windowSeconds = 0.5;
+        m_settings.analysis.decide.falseAlarmsPerHour = 2.0;
+        carryOutSurvey({m_settings, {path("a.wav"), path("b.wav"), path("c.wav")}, {}, 2}, path("s.sqlite"));
+        m_window = newWindow({1440, 900});
+        m_window->open(m_folder.filePath("s.sqlite"));
+    }
+    void cleanupTestCase() { m_window.reset(); }
+
+    void isATableOfAllEvents()
+    {
+        QVERIFY(panel().isVisible());
+        QVERIFY(table().model()->rowCount() >= 2);
+        table().sortByColumn(SurveyModel::Frequency, Qt::AscendingOrder);
+        QCOMPARE(text(0, SurveyModel::Recording), QStringLiteral("a.wav"));
+        table().sortByColumn(SurveyModel::Recording, Qt::DescendingOrder);
+        QCOMPARE(text(0, SurveyModel::Recording), QStringLiteral("b.wav"));
+        QVERIFY(m_window->windowTitle().startsWith("Survey"));
+    }
+
+    void anEventOpensItsRecording()
+    {
+        table().sortByColumn(SurveyModel::Recording, Qt::DescendingOrder);
+        QSignalSpy reached(&panel(), &SurveyPanel::eventReached);
+        emit table().activated(table().model()->index(0, 0));
+        QTRY_COMPARE_WITH_TIMEOUT(reached.count(), 1, patience);
+        QCOMPARE(m_window->document().source().path, m_folder.filePath("b.wav"));
+        QVERIFY(m_window->document().settings() == m_settings.analysis);
+        QCOMPARE(m_window->eventTable().selectedEvent(), reached.front().front().toInt());
+        QVERIFY(m_window->workbench().isVisible() && panel().isVisible());
+        m_window->eventTable().setSelectedEvent(0);
+        emit table().activated(table().model()->index(0, 0)); // it is open already
+        QCOMPARE(reached.count(), 2);
+        QVERIFY(!m_window->controller().isBusy());
+        const auto last = table().model()->rowCount() - 1;
+        emit table().activated(table().model()->index(last, 0));
+        QTRY_COMPARE_WITH_TIMEOUT(reached.count(), 3, patience);
+        QCOMPARE(m_window->document().source().path, m_folder.filePath("a.wav"));
+    }
+
+    void reviewsAreWrittenToTheFile()
+    {
+        table().sortByColumn(SurveyModel::Recording, Qt::AscendingOrder);
+        table().selectRow(0);
+        m_window->activateWindow();
+        QVERIFY(QTest::qWaitForWindowActive(m_window.get()));
+        table().setFocus();
+        QTest::keyClick(&table(), Qt::Key_X);
+        QCOMPARE(text(0, SurveyModel::Review), QStringLiteral("rejected"));
+        QVERIFY(m_window->document().annotations().isEmpty()); // the recording's own reviews are not meant
+        const auto stored = [&] { return SurveyDatabase(path("s.sqlite")).events(1).front().box.verdict; };
+        QCOMPARE(stored(), Verdict::Rejected);
+        panel().open(m_folder.filePath("s.sqlite"));
+        QCOMPARE(text(0, SurveyModel::Review), QStringLiteral("rejected"));
+        table().selectRow(0);
+        QTest::keyClick(&table(), Qt::Key_U);
+        QCOMPARE(stored(), Verdict::None);
+    }
+
+    void whatIsNoSurveyIsRefused()
+    {
+        const int rows = table().model()->rowCount();
+        writeBytes(path("x.sqlite"), QByteArray("no database").repeated(1000));
+        m_window->open(m_folder.filePath("x.sqlite"));
+        QCOMPARE(table().model()->rowCount(), rows);
+        QVERIFY(contains(errorOf([&] { panel().open(m_folder.filePath("x.sqlite")); }), "is not an SQLite database"));
+    }
+};
+
+QTEST_MAIN(tst_SurveyPanel)
+#include "tst_SurveyPanel.moc"
