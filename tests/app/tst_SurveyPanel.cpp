@@ -5,7 +5,9 @@
 #include "app/openWindow.h"
 #include "app/panels/SurveyModel.h"
 #include "app/workspace/Workbench.h"
+#include "exchange/survey/SurveyDatabase.h"
 #include "exchange/survey/carryOutSurvey.h"
+#include "exchange/writeEvents.h"
 #include "recording/SimulatedRecording.h"
 #include "recording/writeRecording.h"
 #include "support/recordings.h"
@@ -81,6 +83,13 @@ private slots:
         QVERIFY(m_window->document().settings() == m_settings.analysis);
         QCOMPARE(m_window->eventTable().selectedEvent(), reached.front().front().toInt());
         QVERIFY(m_window->workbench().isVisible() && panel().isVisible());
+        // The window finds to the last bit what the survey has found.
+        const std::vector<Event> shown = m_window->document().shownEvents();
+        const std::vector<SurveyEvent> kept = SurveyDatabase(path("s.sqlite")).events(2);
+        QCOMPARE(shown.size(), kept.size());
+        for (std::size_t i = 0; i < shown.size(); ++i)
+            QCOMPARE(eventsCsv(*m_window->document().analysis(), {kept[i].event}),
+                     eventsCsv(*m_window->document().analysis(), {shown[i]}));
         m_window->eventTable().setSelectedEvent(0);
         emit table().activated(table().model()->index(0, 0)); // it is open already
         QCOMPARE(reached.count(), 2);
