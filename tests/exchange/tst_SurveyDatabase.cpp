@@ -246,6 +246,10 @@ void tst_SurveyDatabase::mergesOnlyWhatBelongsTogether()
     QVERIFY(contains(merged({a, b, path("o.sqlite")}), "is a survey with other settings"));
     QCOMPARE(merged({c, b, a}), std::string());
     QCOMPARE(SurveyDatabase(path("m.sqlite")).recordings().size(), std::size_t(2));
+    QCOMPARE(merged({c, b, a}), std::string()); // once more
+    SurveyDatabase(path("m.sqlite"), Sqlite::Access::Write).setReview(1, 2, Verdict::Accepted, "mine");
+    QVERIFY(contains(merged({c, b, a}), "contains reviews"));
+    QCOMPARE(SurveyDatabase(path("m.sqlite")).events(1).front().box.note, std::string("mine"));
 }
 
 void tst_SurveyDatabase::otherSettingsAreNamed()

@@ -5,6 +5,7 @@
 #include "exchange/survey/surveySchema.h"
 
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <set>
@@ -105,6 +106,16 @@ namespace {
         }
     }
 
+    /// A person's work must not go where a file is merely made again.
+    void checkHasNoReviews(const std::string &path)
+    {
+        std::error_code code;
+        if (!std::filesystem::is_regular_file(path, code) || std::filesystem::file_size(path, code) == 0)
+            return;
+        if (SurveyDatabase(path).connection().integer("SELECT count(*) FROM reviews") > 0)
+            throw Error(path, "contains reviews, which the merged survey would replace; choose another name");
+    }
+
 } // namespace
 
 void writeSurvey(const std::vector<SurveyDatabase *> &parts, const SurveyOrigin &origin, const std::string &path)
@@ -150,6 +161,7 @@ void mergeSurveys(const std::vector<std::string> &paths, const std::string &out)
         shards.insert(origin.shard);
     }
     checkShards(shards, out);
+    checkHasNoReviews(out);
     SurveyOrigin origin = parts.front()->origin();
     origin.shard.clear();
     writeSurvey(parts, origin, out);

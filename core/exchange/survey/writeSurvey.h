@@ -15,8 +15,8 @@ void writeSurvey(const std::vector<SurveyDatabase *> &parts, const SurveyOrigin 
 /// A survey without recordings, to which some will be added.
 void beginSurvey(const SurveyOrigin &origin, const std::string &path);
 
-/// The shards of a survey, in any order, as one. Throws Error where they are not of one origin, not finished, or one is
-/// missing.
+/// The shards of a survey, in any order, as one. Throws Error where they are not of one origin, not finished, one is
+/// missing, or `out` is a survey with reviews.
 void mergeSurveys(const std::vector<std::string> &paths, const std::string &out);
 
 } // namespace faintline
