@@ -88,7 +88,7 @@ std::vector<EventReview> eventReviews(const Analysis &analysis, const std::vecto
 std::vector<std::size_t> unmatchedReviews(const Analysis &analysis, const std::vector<Event> &events,
                                           const std::vector<Review> &reviews);
 
-// ---- edits: each makes other reviews of the given ones; `ids` are of `events` --------------------------------------------
+// ---- edits: each makes other reviews of the given ones; `ids` are of `events` ---------------------------------------
 
 std::vector<Review> withVerdict(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events,
                                 const std::vector<int> &ids, Verdict verdict);

@@ -27,8 +27,8 @@ std::optional<Advice> adviceOnSlopes(const Analysis &analysis);
 
 /// Pairs of sure tracks of the analysis' own window that run side by side for most of the shorter one's time, less than
 /// three resolution cells apart and with a distance that stays within half a cell: lines that the window hardly
-/// separates. Nothing is advised where the window that would put them four cells apart is longer than a sixteenth of the
-/// recording, or where the lines' drift would leave the slope set in it.
+/// separates. Nothing is advised where the window that would put them four cells apart is longer than a sixteenth of
+/// the recording, or where the lines' drift would leave the slope set in it.
 std::optional<Advice> adviceOnCloseLines(const Analysis &analysis);
 
 /// Recordings without noise, whose cells hardly change: noise of one frame has a variance of its mean squared, and

@@ -27,8 +27,9 @@ struct BoxLevels {
 ///
 /// y   power over noise of the frames (mean 1 on noise), over the box's T frames and its cells
 /// k_f bins per resolution cell; 1 where frames are no spectrogram
-/// N   mean of the noise: of the cells beside the box, in the same frames, as wide as it on either side (at least 8 resolution
-///     cells) and 2 resolution cells away; a mean cut off at five times itself, so that other lines count little
+/// N   mean of the noise: of the cells beside the box, in the same frames, as wide as it on either side (at least 8
+///     resolution cells) and 2 resolution cells away; a mean cut off at five times itself, so that other lines count
+///     little
 ///
 /// For Σ w² = 1 Parseval gives Σ_f |S|² = k_f·T_FT·Σ|w·x|², so r is the line's SNR in one cell of a rectangular window
 /// for any window's shape, as long as its main lobe is in the box: the snrDb of scenarios and injected lines

@@ -46,8 +46,8 @@ namespace {
         };
     }
 
-    /// The ends of a real recording's spectrum, where a line has no statistics to itself. Not so in a band that was asked
-    /// for, nor of a family, which leaves its members out there.
+    /// The ends of a real recording's spectrum, where a line has no statistics to itself. Not so in a band that was
+    /// asked for, nor of a family, which leaves its members out there.
     std::vector<std::vector<Index>> excludedPlaces(const Spectrogram &spectrogram, const FamilySettings &family,
                                                    Index inhibitBins)
     {

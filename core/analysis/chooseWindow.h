@@ -21,9 +21,10 @@ AnalysisSettings inWindowOf(const WindowTrial &trial, AnalysisSettings settings)
 /// the shorter one's tracks that the longer one follows as well (energyKept; of tracks a hundred times rarer on noise
 /// than ordered):
 ///
-///   shorter  while k < 1/3: signals move too fast for the longer one. Taken only where k ≥ 1/3 is reached, for of what is no line every
-///            shorter window has more. Shorter windows take the law of fast signals (laws::glide).
-///   longer   while k ≥ 0.85: a window four times as long costs next to nothing, and fainter lines stand out of the noise.
+///   shorter  while k < 1/3: signals move too fast for the longer one. Taken only where k ≥ 1/3 is reached, for of what
+///            is no line every shorter window has more. Shorter windows take the law of fast signals (laws::glide).
+///   longer   while k ≥ 0.85: a window four times as long costs next to nothing, and fainter lines stand out of the
+///            noise.
 ///
 /// Windows have at least 24 cells in the band and 16 frames, and no more samples than any T0. On noise nothing is sure
 /// enough to judge by, and T0 stays; at most five windows are tried. The answer's `choice` tells what was tried, its

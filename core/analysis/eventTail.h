@@ -22,7 +22,8 @@ void fitEventRate(std::span<const double> thresholds, std::span<const double> ev
 
 /// The tail of the chain's events: the shape is that of excursions, ln S(T), the height that of the counts,
 ///
-///   ln rate(T) = ln S(T) + δ(T),   δ = ln(events/noise) - ln S at the thresholds, linear between them, constant beyond.
+///   ln rate(T) = ln S(T) + δ(T)
+///   δ = ln(events/noise) - ln S at the thresholds, linear between them, constant beyond
 void anchorTail(const RareRates &rare, std::span<const double> thresholds, const EventCounts &counts,
                 Calibration &result);
 

@@ -22,8 +22,8 @@ struct LineHeight {
 
 /// The highest line in the band, in one Hann-windowed transform of the whole stretch; resolution 1.5 over its duration.
 ///
-/// The band is mixed down and averaged to as few samples as hold it, so that hours are possible: at most 2²², of a longer
-/// stretch its middle. Throws Error where it holds less than 16 samples, Cancelled.
+/// The band is mixed down and averaged to as few samples as hold it, so that hours are possible: at most 2²², of a
+/// longer stretch its middle. Throws Error where it holds less than 16 samples, Cancelled.
 LineHeight lineHeight(const Recording &recording, Stretch stretch, const RunContext &context = {});
 
 } // namespace faintline

@@ -35,14 +35,18 @@ std::unique_ptr<NoiseStream> spectralNoise(const SpectrogramSettings &settings, 
 
 /// How often a detector's statistic rises to a level, for levels that simulation alone would hardly ever reach.
 ///
-/// A *cycle* begins when the largest D of a frame exceeds the first level and ends when it falls below the base, a quantile of that
-/// maximum. The rate of cycles that reach level i is  rate(T₀)·Π p_i,  p_i the fraction of those that reached level i - 1: multilevel
-/// splitting. Each level starts anew, with fresh noise, from states in which the one before was reached.
-/// A cycle that rises high is one event of the chain, so that ratios of rates are those of events wherever these are rare.
-/// Trials of a level share ancestors: the errors are those of four independent runs, or the binomial ones if these are larger. Where single
-/// cells carry an excursion (exponential likelihood far above its K) that is much, with Rice's it is not.
-/// Source: Kahn and Harris 1951; Au and Beck 2001. Oracles: Lindley's recursion in closed form for one slope; importance
-/// sampling with planted lines (tests/analysis/tst_rareRates).
+/// A *cycle* begins when the largest D of a frame exceeds the first level and ends when it falls below the base, a
+/// quantile of that maximum. The rate of cycles that reach level i is
+///
+///   rate(T₀)·Π p_i,   p_i the fraction of those that reached level i - 1
+///
+/// by multilevel splitting: each level starts anew, with fresh noise, from states in which the one before was reached.
+/// A cycle that rises high is one event of the chain, so that ratios of rates are those of events wherever these are
+/// rare. Trials of a level share ancestors: the errors are those of four independent runs, or the binomial ones if
+/// these are larger. Where single cells carry an excursion (exponential likelihood far above its K) that is much, with
+/// Rice's it is not.
+/// Source: Kahn and Harris 1951; Au and Beck 2001. Oracles: Lindley's recursion in closed form for one slope;
+/// importance sampling with planted lines (tests/analysis/tst_rareRates).
 struct RareRates {
     std::vector<double> levels;         ///< ascending, in the statistic's own unit
     std::vector<double> lnRates;        ///< ln of cycles per cell and frame that reach the level

@@ -28,8 +28,8 @@ struct SecondView {
 ///   2. a track that the detector would not have found over that floor was theirs: it goes; so does one of which less
 ///      than the threshold is left over the level of what it runs through (levelBeside.h): it was a path through a
 ///      burst, a cloud or a hum, which becomes an area;
-///   3. the stretches where the signal is present stay, joined over up to 24 frames: the one in which the path's statistic gained most, and
-///      every other whose own evidence reaches the threshold, which is then its statistic;
+///   3. the stretches where the signal is present stay, joined over up to 24 frames: the one in which the path's
+///      statistic gained most, and every other whose own evidence reaches the threshold, which is then its statistic;
 ///   4. what stays is explained: it raises the floor for weaker ones.
 ///
 /// `found`: by detection, as is the answer, numbered anew. Reads all frames once; memory goes with the tracks' length.

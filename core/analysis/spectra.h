@@ -20,8 +20,8 @@ struct Spectra {
     std::vector<double> mean;
 };
 
-/// The frame nearest to `seconds`, and the mean over `time`: of all its frames, or of 400 that lie evenly in it. What was
-/// not observed is left out of the mean and NaN in a frame. A density needs a recording (`spectrogram()`).
+/// The frame nearest to `seconds`, and the mean over `time`: of all its frames, or of 400 that lie evenly in it. What
+/// was not observed is left out of the mean and NaN in a frame. A density needs a recording (`spectrogram()`).
 ///
 ///   density = y·4^e/f_s for complex samples, twice that for real ones;  e = scaleExponent
 ///

@@ -16,7 +16,8 @@ struct Posterior {
 
 /// Forward and backward over a whole state space:
 ///
-///   α_1(n) = P_1(n) e^{λ_1(n)},   α_t(n) = e^{λ_t(n)} Σ_m P(n|m) α_{t-1}(m),   β_T = 1,   β_{t-1}(m) = Σ_n P(n|m) e^{λ_t(n)} β_t(n)
+///   α_1(n) = P_1(n) e^{λ_1(n)},   α_t(n) = e^{λ_t(n)} Σ_m P(n|m) α_{t-1}(m)
+///   β_T(n) = 1,                   β_{t-1}(m) = Σ_n P(n|m) e^{λ_t(n)} β_t(n)
 ///   γ_t(n) = α_t(n) β_t(n) / Σ,   lnEvidence = ln Σ_n α_T(n)
 ///
 /// `initial`: P_1 of every state, empty for 1/states; `lambda`: λ of frames × cells, finite or -∞; the step into frame

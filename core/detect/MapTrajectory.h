@@ -20,7 +20,8 @@ struct MapTrajectory {
 
 /// The most probable trajectory of a target that is there.
 ///
-///   F_1(n) = ln P_1(n) + λ_1(n),   F_k(n) = λ_k(n) + max_m [ F_{k-1}(m) + ln P(n|m) ],   x_K = argmax F_K, x_{k-1} = argmax_m of step k
+///   F_1(n) = ln P_1(n) + λ_1(n),   F_k(n) = λ_k(n) + max_m [ F_{k-1}(m) + ln P(n|m) ]
+///   x_K = argmax F_K,              x_{k-1} = argmax_m of step k
 ///
 /// No back-pointers: the argmax is taken again along the one trajectory that is wanted. Where the scores of all stages
 /// exceed 32 MiB, only those of every √K-th stage are kept and the stages between are run a second time. Ties: the

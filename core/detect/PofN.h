@@ -22,7 +22,8 @@ struct PofNSettings {
 /// P-out-of-N detection.
 ///
 ///   m(t, f) = max{ y(t, g) : f - ⌊(w-1)/2⌋ ≤ g ≤ f + ⌊w/2⌋ },   w the window's bandwidth in cells
-///   D(t, f) = mean of the P largest m(t', f), t-N < t' ≤ t, if the P-th largest exceeds r1 and the mean exceeds r2; else 0
+///   D(t, f) = mean of the P largest m(t', f), t-N < t' ≤ t, if the P-th largest exceeds r1 and the mean exceeds r2,
+///             else 0
 ///
 /// Cells off the axis and frames before the first count as empty. On a grid of several axes the band lies along the
 /// last. Source: Billon 2005 sections 1 and 5. Oracle: sorting every window. Cost: N·min(P, N-P+1) operations a cell.

@@ -191,7 +191,7 @@ namespace {
         Any,
         Singles, ///< each has one source
         Threes,  ///< none is general
-        Chained, ///< and each one's second source is the next one's first; all else lies as far from one target to the next
+        Chained, ///< and each one's second source is the next one's first; all else as far apart from target to target
         Uniform, ///< and all sources weigh the same
     };
 

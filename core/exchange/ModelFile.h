@@ -41,8 +41,10 @@ KinematicAxis kinematicAxisFromJson(const Json &json, const std::string &where);
 
 /// The same file for a sequential test, which knows no reset (the key is checked and not used) and more of these:
 ///
-///   axes: "step": "uniform-admissible" | {"gaussian": σ in cells}, both shared out among the cells that exist; "integrate": true,
-///   an axis of the frames without a state; "transition": [[P(from, to)]] in place of a law;   "initial": [P(x1) of every state]
+///   axes      "step": "uniform-admissible" | {"gaussian": σ in cells}, both shared out among the cells that exist
+///             "integrate": true, an axis of the frames without a state
+///             "transition": [[P(from, to)]] in place of a law
+///   initial   [P(x1) of every state]
 ///
 /// readModelFile takes the steps and the matrix as well. Throws Error; also where the cells are not those of the
 /// frames, if these are known, and before anything is made as large as the file says.

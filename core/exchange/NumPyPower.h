@@ -9,7 +9,8 @@ namespace faintline {
 /// A spectrogram in a NumPy file of shape (frames, frequencies), power in any unit, whose axes a grid file beside it
 /// describes with "values": "power":
 ///
-///   { "values": "power", "time": { "first": 0, "step": 0.5 }, "axes": [ { "name": "frequency", "unit": "Hz", "first": 100, "step": 2 } ] }
+///   { "values": "power", "time": { "first": 0, "step": 0.5 },
+///     "axes": [ { "name": "frequency", "unit": "Hz", "first": 100, "step": 2 } ] }
 ///
 /// The file may be larger than memory. Thread-safe.
 class NumPyPower final : public PowerFrames

@@ -7,7 +7,8 @@ namespace faintline {
 
 /// A sigproc filterbank (.fil): spectra of 1, 2, 4, 8, 16 (unsigned) or 32 bits (float), one after the other.
 ///
-///   header   HEADER_START, then keywords with values, texts as a length of 32 bits and as many characters, to HEADER_END
+///   header   HEADER_START, then keywords with values, texts as a length of 32 bits and as many characters, to
+///            HEADER_END
 ///   data     frames × IFs × channels; of 1, 2 and 4 bits the lowest come first
 ///
 /// Channel i lies at fch1 + i·foff MHz; where foff is negative the channels are turned round, so that frequencies

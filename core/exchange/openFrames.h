@@ -35,8 +35,8 @@ struct FramesOptions {
 
 /// The frames of such a file; null where it is of another kind, a recording.
 ///
-///   .npy     normalised power of shape (frames, cells…), with axes from NAME.grid.json where that is there; the options do not matter, unless it
-///            is power
+///   .npy     normalised power of shape (frames, cells…), with axes from NAME.grid.json where that is there; the
+///            options do not matter, unless it is power
 ///   others   power, over its noise (NormalisedPower)
 ///
 /// Throws Error, Cancelled.

@@ -78,8 +78,8 @@ namespace {
             }
             if (low == high)
                 high += 1.0;
-            step =
-                tickStep(); // of the range as it is: the widened one might ask for another, and its top lie off the canvas
+            // Of the range as it is: the widened one might ask for another step, and its top lie off the canvas.
+            step = tickStep();
             low = std::floor(low / step + 1e-9) * step;
             high = std::ceil(high / step - 1e-9) * step;
         }

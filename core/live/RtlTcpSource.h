@@ -21,8 +21,8 @@ struct ReceiverSettings {
 /// I/Q of eight bits from an rtl_tcp server, whose receiver is set as asked for.
 ///
 /// Commands are five bytes, a number and a big-endian value: 1 frequency, 2 sample rate, 3 gain mode, 4 gain in tenths
-/// of a decibel, 5 correction in ppm. A server that goes away is asked for again every second; the gap is as long as the
-/// clock says, for rtl_tcp counts nothing. Source: rtl_tcp.c of librtlsdr.
+/// of a decibel, 5 correction in ppm. A server that goes away is asked for again every second; the gap is as long as
+/// the clock says, for rtl_tcp counts nothing. Source: rtl_tcp.c of librtlsdr.
 class RtlTcpSource final : public SampleSource
 {
 public:

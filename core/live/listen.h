@@ -35,10 +35,11 @@ struct ListenResult {
 /// Listens until the source is over, the selection's end is reached, or the context's stop is asked for, which is no
 /// error: within half a second what is there is analysed and written.
 ///
-/// recording: source → SigMF on disk; analysis: source → buffer → frames over a causal background → chain → events, frame
-/// by frame. Both have the same samples at the same places, and the frames and the chain are those of `analyse`: the
-/// events are those of that recording with the same settings. Memory: the buffer, a block of noise, and what the chain
-/// holds; it does not grow with time. Throws Error where the source or the settings cannot be used, or a pipe fails.
+/// recording: source → SigMF on disk; analysis: source → buffer → frames over a causal background → chain → events,
+/// frame by frame. Both have the same samples at the same places, and the frames and the chain are those of `analyse`:
+/// the events are those of that recording with the same settings. Memory: the buffer, a block of noise, and what the
+/// chain holds; it does not grow with time. Throws Error where the source or the settings cannot be used, or a pipe
+/// fails.
 ListenResult listen(SampleSource &source, const ListenSettings &settings, const ListenSinks &sinks,
                     const RunContext &context = {});
 

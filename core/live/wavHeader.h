@@ -8,8 +8,8 @@
 
 namespace faintline {
 
-/// What the header of a WAV file says that comes through a pipe, whose lengths mean nothing: RIFF or RF64, integers of 8,
-/// 16, 24 and 32 bits, floats of 32 and 64.
+/// What the header of a WAV file says that comes through a pipe, whose lengths mean nothing: RIFF or RF64, integers of
+/// 8, 16, 24 and 32 bits, floats of 32 and 64.
 struct WavHeader {
     StreamFormat format; ///< integers of 24 bits as ones of 32, by `expand24`
     bool isPacked24 = false;

@@ -19,17 +19,29 @@ inline constexpr std::array<std::string_view, 2> roundingNames{"halfDown", "trun
 
 /// How one coordinate of the state moves in one step, in cells and cells per step.
 ///
-/// With rates r in firstRate … firstRate+rateCount-1:   r' = r + δ with probability h(|δ|),   p' = p + round((r + r')/2).
-/// With `ratesPerCell` = q > 1 rates are whole multiples k of 1/q cell per step, and the target's moves it as Bresenham's line does:
-/// in step t = 0, 1, …   p' = p + ⌊k'(t + 1)/q + ½⌋ - ⌊k'·t/q + ½⌋, independent of the previous rate. A state that keeps its rate stays within half
-/// a cell of a straight line; the phase t mod q is common to all states, so it costs neither states nor probability.
-/// Without rates (rateCount = 1, firstRate = 0) and with a step law q:   p' = p + δ with probability q(|δ|), a random walk.
-/// h(0) + 2 Σ h(i) = 1, the same for q. Rates outside the set do not exist; neither do positions outside a bounded axis;
-/// the probability lost there is not given to others (Billon 2005 section 4, Parsons 2008 section 3): K absorbs that in a detector.
+/// With rates r in firstRate … firstRate+rateCount-1:
+///
+///   r' = r + δ with probability h(|δ|),   p' = p + round((r + r')/2)
+///
+/// With `ratesPerCell` = q > 1 rates are whole multiples k of 1/q cell per step, and the target's moves it as
+/// Bresenham's line does, in step t = 0, 1, … independent of the previous rate:
+///
+///   p' = p + ⌊k'(t + 1)/q + ½⌋ - ⌊k'·t/q + ½⌋
+///
+/// A state that keeps its rate stays within half a cell of a straight line; the phase t mod q is common to all states,
+/// so it costs neither states nor probability. Without rates (rateCount = 1, firstRate = 0) and with a step law q, a
+/// random walk:
+///
+///   p' = p + δ with probability q(|δ|)
+///
+/// h(0) + 2 Σ h(i) = 1, the same for q. Rates outside the set do not exist; neither do positions outside a bounded
+/// axis; the probability lost there is not given to others (Billon 2005 section 4, Parsons 2008 section 3): K absorbs
+/// that in a detector.
 ///
 /// A likelihood ratio needs a lossless law. On a `renormalised` axis the moves that exist share what is lost,
 ///
-///   P(r', p' | r, p) = h(|r'-r|) / Σ over r'' with p + d(r, r'') on the axis of h(|r''-r|),   P(p'|p) = q(|p'-p|) / Σ over existing cells
+///   P(r', p' | r, p) = h(|r'-r|) / Σ h(|r''-r|)   over r'' with p + d(r, r'') on the axis
+///   P(p'|p) = q(|p'-p|) / Σ q(|p''-p|)            over cells p'' that exist
 ///
 /// (Grossi and Lops 2006 for walks), so P = (departure of the source) · (law of the move). A target at the end of an
 /// axis none of whose moves stays there first turns to the rate nearest to its own that has one, of two equally near

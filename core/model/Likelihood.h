@@ -18,9 +18,10 @@ inline constexpr std::array<std::string_view, 3> likelihoodNames{"rice", "expone
 
 /// The log-likelihood ratio λ(y) = ln p1(y)/p0(y), natural logarithm.
 ///
-///   rice         constant amplitude, SNR r0:     λ = -r0 + ln I0(2√(r0·y))         Billon 2005, section 4
-///   exponential  fluctuating, mean SNR ρ:        λ = yρ/(1+ρ) - ln(1+ρ)            Parsons 2008 eq. 9, Grossi and Lops 2006 eq. 10
-///   linear       the exponential one rescaled:   λ = y                             Parsons 2008 eq. 10
+///   rice         constant amplitude, SNR r0:     λ = -r0 + ln I0(2√(r0·y))   Billon 2005, section 4
+///   exponential  fluctuating, mean SNR ρ:        λ = yρ/(1+ρ) - ln(1+ρ)      Parsons 2008 eq. 9, Grossi and Lops 2006
+///                                                                            eq. 10
+///   linear       the exponential one rescaled:   λ = y                       Parsons 2008 eq. 10
 ///   given        frames hold λ itself, any finite number, not power
 ///
 /// `apply` works in single precision: |error| ≤ 1e-6 · max(1, |λ|) for 0 ≤ y ≤ 1e4 and beyond; rice is one polynomial

@@ -55,8 +55,8 @@ namespace {
 
 } // namespace
 
-/// What libsndfile reads through: a shared file, an offset of its own, and 4 bytes that may read as 0xFF … instead. While
-/// it reads the header, name by name, lists in which it would lose its way get a name that it does not know.
+/// What libsndfile reads through: a shared file, an offset of its own, and 4 bytes that may read as 0xFF … instead.
+/// While it reads the header, name by name, lists in which it would lose its way get a name that it does not know.
 struct AudioDecoder::Source {
     std::shared_ptr<const FileBytes> file;
     std::optional<Index> patched;

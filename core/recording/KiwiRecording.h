@@ -10,8 +10,9 @@ namespace faintline {
 /// A WAV file as KiwiSDR receivers write it: many short data chunks, each behind a "kiwi" chunk with the GNSS time of
 /// its first sample.
 ///
-///   "RIFF" size "WAVE",  "fmt " …,  then again and again  "kiwi" 10: age of the last fix (s, 255: none), 0, GPS second of the week, nanosecond
-///                                                         "data" n: 16-bit samples
+///   "RIFF" size "WAVE",  "fmt " …,  then again and again
+///   "kiwi" 10: age of the last fix (s, 255: none), 0, GPS second of the week, nanosecond
+///   "data" n: 16-bit samples
 ///
 /// Two channels are I and Q. The sample rate is that of the time stamps over the longest stretch without a gap, where
 /// they tell one, for the header holds but whole hertz. Gaps between stamps are told in a note; samples are read as if

@@ -40,9 +40,9 @@ struct FamilySettings {
 /// Checks what no single field can. Throws Error naming the field.
 void checkFamily(const FamilySettings &settings);
 
-/// The axis of a family over a band: of offsets, and of none, the band's; of harmonics fundamentals all of whose members
-/// lie in it at least 3 bins apart, in steps of 1/max m_k bin, so that the highest member moves by a bin. Throws Error
-/// where there is none, and where offsets lie less than a bin apart.
+/// The axis of a family over a band: of offsets, and of none, the band's; of harmonics fundamentals all of whose
+/// members lie in it at least 3 bins apart, in steps of 1/max m_k bin, so that the highest member moves by a bin.
+/// Throws Error where there is none, and where offsets lie less than a bin apart.
 Axis familyAxis(const FamilySettings &settings, const Axis &band);
 
 /// The same with distances of `factor` times as many Hz.
@@ -51,7 +51,8 @@ FamilySettings scaledFamily(FamilySettings settings, double factor);
 /// How many cells of the family's axis a bin of the frames is: the largest multiple of harmonics, 1 of others.
 double familyCellsPerBin(const FamilySettings &settings);
 
-/// How many bands of a width, one beside the other, the members go through while the family goes through one; 1 of none.
+/// How many bands of a width, one beside the other, the members go through while the family goes through one; 1 of
+/// none.
 double ringBands(const FamilySettings &settings);
 
 /// Where the members lie of a family at `hz`: multiples of it, or at their distances from it.
@@ -62,9 +63,9 @@ std::vector<double> memberFrequencies(const FamilySettings &settings, double hz)
 ///   together  y(f) = -ln Q(K, Σ_k y(f_k))            Q: regularised upper incomplete gamma function
 ///   inTurn    y(f) = -ln(1 - (1 - e^(-max_k y(f_k)))^K)
 ///
-/// f_k = m_k·f (harmonics), read off to the nearest bin, or f + m_k (offsets); K counts the members inside the band that
-/// were observed, and without any y is NaN. The sum is sufficient for equal weak members, the maximum close to it for one
-/// member at a time. Every detector works on this y as on any other, and is calibrated on it.
+/// f_k = m_k·f (harmonics), read off to the nearest bin, or f + m_k (offsets); K counts the members inside the band
+/// that were observed, and without any y is NaN. The sum is sufficient for equal weak members, the maximum close to it
+/// for one member at a time. Every detector works on this y as on any other, and is calibrated on it.
 ///
 /// Oracle: direct sums; Boost.Math. Thread-safe.
 class FamilyMap

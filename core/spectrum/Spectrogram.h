@@ -72,8 +72,8 @@ public:
     /// Bins per resolution cell as realised: transform length over window length.
     double binsPerCell() const { return double(m_fft->length()) / m_windowSamples; }
 
-    /// Whether the band ends at 0 Hz and half the rate of real samples. There the spectrum overlaps with its mirror image,
-    /// y has other statistics (χ² of one degree of freedom), and at 0 Hz there is often a constant.
+    /// Whether the band ends at 0 Hz and half the rate of real samples. There the spectrum overlaps with its mirror
+    /// image, y has other statistics (χ² of one degree of freedom), and at 0 Hz there is often a constant.
     bool hasRealEnds() const;
 
     /// Computes frames first … first+count-1 into `out`, count × frequency().count values, row by row, on as many

@@ -8,14 +8,15 @@
 
 namespace faintline {
 
-/// A recording shifted in frequency, from moment to moment, so that what runs along a curve f(t) stays at one frequency:
+/// A recording shifted in frequency, from moment to moment, so that what runs along a curve f(t) stays at one
+/// frequency:
 ///
 ///   s(t) = Re{ a(t)·e^(-2πi ∫ (f - f0) dt) },   a = x + i·H{x}
 ///
-/// H: Hilbert transform, block by block (BlockFilter); of I/Q samples a = x, and s is complex. The phase is a continuous
-/// function of the curve alone. The whole band moves with the line, so noise stays what it was; what comes within
-/// |f - f0| of 0 Hz or half the rate is folded there. Thread-safe; samples are a pure function of (recording, curve,
-/// index).
+/// H: Hilbert transform, block by block (BlockFilter); of I/Q samples a = x, and s is complex. The phase is a
+/// continuous function of the curve alone. The whole band moves with the line, so noise stays what it was; what comes
+/// within |f - f0| of 0 Hz or half the rate is folded there. Thread-safe; samples are a pure function of (recording,
+/// curve, index).
 class StraightenedRecording final : public Recording
 {
 public:

@@ -52,8 +52,8 @@ struct BlockRows {
 void moveToBackground(std::vector<float> &levels, const BlockRows &rows, const NoiseBackground &background,
                       const std::vector<Index> &blockOfLevel);
 
-/// Mean of one row of ln powers over another, of the cells of noise in each of `bands` sub-bands and, last, in the whole
-/// band.
+/// Mean of one row of ln powers over another, of the cells of noise in each of `bands` sub-bands and, last, in the
+/// whole band.
 std::vector<double> meanOver(const float *upper, const float *lower, std::vector<bool>::const_iterator isNoise,
                              Index cells, Index bands);
 

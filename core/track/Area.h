@@ -19,8 +19,8 @@ struct Area {
 };
 
 /// Areas that overlap or touch become one, as long as its box is at most a fifth larger than all that it was joined
-/// of: a burst over the whole band and a hum that goes on behind it stay two, and a diagonal stays several. The level is the mean, weighted by their frames.
-/// Ordered by first frame, then cell.
+/// of: a burst over the whole band and a hum that goes on behind it stay two, and a diagonal stays several. The level
+/// is the mean, weighted by their frames. Ordered by first frame, then cell.
 std::vector<Area> joinAreas(std::vector<Area> areas);
 
 } // namespace faintline

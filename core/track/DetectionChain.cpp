@@ -12,8 +12,8 @@ namespace {
     constexpr Index checkpointFrames = 32; ///< from one to the next
     constexpr int framesUntilDuplicate = 3;
     constexpr double skirtLevel = 8.0; ///< y that noise seldom reaches
-    /// By so much more than to noise of its own level a constant leaks: where noise falls steeply from 0 Hz on, its side
-    /// lobes lie on less of it.
+    /// By so much more than to noise of its own level a constant leaks: where noise falls steeply from 0 Hz on, its
+    /// side lobes lie on less of it.
     constexpr double excludedMargin = 10.0;
     constexpr Index largestSkirtSteps = 16;
 

@@ -23,8 +23,8 @@ struct SmoothedPoint {
     float presence = 0.0f; ///< probability that the signal is there
     float level = 0.0f;    ///< its mean power over the noise's along the path
 
-    /// Standard deviation of the position, in cells, by the 5-95 % band, which is 3.29 of them wide for a normal law; at
-    /// least a tenth of a cell, for the posterior knows nothing of what its model leaves out.
+    /// Standard deviation of the position, in cells, by the 5-95 % band, which is 3.29 of them wide for a normal law;
+    /// at least a tenth of a cell, for the posterior knows nothing of what its model leaves out.
     double deviation() const { return std::max(0.1, double(high - low) / 3.2897); }
 };
 

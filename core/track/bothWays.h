@@ -33,10 +33,11 @@ Index bothWaysHalfWidth(double binsPerCell);
 /// Takes the posterior of presence and place in a corridor of ±3 resolution cells around the strip's path, twice, the
 /// second time around the first one's mean.
 ///
-///   r(t) = mean of y along the path over ±12 frames, less 1; λ is the likelihood's at SNR clamp(r, ½, 4), in half octaves
+///   r(t) = mean of y along the path over ±12 frames, less 1; λ is the likelihood's at SNR clamp(r, ½, 4), in half
+///          octaves
 ///   an onset or an end costs max(T/2, 2) nat, T the threshold
-///   f(t) = maximum of the power averaged along the mean path over ±clamp(10/r, 1, 8) frames, by a parabola through its logarithm, at most
-///          one bin from the mean
+///   f(t) = maximum of the power averaged along the mean path over ±clamp(10/r, 1, 8) frames, by a parabola through its
+///          logarithm, at most one bin from the mean
 ///
 /// A line that stops is given up sooner the stronger it is; up to SNR 4, so that a keyed one stays one.
 BothWays lookBothWays(const PathStrip &strip, const BothWaysModel &model);

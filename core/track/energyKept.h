@@ -18,7 +18,8 @@ struct TracksOnAxes {
 /// Of the energy that tracks of a shorter window followed, the share that those of a longer one followed at the same
 /// places:
 ///
-///   E(X) = Σ r(t) over all tracks within X's path ± 1 cell of the shorter window, in X's time;   share = E_longer(X)/E_shorter(X)
+///   E(X) = Σ r(t) over all tracks within X's path ± 1 cell of the shorter window, in X's time
+///   share = E_longer(X)/E_shorter(X)
 ///
 /// r is a signal's power over the noise's in one frame. As many frames a window on both sides, so a steady line has the
 /// same E in both: its r grows with T_FT as the number of frames falls. Of one that moves by more than a cell within

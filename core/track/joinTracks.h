@@ -28,8 +28,8 @@ struct JoinRule {
 /// significant than a detection has to be: faint lines are joined over long gaps, a strong one that was switched off is
 /// not. The later path's run-up before that frame goes; the gap is filled by a straight line. Of several earlier
 /// tracks the one with the shortest gap counts, then the nearest, then the first.
-/// `tracks`: ordered by detection; so is the answer, numbered anew unless the rule keeps numbers. Cost: number of tracks
-/// squared, at most.
+/// `tracks`: ordered by detection; so is the answer, numbered anew unless the rule keeps numbers. Cost: number of
+/// tracks squared, at most.
 std::vector<Track> joinTracks(std::vector<Track> tracks, const Grid &grid, const JoinRule &rule);
 
 /// The same one by one: `track` goes behind the one of `joined` that it continues, or comes to them, in the order of

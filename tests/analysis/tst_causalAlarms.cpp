@@ -28,8 +28,8 @@ void tst_causalAlarms::startsAreLikeTheRest_data()
     QTest::newRow("sixty an hour") << 60.0 << 400 << 0.12;
 }
 
-// 800 and 400 starts of three minutes: 200 and 1200 are ordered, of which chance leaves 7 and 3 percent. The three minutes are
-// alike to chi-squared with two degrees of freedom, 5 %.
+// 800 and 400 starts of three minutes: 200 and 1200 are ordered, of which chance leaves 7 and 3 percent. The three
+// minutes are alike to chi-squared with two degrees of freedom, 5 %.
 void tst_causalAlarms::startsAreLikeTheRest()
 {
     QFETCH(double, perHour);

@@ -50,7 +50,9 @@ double lnBruteRate(Detector &detector, NoiseStream &noise, double base, double l
 /// stochastic. With A(t) = e^λ (P A(t-1) + 1/states) the likelihood ratio of Q to noise is, of a look at frames up to
 /// τ,
 ///
-///   L(τ) = ( Σ A(τ) + n - τ ) / n,   P0(n1 < τ ≤ n) = E_Q[ 1(n1 < τ ≤ n) / L(τ) ],   τ: the first frame with max D > T.
+///   L(τ) = ( Σ A(τ) + n - τ ) / n,   P0(n1 < τ ≤ n) = E_Q[ 1(n1 < τ ≤ n) / L(τ) ]
+///
+/// with τ the first frame with max D > T.
 ///
 /// While the whole is rare this is the rate of excursions times the cells times n - n1.
 class PlantedLines

@@ -121,8 +121,8 @@ void tst_smoothFrequency::solvesWhittakersEquations()
         QVERIFY(std::abs(curve.at(3.5 + i) - z[i]) < 1e-5);
 }
 
-/// A period far longer than the track leaves the straight line of least squares, to the last digit that matters, and the
-/// curve goes on for no more than half the track's length.
+/// A period far longer than the track leaves the straight line of least squares, to the last digit that matters, and
+/// the curve goes on for no more than half the track's length.
 void tst_smoothFrequency::endsInAStraightLine()
 {
     std::vector<double> cells;

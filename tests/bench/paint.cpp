@@ -58,13 +58,13 @@ QString hourOfLines(const QTemporaryDir &folder)
         return {};
     file.write(R"({"kind": "lines", "sampleRateHz": 16000, "durationSeconds": 3600, "seed": 5, "lines": [)");
     for (int i = 0; i < 59; ++i)
-        file.write(
-            QStringLiteral(
-                R"(%1{"snrDb":8, "driftHzPerSecond": 0.4, "startSeconds": %2, "durationSeconds": 50, "frequencyHz": %3})")
-                .arg(i == 0 ? "" : ", ")
-                .arg(60 * i + 5)
-                .arg(300 + (i * 1237) % 7400)
-                .toUtf8());
+        file.write(QStringLiteral(
+                       R"(%1{"snrDb":8, "driftHzPerSecond": 0.4, "startSeconds": %2, "durationSeconds": 50,
+                      "frequencyHz": %3})")
+                       .arg(i == 0 ? "" : ", ")
+                       .arg(60 * i + 5)
+                       .arg(300 + (i * 1237) % 7400)
+                       .toUtf8());
     file.write("]}");
     return path;
 }

@@ -120,7 +120,8 @@ void tst_ModelFile::sonarAxes()
     const ModelFile file = model(R"({"axes": [{"name": "bearing", "cells": 20, "cyclic": true, "rates": [-1, 0, 1],
                                                "rateChange": [0.5, 0.25], "round": "trunc"},
                                               {"name": "range", "cells": 2500, "rates": [3, 4], "rateChange": [1]}],
-                                     "likelihood": {"kind": "exponential", "snr": 4}, "reset": {"law": "mean", "K0": 0.25}})");
+                                     "likelihood": {"kind": "exponential", "snr": 4},
+                                     "reset": {"law": "mean", "K0": 0.25}})");
     const auto &axes = file.model.space.axes();
     QCOMPARE(axes.size(), std::size_t(2));
     QVERIFY((axes[0] == KinematicAxis{"bearing", 20, true, -1, 3, {0.5, 0.25}, {}, Rounding::Trunc}));
@@ -141,7 +142,8 @@ void tst_ModelFile::stepsThatStayOnTheAxis()
 {
     const ModelFile file =
         model(R"({"axes": [{"cells": 8, "step": "uniform-admissible"}, {"cells": 9, "step": {"gaussian": 0.5}},
-                                              {"cells": 1, "step": "uniform-admissible"}], "likelihood": {"kind": "linear"}})");
+                                              {"cells": 1, "step": "uniform-admissible"}],
+                                     "likelihood": {"kind": "linear"}})");
     const auto &axes = file.model.space.axes();
     QCOMPARE(axes[0].step, (std::vector<double>{1.0 / 3.0, 1.0 / 3.0}));
     QVERIFY(axes[0].renormalised && axes[1].renormalised);
@@ -163,7 +165,8 @@ void tst_ModelFile::sequentialModel()
 {
     writeBytes(path("m.json"),
                R"({"axes": [{"cells": 3, "step": [0.5, 0.25]}, {"cells": 4, "integrate": true}, {"cells": 2}],
-                                   "likelihood": {"kind": "exponential", "snr": 4}, "initial": [0.5, 0.1, 0.1, 0.1, 0.1, 0.1],
+                                   "likelihood": {"kind": "exponential", "snr": 4},
+                                   "initial": [0.5, 0.1, 0.1, 0.1, 0.1, 0.1],
                                    "reset": {"law": "none", "semiring": "sum"}})");
     const SequentialModel read = readSequentialModel(path("m.json"));
     QCOMPARE(read.markov.space.stateCount(), Index(6));
@@ -185,16 +188,19 @@ void tst_ModelFile::sequentialModelsLoseNothing_data()
     row("slopes",
         R"({"cells": 41, "rates": [-2, -1, 0, 1, 2], "rateChange": [0.3333333333333333, 0.3333333333333333]})");
     row("slopes round a ring",
-        R"({"cells": 41, "cyclic": true, "rates": [-2, -1, 0, 1, 2], "rateChange": [0.3333333333333333, 0.3333333333333333]})");
+        R"({"cells": 41, "cyclic": true, "rates": [-2, -1, 0, 1, 2],
+            "rateChange": [0.3333333333333333, 0.3333333333333333]})");
     row("law of six digits", R"({"cells": 9, "rates": [-1, 0, 1], "rateChange": [0.333334, 0.333333]})");
     row("sonar", R"({"cells": 7, "cyclic": true, "rates": [-1, 0, 1], "rateChange": [0.5, 0.25], "round": "trunc"},
-                    {"cells": 30, "rates": [-3, -2, -1, 0, 1, 2, 3], "rateChange": [0.2, 0.2, 0.1, 0.1], "round": "trunc"})");
+                    {"cells": 30, "rates": [-3, -2, -1, 0, 1, 2, 3], "rateChange": [0.2, 0.2, 0.1, 0.1],
+                     "round": "trunc"})");
     row("list of steps", R"({"cells": 6, "step": [0.5, 0.25]})");
     row("list of steps round a ring", R"({"cells": 6, "cyclic": true, "step": [0.333334, 0.333333]})");
     row("both ways to the same cell", R"({"cells": 2, "cyclic": true, "step": [0.5, 0.25]})");
     row("never staying", R"({"cells": 6, "step": [0, 0.5]})");
     row("admissible",
-        R"({"cells": 3, "step": "uniform-admissible"}, {"cells": 5, "step": "uniform-admissible"}, {"cells": 4, "integrate": true})");
+        R"({"cells": 3, "step": "uniform-admissible"}, {"cells": 5, "step": "uniform-admissible"},
+           {"cells": 4, "integrate": true})");
     row("Gaussian", R"({"cells": 20, "step": {"gaussian": 2.5}})");
     row("matrix that loses", R"({"cells": 3, "transition": [[0.2, 0.3, 0], [0.1, 0.1, 0.1], [0, 0, 1]]})");
     row("walk and slopes",

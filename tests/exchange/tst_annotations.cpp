@@ -179,7 +179,8 @@ void tst_annotations::sigmf()
 {
     // Its own sample rate counts, and the centre comes off.
     const auto boxes = read("s.sigmf-meta", R"({"global": {"core:sample_rate": 2000}, "captures": [], "annotations": [
-        {"core:sample_start": 1000, "core:sample_count": 500, "core:freq_lower_edge": 4990, "core:freq_upper_edge": 5020, "core:label": "x"},
+        {"core:sample_start": 1000, "core:sample_count": 500, "core:freq_lower_edge": 4990,
+         "core:freq_upper_edge": 5020, "core:label": "x"},
         {"core:sample_start": 3000}]})");
     QVERIFY((boxes[0] == Annotation{0.5, 0.75, -10.0, 20.0, "x", "", Verdict::None}));
     QVERIFY((boxes[1] == Annotation{1.5, 1.5, {}, {}, "", "", Verdict::None}));

@@ -130,8 +130,8 @@ void tst_CausalSpectrogram::whiteNoiseHasMeanOne()
     }
 }
 
-// The oracle: a recording that goes on differently from some sample on. Frames before it, but for the first block, which
-// is estimated as a whole, do not know.
+// The oracle: a recording that goes on differently from some sample on. Frames before it, but for the first block,
+// which is estimated as a whole, do not know.
 void tst_CausalSpectrogram::theFutureChangesNothing()
 {
     const std::vector<float> whole = gaussian(60'000, 2);

@@ -55,8 +55,8 @@ public:
     /// The least cost of a straight line f = a + b·t in place of a pass.
     double straightLineCost() const;
 
-    /// The nearest minimum of the cost, by Levenberg and Marquardt (Eigen): over all coordinates, or over those of three
-    /// parameters while one is held at its own coordinate.
+    /// The nearest minimum of the cost, by Levenberg and Marquardt (Eigen): over all coordinates, or over those of
+    /// three parameters while one is held at its own coordinate.
     DopplerCoordinates minimum(const DopplerCoordinates &from) const;
     DopplerCoordinates minimum(const DopplerCoordinates &from, DopplerParameter held, double ownCoordinate) const;
 

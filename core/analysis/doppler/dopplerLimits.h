@@ -17,11 +17,11 @@ struct DopplerOptimum {
 
 /// The limits of the four parameters by profile likelihood, in the order of DopplerParameter.
 ///
-/// A value ψ of a parameter lies inside while √((min cost over the other three at ψ - cost)/variance) ≤ critical. From the
-/// optimum the profile is followed outwards, in steps that grow, until that is exceeded; the crossing is found by TOMS
-/// 748. Where one profile comes to places beyond another's limit, that one is followed further from there. An end is open
-/// where it is not exceeded up to the limits of the parameter: f0 = 0, v = 0 and v = c, R a million times smaller or
-/// larger, t0 200 track lengths away.
+/// A value ψ of a parameter lies inside while √((min cost over the other three at ψ - cost)/variance) ≤ critical. From
+/// the optimum the profile is followed outwards, in steps that grow, until that is exceeded; the crossing is found by
+/// TOMS 748. Where one profile comes to places beyond another's limit, that one is followed further from there. An end
+/// is open where it is not exceeded up to the limits of the parameter: f0 = 0, v = 0 and v = c, R a million times
+/// smaller or larger, t0 200 track lengths away.
 ///
 /// Where a profile comes upon a lower cost than the optimum's, `optimum` moves there, and the limits are those of the
 /// new one.

@@ -12,8 +12,9 @@ namespace faintline {
 ///
 ///   Δ(t, f) = m_B(D_B(t, f)) - m_A(max D_A)      max over A's cells whose centres lie in B's cell, or the nearest one
 ///   m(D) = D - T                                 where both statistics are log-likelihoods in nat
-///   m(D) = ln P(D' > T) - ln P(D' > D)           where one is a power (energy, integrator, P out of N): statistics of different units
-///                                                cannot be compared, but how rare they are on noise (Calibration) can
+///   m(D) = ln P(D' > T) - ln P(D' > D)           where one is a power (energy, integrator, P out of N): statistics of
+///                                                different units cannot be compared, but how rare they are on noise
+///                                                (Calibration) can
 ///
 /// Made from the statistics' pictures, so rounded to ¼ nat and with as many frames a row as the coarser of them. Frames
 /// on several axes have no such picture; the answer is null. Cost: a look into a table for each cell.

@@ -14,7 +14,9 @@ namespace faintline {
 /// for a line of constant frequency and amplitude and an integrator of its duration n, a theory curve follows the
 /// integrator's:
 ///
-///   Pd = Q_n(T),   P_fa(T) = n / cells of a block      n looks, one per window; as many independent cells as windows × resolution cells
+///   Pd = Q_n(T),   P_fa(T) = n / cells of a block
+///
+/// with n looks, one per window, and as many independent cells as windows × resolution cells.
 ///
 /// For a sweep: Pd against its parameter (sweepCurve.h). Source: Billon 2005, section 5. Curves stand in the order of
 /// the detectors, so that curve i < detectors is detector i.

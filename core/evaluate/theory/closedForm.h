@@ -17,8 +17,9 @@ struct ExceedancePoint {
 ///
 ///   energy       e^{-T}                                       for any overlap: one cell's law
 ///   integrator   gamma law of n looks (pfaOfMeanPower)        of a boxcar of n windows without overlap in time
-///   SMD          σ e^{-(1-σ)(T + ln K)} (lindleyExceedance)   one slope kept, linear likelihood, no overlap in time, ln K < -1 fixed:
-///                                                             D is Lindley's L before ln K is added, T ≥ -ln K
+///   SMD          σ e^{-(1-σ)(T + ln K)} (lindleyExceedance)   one slope kept, linear likelihood, no overlap in time,
+///                                                             ln K < -1 fixed: D is Lindley's L before ln K is added,
+///                                                             T ≥ -ln K
 ///
 /// Bins beside one another may overlap: the law is that of one cell. That the noise background is estimated is left
 /// out.
