@@ -31,15 +31,6 @@ namespace {
         return std::lerp(path.position[i - 1][axis], path.position[i][axis], share);
     }
 
-    std::vector<double> positionOf(const Grid &grid, Index cell)
-    {
-        std::vector<double> position;
-        const std::vector<Index> coordinates = grid.coordinates(cell);
-        for (std::size_t axis = 0; axis < coordinates.size(); ++axis)
-            position.push_back(grid.axes[axis].value(double(coordinates[axis])));
-        return position;
-    }
-
     const Event &eventOf(const std::vector<Event> &events, int id)
     {
         const auto found =
@@ -175,13 +166,14 @@ SignalPath pathOf(const Analysis &analysis, const Event &event)
     for (std::size_t i = 0; i <= steps; ++i) {
         const TrackPoint &point = track->points[steps == 0 ? 0 : i * last / steps];
         path.seconds.push_back(analysis.time().value(double(point.frame)));
-        path.position.push_back(positionOf(analysis.grid(), point.cell));
+        path.position.push_back(analysis.grid().position(point.cell));
         if (i == 0)
             continue;
         // Across a cyclic axis's seam a path goes on where it was.
-        for (std::size_t axis = 0; axis < axes.size(); ++axis) {
-            const double before = path.position[i - 1][axis];
-            path.position[i][axis] = before + wrapped(path.position[i][axis] - before, axes[axis]);
+        for (std::size_t number = 0; const Axis &axis : axes) {
+            const double before = path.position[i - 1][number];
+            double &now = path.position[i][number++];
+            now = before + wrapped(now - before, axis);
         }
     }
     return path;
@@ -189,7 +181,8 @@ SignalPath pathOf(const Analysis &analysis, const Event &event)
 
 std::optional<double> distance(const SignalPath &a, const SignalPath &b, const std::vector<Axis> &axes)
 {
-    if (a.tolerance.size() != axes.size() || b.tolerance.size() != axes.size())
+    const auto isOnAxes = [&axes](const SignalPath &path) { return path.tolerance.size() == axes.size(); };
+    if (!isOnAxes(a) || !isOnAxes(b))
         return {};
     const double begin = std::max(a.seconds.front(), b.seconds.front());
     const double end = std::min(a.seconds.back(), b.seconds.back());
@@ -197,16 +190,17 @@ std::optional<double> distance(const SignalPath &a, const SignalPath &b, const s
     if (end < begin || end - begin < leastShare * shorter)
         return {};
     double sum = 0.0;
-    for (std::size_t axis = 0; axis < axes.size(); ++axis) {
+    for (std::size_t number = 0; const Axis &axis : axes) {
         double mean = 0.0;
         for (std::size_t i = 0; i < mostInstants; ++i) {
             const double seconds = std::lerp(begin, end, double(i) / double(mostInstants - 1));
-            mean += std::abs(wrapped(at(a, seconds, axis) - at(b, seconds, axis), axes[axis])) / double(mostInstants);
+            mean += std::abs(wrapped(at(a, seconds, number) - at(b, seconds, number), axis)) / double(mostInstants);
         }
-        const double inTolerances = mean / std::max(a.tolerance[axis], b.tolerance[axis]);
+        const double inTolerances = mean / std::max(a.tolerance[number], b.tolerance[number]);
         if (!(inTolerances <= 1.0))
             return {};
         sum += inTolerances;
+        ++number;
     }
     return sum;
 }

@@ -86,11 +86,11 @@ namespace {
         alongEachAxis(const std::shared_ptr<const PeakPyramid> &picture) const
         {
             const Grid &grid = m_analysis.grid();
-            if (grid.axes.size() == 1)
+            if (grid.isSpectrum())
                 return {picture};
             std::vector<std::shared_ptr<const PeakPyramid>> result;
-            for (std::size_t axis = 0; axis < grid.axes.size(); ++axis)
-                result.push_back(pictureAlong(*picture, grid, axis));
+            std::transform(grid.axes.begin(), grid.axes.end(), std::back_inserter(result),
+                           [&](const Axis &) { return pictureAlong(*picture, grid, result.size()); });
             return result;
         }
 
@@ -105,7 +105,7 @@ namespace {
     {
     public:
         explicit PingProducts(Analysis &analysis)
-            : m_analysis(analysis), m_isWanted(analysis.grid().axes.size() > 1),
+            : m_analysis(analysis), m_isWanted(!analysis.grid().isSpectrum()),
               m_conventional(analysis.grid(), analysis.settings.conventional)
         {
         }

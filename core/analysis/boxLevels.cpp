@@ -24,7 +24,7 @@ namespace {
 
     void check(const Grid &grid, Index frameCount, const FrameBox &box)
     {
-        if (grid.axes.size() != 1)
+        if (!grid.isSpectrum())
             throw Error("box", "can be measured only in frames with one axis; the number of axes is "
                                    + std::to_string(grid.axes.size()));
         const bool isThere = box.beginFrame >= 0 && box.beginFrame < box.endFrame && box.endFrame <= frameCount

@@ -18,11 +18,13 @@ namespace {
     constexpr Index onsetFramesOfMany = 16;
     constexpr Index longestRunUpLive = 512;
 
+    /// The values in whole cells, the last one for all axes behind.
     std::vector<Index> perAxis(const std::vector<double> &values, const Grid &grid)
     {
         std::vector<Index> result;
-        for (std::size_t axis = 0; axis < grid.axes.size(); ++axis)
-            result.push_back(values.empty() ? 0 : Index(std::llround(values[std::min(axis, values.size() - 1)])));
+        std::transform(grid.axes.begin(), grid.axes.end(), std::back_inserter(result), [&](const Axis &) {
+            return values.empty() ? 0 : Index(std::llround(values[std::min(result.size(), values.size() - 1)]));
+        });
         return result;
     }
 

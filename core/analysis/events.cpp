@@ -14,6 +14,7 @@ namespace {
     double driftOf(const Track &track, const Axis &time, const Grid &grid, std::size_t along)
     {
         const Axis &axis = grid.axes[along];
+        const bool isLast = &axis == &grid.axes.back();
         const auto n = double(track.points.size());
         if (n < 2.0)
             return 0.0;
@@ -22,7 +23,6 @@ namespace {
         double sumTT = 0.0;
         double sumTF = 0.0;
         double before = 0.0;
-        const bool isLast = along + 1 == grid.axes.size();
         for (std::size_t i = 0; i < track.points.size(); ++i) {
             const TrackPoint &point = track.points[i];
             const double t = double(point.frame - track.points.front().frame) * time.step;
@@ -101,7 +101,7 @@ std::vector<Event> events(const AnalysisPlan &plan, const std::vector<Track> &tr
                                      [&](const TrackPoint &point) { return point.frame >= track.detectFrame; });
         const auto detection = std::size_t(std::min(at, track.points.end() - 1) - track.points.begin());
         event.position = track.positionOf(detection, grid);
-        for (std::size_t axis = 0; axis < grid.axes.size(); ++axis)
+        for (std::size_t axis = 0; axis < event.position.size(); ++axis)
             event.ratesPerSecond.push_back(driftOf(track, time, grid, axis));
         event.driftPerSecond = event.ratesPerSecond.back();
         event.model = track.model;

@@ -47,7 +47,7 @@ JudgedByBoxes judgeByBoxes(std::vector<Review> reviews, const Analysis &analysis
         bool isUsed = false;
         for (const Event &event : events) {
             const bool saysSomething = box.verdict != Verdict::None || !box.note.empty();
-            if (!saysSomething || analysis.grid().axes.size() != 1 || !isOf(box, event, analysis))
+            if (!saysSomething || !analysis.grid().isSpectrum() || !isOf(box, event, analysis))
                 continue;
             isUsed = true;
             if (!judged.insert(event.id).second)

@@ -100,7 +100,7 @@ namespace {
 
 bool canLearnMotion(const Analysis &analysis)
 {
-    return analysis.grid().axes.size() == 1 && analysis.settings.model.motion == Motion::Slopes
+    return analysis.grid().isSpectrum() && analysis.settings.model.motion == Motion::Slopes
            && analysis.settings.model.slopeChange.size() > 1 && analysis.frames->spectrogram()
            && !sureTracks(analysis).empty();
 }

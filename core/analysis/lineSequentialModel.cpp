@@ -6,7 +6,7 @@ namespace faintline {
 
 SequentialModel lineSequentialModel(const ModelSettings &settings, const Grid &grid, const NormalisedFrames &frames)
 {
-    if (grid.axes.size() != 1 || settings.motion != Motion::Slopes)
+    if (!grid.isSpectrum() || settings.motion != Motion::Slopes)
         throw Error("sequential test", "requires a line recording and model.motion = slopes");
     const MarkovModel line = makeModel(settings, grid);
     checkLikelihoodRatio(line.likelihood, "model.likelihood");

@@ -168,9 +168,11 @@ void LayerReplay::move(const MarkovModel &model, std::size_t axis, Index step, c
     Index outerCells = 1;
     Index innerRates = 1;
     Index outerRates = 1;
-    for (std::size_t i = 0; i < axes.size(); ++i) {
-        (i < axis ? outerCells : inner) *= i == axis ? 1 : axes[i].cells;
-        (i < axis ? outerRates : innerRates) *= i == axis ? 1 : axes[i].rateCount;
+    for (const KinematicAxis &other : axes) {
+        if (&other == &own)
+            continue;
+        (&other < &own ? outerCells : inner) *= other.cells;
+        (&other < &own ? outerRates : innerRates) *= other.rateCount;
     }
     to.scores.assign(from.scores.size(), unreached);
     to.ages.assign(from.ages.size(), 0);

@@ -88,8 +88,7 @@ FrameRange previewRange(const NormalisedFrames &frames, Index first, Index last)
         return {};
     FrameRange range;
     range.first = std::clamp<Index>(first, 0, count - 1);
-    range.readFirst =
-        std::max<Index>(0, range.first - (frames.grid().axes.size() == 1 ? settlingFrames : settlingPings));
+    range.readFirst = std::max<Index>(0, range.first - (frames.grid().isSpectrum() ? settlingFrames : settlingPings));
     range.end = std::clamp<Index>(last, range.first, count - 1) + 1;
     const Index cells = (range.end - range.readFirst) * frames.grid().size();
     range.isKeepable = std::size_t(cells) * sizeof(float) <= memoryShares::previewFrames;
@@ -98,7 +97,7 @@ FrameRange previewRange(const NormalisedFrames &frames, Index first, Index last)
 
 bool isWorthAPreview(const Analysis &before, const AnalysisSettings &settings)
 {
-    return (before.grid().axes.size() > 1 || settings.model.motion == Motion::Slopes)
+    return (!before.grid().isSpectrum() || settings.model.motion == Motion::Slopes)
            && firstStale(before.settings, settings) == Stage::Detector
            && !(before.settings.model == settings.model && before.settings.detector == settings.detector);
 }

@@ -419,7 +419,7 @@ namespace {
 
 bool looksTwice(const AnalysisPlan &analysis)
 {
-    return analysis.settings.track.bothWays && !analysis.settings.noise.causal && analysis.grid().axes.size() == 1
+    return analysis.settings.track.bothWays && !analysis.settings.noise.causal && analysis.grid().isSpectrum()
            && !analysis.isBank() && std::holds_alternative<SmdSettings>(analysis.settings.detector)
            && analysis.settings.model.likelihood != LikelihoodKind::Linear && analysis.frames->spectrogram();
 }

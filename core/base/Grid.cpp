@@ -1,5 +1,8 @@
 #include "base/Grid.h"
 
+#include <algorithm>
+#include <numeric>
+
 namespace faintline {
 
 Index Grid::size() const
@@ -14,30 +17,37 @@ Index Grid::size() const
 
 Index Grid::stride(std::size_t axis) const
 {
-    Index product = 1;
-    for (std::size_t later = axis + 1; later < axes.size(); ++later)
-        product *= axes[later].count;
-    return product;
+    return std::accumulate(axes.begin() + Index(axis) + 1, axes.end(), Index(1),
+                           [](Index product, const Axis &later) { return product * later.count; });
 }
 
 std::vector<Index> Grid::coordinates(Index cell) const
 {
     std::vector<Index> result(axes.size());
-    for (std::size_t axis = axes.size(); axis-- > 0;) {
-        result[axis] = cell % axes[axis].count;
-        cell /= axes[axis].count;
-    }
+    std::transform(axes.rbegin(), axes.rend(), result.rbegin(), [&cell](const Axis &axis) {
+        const Index coordinate = cell % axis.count;
+        cell /= axis.count;
+        return coordinate;
+    });
+    return result;
+}
+
+std::vector<double> Grid::position(Index cell) const
+{
+    std::vector<double> result;
+    for (auto axis = axes.begin(); const Index coordinate : coordinates(cell))
+        result.push_back((axis++)->value(double(coordinate)));
     return result;
 }
 
 Index Grid::cell(const std::vector<Index> &coordinates) const
 {
     Index flat = 0;
-    for (std::size_t axis = 0; axis < axes.size(); ++axis) {
-        const Index inside = axes[axis].wrapped(coordinates[axis]);
+    for (auto coordinate = coordinates.begin(); const Axis &axis : axes) {
+        const Index inside = axis.wrapped(*coordinate++);
         if (inside < 0)
             return -1;
-        flat = flat * axes[axis].count + inside;
+        flat = flat * axis.count + inside;
     }
     return flat;
 }

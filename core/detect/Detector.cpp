@@ -7,12 +7,11 @@ namespace faintline {
 
 bool CellBox::contains(const Grid &grid, const std::vector<Index> &coordinates) const
 {
-    for (std::size_t axis = 0; axis < grid.axes.size(); ++axis) {
-        const Axis &a = grid.axes[axis];
-        Index distance = std::abs(coordinates[axis] - centre[axis]);
-        if (a.cyclic)
-            distance = std::min(distance, a.count - distance);
-        if (distance > halfWidth[axis])
+    for (std::size_t i = 0; const Axis &axis : grid.axes) {
+        Index distance = std::abs(coordinates[i] - centre[i]);
+        if (axis.cyclic)
+            distance = std::min(distance, axis.count - distance);
+        if (distance > halfWidth[i++])
             return false;
     }
     return true;

@@ -63,7 +63,7 @@ template <class Visit>
 void CellBox::forEachCell(const Grid &grid, Visit visit) const
 {
     const auto descend = [&](auto &&self, std::size_t axis, Index flat) -> void {
-        if (axis == grid.axes.size()) {
+        if (axis == centre.size()) {
             visit(flat);
             return;
         }

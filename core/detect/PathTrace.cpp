@@ -21,9 +21,9 @@ namespace {
         {
             const StateSpace::Coordinates end = model.space.coordinates(endState);
             std::vector<KinematicAxis> axes = model.space.axes();
-            for (std::size_t i = 0; i < axes.size(); ++i) {
-                restrictRates(axes[i], end.rates[i], length);
-                restrictCells(axes[i], i, length);
+            for (std::size_t i = 0; KinematicAxis & axis : axes) {
+                restrictRates(axis, end.rates[i], length);
+                restrictCells(axis, i++, length);
             }
             space = StateSpace(std::move(axes));
             m_cells.resize(std::size_t(space.cellCount()));

@@ -24,7 +24,7 @@ NumPyPower::NumPyPower(const std::string &path, const std::string &gridPath)
     : m_file(path), m_layout(readNumPyLayout(path))
 {
     const GridFile grid = readGridFile(gridPath, m_layout.shape);
-    if (grid.grid.axes.size() != 1)
+    if (!grid.grid.isSpectrum())
         throw Error(path, "holds power on " + std::to_string(grid.grid.axes.size())
                               + " axes; (frames, frequencies) can be normalised");
     m_info.path = path;

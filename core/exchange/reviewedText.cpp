@@ -24,7 +24,7 @@ void fillBox(const Analysis &analysis, const Event &event, Annotation &box)
 {
     box.startSeconds = event.onsetSeconds;
     box.endSeconds = event.endSeconds;
-    if (analysis.grid().axes.size() != 1)
+    if (!analysis.grid().isSpectrum())
         return;
     box.lowHz = box.highHz = event.position.back();
     const Track *track = trackOfId(analysis.tracks, event.id);

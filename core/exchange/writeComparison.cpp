@@ -3,6 +3,7 @@
 #include "base/AtomicFile.h"
 #include "base/Error.h"
 #include "exchange/NumPy.h"
+#include "exchange/positionNames.h"
 
 #include <functional>
 
@@ -55,8 +56,8 @@ void writeComparison(const Comparison &comparison, const Grid &grid, const std::
 {
     checkComparisonPath(path);
     std::string text = "in,event_a,event_b,t_onset,t_end";
-    for (const Axis &axis : grid.axes)
-        text += "," + (grid.axes.size() == 1 ? std::string("f") : axis.name);
+    for (const std::string &name : positionNames(grid))
+        text += "," + name;
     text += ",drift_hz_per_s,t_detect_a,t_detect_b,statistic_a,statistic_b,shared_s\n";
     for (const ComparedEvent &event : comparison.events)
         text += row(event);

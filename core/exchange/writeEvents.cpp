@@ -5,6 +5,7 @@
 #include "base/json.h"
 #include "base/logmath.h"
 #include "detect/statisticDecimals.h"
+#include "exchange/positionNames.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,15 +14,6 @@
 namespace faintline {
 
 namespace {
-
-    /// Column names of a position: f for a frequency, else the axes' names.
-    std::vector<std::string> positionNames(const Grid &grid)
-    {
-        std::vector<std::string> names;
-        for (const Axis &axis : grid.axes)
-            names.push_back(grid.axes.size() == 1 ? "f" : axis.name);
-        return names;
-    }
 
     std::string joined(const std::vector<std::string> &words)
     {
@@ -52,9 +44,10 @@ namespace {
     std::vector<std::string> rateNames(const Grid &grid)
     {
         std::vector<std::string> names;
+        if (grid.isSpectrum())
+            return names;
         for (const Axis &axis : grid.axes)
-            if (grid.axes.size() > 1)
-                names.push_back(axis.name + "_per_s");
+            names.push_back(axis.name + "_per_s");
         return names;
     }
 

@@ -208,9 +208,9 @@ namespace {
         for (const Axis &axis : axes)
             names.push_back(heading(axis));
         std::vector<RateUnit> units;
-        for (std::size_t axis = 0; axis < axes.size(); ++axis) {
-            units.push_back(rateUnit(axes[axis], material.events, axis));
-            names.push_back((axes.size() == 1 ? "Drift" : capitalised(axes[axis].name) + " rate") + " ("
+        for (const Axis &axis : axes) {
+            units.push_back(rateUnit(axis, material.events, units.size()));
+            names.push_back((analysis.grid().isSpectrum() ? "Drift" : capitalised(axis.name) + " rate") + " ("
                             + units.back().name + ")");
         }
         names.push_back("D (" + std::string(statisticUnit(analysis.settings.detector)) + ")");
@@ -227,7 +227,7 @@ namespace {
             std::string review = nameOf(said[i].verdict);
             if (said[i].signal != event.id)
                 review += (review.empty() ? "part of " : ", part of ") + std::to_string(said[i].signal);
-            for (std::size_t axis = 0; axis < axes.size(); ++axis)
+            for (std::size_t axis = 0; axis < units.size(); ++axis)
                 row.push_back(rough(units[axis].scale * event.ratesPerSecond[axis]));
             row.insert(row.end(),
                        {fixed(event.statistic, statisticDecimals(analysis.settings.detector)),
@@ -285,9 +285,8 @@ namespace {
         for (std::size_t i = first; i < why.steps.size(); ++i) {
             const PathStep &step = why.steps[i];
             std::vector<std::string> row{fixed(analysis.time().value(double(step.frame)), 3)};
-            const std::vector<Index> at = analysis.grid().coordinates(space.cellOf(step.state));
-            for (std::size_t axis = 0; axis < axes.size(); ++axis)
-                row.push_back(fixed(axes[axis].value(double(at[axis])), 3));
+            for (const double position : analysis.grid().position(space.cellOf(step.state)))
+                row.push_back(fixed(position, 3));
             row.insert(row.end(), {fixed(step.logLikelihoodRatio, 4), fixed(step.lnTransition, 4), fixed(step.lnK, 4),
                                    fixed(step.score, 4)});
             text += numbers(row, row.size());

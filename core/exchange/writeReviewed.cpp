@@ -3,6 +3,7 @@
 #include "base/AtomicFile.h"
 #include "base/oneLine.h"
 #include "exchange/csvText.h"
+#include "exchange/positionNames.h"
 #include "exchange/reviewedText.h"
 
 #include <algorithm>
@@ -44,23 +45,23 @@ namespace {
 
     std::string csv(const Grid &grid, const std::vector<ReviewedRow> &rows)
     {
-        const bool isLines = grid.axes.size() == 1;
         std::string text = "event,t_onset,t_detect,t_end";
-        for (const Axis &axis : grid.axes)
-            text += "," + (isLines ? std::string("f") : axis.name);
+        const std::vector<std::string> names = positionNames(grid);
+        for (const std::string &name : names)
+            text += "," + name;
         text += ",drift_hz_per_s,statistic,confirmed,open";
-        if (isLines)
+        if (grid.isSpectrum())
             text += ",f_low,f_high";
         text += ",review,signal,label,note\n";
         for (const ReviewedRow &row : rows) {
             const Event *e = row.event;
             text += (e ? std::to_string(e->id) : "") + "," + formatNumber(row.box.startSeconds) + ","
                     + (e ? formatNumber(e->detectSeconds) : "") + "," + formatNumber(row.box.endSeconds);
-            for (std::size_t axis = 0; axis < grid.axes.size(); ++axis)
+            for (std::size_t axis = 0; axis < names.size(); ++axis)
                 text += "," + (e ? formatNumber(e->position[axis]) : "");
             text += "," + (e ? formatNumber(e->driftPerSecond) : "") + "," + (e ? formatNumber(e->statistic) : "") + ","
                     + (e ? (e->isConfirmed ? "1" : "0") : "") + "," + (e ? (e->isOpen ? "1" : "0") : "");
-            if (isLines)
+            if (grid.isSpectrum())
                 text += "," + numberOrEmpty(row.box.lowHz) + "," + numberOrEmpty(row.box.highHz);
             text += "," + nameOf(row.box.verdict) + "," + (e ? std::to_string(row.signal) : "") + ","
                     + csvText(row.box.label) + "," + csvText(row.box.note) + "\n";
@@ -76,8 +77,8 @@ namespace {
             json["t_onset"] = e->onsetSeconds;
             json["t_detect"] = e->detectSeconds;
             json["t_end"] = e->endSeconds;
-            for (std::size_t axis = 0; axis < grid.axes.size(); ++axis)
-                json[grid.axes.size() == 1 ? "f" : grid.axes[axis].name] = e->position[axis];
+            for (auto position = e->position.begin(); const std::string &name : positionNames(grid))
+                json[name] = *position++;
             json["drift_hz_per_s"] = e->driftPerSecond;
             json["statistic"] = e->statistic;
             json["confirmed"] = e->isConfirmed;

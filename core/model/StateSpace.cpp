@@ -12,31 +12,29 @@ StateSpace::StateSpace(std::vector<KinematicAxis> axes) : m_axes(std::move(axes)
 {
     if (m_axes.empty())
         throw Error("model.axes", "must hold at least one axis");
-    for (std::size_t i = 0; i < m_axes.size(); ++i) {
-        m_axes[i].check("model.axes[" + std::to_string(i) + "]");
+    for (const KinematicAxis &axis : m_axes) {
+        axis.check("model.axes[" + std::to_string(m_moves.size()) + "]");
         m_moves.emplace_back();
-        for (Index phase = 0; phase < m_axes[i].phaseCount(); ++phase)
-            m_moves.back().push_back(m_axes[i].moves(phase));
-        const double states = double(stateCount()) * double(m_axes[i].cells) * m_axes[i].rateCount;
+        for (Index phase = 0; phase < axis.phaseCount(); ++phase)
+            m_moves.back().push_back(axis.moves(phase));
+        const double states = double(stateCount()) * double(axis.cells) * axis.rateCount;
         if (states > 0x1p31) // before the product can overflow
             throw Error("model.axes", "give more than 2³¹ states");
-        m_cellCount *= m_axes[i].cells;
-        m_planeCount *= m_axes[i].rateCount;
+        m_cellCount *= axis.cells;
+        m_planeCount *= axis.rateCount;
     }
 }
 
 StateSpace::Coordinates StateSpace::coordinates(Index state) const
 {
     Coordinates result;
-    result.rates.resize(m_axes.size());
-    result.cells.resize(m_axes.size());
-    Index cell = cellOf(state);
-    Index plane = planeOf(state);
-    for (std::size_t axis = m_axes.size(); axis-- > 0;) {
-        result.cells[axis] = cell % m_axes[axis].cells;
-        cell /= m_axes[axis].cells;
-        result.rates[axis] = int(plane % m_axes[axis].rateCount);
-        plane /= m_axes[axis].rateCount;
+    Index cells = m_cellCount;
+    Index planes = m_planeCount;
+    for (const KinematicAxis &axis : m_axes) {
+        cells /= axis.cells;
+        planes /= axis.rateCount;
+        result.cells.push_back(cellOf(state) / cells % axis.cells);
+        result.rates.push_back(int(planeOf(state) / planes % axis.rateCount));
     }
     return result;
 }
@@ -45,9 +43,9 @@ Index StateSpace::state(const Coordinates &c) const
 {
     Index plane = 0;
     Index cell = 0;
-    for (std::size_t axis = 0; axis < m_axes.size(); ++axis) {
-        plane = plane * m_axes[axis].rateCount + c.rates[axis];
-        cell = cell * m_axes[axis].cells + c.cells[axis];
+    for (std::size_t i = 0; const KinematicAxis &axis : m_axes) {
+        plane = plane * axis.rateCount + c.rates[i];
+        cell = cell * axis.cells + c.cells[i++];
     }
     return plane * m_cellCount + cell;
 }
@@ -62,11 +60,9 @@ Index StateSpace::phaseCount() const
 
 std::vector<double> StateSpace::ratesOfPlane(Index plane) const
 {
-    std::vector<double> rates(m_axes.size());
-    for (std::size_t axis = m_axes.size(); axis-- > 0;) {
-        rates[axis] = m_axes[axis].rate(plane % m_axes[axis].rateCount);
-        plane /= m_axes[axis].rateCount;
-    }
+    std::vector<double> rates;
+    for (auto axis = m_axes.begin(); const int rate : coordinates(plane * m_cellCount).rates)
+        rates.push_back((axis++)->rate(rate));
     return rates;
 }
 
@@ -76,7 +72,7 @@ std::vector<StateSpace::Predecessor> StateSpace::predecessors(Index target, Inde
     std::vector<Predecessor> result;
     Coordinates from = to;
     const auto descend = [&](auto &&self, std::size_t axis, double lnProbability) -> void {
-        if (axis == m_axes.size()) {
+        if (axis == to.rates.size()) {
             result.push_back({state(from), lnProbability});
             return;
         }
@@ -115,9 +111,9 @@ std::vector<StateSpace::Predecessor> StateSpace::predecessors(Index target, Inde
 StateSpace StateSpace::window(const std::vector<Index> &cells) const
 {
     std::vector<KinematicAxis> axes = m_axes;
-    for (std::size_t i = 0; i < axes.size(); ++i) {
-        axes[i].cells = cells[i];
-        axes[i].cyclic = false;
+    for (auto count = cells.begin(); KinematicAxis & axis : axes) {
+        axis.cells = *count++;
+        axis.cyclic = false;
     }
     return StateSpace(std::move(axes));
 }

@@ -20,10 +20,9 @@ SonarMotion manoeuvring(int reach)
 
 MarkovModel sonarModel(const Grid &grid, const SonarMotion &motion)
 {
-    if (grid.axes.size() != 2)
-        throw Error("model.motion", "requires frames on range and bearing; the frames have "
-                                        + std::to_string(grid.axes.size())
-                                        + (grid.axes.size() == 1 ? " axis" : " axes"));
+    if (const std::size_t count = grid.axes.size(); count != 2)
+        throw Error("model.motion", "requires frames on range and bearing; the frames have " + std::to_string(count)
+                                        + (count == 1 ? " axis" : " axes"));
     const Axis &range = grid.axes[0];
     const Axis &bearing = grid.axes[1];
     const auto kinematic = [](const Axis &axis, int fastest, const std::vector<double> &rateChange) {

@@ -79,7 +79,7 @@ namespace {
 
 DopplerTrack dopplerTrack(const AnalysisPlan &plan, const Track &track, double centreHz)
 {
-    if (plan.grid().axes.size() != 1)
+    if (!plan.grid().isSpectrum())
         throw Error("Doppler fit", "needs frames on frequency alone; these have more than one axis");
     const Axis &axis = plan.grid().axes.back();
     const StateSpace &space = plan.modelAt(track.model).space;

@@ -73,10 +73,8 @@ namespace {
         Gate(const Analysis &a, const Analysis &b, const CompareTolerance &tolerance)
             : m_stepSeconds(std::max(a.time().step, b.time().step)), m_seconds(tolerance.frames * m_stepSeconds)
         {
-            for (std::size_t axis = 0; axis < a.grid().axes.size(); ++axis) {
-                const Axis &own = a.grid().axes[axis];
-                const Axis &other = b.grid().axes[axis];
-                m_reach.push_back((tolerance.cells + 1e-6) * std::max(std::abs(own.step), std::abs(other.step)));
+            for (auto other = b.grid().axes.begin(); const Axis &own : a.grid().axes) {
+                m_reach.push_back((tolerance.cells + 1e-6) * std::max(std::abs(own.step), std::abs((other++)->step)));
                 m_turn.push_back(own.cyclic ? std::abs(own.step) * double(own.count) : 0.0);
             }
         }

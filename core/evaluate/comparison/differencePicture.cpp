@@ -78,7 +78,7 @@ bool haveCommonUnit(const Analysis &a, const Analysis &b)
 
 std::shared_ptr<const PeakPyramid> differencePicture(const Analysis &a, const Analysis &b, const RunContext &context)
 {
-    if (a.grid().axes.size() != 1 || b.grid().axes.size() != 1)
+    if (!a.grid().isSpectrum() || !b.grid().isSpectrum())
         return nullptr;
     const bool isPlain = haveCommonUnit(a, b);
     const auto marginsA = margins(a, isPlain);

@@ -73,7 +73,7 @@ TrackScore scoreTracks(std::span<const Track> tracks, const PingTruth &truth, co
 {
     TrackScore score;
     score.targets.resize(truth.targets.size());
-    std::vector<std::vector<double>> squares(truth.targets.size(), std::vector<double>(grid.axes.size(), 0.0));
+    std::vector<std::vector<double>> squares(truth.targets.size(), std::vector<double>(gateCells.size(), 0.0));
     for (const Track &track : tracks) {
         const int owner = ownerOf(track, truth, grid, gateCells);
         score.targetOfTrack.push_back(owner);

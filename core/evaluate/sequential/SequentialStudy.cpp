@@ -272,12 +272,12 @@ namespace {
             Index largest = 0;
             Index inner = 1;
             const std::vector<KinematicAxis> &axes = m_study.model.markov.space.axes();
-            for (std::size_t axis = axes.size(); axis-- > 0;) {
-                Index along = std::abs(a / inner % axes[axis].cells - b / inner % axes[axis].cells);
-                if (axes[axis].cyclic)
-                    along = std::min(along, axes[axis].cells - along);
+            for (auto axis = axes.rbegin(); axis != axes.rend(); ++axis) {
+                Index along = std::abs(a / inner % axis->cells - b / inner % axis->cells);
+                if (axis->cyclic)
+                    along = std::min(along, axis->cells - along);
                 largest = std::max(largest, along);
-                inner *= axes[axis].cells;
+                inner *= axis->cells;
             }
             return largest;
         }
