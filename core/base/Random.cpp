@@ -14,8 +14,18 @@ namespace faintline {
 
 namespace {
 
-    inline r123::Philox4x32::ctr_type philoxBlock(std::uint64_t seed, std::uint64_t stream, std::uint64_t block)
+    /// Names a block of four words: the key and the counter of Philox.
+    struct BlockNumber {
+        std::uint64_t seed;
+        std::uint64_t stream;
+        std::uint64_t block;
+
+        BlockNumber operator+(std::uint64_t further) const { return {seed, stream, block + further}; }
+    };
+
+    inline r123::Philox4x32::ctr_type philoxBlock(const BlockNumber &number)
     {
+        const auto [seed, stream, block] = number;
         const r123::Philox4x32::ctr_type counter{
             {std::uint32_t(block), std::uint32_t(block >> 32), std::uint32_t(stream), std::uint32_t(stream >> 32)}};
         const r123::Philox4x32::key_type key{{std::uint32_t(seed), std::uint32_t(seed >> 32)}};
@@ -41,10 +51,10 @@ namespace {
     constexpr std::size_t lanes = 64; ///< Philox blocks made at a time: a kilobyte of words, enough for any vector unit
 
     FAINTLINE_MULTIVERSION
-    void philoxWords(std::uint64_t seed, std::uint64_t stream, std::uint64_t firstBlock, std::uint32_t *words)
+    void philoxWords(BlockNumber first, std::uint32_t *words)
     {
         for (std::size_t i = 0; i < lanes; ++i) {
-            const auto block = philoxBlock(seed, stream, firstBlock + i);
+            const auto block = philoxBlock(first + i);
             words[i] = block[0];
             words[lanes + i] = block[1];
             words[2 * lanes + i] = block[2];
@@ -72,22 +82,20 @@ namespace {
             }
     }
 
-    void exponentialBlocks(std::uint64_t seed, std::uint64_t stream, std::uint64_t firstBlock, std::size_t blocks,
-                           float *out)
+    void exponentialBlocks(BlockNumber first, std::size_t blocks, float *out)
     {
         std::array<std::uint32_t, 4 * lanes> words;
         for (std::size_t done = 0; done < blocks; done += lanes) {
-            philoxWords(seed, stream, firstBlock + done, words.data());
+            philoxWords(first + done, words.data());
             exponentialsFromWords(words.data(), std::min(lanes, blocks - done), out + 4 * done);
         }
     }
 
-    void normalBlocks(std::uint64_t seed, std::uint64_t stream, std::uint64_t firstBlock, std::size_t blocks,
-                      float deviation, float *out)
+    void normalBlocks(BlockNumber first, std::size_t blocks, float deviation, float *out)
     {
         std::array<std::uint32_t, 4 * lanes> words;
         for (std::size_t done = 0; done < blocks; done += lanes) {
-            philoxWords(seed, stream, firstBlock + done, words.data());
+            philoxWords(first + done, words.data());
             normalsFromWords(words.data(), std::min(lanes, blocks - done), deviation, out + 4 * done);
         }
     }
@@ -96,7 +104,7 @@ namespace {
 
 void Random::refill()
 {
-    const auto words = philoxBlock(m_seed, m_stream, m_block);
+    const auto words = philoxBlock({m_seed, m_stream, m_block});
     for (std::size_t i = 0; i < 4; ++i)
         m_words[i] = words[i];
     ++m_block;
@@ -136,11 +144,11 @@ double Random::exponential()
 void Random::normals(std::span<float> out, float deviation)
 {
     const std::size_t wholeBlocks = out.size() / 4;
-    normalBlocks(m_seed, m_stream, m_block, wholeBlocks, deviation, out.data());
+    normalBlocks({m_seed, m_stream, m_block}, wholeBlocks, deviation, out.data());
     m_block += wholeBlocks;
     if (const std::span<float> rest = out.subspan(4 * wholeBlocks); !rest.empty()) {
         std::array<float, 4> last;
-        normalBlocks(m_seed, m_stream, m_block, 1, deviation, last.data());
+        normalBlocks({m_seed, m_stream, m_block}, 1, deviation, last.data());
         std::copy_n(last.begin(), rest.size(), rest.begin());
         ++m_block;
     }
@@ -151,11 +159,11 @@ void Random::normals(std::span<float> out, float deviation)
 void Random::exponentials(std::span<float> out)
 {
     const std::size_t wholeBlocks = out.size() / 4;
-    exponentialBlocks(m_seed, m_stream, m_block, wholeBlocks, out.data());
+    exponentialBlocks({m_seed, m_stream, m_block}, wholeBlocks, out.data());
     m_block += wholeBlocks;
     if (const std::span<float> rest = out.subspan(4 * wholeBlocks); !rest.empty()) {
         std::array<float, 4> last;
-        exponentialBlocks(m_seed, m_stream, m_block, 1, last.data());
+        exponentialBlocks({m_seed, m_stream, m_block}, 1, last.data());
         std::copy_n(last.begin(), rest.size(), rest.begin());
         ++m_block;
     }

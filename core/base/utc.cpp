@@ -61,9 +61,10 @@ namespace {
 
 } // namespace
 
-std::optional<double> unixSeconds(int year, int month, int day, int hour, int minute, double second)
+std::optional<double> unixSeconds(int year, int month, int day, const TimeOfDay &time)
 {
     using namespace std::chrono;
+    const auto [hour, minute, second] = time;
     const year_month_day date{std::chrono::year{year}, std::chrono::month{unsigned(month)},
                               std::chrono::day{unsigned(day)}};
     // A leap second (60) reads as the first one of the next minute.
@@ -93,7 +94,7 @@ std::optional<double> parseUtc(std::string_view text)
     while (text.starts_with(' '))
         text.remove_prefix(1);
     const auto zone = takeZone(text);
-    const auto local = unixSeconds(*year, *month, *day, *hour, *minute, *second + *fraction);
+    const auto local = unixSeconds(*year, *month, *day, {*hour, *minute, *second + *fraction});
     return zone && local ? std::optional(*local - *zone) : std::nullopt;
 }
 

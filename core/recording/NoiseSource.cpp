@@ -30,11 +30,19 @@ namespace {
         return std::exp(-2.0 * std::numbers::pi * turns);
     }
 
-    /// One component of the samples (every `stride`-th float) through the sum of first-order sections.
+    /// First-order sections in parallel: d + Σ rₖ/(1 - pₖ/z).
     template <std::size_t sections>
-    void runSections(float *samples, std::size_t count, std::size_t stride, float direct,
-                     const std::array<float, sections> &poles, const std::array<float, sections> &residues)
+    struct ParallelFilter {
+        float direct;
+        std::array<float, sections> poles;
+        std::array<float, sections> residues;
+    };
+
+    /// One component of the samples (every `stride`-th float) through a filter.
+    template <std::size_t sections>
+    void run(const ParallelFilter<sections> &filter, float *samples, std::size_t count, std::size_t stride)
     {
+        const auto &[direct, poles, residues] = filter;
         std::array<float, sections> state{};
         for (std::size_t i = 0; i < count; ++i) {
             const float x = samples[i * stride];
@@ -166,13 +174,12 @@ void NoiseSource::readColoured(Index first, std::span<float> out) const
 
 void NoiseSource::colour(std::span<float> samples) const
 {
-    std::array<float, sections> poles;
-    std::array<float, sections> residues;
-    std::copy(m_poles.begin(), m_poles.end(), poles.begin());
-    std::copy(m_residues.begin(), m_residues.end(), residues.begin());
+    ParallelFilter<sections> filter{float(m_direct), {}, {}};
+    std::copy(m_poles.begin(), m_poles.end(), filter.poles.begin());
+    std::copy(m_residues.begin(), m_residues.end(), filter.residues.begin());
     const auto stride = std::size_t(m_floats);
     for (std::size_t component = 0; component < stride; ++component)
-        runSections(samples.data() + component, samples.size() / stride, stride, float(m_direct), poles, residues);
+        run(filter, samples.data() + component, samples.size() / stride, stride);
 }
 
 void NoiseSource::applyLevel(Index first, std::span<float> out) const

@@ -46,9 +46,17 @@ namespace {
         }
     }
 
+    /// How samples lie in memory.
+    struct SampleLayout {
+        Index stride;   ///< bytes from one to the next
+        int components; ///< adjacent numbers of each
+        bool isReversed;
+    };
+
     template <SampleType::Number number, int bytes>
-    void convert(const std::byte *in, Index stride, int components, bool isReversed, float *out, Index count)
+    void convert(const std::byte *in, SampleLayout layout, float *out, Index count)
     {
+        const auto [stride, components, isReversed] = layout;
         for (Index i = 0; i < count; ++i)
             for (int c = 0; c < components; ++c) {
                 Bits<bytes> bits;
@@ -59,14 +67,14 @@ namespace {
 
     /// The same with the stride known to the compiler where samples are adjacent, so that it makes vector code.
     template <SampleType::Number number, int bytes>
-    void convertFast(const std::byte *in, Index stride, int components, bool isReversed, float *out, Index count)
+    void convertFast(const std::byte *in, SampleLayout layout, float *out, Index count)
     {
-        if (stride != components * bytes)
-            convert<number, bytes>(in, stride, components, isReversed, out, count);
-        else if (isReversed)
-            convert<number, bytes>(in, bytes, 1, true, out, count * components);
+        if (layout.stride != layout.components * bytes)
+            convert<number, bytes>(in, layout, out, count);
+        else if (layout.isReversed)
+            convert<number, bytes>(in, {bytes, 1, true}, out, count * layout.components);
         else
-            convert<number, bytes>(in, bytes, 1, false, out, count * components);
+            convert<number, bytes>(in, {bytes, 1, false}, out, count * layout.components);
     }
 
 } // namespace
@@ -117,10 +125,9 @@ void convertSamples(const SampleType &type, std::span<const std::byte> bytes, In
 {
     using Number = SampleType::Number;
     const int components = type.isComplex ? 2 : 1;
-    const bool isReversed = type.isBigEndian != (std::endian::native == std::endian::big);
-    const Index count = std::ssize(out) / components;
+    const SampleLayout layout{stride, components, type.isBigEndian != (std::endian::native == std::endian::big)};
     const auto run = [&](auto convertOne) {
-        convertOne(bytes.data(), stride, components, isReversed, out.data(), count);
+        convertOne(bytes.data(), layout, out.data(), std::ssize(out) / components);
     };
     switch (type.number) {
     case Number::Float:

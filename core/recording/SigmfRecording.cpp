@@ -10,16 +10,6 @@
 
 namespace faintline {
 
-struct SigmfRecording::Meta {
-    std::string dataPath;
-    RawLayout layout;
-    double centreHz = 0.0;
-    std::optional<double> startUnixSeconds;
-    std::vector<std::string> notes;
-    std::vector<Stretch> stretches;
-    Index firstGlobal = 0;
-};
-
 namespace {
 
     constexpr std::string_view metaEnding = ".sigmf-meta";
@@ -44,6 +34,8 @@ namespace {
         {
             throw Error(m_name + "." + key, why);
         }
+
+        const std::string &name() const { return m_name; }
 
         const Json *find(const char *key) const
         {
@@ -85,7 +77,31 @@ namespace {
 
     constexpr double largestCount = 9007199254740992.0; // 2⁵³
 
+    /// The file of the samples that belong to a metadata file, by its name or by what it says.
+    std::string dataPathOf(const Section &global, const std::string &path)
+    {
+        const std::optional<std::string> dataset = global.text("core:dataset");
+        if (!dataset)
+            return withEnding(path, dataEnding);
+        if (std::filesystem::path(*dataset).has_parent_path() || dataset->find('\0') != std::string::npos)
+            global.refuse("core:dataset", "must be the name of a file in the same folder");
+        return (std::filesystem::path(path).parent_path() / *dataset).string();
+    }
+
 } // namespace
+
+struct SigmfRecording::Meta {
+    std::string dataPath;
+    RawLayout layout;
+    double centreHz = 0.0;
+    std::optional<double> startUnixSeconds;
+    std::vector<std::string> notes;
+    std::vector<Stretch> stretches;
+    Index firstGlobal = 0;
+
+    void readLayout(const Section &global);
+    void readStartTime(const std::optional<std::string> &time, Index start);
+};
 
 bool SigmfRecording::isNamedSo(const std::string &path)
 {
@@ -114,26 +130,10 @@ SigmfRecording::Meta SigmfRecording::readMeta(const std::string &path)
     if (!json.is_object() || !json.contains("global"))
         throw Error(metaPath, "is not SigMF metadata: it must be an object with a key \"global\"");
     const Section global(json["global"], metaPath + ": global");
-
     Meta meta;
-    const std::optional<std::string> type = global.text("core:datatype");
-    if (!type)
-        global.refuse("core:datatype", "is missing; expected one of " + sampleTypeList());
-    meta.layout.type = parseSampleType(*type, metaPath + ": global.core:datatype");
-    const std::optional<double> rate = global.number("core:sample_rate", 1e-9, 1e15);
-    if (!rate)
-        global.refuse("core:sample_rate", "is missing; frequencies require it");
-    meta.layout.sampleRateHz = *rate;
-    meta.layout.channelCount = int(global.count("core:num_channels", 1.0, 1024.0, 1));
-    meta.layout.trailingBytes = global.count("core:trailing_bytes", 0.0, largestCount, 0);
+    meta.readLayout(global);
     const Index offset = global.count("core:offset", 0.0, largestCount, 0);
-
-    meta.dataPath = withEnding(path, dataEnding);
-    if (const std::optional<std::string> dataset = global.text("core:dataset")) {
-        if (std::filesystem::path(*dataset).has_parent_path() || dataset->find('\0') != std::string::npos)
-            global.refuse("core:dataset", "must be the name of a file in the same folder");
-        meta.dataPath = (std::filesystem::path(metaPath).parent_path() / *dataset).string();
-    }
+    meta.dataPath = dataPathOf(global, path);
     if (!std::filesystem::exists(meta.dataPath))
         throw Error(path, "its samples, " + meta.dataPath + ", are missing");
 
@@ -154,12 +154,7 @@ SigmfRecording::Meta SigmfRecording::readMeta(const std::string &path)
         if (i == 0) {
             meta.centreHz = frequency;
             meta.layout.headerBytes = header;
-            meta.startUnixSeconds = time ? parseUtc(*time) : std::nullopt;
-            if (meta.startUnixSeconds)
-                *meta.startUnixSeconds -= double(start) / *rate;
-            else if (time)
-                meta.notes.push_back("core:datetime \"" + oneLine(*time, 40)
-                                     + "\" is not an ISO 8601 time and is ignored.");
+            meta.readStartTime(time, start);
         } else if (header > 0) {
             capture.refuse("core:header_bytes", "bytes can be skipped before the first capture only, not between "
                                                 "captures");
@@ -171,6 +166,30 @@ SigmfRecording::Meta SigmfRecording::readMeta(const std::string &path)
         }
     }
     return meta;
+}
+
+void SigmfRecording::Meta::readLayout(const Section &global)
+{
+    const std::optional<std::string> type = global.text("core:datatype");
+    if (!type)
+        global.refuse("core:datatype", "is missing; expected one of " + sampleTypeList());
+    layout.type = parseSampleType(*type, global.name() + ".core:datatype");
+    const std::optional<double> rate = global.number("core:sample_rate", 1e-9, 1e15);
+    if (!rate)
+        global.refuse("core:sample_rate", "is missing; frequencies require it");
+    layout.sampleRateHz = *rate;
+    layout.channelCount = int(global.count("core:num_channels", 1.0, 1024.0, 1));
+    layout.trailingBytes = global.count("core:trailing_bytes", 0.0, largestCount, 0);
+}
+
+/// From the time of a capture that begins with sample `start`.
+void SigmfRecording::Meta::readStartTime(const std::optional<std::string> &time, Index start)
+{
+    startUnixSeconds = time ? parseUtc(*time) : std::nullopt;
+    if (startUnixSeconds)
+        *startUnixSeconds -= double(start) / layout.sampleRateHz;
+    else if (time)
+        notes.push_back("core:datetime \"" + oneLine(*time, 40) + "\" is not an ISO 8601 time and is ignored.");
 }
 
 /// A capture's first sample in the file and in time, if it comes later in time than the file has it.

@@ -25,12 +25,12 @@ namespace {
 
     /// cos 2πφ and sin 2πφ of consecutive samples.
     FAINTLINE_MULTIVERSION
-    void phasors(const Parabola &phase, double firstSample, double secondsPerSample, std::size_t n, float *cosine,
+    void phasors(const Parabola &phase, double firstSample, double secondsPerSample, std::span<float> cosine,
                  float *sine)
     {
         constexpr double roundingShift = 6755399441055744.0; // adding 1.5·2⁵² rounds to a whole number
         const double halfRate = 0.5 * phase.rateHzPerSecond;
-        for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t i = 0; i < cosine.size(); ++i) {
             const double seconds = (firstSample + double(int(i))) * secondsPerSample - phase.startSeconds;
             const double turns = phase.turns + seconds * (phase.frequencyHz + seconds * halfRate);
             const double whole = (turns + roundingShift) - roundingShift;
@@ -156,7 +156,7 @@ void Tone::addPiece(Index interval, Index first, std::span<float> out) const
                             frequency[k] - m_centreHz, (frequency[k + 1] - frequency[k]) / m_truth.stepSeconds};
     std::array<float, pieceLength> cosine;
     std::array<float, pieceLength> sine;
-    phasors(phase, double(first), 1.0 / m_sampleRateHz, count, cosine.data(), sine.data());
+    phasors(phase, double(first), 1.0 / m_sampleRateHz, std::span(cosine).first(count), sine.data());
 
     for (std::size_t i = 0; i < count && !m_fadingReal.empty(); ++i) {
         const double seconds = double(first + Index(i)) / m_sampleRateHz - m_truth.startSeconds;

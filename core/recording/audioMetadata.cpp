@@ -77,7 +77,7 @@ namespace {
         if (day && samples > 0.0 && samples < 86400.0 * rateHz)
             return *day + samples / rateHz;
         return unixSeconds(number(date.substr(0, 4)), number(date.substr(5, 2)), number(date.substr(8, 2)),
-                           number(time.substr(0, 2)), number(time.substr(3, 2)), number(time.substr(6, 2)));
+                           {number(time.substr(0, 2)), number(time.substr(3, 2)), double(number(time.substr(6, 2)))});
     }
 
     std::uint32_t littleEndian(const std::vector<std::byte> &bytes, std::size_t at, std::size_t count)
@@ -94,7 +94,7 @@ namespace {
         if (auxi.size() < 36)
             return;
         const auto word = [&](std::size_t i) { return int(littleEndian(auxi, 2 * i, 2)); };
-        const auto start = unixSeconds(word(0), word(1), word(3), word(4), word(5), word(6) + word(7) / 1000.0);
+        const auto start = unixSeconds(word(0), word(1), word(3), {word(4), word(5), word(6) + word(7) / 1000.0});
         if (!start || word(0) < 1970)
             return;
         info.startUnixSeconds = start;
@@ -125,8 +125,8 @@ namespace {
         for (std::size_t entry = 0; entry < count; ++entry) {
             const std::size_t at = entriesAt + entry * entryBytes;
             const auto byte = [&](std::size_t i) { return int(littleEndian(harp, at + i, 1)); };
-            const auto start = unixSeconds(2000 + byte(0), byte(1), byte(2), byte(3), byte(4),
-                                           byte(5) + littleEndian(harp, at + 6, 2) / 1000.0);
+            const auto start = unixSeconds(2000 + byte(0), byte(1), byte(2),
+                                           {byte(3), byte(4), byte(5) + littleEndian(harp, at + 6, 2) / 1000.0});
             if (!start)
                 return;
             if (entry == 0) {

@@ -67,7 +67,7 @@ void tst_utc::impossibleDates()
     QVERIFY(!unixSeconds(2024, -1, 1));
     QVERIFY(!unixSeconds(2024, 1, -1));
     QVERIFY(!unixSeconds(2024, 4, 31));
-    QVERIFY(!unixSeconds(2024, 1, 1, 0, 0, std::nan("")));
+    QVERIFY(!unixSeconds(2024, 1, 1, {0, 0, std::nan("")}));
     QCOMPARE(unixSeconds(2000, 3, 1), std::optional(951868800.0));
 }
 
