@@ -49,7 +49,7 @@ int main()
             std::copy(y.begin(), y.end(), out.begin());
         };
     };
-    const Survey made = survey(model, sprt, 6, 3, scene.stages, fixedSize, look);
+    const Survey made = survey(model, sprt, {6, 3, scene.stages, fixedSize}, look);
     for (const SectorVisit &visit : made.visits) {
         std::printf("round %td, sector %td: %2td scans, %s", visit.round, visit.sector, visit.result.stages,
                     visit.result.decision == SprtDecision::H1 ? "a target" : "nothing");

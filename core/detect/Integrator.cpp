@@ -16,9 +16,9 @@ namespace {
     }
 
     FAINTLINE_MULTIVERSION
-    void slide(double *sum, float *oldest, const float *y, double scale, Index n, float *statistic)
+    void slide(double *sum, float *oldest, const float *y, double scale, std::span<float> statistic)
     {
-        for (Index i = 0; i < n; ++i) {
+        for (std::size_t i = 0; i < statistic.size(); ++i) {
             const float newest = observed(y[i]);
             sum[i] += double(newest) - double(oldest[i]);
             oldest[i] = newest;
@@ -62,7 +62,7 @@ void Integrator::update(std::span<const float> y, std::span<float> statistic)
         fade(m_sum.data(), y.data(), m_decay, cells, statistic.data());
         return;
     }
-    slide(m_sum.data(), m_past[m_next].data(), y.data(), 1.0 / double(m_frames), cells, statistic.data());
+    slide(m_sum.data(), m_past[m_next].data(), y.data(), 1.0 / double(m_frames), statistic);
     m_next = (m_next + 1) % m_past.size();
 }
 

@@ -194,116 +194,163 @@ namespace {
         }
     }
 
-    /// Goes from frame `first` to `last`, from the scores of all states after `first` or, where there are none, with
-    /// paths that start then.
-    CorridorScores runCorridor(const MarkovModel &model, const Grid &grid, const RecursionRecord &record,
-                               const Corridor &corridor, Index first, std::span<const float> firstScores, Index last,
-                               Storage &storage)
+    /// Follows a path backwards from its end, from corridor to corridor.
+    class PathTracer
     {
-        const Index cells = corridor.space.cellCount();
-        Recursion<MaxPlus<float>> recursion(corridor.space, model.transitionScale);
-        CorridorScores history(first, last - first + 1, corridor.space.stateCount(), storage);
-        std::vector<float> y(static_cast<std::size_t>(cells));
-        std::vector<float> statistic(y.size());
-        for (Index frame = first; frame <= last; ++frame) {
-            const std::span<const float> whole = record.frame(frame);
-            for (std::size_t i = 0; i < y.size(); ++i)
-                y[i] = whole[std::size_t(corridor.cells()[i])];
-            const std::span<float> scores = history.append();
-            if (frame == first && !firstScores.empty()) {
-                take(firstScores, model, corridor, scores);
-            } else if (frame == first) {
-                model.likelihood.apply(y, scores);
-                for (Index plane = 1; plane < corridor.space.planeCount(); ++plane)
-                    std::copy_n(scores.begin(), cells, scores.begin() + plane * cells);
-            } else {
-                FrameJoin join;
-                join.counting = Counting::Nothing;
-                join.lnK = float(record.lnK(frame));
-                recursion.advance(history.at(frame - 1), scores, {y, statistic, frame}, model.likelihood, join);
-            }
-            if (frame < last)
-                for (const CellBox &box : record.forgotten(frame))
-                    forget(box, grid, corridor, scores);
+    public:
+        PathTracer(const MarkovModel &model, const Grid &grid, const RecursionRecord &record)
+            : m_model(model), m_grid(grid), m_record(record)
+        {
         }
-        return history;
-    }
 
-    /// Where a step's maximum came from, or -1 if the path was reset there.
-    Index origin(const MarkovModel &model, const Corridor &corridor, std::span<const float> before, Index frame,
-                 Index state, double lnK, double &lnTransition)
-    {
-        Index best = -1;
-        float bestScore = unreached;
-        for (const StateSpace::Predecessor &p : corridor.space.predecessors(state, frame)) {
-            const double ln = p.lnProbability * model.transitionScale;
-            const float score = before[std::size_t(p.state)] + float(ln);
-            if (score > bestScore) {
-                bestScore = score;
-                best = p.state;
-                lnTransition = ln;
+        /// Newest step first.
+        std::vector<PathStep> trace(PathEnd end)
+        {
+            for (Index length = shortestCorridor; !m_isReset;) {
+                const Beginning begin = beginningOf(end.frame, length);
+                const Corridor corridor(m_model, m_grid, end.state, end.frame - begin.frame);
+                const CorridorScores history = run(corridor, begin, end.frame);
+                const Index local = corridor.toLocal(m_model.space, end.state);
+                // Paths that start outside of the corridor are missing in it: what it finds is at most the detector's
+                // score.
+                if (begin.isWithinRecord
+                    && double(history.at(end.frame)[std::size_t(local)]) < end.score - scoreTolerance) {
+                    length *= 2;
+                    continue;
+                }
+                end = follow(corridor, history, begin, {end.frame, local, end.score});
+                length = std::max(shortestCorridor, end.frame - begin.frame + 1);
             }
+            return std::move(m_path);
         }
-        return bestScore + float(lnK) > 0.0f ? best : -1;
-    }
+
+    private:
+        /// The first frame of a corridor, and the scores of all states after it; without them paths start there.
+        struct Beginning {
+            Index frame;
+            std::span<const float> scores{};
+            bool isCheckpoint = false;
+            bool isWithinRecord = false; ///< neither a checkpoint nor the record's own beginning
+        };
+
+        Beginning beginningOf(Index frame, Index length) const
+        {
+            const RecursionRecord::Checkpoint checkpoint =
+                m_record.checkpoint ? m_record.checkpoint(frame) : RecursionRecord::Checkpoint{};
+            if (checkpoint.frame >= std::max(m_record.firstFrame, frame - 2 * length))
+                return {checkpoint.frame, checkpoint.scores, true, false};
+            const Index known = frame - m_record.firstFrame + 1;
+            return {frame - std::min(length, known) + 1, {}, false, length < known};
+        }
+
+        CorridorScores run(const Corridor &corridor, const Beginning &begin, Index last)
+        {
+            Recursion<MaxPlus<float>> recursion(corridor.space, m_model.transitionScale);
+            CorridorScores history(begin.frame, last - begin.frame + 1, corridor.space.stateCount(), m_storage);
+            std::vector<float> y(std::size_t(corridor.space.cellCount()));
+            std::vector<float> statistic(y.size());
+            for (Index frame = begin.frame; frame <= last; ++frame) {
+                const std::span<const float> whole = m_record.frame(frame);
+                for (std::size_t i = 0; i < y.size(); ++i)
+                    y[i] = whole[std::size_t(corridor.cells()[i])];
+                const std::span<float> scores = history.append();
+                if (frame == begin.frame) {
+                    startScores(corridor, begin, y, scores);
+                } else {
+                    FrameJoin join;
+                    join.counting = Counting::Nothing;
+                    join.lnK = float(m_record.lnK(frame));
+                    recursion.advance(history.at(frame - 1), scores, {y, statistic, frame}, m_model.likelihood, join);
+                }
+                if (frame < last)
+                    for (const CellBox &box : m_record.forgotten(frame))
+                        forget(box, m_grid, corridor, scores);
+            }
+            return history;
+        }
+
+        void startScores(const Corridor &corridor, const Beginning &begin, std::span<const float> y,
+                         std::span<float> scores) const
+        {
+            if (!begin.scores.empty()) {
+                take(begin.scores, m_model, corridor, scores);
+                return;
+            }
+            m_model.likelihood.apply(y, scores);
+            const Index cells = corridor.space.cellCount();
+            for (Index plane = 1; plane < corridor.space.planeCount(); ++plane)
+                std::copy_n(scores.begin(), cells, scores.begin() + plane * cells);
+        }
+
+        /// Adds the path's steps from a local state on, until its reset, or as far as the corridor knows; answers where
+        /// the rest ends.
+        PathEnd follow(const Corridor &corridor, const CorridorScores &history, const Beginning &begin, PathEnd at)
+        {
+            while (!(begin.isCheckpoint && at.frame == begin.frame)) { // what came before, from the one before
+                const Origin origin = at.frame == begin.frame
+                                          ? Origin{}
+                                          : originOf(corridor, history.at(at.frame - 1), at.frame, at.state);
+                m_path.push_back(stepInto(corridor.toGlobal(m_model.space, at.state), at.frame, origin));
+                m_isReset = origin.state < 0;
+                if (m_isReset)
+                    return at;
+                at.state = origin.state;
+                --at.frame;
+                if (at.frame == history.firstFrame() && at.frame > begin.frame)
+                    break; // older scores were let go: once more, from here
+            }
+            return {at.frame, corridor.toGlobal(m_model.space, at.state),
+                    double(history.at(at.frame)[std::size_t(at.state)])};
+        }
+
+        /// Where a step's maximum came from.
+        struct Origin {
+            Index state = -1; ///< -1 if the path was reset there
+            double lnTransition = 0.0;
+        };
+
+        Origin originOf(const Corridor &corridor, std::span<const float> before, Index frame, Index state) const
+        {
+            Origin best;
+            float bestScore = unreached;
+            for (const StateSpace::Predecessor &p : corridor.space.predecessors(state, frame)) {
+                const double ln = p.lnProbability * m_model.transitionScale;
+                const float score = before[std::size_t(p.state)] + float(ln);
+                if (score > bestScore) {
+                    bestScore = score;
+                    best = {p.state, ln};
+                }
+            }
+            return bestScore + float(m_record.lnK(frame)) > 0.0f ? best : Origin{};
+        }
+
+        PathStep stepInto(Index state, Index frame, const Origin &origin) const
+        {
+            PathStep step;
+            step.frame = frame;
+            step.state = state;
+            const Index cell = m_model.space.cellOf(state);
+            step.logLikelihoodRatio = m_model.likelihood.at(double(m_record.frame(frame)[std::size_t(cell)]));
+            if (origin.state >= 0) {
+                step.lnTransition = origin.lnTransition;
+                step.lnK = m_record.lnK(frame);
+            }
+            return step;
+        }
+
+        const MarkovModel &m_model;
+        const Grid &m_grid;
+        const RecursionRecord &m_record;
+        Storage m_storage;
+        std::vector<PathStep> m_path;
+        bool m_isReset = false;
+    };
 
 } // namespace
 
-std::vector<PathStep> tracePath(const MarkovModel &model, const Grid &grid, const RecursionRecord &record, Index frame,
-                                Index state, double detectorScore)
+std::vector<PathStep> tracePath(const MarkovModel &model, const Grid &grid, const RecursionRecord &record, PathEnd end)
 {
-    std::vector<PathStep> path;
-    Storage storage;
-    bool isReset = false;
-    for (Index length = shortestCorridor; !isReset;) {
-        const Index known = frame - record.firstFrame + 1;
-        const RecursionRecord::Checkpoint checkpoint =
-            record.checkpoint ? record.checkpoint(frame) : RecursionRecord::Checkpoint{};
-        const bool isFromCheckpoint = checkpoint.frame >= std::max(record.firstFrame, frame - 2 * length);
-        const Index used = isFromCheckpoint ? frame - checkpoint.frame + 1 : std::min(length, known);
-        const Index first = frame - used + 1;
-        const Corridor corridor(model, grid, state, used - 1);
-        const CorridorScores history =
-            runCorridor(model, grid, record, corridor, first,
-                        isFromCheckpoint ? checkpoint.scores : std::span<const float>{}, frame, storage);
-
-        Index local = corridor.toLocal(model.space, state);
-        // Paths that start outside of the corridor are missing in it: what it finds is at most the detector's score.
-        if (!isFromCheckpoint && used < known
-            && double(history.at(frame)[std::size_t(local)]) < detectorScore - scoreTolerance) {
-            length *= 2;
-            continue;
-        }
-        while (!isReset) {
-            if (isFromCheckpoint && frame == first)
-                break; // what came before it, from the checkpoint before
-            PathStep step;
-            step.frame = frame;
-            step.state = corridor.toGlobal(model.space, local);
-            const Index cell = model.space.cellOf(step.state);
-            step.logLikelihoodRatio = model.likelihood.at(double(record.frame(frame)[std::size_t(cell)]));
-            const Index before = frame == first ? -1
-                                                : origin(model, corridor, history.at(frame - 1), frame, local,
-                                                         record.lnK(frame), step.lnTransition);
-            if (before < 0)
-                step.lnTransition = 0.0;
-            else
-                step.lnK = record.lnK(frame);
-            path.push_back(step);
-            isReset = before < 0;
-            if (isReset)
-                break;
-            local = before;
-            --frame;
-            if (frame == history.firstFrame() && frame > first)
-                break; // older scores were let go: once more, from here
-        }
-        if (!isReset) {
-            state = corridor.toGlobal(model.space, local);
-            detectorScore = double(history.at(frame)[std::size_t(local)]);
-            length = std::max(shortestCorridor, frame - first + 1);
-        }
-    }
+    std::vector<PathStep> path = PathTracer(model, grid, record).trace(end);
     std::reverse(path.begin(), path.end());
     double score = 0.0;
     for (PathStep &step : path) {

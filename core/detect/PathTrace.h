@@ -39,13 +39,19 @@ struct RecursionRecord {
     std::function<Checkpoint(Index frame)> checkpoint{};
 };
 
-/// The best path that ends in `state` at `frame`, from its last reset on, oldest step first.
+/// Where a path ends.
+struct PathEnd {
+    Index frame;
+    Index state;
+    double score; ///< the detector's own
+};
+
+/// The best path that ends there, from its last reset on, oldest step first.
 ///
 /// Goes through the recursion again in a corridor that grows until it begins at a checkpoint or finds the detector's
-/// own `score` for that state, so the detector itself keeps no back-pointers. From one checkpoint to the next the cost
+/// own score for that state, so the detector itself keeps no back-pointers. From one checkpoint to the next the cost
 /// is the same however long the path is. A path older than the record begins with the record. Source: Billon 2005
 /// section 3 (τₙ, the latest reset). Oracle: enumeration of all paths.
-std::vector<PathStep> tracePath(const MarkovModel &model, const Grid &grid, const RecursionRecord &record, Index frame,
-                                Index state, double score);
+std::vector<PathStep> tracePath(const MarkovModel &model, const Grid &grid, const RecursionRecord &record, PathEnd end);
 
 } // namespace faintline

@@ -69,9 +69,9 @@ namespace {
     }
 
     FAINTLINE_MULTIVERSION
-    void decide(const float *means, const float *smallest, float r1, float r2, Index n, float *statistic)
+    void decide(const float *means, const float *smallest, float r1, float r2, std::span<float> statistic)
     {
-        for (Index i = 0; i < n; ++i) {
+        for (std::size_t i = 0; i < statistic.size(); ++i) {
             const float enough = smallest[i] > r1 ? means[i] : 0.0f;
             statistic[i] = means[i] > r2 ? enough : 0.0f;
         }
@@ -125,7 +125,7 @@ void PofN::update(std::span<const float> y, std::span<float> statistic)
     for (std::size_t i = 0; i < m_maxima.size(); ++i)
         rows.push_back(m_maxima[(m_next + i) % m_maxima.size()].data());
     largest(rows, m_settings.p, std::ssize(m_means), m_means.data(), m_smallest.data());
-    decide(m_means.data(), m_smallest.data(), float(m_settings.r1), float(m_settings.r2), cells, statistic.data());
+    decide(m_means.data(), m_smallest.data(), float(m_settings.r1), float(m_settings.r2), statistic);
 }
 
 void PofN::forget(const Grid &grid, const CellBox &box)

@@ -22,15 +22,9 @@ namespace {
 } // namespace
 
 /// What all threads are given.
-struct SlantedTiles::Work {
-    std::span<const float> scores;
-    std::span<float> next;
-    std::span<const float> y;
-    std::span<float> statistic;
-    Index firstStep;
-    const Likelihood &likelihood;
-    const FrameJoin &join;
-    Index frames;
+struct SlantedTiles::Work : Passage {
+    Index frameCount;
+    bool isLast(Index frame) const { return frame + 1 == frameCount; }
 };
 
 /// Cells from … end-1 that one thread answers for; what goes in begins at low and ends at high.
@@ -40,6 +34,14 @@ struct SlantedTiles::Stretch {
     Index low;
     Index high;
     Continued continued{};
+};
+
+/// One frame's part of a tile: its cells begin at `begin`, those within the stretch are from … end-1.
+struct SlantedTiles::Part {
+    Index frame;
+    Index begin;
+    Index from;
+    Index end;
 };
 
 struct SlantedTiles::TargetList {
@@ -66,12 +68,10 @@ bool SlantedTiles::areWorthwhile() const
     return m_tileCells >= shortest;
 }
 
-Continued SlantedTiles::advance(std::span<const float> scores, std::span<float> next, std::span<const float> y,
-                                std::span<float> statistic, Index firstStep, const Likelihood &likelihood,
-                                const FrameJoin &join, const RunContext &context)
+Continued SlantedTiles::advance(const Passage &passage, const RunContext &context)
 {
-    const Work work{scores, next, y, statistic, firstStep, likelihood, join, std::ssize(y) / m_cells};
-    const Index overlap = (work.frames - 1) * m_reach;
+    const Work work{passage, std::ssize(passage.frames.y) / m_cells};
+    const Index overlap = (work.frameCount - 1) * m_reach;
     std::vector<Stretch> stretches;
     for (Index i = 0; i < context.threads; ++i) {
         const Index from = i * m_cells / context.threads;
@@ -130,82 +130,98 @@ void SlantedTiles::listAhead(const Work &work, Index frame, Index first, Index n
         if (cell >= 0 && cell + n <= m_cells)
             rows.push_back(all.data() + row * m_cells + cell);
     };
-    const bool isLast = frame + 1 == work.frames;
+    const bool isLast = work.isLast(frame);
     const Index following = isLast ? 0 : frame + 1;
     const Index there = isLast ? first + frame * m_reach + m_tileCells : first - m_reach;
-    add(work.y, following, there);
-    add(work.statistic, following, there);
-    for (Index rate = frame * m_rates / work.frames; rate < (frame + 1) * m_rates / work.frames; ++rate) {
+    add(work.frames.y, following, there);
+    add(work.frames.statistic, following, there);
+    const Index frames = work.frameCount;
+    for (Index rate = frame * m_rates / frames; rate < (frame + 1) * m_rates / frames; ++rate) {
         add(work.scores, rate, first + (frame + 1) * m_reach + m_tileCells);
-        add(work.next, rate, first - (work.frames - 1 - frame) * m_reach);
+        add(work.next, rate, first - (frames - 1 - frame) * m_reach);
     }
+}
+
+/// Where the first window's cells begin, on a whole cache line.
+float *SlantedTiles::prepareWindows(Scratch &own, Index frames) const
+{
+    own.windows.resize(std::size_t(2 * m_rates * m_stride + lineFloats));
+    own.halo.assign(std::size_t(frames * m_rates * 2 * m_reach), unreached);
+    own.lambda.resize(std::size_t(m_tileCells));
+    own.unused.resize(std::size_t(m_tileCells));
+    const auto address = Index(reinterpret_cast<std::uintptr_t>(own.windows.data()) / sizeof(float));
+    return own.windows.data() + (lineFloats - address % lineFloats) % lineFloats + m_margin;
 }
 
 void SlantedTiles::goThrough(const Work &work, Stretch &s, Scratch &own) const
 {
     const Index haloSize = m_rates * 2 * m_reach;
-    own.windows.resize(std::size_t(2 * m_rates * m_stride + lineFloats));
-    own.halo.assign(std::size_t(work.frames * haloSize), unreached);
-    own.lambda.resize(std::size_t(m_tileCells));
-    own.unused.resize(std::size_t(m_tileCells));
-    const auto address = Index(reinterpret_cast<std::uintptr_t>(own.windows.data()) / sizeof(float));
-    float *const windows = own.windows.data() + (lineFloats - address % lineFloats) % lineFloats + m_margin;
+    float *const windows = prepareWindows(own, work.frameCount);
     const auto windowOf = [&](Index frame) {
         return windows + (frame + 1) % 2 * m_rates * m_stride;
     }; // the scores are of frame -1
 
     std::vector<TargetList> lists;
-    for (Index frame = 0; frame < work.frames; ++frame) {
-        const Targets &targets = m_phases[std::size_t((work.firstStep + frame) % std::ssize(m_phases))];
-        const bool isLast = frame + 1 == work.frames;
+    for (Index frame = 0; frame < work.frameCount; ++frame) {
+        const Targets &targets = m_phases[std::size_t((work.frames.firstStep + frame) % std::ssize(m_phases))];
+        const bool isLast = work.isLast(frame);
         lists.push_back(listTargets(targets, windowOf(frame - 1), isLast ? work.next.data() : windowOf(frame),
                                     isLast ? m_cells : m_stride));
     }
 
-    const auto goThroughFrame = [&](Index frame, Index begin, Index from, Index end) {
-        const bool isLast = frame + 1 == work.frames;
-        const TargetList &list = lists[std::size_t(frame)];
-        FrameJoin join = work.join;
-        join.isFresh = true;
-        join.counting = isLast ? join.counting : Counting::Nothing;
-        work.likelihood.apply(work.y.subspan(std::size_t(frame * m_cells + from), std::size_t(end - from)), own.lambda);
-        // What lies outside of the stretch is the neighbour's to count and to show.
-        const std::array<Index, 4> cuts{from, std::clamp(s.from, from, end), std::clamp(s.end, from, end), end};
-        for (std::size_t part = 0; part < 3; ++part) {
-            const Index first = cuts[part];
-            const Index n = cuts[part + 1] - first;
-            const bool isOwn = part == 1;
-            if (n <= 0 || (isLast && !isOwn))
-                continue;
-            listAhead(work, frame, first, n, own.ahead);
-            join.ahead = own.ahead;
-            float *const statistic = isOwn ? work.statistic.data() + frame * m_cells + first : own.unused.data();
-            s.continued.count += finishMax(list.targets, n, first - begin, isLast ? first : first - begin,
-                                           own.lambda.data() + (first - from), join, statistic)
-                                     .count;
-        }
-    };
-
-    for (Index tile = s.low; tile - (work.frames - 1) * m_reach < s.high; tile += m_tileCells) {
+    for (Index tile = s.low; tile - (work.frameCount - 1) * m_reach < s.high; tile += m_tileCells) {
         readScores(work, tile + m_reach, windowOf(-1));
-        for (Index frame = 0; frame < work.frames; ++frame) {
+        for (Index frame = 0; frame < work.frameCount; ++frame) {
             const Index begin = tile - frame * m_reach;
             const Index from = std::clamp(s.low, begin, begin + m_tileCells);
-            const Index end = std::clamp(s.high, from, begin + m_tileCells);
+            const Part part{frame, begin, from, std::clamp(s.high, from, begin + m_tileCells)};
             float *const window = windowOf(frame);
             float *const halo = own.halo.data() + frame * haloSize;
-            for (Index rate = 0; frame + 1 < work.frames && rate < m_rates; ++rate) {
-                float *const to = window + rate * m_stride;
-                std::copy_n(halo + rate * 2 * m_reach, 2 * m_reach, to - 2 * m_reach);
-                std::fill(to, to + from - begin, unreached);
-                std::fill(to + end - begin, to + m_tileCells, unreached);
-            }
-            if (from < end)
-                goThroughFrame(frame, begin, from, end);
-            for (Index rate = 0; frame + 1 < work.frames && rate < m_rates; ++rate)
+            if (!work.isLast(frame))
+                fillOutside(part, halo, window);
+            if (part.from < part.end)
+                joinFrame(work, lists[std::size_t(frame)], part, s, own);
+            for (Index rate = 0; !work.isLast(frame) && rate < m_rates; ++rate)
                 std::copy_n(window + rate * m_stride + m_tileCells - 2 * m_reach, 2 * m_reach,
                             halo + rate * 2 * m_reach);
         }
+    }
+}
+
+/// Of a frame's window, what is not joined: the end of the tile before, and what lies outside of the stretch.
+void SlantedTiles::fillOutside(const Part &part, const float *halo, float *window) const
+{
+    for (Index rate = 0; rate < m_rates; ++rate) {
+        float *const to = window + rate * m_stride;
+        std::copy_n(halo + rate * 2 * m_reach, 2 * m_reach, to - 2 * m_reach);
+        std::fill(to, to + part.from - part.begin, unreached);
+        std::fill(to + part.end - part.begin, to + m_tileCells, unreached);
+    }
+}
+
+void SlantedTiles::joinFrame(const Work &work, const TargetList &list, const Part &part, Stretch &s, Scratch &own) const
+{
+    const auto [frame, begin, from, end] = part;
+    const bool isLast = work.isLast(frame);
+    FrameJoin join = work.join;
+    join.isFresh = true;
+    join.counting = isLast ? join.counting : Counting::Nothing;
+    work.likelihood.apply(work.frames.y.subspan(std::size_t(frame * m_cells + from), std::size_t(end - from)),
+                          own.lambda);
+    // What lies outside of the stretch is the neighbour's to count and to show.
+    const std::array<Index, 4> cuts{from, std::clamp(s.from, from, end), std::clamp(s.end, from, end), end};
+    for (std::size_t third = 0; third < 3; ++third) {
+        const Index first = cuts[third];
+        const Index n = cuts[third + 1] - first;
+        const bool isOwn = third == 1;
+        if (n <= 0 || (isLast && !isOwn))
+            continue;
+        listAhead(work, frame, first, n, own.ahead);
+        join.ahead = own.ahead;
+        float *const statistic = isOwn ? work.frames.statistic.data() + frame * m_cells + first : own.unused.data();
+        s.continued.count += finishMax(list.targets, {n, first - begin, isLast ? first : first - begin},
+                                       own.lambda.data() + (first - from), join, statistic)
+                                 .count;
     }
 }
 

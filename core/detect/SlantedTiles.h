@@ -1,13 +1,29 @@
 #pragma once
 
 #include "base/RunContext.h"
-#include "detect/joinKernels.h"
+#include "detect/finishMax.h"
 #include "model/Likelihood.h"
 
 #include <span>
 #include <vector>
 
 namespace faintline {
+
+/// Frames to go through: as many as y holds.
+struct FrameBlock {
+    std::span<const float> y;
+    std::span<float> statistic; ///< D of every frame and cell
+    Index firstStep = 0;        ///< number of the step into the first of them
+};
+
+/// The recursion's way through some frames: scores before the first → those after the last, not in the same memory.
+struct Passage {
+    std::span<const float> scores;
+    std::span<float> next;
+    const FrameBlock &frames;
+    const Likelihood &likelihood;
+    const FrameJoin &join;
+};
 
 /// The maximum recursion along one bounded axis, several frames at a time, so that T frames cost one reading and one
 /// writing of all scores.
@@ -38,11 +54,8 @@ public:
     /// Whether two frames of a tile fit into the cache.
     bool areWorthwhile() const;
 
-    /// u = λ + max(M + ln K, floor) of as many frames as `y` holds, D of each in `statistic`; answers what went on in
-    /// the last. `firstStep`: number of the step into the first of them.
-    Continued advance(std::span<const float> scores, std::span<float> next, std::span<const float> y,
-                      std::span<float> statistic, Index firstStep, const Likelihood &likelihood, const FrameJoin &join,
-                      const RunContext &context);
+    /// u = λ + max(M + ln K, floor) of all frames of the passage; answers what went on in the last.
+    Continued advance(const Passage &passage, const RunContext &context);
 
 private:
     /// Of one thread.
@@ -56,12 +69,17 @@ private:
 
     struct Work;
     struct Stretch;
+    struct Part;
     struct TargetList;
 
     TargetList listTargets(const Targets &targets, const float *from, float *to, Index toStride) const;
     void listAhead(const Work &work, Index frame, Index first, Index n, std::vector<const float *> &rows) const;
     void readScores(const Work &work, Index begin, float *window) const;
+    float *prepareWindows(Scratch &scratch, Index frames) const;
     void goThrough(const Work &work, Stretch &stretch, Scratch &scratch) const;
+    void fillOutside(const Part &part, const float *halo, float *window) const;
+    void joinFrame(const Work &work, const TargetList &list, const Part &part, Stretch &stretch,
+                   Scratch &scratch) const;
 
     Index m_cells;
     std::vector<Targets> m_phases;

@@ -111,22 +111,28 @@ namespace {
 } // namespace
 
 SprtResult runSprt(const SequentialModel &model, const SprtSettings &settings, Index stages, const StageSource &source,
-                   const RunContext &context, const StageObserver &observer)
+                   const RunContext &context)
+{
+    return runSprt(model, settings, {stages, source}, context);
+}
+
+SprtResult runSprt(const SequentialModel &model, const SprtSettings &settings, const StageSeries &stages,
+                   const RunContext &context)
 {
     checkSprt(settings, "sprt");
     model.check("model");
-    Evidence evidence(model, source);
+    Evidence evidence(model, stages.source);
     LikelihoodRatio ratio(model);
     std::vector<double> folded(std::size_t(model.reduction.stateCells()));
     SprtResult result;
-    const Index last = settings.cutOffStage > 0 ? std::min<Index>(stages, settings.cutOffStage) : stages;
+    const Index last = settings.cutOffStage > 0 ? std::min<Index>(stages.count, settings.cutOffStage) : stages.count;
     while (result.stages < last && result.decision == SprtDecision::Undecided) {
         context.checkpoint(0.5 * double(result.stages) / double(last), "sequential test");
         model.reduction.sum(evidence.at(result.stages), folded);
         result.lnLambda.push_back(ratio.update(folded));
         ++result.stages;
-        if (observer)
-            observer(ratio);
+        if (stages.observer)
+            stages.observer(ratio);
         result.decision = decide(settings, result.lnLambda.back(), result.stages);
     }
     if (result.decision == SprtDecision::Undecided)

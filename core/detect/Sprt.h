@@ -94,13 +94,20 @@ struct SprtResult {
     double lnMapScore = 0.0; ///< ln of the trajectory's probability times its likelihood ratio
 };
 
-/// Is shown every stage right after it was taken.
-using StageObserver = std::function<void(const LikelihoodRatio &ratio)>;
+/// The stages that a test may take.
+struct StageSeries {
+    Index count = 0;
+    StageSource source;
+    /// Is shown every stage right after it was taken; may be empty.
+    std::function<void(const LikelihoodRatio &ratio)> observer{};
+};
 
 /// Takes stage after stage until a boundary is reached, the cut-off stage, or the last of `stages`; then, where H1 was
 /// accepted, estimates the trajectory (MapTrajectory). Throws Error, Cancelled.
+SprtResult runSprt(const SequentialModel &model, const SprtSettings &settings, const StageSeries &stages,
+                   const RunContext &context = {});
 SprtResult runSprt(const SequentialModel &model, const SprtSettings &settings, Index stages, const StageSource &source,
-                   const RunContext &context = {}, const StageObserver &observer = {});
+                   const RunContext &context = {});
 
 /// Ready-made or recorded frames as stages, from a frame on; on a frequency axis a range of its cells.
 StageSource stagesOf(NormalisedFramesPointer frames, Index firstFrame, Index firstCell, Index cellCount);

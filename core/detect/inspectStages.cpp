@@ -67,10 +67,13 @@ InspectedTest inspectStages(const SequentialModel &model, const SprtSettings &se
     std::vector<Marginal> marginals;
     for (std::size_t i = 0; i < inspected.posterior.size(); ++i)
         marginals.emplace_back(inspected.posterior[i], space, i);
-    inspected.result = runSprt(model, settings, stages, source, context, [&](const LikelihoodRatio &ratio) {
-        for (Marginal &marginal : marginals)
-            marginal.add(ratio);
-    });
+    inspected.result = runSprt(model, settings,
+                               {stages, source,
+                                [&](const LikelihoodRatio &ratio) {
+                                    for (Marginal &marginal : marginals)
+                                        marginal.add(ratio);
+                                }},
+                               context);
     return inspected;
 }
 

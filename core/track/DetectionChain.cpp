@@ -370,8 +370,8 @@ RecursionRecord DetectionChain::record(std::size_t model) const
 
 std::vector<PathStep> DetectionChain::detectorPathInto(Index state, std::size_t model) const
 {
-    return tracePath(m_models[model], m_grid, record(model), m_firstSeen + std::ssize(m_seen) - 1, state,
-                     scoreOf(state, model));
+    return tracePath(m_models[model], m_grid, record(model),
+                     {m_firstSeen + std::ssize(m_seen) - 1, state, scoreOf(state, model)});
 }
 
 std::size_t ChainState::bytes() const
@@ -436,7 +436,7 @@ void DetectionChain::startTrack(Index frame, const Cluster &cluster, std::span<c
     RecursionRecord recent = record(model);
     if (m_settings.onsetFrames > 0)
         recent.firstFrame = std::max(recent.firstFrame, frame - m_settings.onsetFrames + 1);
-    for (const PathStep &step : tracePath(m_models[model], m_grid, recent, frame, state, scoreOf(state, model)))
+    for (const PathStep &step : tracePath(m_models[model], m_grid, recent, {frame, state, scoreOf(state, model)}))
         track.points.push_back({step.frame, space.cellOf(step.state), space.planeOf(step.state), step.score});
     trimOnset(track.points);
     track.onsetFrame = track.points.front().frame;
@@ -446,8 +446,8 @@ void DetectionChain::startTrack(Index frame, const Cluster &cluster, std::span<c
     track.detectStatistic = double(cluster.peakStatistic);
     const double offset = m_settings.trackThreshold ? 0.0 : track.detectStatistic - scoreOf(state, model);
     m_boxTracks.push_back(track.id);
-    m_trackers.emplace_back(*m_trackerModels[model], std::move(track), state, cluster.cells, m_detector->scores(model),
-                            offset);
+    m_trackers.emplace_back(*m_trackerModels[model], std::move(track),
+                            HmmTracker::Seed{state, cluster.cells, m_detector->scores(model), offset});
 
     // The box must hold the whole cluster, or its rim would start a second track in the next frame.
     CellBox box = boxRound(m_grid.coordinates(cluster.peakCell), y);

@@ -12,47 +12,6 @@ namespace {
 
     constexpr float unreached = -std::numeric_limits<float>::infinity();
 
-    std::vector<Index> halfWidths(const StateSpace &space, const TrackSettings &settings)
-    {
-        std::vector<Index> result;
-        for (std::size_t axis = 0; axis < space.axes().size(); ++axis) {
-            const double wanted = settings.windowCells.empty()
-                                      ? 12.0
-                                      : settings.windowCells[std::min(axis, settings.windowCells.size() - 1)];
-            const Index largest = (space.axes()[axis].cells - 1) / 2;
-            result.push_back(std::clamp(Index(std::llround(wanted)), Index(0), largest));
-        }
-        return result;
-    }
-
-    std::vector<Index> reaches(const StateSpace &space)
-    {
-        std::vector<Index> result;
-        for (const KinematicAxis &axis : space.axes())
-            result.push_back(axis.largestDisplacement());
-        return result;
-    }
-
-    std::vector<Index> sides(const std::vector<Index> &half, const std::vector<Index> &margin)
-    {
-        std::vector<Index> result;
-        for (std::size_t i = 0; i < half.size(); ++i)
-            result.push_back(2 * (half[i] + margin[i]) + 1);
-        return result;
-    }
-
-    /// Offsets of a box's cells from its middle, cell by cell, one per axis.
-    std::vector<Index> offsetsFromMiddle(const StateSpace &box)
-    {
-        std::vector<Index> result;
-        for (Index cell = 0; cell < box.cellCount(); ++cell) {
-            const std::vector<Index> c = box.coordinates(cell).cells;
-            for (std::size_t axis = 0; axis < c.size(); ++axis)
-                result.push_back(c[axis] - (box.axes()[axis].cells - 1) / 2);
-        }
-        return result;
-    }
-
     /// Distance along an axis, the short way round on a cyclic one.
     Index offsetOnAxis(const Axis &axis, Index from, Index to)
     {
@@ -68,88 +27,21 @@ namespace {
 
 } // namespace
 
-const std::vector<Field<TrackSettings>> &TrackSettings::fields()
-{
-    using S = TrackSettings;
-    static const std::vector<Field<S>> table{
-        field(&S::windowCells, "windowCells", "bins", 0.0, 10000.0,
-              "Half width of the window of states that follows a signal, per axis; the last number repeats."),
-        field(&S::decayNats, "decayNats", "nat", 0.0, 1000.0,
-              "Amount subtracted from a track's level every frame, so "
-              "that a track on noise fades."),
-        field(&S::ceilingNats, "ceilingNats", "nat", 0.0, 1e6, "Upper limit of a track's level above the threshold."),
-        field(&S::endNats, "endNats", "nat", 0.0, 1e6, "A track ends when its level is this far below the threshold."),
-        field(&S::confirmNats, "confirmNats", "nat", 0.0, 1e6,
-              "A track is confirmed when its level is this far above the threshold."),
-        field(&S::confirmFrames, "confirmFrames", "frames", 1.0, 1e6, "Lowest age at which a track is confirmed."),
-        field(&S::smoothingFrames, "smoothingFrames", "frames", 1.0, 10000.0,
-              "Lag of the smoothing of a track's path."),
-        field(&S::bothWays, "bothWays",
-              "Whether complete tracks of lines are also followed backward to refine onset, "
-              "end and frequency."),
-    };
-    return table;
-}
-
-TrackerModel::TrackerModel(const MarkovModel &model, const Grid &frameGrid, const TrackSettings &trackSettings,
-                           double thresholdNats)
-    : space(model.space), grid(frameGrid), settings(trackSettings), threshold(thresholdNats),
-      transitionScale(model.transitionScale), halfWidth(halfWidths(space, settings)), reach(reaches(space)),
-      window(space.window(sides(halfWidth, std::vector<Index>(halfWidth.size(), 0)))),
-      padded(space.window(sides(halfWidth, reach))), recursion(padded, model.transitionScale),
-      scores(std::size_t(padded.stateCount()))
-{
-    for (std::size_t axis = 0; axis < halfWidth.size(); ++axis)
-        largestExtent = std::max(largestExtent, 2 * (halfWidth[axis] + reach[axis]));
-    windowOffsets = offsetsFromMiddle(window);
-    paddedOffsets = offsetsFromMiddle(padded);
-}
-
-Index TrackerModel::gridCell(const std::vector<Index> &centre, const std::vector<Index> &offsets, Index cell) const
-{
-    const std::size_t axisCount = centre.size();
-    const Index *offset = offsets.data() + std::size_t(cell) * axisCount;
-    Index flat = 0;
-    for (std::size_t axis = 0; axis < axisCount; ++axis) {
-        const Index inside = grid.axes[axis].wrapped(centre[axis] + offset[axis]);
-        if (inside < 0)
-            return -1;
-        flat = flat * grid.axes[axis].count + inside;
-    }
-    return flat;
-}
-
-Index TrackerModel::inPadded(Index cell, const std::vector<Index> &moved) const
-{
-    const std::size_t axisCount = moved.size();
-    const Index *offset = windowOffsets.data() + std::size_t(cell) * axisCount;
-    Index flat = 0;
-    for (std::size_t axis = 0; axis < axisCount; ++axis) {
-        const Index cells = padded.axes()[axis].cells;
-        const Index inside = offset[axis] + moved[axis] + halfWidth[axis] + reach[axis];
-        if (inside < 0 || inside >= cells)
-            return -1;
-        flat = flat * cells + inside;
-    }
-    return flat;
-}
-
-HmmTracker::HmmTracker(TrackerModel &model, Track start, Index state, std::span<const Index> cells,
-                       std::span<const float> detectorScores, double scoreOffset)
-    : m_model(&model), m_track(std::move(start)), m_best(state)
+HmmTracker::HmmTracker(TrackerModel &model, Track start, const Seed &seed)
+    : m_model(&model), m_track(std::move(start)), m_best(seed.state)
 {
     Slice slice;
     slice.frame = m_track.detectFrame;
-    slice.centre = model.grid.coordinates(model.space.cellOf(state));
+    slice.centre = model.grid.coordinates(model.space.cellOf(seed.state));
     slice.scores.assign(std::size_t(model.window.stateCount()), unreached);
-    m_statistic = double(detectorScores[std::size_t(state)]) + scoreOffset;
+    m_statistic = double(seed.scores[std::size_t(seed.state)]) + seed.offset;
     slice.offset = m_statistic;
     for (Index local = 0; local < model.window.stateCount(); ++local) {
         const Index cell = model.windowCell(slice.centre, model.window.cellOf(local));
-        if (std::binary_search(cells.begin(), cells.end(), cell)) {
+        if (std::binary_search(seed.cells.begin(), seed.cells.end(), cell)) {
             const Index global = model.window.planeOf(local) * model.space.cellCount() + cell;
             slice.scores[std::size_t(local)] =
-                float(double(detectorScores[std::size_t(global)]) + scoreOffset - slice.offset);
+                float(double(seed.scores[std::size_t(global)]) + seed.offset - slice.offset);
         }
     }
     m_history.push_back(std::move(slice));

@@ -42,28 +42,48 @@ namespace {
         double least() const { return independent > 0.0 ? mean * (1.0 - deviations * scatterOf(independent)) : 1.0; }
     };
 
-    Level levelOf(const PathStrip &strip, Side side, Index at, Index reach, double binsPerCell,
-                  std::vector<float> &values)
+    class Surroundings
     {
-        values.clear();
-        const Index end = std::min(strip.frameCount() - 1, at + reach);
-        for (Index frame = std::max<Index>(0, at - reach); frame <= end; ++frame)
-            for (Index bin = side.from; bin <= side.to; ++bin)
-                if (const float y = strip.valueAt(frame, strip.centres[std::size_t(frame)] + bin); !std::isnan(y))
-                    values.push_back(y);
-        if (values.size() < fewestValues)
-            return {1.0, 0.0};
-        const auto count = double(values.size());
-        const auto quantile = values.begin() + std::ptrdiff_t(share * count);
-        std::nth_element(values.begin(), quantile, values.end());
-        return {double(*quantile) / quantileOfNoise(), count / (framesPerWindow * binsPerCell)};
-    }
+    public:
+        Surroundings(const PathStrip &strip, double binsPerCell)
+            : m_strip(strip), m_binsPerCell(binsPerCell), m_near(Index(std::ceil(nearestCells * binsPerCell))),
+              m_far(levelBesideHalfWidth(binsPerCell))
+        {
+        }
 
-    double leastOf(const Level &below, const Level &above)
-    {
-        const Level both{0.5 * (below.mean + above.mean), below.independent + above.independent};
-        return std::max({below.least(), above.least(), both.least()});
-    }
+        /// The least level within `reach` frames of one that chance cannot explain.
+        double leastLevel(Index at, Index reach)
+        {
+            const Level below = levelOf({-m_far, -m_near}, at, reach);
+            const Level above = levelOf({m_near, m_far}, at, reach);
+            const Level both{0.5 * (below.mean + above.mean), below.independent + above.independent};
+            return std::max({below.least(), above.least(), both.least()});
+        }
+
+    private:
+        Level levelOf(Side side, Index at, Index reach)
+        {
+            m_values.clear();
+            const Index end = std::min(m_strip.frameCount() - 1, at + reach);
+            for (Index frame = std::max<Index>(0, at - reach); frame <= end; ++frame)
+                for (Index bin = side.from; bin <= side.to; ++bin)
+                    if (const float y = m_strip.valueAt(frame, m_strip.centres[std::size_t(frame)] + bin);
+                        !std::isnan(y))
+                        m_values.push_back(y);
+            if (m_values.size() < fewestValues)
+                return {1.0, 0.0};
+            const auto count = double(m_values.size());
+            const auto quantile = m_values.begin() + std::ptrdiff_t(share * count);
+            std::nth_element(m_values.begin(), quantile, m_values.end());
+            return {double(*quantile) / quantileOfNoise(), count / (framesPerWindow * m_binsPerCell)};
+        }
+
+        const PathStrip &m_strip;
+        double m_binsPerCell;
+        Index m_near;
+        Index m_far;
+        std::vector<float> m_values;
+    };
 
 } // namespace
 
@@ -74,17 +94,13 @@ Index levelBesideHalfWidth(double binsPerCell)
 
 std::vector<double> levelBeside(const PathStrip &strip, double binsPerCell)
 {
-    const auto near = Index(std::ceil(nearestCells * binsPerCell));
-    const Index far = levelBesideHalfWidth(binsPerCell);
     std::vector<double> levels(std::size_t(strip.frameCount()), 1.0);
-    std::vector<float> values;
+    Surroundings surroundings(strip, binsPerCell);
     for (const Index reach : reaches) {
         const Index step = std::max<Index>(1, reach / valuesPerReach);
         for (Index from = 0; from < strip.frameCount(); from += step) {
             const Index end = std::min(strip.frameCount(), from + step);
-            const Index at = (from + end) / 2;
-            const double least = leastOf(levelOf(strip, {-far, -near}, at, reach, binsPerCell, values),
-                                         levelOf(strip, {near, far}, at, reach, binsPerCell, values));
+            const double least = surroundings.leastLevel((from + end) / 2, reach);
             for (Index frame = from; frame < end; ++frame) {
                 double &level = levels[std::size_t(frame)];
                 level = std::max(level, least);

@@ -294,7 +294,7 @@ void tst_Recursion::tracedTermsAddUp()
     record.forgotten = [](Index) { return std::span<const CellBox>(); };
     for (Index state = 0; state < m.space.stateCount(); ++state) {
         const std::vector<PathStep> path =
-            tracePath(m, grid, record, frames - 1, state, double(detector.scores()[std::size_t(state)]));
+            tracePath(m, grid, record, {frames - 1, state, double(detector.scores()[std::size_t(state)])});
         QCOMPARE(path.back().state, state);
         QCOMPARE(path.back().frame, frames - 1);
         double sum = 0.0;
@@ -318,7 +318,7 @@ void tst_Recursion::tracedTermsAddUp()
                                : RecursionRecord::Checkpoint{};
         };
         const std::vector<PathStep> again =
-            tracePath(m, grid, cut, frames - 1, state, double(detector.scores()[std::size_t(state)]));
+            tracePath(m, grid, cut, {frames - 1, state, double(detector.scores()[std::size_t(state)])});
         QCOMPARE(again.size(), path.size());
         for (std::size_t i = 0; i < path.size(); ++i)
             QCOMPARE(again[i].state, path[i].state);

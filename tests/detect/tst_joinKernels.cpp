@@ -1,5 +1,5 @@
 #include "base/Random.h"
-#include "detect/joinKernels.h"
+#include "detect/finishMax.h"
 
 #include <QtTest>
 
@@ -133,7 +133,7 @@ void tst_joinKernels::finishMax()
             join.isFresh = isFresh;
             std::vector<float> statistic(rowCells, 2.0f);
             const Continued found =
-                faintline::finishMax(list.targets(planes), n, 0, 0, lambda.data(), join, statistic.data());
+                faintline::finishMax(list.targets(planes), {n}, lambda.data(), join, statistic.data());
             Index went = 0;
             double sum = 0.0;
             for (Index i = 0; i < n; ++i) {

@@ -186,8 +186,8 @@ Survey surveyScans(const ScanTest &test, Index fixedSize, const RunContext &cont
         return scanStages(
             test, {holdsTarget(test, visit.sector), firstLook + int(visit.round * test.sectors + visit.sector)});
     };
-    return survey(scanModel(test.scene, test.designSnrDb), test.sprt, test.sectors, test.rounds, stageLimit(test),
-                  fixedSize, source, context);
+    return survey(scanModel(test.scene, test.designSnrDb), test.sprt,
+                  {test.sectors, test.rounds, stageLimit(test), fixedSize}, source, context);
 }
 
 SequentialStudy studyOf(const ScanTest &test, double designSnrDb, std::optional<double> actualSnrDb)

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "base/multiversion.h"
+
+namespace faintline {
+
+// Vectors of floats for the inner loops of the recursion; wide ones never cross a call, for all that takes them is
+// inlined.
+
+template <int bytes>
+using Floats = typename Vector<float, bytes>::Type;
+template <int bytes>
+using Integers = typename Vector<int, bytes>::Type;
+
+template <int bytes>
+[[gnu::always_inline]] inline Floats<bytes> load(const float *from)
+{
+    return *reinterpret_cast<const typename Vector<float, bytes>::Unaligned *>(from);
+}
+
+template <class Values>
+[[gnu::always_inline]] inline void store(float *to, const Values &values)
+{
+    *reinterpret_cast<typename Vector<float, sizeof(Values)>::Unaligned *>(to) = values;
+}
+
+template <class Values>
+[[gnu::always_inline]] inline Values larger(const Values &a, const Values &b)
+{
+    return a > b ? a : b;
+}
+
+} // namespace faintline
