@@ -2,8 +2,8 @@
 
 #include "base/memoryShares.h"
 #include "recording/endless.h"
+#include "spectrum/FrameNormaliser.h"
 #include "spectrum/coarseFrames.h"
-#include "spectrum/normaliseFrame.h"
 
 #include <algorithm>
 #include <cmath>
@@ -106,14 +106,14 @@ void CausalSpectrogram::read(Index first, Index count, std::span<float> out) con
 {
     m_spectrogram->read(first, count, out);
     const auto cells = std::size_t(grid().size());
-    std::vector<float> inverse;
+    FrameNormaliser normaliser(*m_spectrogram, m_settings.followLevel);
     const std::lock_guard lock(m_mutex);
     goTo(first);
     for (Index i = 0; i < count; ++i) {
         const NoiseBackground &background = step();
         const std::span<float> values = out.subspan(std::size_t(i) * cells, cells);
         const bool isSilent = std::none_of(values.begin(), values.end(), [](float value) { return value > 0.0f; });
-        normaliseFrame(*m_spectrogram, background, 0.0, m_settings.followLevel, values, inverse);
+        normaliser.normalise(values, background, 0.0);
         if (!isSilent && isTorn(first + i))
             std::fill(values.begin(), values.end(), std::numeric_limits<float>::quiet_NaN());
     }

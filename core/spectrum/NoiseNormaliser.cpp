@@ -1,6 +1,6 @@
 #include "spectrum/NoiseNormaliser.h"
 
-#include "spectrum/normaliseFrame.h"
+#include "spectrum/FrameNormaliser.h"
 
 namespace faintline {
 
@@ -16,10 +16,10 @@ void NormalisedSpectrogram::read(Index first, Index count, std::span<float> out)
 {
     m_spectrogram->read(first, count, out);
     const auto cells = std::size_t(grid().size());
-    std::vector<float> ln;
+    FrameNormaliser normaliser(*m_spectrogram, m_settings.followLevel);
     for (Index i = 0; i < count; ++i)
-        normaliseFrame(*m_spectrogram, *m_background, time().value(double(first + i)), m_settings.followLevel,
-                       out.subspan(std::size_t(i) * cells, cells), ln);
+        normaliser.normalise(out.subspan(std::size_t(i) * cells, cells), *m_background,
+                             time().value(double(first + i)));
 }
 
 } // namespace faintline

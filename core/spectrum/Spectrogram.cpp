@@ -114,23 +114,49 @@ Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &
                          const SelectionSettings &selection)
     : m_recording(std::move(recording)), m_settings(settings), m_selection(selection)
 {
+    const Samples samples = selectedSamples();
+    m_firstSample = samples.first;
+    chooseWindow(samples.count());
+    m_window = sampleWindow(settings.window, m_windowSamples);
+    m_scaleExponent = m_recording->scaleExponent(selection.channel);
+    for (float &weight : m_window)
+        weight = std::ldexp(weight, -m_scaleExponent);
+    m_fft = std::make_shared<Fft>(Fft::fastLength(m_windowSamples * settings.binsPerCell),
+                                  m_recording->info().isComplex ? Fft::Input::Complex : Fft::Input::Real);
+    const double rate = m_recording->info().sampleRateHz;
+    m_time = {"time",
+              "s",
+              (double(m_firstSample) + 0.5 * m_windowSamples) / rate,
+              double(m_hopSamples) / rate,
+              (samples.count() - m_windowSamples) / m_hopSamples + 1,
+              false};
+    selectBand();
+}
+
+Spectrogram::Samples Spectrogram::selectedSamples() const
+{
+    const RecordingInfo &info = m_recording->info();
+    if (m_selection.channel >= info.channelCount)
+        throw fieldError("selection.channel", std::to_string(m_selection.channel),
+                         "the recording has " + std::to_string(info.channelCount) + " channel(s), counted from 0");
+    const double to =
+        m_selection.toSeconds > 0.0 ? std::min(m_selection.toSeconds, info.durationSeconds()) : info.durationSeconds();
+    if (m_selection.fromSeconds >= to)
+        throw fieldError("selection.fromSeconds", formatNumber(m_selection.fromSeconds),
+                         "must lie before the end of the selection, " + seconds(to));
+    const double rate = info.sampleRateHz;
+    return {Index(std::llround(m_selection.fromSeconds * rate)),
+            std::min(Index(std::llround(to * rate)), info.sampleCount)};
+}
+
+void Spectrogram::chooseWindow(Index sampleCount)
+{
     const RecordingInfo &info = m_recording->info();
     const double rate = info.sampleRateHz;
-    if (selection.channel >= info.channelCount)
-        throw fieldError("selection.channel", std::to_string(selection.channel),
-                         "the recording has " + std::to_string(info.channelCount) + " channel(s), counted from 0");
-
-    const double to =
-        selection.toSeconds > 0.0 ? std::min(selection.toSeconds, info.durationSeconds()) : info.durationSeconds();
-    if (selection.fromSeconds >= to)
-        throw fieldError("selection.fromSeconds", formatNumber(selection.fromSeconds),
-                         "must lie before the end of the selection, " + seconds(to));
-    m_firstSample = Index(std::llround(selection.fromSeconds * rate));
-    const Index sampleCount = std::min(Index(std::llround(to * rate)), info.sampleCount) - m_firstSample;
-
-    const double windowSeconds = settings.windowSeconds > 0.0 ? settings.windowSeconds : automaticWindowSeconds(info);
+    const double windowSeconds =
+        m_settings.windowSeconds > 0.0 ? m_settings.windowSeconds : automaticWindowSeconds(info);
     const double wantedSamples = windowSeconds * rate;
-    if (wantedSamples * settings.binsPerCell > 1e8)
+    if (wantedSamples * m_settings.binsPerCell > 1e8)
         throw fieldError("spectrogram.windowSeconds", formatNumber(windowSeconds),
                          "gives a transform of more than 100 million points; shorten the window");
     m_windowSamples = int(std::llround(wantedSamples));
@@ -141,43 +167,35 @@ Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &
         throw Error(info.path, "the selected part is " + std::to_string(sampleCount) + " samples ("
                                    + seconds(double(sampleCount) / rate) + ") long, shorter than one window of "
                                    + seconds(windowSeconds) + "; choose a shorter spectrogram.windowSeconds");
-    m_hopSamples = hopOf(m_windowSamples, settings);
-    m_window = sampleWindow(settings.window, m_windowSamples);
-    m_scaleExponent = m_recording->scaleExponent(selection.channel);
-    for (float &weight : m_window)
-        weight = std::ldexp(weight, -m_scaleExponent);
-    m_fft = std::make_shared<Fft>(Fft::fastLength(m_windowSamples * settings.binsPerCell),
-                                  info.isComplex ? Fft::Input::Complex : Fft::Input::Real);
+    m_hopSamples = hopOf(m_windowSamples, m_settings);
+}
 
-    m_time = {"time",
-              "s",
-              (double(m_firstSample) + 0.5 * m_windowSamples) / rate,
-              double(m_hopSamples) / rate,
-              (sampleCount - m_windowSamples) / m_hopSamples + 1,
-              false};
-
+/// The axis of the selected bins.
+void Spectrogram::selectBand()
+{
+    const RecordingInfo &info = m_recording->info();
     const int n = m_fft->length();
-    const double binHz = rate / n;
+    const double binHz = info.sampleRateHz / n;
     Axis whole{"frequency", "Hz", 0.0, binHz, m_fft->binCount(), false};
     if (info.isComplex)
         whole.first -= (n / 2) * binHz;
     m_frequency = whole;
-    if (selection.lowHz < selection.highHz) {
-        const Index low = Index(std::ceil(std::max(0.0, whole.position(selection.lowHz) - 1e-9)));
-        const Index high =
-            Index(std::floor(std::min(double(whole.count - 1), whole.position(selection.highHz) + 1e-9)));
-        if (low > high)
-            throw Error("selection.lowHz … highHz = " + formatNumber(selection.lowHz) + " … "
-                            + formatNumber(selection.highHz),
-                        "contains no bin; the recording spans " + formatNumber(whole.first) + " … "
-                            + formatNumber(whole.last()) + " Hz")
-                .ofField("selection.lowHz");
-        m_firstBin = low;
-        m_frequency.first = whole.value(double(low));
-        m_frequency.count = high - low + 1;
-    } else if (selection.lowHz > selection.highHz) {
-        throw fieldError("selection.lowHz", formatNumber(selection.lowHz), "must not lie above selection.highHz");
-    }
+    const double lowHz = m_selection.lowHz;
+    const double highHz = m_selection.highHz;
+    if (lowHz > highHz)
+        throw fieldError("selection.lowHz", formatNumber(lowHz), "must not lie above selection.highHz");
+    if (!(lowHz < highHz))
+        return;
+    const Index low = Index(std::ceil(std::max(0.0, whole.position(lowHz) - 1e-9)));
+    const Index high = Index(std::floor(std::min(double(whole.count - 1), whole.position(highHz) + 1e-9)));
+    if (low > high)
+        throw Error("selection.lowHz … highHz = " + formatNumber(lowHz) + " … " + formatNumber(highHz),
+                    "contains no bin; the recording spans " + formatNumber(whole.first) + " … "
+                        + formatNumber(whole.last()) + " Hz")
+            .ofField("selection.lowHz");
+    m_firstBin = low;
+    m_frequency.first = whole.value(double(low));
+    m_frequency.count = high - low + 1;
 }
 
 void Spectrogram::read(Index first, Index count, std::span<float> out, const RunContext &context) const

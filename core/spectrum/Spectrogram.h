@@ -92,6 +92,16 @@ public:
     static double automaticWindowSeconds(const RecordingInfo &info);
 
 private:
+    /// First … end-1 of the recording's samples.
+    struct Samples {
+        Index first;
+        Index end;
+        Index count() const { return end - first; }
+    };
+    Samples selectedSamples() const;
+    void chooseWindow(Index sampleCount);
+    void selectBand();
+
     void readRun(Index first, Index count, std::vector<float> &samples, Fft::Buffer &buffer,
                  std::span<float> out) const;
     void transformFrame(std::span<const float> samples, Fft::Buffer &buffer, std::span<float> out) const;

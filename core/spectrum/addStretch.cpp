@@ -21,92 +21,136 @@ namespace {
             frame[cell] *= std::exp(-ln[cell]);
     }
 
+    /// A stretch of time that may come to be told apart into sources.
+    class StretchFit
+    {
+    public:
+        StretchFit(const NoiseBackground &background, const StretchFrames &stretchFrames, Index half)
+            : m_background(background), m_stretchFrames(stretchFrames), m_half(half),
+              m_cells(background.frequency.count), m_ln(std::size_t(m_cells)), m_frames(stretchFrames.read(0, m_cells)),
+              m_each(std::size_t(stretchFrames.count), 1.0f), m_asTheyAre(std::size_t(m_cells), 1.0f)
+        {
+        }
+
+        /// Divides the frames by what lies below all sources; false in silence.
+        bool begin()
+        {
+            const float strongest = *std::max_element(m_frames.begin(), m_frames.end());
+            const Index middle = (m_stretchFrames.first + m_stretchFrames.count / 2) * m_stretchFrames.steps;
+            const Between t = between(m_background.time, m_background.levelTime.value(double(middle)));
+            const auto row = m_background.lnPower.begin() + t.lower * m_cells;
+            if (!(strongest > 0.0f) || *row <= silence)
+                return false;
+            m_stretch.firstLevel = m_stretchFrames.first * m_stretchFrames.steps;
+            m_stretch.lnPower.assign(row, row + m_cells);
+            m_stretch.floor = std::log(strongest) + float(std::log(roundingFloor));
+            std::vector<float> before = m_frames;
+            for (Index frame = 0; frame < m_stretchFrames.count; ++frame) {
+                const Index level = (m_stretchFrames.first + frame) * m_stretchFrames.steps;
+                m_background.readLnPower(m_background.levelTime.value(double(level)), m_ln);
+                divide(frameOf(before, frame), m_ln);
+                divide(frameOf(m_frames, frame), m_stretch.lnPower);
+            }
+            m_before = unevenness(before, m_asTheyAre, m_each);
+            return true;
+        }
+
+        /// False where there are none.
+        bool findSources()
+        {
+            constexpr Index cellsForThree = 144;
+            m_stretch.sources = fitSources(m_frames, m_cells, m_cells < cellsForThree ? 2 : 3, m_half);
+            const Index sources = m_stretch.sources.count();
+            m_stretch.sourceLevels.assign(std::size_t(m_stretchFrames.count * m_stretchFrames.steps * sources), 0.0f);
+            return sources > 0;
+        }
+
+        /// Whether sources tell what the background does not, and all but chance.
+        bool isBetter(double likeness)
+        {
+            constexpr double better = 1.1;
+            constexpr double explained = 1.3;
+            divideByNoise(0);
+            m_rest = blockBackground(m_frames, m_cells, m_half);
+            for (Index frame = 0; frame < m_stretchFrames.count; ++frame)
+                divide(frameOf(m_frames, frame), m_rest.lnPower);
+            // Signals change with time, too, and are no sources of noise: nothing but chance may be left.
+            const Unevenness after = unevenness(m_frames, m_asTheyAre, m_each);
+            const bool isLess = m_before.variance() > better * after.variance()
+                                || m_before.varianceOfMeans() > better * after.varianceOfMeans();
+            return isLess && !(after.variance() > explained * Unevenness::ofNoise(likeness));
+        }
+
+        /// Replaces the levels of the stretch by those over its noise.
+        NoiseStretch finish(double likeness, std::vector<float> &levels)
+        {
+            for (std::size_t cell = 0; cell < m_stretch.lnPower.size(); ++cell)
+                m_stretch.lnPower[cell] += m_rest.lnPower[cell];
+            std::fill(m_rest.lnPower.begin(), m_rest.lnPower.end(), 0.0f);
+            const Index columns = m_background.bandCount + 1;
+            std::vector<float> offsets;
+            for (Index shift = 0; shift < m_stretchFrames.steps; ++shift) {
+                if (shift > 0) {
+                    m_frames = m_stretchFrames.read(shift, m_cells);
+                    for (Index frame = 0; frame < std::ssize(m_frames) / m_cells; ++frame)
+                        divide(frameOf(m_frames, frame), m_stretch.lnPower);
+                    divideByNoise(shift);
+                }
+                const std::vector<float> own = levelsOf(m_frames, m_rest, m_background.bandCount, likeness);
+                if (shift == 0)
+                    offsets = mediansOf(own, columns);
+                for (Index i = 0; i < std::ssize(own); ++i) {
+                    const Index place = (m_stretchFrames.first + i / columns) * m_stretchFrames.steps + shift;
+                    const float level = own[std::size_t(i)];
+                    levels[std::size_t(place * columns + i % columns)] =
+                        level < levelNotKnown ? level - shareOfLines(offsets[std::size_t(i % columns)]) : levelNotKnown;
+                }
+            }
+            return std::move(m_stretch);
+        }
+
+    private:
+        std::span<float> frameOf(std::vector<float> &all, Index frame) const
+        {
+            return std::span(all).subspan(std::size_t(frame * m_cells), std::size_t(m_cells));
+        }
+
+        /// Of frames that are divided by lnPower already.
+        void divideByNoise(Index shift)
+        {
+            const Index sources = m_stretch.sources.count();
+            for (Index frame = 0; frame < std::ssize(m_frames) / m_cells; ++frame) {
+                const auto values = frameOf(m_frames, frame);
+                const std::vector<float> own = m_stretch.sources.levelsIn(values);
+                std::copy(own.begin(), own.end(),
+                          m_stretch.sourceLevels.begin() + (frame * m_stretchFrames.steps + shift) * sources);
+                readStretch(m_stretch, own, m_ln);
+                for (std::size_t cell = 0; cell < m_ln.size(); ++cell)
+                    values[cell] *= std::exp(m_stretch.lnPower[cell] - m_ln[cell]);
+            }
+        }
+
+        const NoiseBackground &m_background;
+        const StretchFrames &m_stretchFrames;
+        Index m_half;
+        Index m_cells;
+        std::vector<float> m_ln;
+        std::vector<float> m_frames;
+        std::vector<float> m_each;
+        std::vector<float> m_asTheyAre;
+        Unevenness m_before;
+        BlockBackground m_rest;
+        NoiseStretch m_stretch;
+    };
+
 } // namespace
 
 void addStretch(NoiseBackground &background, const StretchFrames &stretchFrames, Index half, double likeness,
                 std::vector<float> &levels)
 {
-    constexpr Index cellsForThree = 144;
-    constexpr double better = 1.1;
-    constexpr double explained = 1.3;
-    const Index cells = background.frequency.count;
-    const double expected = Unevenness::ofNoise(likeness);
-    std::vector<float> frames = stretchFrames.read(0, cells);
-    const float strongest = *std::max_element(frames.begin(), frames.end());
-    const Between t = between(
-        background.time,
-        background.levelTime.value(double((stretchFrames.first + stretchFrames.count / 2) * stretchFrames.steps)));
-    const auto row = background.lnPower.begin() + t.lower * cells;
-    if (!(strongest > 0.0f) || *row <= silence)
-        return;
-    NoiseStretch stretch;
-    stretch.firstLevel = stretchFrames.first * stretchFrames.steps;
-    stretch.lnPower.assign(row, row + cells);
-    stretch.floor = std::log(strongest) + float(std::log(roundingFloor));
-    const auto frameOf = [&](std::vector<float> &all, Index frame) {
-        return std::span(all).subspan(std::size_t(frame * cells), std::size_t(cells));
-    };
-    std::vector<float> ln(static_cast<std::size_t>(cells));
-    std::vector<float> before = frames;
-    for (Index frame = 0; frame < stretchFrames.count; ++frame) {
-        background.readLnPower(background.levelTime.value(double((stretchFrames.first + frame) * stretchFrames.steps)),
-                               ln);
-        divide(frameOf(before, frame), ln);
-        divide(frameOf(frames, frame), stretch.lnPower);
-    }
-    const std::vector<float> asTheyAre(std::size_t(cells), 1.0f);
-    const std::vector<float> each(std::size_t(stretchFrames.count), 1.0f);
-    const Unevenness unevennessBefore = unevenness(before, asTheyAre, each);
-    before = {};
-    stretch.sources = fitSources(frames, cells, cells < cellsForThree ? 2 : 3, half);
-    if (stretch.sources.count() == 0)
-        return;
-    const Index sources = stretch.sources.count();
-    stretch.sourceLevels.assign(std::size_t(stretchFrames.count * stretchFrames.steps * sources), 0.0f);
-    const auto divideByNoise = [&](std::vector<float> &all, Index shift) { // which is there already divided by lnPower
-        for (Index frame = 0; frame < std::ssize(all) / cells; ++frame) {
-            const auto values = frameOf(all, frame);
-            const std::vector<float> own = stretch.sources.levelsIn(values);
-            std::copy(own.begin(), own.end(),
-                      stretch.sourceLevels.begin() + (frame * stretchFrames.steps + shift) * sources);
-            readStretch(stretch, own, ln);
-            for (std::size_t cell = 0; cell < ln.size(); ++cell)
-                values[cell] *= std::exp(stretch.lnPower[cell] - ln[cell]);
-        }
-    };
-    divideByNoise(frames, 0);
-    BlockBackground rest = blockBackground(frames, cells, half);
-    for (Index frame = 0; frame < stretchFrames.count; ++frame)
-        divide(frameOf(frames, frame), rest.lnPower);
-    // Signals change with time, too, and are no sources of noise: nothing but chance may be left.
-    const Unevenness unevennessAfter = unevenness(frames, asTheyAre, each);
-    const bool isBetter = unevennessBefore.variance() > better * unevennessAfter.variance()
-                          || unevennessBefore.varianceOfMeans() > better * unevennessAfter.varianceOfMeans();
-    if (!isBetter || unevennessAfter.variance() > explained * expected)
-        return;
-    for (std::size_t cell = 0; cell < stretch.lnPower.size(); ++cell)
-        stretch.lnPower[cell] += rest.lnPower[cell];
-    std::fill(rest.lnPower.begin(), rest.lnPower.end(), 0.0f);
-    const Index columns = background.bandCount + 1;
-    std::vector<float> offsets;
-    for (Index shift = 0; shift < stretchFrames.steps; ++shift) {
-        if (shift > 0) {
-            frames = stretchFrames.read(shift, cells);
-            for (Index frame = 0; frame < std::ssize(frames) / cells; ++frame)
-                divide(frameOf(frames, frame), stretch.lnPower);
-            divideByNoise(frames, shift);
-        }
-        const std::vector<float> own = levelsOf(frames, rest, background.bandCount, likeness);
-        if (shift == 0)
-            offsets = mediansOf(own, columns);
-        for (Index i = 0; i < std::ssize(own); ++i) {
-            const Index place = (stretchFrames.first + i / columns) * stretchFrames.steps + shift;
-            const float level = own[std::size_t(i)];
-            levels[std::size_t(place * columns + i % columns)] =
-                level < levelNotKnown ? level - shareOfLines(offsets[std::size_t(i % columns)]) : levelNotKnown;
-        }
-    }
-    background.stretches.push_back(std::move(stretch));
+    StretchFit fit(background, stretchFrames, half);
+    if (fit.begin() && fit.findSources() && fit.isBetter(likeness))
+        background.stretches.push_back(fit.finish(likeness, levels));
 }
 
 } // namespace faintline

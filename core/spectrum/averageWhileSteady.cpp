@@ -29,15 +29,20 @@ namespace {
         return double(std::abs(level)) < chance ? 0.0f : level;
     }
 
-    /// out ← out + e^(values - level - about) where `counts`, which is counted.
+    /// Numerators and denominators of the cells' means.
+    struct Means {
+        float *sum;
+        float *count;
+    };
+
+    /// sum ← sum + e^(values - level - about) where `counts`, which is counted.
     FAINTLINE_MULTIVERSION
-    void addRatios(const float *values, float level, const float *about, const float *counts, std::size_t cells,
-                   float *sum, float *count)
+    void addRatios(const float *values, float level, const float *about, std::span<const float> counts, Means to)
     {
-        for (std::size_t cell = 0; cell < cells; ++cell) {
+        for (std::size_t cell = 0; cell < counts.size(); ++cell) {
             const float ratio = fastExp(values[cell] - level - about[cell]);
-            sum[cell] += counts[cell] > 0.0f ? ratio : 0.0f; // it may be no number where it does not count
-            count[cell] += counts[cell];
+            to.sum[cell] += counts[cell] > 0.0f ? ratio : 0.0f; // it may be no number where it does not count
+            to.count[cell] += counts[cell];
         }
     }
 
@@ -111,7 +116,7 @@ namespace {
             const float *smooth = m_rows.data() + other * m_cells;
             for (std::size_t cell = 0; cell < m_counts.size(); ++cell)
                 m_counts[cell] = m_goesOn[cell] && std::abs(values[cell] - smooth[cell]) < m_lnMost ? 1.0f : 0.0f;
-            addRatios(values, level, own, m_counts.data(), m_counts.size(), m_sum.data(), m_count.data());
+            addRatios(values, level, own, m_counts, {m_sum.data(), m_count.data()});
         }
 
         const std::vector<float> &m_columns;

@@ -44,72 +44,104 @@ namespace {
             level = value = value < levelNotKnown ? value : level;
     }
 
+    /// The levels of one frame after the other over a block's background.
+    class FrameLevels
+    {
+    public:
+        FrameLevels(const BlockBackground &block, Index bands, double likeness)
+            : m_block(block), m_bands(bands), m_cells(std::ssize(block.lnPower)), m_likeness(likeness),
+              m_agreeing(float(4.0 * medianScatter(double(m_cells) / double(bands)))), m_inverse(std::size_t(m_cells))
+        {
+            for (std::size_t cell = 0; cell < m_inverse.size(); ++cell)
+                m_inverse[cell] = block.lnPower[cell] > silence ? std::exp(-block.lnPower[cell]) : 0.0f;
+        }
+
+        /// Of each sub-band, and last of the whole band.
+        void read(std::span<const float> frame, std::span<float> levels)
+        {
+            levelsOfBands(frame, levels);
+            const bool isFirm = 2 * std::ssize(m_telling) >= m_bands || m_known.size() == m_telling.size();
+            if (!isFirm) // a few sub-bands are not the whole
+                m_telling = m_known;
+            std::vector<float> told;
+            for (const Index band : m_telling)
+                told.push_back(levels[std::size_t(band)]);
+            const float middle = middleOf(told);
+            m_sample.clear();
+            for (Index band : m_telling)
+                if (m_telling.size() < 3 || std::abs(levels[std::size_t(band)] - middle) < m_agreeing)
+                    collect(frame, band, isFirm ? m_block.isFirm : m_block.isNoise);
+            const float mean = truncatedMean(m_sample, std::exp(middle));
+            levels.back() =
+                mean > 0.0f && !m_sample.empty() ? lnMean(mean, std::ssize(m_sample), m_likeness) : levelNotKnown;
+            std::replace(levels.begin(), levels.end() - 1, levelNotKnown, levels.back());
+        }
+
+    private:
+        /// Levels of the sub-bands, those that are known, and those that tell of the whole band.
+        void levelsOfBands(std::span<const float> frame, std::span<float> levels)
+        {
+            constexpr std::ptrdiff_t fewestCells = 24;
+            m_telling.clear();
+            m_known.clear();
+            for (Index band = 0; band < m_bands; ++band) {
+                m_sample.clear();
+                collect(frame, band, m_block.isNoise);
+                const std::ptrdiff_t count = std::ssize(m_sample);
+                if (count < fewestCells)
+                    continue;
+                const float median = medianOf(m_sample);
+                if (!(median > 0.0f))
+                    continue;
+                levels[std::size_t(band)] =
+                    lnMean(truncatedMean(m_sample, median / std::numbers::ln2_v<float>), count, m_likeness);
+                m_known.push_back(band);
+                const Index first = firstCell(band, m_bands, m_cells);
+                const Index end = endCell(band, m_bands, m_cells);
+                if (2 * std::count(m_block.isFirm.begin() + first, m_block.isFirm.begin() + end, true) >= end - first)
+                    m_telling.push_back(band);
+            }
+        }
+
+        void collect(std::span<const float> frame, Index band, const std::vector<bool> &wanted)
+        {
+            for (Index cell = firstCell(band, m_bands, m_cells); cell < endCell(band, m_bands, m_cells); ++cell)
+                if (const auto c = std::size_t(cell); wanted[c])
+                    m_sample.push_back(frame[c] * m_inverse[c]);
+        }
+
+        /// Two cannot outvote one another: then all count.
+        static float middleOf(std::vector<float> &levels)
+        {
+            if (levels.size() > 2)
+                return medianOf(levels);
+            return levels.empty() ? 0.0f : std::accumulate(levels.begin(), levels.end(), 0.0f) / float(levels.size());
+        }
+
+        const BlockBackground &m_block;
+        Index m_bands;
+        Index m_cells;
+        double m_likeness;
+        float m_agreeing; ///< largest distance of a sub-band's level from the middle one
+        std::vector<float> m_inverse;
+        std::vector<float> m_sample;
+        std::vector<Index> m_telling;
+        std::vector<Index> m_known;
+    };
+
 } // namespace
 
 std::vector<float> levelsOf(std::span<const float> frames, const BlockBackground &block, Index bands, double likeness)
 {
-    std::vector<float> levels;
     if (bands == 0)
-        return levels;
-    constexpr std::ptrdiff_t fewestCells = 24;
-    const Index cells = std::ssize(block.lnPower);
-    std::vector<float> inverse(static_cast<std::size_t>(cells));
-    for (std::size_t cell = 0; cell < inverse.size(); ++cell)
-        inverse[cell] = block.lnPower[cell] > silence ? std::exp(-block.lnPower[cell]) : 0.0f;
-    const auto agreeing = float(4.0 * medianScatter(double(cells) / double(bands)));
-    std::vector<float> sample;
-    std::vector<float> few;
-    std::vector<Index> telling;
-    std::vector<Index> known;
-    for (Index frame = 0; frame < std::ssize(frames) / cells; ++frame) {
-        const auto collect = [&](Index band, const std::vector<bool> &wanted) {
-            for (Index cell = firstCell(band, bands, cells); cell < endCell(band, bands, cells); ++cell)
-                if (const auto c = std::size_t(cell); wanted[c])
-                    sample.push_back(frames[std::size_t(frame * cells + cell)] * inverse[c]);
-        };
-        levels.resize(levels.size() + std::size_t(bands + 1), levelNotKnown);
-        float *own = &levels[levels.size() - std::size_t(bands + 1)];
-        few.clear();
-        telling.clear();
-        known.clear();
-        for (Index band = 0; band < bands; ++band) {
-            sample.clear();
-            collect(band, block.isNoise);
-            const std::ptrdiff_t count = std::ssize(sample);
-            if (count < fewestCells)
-                continue;
-            const float median = medianOf(sample);
-            if (!(median > 0.0f))
-                continue;
-            own[band] = lnMean(truncatedMean(sample, median / std::numbers::ln2_v<float>), count, likeness);
-            known.push_back(band);
-            const auto firm = std::count(block.isFirm.begin() + firstCell(band, bands, cells),
-                                         block.isFirm.begin() + endCell(band, bands, cells), true);
-            if (2 * firm >= endCell(band, bands, cells) - firstCell(band, bands, cells)) {
-                few.push_back(own[band]);
-                telling.push_back(band);
-            }
-        }
-        const bool isFirm = 2 * std::ssize(telling) >= bands || known.size() == telling.size();
-        if (!isFirm) { // a few sub-bands are not the whole
-            telling = known;
-            few.clear();
-            for (const Index band : known)
-                few.push_back(own[band]);
-        }
-        float middle = 0.0f;
-        if (few.size() > 2) // two cannot outvote one another: then all count
-            middle = medianOf(few);
-        else if (!few.empty())
-            middle = std::accumulate(few.begin(), few.end(), 0.0f) / float(few.size());
-        sample.clear();
-        for (Index band : telling)
-            if (telling.size() < 3 || std::abs(own[band] - middle) < agreeing)
-                collect(band, isFirm ? block.isFirm : block.isNoise);
-        const float mean = truncatedMean(sample, std::exp(middle));
-        own[bands] = mean > 0.0f && !sample.empty() ? lnMean(mean, std::ssize(sample), likeness) : levelNotKnown;
-        std::replace(own, own + bands, levelNotKnown, own[bands]);
-    }
+        return {};
+    const auto cells = block.lnPower.size();
+    const std::size_t count = frames.size() / cells;
+    const auto columns = std::size_t(bands + 1);
+    std::vector<float> levels(count * columns, levelNotKnown);
+    FrameLevels levelsIn(block, bands, likeness);
+    for (std::size_t frame = 0; frame < count; ++frame)
+        levelsIn.read(frames.subspan(frame * cells, cells), std::span(levels).subspan(frame * columns, columns));
     return levels;
 }
 

@@ -1,4 +1,4 @@
-#include "spectrum/normaliseFrame.h"
+#include "spectrum/FrameNormaliser.h"
 
 #include "base/fastmath.h"
 #include "base/multiversion.h"
@@ -28,9 +28,9 @@ namespace {
     /// y ← y/B, ln B interpolated between cells: at a band's edge B falls by 20 dB from one cell to the next. One value
     /// more than there are cells is given.
     FAINTLINE_MULTIVERSION
-    void divideByBackground(float *y, std::size_t bins, const float *ln, double start, double perBin, double lastCell)
+    void divideByBackground(std::span<float> y, const float *ln, double start, double perBin, double lastCell)
     {
-        for (std::size_t bin = 0; bin < bins; ++bin) {
+        for (std::size_t bin = 0; bin < y.size(); ++bin) {
             double position = start + double(std::int32_t(bin)) * perBin;
             position = position > 0.0 ? position : 0.0;
             position = position < lastCell ? position : lastCell;
@@ -42,9 +42,9 @@ namespace {
 
     /// The same where bins are cells.
     FAINTLINE_MULTIVERSION
-    void divideBinByBin(float *y, std::size_t bins, const float *ln)
+    void divideBinByBin(std::span<float> y, const float *ln)
     {
-        for (std::size_t bin = 0; bin < bins; ++bin)
+        for (std::size_t bin = 0; bin < y.size(); ++bin)
             y[bin] = overPower(y[bin], ln[bin]);
     }
 
@@ -88,22 +88,21 @@ namespace {
 
 } // namespace
 
-void normaliseFrame(const Spectrogram &spectrogram, const NoiseBackground &b, double seconds, bool guardsAgainstClicks,
-                    std::span<float> values, std::vector<float> &ln)
+void FrameNormaliser::normalise(std::span<float> values, const NoiseBackground &b, double seconds)
 {
     const auto cells = std::size_t(b.frequency.count);
-    ln.resize(cells + 1);
-    b.readLnPower(seconds, std::span(ln).first(cells));
-    ln[cells] = ln[cells - 1];
-    const Axis &axis = spectrogram.frequency();
+    m_ln.resize(cells + 1);
+    b.readLnPower(seconds, std::span(m_ln).first(cells));
+    m_ln[cells] = m_ln[cells - 1];
+    const Axis &axis = m_spectrogram.frequency();
     const double start = b.frequency.position(axis.first);
     const double perBin = axis.step / b.frequency.step;
     if (start == 0.0 && perBin == 1.0 && values.size() <= cells)
-        divideBinByBin(values.data(), values.size(), ln.data());
+        divideBinByBin(values, m_ln.data());
     else
-        divideByBackground(values.data(), values.size(), ln.data(), start, perBin, double(b.frequency.count - 1));
-    if (guardsAgainstClicks)
-        guardAgainstClicks(spectrogram.binsPerCell(), values);
+        divideByBackground(values, m_ln.data(), start, perBin, double(b.frequency.count - 1));
+    if (m_guardsAgainstClicks)
+        guardAgainstClicks(m_spectrogram.binsPerCell(), values);
 }
 
 } // namespace faintline

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "spectrum/NoiseBackground.h"
+#include "spectrum/Spectrogram.h"
+
+#include <span>
+#include <vector>
+
+namespace faintline {
+
+/// Frames of a spectrogram over its noise.
+///
+/// values ← values/B, 0 in digital silence; ln B is interpolated between the background's cells. With
+/// `guardsAgainstClicks`, a sub-band most of which is far above its background is divided by that excess. Holds scratch
+/// memory: one object per thread.
+class FrameNormaliser
+{
+public:
+    FrameNormaliser(const Spectrogram &spectrogram, bool guardsAgainstClicks)
+        : m_spectrogram(spectrogram), m_guardsAgainstClicks(guardsAgainstClicks)
+    {
+    }
+
+    /// One frame, over the background at the time `seconds`.
+    void normalise(std::span<float> values, const NoiseBackground &background, double seconds);
+
+private:
+    const Spectrogram &m_spectrogram;
+    bool m_guardsAgainstClicks;
+    std::vector<float> m_ln;
+};
+
+} // namespace faintline
