@@ -96,7 +96,7 @@ void SpectrumPanel::follow()
     const double seconds = cursor ? cursor->seconds : visible.middle();
     const SpectrumLevel level = m_document.recording() ? chosenLevel() : SpectrumLevel::OverNoise;
     m_runner.start([this, analysis, visible, seconds, level](const RunContext &context) -> JobRunner::Delivery {
-        Spectra spectra = spectraOf(*analysis, seconds, visible.low, visible.high, level, context);
+        Spectra spectra = spectraOf(*analysis, seconds, {visible.low, visible.high}, level, context);
         return [this, spectra = std::move(spectra)]() mutable {
             m_spectra = std::move(spectra);
             show();

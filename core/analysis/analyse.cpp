@@ -239,6 +239,12 @@ namespace {
         return analysis;
     }
 
+    void calibrateModel(Analysis &analysis, const RunContext &context)
+    {
+        analysis.calibration = calibrateOnIndependentCells(analysis.model, analysis.settings, context);
+        analysis.threshold = thresholdNats(analysis.settings.decide, *analysis.calibration, analysis.cellFramesPerHour);
+    }
+
     /// Calibrates every model and shifts their statistics so that each crosses the threshold with the first one's
     /// probability.
     void calibrateBank(Analysis &analysis, const std::vector<MarkovModel> &models, const RunContext &context)
@@ -275,29 +281,20 @@ namespace {
         run(analysis, context.part(0.1, 1.0), sink, nothing);
     }
 
-    std::shared_ptr<const Analysis> analyseOneModel(NormalisedFramesPointer frames, const MarkovModel &model,
-                                                    const AnalysisSettings &settings, const RunContext &context,
-                                                    const Analysis *previous, const StatisticSink &sink)
-    {
-        const auto analysis = analysisOf(std::move(frames), model, settings);
-        analysis->calibration = calibrateOnIndependentCells(model, settings, context.part(0.0, 0.5));
-        analysis->threshold = thresholdNats(settings.decide, *analysis->calibration, analysis->cellFramesPerHour);
-        regulateAndRun(*analysis, context.part(0.5, 1.0), previous, sink);
-        return analysis;
-    }
-
 } // namespace
 
 std::shared_ptr<const Analysis> analyse(NormalisedFramesPointer frames, const AnalysisSettings &settings,
                                         const RunContext &context, const Analysis *previous, const StatisticSink &sink)
 {
     const std::vector<MarkovModel> models = makeModels(settings.model, frames->grid());
-    if (models.size() == 1)
-        return analyseOneModel(std::move(frames), models.front(), settings, context, previous, sink);
-    if (!std::holds_alternative<SmdSettings>(settings.detector))
+    const bool isBank = models.size() > 1;
+    if (isBank && !std::holds_alternative<SmdSettings>(settings.detector))
         throw fieldError("model.motion", "bank", "requires the sequential Markov detector; choose detector.kind = smd");
     const auto analysis = analysisOf(std::move(frames), models.front(), settings);
-    calibrateBank(*analysis, models, context.part(0.0, 0.5));
+    if (isBank)
+        calibrateBank(*analysis, models, context.part(0.0, 0.5));
+    else
+        calibrateModel(*analysis, context.part(0.0, 0.5));
     regulateAndRun(*analysis, context.part(0.5, 1.0), previous, sink);
     return analysis;
 }
@@ -306,7 +303,10 @@ std::shared_ptr<const Analysis> analyse(NormalisedFramesPointer frames, const Ma
                                         const AnalysisSettings &settings, const RunContext &context,
                                         const StatisticSink &sink)
 {
-    return analyseOneModel(std::move(frames), model, settings, context, nullptr, sink);
+    const auto analysis = analysisOf(std::move(frames), model, settings);
+    calibrateModel(*analysis, context.part(0.0, 0.5));
+    regulateAndRun(*analysis, context.part(0.5, 1.0), nullptr, sink);
+    return analysis;
 }
 
 } // namespace faintline

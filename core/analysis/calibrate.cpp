@@ -41,9 +41,9 @@ std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, c
                 double(segmentWindows) * bare.spectrogram.stepsPerWindow
                 * double(Fft::fastLength(calibrationWindowSamples * bare.spectrogram.binsPerCell));
             const int segments = std::max(4, int(std::ceil(effort.cellFrames / perSegment)));
-            const NoiseSegment segment =
-                rememberedSegments([&](int number) { return noiseSegment(bare, number); }, segments);
-            return calibrateOn(segment, segments, makeModel(bare.model, segment(0)->grid()), bare, effort, context);
+            const NoiseSegments noise =
+                rememberedSegments({[&](int number) { return noiseSegment(bare, number); }, segments});
+            return calibrateOn(noise, makeModel(bare.model, noise.segment(0)->grid()), bare, effort, context);
         },
         context);
     return result ? result : calibrate(settings, context);

@@ -62,10 +62,9 @@ std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &setting
     const auto narrow = keptCalibration(
         "band of " + std::to_string(simulated) + " " + calibrationKey(bare, depth),
         [&]() -> std::shared_ptr<const Calibration> {
-            const RareRates closed = followBand(bare, wide->lnK, 0, true, splitting, context.part(0.6, 0.8));
+            const RareRates closed = followBand(bare, wide->lnK, {}, splitting, context.part(0.6, 0.8));
             const RareRates band =
-                closed.isEmpty() ? closed
-                                 : followBand(bare, wide->lnK, simulated, false, splitting, context.part(0.8, 1.0));
+                closed.isEmpty() ? closed : followBand(bare, wide->lnK, simulated, splitting, context.part(0.8, 1.0));
             return band.isEmpty() ? wide : narrowed(*wide, band, closed);
         },
         context);

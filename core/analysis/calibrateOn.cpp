@@ -54,23 +54,24 @@ namespace {
 
 } // namespace
 
-NoiseSegment rememberedSegments(NoiseSegment segment, int segmentCount)
+NoiseSegments rememberedSegments(NoiseSegments noise)
 {
     struct Made {
         std::once_flag once;
         NormalisedFramesPointer frames;
     };
-    const auto made = std::make_shared<std::vector<Made>>(std::size_t(roughCountOf(segmentCount)));
-    return [segment = std::move(segment), made](int number) {
+    const auto made = std::make_shared<std::vector<Made>>(std::size_t(roughCountOf(noise.count)));
+    const auto remembered = [segment = std::move(noise.segment), made](int number) {
         if (number >= std::ssize(*made))
             return segment(number);
         Made &own = (*made)[std::size_t(number)];
         std::call_once(own.once, [&] { own.frames = segment(number); });
         return own.frames;
     };
+    return {remembered, noise.count};
 }
 
-std::shared_ptr<const Calibration> calibrateOn(const NoiseSegment &segment, int segmentCount, const MarkovModel &model,
+std::shared_ptr<const Calibration> calibrateOn(const NoiseSegments &noise, const MarkovModel &model,
                                                const AnalysisSettings &settings, const CalibrationEffort &effort,
                                                const RunContext &context)
 {
@@ -82,7 +83,7 @@ std::shared_ptr<const Calibration> calibrateOn(const NoiseSegment &segment, int 
     result->isFirstEstimate = effort.isFirstEstimate;
     trial.calibration = result;
     context.checkpoint(0.0, "calibrating K on noise");
-    const NormalisedFramesPointer firstSegment = segment(0);
+    const NormalisedFramesPointer firstSegment = noise.segment(0);
     const auto first = beginningOf(*firstSegment, settlingFrames + regulationFrames);
     const auto *chosen = std::get_if<SmdSettings>(&settings.detector);
     const SmdSettings smd = chosen ? *chosen : SmdSettings{};
@@ -92,27 +93,27 @@ std::shared_ptr<const Calibration> calibrateOn(const NoiseSegment &segment, int 
     trial.frames = firstSegment;
     const StatisticLevels levels = statisticLevelsOf(*first, *makeDetector(trial));
 
-    const int roughCount = roughCountOf(segmentCount);
+    const int roughCount = roughCountOf(noise.count);
     NoiseTail rough;
     inRounds(
         roughCount, context.part(0.1, 0.2),
-        [&](int number) { return measureTail(*segment(number), *makeDetector(trial), levels); },
+        [&](int number) { return measureTail(*noise.segment(number), *makeDetector(trial), levels); },
         [&](const NoiseTail &part) { add(part, rough); });
     fillExceedance(rough.counts, levels, *result);
     const double cells = double(first->grid().size());
     const double columns = std::max(1.0, std::floor(cells / double(noiseBlockCells)));
-    const RareRates rare = followTail(*firstSegment, model, settings, *result, effort, context.part(0.2, 0.4));
+    const RareRates rare = followTail(trial, effort, context.part(0.2, 0.4));
     if (effort.isFirstEstimate && rare.isEmpty())
         return nullptr; // a line through a fifth of the counts tells too little
     const std::vector<double> thresholds =
         thresholdsForEvents(std::move(rough.blockMaxima), double(noiseBlockFrames) * cells / columns,
-                            rough.cellFrames / roughCount * segmentCount, rare.isEmpty());
+                            rough.cellFrames / roughCount * noise.count, rare.isEmpty());
     EventCounts counts;
     inRounds(
-        segmentCount, context.part(0.4, 1.0),
+        noise.count, context.part(0.4, 1.0),
         [&](int number) {
             AnalysisPlan own = trial;
-            own.frames = segment(number);
+            own.frames = noise.segment(number);
             std::vector<std::unique_ptr<DetectionChain>> chains;
             for (const double threshold : thresholds) {
                 own.threshold = threshold;

@@ -12,13 +12,16 @@
 namespace faintline {
 
 /// Noise to calibrate on, in segments that can be made independently of each other.
-using NoiseSegment = std::function<NormalisedFramesPointer(int segment)>;
+struct NoiseSegments {
+    std::function<NormalisedFramesPointer(int segment)> segment;
+    int count = 0;
+};
 
 /// The same segments, of which those of the rough look, gone through again and again, are made once.
-NoiseSegment rememberedSegments(NoiseSegment segment, int segmentCount);
+NoiseSegments rememberedSegments(NoiseSegments noise);
 
 /// A calibration on noise: K, then the tail, roughly and by splitting, then events.
-std::shared_ptr<const Calibration> calibrateOn(const NoiseSegment &segment, int segmentCount, const MarkovModel &model,
+std::shared_ptr<const Calibration> calibrateOn(const NoiseSegments &noise, const MarkovModel &model,
                                                const AnalysisSettings &settings, const CalibrationEffort &effort,
                                                const RunContext &context);
 

@@ -81,7 +81,10 @@ std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel
     bare.track.bothWays = TrackSettings{}.bothWays;
     return keptCalibration(
         nameOf(model) + settingsToJson(bare) + formatNumber(cellFrames),
-        [&] { return calibrateOn(segment, segments, model, settings, {cellFrames}, context); }, context);
+        [&] {
+            return calibrateOn({segment, segments}, model, settings, {cellFrames}, context);
+        },
+        context);
 }
 
 } // namespace faintline

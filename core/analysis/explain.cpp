@@ -219,30 +219,55 @@ namespace {
         });
     }
 
+    Index frameAt(const Axis &time, double seconds)
+    {
+        const double half = 0.5 * time.step;
+        if (!(seconds >= time.first - half && seconds <= time.last() + half))
+            throw Error("time " + formatNumber(seconds) + " s",
+                        "must lie in " + formatNumber(time.first) + " … " + formatNumber(time.last()) + " s");
+        return time.nearest(seconds);
+    }
+
+    Index cellAt(const Grid &grid, const std::vector<double> &position)
+    {
+        std::vector<Index> coordinates;
+        for (auto axis = grid.axes.begin(); const double value : position) {
+            const Axis &along = *axis++;
+            if (std::isnan(value))
+                throw Error(along.name + " nan", "must be a number");
+            if (const double at = along.position(value);
+                !along.cyclic && !(at >= -0.5 && at <= double(along.count) - 0.5))
+                throw Error(along.name + " " + formatNumber(value) + " " + along.unit,
+                            "must lie in " + formatNumber(along.first) + " … " + formatNumber(along.last()) + " "
+                                + along.unit);
+            coordinates.push_back(along.nearest(value));
+        }
+        return grid.cell(coordinates);
+    }
+
+    /// Explanation::inhibitedFor
+    std::optional<int> inhibitedFor(const Analysis &analysis, const DetectionChain &chain, Index frame, Index cell)
+    {
+        // The box of a track that starts in this frame keeps data from the detector from the next one on.
+        const auto isNew = [&](int track) {
+            return std::any_of(chain.trackers().begin(), chain.trackers().end(), [track](const HmmTracker &tracker) {
+                return tracker.track().id == track && tracker.age() == 1;
+            });
+        };
+        std::optional<int> track;
+        for (const DetectionChain::Inhibition &inhibition : chain.inhibitions())
+            if (!isNew(inhibition.track) && inhibition.box.contains(analysis.grid(), analysis.grid().coordinates(cell)))
+                track = numberOf(inhibition, frame, analysis);
+        return track;
+    }
+
 } // namespace
 
 Explanation explain(const Analysis &analysis, double seconds, const std::vector<double> &position,
                     const RunContext &context)
 {
-    const Axis &time = analysis.time();
-    const double half = 0.5 * time.step;
-    if (!(seconds >= time.first - half && seconds <= time.last() + half))
-        throw Error("time " + formatNumber(seconds) + " s",
-                    "must lie in " + formatNumber(time.first) + " … " + formatNumber(time.last()) + " s");
-    const Index frame = time.nearest(seconds);
-    std::vector<Index> coordinates;
-    for (std::size_t axis = 0; axis < position.size(); ++axis) {
-        if (std::isnan(position[axis]))
-            throw Error(analysis.grid().axes[axis].name + " nan", "must be a number");
-        const Axis &along = analysis.grid().axes[axis];
-        if (const double at = along.position(position[axis]);
-            !along.cyclic && !(at >= -0.5 && at <= double(along.count) - 0.5))
-            throw Error(along.name + " " + formatNumber(position[axis]) + " " + along.unit,
-                        "must lie in " + formatNumber(along.first) + " … " + formatNumber(along.last()) + " "
-                            + along.unit);
-        coordinates.push_back(along.nearest(position[axis]));
-    }
-    const Index cell = analysis.grid().cell(coordinates);
+    const Index frame = frameAt(analysis.time(), seconds);
+    const Index cell = cellAt(analysis.grid(), position);
 
     // A tracker's path goes on to its very beginning only if it keeps all of its history, which changes no score.
     Analysis detailed = analysis;
@@ -256,9 +281,8 @@ Explanation explain(const Analysis &analysis, double seconds, const std::vector<
     }
 
     Explanation explanation;
-    explanation.seconds = time.value(double(frame));
-    for (std::size_t axis = 0; axis < coordinates.size(); ++axis)
-        explanation.position.push_back(analysis.grid().axes[axis].value(double(coordinates[axis])));
+    explanation.seconds = analysis.time().value(double(frame));
+    explanation.position = analysis.grid().position(cell);
     explanation.displayed = double(statistic[std::size_t(cell)]);
     explanation.threshold = analysis.threshold;
     explanation.isTracked = path.isTracked;
@@ -268,15 +292,7 @@ Explanation explain(const Analysis &analysis, double seconds, const std::vector<
     explanation.model = path.model;
     explanation.offset = offsetOf(detailed, *chain, path.model);
     findOther(explanation, detailed, *chain, frame, cell);
-    // The box of a track that starts in this frame keeps data from the detector from the next one on.
-    const auto isNew = [&](int track) {
-        return std::any_of(chain->trackers().begin(), chain->trackers().end(), [track](const HmmTracker &tracker) {
-            return tracker.track().id == track && tracker.age() == 1;
-        });
-    };
-    for (const DetectionChain::Inhibition &inhibition : chain->inhibitions())
-        if (!isNew(inhibition.track) && inhibition.box.contains(analysis.grid(), analysis.grid().coordinates(cell)))
-            explanation.inhibitedFor = numberOf(inhibition, frame, analysis);
+    explanation.inhibitedFor = inhibitedFor(analysis, *chain, frame, cell);
     if (path.isTracked) {
         // Before its tracker was seeded, the path is the detector's own.
         const PathStep seed = path.steps.front();

@@ -73,14 +73,15 @@ namespace {
 
 } // namespace
 
-RareRates followTail(const NormalisedFrames &frames, const MarkovModel &model, const AnalysisSettings &settings,
-                     const Calibration &calibration, const CalibrationEffort &effort, const RunContext &context)
+RareRates followTail(const AnalysisPlan &plan, const CalibrationEffort &effort, const RunContext &context)
 {
     constexpr Index pieceCells = 64;
+    const MarkovModel &model = plan.model;
+    const AnalysisSettings &settings = plan.settings;
     if (model.space.axes().size() > 1 || !model.space.axes().front().transition.empty())
         return {};
     KinematicAxis axis = model.space.axes().front();
-    const bool isSpectral = frames.spectrogram() != nullptr;
+    const bool isSpectral = plan.frames->spectrogram() != nullptr;
     const Index independentCells = std::max<Index>(pieceCells, 8 * axis.largestDisplacement() + 1);
     const std::function<std::unique_ptr<NoiseStream>()> makeNoise = [&] {
         return isSpectral ? noiseOf(settings, effort.pieceWindowSamples) : independentNoise(independentCells);
@@ -95,23 +96,24 @@ RareRates followTail(const NormalisedFrames &frames, const MarkovModel &model, c
     const auto make = [&] {
         return makeDetector(settings.detector, piece, grid,
                             isSpectral ? frameGeometry(settings.spectrogram) : FrameGeometry{},
-                            smd ? resetRule(*smd, calibration.lnK) : ResetRule{});
+                            smd ? resetRule(*smd, plan.calibration->lnK) : ResetRule{});
     };
     return measureRareRates(make, makeNoise, effort.splitting, context);
 }
 
-RareRates followBand(const AnalysisSettings &bare, double lnK, Index bins, bool isCyclic,
+RareRates followBand(const AnalysisSettings &bare, double lnK, std::optional<Index> bins,
                      const SplittingSettings &splitting, const RunContext &context)
 {
     constexpr int least = 32;
+    const bool isCyclic = !bins;
     int samples = least;
-    while (!isCyclic && samples < bins) // twice as many bins and more, so that the ends do not meet
+    while (bins && samples < *bins) // twice as many bins and more, so that the ends do not meet
         samples *= 2;
     const auto makeNoise = [&]() -> std::unique_ptr<NoiseStream> {
         auto wide = noiseOf(bare, samples);
         if (isCyclic)
             return wide;
-        return std::make_unique<BandNoise>(std::move(wide), bins);
+        return std::make_unique<BandNoise>(std::move(wide), *bins);
     };
     const Grid grid{{{"frequency", "Hz", 0.0, 1.0, makeNoise()->cells(), isCyclic}}};
     const MarkovModel model = makeModel(bare.model, grid);

@@ -23,18 +23,30 @@ namespace {
         return std::polar(1.0, 2.0 * std::numbers::pi * (cycles - std::floor(cycles)));
     }
 
-    /// The band around a frequency at 0 Hz, each value the mean of `averaged` samples.
-    std::vector<std::complex<double>> mixedDown(const Recording &recording, int channel, Index first, Index count,
-                                                double cyclesPerSample, Index averaged, const RunContext &context)
+    struct SampleRange {
+        int channel;
+        Index first;
+        Index count;
+    };
+
+    struct DownConversion {
+        double cyclesPerSample; ///< of the mixer
+        Index averaged;         ///< samples a value
+    };
+
+    /// The band around the mixer's frequency at 0 Hz.
+    std::vector<std::complex<double>> mixedDown(const Recording &recording, const SampleRange &range,
+                                                const DownConversion &conversion, const RunContext &context)
     {
+        const auto [cyclesPerSample, averaged] = conversion;
         constexpr Index exactEvery = 64; // samples; between them the mixer is turned by one step after the other
         const auto floats = std::size_t(recording.info().floatsPerSample());
         const std::complex<double> step = turned(-cyclesPerSample);
         std::vector<std::complex<double>> result;
         std::vector<float> samples(std::size_t(averaged) * floats);
-        for (Index at = 0; at + averaged <= count; at += averaged) {
-            context.checkpoint(double(at) / double(count), "measuring the line");
-            recording.read(channel, first + at, averaged, samples);
+        for (Index at = 0; at + averaged <= range.count; at += averaged) {
+            context.checkpoint(double(at) / double(range.count), "measuring the line");
+            recording.read(range.channel, range.first + at, averaged, samples);
             std::complex<double> sum = 0.0;
             std::complex<double> mixer;
             for (Index n = 0; n < averaged; ++n, mixer *= step) {
@@ -93,7 +105,7 @@ LineHeight lineHeight(const Recording &recording, Stretch stretch, const RunCont
     if (count / averaged < fewest)
         refuse();
     const std::vector<float> all =
-        powerSpectrum(mixedDown(recording, stretch.channel, first, count, stretch.hz / rate, averaged, context));
+        powerSpectrum(mixedDown(recording, {stretch.channel, first, count}, {stretch.hz / rate, averaged}, context));
     const double step = rate / double(averaged * std::ssize(all));
     const Index middle = std::ssize(all) / 2; // of 0 Hz
     const auto reach = std::min(middle, Index(stretch.halfBandHz / step));

@@ -67,6 +67,105 @@ namespace {
         return end;
     }
 
+    /// The detector on stretches of the recording, signals replaced by simulated noise.
+    class NoiseOutsideTracks
+    {
+    public:
+        NoiseOutsideTracks(const Analysis &analysis, const SmdSettings &smd, const RunContext &context)
+            : m_analysis(analysis), m_frames(*analysis.frames), m_context(context),
+              m_rule(resetRule(smd, analysis.calibration->lnK)), m_y(std::size_t(m_frames.grid().size())),
+              m_statistic(m_y.size())
+        {
+        }
+
+        /// Mean fraction of paths that continue, in so many stretches that lie evenly.
+        double continuedFraction(Index length, Index stretches)
+        {
+            const Index count = m_frames.time().count;
+            for (Index i = 0; i < stretches; ++i) {
+                const Index first = stretches == 1 ? (count - length) / 2 : i * (count - length) / (stretches - 1);
+                lookAt(first, first + length,
+                       m_context.part(double(i) / double(stretches), double(i + 1) / double(stretches)));
+            }
+            return m_sum / m_counted;
+        }
+
+        double counted() const { return m_counted; }
+
+    private:
+        using PointsByFrame = std::multimap<Index, std::pair<Piece *, Index>>;
+
+        void lookAt(Index first, Index end, const RunContext &context)
+        {
+            std::vector<Piece> pieces = piecesOf(m_analysis.tracks, first, end);
+            const PointsByFrame points = byFrame(pieces);
+            findSkirts(pieces, points);
+            Smd detector(m_analysis.model, m_rule);
+            for (Index frame = first; frame < end; ++frame) {
+                context.checkpoint(double(frame - first) / double(end - first), checking);
+                m_frames.read(frame, 1, m_y);
+                putNoiseOver(points, frame);
+                detector.update(m_y, m_statistic);
+                if (frame - first < settlingFrames)
+                    continue;
+                m_sum += detector.regulation().continuedFraction;
+                m_counted += 1.0;
+            }
+        }
+
+        /// How far the tracks' power reaches to either side.
+        void findSkirts(std::vector<Piece> &pieces, const PointsByFrame &points)
+        {
+            const int binsPerCell = m_analysis.settings.spectrogram.binsPerCell;
+            const auto least = Index(std::ceil(m_analysis.settings.decide.inhibitCells.front() * binsPerCell));
+            const auto widest = std::max(least + 1, widestSkirt * binsPerCell);
+            const Index cells = std::ssize(m_y);
+            for (Piece &piece : pieces) {
+                piece.below.resize(std::size_t(widest));
+                piece.above.resize(std::size_t(widest));
+            }
+            for (auto it = points.begin(); it != points.end();) {
+                m_context.checkpoint(0.0, checking);
+                const Index frame = it->first;
+                m_frames.read(frame, 1, m_y);
+                for (; it != points.end() && it->first == frame; ++it) {
+                    auto &[piece, cell] = it->second;
+                    for (Index offset = 0; offset < widest; ++offset) {
+                        const auto at = std::size_t(offset);
+                        piece->below[at] += double(m_y[std::size_t(std::max<Index>(0, cell - offset))]);
+                        piece->above[at] += double(m_y[std::size_t(std::min(cells - 1, cell + offset))]);
+                    }
+                }
+            }
+            for (Piece &piece : pieces) {
+                piece.lowest = -endOfSkirt(piece.below, least, std::ssize(piece.points));
+                piece.highest = endOfSkirt(piece.above, least, std::ssize(piece.points));
+            }
+        }
+
+        void putNoiseOver(const PointsByFrame &points, Index frame)
+        {
+            const auto [from, to] = points.equal_range(frame);
+            for (auto it = from; it != to; ++it) {
+                const auto &[piece, centre] = it->second;
+                const Index last = std::min(std::ssize(m_y) - 1, centre + piece->highest);
+                for (Index cell = std::max<Index>(0, centre + piece->lowest); cell <= last; ++cell)
+                    m_y[std::size_t(cell)] = float(m_random.exponential());
+            }
+        }
+
+        static constexpr const char *checking = "checking the noise outside tracks";
+        const Analysis &m_analysis;
+        const NormalisedFrames &m_frames;
+        const RunContext &m_context;
+        ResetRule m_rule;
+        Random m_random{7000, 0};
+        std::vector<float> m_y;
+        std::vector<float> m_statistic;
+        double m_sum = 0.0;
+        double m_counted = 0.0;
+    };
+
 } // namespace
 
 std::string NoiseLawCheck::warning() const
@@ -86,67 +185,18 @@ std::optional<NoiseLawCheck> checkNoiseLaw(const Analysis &analysis, const RunCo
     const auto *smd = std::get_if<SmdSettings>(&analysis.settings.detector);
     const bool isFixed =
         smd && (smd->reset == SmdSettings::Reset::Calibrated || smd->reset == SmdSettings::Reset::Fixed);
-    const NormalisedFrames &frames = *analysis.frames;
-    const Index count = frames.time().count;
-    const Index cells = frames.grid().size();
+    const Index count = analysis.time().count;
+    const Index cells = analysis.grid().size();
     if (!isFixed || !analysis.recording || !analysis.calibration || count < settlingFrames + leastCounted)
         return {};
     const Index length = std::min(stretchFrames, count);
     const auto stretches = std::clamp<Index>(Index(mostCellFrames / double(length * cells)), 1, count / length);
-    const int binsPerCell = analysis.settings.spectrogram.binsPerCell;
-    const auto least = Index(std::ceil(analysis.settings.decide.inhibitCells.front() * binsPerCell));
-    const auto widest = std::max(least + 1, widestSkirt * binsPerCell);
-    Random random(7000, 0);
-    std::vector<float> y(static_cast<std::size_t>(cells));
-    std::vector<float> statistic(y.size());
-    double sum = 0.0;
-    double counted = 0.0;
-    for (Index stretch = 0; stretch < stretches; ++stretch) {
-        const Index first = stretches == 1 ? (count - length) / 2 : stretch * (count - length) / (stretches - 1);
-        std::vector<Piece> pieces = piecesOf(analysis.tracks, first, first + length);
-        const auto points = byFrame(pieces);
-        for (Piece &piece : pieces) {
-            piece.below.resize(std::size_t(widest));
-            piece.above.resize(std::size_t(widest));
-        }
-        for (auto it = points.begin(); it != points.end();) {
-            context.checkpoint(0.0, "checking the noise outside tracks");
-            const Index frame = it->first;
-            frames.read(frame, 1, y);
-            for (; it != points.end() && it->first == frame; ++it) {
-                auto &[piece, cell] = it->second;
-                for (Index offset = 0; offset < widest; ++offset) {
-                    const auto at = std::size_t(offset);
-                    piece->below[at] += double(y[std::size_t(std::max<Index>(0, cell - offset))]);
-                    piece->above[at] += double(y[std::size_t(std::min(cells - 1, cell + offset))]);
-                }
-            }
-        }
-        for (Piece &piece : pieces) {
-            piece.lowest = -endOfSkirt(piece.below, least, std::ssize(piece.points));
-            piece.highest = endOfSkirt(piece.above, least, std::ssize(piece.points));
-        }
-        Smd detector(analysis.model, resetRule(*smd, analysis.calibration->lnK));
-        for (Index frame = first; frame < first + length; ++frame) {
-            context.checkpoint(double(stretch * length + frame - first) / double(stretches * length),
-                               "checking the noise outside tracks");
-            frames.read(frame, 1, y);
-            const auto [from, to] = points.equal_range(frame);
-            for (auto it = from; it != to; ++it)
-                for (Index cell = std::max<Index>(0, it->second.second + it->second.first->lowest);
-                     cell <= std::min(cells - 1, it->second.second + it->second.first->highest); ++cell)
-                    y[std::size_t(cell)] = float(random.exponential());
-            detector.update(y, statistic);
-            if (frame - first < settlingFrames)
-                continue;
-            sum += detector.regulation().continuedFraction;
-            counted += 1.0;
-        }
-    }
+    NoiseOutsideTracks noise(analysis, *smd, context);
     NoiseLawCheck law;
     law.expected = analysis.calibration->continuedFraction;
-    law.found = sum / counted;
-    const double sigma = std::sqrt(clusterVariance * law.expected * (1.0 - law.expected) / (counted * double(cells)));
+    law.found = noise.continuedFraction(length, stretches);
+    const double sigma =
+        std::sqrt(clusterVariance * law.expected * (1.0 - law.expected) / (noise.counted() * double(cells)));
     const double half = deviations * sigma + tolerance + 1.0 / double(cells);
     law.band = {law.expected - half, law.expected + half};
     return law;

@@ -53,18 +53,17 @@ namespace {
 
 } // namespace
 
-Spectra spectraOf(const Analysis &analysis, double seconds, double fromSeconds, double toSeconds, SpectrumLevel level,
+Spectra spectraOf(const Analysis &analysis, double seconds, const TimeSpan &time, SpectrumLevel level,
                   const RunContext &context)
 {
-    const Axis &time = analysis.time();
     Reader reader(analysis, level);
     const Axis &axis = reader.axis();
     const auto cells = std::size_t(axis.count);
     Spectra spectra;
     std::vector<double> counts(cells, 0.0);
     spectra.mean.assign(cells, 0.0);
-    const Index first = nearestFrame(time, fromSeconds);
-    const Index last = std::max(first, nearestFrame(time, toSeconds));
+    const Index first = nearestFrame(analysis.time(), time.fromSeconds);
+    const Index last = std::max(first, nearestFrame(analysis.time(), time.toSeconds));
     const Index frames = std::min(last - first + 1, mostFrames);
     for (Index i = 0; i < frames; ++i) {
         context.checkpoint(double(i) / double(frames), "averaging spectra");
@@ -75,7 +74,7 @@ Spectra spectraOf(const Analysis &analysis, double seconds, double fromSeconds, 
                 counts[cell] += 1.0;
             }
     }
-    reader.read(nearestFrame(time, seconds), context);
+    reader.read(nearestFrame(analysis.time(), seconds), context);
     for (std::size_t cell = 0; cell < cells; ++cell) {
         spectra.position.push_back(axis.value(double(cell)));
         spectra.frame.push_back(reader.value(cell));

@@ -20,13 +20,19 @@ struct Spectra {
     std::vector<double> mean;
 };
 
+/// From … to, both included.
+struct TimeSpan {
+    double fromSeconds = 0.0;
+    double toSeconds = 0.0;
+};
+
 /// The frame nearest to `seconds`, and the mean over `time`: of all its frames, or of 400 that lie evenly in it. What
 /// was not observed is left out of the mean and NaN in a frame. A density needs a recording (`spectrogram()`).
 ///
 ///   density = y·4^e/f_s for complex samples, twice that for real ones;  e = scaleExponent
 ///
 /// Oracle: white noise of variance σ² has the density 2σ²/f_s. Throws Cancelled.
-Spectra spectraOf(const Analysis &analysis, double seconds, double fromSeconds, double toSeconds, SpectrumLevel level,
+Spectra spectraOf(const Analysis &analysis, double seconds, const TimeSpan &time, SpectrumLevel level,
                   const RunContext &context = {});
 
 } // namespace faintline
