@@ -138,8 +138,8 @@ void NoiseFitPanel::measure()
         Fit fit{analysis, {}, {}};
         const FrameGeometry geometry =
             analysis->recording ? faintline::frameGeometry(analysis->settings.spectrogram) : FrameGeometry();
-        fit.bands =
-            fitNoise(*analysis->frames, bandCount, geometry, context.part(0.0, 0.4), mostCells, blindCells(*analysis));
+        fit.bands = fitNoise(*analysis->frames, {bandCount, mostCells, blindCells(*analysis)}, geometry,
+                             context.part(0.0, 0.4));
         if (analysis->settings.model.motion
             == Motion::Slopes) // a sonar's targets move on two axes, these cells lie on one
             fit.pfa = misfitPfa(fit.bands, analysis->settings,

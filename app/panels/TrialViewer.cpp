@@ -76,7 +76,7 @@ void TrialViewer::start()
     const TrialPlace place = all[std::size_t(m_trial)].place;
     m_runner.start([this, campaign = *entry->campaign, trials = entry->trials, detector = m_detector, snr = m_snr,
                     place](const RunContext &context) -> JobRunner::Delivery {
-        ShownTrial trial = showTrial(campaign, trials.get(), detector, snr, place, context);
+        ShownTrial trial = showTrial(campaign, trials.get(), {detector, snr}, place, context);
         return [this, trial = std::move(trial)] { show(trial); };
     });
 }

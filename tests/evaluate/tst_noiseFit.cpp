@@ -96,13 +96,13 @@ void tst_noiseFit::bandsAreSeparate()
     std::vector<float> y = cells(4000, 1, 3);
     for (std::size_t i = 1; i < y.size(); i += 2)
         y[i] *= 3.0f;
-    const auto bands = fitNoise(frames(2000, 2, y), 2);
+    const auto bands = fitNoise(frames(2000, 2, y), {2});
     QCOMPARE(bands.size(), std::size_t(2));
     QCOMPARE(bands[0].low, 100.0);
     QCOMPARE(bands[0].high, 102.0);
     QCOMPARE(bands[1].high, 104.0);
     // Of what is left out at the ends nothing is counted.
-    const auto inner = fitNoise(frames(1000, 4, y), 1, {}, {}, 4000, 1);
+    const auto inner = fitNoise(frames(1000, 4, y), {1, 4000, 1});
     QCOMPARE(inner.front().low, 102.0);
     QCOMPARE(inner.front().high, 106.0);
     QCOMPARE(inner.front().law.count(), std::int64_t(2000));
@@ -112,13 +112,13 @@ void tst_noiseFit::bandsAreSeparate()
     QVERIFY(bands[0].fits());
     QVERIFY(!bands[1].fits());
     // Never more bands than bins; overlap leaves fewer independent values.
-    QCOMPARE(fitNoise(frames(2000, 2, y), 8).size(), std::size_t(2));
-    QCOMPARE(fitNoise(frames(2000, 2, y), 1, {2.0, 4.0}).front().independent, 500.0);
+    QCOMPARE(fitNoise(frames(2000, 2, y), {8}).size(), std::size_t(2));
+    QCOMPARE(fitNoise(frames(2000, 2, y), {1}, {2.0, 4.0}).front().independent, 500.0);
 }
 
 void tst_noiseFit::frameStrideBoundsTheWork()
 {
-    const auto bands = fitNoise(frames(1000, 4, cells(4000, 1, 5)), 1, {2.0, 1.0}, {}, 400);
+    const auto bands = fitNoise(frames(1000, 4, cells(4000, 1, 5)), {1, 400}, {2.0, 1.0});
     QCOMPARE(bands.front().law.count(), std::int64_t(400));
     QCOMPARE(bands.front().independent, 400.0); // every tenth frame: those no longer overlap
 }
@@ -160,7 +160,7 @@ void tst_noiseFit::cancels()
     source.request_stop();
     RunContext context;
     context.stop = source.get_token();
-    QVERIFY_EXCEPTION_THROWN(fitNoise(frames(10, 2, cells(20, 1, 0)), 1, {}, context), Cancelled);
+    QVERIFY_EXCEPTION_THROWN(fitNoise(frames(10, 2, cells(20, 1, 0)), {1}, {}, context), Cancelled);
     QVERIFY_EXCEPTION_THROWN(misfitPfa(std::vector{FittedBand()}, AnalysisSettings(), 1e-3, context), Cancelled);
 }
 

@@ -64,7 +64,7 @@ void tst_showTrial::theTrialAnswersAsInTheCampaign()
     QFETCH(int, index);
     const auto d = std::size_t(index);
     const TrialOutcome outcome = trialsOf(m_campaign, d, 0)[2];
-    const ShownTrial shown = showTrial(m_campaign, nullptr, d, 0, outcome.place);
+    const ShownTrial shown = showTrial(m_campaign, nullptr, {d, 0}, outcome.place);
     const Analysis &analysis = *shown.analysis;
     QCOMPARE(analysis.time().count, Index(300));
     QCOMPARE(analysis.grid().size(), Index(200));
@@ -96,7 +96,7 @@ void tst_showTrial::anInjectionNeedsItsRecording()
     injection.detectors = {peer("3 of 4", 40.0)};
     const Campaign elsewhere{injection, {3.0}, {}};
     QVERIFY(trialsOf(elsewhere, 0, 0).empty());
-    QVERIFY_EXCEPTION_THROWN(showTrial(elsewhere, nullptr, 0, 0, {}), Error);
+    QVERIFY_EXCEPTION_THROWN(showTrial(elsewhere, nullptr, {0, 0}, {}), Error);
 }
 
 QTEST_GUILESS_MAIN(tst_showTrial)

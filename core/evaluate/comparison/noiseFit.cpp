@@ -79,22 +79,22 @@ double NoiseLaw::distanceLimit(double independent)
 
 // ---- of frames ------------------------------------------------------------------------------------------------------
 
-std::vector<FittedBand> fitNoise(const NormalisedFrames &frames, int bands, const FrameGeometry &geometry,
-                                 const RunContext &context, std::int64_t cells, Index leftOut)
+std::vector<FittedBand> fitNoise(const NormalisedFrames &frames, const NoiseSample &sample,
+                                 const FrameGeometry &geometry, const RunContext &context)
 {
     const Axis &axis = frames.grid().axes.back();
     const Index size = frames.grid().size();
     const Index frameCount = frames.time().count;
-    const Index beyond = std::clamp<Index>(leftOut, 0, (axis.count - 1) / 2);
+    const Index beyond = std::clamp<Index>(sample.leftOut, 0, (axis.count - 1) / 2);
     const Index looked = axis.count - 2 * beyond;
-    const Index wanted = std::clamp<Index>(bands, 1, looked);
+    const Index wanted = std::clamp<Index>(sample.bands, 1, looked);
     std::vector<FittedBand> result(static_cast<std::size_t>(wanted));
     const auto edge = [&](Index band) { return beyond + band * looked / wanted; };
     for (Index band = 0; band < wanted; ++band) {
         result[std::size_t(band)].low = axis.value(double(edge(band)));
         result[std::size_t(band)].high = axis.value(double(edge(band + 1)));
     }
-    const Index stride = std::max<Index>(1, frameCount * size / std::max<std::int64_t>(cells, 1));
+    const Index stride = std::max<Index>(1, frameCount * size / std::max<std::int64_t>(sample.cells, 1));
     std::vector<float> y(static_cast<std::size_t>(size));
     for (Index frame = 0; frame < frameCount; frame += stride) {
         context.checkpoint(double(frame) / double(frameCount), "measuring noise");

@@ -58,11 +58,18 @@ struct FittedBand {
     bool fits() const { return law.distance() <= NoiseLaw::distanceLimit(independent); }
 };
 
-/// Counts frames' values in `bands` bands of equal width. Looks at no more than about `cells` values, in frames spread
-/// evenly. `geometry`: how far overlap makes neighbours dependent. `leftOut`: cells at either end of the axis that are
-/// kept from the detector, too (where a real recording's spectrum overlaps with its mirror image). Throws Cancelled.
-std::vector<FittedBand> fitNoise(const NormalisedFrames &frames, int bands, const FrameGeometry &geometry = {},
-                                 const RunContext &context = {}, std::int64_t cells = 20'000'000, Index leftOut = 0);
+/// Which of the frames' values are looked at.
+struct NoiseSample {
+    int bands = 1;                   ///< of equal width
+    std::int64_t cells = 20'000'000; ///< about so many at most, in frames spread evenly
+    /// Cells at either end of the axis that are kept from the detector, too (where a real recording's spectrum overlaps
+    /// with its mirror image).
+    Index leftOut = 0;
+};
+
+/// Counts frames' values band by band. `geometry`: how far overlap makes neighbours dependent. Throws Cancelled.
+std::vector<FittedBand> fitNoise(const NormalisedFrames &frames, const NoiseSample &sample,
+                                 const FrameGeometry &geometry = {}, const RunContext &context = {});
 
 /// Of one detector's statistic at a threshold, per cell: as the exponential law has it, and as a band's own law has it.
 struct MisfitPfa {

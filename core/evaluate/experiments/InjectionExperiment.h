@@ -74,6 +74,7 @@ public:
 
 private:
     struct Shared;
+    class LineLook;
     InjectionExperiment m_experiment;
     std::unique_ptr<const Shared> m_shared;
     std::vector<double> m_thresholds;

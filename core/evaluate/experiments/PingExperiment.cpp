@@ -30,9 +30,16 @@ namespace {
         return plan;
     }
 
-    std::shared_ptr<const DetectorState> settle(const PingExperiment &experiment, const AnalysisPlan &plan,
-                                                const ResetRule &rule, const RunContext &context)
+    /// A detector that has settled on noise, for every run to go on from.
+    struct SettledDetector {
+        ResetRule rule;
+        std::shared_ptr<const DetectorState> state;
+    };
+
+    SettledDetector settle(const PingExperiment &experiment, const AnalysisPlan &plan, const RunContext &context)
     {
+        const auto &smd = std::get<SmdSettings>(experiment.settings.detector);
+        const ResetRule rule = resetRule(smd, smd.lnK);
         PingScene scene = seeded(experiment.scene, experiment.seed);
         scene.targets.clear();
         scene.pings = std::max(1, experiment.settlingPings);
@@ -45,15 +52,15 @@ namespace {
             noise.read(ping, 1, y);
             detector.update(y, statistic);
         }
-        return detector.state();
+        return {rule, detector.state()};
     }
 
-    TrackScore runOnce(const PingExperiment &experiment, const AnalysisPlan &plan, const ResetRule &rule,
-                       const DetectorState &settled, std::uint64_t run, const RunContext &context)
+    TrackScore runOnce(const PingExperiment &experiment, const AnalysisPlan &plan, const SettledDetector &settled,
+                       std::uint64_t run, const RunContext &context)
     {
         const SimulatedPings pings(seeded(experiment.scene, experiment.seed + 7919u * (run + 1)));
-        auto detector = std::make_unique<Smd>(plan.model, rule);
-        detector->setState(settled);
+        auto detector = std::make_unique<Smd>(plan.model, settled.rule);
+        detector->setState(*settled.state);
         const auto chain = makeChain(plan, std::move(detector));
         std::vector<float> y(std::size_t(pings.grid().size()));
         std::vector<float> statistic(y.size());
@@ -72,16 +79,15 @@ namespace {
 std::vector<TrackScore> runPings(const PingExperiment &experiment, const RunContext &context)
 {
     checkSettings(experiment.settings);
-    const auto *smd = std::get_if<SmdSettings>(&experiment.settings.detector);
-    if (!smd || experiment.settings.model.motion == Motion::Bank)
+    if (!std::holds_alternative<SmdSettings>(experiment.settings.detector)
+        || experiment.settings.model.motion == Motion::Bank)
         throw Error("experiment", "requires the sequential Markov detector with one model; choose detector.kind = smd");
     const AnalysisPlan plan = planOf(experiment);
-    const ResetRule rule = resetRule(*smd, smd->lnK);
-    const auto settled = settle(experiment, plan, rule, context.part(0.0, 0.2));
+    const SettledDetector settled = settle(experiment, plan, context.part(0.0, 0.2));
     std::vector<TrackScore> scores(std::size_t(experiment.runs));
     parallelFor(experiment.runs, context.part(0.2, 1.0), "following targets", [&]() -> std::function<void(Index)> {
         return [&](Index run) {
-            scores[std::size_t(run)] = runOnce(experiment, plan, rule, *settled, std::uint64_t(run), context);
+            scores[std::size_t(run)] = runOnce(experiment, plan, settled, std::uint64_t(run), context);
         };
     });
     return scores;

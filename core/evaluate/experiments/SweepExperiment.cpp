@@ -272,15 +272,27 @@ SweepTrials::SweepTrials(const SweepExperiment &experiment, RecordingPointer rec
     }
 }
 
+/// Where a trial's random numbers put its line: shares of what is possible.
+struct SweepTrials::Placement {
+    double inBand;
+    double inTime;
+    std::uint64_t seed; ///< noise, phase and wander belong to the trial
+};
+
 SweepTrials::Made SweepTrials::remake(int run) const
 {
     const int trial = m_experiment.trialOf(run);
-    Made made{nullptr, {}, settingsOfTrial(m_experiment, std::size_t(m_experiment.valueOf(run)), m_recording.get())};
     Random places(std::uint64_t(m_experiment.seed), std::uint64_t(trial));
-    const double wherePlaced = places.uniform();
-    const double whenPlaced = places.uniform();
-    const double whole = m_experiment.trialSeconds();
+    const std::uint64_t seed = std::uint64_t(m_experiment.seed) * 1000003 + std::uint64_t(trial);
+    const Placement placement{places.uniform(), places.uniform(), seed}; // in this order
+    const AnalysisSettings settings =
+        settingsOfTrial(m_experiment, std::size_t(m_experiment.valueOf(run)), m_recording.get());
+    const LineSettings line = lineAt(placement);
+    return m_recording ? inject(line, placement, settings) : simulate(line, placement, settings);
+}
 
+LineSettings SweepTrials::lineAt(const Placement &placement) const
+{
     RecordingInfo info;
     info.sampleRateHz = m_experiment.sampleRateHz;
     if (m_recording)
@@ -295,46 +307,55 @@ SweepTrials::Made SweepTrials::remake(int run) const
     if (!(low < high))
         throw Error("driftHzPerSecond, wanderHz",
                     "a line must stay within the band of " + formatNumber(highest - lowest) + " Hz");
-
     LineSettings line;
     line.snrDb = m_experiment.snrDb;
     line.referenceSeconds = m_experiment.settings.spectrogram.windowSeconds;
     line.startSeconds = m_experiment.marginSeconds;
     line.durationSeconds = m_experiment.durationSeconds;
-    line.frequencyHz = info.centreHz + low + wherePlaced * (high - low);
+    line.frequencyHz = info.centreHz + low + placement.inBand * (high - low);
     line.driftHzPerSecond = m_experiment.driftHzPerSecond;
     line.wanderHz = m_experiment.wanderHz;
     line.wanderSeconds = m_experiment.wanderSeconds;
-    // Noise, phase and wander belong to the trial.
-    const std::uint64_t own = std::uint64_t(m_experiment.seed) * 1000003 + std::uint64_t(trial);
-    if (!m_recording) {
-        LineScene scene;
-        scene.sampleRateHz = m_experiment.sampleRateHz;
-        scene.durationSeconds = whole;
-        scene.seed = int(own % 2147483647);
-        scene.lines = {line};
-        const auto simulated = std::make_shared<SimulatedRecording>(scene);
-        made.truth = simulated->truth().lines.front();
-        made.recording = simulated;
-        made.settings.selection.fromSeconds = made.settings.selection.toSeconds = 0.0;
-        made.settings.selection.channel = 0;
-        return made;
-    }
+    return line;
+}
+
+SweepTrials::Made SweepTrials::simulate(const LineSettings &line, const Placement &placement,
+                                        const AnalysisSettings &settings) const
+{
+    LineScene scene;
+    scene.sampleRateHz = m_experiment.sampleRateHz;
+    scene.durationSeconds = m_experiment.trialSeconds();
+    scene.seed = int(placement.seed % 2147483647);
+    scene.lines = {line};
+    const auto simulated = std::make_shared<SimulatedRecording>(scene);
+    Made made{simulated, simulated->truth().lines.front(), settings};
+    made.settings.selection.fromSeconds = made.settings.selection.toSeconds = 0.0;
+    made.settings.selection.channel = 0;
+    return made;
+}
+
+SweepTrials::Made SweepTrials::inject(LineSettings line, const Placement &placement,
+                                      const AnalysisSettings &settings) const
+{
+    const SelectionSettings &selection = m_experiment.settings.selection;
+    const double recorded = m_recording->info().durationSeconds();
+    const double whole = m_experiment.trialSeconds();
     const double from = selection.fromSeconds;
-    const double to =
-        selection.toSeconds > from ? std::min(selection.toSeconds, info.durationSeconds()) : info.durationSeconds();
+    const double to = selection.toSeconds > from ? std::min(selection.toSeconds, recorded) : recorded;
     if (to - from < whole)
         throw Error("durationSeconds, marginSeconds", "a trial of " + formatNumber(whole)
                                                           + " s must fit into the selection of "
                                                           + formatNumber(to - from) + " s");
-    const double begin = from + whenPlaced * (to - from - whole);
+    const double begin = from + placement.inTime * (to - from - whole);
     line.startSeconds += begin;
+    Made made{nullptr, {}, settings};
     made.settings.selection.fromSeconds = begin;
     made.settings.selection.toSeconds = begin + whole;
     AnalysisSettings placing = m_experiment.settings; // the line is the same for every value
     placing.selection = made.settings.selection;
     const InjectedLine injected = scaledInjection(line, m_recording, placing);
-    const auto with = std::make_shared<InjectedRecording>(m_recording, std::vector{injected}, selection.channel, own);
+    const auto with =
+        std::make_shared<InjectedRecording>(m_recording, std::vector{injected}, selection.channel, placement.seed);
     made.truth = with->truth().lines.front();
     made.recording = with;
     return made;

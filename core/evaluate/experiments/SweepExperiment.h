@@ -97,6 +97,11 @@ public:
     std::vector<double> costs(const RunContext &context = {}) const;
 
 private:
+    struct Placement;
+    LineSettings lineAt(const Placement &placement) const; ///< from the beginning of its stretch
+    Made simulate(const LineSettings &line, const Placement &placement, const AnalysisSettings &settings) const;
+    Made inject(LineSettings line, const Placement &placement, const AnalysisSettings &settings) const;
+
     SweepExperiment m_experiment; ///< its window's length known
     RecordingPointer m_recording;
     std::vector<double> m_thresholds;

@@ -27,26 +27,26 @@ namespace {
         settings.decide.thresholdNats = std::clamp(threshold, range.minimum, range.maximum);
     }
 
-    ShownTrial showLine(const Campaign &campaign, const LineExperiment &lines, std::size_t detector, std::size_t snr,
+    ShownTrial showLine(const Campaign &campaign, const LineExperiment &lines, const CampaignPoint &point,
                         const TrialPlace &place, const RunContext &context)
     {
         LineExperiment alone = lines;
-        alone.detectors = {lines.detectors[detector]};
+        alone.detectors = {lines.detectors[point.detector]};
         AnalysisSettings settings = alone.detectors.front().settings;
         if (auto *smd = std::get_if<SmdSettings>(&settings.detector);
             smd && smd->reset == SmdSettings::Reset::Calibrated)
             *smd = {SmdSettings::Reset::Fixed, calibratedResets(alone, context.part(0.0, 0.3)).front().lnK};
         settings.detector = inFrames(settings.detector, lines);
-        setThreshold(settings, shownThreshold(campaign, detector));
+        setThreshold(settings, shownThreshold(campaign, point.detector));
 
         context.checkpoint(0.3, "repeating the trial");
-        const LineTrial trial = remakeTrial(lines, lines.snrDb[snr], place.run, place.signal);
+        const LineTrial trial = remakeTrial(lines, lines.snrDb[point.snr], place.run, place.signal);
         const Axis &time = trial.frames->time();
         const Axis &frequency = trial.frames->grid().axes.front();
         TruthLine truth;
         truth.startSeconds = time.value(double(trial.firstFrame));
         truth.endSeconds = time.value(double(trial.firstFrame + std::ssize(trial.path) - 1));
-        truth.snrDb = lines.snrDb[snr];
+        truth.snrDb = lines.snrDb[point.snr];
         truth.referenceSeconds = 1.0;
         truth.stepSeconds = time.step;
         for (const Index bin : trial.path)
@@ -56,15 +56,15 @@ namespace {
             {{truth}}};
     }
 
-    ShownTrial showInjected(const Campaign &campaign, const InjectionExperiment &injection,
-                            const InjectionTrials &trials, std::size_t detector, std::size_t snr,
+    ShownTrial showInjected(const Campaign &campaign, const InjectionTrials &trials, const CampaignPoint &point,
                             const TrialPlace &place, const RunContext &context)
     {
+        const auto &injection = std::get<InjectionExperiment>(campaign.experiment);
         AnalysisSettings settings = injection.settings;
-        settings.model = injection.detectors[detector].settings.model;
-        settings.detector = injection.detectors[detector].settings.detector;
-        setThreshold(settings, shownThreshold(campaign, detector));
-        const InjectionTrials::Made made = trials.remake(place.run, injection.snrDb[snr]);
+        settings.model = injection.detectors[point.detector].settings.model;
+        settings.detector = injection.detectors[point.detector].settings.detector;
+        setThreshold(settings, shownThreshold(campaign, point.detector));
+        const InjectionTrials::Made made = trials.remake(place.run, injection.snrDb[point.snr]);
         return {analyse(made.recording, settings, context), {{made.truth}}};
     }
 
@@ -86,17 +86,16 @@ std::vector<TrialOutcome> trialsOf(const Campaign &campaign, std::size_t detecto
     return result;
 }
 
-ShownTrial showTrial(const Campaign &campaign, const InjectionTrials *trials, std::size_t detector, std::size_t snr,
+ShownTrial showTrial(const Campaign &campaign, const InjectionTrials *trials, const CampaignPoint &point,
                      const TrialPlace &place, const RunContext &context)
 {
     if (const auto *lines = std::get_if<LineExperiment>(&campaign.experiment))
-        return showLine(campaign, *lines, detector, snr, place, context);
+        return showLine(campaign, *lines, point, place, context);
     if (std::holds_alternative<SweepExperiment>(campaign.experiment))
         throw Error("trial", "trials of a sweep cannot be shown; apply the value and inject a line instead");
     if (!trials)
         throw Error("trial", "belongs to an imported injection experiment; run the experiment here to see its trials");
-    return showInjected(campaign, std::get<InjectionExperiment>(campaign.experiment), *trials, detector, snr, place,
-                        context);
+    return showInjected(campaign, *trials, point, place, context);
 }
 
 } // namespace faintline

@@ -27,6 +27,12 @@ struct TrialOutcome {
 };
 std::vector<TrialOutcome> trialsOf(const Campaign &campaign, std::size_t detector, std::size_t snr);
 
+/// A point of a campaign's curves: which detector, at which of the experiment's SNRs.
+struct CampaignPoint {
+    std::size_t detector = 0;
+    std::size_t snr = 0;
+};
+
 /// A trial made again and put through the whole chain, to be looked at.
 struct ShownTrial {
     std::shared_ptr<const Analysis> analysis;
@@ -37,7 +43,7 @@ struct ShownTrial {
 /// of `shownThreshold`. A simulated line comes with its block alone, one window T_FT a second long, one resolution cell
 /// a hertz wide; an injected one in the whole selection. `trials`: of an injection, as prepared; null otherwise. Throws
 /// Error, Cancelled.
-ShownTrial showTrial(const Campaign &campaign, const InjectionTrials *trials, std::size_t detector, std::size_t snr,
+ShownTrial showTrial(const Campaign &campaign, const InjectionTrials *trials, const CampaignPoint &point,
                      const TrialPlace &place, const RunContext &context = {});
 
 } // namespace faintline

@@ -135,54 +135,70 @@ namespace {
         return std::min(1.0, states * lindleyExceedance(threshold, lnK));
     }
 
-    Reproduction reproduceFalseAlarms(const FalseAlarmFigure &figure, const ReproduceOptions &options,
-                                      const RunContext &context)
+    /// Tolerances are wider of a quarter of the pings.
+    double widened(double tolerance, const ReproduceOptions &options)
     {
-        const NoiseRun run = runOnNoise(figure, options, context);
-        const double widen = options.quick ? 2.0 : 1.0; // a quarter of the pings
-        Reproduction made{figure.name, figure.title, "see rows", {}, {}, {}};
-        made.cells.push_back(printed(
-            judged(cellOf("K", "mean law", run.lnK, run.lnKInterval), figure.referenceK, figure.toleranceK * widen),
-            figure.paperK));
-        ReproducedCell reset = cellOf("reset fraction", "mean law", run.resetFraction, run.resetInterval);
-        if (figure.motion == "nonManoeuvring")
-            reset = judged(reset, 0.434, 0.003 * widen);
-        made.cells.push_back(printed(reset, 0.5));
+        return tolerance * (options.quick ? 2.0 : 1.0);
+    }
 
+    bool isNonManoeuvring(const FalseAlarmFigure &figure)
+    {
+        return figure.motion == "nonManoeuvring";
+    }
+
+    void addRegulation(Reproduction &made, const FalseAlarmFigure &figure, const NoiseRun &run,
+                       const ReproduceOptions &options)
+    {
+        made.cells.push_back(printed(judged(cellOf("K", "mean law", run.lnK, run.lnKInterval), figure.referenceK,
+                                            widened(figure.toleranceK, options)),
+                                     figure.paperK));
+        ReproducedCell reset = cellOf("reset fraction", "mean law", run.resetFraction, run.resetInterval);
+        if (isNonManoeuvring(figure))
+            reset = judged(reset, 0.434, widened(0.003, options));
+        made.cells.push_back(printed(reset, 0.5));
+    }
+
+    void addThreshold(Reproduction &made, const FalseAlarmFigure &figure, const NoiseRun &run,
+                      const ReproduceOptions &options)
+    {
         const auto atWanted = [](const std::vector<float> &block, double cells) {
             return thresholdOf(block, cells, wantedPfa);
         };
+        const double threshold = thresholdOf(run.largest, run.cells, wantedPfa);
         made.cells.push_back(
-            printed(judged(cellOf("threshold", "Pfa 1e-4", thresholdOf(run.largest, run.cells, wantedPfa),
-                                  intervalOfBlocks(perBlock(run, atWanted))),
-                           figure.referenceThreshold, figure.thresholdTolerance * widen),
+            printed(judged(cellOf("threshold", "Pfa 1e-4", threshold, intervalOfBlocks(perBlock(run, atWanted))),
+                           figure.referenceThreshold, widened(figure.thresholdTolerance, options)),
                     figure.paperThreshold));
-        if (figure.motion == "nonManoeuvring") {
-            // The tail is exponential: from 1e-4 on along Lindley's slope.
-            const double slope = 1.0 - lindleySigma(run.lnK);
-            made.cells.push_back(printed(cellOf("threshold", "Pfa 1e-7, along Lindley's slope",
-                                                thresholdOf(run.largest, run.cells, wantedPfa) + std::log(1e3) / slope),
-                                         43.0));
-        } else {
-            std::vector<double> means;
-            std::vector<double> highest;
-            const std::size_t perPart = std::size_t(20);
-            for (std::size_t first = 0; first + perPart <= run.peaks.size(); first += perPart) {
-                const std::vector<double> part(run.peaks.begin() + std::ptrdiff_t(first),
-                                               run.peaks.begin() + std::ptrdiff_t(first + perPart));
-                means.push_back(meanOf(part));
-                highest.push_back(*std::max_element(part.begin(), part.end()));
-            }
-            made.cells.push_back(
-                printed(judged(cellOf("peak of a ping", "mean over 20 pings", meanOf(means), intervalOfBlocks(means)),
-                               21.1, 3.0),
-                        20.5));
-            made.cells.push_back(printed(
-                judged(cellOf("peak of a ping", "largest of 20 pings", meanOf(highest), intervalOfBlocks(highest)),
-                       24.9, 6.0),
-                23.1));
-        }
+        if (!isNonManoeuvring(figure))
+            return;
+        // The tail is exponential: from 1e-4 on along Lindley's slope.
+        const double slope = 1.0 - lindleySigma(run.lnK);
+        made.cells.push_back(
+            printed(cellOf("threshold", "Pfa 1e-7, along Lindley's slope", threshold + std::log(1e3) / slope), 43.0));
+    }
 
+    void addPeaks(Reproduction &made, const NoiseRun &run)
+    {
+        std::vector<double> means;
+        std::vector<double> highest;
+        const std::size_t perPart = std::size_t(20);
+        for (std::size_t first = 0; first + perPart <= run.peaks.size(); first += perPart) {
+            const std::vector<double> part(run.peaks.begin() + std::ptrdiff_t(first),
+                                           run.peaks.begin() + std::ptrdiff_t(first + perPart));
+            means.push_back(meanOf(part));
+            highest.push_back(*std::max_element(part.begin(), part.end()));
+        }
+        made.cells.push_back(printed(
+            judged(cellOf("peak of a ping", "mean over 20 pings", meanOf(means), intervalOfBlocks(means)), 21.1, 3.0),
+            20.5));
+        made.cells.push_back(
+            printed(judged(cellOf("peak of a ping", "largest of 20 pings", meanOf(highest), intervalOfBlocks(highest)),
+                           24.9, 6.0),
+                    23.1));
+    }
+
+    void addExceedances(Reproduction &made, const FalseAlarmFigure &figure, const NoiseRun &run)
+    {
         Chart chart{figure.title, "threshold (nats)", "Pfa per cell", false, true, {}};
         Curve measured{"simulated here", Curve::Kind::Measured, {}};
         Curve reference{"independent program", Curve::Kind::Paper, {}};
@@ -204,13 +220,25 @@ namespace {
             reference.points.push_back({level, figure.referencePfa[i], {}});
         }
         chart.curves = {measured, paper, reference};
-        if (figure.motion == "nonManoeuvring") {
+        if (isNonManoeuvring(figure)) {
             Curve theory{"123 states, Lindley's closed form", Curve::Kind::Theory, {}};
             for (double level = figure.levels.front(); level <= figure.levels.back(); level += 0.5)
                 theory.points.push_back({level, lindleyPerCell(level, run.lnK, 123.0), {}});
             chart.curves.push_back(theory);
         }
         made.charts.push_back(chart);
+    }
+
+    Reproduction reproduceFalseAlarms(const FalseAlarmFigure &figure, const ReproduceOptions &options,
+                                      const RunContext &context)
+    {
+        const NoiseRun run = runOnNoise(figure, options, context);
+        Reproduction made{figure.name, figure.title, "see rows", {}, {}, {}};
+        addRegulation(made, figure, run, options);
+        addThreshold(made, figure, run, options);
+        if (!isNonManoeuvring(figure))
+            addPeaks(made, run);
+        addExceedances(made, figure, run);
         return made;
     }
 

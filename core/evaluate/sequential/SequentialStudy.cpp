@@ -4,11 +4,10 @@
 #include "base/fastmath.h"
 #include "base/multiversion.h"
 #include "base/parallel.h"
-#include "spectrum/cellAveraging.h"
+#include "evaluate/sequential/TrajectoryJudge.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <memory>
 
 namespace faintline {
@@ -51,15 +50,16 @@ namespace {
             addFolded(ratio.data(), ratio.data() + other, cells);
     }
 
-    /// weights = predicted · ratio; total(lane) = Σ weights
+    /// weights = predicted · ratio of cells × lanes; total(lane) = Σ weights
     FAINTLINE_MULTIVERSION
-    void weigh(const double *predicted, const double *ratio, Index cells, Index lanes, double *weights, double *total)
+    void weigh(const double *predicted, const double *ratio, Index cells, double *weights, std::span<double> total)
     {
+        const Index lanes = std::ssize(total);
         for (Index cell = 0; cell < cells; ++cell)
             for (Index lane = 0; lane < lanes; ++lane) {
                 const double weight = predicted[cell * lanes + lane] * ratio[cell * lanes + lane];
                 weights[cell * lanes + lane] = weight;
-                total[lane] += weight;
+                total[std::size_t(lane)] += weight;
             }
     }
 
@@ -159,8 +159,7 @@ namespace {
             std::fill(m_total.begin(), m_total.end(), 0.0);
             for (Index plane = 0; plane < m_states / m_cells; ++plane) {
                 const Index offset = plane * m_cells * m_lanes;
-                weigh(predicted.data() + offset, m_ratio.data(), m_cells, m_lanes, m_weights.data() + offset,
-                      m_total.data());
+                weigh(predicted.data() + offset, m_ratio.data(), m_cells, m_weights.data() + offset, m_total);
             }
         }
 
@@ -206,87 +205,6 @@ namespace {
         std::vector<double> m_total;
         std::vector<float> m_cellRatio;
         std::vector<Slot> m_slot;
-    };
-
-    /// Estimates the trajectory of an accepted trial and holds it against the truth.
-    class TrajectoryJudge
-    {
-    public:
-        TrajectoryJudge(const SequentialStudy &study, const TrajectorySampler &sampler)
-            : m_study(study), m_sampler(sampler), m_map(study.model)
-        {
-        }
-
-        void judge(Index number, TrialOutcome &outcome)
-        {
-            const Index cells = m_study.model.reduction.stateCells();
-            const Index folded = m_study.model.reduction.foldedCells();
-            const double lnFolded = std::log(double(folded));
-            SequentialTrial trial(m_study, m_sampler, number);
-            std::vector<Index> truth;
-            m_lambda.assign(std::size_t(outcome.stages * cells), 0.0);
-            m_best.assign(m_lambda.size(), 0);
-            for (Index stage = 0; stage < outcome.stages; ++stage) {
-                const std::span<const float> y = trial.next();
-                truth.push_back(position(trial.state(), trial.folded()));
-                for (Index cell = 0; cell < cells; ++cell) {
-                    Index best = 0;
-                    for (Index d = 1; d < folded; ++d)
-                        if (y[std::size_t(d * cells + cell)] > y[std::size_t(best * cells + cell)])
-                            best = d;
-                    const auto at = std::size_t(stage * cells + cell);
-                    m_best[at] = best;
-                    m_lambda[at] =
-                        m_study.model.markov.likelihood.at(double(y[std::size_t(best * cells + cell)])) - lnFolded;
-                }
-            }
-            const MapTrajectory map = m_map.estimate(outcome.stages, [&](Index stage, std::span<double> out) {
-                std::copy_n(m_lambda.begin() + stage * cells, cells, out.begin());
-            });
-            Index worst = 0;
-            Index error = 0;
-            for (Index stage = 0; stage < outcome.stages; ++stage) {
-                const Index state = map.states[std::size_t(stage)];
-                const Index best = m_best[std::size_t(stage * cells + m_study.model.markov.space.cellOf(state))];
-                error = distance(position(state, best), truth[std::size_t(stage)]);
-                worst = std::max(worst, error);
-            }
-            outcome.isLastCorrect = error <= m_study.lastWithinCells;
-            outcome.isTrackCorrect = worst <= m_study.trackWithinCells;
-        }
-
-    private:
-        bool isAllFolded() const { return m_study.model.reduction.stateCells() == 1; }
-
-        /// The cell of a state; where every axis is folded, the cell on those: a line of which nothing is known.
-        Index position(Index state, Index folded) const
-        {
-            return isAllFolded() ? folded : m_study.model.markov.space.cellOf(state);
-        }
-
-        /// Largest distance along any axis.
-        Index distance(Index a, Index b) const
-        {
-            if (isAllFolded())
-                return std::abs(a - b);
-            Index largest = 0;
-            Index inner = 1;
-            const std::vector<KinematicAxis> &axes = m_study.model.markov.space.axes();
-            for (auto axis = axes.rbegin(); axis != axes.rend(); ++axis) {
-                Index along = std::abs(a / inner % axis->cells - b / inner % axis->cells);
-                if (axis->cyclic)
-                    along = std::min(along, axis->cells - along);
-                largest = std::max(largest, along);
-                inner *= axis->cells;
-            }
-            return largest;
-        }
-
-        const SequentialStudy &m_study;
-        const TrajectorySampler &m_sampler;
-        MapEstimator m_map;
-        std::vector<double> m_lambda;
-        std::vector<Index> m_best;
     };
 
     Estimate meanOf(double sum, double sumOfSquares, double n)
@@ -345,41 +263,6 @@ namespace {
 
 } // namespace
 
-SequentialTrial::SequentialTrial(const SequentialStudy &study, const TrajectorySampler &sampler, Index trial)
-    : m_study(&study), m_sampler(&sampler), m_noise(study.seed, 2 * std::uint64_t(trial)),
-      m_target(study.seed, 2 * std::uint64_t(trial) + 1), m_frameCells(study.model.reduction.frameCells())
-{
-    // Whole blocks of four random words at a time, about 256 cells or a frame.
-    m_bufferFrames =
-        m_frameCells % 4 == 0 ? std::max<Index>(1, 256 / m_frameCells) : 4 * std::max<Index>(1, 64 / m_frameCells);
-    m_used = m_bufferFrames;
-    m_buffer.resize(std::size_t(m_bufferFrames * m_frameCells));
-}
-
-std::span<const float> SequentialTrial::next()
-{
-    if (m_used == m_bufferFrames) {
-        m_noise.exponentials(m_buffer);
-        m_used = 0;
-    }
-    const std::span<float> y(m_buffer.data() + m_used * m_frameCells, std::size_t(m_frameCells));
-    ++m_used;
-    if (m_study->actualSnr) {
-        m_state = m_state < 0 ? m_sampler->first(m_target) : m_sampler->next(m_state, m_target, m_stage);
-        ++m_stage;
-        const StateSpace &space = m_study->model.markov.space;
-        if (const Index folded = m_study->model.reduction.foldedCells(); folded > 1)
-            m_folded = Index(m_target.uniform() * double(folded));
-        float &cell = y[std::size_t(m_folded * space.cellCount() + space.cellOf(m_state))];
-        cell *= float(1.0 + *m_study->actualSnr);
-    }
-    if (m_study->averagedCells > 0) {
-        averageCells(y, m_study->model.markov.space.axes().back().cells, m_study->averagedCells);
-        correctAveraged(y, m_study->averagedCells, m_study->model.markov.likelihood.snr());
-    }
-    return y;
-}
-
 SequentialOutcome simulate(const SequentialStudy &study, const RunContext &context)
 {
     check(study);
@@ -396,8 +279,11 @@ SequentialOutcome simulate(const SequentialStudy &study, const RunContext &conte
             TrialOutcome *own = outcomes.data() + first;
             runner->run(first, count, own, context);
             for (Index i = 0; judge && i < count; ++i)
-                if (own[i].decision == SprtDecision::H1)
-                    judge->judge(first + i, own[i]);
+                if (own[i].decision == SprtDecision::H1) {
+                    const TrajectoryJudge::Errors errors = judge->errorsOf(first + i, own[i].stages);
+                    own[i].isLastCorrect = errors.last <= study.lastWithinCells;
+                    own[i].isTrackCorrect = errors.largest <= study.trackWithinCells;
+                }
         };
     });
     return summarise(study, outcomes);

@@ -1,0 +1,397 @@
+#include "evaluate/experiments/InjectionExperiment.h"
+
+#include "analysis/Calibration.h"
+#include "analysis/chain.h"
+#include "analysis/slopeUnit.h"
+#include "base/Error.h"
+#include "base/Random.h"
+#include "base/parallel.h"
+#include "evaluate/experiments/SignalMask.h"
+#include "evaluate/experiments/measuredThreshold.h"
+#include "recording/InjectedRecording.h"
+#include "spectrum/NoiseNormaliser.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+namespace faintline {
+
+namespace {
+
+    constexpr Index framesBefore = 100; ///< for detectors to settle before the line begins
+    constexpr double cellsAside = 24.0; ///< of the band looked at, beyond the line's own travel
+    constexpr double cellsOfBlock = 12.0;
+    constexpr double cellsToSignals = 2.0;  ///< of a line's path from the nearest one
+    constexpr double certainSignals = 1e-3; ///< of the false alarms asked for, where what is found is a signal
+    constexpr int attempts = 1000;
+    constexpr float lowest = -std::numeric_limits<float>::infinity();
+
+    /// Of one detector, slopes in bins a frame.
+    AnalysisSettings settingsOfDetector(const InjectionExperiment &experiment, std::size_t detector,
+                                        const RecordingInfo &info)
+    {
+        AnalysisSettings settings = experiment.settings;
+        settings.model = experiment.detectors[detector].settings.model;
+        settings.detector = experiment.detectors[detector].settings.detector;
+        return withSlopesInBins(settings, info);
+    }
+
+    /// What the frames of a selection hold, its levels as its background has them: clicks are judged by a whole band
+    /// only.
+    std::shared_ptr<const NormalisedSpectrogram> framesOf(std::shared_ptr<const Spectrogram> spectrogram,
+                                                          std::shared_ptr<const NoiseBackground> background,
+                                                          NormaliserSettings noise)
+    {
+        noise.followLevel = false;
+        return std::make_shared<NormalisedSpectrogram>(std::move(spectrogram), std::move(background), noise);
+    }
+
+    /// Goes through all frames; take(frame, y) sees each.
+    template <class Take>
+    void forEachFrame(const NormalisedFrames &frames, const RunContext &context, const char *what, Take take)
+    {
+        std::vector<float> y(std::size_t(frames.grid().size()));
+        const Index count = frames.time().count;
+        for (Index frame = 0; frame < count; ++frame) {
+            if (frame % 64 == 0)
+                context.checkpoint(double(frame) / double(count), what);
+            frames.read(frame, 1, y);
+            take(frame, std::span<float>(y));
+        }
+    }
+
+    /// What the detectors' chains track, with the boxes kept from them meanwhile.
+    SignalMask signalsFoundBy(const std::vector<Analysis> &analyses, const RunContext &context)
+    {
+        const NormalisedFrames &frames = *analyses.front().frames;
+        SignalMask mask(frames.time().count, frames.grid().size());
+        std::vector<std::unique_ptr<DetectionChain>> chains;
+        for (const Analysis &analysis : analyses)
+            chains.push_back(makeChain(analysis));
+        std::vector<float> statistic(std::size_t(frames.grid().size()));
+        forEachFrame(frames, context, "searching for signals", [&](Index frame, std::span<float> y) {
+            for (const auto &chain : chains) {
+                chain->update(frame, y, statistic);
+                for (const CellBox &box : chain->inhibited())
+                    mask.add(frame, box.centre.front() - box.halfWidth.front(),
+                             box.centre.front() + box.halfWidth.front());
+            }
+        });
+        for (std::size_t d = 0; d < chains.size(); ++d) {
+            chains[d]->finish();
+            const SpectrogramSettings &settings = analyses[d].settings.spectrogram;
+            const auto aside = Index(
+                std::ceil(analyses[d].settings.decide.inhibitCells.front() * frameGeometry(settings).binsPerCell));
+            for (const Track &track : chains[d]->tracks())
+                for (const TrackPoint &point : track.points)
+                    mask.add(point.frame, point.cell - aside, point.cell + aside);
+        }
+        return mask;
+    }
+
+    /// The frames that a detector sees of a trial.
+    struct Look {
+        Index first;
+        Index last;
+        bool waits; ///< for the first block end after the line
+    };
+
+    /// The largest statistic of every detector in each block of the recording that is not signals through and through.
+    std::vector<std::vector<float>> blockMaxima(const std::vector<Analysis> &analyses, const SignalMask &mask,
+                                                Index blockFrames, Index blockBins, const RunContext &context)
+    {
+        const NormalisedFrames &frames = *analyses.front().frames;
+        const Index bins = frames.grid().size();
+        const Index columns = std::max<Index>(1, bins / blockBins);
+        std::vector<std::unique_ptr<Detector>> detectors;
+        for (const Analysis &analysis : analyses)
+            detectors.push_back(makeDetector(analysis));
+        std::vector<std::vector<float>> maxima(detectors.size());
+        std::vector<std::vector<float>> open(detectors.size());
+        std::vector<bool> isFree(static_cast<std::size_t>(columns));
+        const auto close = [&] {
+            for (std::size_t d = 0; d < detectors.size(); ++d)
+                for (std::size_t column = 0; column < open[d].size(); ++column)
+                    if (isFree[column])
+                        maxima[d].push_back(open[d][column]);
+        };
+        std::vector<float> statistic(static_cast<std::size_t>(bins));
+        forEachFrame(frames, context, "counting false alarms", [&](Index frame, std::span<float> y) {
+            if (frame % blockFrames == 0) {
+                close();
+                open.assign(detectors.size(), std::vector<float>(std::size_t(columns), lowest));
+                isFree.assign(isFree.size(), false);
+            }
+            mask.blank(frame, 0, y);
+            for (std::size_t d = 0; d < detectors.size(); ++d) {
+                detectors[d]->update(y, statistic);
+                for (Index bin = 0; bin < bins; ++bin) {
+                    if (y[std::size_t(bin)] == 0.0f)
+                        continue;
+                    const auto column = std::size_t(std::min(bin / blockBins, columns - 1));
+                    isFree[column] = true;
+                    open[d][column] = std::max(open[d][column], statistic[std::size_t(bin)]);
+                }
+            }
+        });
+        close();
+        return maxima;
+    }
+
+} // namespace
+
+struct InjectionTrials::Shared {
+    RecordingPointer recording;
+    std::shared_ptr<const Spectrogram> spectrogram; ///< of the whole selection
+    std::shared_ptr<const NoiseBackground> background;
+    std::vector<ResetRule> rules;
+    std::optional<SignalMask> signals;
+};
+
+InjectionTrials::InjectionTrials(const InjectionExperiment &experiment, RecordingPointer recording,
+                                 const RunContext &context)
+    : m_experiment(experiment)
+{
+    if (experiment.settings.noise.causal)
+        throw fieldError("noise.causal", "true",
+                         "is not possible in this experiment, which estimates the noise once for all trials");
+    checkHasNoFamily(experiment.settings, "is not possible in this experiment");
+    for (const DetectorUnderTest &detector : experiment.detectors)
+        checkHasNoFamily(detector.settings, "is not possible in this experiment");
+    auto shared = std::make_unique<Shared>();
+    shared->recording = std::move(recording);
+    shared->spectrogram = std::make_shared<Spectrogram>(shared->recording, experiment.settings.spectrogram,
+                                                        experiment.settings.selection);
+    const Axis &time = shared->spectrogram->time();
+    if (experiment.durationSeconds >= double(time.count) * time.step)
+        throw fieldError("durationSeconds", formatNumber(experiment.durationSeconds),
+                         "must be shorter than the selection, " + formatNumber(double(time.count) * time.step) + " s");
+    shared->background = estimateBackground(*shared->spectrogram, experiment.settings.noise, context.part(0.0, 0.2));
+    const double cellFramesPerHour = double(shared->spectrogram->frequency().count) * 3600.0 / time.step;
+    const double ordered = experiment.falseAlarmsPerHour / cellFramesPerHour;
+    const auto frames = framesOf(shared->spectrogram, shared->background, experiment.settings.noise);
+    std::vector<Analysis> analyses;
+    for (std::size_t d = 0; d < experiment.detectors.size(); ++d) {
+        const AnalysisSettings settings = settingsOfDetector(experiment, d, shared->spectrogram->recording().info());
+        const auto n = double(experiment.detectors.size());
+        const auto calibration = calibrateBand(settings, *shared->spectrogram,
+                                               context.part(0.2 + 0.6 * double(d) / n, 0.2 + 0.6 * double(d + 1) / n));
+        const auto *smd = std::get_if<SmdSettings>(&settings.detector);
+        shared->rules.push_back(smd ? resetRule(*smd, calibration->lnK) : ResetRule{});
+        Analysis analysis;
+        analysis.settings = settings;
+        analysis.frames = frames;
+        analysis.model = makeModel(settings.model, frames->grid());
+        analysis.calibration = calibration;
+        analysis.threshold = calibration->thresholdForEventRate(certainSignals * ordered);
+        analyses.push_back(std::move(analysis));
+    }
+    shared->signals = signalsFoundBy(analyses, context.part(0.8, 0.9));
+    const auto blockFrames = std::max<Index>(1, Index(std::lround(experiment.durationSeconds / time.step)));
+    const auto blockBins = Index(std::lround(cellsOfBlock * shared->spectrogram->binsPerCell()));
+    const auto maxima = blockMaxima(analyses, *shared->signals, blockFrames, blockBins, context.part(0.9, 1.0));
+    const double falseAlarms =
+        ordered * shared->signals->freeShare() * double(time.count) * double(frames->grid().size());
+    for (std::size_t d = 0; d < analyses.size(); ++d)
+        m_thresholds.push_back(measuredThreshold(maxima[d], falseAlarms, *analyses[d].calibration, ordered));
+    m_shared = std::move(shared);
+}
+
+InjectionTrials::~InjectionTrials() = default;
+
+InjectionTrials::Made InjectionTrials::remake(int trial, double snrDb) const
+{
+    const Spectrogram &spectrogram = *m_shared->spectrogram;
+    const RecordingInfo &info = m_shared->recording->info();
+    const auto seed = std::uint64_t(m_experiment.seed);
+    Random places(seed, std::uint64_t(trial));
+    const Axis &time = spectrogram.time();
+    const Axis &frequency = spectrogram.frequency();
+    const double window = spectrogram.windowSeconds();
+    const double begin = time.first - 0.5 * window;
+    const double room = double(time.count - 1) * time.step + window - m_experiment.durationSeconds;
+    const double travel = m_experiment.driftHzPerSecond * m_experiment.durationSeconds;
+    const double margin = 2.0 / window + 4.0 * m_experiment.wanderHz;
+    const double low = frequency.first + margin + std::max(0.0, -travel);
+    const double high = frequency.last() - margin - std::max(0.0, travel);
+    if (!(low < high))
+        throw Error("driftHzPerSecond, wanderHz", "a line must stay within the selected band of "
+                                                      + formatNumber(frequency.last() - frequency.first) + " Hz");
+    InjectedLine injected;
+    LineSettings &line = injected.line;
+    line.snrDb = snrDb;
+    line.referenceSeconds = window;
+    line.durationSeconds = m_experiment.durationSeconds;
+    double offsetHz = 0.0;
+    const auto isFree = [&] {
+        const auto aside =
+            Index(std::ceil(cellsToSignals * spectrogram.binsPerCell() + 4.0 * m_experiment.wanderHz / frequency.step));
+        const auto last = Index(std::ceil(time.position(line.startSeconds + line.durationSeconds)));
+        for (auto frame = Index(std::floor(time.position(line.startSeconds))); frame <= last; ++frame) {
+            const double elapsed = std::clamp(time.value(double(frame)) - line.startSeconds, 0.0, line.durationSeconds);
+            const Index bin = frequency.nearest(offsetHz + m_experiment.driftHzPerSecond * elapsed);
+            if (m_shared->signals->touches(frame, bin - aside, bin + aside))
+                return false;
+        }
+        return true;
+    };
+    int attempt = 0;
+    do {
+        line.startSeconds = begin + places.uniform() * room;
+        offsetHz = low + places.uniform() * (high - low);
+    } while (!isFree() && ++attempt < attempts);
+    if (attempt == attempts)
+        throw fieldError("durationSeconds", formatNumber(m_experiment.durationSeconds),
+                         "must be shorter: no part of the selection is free of signals for that long");
+    line.frequencyHz = info.centreHz + offsetHz;
+    line.driftHzPerSecond = m_experiment.driftHzPerSecond;
+    line.wanderHz = m_experiment.wanderHz;
+    line.wanderSeconds = m_experiment.wanderSeconds;
+    const double middle = line.startSeconds + 0.5 * line.durationSeconds;
+    const double noisePower = std::exp(m_shared->background->lnPowerAt(middle, offsetHz + 0.5 * travel));
+    injected.amplitude = toneAmplitude(snrDb, noisePower, double(spectrogram.windowSamples()), info.isComplex);
+    // The tone's phase and wander belong to the trial too.
+    const std::uint64_t own = seed * 1000003 + std::uint64_t(trial);
+    const auto made = std::make_shared<InjectedRecording>(m_shared->recording, std::vector{injected},
+                                                          m_experiment.settings.selection.channel, own);
+    return {made, made->truth().lines.front()};
+}
+
+/// The detectors' look at the band around one trial's line.
+class InjectionTrials::LineLook
+{
+public:
+    LineLook(const InjectionTrials &trials, const Made &made, bool hasLine)
+        : m_experiment(trials.m_experiment), m_shared(*trials.m_shared), m_truth(made.truth),
+          m_frames(framesAround(hasLine ? made.recording : m_shared.recording))
+    {
+        const Axis &time = m_shared.spectrogram->time();
+        const Index lastNeeded = std::min(time.count - 1, Index(std::ceil(time.position(m_truth.endSeconds))));
+        const Index firstNeeded =
+            std::max<Index>(0, Index(std::floor(time.position(m_truth.startSeconds))) - framesBefore);
+        const Grid &grid = m_frames->grid();
+        for (std::size_t d = 0; d < m_experiment.detectors.size(); ++d) {
+            const AnalysisSettings settings = settingsOfDetector(m_experiment, d, m_shared.recording->info());
+            // Blocks stand where they do in the whole recording, and the one that the line ends in is waited for.
+            const Index block = framesPerDecision(settings.detector, frameGeometry(settings.spectrogram));
+            const Index blockEnd =
+                block == 1 ? lastNeeded : std::min(time.count - 1, (lastNeeded / block + 1) * block - 1);
+            m_looks.push_back({firstNeeded / block * block, blockEnd, block > 1});
+            m_detectors.push_back(makeDetector(settings.detector, makeModel(settings.model, grid), grid,
+                                               frameGeometry(settings.spectrogram), m_shared.rules[d]));
+        }
+    }
+
+    /// The largest statistic of every detector on the line's path.
+    std::vector<float> largest()
+    {
+        const Axis &time = m_shared.spectrogram->time();
+        const Index firstBin = m_shared.spectrogram->frequency().nearest(m_frames->grid().axes.front().first);
+        const auto [first, last] = frameRange();
+        std::vector<float> largest(m_detectors.size(), lowest);
+        std::vector<float> y(std::size_t(m_frames->grid().size()));
+        std::vector<float> statistic(y.size());
+        for (Index frame = first; frame <= last; ++frame) {
+            m_frames->read(frame, 1, y);
+            m_shared.signals->blank(frame, firstBin, y);
+            const double seconds = time.value(double(frame));
+            const Bins path = pathAt(seconds);
+            for (std::size_t d = 0; d < m_detectors.size(); ++d) {
+                if (frame < m_looks[d].first || frame > m_looks[d].last)
+                    continue;
+                m_detectors[d]->update(y, statistic);
+                if (seconds < m_truth.startSeconds || (seconds > m_truth.endSeconds && !m_looks[d].waits))
+                    continue;
+                for (Index bin = path.from; bin <= path.to; ++bin)
+                    largest[d] = std::max(largest[d], statistic[std::size_t(bin)]);
+            }
+        }
+        return largest;
+    }
+
+private:
+    std::shared_ptr<const NormalisedSpectrogram> framesAround(const RecordingPointer &recording) const
+    {
+        const Spectrogram &whole = *m_shared.spectrogram;
+        const double centreHz = m_shared.recording->info().centreHz;
+        const double aside = cellsAside * whole.frequency().step * whole.binsPerCell();
+        const auto [low, high] = std::minmax_element(m_truth.frequencyHz.begin(), m_truth.frequencyHz.end());
+        SelectionSettings selection = m_experiment.settings.selection;
+        selection.lowHz = std::max(whole.frequency().first, *low - centreHz - aside);
+        selection.highHz = std::min(whole.frequency().last(), *high - centreHz + aside);
+        return framesOf(std::make_shared<Spectrogram>(recording, whole.settings(), selection), m_shared.background,
+                        m_experiment.settings.noise);
+    }
+
+    std::pair<Index, Index> frameRange() const
+    {
+        Look all = m_looks.front();
+        for (const Look &look : m_looks) {
+            all.first = std::min(all.first, look.first);
+            all.last = std::max(all.last, look.last);
+        }
+        return {all.first, all.last};
+    }
+
+    struct Bins {
+        Index from;
+        Index to;
+    };
+
+    /// Where the line is looked for: on its path, and around its end afterwards.
+    Bins pathAt(double seconds) const
+    {
+        const double binsPerCell = m_shared.spectrogram->binsPerCell();
+        const auto onLine = Index(std::floor(0.5 * binsPerCell));
+        const auto afterIt = Index(std::ceil(m_experiment.settings.decide.inhibitCells.front() * binsPerCell));
+        const Axis &axis = m_frames->grid().axes.front();
+        const double hz = m_truth.frequencyAt(std::min(seconds, m_truth.endSeconds));
+        const Index bin = axis.nearest(hz - m_shared.recording->info().centreHz);
+        const Index aside = seconds > m_truth.endSeconds ? afterIt : onLine;
+        return {std::max<Index>(0, bin - aside), std::min(axis.count - 1, bin + aside)};
+    }
+
+    const InjectionExperiment &m_experiment;
+    const Shared &m_shared;
+    const TruthLine &m_truth;
+    std::shared_ptr<const NormalisedSpectrogram> m_frames;
+    std::vector<std::unique_ptr<Detector>> m_detectors;
+    std::vector<Look> m_looks;
+};
+
+std::vector<RunOutcome> InjectionTrials::run(const std::vector<int> &trials, const RunContext &context,
+                                             const RunSink &sink) const
+{
+    const auto largestOn = [&](int trial, double snrDb, bool hasLine) {
+        const Made made = remake(trial, snrDb);
+        return LineLook(*this, made, hasLine).largest();
+    };
+    std::vector<RunOutcome> outcomes(trials.size());
+    std::mutex guard;
+    parallelFor(std::ssize(trials), context, "injecting lines", [&] {
+        return [&](Index i) {
+            RunOutcome &outcome = outcomes[std::size_t(i)];
+            outcome.run = trials[std::size_t(i)];
+            outcome.signal.assign(m_experiment.detectors.size(),
+                                  std::vector<std::vector<float>>(m_experiment.snrDb.size()));
+            for (const float value : largestOn(outcome.run, 0.0, false))
+                outcome.noise.push_back({value});
+            for (std::size_t s = 0; s < m_experiment.snrDb.size(); ++s) {
+                const std::vector<float> largest = largestOn(outcome.run, m_experiment.snrDb[s], true);
+                for (std::size_t d = 0; d < largest.size(); ++d)
+                    outcome.signal[d][s] = {largest[d]};
+            }
+            if (sink) {
+                const std::lock_guard lock(guard);
+                sink(outcome);
+            }
+        };
+    });
+    return outcomes;
+}
+
+} // namespace faintline

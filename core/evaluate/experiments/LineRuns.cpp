@@ -1,0 +1,252 @@
+#include "evaluate/experiments/NoisyField.h"
+
+#include "analysis/Calibration.h"
+#include "base/logmath.h"
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+namespace faintline {
+
+namespace {
+
+    /// Where the experiment's detectors come from, once K is known.
+    struct Recipe {
+        MarkovModel model;
+        DetectorSettings detector;
+        ResetRule rule;
+    };
+
+    Grid gridOf(const LineExperiment &experiment)
+    {
+        return {{Axis{"frequency", "cells", 0.0, 1.0 / experiment.binsPerCell, experiment.bins(), false}}};
+    }
+
+    /// Fields of the experiment's own noise, of runs that no experiment reaches, to find K on.
+    std::vector<NormalisedFramesPointer> calibrationNoise(const LineExperiment &experiment, const RunContext &context)
+    {
+        constexpr int fields = 4;
+        std::vector<NormalisedFramesPointer> noise(fields);
+        parallelFor(fields, context, "calibrating K on noise", [&] {
+            return [&, transform = std::make_shared<FieldTransform>(experiment)](Index i) {
+                NoisyField field;
+                makeNoise(experiment, std::numeric_limits<int>::max() - int(i), *transform, field);
+                field.signal.assign(field.noise.size(), {});
+                std::vector<float> y(field.noise.size());
+                const Index bins = experiment.bins();
+                for (Index frame = 0; frame < experiment.frames; ++frame)
+                    powerOf(field, bins, frame, 0.0f,
+                            std::span(y).subspan(std::size_t(frame * bins), std::size_t(bins)));
+                const Axis time{"time", "windows", 0.0, 1.0 / experiment.stepsPerWindow, experiment.frames, false};
+                noise[std::size_t(i)] = std::make_shared<FrameArray>(time, gridOf(experiment), std::move(y));
+            };
+        });
+        return noise;
+    }
+
+    std::vector<Recipe> recipesOf(const LineExperiment &experiment, const RunContext &context)
+    {
+        std::vector<Recipe> recipes;
+        for (const DetectorUnderTest &detectorUnderTest : experiment.detectors)
+            recipes.push_back({makeModel(detectorUnderTest.settings.model, gridOf(experiment)),
+                               detectorUnderTest.settings.detector,
+                               {}});
+        const auto noise = calibrationNoise(experiment, context);
+        parallelFor(std::ssize(recipes), context, "calibrating K on noise", [&] {
+            return [&](Index i) {
+                Recipe &recipe = recipes[std::size_t(i)];
+                if (const auto *smd = std::get_if<SmdSettings>(&recipe.detector))
+                    recipe.rule = resetRule(*smd, fitReset(noise, recipe.model, *smd).lnK);
+            };
+        });
+        return recipes;
+    }
+
+    FrameGeometry geometryOf(const LineExperiment &experiment)
+    {
+        return {double(experiment.stepsPerWindow), double(experiment.binsPerCell)};
+    }
+
+    /// Lines begin at random in their noise blocks, a detector's own blocks at random in the run: by the golden ratio,
+    /// so that few runs already have all phases.
+    Index blockPhase(int run, Index framesPerBlock)
+    {
+        const double turns = 0.6180339887498949 * (run + 1);
+        return Index((turns - std::floor(turns)) * double(framesPerBlock));
+    }
+
+    std::vector<std::unique_ptr<Detector>> detectorsOf(const LineExperiment &experiment,
+                                                       const std::vector<Recipe> &recipes, int run)
+    {
+        std::vector<std::unique_ptr<Detector>> detectors;
+        for (const Recipe &recipe : recipes) {
+            FrameGeometry geometry = geometryOf(experiment);
+            geometry.blockPhase = blockPhase(run, framesPerDecision(recipe.detector, geometry));
+            detectors.push_back(makeDetector(recipe.detector, recipe.model, gridOf(experiment), geometry, recipe.rule));
+        }
+        return detectors;
+    }
+
+    constexpr float lowest = -std::numeric_limits<float>::infinity();
+
+    /// One run's field before all detectors.
+    class Run
+    {
+    public:
+        Run(const LineExperiment &experiment, int number, const std::vector<Recipe> &recipes, FieldTransform &transform)
+            : m_experiment(experiment), m_number(number), m_recipes(recipes),
+              m_field(makeField(experiment, number, transform)), m_signals(std::size_t(experiment.signalsPerRun()))
+        {
+            for (const Recipe &recipe : recipes)
+                m_waits.push_back(framesPerDecision(recipe.detector, geometryOf(experiment)) - 1);
+        }
+
+        RunOutcome outcome() const
+        {
+            RunOutcome outcome;
+            outcome.run = m_number;
+            outcome.noise = largestInBlocks();
+            outcome.signal.assign(m_recipes.size(), {});
+            for (const double snrDb : m_experiment.snrDb) {
+                const auto largest = largestOnLines(float(std::sqrt(ratioFromDb(snrDb))));
+                for (std::size_t d = 0; d < m_recipes.size(); ++d)
+                    outcome.signal[d].push_back(largest[d]);
+            }
+            return outcome;
+        }
+
+    private:
+        using Largest = std::vector<std::vector<float>>; ///< [detector][block or signal]
+
+        Largest lowestOfAll() const { return Largest(m_recipes.size(), std::vector<float>(m_signals, lowest)); }
+
+        Index blockedFrames() const { return Index(m_experiment.blocksInTime()) * m_experiment.blockFrames; }
+
+        /// Runs all detectors over the field's frames; look(detector, frame, statistic) sees each.
+        template <class Look>
+        void detect(float amplitude, Index frames, Look look) const
+        {
+            const auto detectors = detectorsOf(m_experiment, m_recipes, m_number);
+            std::vector<float> y(std::size_t(m_experiment.bins()));
+            std::vector<float> statistic(y.size());
+            for (Index frame = 0; frame < frames; ++frame) {
+                powerOf(m_field, m_experiment.bins(), frame, amplitude, y);
+                for (std::size_t d = 0; d < detectors.size(); ++d) {
+                    detectors[d]->update(y, statistic);
+                    look(d, frame, statistic);
+                }
+            }
+        }
+
+        /// On the noise alone.
+        Largest largestInBlocks() const
+        {
+            Largest result = lowestOfAll();
+            detect(0.0f, blockedFrames(), [&](std::size_t d, Index frame, const std::vector<float> &statistic) {
+                const Index row = frame / m_experiment.blockFrames * m_experiment.blocksInFrequency();
+                for (Index column = 0; column < m_experiment.blocksInFrequency(); ++column) {
+                    const auto from = statistic.begin() + column * m_experiment.blockBins;
+                    float &largest = result[d][std::size_t(row + column)];
+                    largest = std::max(largest, *std::max_element(from, from + m_experiment.blockBins));
+                }
+            });
+            return result;
+        }
+
+        /// A detector that decides at the end of blocks is read at the first one after the line, too, one resolution
+        /// cell to either side of where that ended: at the latest, a block after it. In the frames between it says -∞.
+        Largest largestOnLines(float amplitude) const
+        {
+            Largest result = lowestOfAll();
+            const Index longestWait = *std::max_element(m_waits.begin(), m_waits.end());
+            detect(amplitude, longestWait > 0 ? m_experiment.frames : blockedFrames(),
+                   [&](std::size_t d, Index frame, const std::vector<float> &statistic) {
+                       for (std::size_t i = 0; i < m_signals; ++i)
+                           readLine(m_field.places[i], frame, m_waits[d], statistic, result[d][i]);
+                   });
+            return result;
+        }
+
+        void readLine(const Place &place, Index frame, Index wait, const std::vector<float> &statistic,
+                      float &largest) const
+        {
+            const Index k = frame - place.firstFrame;
+            const Index frames = std::ssize(place.bins);
+            if (k < 0 || k >= frames + wait)
+                return;
+            const Index onLine = k < frames ? 0 : m_experiment.binsPerCell;
+            const Index centre = place.bins[std::size_t(std::min(k, frames - 1))];
+            const Index last = std::min<Index>(m_experiment.bins() - 1, centre + onLine);
+            for (Index bin = std::max<Index>(0, centre - onLine); bin <= last; ++bin)
+                largest = std::max(largest, statistic[std::size_t(bin)]);
+        }
+
+        const LineExperiment &m_experiment;
+        int m_number;
+        const std::vector<Recipe> &m_recipes;
+        NoisyField m_field;
+        std::size_t m_signals;
+        std::vector<Index> m_waits; ///< of each detector, for its next decision
+    };
+
+} // namespace
+
+std::vector<ResetRule> calibratedResets(const LineExperiment &experiment, const RunContext &context)
+{
+    checkExperiment(experiment);
+    std::vector<ResetRule> rules;
+    for (const Recipe &recipe : recipesOf(experiment, context))
+        rules.push_back(recipe.rule);
+    return rules;
+}
+
+std::vector<RunOutcome> runExperiment(const LineExperiment &experiment, const std::vector<int> &runs,
+                                      const RunContext &context, const RunSink &sink)
+{
+    checkExperiment(experiment);
+    const std::vector<Recipe> recipes = recipesOf(experiment, context.part(0.0, 0.1));
+    std::vector<RunOutcome> outcomes(runs.size());
+    std::mutex guard;
+    parallelFor(std::ssize(runs), context.part(0.1, 1.0), "simulating", [&] {
+        return [&, transform = std::make_shared<FieldTransform>(experiment)](Index i) {
+            RunOutcome &outcome = outcomes[std::size_t(i)];
+            outcome = Run(experiment, runs[std::size_t(i)], recipes, *transform).outcome();
+            if (sink) {
+                const std::lock_guard lock(guard);
+                sink(outcome);
+            }
+        };
+    });
+    return outcomes;
+}
+
+LineTrial remakeTrial(const LineExperiment &experiment, double snrDb, int run, int signal)
+{
+    checkExperiment(experiment);
+    FieldTransform transform(experiment);
+    const NoisyField field = makeField(experiment, run, transform);
+    const Index firstFrame = Index(signal / experiment.blocksInFrequency()) * experiment.blockFrames;
+    const Index firstBin = Index(signal % experiment.blocksInFrequency()) * experiment.blockBins;
+    std::vector<float> y(std::size_t(experiment.bins()));
+    std::vector<float> block;
+    for (Index frame = firstFrame; frame < firstFrame + experiment.blockFrames; ++frame) {
+        powerOf(field, experiment.bins(), frame, float(std::sqrt(ratioFromDb(snrDb))), y);
+        block.insert(block.end(), y.begin() + firstBin, y.begin() + firstBin + experiment.blockBins);
+    }
+    LineTrial trial;
+    const Axis time{"time", "windows", 0.0, 1.0 / experiment.stepsPerWindow, experiment.blockFrames, false};
+    const Axis frequency{
+        "frequency",          "cells", double(firstBin) / experiment.binsPerCell, 1.0 / experiment.binsPerCell,
+        experiment.blockBins, false};
+    trial.frames = std::make_shared<FrameArray>(time, Grid{{frequency}}, std::move(block));
+    const Place &place = field.places[std::size_t(signal)];
+    trial.firstFrame = place.firstFrame - firstFrame;
+    for (const Index bin : place.bins)
+        trial.path.push_back(bin - firstBin);
+    return trial;
+}
+
+} // namespace faintline

@@ -1,0 +1,165 @@
+#include "evaluate/experiments/NoisyField.h"
+
+#include "base/Random.h"
+#include "base/multiversion.h"
+#include "recording/Tone.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    using Complex = std::complex<float>;
+
+    /// Streams of one run: its noise, then where its signals lie; the signals' own wander and phase follow from Tone.
+    constexpr std::uint64_t streamsPerRun = 2;
+
+    RecordingInfo recordingInfo(const LineExperiment &experiment)
+    {
+        // One window lasts a second, so that Hz are resolution cells.
+        RecordingInfo info;
+        info.sampleRateHz = LineExperiment::windowSamples;
+        info.isComplex = true;
+        info.centreHz = 0.5 * LineExperiment::windowSamples; // frequencies 0 … 250 cells
+        info.sampleCount = Index(LineExperiment::windowSamples) * (experiment.frames + experiment.stepsPerWindow - 1)
+                           / experiment.stepsPerWindow;
+        return info;
+    }
+
+    /// The bin where a signal is strongest, near where its frequency says.
+    Index strongestBin(const LineExperiment &experiment, const std::vector<Complex> &signal, Index frame, double cells,
+                       Index lowest)
+    {
+        const auto expected = Index(std::lround(cells * experiment.binsPerCell));
+        const Index reach = 2 * experiment.binsPerCell;
+        const Index from = std::clamp<Index>(expected - reach, lowest, lowest + experiment.blockBins - 1);
+        const Index to = std::clamp<Index>(expected + reach, lowest, lowest + experiment.blockBins - 1);
+        const Complex *row = signal.data() + frame * experiment.bins();
+        Index best = from;
+        for (Index bin = from + 1; bin <= to; ++bin)
+            if (std::norm(row[bin]) > std::norm(row[best]))
+                best = bin;
+        return best;
+    }
+
+    /// Mean frequency, in cells, that a frame's window sees.
+    double meanFrequency(const TruthLine &truth, double windowStart)
+    {
+        constexpr int points = 8;
+        double sum = 0.0;
+        for (int i = 0; i < points; ++i)
+            sum += truth.frequencyAt(windowStart + (i + 0.5) / points);
+        return sum / points;
+    }
+
+    /// y = |noise + amplitude·signal|² of interleaved complex values.
+    FAINTLINE_MULTIVERSION
+    void power(const float *noise, const float *signal, float amplitude, Index n, float *y)
+    {
+        for (Index i = 0; i < n; ++i) {
+            const float re = noise[2 * i] + amplitude * signal[2 * i];
+            const float im = noise[2 * i + 1] + amplitude * signal[2 * i + 1];
+            y[i] = re * re + im * im;
+        }
+    }
+
+} // namespace
+
+FieldTransform::FieldTransform(const LineExperiment &experiment)
+    : m_hop(LineExperiment::windowSamples / experiment.stepsPerWindow), m_frames(experiment.frames),
+      m_bins(experiment.bins()), m_window(sampleWindow(experiment.window, LineExperiment::windowSamples)),
+      m_fft(experiment.bins(), Fft::Input::Complex), m_buffer(m_fft.buffer())
+{
+}
+
+void FieldTransform::run(std::span<const float> samples, std::vector<Complex> &out)
+{
+    out.resize(std::size_t(m_frames * m_bins));
+    for (Index frame = 0; frame < m_frames; ++frame) {
+        const float *from = samples.data() + 2 * frame * m_hop;
+        const std::span<float> input = m_buffer->input();
+        for (std::size_t i = 0; i < m_window.size(); ++i) {
+            input[2 * i] = from[2 * i] * m_window[i];
+            input[2 * i + 1] = from[2 * i + 1] * m_window[i];
+        }
+        std::fill(input.begin() + std::ptrdiff_t(2 * m_window.size()), input.end(), 0.0f);
+        m_fft.run(*m_buffer);
+        // The centre frequency stands in the middle of the axis.
+        const auto spectrum = m_buffer->output();
+        Complex *row = out.data() + frame * m_bins;
+        const Index half = m_bins / 2;
+        std::copy(spectrum.begin() + (m_bins - half), spectrum.end(), row);
+        std::copy(spectrum.begin(), spectrum.begin() + (m_bins - half), row + half);
+    }
+}
+
+void makeNoise(const LineExperiment &experiment, int run, FieldTransform &transform, NoisyField &field)
+{
+    std::vector<float> samples(std::size_t(2 * recordingInfo(experiment).sampleCount));
+    Random(std::uint64_t(experiment.seed), std::uint64_t(run) * streamsPerRun).normals(samples, float(std::sqrt(0.5)));
+    transform.run(samples, field.noise);
+}
+
+NoisyField makeField(const LineExperiment &experiment, int run, FieldTransform &transform)
+{
+    NoisyField field;
+    makeNoise(experiment, run, transform, field);
+    const RecordingInfo info = recordingInfo(experiment);
+    const auto seed = std::uint64_t(experiment.seed);
+    std::vector<float> samples(std::size_t(2 * info.sampleCount));
+    Random places(seed, std::uint64_t(run) * streamsPerRun + 1);
+    const double amplitude = toneAmplitude(0.0, 1.0, LineExperiment::windowSamples, true);
+    const double blockCells = double(experiment.blockBins) / experiment.binsPerCell;
+    const double travel = experiment.driftCellsPerWindow * experiment.durationWindows;
+    std::vector<TruthLine> truths;
+    for (int i = 0; i < experiment.signalsPerRun(); ++i) {
+        const int blockInTime = i / experiment.blocksInFrequency();
+        const int blockInFrequency = i % experiment.blocksInFrequency();
+        Place place;
+        const Index room = experiment.blockFrames - experiment.signalFrames() + 1;
+        place.firstFrame =
+            Index(blockInTime) * experiment.blockFrames + std::min(room - 1, Index(places.uniform() * double(room)));
+        const double margin = 1.0;
+        const double lowest = blockInFrequency * blockCells + margin + std::max(0.0, -travel);
+        const double highest = (blockInFrequency + 1) * blockCells - margin - std::max(0.0, travel);
+        LineSettings line;
+        line.snrDb = 0.0;
+        line.referenceSeconds = 1.0;
+        line.startSeconds = double(place.firstFrame) / experiment.stepsPerWindow;
+        line.durationSeconds = experiment.durationWindows;
+        line.frequencyHz = lowest + places.uniform() * (highest - lowest);
+        line.driftHzPerSecond = experiment.driftCellsPerWindow;
+        line.wanderHz = experiment.wanderCells;
+        line.wanderSeconds = experiment.wanderWindows;
+        line.fading = experiment.fading;
+        line.fadingSeconds = experiment.fadingWindows;
+        const Tone tone(line, amplitude, info, seed, Index(run) * experiment.signalsPerRun() + i);
+        tone.addTo(0, samples);
+        truths.push_back(tone.truth());
+        field.places.push_back(std::move(place));
+    }
+    transform.run(samples, field.signal);
+    for (std::size_t i = 0; i < truths.size(); ++i) {
+        Place &place = field.places[i];
+        const Index lowest = Index(i) % experiment.blocksInFrequency() * experiment.blockBins;
+        for (Index k = 0; k < experiment.signalFrames(); ++k) {
+            const Index frame = place.firstFrame + k;
+            const double start = double(frame) / experiment.stepsPerWindow;
+            place.bins.push_back(
+                strongestBin(experiment, field.signal, frame, meanFrequency(truths[i], start), lowest));
+        }
+    }
+    return field;
+}
+
+void powerOf(const NoisyField &field, Index bins, Index frame, float amplitude, std::span<float> y)
+{
+    const auto row = [&](const std::vector<Complex> &values) {
+        return reinterpret_cast<const float *>(values.data() + frame * bins);
+    };
+    power(row(field.noise), row(field.signal), amplitude, bins, y.data());
+}
+
+} // namespace faintline

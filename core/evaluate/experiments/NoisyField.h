@@ -1,0 +1,53 @@
+#pragma once
+
+#include "evaluate/experiments/LineExperiment.h"
+#include "spectrum/Fft.h"
+
+#include <complex>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace faintline {
+
+// What a run of the experiment is made of, LineExperiment.h.
+
+/// A line's true place in the field.
+struct Place {
+    Index firstFrame = 0;
+    std::vector<Index> bins; ///< one per frame of its duration
+};
+
+/// The field of one run: noise, and unit-SNR signals to be added at any strength.
+struct NoisyField {
+    std::vector<std::complex<float>> noise;  ///< frames × bins
+    std::vector<std::complex<float>> signal; ///< of SNR 1
+    std::vector<Place> places;
+};
+
+/// Sliding transforms of interleaved complex samples, scaled to unit noise variance. One object per thread.
+class FieldTransform
+{
+public:
+    explicit FieldTransform(const LineExperiment &experiment);
+
+    void run(std::span<const float> samples, std::vector<std::complex<float>> &out);
+
+private:
+    Index m_hop;
+    Index m_frames;
+    Index m_bins;
+    std::vector<float> m_window;
+    Fft m_fft;
+    std::unique_ptr<Fft::Buffer> m_buffer;
+};
+
+/// The run's noise alone.
+void makeNoise(const LineExperiment &experiment, int run, FieldTransform &transform, NoisyField &field);
+
+NoisyField makeField(const LineExperiment &experiment, int run, FieldTransform &transform);
+
+/// y = |noise + amplitude·signal|² of one frame of `bins` values.
+void powerOf(const NoisyField &field, Index bins, Index frame, float amplitude, std::span<float> y);
+
+} // namespace faintline
