@@ -8,19 +8,145 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
 namespace faintline::cli {
 
-void addCalibrate(CLI::App &app, Common &common)
-{
-    struct Options {
+namespace {
+
+    struct CalibrateOptions {
         AnalysisOptions analysis;
         int surrogates = 0;
         bool json = false;
     };
-    const auto options = std::make_shared<Options>();
+
+    Json toJson(const Calibration &calibration, const DetectorSettings &detector)
+    {
+        Json json{{"detector", std::string(detectorNames[detector.index()])},
+                  {"lnK", calibration.lnK},
+                  {"continuedFraction", calibration.continuedFraction},
+                  {"tailSlopePerNat", calibration.tailSlope},
+                  {"statisticUnit", statisticUnit(detector)}};
+        Json pfa = Json::array();
+        for (const double probability : {1e-3, 1e-4, 1e-5, 1e-6})
+            pfa.push_back({{"pfaPerCell", probability}, {"thresholdNats", calibration.thresholdForPfa(probability)}});
+        json["thresholds"] = pfa;
+        return json;
+    }
+
+    /// What the calibration comes to in an hour of a recording.
+    Json onRecording(const Calibration &calibration, const AnalysisSettings &settings, const Spectrogram &spectrogram)
+    {
+        const double cellFramesPerHour = cellFramesInAnHour(settings.family, spectrogram);
+        const double nats = thresholdNats(settings.decide, calibration, cellFramesPerHour);
+        const double rate = calibration.eventRateAt(nats);
+        const double half = calibration.thresholdUncertainty(rate);
+        return {{"thresholdNats", nats},
+                {"intervalNats", {nats - half, nats + half}},
+                {"pfaPerCell", calibration.exceedanceAt(nats)},
+                {"falseAlarmsPerHour", rate * cellFramesPerHour},
+                {"falseAlarmsPerHourInterval",
+                 {calibration.eventRateAt(nats + half) * cellFramesPerHour,
+                  calibration.eventRateAt(nats - half) * cellFramesPerHour}}};
+    }
+
+    /// `threshold`: the one that the counts correct, nat.
+    Json toJson(const SurrogateCount &count, double threshold)
+    {
+        return {{"runs", count.runs},
+                {"hours", count.hours},
+                {"orderPerHour", count.orderPerHour},
+                {"thresholdNats", count.threshold},
+                {"ordered", count.ordered},
+                {"events", count.events},
+                {"ratio", count.ratio},
+                {"ratioInterval", {count.interval.low, count.interval.high}},
+                {"correctionNats", count.correction},
+                {"correctedThresholdNats", threshold + count.correction}};
+    }
+
+    void printThresholds(const Json &json, const DetectorSettings &detector)
+    {
+        std::printf("detector           %s\n", json["detector"].get<std::string>().c_str());
+        const auto lnK = json["lnK"].get<double>();
+        if (std::holds_alternative<SmdSettings>(detector))
+            std::printf("ln K               %.4f (K = %.4f), %.1f %% of the states continued on noise\n", lnK,
+                        std::exp(lnK), 100.0 * json["continuedFraction"].get<double>());
+        const std::string unit(statisticUnit(detector));
+        for (const Json &entry : json["thresholds"])
+            std::printf("Pfa per cell %.0e  threshold %.3f %s\n", entry["pfaPerCell"].get<double>(),
+                        entry["thresholdNats"].get<double>(), unit.c_str());
+    }
+
+    void printRecording(const Json &found, const std::string &unit)
+    {
+        std::printf(
+            "on this recording  threshold %.3f %s (95 %%: %.3f … %.3f), Pfa per cell %.2e, %.3g false alarms per "
+            "hour (95 %%: %.3g … %.3g)\n",
+            found["thresholdNats"].get<double>(), unit.c_str(), found["intervalNats"][0].get<double>(),
+            found["intervalNats"][1].get<double>(), found["pfaPerCell"].get<double>(),
+            found["falseAlarmsPerHour"].get<double>(), found["falseAlarmsPerHourInterval"][0].get<double>(),
+            found["falseAlarmsPerHourInterval"][1].get<double>());
+    }
+
+    void printSurrogates(const Json &s)
+    {
+        std::printf(
+            "surrogates         %d of %.3g h in all, counted at %.3g per hour: %d events of %.3g specified, ratio "
+            "%.2f (95 %%: %.2f … %.2f)\n",
+            s["runs"].get<int>(), s["hours"].get<double>(), s["orderPerHour"].get<double>(), s["events"].get<int>(),
+            s["ordered"].get<double>(), s["ratio"].get<double>(), s["ratioInterval"][0].get<double>(),
+            s["ratioInterval"][1].get<double>());
+        if (s["correctionNats"].get<double>() == 0.0)
+            std::printf("                   as specified: no correction\n");
+        else
+            std::printf("                   corrected threshold: --set decide.thresholdNats=%.3f\n",
+                        s["correctedThresholdNats"].get<double>());
+    }
+
+    void print(const Json &json, const DetectorSettings &detector)
+    {
+        printThresholds(json, detector);
+        if (json.contains("recording"))
+            printRecording(json["recording"], std::string(statisticUnit(detector)));
+        if (json.contains("surrogates"))
+            printSurrogates(json["surrogates"]);
+    }
+
+    void calibrateFor(const CalibrateOptions &options, const Common &common)
+    {
+        const bool hasFile = !options.analysis.file.empty();
+        AnalysisSettings settings = options.analysis.settings();
+        std::shared_ptr<const Spectrogram> spectrogram;
+        if (hasFile && leavesWindowToRecording(settings))
+            settings = analyseInChosenWindow(options.analysis.recording(), settings, common.context())->settings;
+        if (hasFile)
+            spectrogram =
+                std::make_shared<Spectrogram>(options.analysis.recording(), settings.spectrogram, settings.selection);
+        const auto calibration = spectrogram ? calibrateBand(settings, *spectrogram, common.context())
+                                             : calibrate(settings, common.context());
+        Json json = toJson(*calibration, settings.detector);
+        if (spectrogram)
+            json["recording"] = onRecording(*calibration, settings, *spectrogram);
+        if (options.surrogates > 0 && !hasFile)
+            throw Error("--surrogates", "needs FILE, the recording whose noise is to be simulated");
+        if (options.surrogates > 0)
+            json["surrogates"] =
+                toJson(countOnSurrogates(options.analysis.recording(), settings, options.surrogates, common.context()),
+                       json["recording"]["thresholdNats"].get<double>());
+        if (options.json)
+            std::printf("%s\n", json.dump(2).c_str());
+        else
+            print(json, settings.detector);
+    }
+
+} // namespace
+
+void addCalibrate(CLI::App &app, Common &common)
+{
+    const auto options = std::make_shared<CalibrateOptions>();
     CLI::App *command = app.add_subcommand("calibrate", "Calibrate K for a 50 % reset probability, and thresholds with "
                                                         "their intervals, on simulated noise");
     options->analysis.addTo(*command, common);
@@ -31,89 +157,7 @@ void addCalibrate(CLI::App &app, Common &common)
                      "quantisation and background")
         ->check(CLI::Range(1, 10000));
     command->add_flag("--json", options->json, "Print as JSON");
-    command->callback([options, &common] {
-        AnalysisSettings settings = options->analysis.settings();
-        std::shared_ptr<const Spectrogram> spectrogram;
-        if (!options->analysis.file.empty() && leavesWindowToRecording(settings))
-            settings = analyseInChosenWindow(options->analysis.recording(), settings, common.context())->settings;
-        if (!options->analysis.file.empty())
-            spectrogram =
-                std::make_shared<Spectrogram>(options->analysis.recording(), settings.spectrogram, settings.selection);
-        const auto calibration = spectrogram ? calibrateBand(settings, *spectrogram, common.context())
-                                             : calibrate(settings, common.context());
-        Json json{{"detector", std::string(detectorNames[settings.detector.index()])},
-                  {"lnK", calibration->lnK},
-                  {"continuedFraction", calibration->continuedFraction},
-                  {"tailSlopePerNat", calibration->tailSlope},
-                  {"statisticUnit", statisticUnit(settings.detector)}};
-        Json pfa = Json::array();
-        for (const double probability : {1e-3, 1e-4, 1e-5, 1e-6})
-            pfa.push_back({{"pfaPerCell", probability}, {"thresholdNats", calibration->thresholdForPfa(probability)}});
-        json["thresholds"] = pfa;
-        if (spectrogram) {
-            const double cellFramesPerHour = cellFramesInAnHour(settings.family, *spectrogram);
-            const double nats = thresholdNats(settings.decide, *calibration, cellFramesPerHour);
-            const double rate = calibration->eventRateAt(nats);
-            const double half = calibration->thresholdUncertainty(rate);
-            json["recording"] = {{"thresholdNats", nats},
-                                 {"intervalNats", {nats - half, nats + half}},
-                                 {"pfaPerCell", calibration->exceedanceAt(nats)},
-                                 {"falseAlarmsPerHour", rate * cellFramesPerHour},
-                                 {"falseAlarmsPerHourInterval",
-                                  {calibration->eventRateAt(nats + half) * cellFramesPerHour,
-                                   calibration->eventRateAt(nats - half) * cellFramesPerHour}}};
-        }
-        if (options->surrogates > 0) {
-            if (options->analysis.file.empty())
-                throw Error("--surrogates", "needs FILE, the recording whose noise is to be simulated");
-            const SurrogateCount count =
-                countOnSurrogates(options->analysis.recording(), settings, options->surrogates, common.context());
-            json["surrogates"] = {
-                {"runs", count.runs},
-                {"hours", count.hours},
-                {"orderPerHour", count.orderPerHour},
-                {"thresholdNats", count.threshold},
-                {"ordered", count.ordered},
-                {"events", count.events},
-                {"ratio", count.ratio},
-                {"ratioInterval", {count.interval.low, count.interval.high}},
-                {"correctionNats", count.correction},
-                {"correctedThresholdNats", json["recording"]["thresholdNats"].get<double>() + count.correction}};
-        }
-        if (options->json) {
-            std::printf("%s\n", json.dump(2).c_str());
-            return;
-        }
-        std::printf("detector           %s\n", json["detector"].get<std::string>().c_str());
-        if (std::holds_alternative<SmdSettings>(settings.detector))
-            std::printf("ln K               %.4f (K = %.4f), %.1f %% of the states continued on noise\n",
-                        calibration->lnK, std::exp(calibration->lnK), 100.0 * calibration->continuedFraction);
-        const std::string unit(statisticUnit(settings.detector));
-        for (const Json &entry : pfa)
-            std::printf("Pfa per cell %.0e  threshold %.3f %s\n", entry["pfaPerCell"].get<double>(),
-                        entry["thresholdNats"].get<double>(), unit.c_str());
-        if (const auto found = json.find("recording"); found != json.end())
-            std::printf("on this recording  threshold %.3f %s (95 %%: %.3f … %.3f), Pfa per cell %.2e, %.3g false "
-                        "alarms per hour (95 %%: %.3g … %.3g)\n",
-                        (*found)["thresholdNats"].get<double>(), unit.c_str(),
-                        (*found)["intervalNats"][0].get<double>(), (*found)["intervalNats"][1].get<double>(),
-                        (*found)["pfaPerCell"].get<double>(), (*found)["falseAlarmsPerHour"].get<double>(),
-                        (*found)["falseAlarmsPerHourInterval"][0].get<double>(),
-                        (*found)["falseAlarmsPerHourInterval"][1].get<double>());
-        if (const auto found = json.find("surrogates"); found != json.end()) {
-            const Json &s = *found;
-            std::printf("surrogates         %d of %.3g h in all, counted at %.3g per hour: %d events of %.3g "
-                        "specified, ratio %.2f (95 %%: %.2f … %.2f)\n",
-                        s["runs"].get<int>(), s["hours"].get<double>(), s["orderPerHour"].get<double>(),
-                        s["events"].get<int>(), s["ordered"].get<double>(), s["ratio"].get<double>(),
-                        s["ratioInterval"][0].get<double>(), s["ratioInterval"][1].get<double>());
-            if (s["correctionNats"].get<double>() == 0.0)
-                std::printf("                   as specified: no correction\n");
-            else
-                std::printf("                   corrected threshold: --set decide.thresholdNats=%.3f\n",
-                            s["correctedThresholdNats"].get<double>());
-        }
-    });
+    command->callback([options, &common] { calibrateFor(*options, common); });
 }
 
 } // namespace faintline::cli

@@ -4,7 +4,6 @@
 #include "analysis/advice.h"
 #include "analysis/analyse.h"
 #include "analysis/chooseWindow.h"
-#include "analysis/explain.h"
 #include "analysis/falseAlarmWords.h"
 #include "analysis/judgeByBoxes.h"
 #include "analysis/noiseLaw.h"
@@ -50,7 +49,7 @@ namespace {
     /// The analysis as if the conventional detector had made it.
     Analysis conventionally(const Analysis &analysis)
     {
-        if (analysis.grid().axes.size() < 2)
+        if (isSpectrum(analysis.grid()))
             throw Error("--conventional", "requires frames on several axes, such as sonar pings; for lines choose "
                                           "detector.kind = energy or pOfN");
         Analysis other = analysis;
@@ -116,9 +115,9 @@ namespace {
     }
 
     /// Simulated pings know their targets: what was found of them.
-    void printScore(const Analysis &analysis, const SimulatedPings &pings)
+    void printScore(const Analysis &analysis, const PingTruth &truth)
     {
-        const TrackScore score = scoreTracks(analysis.tracks, pings.truth(), pings.grid(), {3, 1});
+        const TrackScore score = scoreTracks(analysis.tracks, truth, analysis.grid(), {3, 1});
         for (std::size_t i = 0; i < score.targets.size(); ++i) {
             const TargetScore &own = score.targets[i];
             std::printf("target %zu: ", i + 1);
@@ -136,31 +135,24 @@ namespace {
         std::printf("false tracks: %d, of them confirmed: %d\n", score.falseTracks, score.falseConfirmed);
     }
 
-    std::shared_ptr<const Analysis> detectInFrames(const DetectOptions &options, const RunContext &context,
-                                                   const StatisticSink &sink, const NormalisedFramesPointer &frames,
-                                                   AnalysisSettings settings)
+    /// The model of a file, with its law of resets in the settings.
+    MarkovModel modelFor(const std::string &path, const NormalisedFrames &frames, AnalysisSettings &settings)
     {
-        if (options.model.empty())
-            return analyse(frames, settings, context, nullptr, sink);
-        MarkovModel model;
-        {
-            const ModelFile file = readModelFile(options.model);
-            model = file.model;
-            for (const KinematicAxis &axis : model.space.axes())
-                if (axis.isPlaceDependent())
-                    throw Error(options.model, "has an axis whose law differs from cell to cell; trackers need one law "
-                                               "for the whole axis, \"rates\" or a list of \"step\" probabilities");
-            if (model.space.cellCount() != frames->grid().size())
-                throw Error(options.model, "has " + std::to_string(model.space.cellCount())
-                                               + " cells, but the frames have "
-                                               + std::to_string(frames->grid().size()));
-            auto &smd = std::get<SmdSettings>(settings.detector);
-            smd.lnK = file.reset.lnK;
-            smd.reset = file.reset.law == ResetLaw::Mean   ? SmdSettings::Reset::Mean
-                        : file.reset.law == ResetLaw::Half ? SmdSettings::Reset::Half
-                                                           : SmdSettings::Reset::Fixed;
-        }
-        return analyse(frames, model, settings, context, sink);
+        const ModelFile file = readModelFile(path);
+        for (const KinematicAxis &axis : file.model.space.axes())
+            if (axis.isPlaceDependent())
+                throw Error(path,
+                            "has an axis whose law differs from cell to cell; trackers need one law for the whole "
+                            "axis, \"rates\" or a list of \"step\" probabilities");
+        if (file.model.space.cellCount() != frames.grid().size())
+            throw Error(path, "has " + std::to_string(file.model.space.cellCount()) + " cells, but the frames have "
+                                  + std::to_string(frames.grid().size()));
+        auto &smd = std::get<SmdSettings>(settings.detector);
+        smd.lnK = file.reset.lnK;
+        smd.reset = file.reset.law == ResetLaw::Mean   ? SmdSettings::Reset::Mean
+                    : file.reset.law == ResetLaw::Half ? SmdSettings::Reset::Half
+                                                       : SmdSettings::Reset::Fixed;
+        return file.model;
     }
 
     /// The events, each with what the annotations say of it.
@@ -173,11 +165,14 @@ namespace {
             std::printf("%zu annotation(s), %d event(s) reviewed by them\n", boxes.size(), judged.judged);
     }
 
-    void detect(DetectOptions options, const Common &common)
+    /// The files that are asked for.
+    std::vector<std::string> outputsOf(const DetectOptions &options)
     {
-        if (options.events.empty() && options.tracks.empty() && options.statistic.empty()
-            && options.conventional.empty())
-            options.summary = true; // who asks for nothing else wants to know what there is
+        return {options.events, options.tracks, options.statistic, options.conventional};
+    }
+
+    void checkOptions(const DetectOptions &options)
+    {
         if (!options.annotations.empty() && options.events.empty())
             throw Error("--annotations", "requires --events");
         if (!options.events.empty())
@@ -186,229 +181,148 @@ namespace {
             checkTracksPath(options.tracks);
         if (!options.conventional.empty())
             checkEventsPath(options.conventional);
-        checkOutputs({options.events, options.tracks, options.statistic, options.conventional});
+        checkOutputs(outputsOf(options));
         if (!options.frames.empty() && !options.analysis.file.empty())
             throw Error("detect", "accepts either a recording or --frames");
-        const RunContext context = common.context();
-        std::optional<NumPyWriter> writer;
-        NormalisedFramesPointer frames;
+    }
+
+    /// What is looked through: a recording, or frames that are ready for the detector.
+    struct DetectInput {
+        AnalysisSettings settings;
         RecordingPointer recording;
-        std::vector<Index> shape;
-        AnalysisSettings settings = options.analysis.settings();
-        if (!options.frames.empty())
-            frames = readFrames(options.frames, options.grid);
-        else
-            frames = options.analysis.frames(settings, context);
-        if (frames) {
-            shape.push_back(frames->time().count);
-            for (const Axis &axis : frames->grid().axes)
-                shape.push_back(axis.count);
-        } else {
-            if (options.analysis.file.empty())
-                throw Error("detect", "needs a recording, or --frames with ready-made frames");
-            recording = options.analysis.recording();
-        }
+        NormalisedFramesPointer frames;
+        std::optional<PingTruth> truth; ///< of simulated pings
         std::vector<Annotation> annotations;
-        if (!options.annotations.empty()) {
-            if (!recording && frames->grid().axes.size() != 1)
-                throw Error("--annotations", "requires frames on frequency only; these frames have more than one axis");
-            annotations = readAnnotations(options.annotations, recording ? recording->info() : RecordingInfo());
+    };
+
+    DetectInput open(const DetectOptions &options, const RunContext &context)
+    {
+        DetectInput input;
+        input.settings = options.analysis.settings();
+        if (!options.frames.empty()) {
+            input.frames = readFrames(options.frames, options.grid);
+        } else if (const auto pings = openPings(options.analysis.file)) {
+            input.frames = pings;
+            input.truth = pings->truth();
+        } else {
+            input.frames = options.analysis.frames(input.settings, context);
         }
-        StatisticSink sink;
-        std::shared_ptr<const Analysis> inChosenWindow;
-        if (!options.statistic.empty()) {
-            if (recording) {
-                if (leavesWindowToRecording(settings)) {
-                    inChosenWindow = analyseInChosenWindow(recording, settings, context.part(0.0, 0.7));
-                    settings = inChosenWindow->settings;
-                }
-                const Spectrogram geometry(recording, settings.spectrogram, settings.selection);
-                shape = {geometry.time().count, familyAxis(settings.family, geometry.frequency()).count};
-            }
-            writer.emplace(options.statistic, shape);
-            sink = [&writer](Index, std::span<const float> values) { writer->write(values); };
-        }
-        std::shared_ptr<const Analysis> analysis;
-        if (frames)
-            analysis = detectInFrames(options, context, sink, frames, settings);
-        else if (sink)
-            analysis =
-                analyse(recording, settings, context.part(inChosenWindow ? 0.7 : 0.0, 1.0), inChosenWindow.get(), sink);
-        else
-            analysis = analyseInChosenWindow(recording, settings, context);
-        if (inChosenWindow)
-            analysis = inChosenWindow; // its tracks are more than those of the statistic
-        context.checkpoint(1.0, "done");
+        if (!input.frames && options.analysis.file.empty())
+            throw Error("detect", "needs a recording, or --frames with ready-made frames");
+        if (!input.frames)
+            input.recording = options.analysis.recording();
+        if (options.annotations.empty())
+            return input;
+        if (input.frames && !isSpectrum(input.frames->grid()))
+            throw Error("--annotations", "requires frames on frequency only; these frames have more than one axis");
+        input.annotations =
+            readAnnotations(options.annotations, input.recording ? input.recording->info() : RecordingInfo());
+        return input;
+    }
+
+    std::shared_ptr<const Analysis> analyseFrames(const DetectInput &input, const DetectOptions &options,
+                                                  const RunContext &context, const StatisticSink &sink)
+    {
+        if (options.model.empty())
+            return analyse(input.frames, input.settings, context, nullptr, sink);
+        AnalysisSettings settings = input.settings;
+        const MarkovModel model = modelFor(options.model, *input.frames, settings);
+        return analyse(input.frames, model, settings, context, sink);
+    }
+
+    /// Frames, then the cells of each axis.
+    std::vector<Index> shapeOf(const NormalisedFrames &frames)
+    {
+        std::vector<Index> shape{frames.time().count};
+        for (const Axis &axis : frames.grid().axes)
+            shape.push_back(axis.count);
+        return shape;
+    }
+
+    std::vector<Index> shapeOf(const RecordingPointer &recording, const AnalysisSettings &settings)
+    {
+        const Spectrogram geometry(recording, settings.spectrogram, settings.selection);
+        return {geometry.time().count, familyAxis(settings.family, geometry.frequency()).count};
+    }
+
+    StatisticSink sinkOf(std::optional<NumPyWriter> &writer, const std::string &path, const std::vector<Index> &shape)
+    {
+        writer.emplace(path, shape);
+        return [&writer](Index, std::span<const float> values) { writer->write(values); };
+    }
+
+    /// `writer`: where the statistic goes, if it is asked for.
+    std::shared_ptr<const Analysis> run(const DetectInput &input, const DetectOptions &options,
+                                        const RunContext &context, std::optional<NumPyWriter> &writer)
+    {
+        const bool writesStatistic = !options.statistic.empty();
+        if (input.frames)
+            return analyseFrames(input, options, context,
+                                 writesStatistic ? sinkOf(writer, options.statistic, shapeOf(*input.frames))
+                                                 : StatisticSink());
+        if (!writesStatistic)
+            return analyseInChosenWindow(input.recording, input.settings, context);
+        if (!leavesWindowToRecording(input.settings))
+            return analyse(input.recording, input.settings, context, nullptr,
+                           sinkOf(writer, options.statistic, shapeOf(input.recording, input.settings)));
+        // A window that is chosen first; its tracks are more than those of the statistic.
+        const auto chosen = analyseInChosenWindow(input.recording, input.settings, context.part(0.0, 0.7));
+        analyse(input.recording, chosen->settings, context.part(0.7, 1.0), chosen.get(),
+                sinkOf(writer, options.statistic, shapeOf(input.recording, chosen->settings)));
+        return chosen;
+    }
+
+    void write(const Analysis &analysis, const DetectInput &input, const DetectOptions &options, const Common &common,
+               std::optional<NumPyWriter> &writer)
+    {
         std::vector<std::string> inputs = options.analysis.inputs();
         inputs.insert(inputs.end(), {options.frames, options.grid, options.model, options.annotations});
         CommitTogether files;
-        writeProvenance(common, inputs, {options.events, options.tracks, options.statistic, options.conventional});
+        writeProvenance(common, inputs, outputsOf(options));
         if (!options.annotations.empty())
-            writeJudged(*analysis, annotations, options);
+            writeJudged(analysis, input.annotations, options);
         else if (!options.events.empty())
-            writeEvents(*analysis, options.events);
+            writeEvents(analysis, options.events);
         if (!options.tracks.empty())
-            writeTracks(*analysis, options.tracks);
+            writeTracks(analysis, options.tracks);
         if (!options.conventional.empty())
-            writeEvents(conventionally(*analysis), options.conventional);
+            writeEvents(conventionally(analysis), options.conventional);
         if (writer)
             writer->finish();
         files.commit();
-        if (options.summary)
-            printSummary(*analysis);
-        if (options.summary && recording && recording->nonFiniteCount() > 0)
+    }
+
+    void printResult(const Analysis &analysis, const DetectInput &input, bool areFramesGiven)
+    {
+        printSummary(analysis);
+        if (input.recording && input.recording->nonFiniteCount() > 0)
             std::printf("some samples are not finite; they are read as 0\n");
-        if (options.summary && !options.frames.empty())
-            if (const std::string warning = noiseMeanWarning(*frames); !warning.empty())
+        if (areFramesGiven)
+            if (const std::string warning = noiseMeanWarning(*input.frames); !warning.empty())
                 std::printf("%s\n", warning.c_str());
-        if (const auto *pings = dynamic_cast<const SimulatedPings *>(frames.get()); pings && options.summary)
-            printScore(*analysis, *pings);
-        if (options.summary && analysis->grid().axes.size() > 1) {
-            std::printf("conventional detector: %zu track(s)\n", analysis->conventional.size());
-            if (const auto *pings = dynamic_cast<const SimulatedPings *>(frames.get()))
-                printScore(conventionally(*analysis), *pings);
-        }
-    }
-
-    constexpr const char *resetNames[]{"beginning", "background", "forgotten"};
-
-    void printExplanation(const Explanation &explanation, const Analysis &analysis, bool asJson)
-    {
-        const StateSpace &space = analysis.modelAt(explanation.model).space;
-        const std::vector<Axis> &axes = analysis.grid().axes;
-        // What is held against the threshold: the path's score, or the statistic of a detector that has no paths, in
-        // its own unit.
-        const bool isScore = isScoreOfPaths(analysis.settings.detector);
-        const double decided = isScore ? explanation.statistic : explanation.displayed;
-        const std::string unit(statisticUnit(analysis.settings.detector));
-        Json json;
-        json["time"] = explanation.seconds;
-        json["position"] = explanation.position;
-        json["statistic"] = explanation.statistic;
-        json["displayed"] = explanation.displayed;
-        json["threshold"] = explanation.threshold;
-        json["unit"] = unit;
-        json["margin"] = decided - explanation.threshold;
-        json["tracked"] = explanation.isTracked;
-        json["explained_by_noise"] = explanation.isExplainedByNoise;
-        json["offset"] = explanation.offset;
-        json["reset"]["cause"] = resetNames[std::size_t(explanation.reset.kind)];
-        json["reset"]["lost"] = explanation.reset.lost;
-        if (explanation.reset.track > 0)
-            json["reset"]["track"] = explanation.reset.track;
-        if (explanation.otherState && std::isfinite(explanation.otherMargin))
-            json["runner_up"] = {{"rates", space.ratesOfPlane(space.planeOf(*explanation.otherState))},
-                                 {"margin", explanation.otherMargin}};
-        if (analysis.isBank())
-            json["model"] = explanation.model == 0 ? "nonManoeuvring" : "manoeuvring";
-        json["steps"] = Json::array();
-        for (const PathStep &step : explanation.steps) {
-            const std::vector<Index> c = analysis.grid().coordinates(space.cellOf(step.state));
-            std::vector<double> at;
-            for (std::size_t axis = 0; axis < c.size(); ++axis)
-                at.push_back(analysis.grid().axes[axis].value(double(c[axis])));
-            json["steps"].push_back({{"t", analysis.time().value(double(step.frame))},
-                                     {"position", at},
-                                     {"rates", space.ratesOfPlane(space.planeOf(step.state))},
-                                     {"llr", step.logLikelihoodRatio},
-                                     {"ln_transition", step.lnTransition},
-                                     {"lnK", step.lnK},
-                                     {"sum", step.score}});
-            if (std::isfinite(step.runnerUp))
-                json["steps"].back()["runner_up_margin"] = step.runnerUp;
-        }
-        if (asJson) {
-            std::printf("%s\n", json.dump(2, ' ', true).c_str());
+        if (input.truth)
+            printScore(analysis, *input.truth);
+        if (isSpectrum(analysis.grid()))
             return;
-        }
-        std::printf("statistic %.4f %s, threshold %.4f %s: %s by %.4f %s%s\n", decided, unit.c_str(),
-                    explanation.threshold, unit.c_str(), decided > explanation.threshold ? "above" : "below",
-                    std::abs(decided - explanation.threshold), unit.c_str(),
-                    explanation.isTracked ? ", followed by a tracker" : "");
-        if (!isScore)
-            std::printf(
-                "a sequential Markov detector guides its tracks; the path of that detector has %.4f nat here:\n",
-                explanation.statistic);
-        if (explanation.isExplainedByNoise)
-            std::printf("its path is not reported: cells as strong are common in this recording's noise\n");
-        std::printf("the best path began %zu frame(s) ago, when it was reset\n", explanation.steps.size() - 1);
-        if (axes.size() == 1)
-            std::printf("%12s %14s %8s %10s %10s %10s %12s\n", "t (s)", "f", "rate", "llr", "ln P", "ln K", "sum");
-        else {
-            std::printf("%12s", "t (s)");
-            for (const Axis &axis : axes)
-                std::printf(" %14s %8s", oneLine(axis.name + " (" + axis.unit + ")").c_str(), "rate");
-            std::printf(" %10s %10s %10s %12s\n", "llr", "ln P", "ln K", "sum");
-        }
-        for (const Json &step : json["steps"]) {
-            std::printf("%12.6g", step["t"].get<double>());
-            for (std::size_t axis = 0; axis < axes.size(); ++axis)
-                std::printf(" %14.8g %8d", step["position"][axis].get<double>(), step["rates"][axis].get<int>());
-            std::printf(" %10.4f %10.4f %10.4f %12.4f\n", step["llr"].get<double>(),
-                        step["ln_transition"].get<double>(), step["lnK"].get<double>(), step["sum"].get<double>());
-        }
-        if (explanation.offset != 0.0)
-            std::printf("and %.4f nat common to all states: K of the frame and the offset of the model\n",
-                        explanation.offset);
+        std::printf("conventional detector: %zu track(s)\n", analysis.conventional.size());
+        if (input.truth)
+            printScore(conventionally(analysis), *input.truth);
     }
 
-    struct StatisticOptions {
-        std::string frames;
-        std::string model;
-        std::string out;
-        std::string projected;
-        std::string log;
-    };
-
-    void statistic(const StatisticOptions &options, const Common &common)
+    void detect(DetectOptions options, const Common &common)
     {
-        checkOutputs({options.out, options.projected, options.log});
-        const NormalisedFramesPointer frames = readFrames(options.frames, "");
-        const ModelFile file = readModelFile(options.model);
-        const StateSpace &space = file.model.space;
-        for (std::size_t axis = 0; axis < std::max(space.axes().size(), frames->grid().axes.size()); ++axis)
-            if (space.axes().size() != frames->grid().axes.size()
-                || space.axes()[axis].cells != frames->grid().axes[axis].count)
-                throw Error(options.model, "the cells of its axes do not match the frames of " + options.frames);
-        std::vector<Index> shape{frames->time().count};
-        std::vector<Index> projectedShape = shape;
-        for (const KinematicAxis &axis : space.axes())
-            shape.push_back(axis.rateCount);
-        for (const KinematicAxis &axis : space.axes()) {
-            shape.push_back(axis.cells);
-            projectedShape.push_back(axis.cells);
-        }
-        const std::unique_ptr<PathDetector> detector = makePathDetector(file);
-        NumPyWriter out(options.out, shape);
-        std::optional<NumPyWriter> projected;
-        if (!options.projected.empty())
-            projected.emplace(options.projected, projectedShape);
-        std::string log = "frame,lnK,reset_fraction,max_statistic\n";
+        if (options.events.empty() && options.tracks.empty() && options.statistic.empty()
+            && options.conventional.empty())
+            options.summary = true; // who asks for nothing else wants to know what there is
+        checkOptions(options);
         const RunContext context = common.context();
-        std::vector<float> y(std::size_t(space.cellCount()));
-        std::vector<float> D(y.size());
-        std::vector<float> scores;
-        for (Index frame = 0; frame < frames->time().count; ++frame) {
-            context.checkpoint(double(frame) / double(frames->time().count), "recursion");
-            frames->read(frame, 1, y);
-            detector->update(y, D);
-            scores.assign(detector->scores().begin(), detector->scores().end());
-            if (const auto offset = float(detector->offset()); offset != 0.0f)
-                for (float &score : scores)
-                    score += offset;
-            out.write(scores);
-            if (projected)
-                projected->write(D);
-            const PathDetector::Regulation regulation = detector->regulation();
-            log += std::to_string(frame) + "," + formatNumber(regulation.lnK) + ","
-                   + formatNumber(1.0 - regulation.continuedFraction) + ","
-                   + formatNumber(double(*std::max_element(D.begin(), D.end()))) + "\n";
-        }
-        if (!options.log.empty())
-            writeTextFile(options.log, log);
-        out.finish();
-        if (projected)
-            projected->finish();
+        const DetectInput input = open(options, context);
+        std::optional<NumPyWriter> writer;
+        const auto analysis = run(input, options, context, writer);
+        context.checkpoint(1.0, "done");
+        write(*analysis, input, options, common, writer);
+        if (options.summary)
+            printResult(*analysis, input, !options.frames.empty());
     }
 
 } // namespace
@@ -437,66 +351,6 @@ void addDetect(CLI::App &app, Common &common)
               "Write the statistic: .npy, float32, shape (frames, cells…)");
     command->add_flag("--summary", options->summary, "Print a summary of the result; default if no output is written");
     command->callback([options, &common] { detect(*options, common); });
-}
-
-void addStatistic(CLI::App &app, Common &common)
-{
-    const auto options = std::make_shared<StatisticOptions>();
-    CLI::App *command = app.add_subcommand("statistic", "Compute ln Λ of the recursion for every frame and state, "
-                                                        "without decisions");
-    addInput(*command, common, "--frames", options->frames, "Normalised frames, .npy of shape (frames, cells…)")
-        ->required();
-    addInput(*command, common, "--model", options->model, "JSON of the model")->required();
-    addOutput(*command, common, "--out", options->out, "Write the statistic of all states, .npy")->required();
-    addOutput(*command, common, "--projected", options->projected, "Write its maximum over the rates, .npy");
-    addOutput(*command, common, "--log", options->log, "Write K and reset fraction per frame, .csv");
-    command->callback([options, &common] { statistic(*options, common); });
-}
-
-void addExplain(CLI::App &app, Common &common)
-{
-    struct Options {
-        AnalysisOptions analysis;
-        double seconds = 0.0;
-        std::optional<double> hz;
-        std::optional<double> range;
-        std::optional<double> bearing;
-        std::string grid;
-        bool json = false;
-    };
-    const auto options = std::make_shared<Options>();
-    CLI::App *command = app.add_subcommand("explain", "Explain the statistic of a cell by the terms of the best path "
-                                                      "that ends there");
-    options->analysis.addTo(*command, common);
-    command->add_option("--time", options->seconds, "Time, s")->required();
-    command->add_option("--frequency", options->hz, "Frequency, Hz");
-    command->add_option("--range", options->range, "For pings: range, in the unit of its axis");
-    command->add_option("--bearing", options->bearing, "For pings: bearing, degrees");
-    addInput(*command, common, "--grid", options->grid,
-             "For a stack of frames (FILE.npy): JSON that describes its axes");
-    command->add_flag("--json", options->json, "Print as JSON");
-    command->callback([options, &common] {
-        const RunContext context = common.context();
-        AnalysisSettings settings = options->analysis.settings();
-        const NormalisedFramesPointer frames = !options->grid.empty()
-                                                   ? readFrames(options->analysis.file, options->grid)
-                                                   : options->analysis.frames(settings, context);
-        std::vector<double> position;
-        if (frames && frames->grid().axes.size() > 1) {
-            if (!options->range || !options->bearing)
-                throw Error("explain", "a cell of pings requires --range and --bearing");
-            position = {*options->range, *options->bearing};
-        } else {
-            if (!options->hz)
-                throw Error("explain", "needs --frequency; for pings, give --range and --bearing");
-            position = {*options->hz};
-        }
-        const auto analysis =
-            frames ? analyse(frames, settings, context.part(0.0, 0.5))
-                   : analyseInChosenWindow(options->analysis.recording(), settings, context.part(0.0, 0.5));
-        printExplanation(explain(*analysis, options->seconds, position, context.part(0.5, 1.0)), *analysis,
-                         options->json);
-    });
 }
 
 } // namespace faintline::cli

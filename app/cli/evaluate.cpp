@@ -74,11 +74,7 @@ namespace {
             writeTextFile(path, chartSvg(pdChart(campaign)));
     }
 
-} // namespace
-
-void addEvaluate(CLI::App &app, Common &common)
-{
-    struct Options {
+    struct EvaluateOptions {
         std::vector<std::string> files;
         std::string out;
         std::string chart;
@@ -86,7 +82,64 @@ void addEvaluate(CLI::App &app, Common &common)
         int seed = -1;
         bool cost = false;
     };
-    const auto options = std::make_shared<Options>();
+
+    /// Curve, or with --shard the runs of the shard; an interrupted run is resumed.
+    void carryOutToFile(const Experiment &experiment, const std::vector<int> &runs, const EvaluateOptions &options,
+                        const RunContext &context)
+    {
+        const Campaign campaign = carryOutResumably(experiment, runs, options.out, context);
+        if (options.shard.empty())
+            writeCurve(campaign, options.out);
+        else
+            writeCampaign(campaign, options.out);
+        draw(campaign, options.chart);
+        removeParts(options.out);
+    }
+
+    void evaluateExperiment(const EvaluateOptions &options, const Common &common)
+    {
+        checkOutputs({options.out, options.chart});
+        Experiment experiment = experimentFromJson(readJsonFile(options.files.front()), options.files.front());
+        if (options.seed >= 0)
+            setSeed(experiment, options.seed);
+        const auto *sweep = std::get_if<SweepExperiment>(&experiment);
+        if (options.cost && !sweep)
+            throw Error("--cost", "requires an experiment of kind \"sweep\"");
+        const Shard shard = options.shard.empty() ? Shard{} : shardFrom(options.shard);
+        const std::vector<int> runs = runsOfShard(experiment, shard.index, shard.count);
+        if (!options.out.empty()) {
+            carryOutToFile(experiment, runs, options, common.context());
+        } else {
+            if (!options.shard.empty())
+                throw Error("--shard", "needs --out for the shard's runs");
+            Campaign campaign = begin(experiment, common.context());
+            carryOut(campaign, runs, common.context());
+            print(campaign);
+            draw(campaign, options.chart);
+        }
+        if (options.cost)
+            printCosts(*sweep, common.context());
+    }
+
+    void evaluate(const EvaluateOptions &options, const Common &common)
+    {
+        if (options.files.front() == "merge") {
+            if (options.files.size() < 2 || options.out.empty())
+                throw Error("evaluate merge", "needs shards and --out");
+            checkOutputs({options.out});
+            return mergeFiles({options.files.begin() + 1, options.files.end()}, options.out);
+        }
+        if (options.files.size() > 1)
+            throw Error("evaluate " + options.files[1], "only one experiment can be given; to merge shards, use "
+                                                        "evaluate merge SHARD…");
+        evaluateExperiment(options, common);
+    }
+
+} // namespace
+
+void addEvaluate(CLI::App &app, Common &common)
+{
+    const auto options = std::make_shared<EvaluateOptions>();
     CLI::App *command = app.add_subcommand(
         "evaluate", "Estimate the detection probability of an experiment by simulation; an interrupted run is resumed");
     command
@@ -99,47 +152,7 @@ void addEvaluate(CLI::App &app, Common &common)
     command->add_option("--shard", options->shard, "Compute only part I of N, for 'merge'");
     command->add_option("--seed", options->seed, "Seed in place of the experiment's")->check(CLI::Range(0, 2147483647));
     command->add_flag("--cost", options->cost, "For a sweep: print the cost of each value, in seconds on this machine");
-    command->callback([options, &common] {
-        if (options->files.front() == "merge") {
-            if (options->files.size() < 2 || options->out.empty())
-                throw Error("evaluate merge", "needs shards and --out");
-            checkOutputs({options->out});
-            mergeFiles({options->files.begin() + 1, options->files.end()}, options->out);
-            return;
-        }
-        if (options->files.size() > 1)
-            throw Error("evaluate " + options->files[1], "only one experiment can be given; to merge shards, use "
-                                                         "evaluate merge SHARD…");
-        checkOutputs({options->out, options->chart});
-        Experiment experiment = experimentFromJson(readJsonFile(options->files.front()), options->files.front());
-        if (options->seed >= 0)
-            setSeed(experiment, options->seed);
-        const auto *sweep = std::get_if<SweepExperiment>(&experiment);
-        if (options->cost && !sweep)
-            throw Error("--cost", "requires an experiment of kind \"sweep\"");
-        const Shard shard = options->shard.empty() ? Shard{} : shardFrom(options->shard);
-        const std::vector<int> runs = runsOfShard(experiment, shard.index, shard.count);
-        if (options->out.empty()) {
-            if (!options->shard.empty())
-                throw Error("--shard", "needs --out for the shard's runs");
-            Campaign campaign = begin(experiment, common.context());
-            carryOut(campaign, runs, common.context());
-            print(campaign);
-            draw(campaign, options->chart);
-            if (options->cost)
-                printCosts(*sweep, common.context());
-            return;
-        }
-        const Campaign campaign = carryOutResumably(experiment, runs, options->out, common.context());
-        if (options->shard.empty())
-            writeCurve(campaign, options->out);
-        else
-            writeCampaign(campaign, options->out);
-        draw(campaign, options->chart);
-        removeParts(options->out);
-        if (options->cost)
-            printCosts(*sweep, common.context());
-    });
+    command->callback([options, &common] { evaluate(*options, common); });
 }
 
 void addMerge(CLI::App &app, Common &common)

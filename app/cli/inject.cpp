@@ -11,9 +11,9 @@
 
 namespace faintline::cli {
 
-void addInject(CLI::App &app, Common &common)
-{
-    struct Options {
+namespace {
+
+    struct InjectOptions {
         AnalysisOptions analysis;
         LineSettings line;
         std::string fading = "none";
@@ -22,7 +22,32 @@ void addInject(CLI::App &app, Common &common)
         std::string type = "float32";
         int seed = 1;
     };
-    const auto options = std::make_shared<Options>();
+
+    void inject(const InjectOptions &options, const Common &common)
+    {
+        LineSettings line = options.line;
+        if (!(line.referenceSeconds >= 0.0))
+            throw Error("--reference " + formatNumber(line.referenceSeconds), "must be above 0 s");
+        checkOutputs({options.out, options.truth});
+        const RecordingPointer recording = options.analysis.recording();
+        const AnalysisSettings settings = options.analysis.settings();
+        line.fading = options.fading == "rayleigh" ? Fading::Rayleigh : Fading::None;
+        const InjectedLine injected = scaledInjection(line, recording, settings, common.context().part(0.0, 0.3));
+        const InjectedRecording made(recording, {injected}, settings.selection.channel, std::uint64_t(options.seed));
+        CommitTogether files;
+        writeProvenance(common, options.analysis.inputs(), {options.out, options.truth});
+        writeRecording(made, options.out, options.type == "int16" ? WrittenType::Int16 : WrittenType::Float32,
+                       common.context().part(0.3, 1.0));
+        if (!options.truth.empty())
+            writeTextFile(options.truth, toJson(made.truth()).dump(2) + "\n");
+        files.commit();
+    }
+
+} // namespace
+
+void addInject(CLI::App &app, Common &common)
+{
+    const auto options = std::make_shared<InjectOptions>();
     options->line.referenceSeconds = 0.0;
     LineSettings &line = options->line;
     CLI::App *command = app.add_subcommand("inject", "Add a known line to a recording");
@@ -54,24 +79,7 @@ void addInject(CLI::App &app, Common &common)
         ->capture_default_str();
     addOutput(*command, common, "--out", options->out, "Recording to write")->required();
     addOutput(*command, common, "--truth", options->truth, "Write the truth, .json");
-    command->callback([options, &common] {
-        if (!(options->line.referenceSeconds >= 0.0))
-            throw Error("--reference " + formatNumber(options->line.referenceSeconds), "must be above 0 s");
-        checkOutputs({options->out, options->truth});
-        const RecordingPointer recording = options->analysis.recording();
-        const AnalysisSettings settings = options->analysis.settings();
-        options->line.fading = options->fading == "rayleigh" ? Fading::Rayleigh : Fading::None;
-        const InjectedLine injected =
-            scaledInjection(options->line, recording, settings, common.context().part(0.0, 0.3));
-        const InjectedRecording made(recording, {injected}, settings.selection.channel, std::uint64_t(options->seed));
-        CommitTogether files;
-        writeProvenance(common, options->analysis.inputs(), {options->out, options->truth});
-        writeRecording(made, options->out, options->type == "int16" ? WrittenType::Int16 : WrittenType::Float32,
-                       common.context().part(0.3, 1.0));
-        if (!options->truth.empty())
-            writeTextFile(options->truth, toJson(made.truth()).dump(2) + "\n");
-        files.commit();
-    });
+    command->callback([options, &common] { inject(*options, common); });
 }
 
 } // namespace faintline::cli

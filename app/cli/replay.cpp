@@ -150,7 +150,7 @@ namespace {
             readable.check(path);
             checkSigmf(path, readable);
         };
-        remakeWindowExport(json, kept.string(), recording, remade.string(), mayRead, common.context());
+        remake({json, kept.string(), recording, mayRead}, remade.string(), common.context());
         if (!compare(kept, remade))
             throw Error(kept.string(), "differs from the result of its provenance", Error::Kind::Failure);
     }

@@ -24,8 +24,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-    using MayRead = std::function<void(const std::string &path)>; ///< throws where it must not be
-
     /// The one of the two that is there.
     struct Opened {
         RecordingPointer recording;
@@ -33,17 +31,17 @@ namespace {
     };
 
     /// The file that the provenance tells of by name and hash.
-    std::string find(const Json &source, const std::string &result, const std::string &recording,
-                     const MayRead &mayRead)
+    std::string find(const Json &source, const WindowExport &table)
     {
         const std::string name = fs::path(fileNameFromText(source.at("path").get<std::string>())).filename().string();
-        const std::string path = recording.empty() ? (fs::absolute(result).parent_path() / name).string() : recording;
+        const bool isBeside = table.recording.empty();
+        const std::string path = isBeside ? (fs::absolute(table.path).parent_path() / name).string() : table.recording;
         if (!fs::exists(path))
-            throw Error(path, "the input of " + result + " was not found; give its path with --recording");
-        if (recording.empty())
-            mayRead(path);
+            throw Error(path, "the input of " + table.path + " was not found; give its path with --recording");
+        if (isBeside)
+            table.mayRead(path);
         if (recordingHash(path) != source.at("sha256").get<std::string>())
-            throw Error(path, "is not the input of " + result);
+            throw Error(path, "is not the input of " + table.path);
         return path;
     }
 
@@ -64,8 +62,9 @@ namespace {
         return base;
     }
 
-    Opened open(const Json &source, const std::string &result, const std::string &recording, const MayRead &mayRead)
+    Opened open(const WindowExport &table)
     {
+        const Json &source = table.provenance.at("recording");
         if (source.contains("scenario") && isPingScene(source["scenario"]))
             return {nullptr, std::make_shared<SimulatedPings>(pingSceneFromJson(source["scenario"]))};
         const Json injections = source.value("injected", Json::array());
@@ -73,7 +72,7 @@ namespace {
             return {
                 withInjections(std::make_shared<SimulatedRecording>(lineSceneFromJson(source["scenario"])), injections),
                 nullptr};
-        const std::string path = find(source, result, recording, mayRead);
+        const std::string path = find(source, table);
         if (const NormalisedFramesPointer frames = openFrames(path))
             return {nullptr, frames};
         OpenOptions options;
@@ -85,11 +84,11 @@ namespace {
         return {withInjections(openRecording(path, options), injections), nullptr};
     }
 
-    void remakeEvents(const Json &provenance, const std::string &result, const std::string &recording,
-                      const std::string &out, const MayRead &mayRead, const RunContext &context)
+    void remakeEvents(const WindowExport &table, const std::string &out, const RunContext &context)
     {
         checkReviewedPath(out);
-        const Opened opened = open(provenance.at("recording"), result, recording, mayRead);
+        const Json &provenance = table.provenance;
+        const Opened opened = open(table);
         const AnalysisSettings settings = settingsFromJson(provenance.at("settings").dump(), "settings");
         const auto analysis =
             opened.frames ? analyse(opened.frames, settings, context)
@@ -115,11 +114,12 @@ namespace {
         return sweep ? sweep->recording : std::string();
     }
 
-    void remakeCurve(const Json &provenance, const std::string &out, const MayRead &mayRead, const RunContext &context)
+    void remakeCurve(const WindowExport &table, const std::string &out, const RunContext &context)
     {
+        const Json &provenance = table.provenance;
         const Experiment experiment = experimentFromJson(provenance.at("experiment"), "experiment");
         if (const std::string recording = recordingOf(experiment); !recording.empty())
-            mayRead(fileNameFromText(recording));
+            table.mayRead(fileNameFromText(recording));
         std::vector<int> runs(std::size_t(runCount(experiment)));
         std::iota(runs.begin(), runs.end(), 0);
         if (provenance.contains("runs")) { // it was stopped
@@ -140,21 +140,20 @@ bool isOfWindow(const Json &provenance)
            && provenance["version"].is_string();
 }
 
-void remakeWindowExport(const Json &provenance, const std::string &result, const std::string &recording,
-                        const std::string &out, const MayRead &mayRead, const RunContext &context)
+void remake(const WindowExport &table, const std::string &out, const RunContext &context)
 {
     try {
-        if (provenance.contains("sequential"))
-            throw Error(result,
+        if (table.provenance.contains("sequential"))
+            throw Error(table.path,
                         "is a chart of a sequential test; use 'faintline replay' if the test was on radar scans");
-        if (provenance.contains("experiment"))
-            return remakeCurve(provenance, out, mayRead, context);
-        if (provenance.contains("recording"))
-            return remakeEvents(provenance, result, recording, out, mayRead, context);
+        if (table.provenance.contains("experiment"))
+            return remakeCurve(table, out, context);
+        if (table.provenance.contains("recording"))
+            return remakeEvents(table, out, context);
     } catch (const Json::exception &error) {
-        throw Error(result, "has an invalid provenance: " + complaint(error));
+        throw Error(table.path, "has an invalid provenance: " + complaint(error));
     }
-    throw Error(result, "has a provenance that names neither a recording nor an experiment");
+    throw Error(table.path, "has a provenance that names neither a recording nor an experiment");
 }
 
 } // namespace faintline::cli

@@ -225,8 +225,7 @@ void readWindowExport(const Input &input)
     if (!cli::isOfWindow(provenance))
         return;
     try {
-        cli::remakeWindowExport(
-            provenance, input.path, {}, input.path + ".csv", [](const std::string &) {}, context);
+        cli::remake({provenance, input.path, {}, [](const std::string &) {}}, input.path + ".csv", context);
     } catch (const Cancelled &) {
     }
 }

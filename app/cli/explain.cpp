@@ -1,0 +1,182 @@
+#include "app/cli/commands.h"
+
+#include "analysis/analyse.h"
+#include "analysis/chooseWindow.h"
+#include "analysis/explain.h"
+#include "base/json.h"
+#include "base/oneLine.h"
+#include "exchange/ModelFile.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+namespace faintline::cli {
+
+namespace {
+
+    constexpr const char *resetNames[]{"beginning", "background", "forgotten"};
+
+    /// What is held against the threshold: the path's score, or the statistic of a detector that has no paths, in its
+    /// own unit.
+    double decidedBy(const Explanation &explanation, const Analysis &analysis)
+    {
+        return isScoreOfPaths(analysis.settings.detector) ? explanation.statistic : explanation.displayed;
+    }
+
+    Json toJson(const PathStep &step, const StateSpace &space, const Analysis &analysis)
+    {
+        const std::vector<Index> c = analysis.grid().coordinates(space.cellOf(step.state));
+        std::vector<double> at;
+        for (std::size_t axis = 0; axis < c.size(); ++axis)
+            at.push_back(analysis.grid().axes[axis].value(double(c[axis])));
+        Json json = {{"t", analysis.time().value(double(step.frame))},
+                     {"position", at},
+                     {"rates", space.ratesOfPlane(space.planeOf(step.state))},
+                     {"llr", step.logLikelihoodRatio},
+                     {"ln_transition", step.lnTransition},
+                     {"lnK", step.lnK},
+                     {"sum", step.score}};
+        if (std::isfinite(step.runnerUp))
+            json["runner_up_margin"] = step.runnerUp;
+        return json;
+    }
+
+    Json toJson(const Explanation &explanation, const Analysis &analysis)
+    {
+        const StateSpace &space = analysis.modelAt(explanation.model).space;
+        Json json;
+        json["time"] = explanation.seconds;
+        json["position"] = explanation.position;
+        json["statistic"] = explanation.statistic;
+        json["displayed"] = explanation.displayed;
+        json["threshold"] = explanation.threshold;
+        json["unit"] = std::string(statisticUnit(analysis.settings.detector));
+        json["margin"] = decidedBy(explanation, analysis) - explanation.threshold;
+        json["tracked"] = explanation.isTracked;
+        json["explained_by_noise"] = explanation.isExplainedByNoise;
+        json["offset"] = explanation.offset;
+        json["reset"]["cause"] = resetNames[std::size_t(explanation.reset.kind)];
+        json["reset"]["lost"] = explanation.reset.lost;
+        if (explanation.reset.track > 0)
+            json["reset"]["track"] = explanation.reset.track;
+        if (explanation.otherState && std::isfinite(explanation.otherMargin))
+            json["runner_up"] = {{"rates", space.ratesOfPlane(space.planeOf(*explanation.otherState))},
+                                 {"margin", explanation.otherMargin}};
+        if (analysis.isBank())
+            json["model"] = explanation.model == 0 ? "nonManoeuvring" : "manoeuvring";
+        json["steps"] = Json::array();
+        for (const PathStep &step : explanation.steps)
+            json["steps"].push_back(toJson(step, space, analysis));
+        return json;
+    }
+
+    void printHeading(const std::vector<Axis> &axes, bool isLine)
+    {
+        if (isLine) {
+            std::printf("%12s %14s %8s %10s %10s %10s %12s\n", "t (s)", "f", "rate", "llr", "ln P", "ln K", "sum");
+            return;
+        }
+        std::printf("%12s", "t (s)");
+        for (const Axis &axis : axes)
+            std::printf(" %14s %8s", oneLine(axis.name + " (" + axis.unit + ")").c_str(), "rate");
+        std::printf(" %10s %10s %10s %12s\n", "llr", "ln P", "ln K", "sum");
+    }
+
+    void printSteps(const Json &steps)
+    {
+        for (const Json &step : steps) {
+            std::printf("%12.6g", step["t"].get<double>());
+            for (std::size_t axis = 0; axis < step["position"].size(); ++axis)
+                std::printf(" %14.8g %8d", step["position"][axis].get<double>(), step["rates"][axis].get<int>());
+            std::printf(" %10.4f %10.4f %10.4f %12.4f\n", step["llr"].get<double>(),
+                        step["ln_transition"].get<double>(), step["lnK"].get<double>(), step["sum"].get<double>());
+        }
+    }
+
+    void print(const Explanation &explanation, const Analysis &analysis)
+    {
+        const double decided = decidedBy(explanation, analysis);
+        const std::string unit(statisticUnit(analysis.settings.detector));
+        std::printf("statistic %.4f %s, threshold %.4f %s: %s by %.4f %s%s\n", decided, unit.c_str(),
+                    explanation.threshold, unit.c_str(), decided > explanation.threshold ? "above" : "below",
+                    std::abs(decided - explanation.threshold), unit.c_str(),
+                    explanation.isTracked ? ", followed by a tracker" : "");
+        if (!isScoreOfPaths(analysis.settings.detector))
+            std::printf(
+                "a sequential Markov detector guides its tracks; the path of that detector has %.4f nat here:\n",
+                explanation.statistic);
+        if (explanation.isExplainedByNoise)
+            std::printf("its path is not reported: cells as strong are common in this recording's noise\n");
+        std::printf("the best path began %zu frame(s) ago, when it was reset\n", explanation.steps.size() - 1);
+        printHeading(analysis.grid().axes, explanation.position.size() == 1);
+        printSteps(toJson(explanation, analysis)["steps"]);
+        if (explanation.offset != 0.0)
+            std::printf("and %.4f nat common to all states: K of the frame and the offset of the model\n",
+                        explanation.offset);
+    }
+
+    struct ExplainOptions {
+        AnalysisOptions analysis;
+        double seconds = 0.0;
+        std::optional<double> hz;
+        std::optional<double> range;
+        std::optional<double> bearing;
+        std::string grid;
+        bool json = false;
+
+        std::vector<double> position(const NormalisedFrames *frames) const;
+    };
+
+    /// Along the axes of the frames, or of a recording where there are none.
+    std::vector<double> ExplainOptions::position(const NormalisedFrames *frames) const
+    {
+        if (frames && !isSpectrum(frames->grid())) {
+            if (!range || !bearing)
+                throw Error("explain", "a cell of pings requires --range and --bearing");
+            return {*range, *bearing};
+        }
+        if (!hz)
+            throw Error("explain", "needs --frequency; for pings, give --range and --bearing");
+        return {*hz};
+    }
+
+    void explainCell(const ExplainOptions &options, const Common &common)
+    {
+        const RunContext context = common.context();
+        AnalysisSettings settings = options.analysis.settings();
+        const NormalisedFramesPointer frames = !options.grid.empty() ? readFrames(options.analysis.file, options.grid)
+                                                                     : options.analysis.frames(settings, context);
+        const std::vector<double> position = options.position(frames.get());
+        const auto analysis =
+            frames ? analyse(frames, settings, context.part(0.0, 0.5))
+                   : analyseInChosenWindow(options.analysis.recording(), settings, context.part(0.0, 0.5));
+        const Explanation explanation = explain(*analysis, options.seconds, position, context.part(0.5, 1.0));
+        if (options.json)
+            std::printf("%s\n", toJson(explanation, *analysis).dump(2, ' ', true).c_str());
+        else
+            print(explanation, *analysis);
+    }
+
+} // namespace
+
+void addExplain(CLI::App &app, Common &common)
+{
+    const auto options = std::make_shared<ExplainOptions>();
+    CLI::App *command = app.add_subcommand("explain", "Explain the statistic of a cell by the terms of the best path "
+                                                      "that ends there");
+    options->analysis.addTo(*command, common);
+    command->add_option("--time", options->seconds, "Time, s")->required();
+    command->add_option("--frequency", options->hz, "Frequency, Hz");
+    command->add_option("--range", options->range, "For pings: range, in the unit of its axis");
+    command->add_option("--bearing", options->bearing, "For pings: bearing, degrees");
+    addInput(*command, common, "--grid", options->grid,
+             "For a stack of frames (FILE.npy): JSON that describes its axes");
+    command->add_flag("--json", options->json, "Print as JSON");
+    command->callback([options, &common] { explainCell(*options, common); });
+}
+
+} // namespace faintline::cli
