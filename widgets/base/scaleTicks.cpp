@@ -2,6 +2,7 @@
 
 #include <qwt_scale_engine.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace faintline {
@@ -62,6 +63,28 @@ QwtScaleDiv linearScaleDiv(const Span &span, int majorTicks)
         div = divided(majorTicks + 1);
     div.setInterval(span.low, span.high);
     return div;
+}
+
+QwtScaleDiv decadeScaleDiv(const Span &exponents, int most)
+{
+    const double low = std::ceil(exponents.low - 1e-9), high = std::floor(exponents.high + 1e-9);
+    const double step = std::max(std::ceil((high - low) / std::max(most, 1)), 1.0);
+    QList<double> ticks;
+    for (double exponent = std::ceil(low / step) * step; exponent <= high + 1e-9; exponent += step)
+        ticks << exponent;
+    return QwtScaleDiv(exponents.low, exponents.high, {}, {}, ticks);
+}
+
+QwtScaleDiv digitScaleDiv(const Span &exponents)
+{
+    QList<double> major;
+    QList<double> minor;
+    for (double exponent = std::floor(exponents.low); exponent <= std::ceil(exponents.high); exponent += 1.0) {
+        major << exponent;
+        for (int digit = 2; digit <= 9; ++digit)
+            minor << exponent + std::log10(digit);
+    }
+    return QwtScaleDiv(exponents.low, exponents.high, minor, {}, major);
 }
 
 } // namespace faintline

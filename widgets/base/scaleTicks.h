@@ -12,6 +12,12 @@ QwtScaleDiv timeScaleDiv(const Span &span, int majorTicks);
 /// Ticks at 1, 2, 5 · 10ⁿ.
 QwtScaleDiv linearScaleDiv(const Span &span, int majorTicks);
 
+/// Of exponents of 10: ticks at whole ones, or every second, third … of them where there are more than `most`.
+QwtScaleDiv decadeScaleDiv(const Span &exponents, int most);
+
+/// Of exponents of 10: ticks at all whole ones, and at 2 … 9 times their powers.
+QwtScaleDiv digitScaleDiv(const Span &exponents);
+
 /// Distance of a scale's major ticks.
 double majorStep(const QwtScaleDiv &div);
 

@@ -9,12 +9,8 @@
 #include <vector>
 
 class QBoxLayout;
-class QCheckBox;
 class QLabel;
-class QScrollArea;
-class QVBoxLayout;
 class QwtPlot;
-class QwtPlotCurve;
 class QwtPlotGrid;
 class QwtPlotItem;
 class QwtPlotMarker;
@@ -22,13 +18,13 @@ class QwtPlotMarker;
 namespace faintline {
 
 class CanvasSentence;
+class ChartItems;
+class ChartKey;
 
-/// A core `Chart` to look into: measured curves with their intervals as bars, or as a band where points stand close;
-/// theory dashed; publications' points hollow. Beside it the key, whose boxes show and hide curves; below it the value
-/// under the mouse in words.
+/// A core `Chart` to look into, drawn as its `ChartItems`. Beside it the key, whose boxes show and hide curves; below
+/// it the value under the mouse in words.
 ///
-/// A theory curve or a publication's points take the colour of the measured curve whose name theirs begins with. Click
-/// on a measured point, or arrow keys and Enter, emit `pointActivated`.
+/// Click on a measured point, or arrow keys and Enter, emit `pointActivated`.
 class ChartPlot : public QWidget
 {
     Q_OBJECT
@@ -82,20 +78,12 @@ private:
     void restyle();
     void rebuild();
     void addCurve(std::size_t index);
-    void addLabels(std::size_t index);
-    void addIntervals(std::size_t index, const QColor &colour);
     void rebuildKey();
     void layAxes();
     void showPlace(const std::optional<Place> &place);
     void move(int points, int curves);
     std::optional<Place> nearest(const QPointF &canvas) const;
-    bool isMeasured(std::size_t curve) const;
-    std::optional<std::size_t> styleOf(std::size_t curve) const;
-    QColor colourOf(std::size_t curve) const;
-    void placeKey();
-    QPixmap sample(std::size_t curve) const;
-    double abscissa(double x) const;
-    double ordinate(double y) const;
+    ChartItems items() const;
 
     Chart m_chart;
     QSet<QString> m_hidden; ///< by name
@@ -109,14 +97,10 @@ private:
     QwtPlotMarker *m_ring; ///< around the point read out
     CanvasSentence *m_sentence;
     QBoxLayout *m_row; ///< plot and key
-    QScrollArea *m_keyArea;
-    QWidget *m_key;
-    QVBoxLayout *m_keyLayout;
+    ChartKey *m_key;
     QLabel *m_readOut;
-    std::vector<QwtPlotCurve *> m_curves;              ///< owned by the plot
+    std::vector<QwtPlotItem *> m_curves;               ///< attached to the plot, as the details
     std::vector<std::vector<QwtPlotItem *>> m_details; ///< intervals and labels of each curve
-    std::vector<QwtPlotMarker *> m_labels;             ///< of all points that have one
-    std::vector<QCheckBox *> m_boxes;
 };
 
 } // namespace faintline

@@ -49,17 +49,6 @@ namespace {
         return curve;
     }
 
-    /// Whole decades, or every second, third … of them where there are many.
-    QwtScaleDiv decadeDiv(const Span &span, int most)
-    {
-        const double low = std::ceil(span.low - 1e-9), high = std::floor(span.high + 1e-9);
-        const double step = std::max(std::ceil((high - low) / std::max(most, 1)), 1.0);
-        QList<double> ticks;
-        for (double exponent = std::ceil(low / step) * step; exponent <= high + 1e-9; exponent += step)
-            ticks << exponent;
-        return QwtScaleDiv(span.low, span.high, {}, {}, ticks);
-    }
-
 } // namespace
 
 ExceedancePlot::ExceedancePlot(QWidget *parent)
@@ -339,11 +328,12 @@ void ExceedancePlot::layAxes()
         exponents = {std::floor(ordinate(span.high)), std::ceil(top + 0.05)};
         exponents.low = std::clamp(exponents.low, exponents.high + smallestExponent, exponents.high - 2.0);
     }
-    setAxisScaleDiv(QwtAxis::YLeft, decadeDiv(exponents, std::clamp(size.height() / 26, 2, 8)));
+    setAxisScaleDiv(QwtAxis::YLeft, decadeScaleDiv(exponents, std::clamp(size.height() / 26, 2, 8)));
     double most = 1.0;
     for (const double count : m_counts)
         most = std::max(most, count);
-    setAxisScaleDiv(QwtAxis::YRight, decadeDiv({-0.3, std::log10(most) + 0.6}, std::clamp(size.height() / 26, 2, 6)));
+    setAxisScaleDiv(QwtAxis::YRight,
+                    decadeScaleDiv({-0.3, std::log10(most) + 0.6}, std::clamp(size.height() / 26, 2, 6)));
     setAxisVisible(QwtAxis::YRight, m_calibration && most > 1.0);
     steadyAxes(*this, powerOfTenText(-10), QStringLiteral("00.0"));
     updateThresholdLine();

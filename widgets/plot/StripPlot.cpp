@@ -6,6 +6,7 @@
 #include "widgets/base/steadyAxes.h"
 #include "widgets/plot/CurveKey.h"
 #include "widgets/plot/NumberScaleDraw.h"
+#include "widgets/plot/StripSeries.h"
 #include "widgets/plot/TimeScaleDraw.h"
 
 #include <qwt_plot_curve.h>
@@ -42,60 +43,6 @@ namespace {
     }
 
 } // namespace
-
-/// One curve and what it was made from.
-struct StripPlot::Series {
-    QString name;
-    Axis time;
-    std::vector<float> values;
-    Side side = Side::Left;
-    QwtPlotCurve *curve = nullptr;
-    Span seen{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}; ///< visible values
-
-    /// The visible part: every value where there is room, otherwise lowest and highest of each pixel.
-    QPolygonF points(const Span &span, int pixels)
-    {
-        seen = {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-        QPolygonF polygon;
-        if (values.empty())
-            return polygon;
-        const auto indexAt = [this](double seconds, double toward) {
-            return Index(std::clamp(std::floor(time.position(seconds)) + toward, 0.0, double(values.size() - 1)));
-        };
-        const Index first = indexAt(span.low, 0.0), last = indexAt(span.high, 1.0);
-        const Index stride = std::max<Index>((last - first) / std::max(pixels, 1), 1);
-        for (Index i = first - first % stride; i <= last; i += stride) {
-            const Index end = std::min(i + stride, Index(values.size()));
-            appendExtremes(i, end, polygon);
-        }
-        return polygon;
-    }
-
-private:
-    void appendExtremes(Index begin, Index end, QPolygonF &polygon)
-    {
-        Index low = -1, high = -1;
-        for (Index i = begin; i < end; ++i) {
-            const float value = values[std::size_t(i)];
-            if (!std::isfinite(value))
-                continue;
-            if (low < 0 || value < values[std::size_t(low)])
-                low = i;
-            if (high < 0 || value > values[std::size_t(high)])
-                high = i;
-        }
-        if (low < 0)
-            return;
-        const auto add = [&](Index i) {
-            const double value = double(values[std::size_t(i)]);
-            polygon << QPointF(time.value(double(i)), value);
-            seen = {std::min(seen.low, value), std::max(seen.high, value)};
-        };
-        add(std::min(low, high));
-        if (low != high)
-            add(std::max(low, high));
-    }
-};
 
 StripPlot::StripPlot(const QString &ordinate, QWidget *parent)
     : ThemedPlot(parent), m_levelValue(std::numeric_limits<double>::quiet_NaN()), m_grid(new QwtPlotGrid),
@@ -145,12 +92,12 @@ void StripPlot::setViewport(Viewport *viewport)
     followCursor();
 }
 
-StripPlot::Series &StripPlot::series(const QString &name)
+StripSeries &StripPlot::series(const QString &name)
 {
     for (const auto &one : m_series)
         if (one->name == name)
             return *one;
-    auto added = std::make_unique<Series>();
+    auto added = std::make_unique<StripSeries>();
     added->name = name;
     added->curve = new QwtPlotCurve(name);
     added->curve->setZ(20.0);
@@ -162,11 +109,11 @@ StripPlot::Series &StripPlot::series(const QString &name)
 
 void StripPlot::setSeries(const QString &name, const Axis &time, std::vector<float> values, Side side)
 {
-    Series &one = series(name);
+    StripSeries &one = series(name);
     one.time = time;
     one.values = std::move(values);
-    one.side = side;
-    one.curve->setYAxis(axisOf(side));
+    one.side = axisOf(side);
+    one.curve->setYAxis(one.side);
     restyle();
 }
 
@@ -293,7 +240,7 @@ void StripPlot::nameCurves()
     for (const Side side : {Side::Left, Side::Right}) {
         std::vector<CurveKey::Entry> entries;
         for (const auto &one : m_series)
-            if (one->side == side)
+            if (one->side == axisOf(side))
                 entries.push_back({one->name, one->curve->pen()});
         if (entries.size() > 1)
             m_key->entries.insert(m_key->entries.end(), entries.begin(), entries.end());
@@ -307,7 +254,7 @@ void StripPlot::layAxes()
 {
     const bool isEmpty = m_series.empty();
     const bool hasRight =
-        std::any_of(m_series.begin(), m_series.end(), [](const auto &one) { return one->side == Side::Right; });
+        std::any_of(m_series.begin(), m_series.end(), [](const auto &one) { return one->side == axisOf(Side::Right); });
     auto *time = static_cast<TimeScaleDraw *>(axisScaleDraw(QwtAxis::XBottom));
     const bool isClock = m_viewport && m_viewport->full().time.high > 600.0;
     time->setClock(isClock);
@@ -344,7 +291,7 @@ void StripPlot::updateOrdinate(Side side)
 {
     Span span{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
     for (const auto &one : m_series)
-        if (one->side == side)
+        if (one->side == axisOf(side))
             span = {std::min(span.low, one->seen.low), std::max(span.high, one->seen.high)};
     if (side == Side::Left && !std::isnan(m_levelValue))
         span = {std::min(span.low, m_levelValue), std::max(span.high, m_levelValue)};
@@ -397,7 +344,7 @@ bool StripPlot::eventFilter(QObject *watched, QEvent *event)
             return true;
         }
         if (!m_series.empty() && !m_series.front()->values.empty()) {
-            const Series &first = *m_series.front();
+            const StripSeries &first = *m_series.front();
             const double last = double(first.values.size() - 1);
             const auto index = std::size_t(std::clamp(std::round(first.time.position(seconds)), 0.0, last));
             emit hovered(seconds, double(first.values[index]));

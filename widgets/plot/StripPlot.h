@@ -19,6 +19,7 @@ namespace faintline {
 
 class CanvasSentence;
 class CurveKey;
+struct StripSeries;
 
 /// Curves over time, linked with the waterfalls: ln K and the continued fraction, or the statistic at the cursor.
 ///
@@ -70,8 +71,6 @@ protected:
     void followCanvas() override { followSpan(); }
 
 private:
-    struct Series;
-
     void layAxes();
     void nameCurves();
     int widthOfRightAxis() const;
@@ -79,10 +78,10 @@ private:
     void followCursor();
     void readProfile();
     void updateOrdinate(Side side);
-    Series &series(const QString &name);
+    StripSeries &series(const QString &name);
 
     QPointer<Viewport> m_viewport;
-    std::vector<std::unique_ptr<Series>> m_series;
+    std::vector<std::unique_ptr<StripSeries>> m_series;
     QString m_profileName;
     std::shared_ptr<const PeakPyramid> m_profile;
     Axis m_profileFrequency;

@@ -68,19 +68,19 @@ void MarkedWaterfall::setEvents(const std::vector<Event> &events)
 
 void MarkedWaterfall::setTracks(const std::vector<Track> &tracks, const Axis &time)
 {
-    m_overlay->tracks = OverlayItem::linesOf(tracks, time, frequencyAxis());
+    m_overlay->tracks = overlayLines(tracks, time, frequencyAxis());
     updateMarks();
 }
 
 void MarkedWaterfall::setAreas(const std::vector<AreaEvent> &areas)
 {
-    m_overlay->areas = OverlayItem::boxesOf(areas);
+    m_overlay->areas = overlayBoxes(areas);
     replot();
 }
 
 void MarkedWaterfall::setTruth(const std::vector<TruthLine> &lines)
 {
-    m_overlay->truth = OverlayItem::linesOf(lines);
+    m_overlay->truth = overlayLines(lines);
     replot();
 }
 
@@ -120,7 +120,7 @@ void MarkedWaterfall::setLayer(Layer layer, bool isOn)
 void MarkedWaterfall::updateMarks()
 {
     const double frame = picture() ? picture()->time().step : 0.0;
-    m_overlay->marks = OverlayItem::marksOf(m_events, m_overlay->tracks, frame, frequencyAxis().step);
+    m_overlay->marks = overlayMarks(m_events, m_overlay->tracks, frame, frequencyAxis().step);
     updateContent();
 }
 
@@ -153,7 +153,7 @@ int MarkedWaterfall::eventAt(const QPointF &position) const
 {
     int nearest = 0;
     double smallest = std::numeric_limits<double>::infinity();
-    for (const OverlayItem::Mark &mark : m_overlay->marks) {
+    for (const OverlayMark &mark : m_overlay->marks) {
         const QRectF frame = OverlayItem::frameOf(
             OverlayItem::rectOf(mark.box, canvasMap(QwtAxis::XBottom), canvasMap(QwtAxis::YLeft), isTimeVertical()));
         const double area = frame.width() * frame.height();

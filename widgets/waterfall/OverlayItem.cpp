@@ -2,13 +2,11 @@
 
 #include <qwt_scale_map.h>
 
-#include <QCoreApplication>
 #include <QFontMetricsF>
 #include <QPainter>
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 namespace faintline {
 
@@ -109,86 +107,6 @@ OverlayItem::OverlayItem() : colours(Theme::colours(Theme::Kind::Light))
     setZ(10.0);
 }
 
-std::vector<OverlayItem::Line> OverlayItem::linesOf(const std::vector<Track> &followed, const Axis &time,
-                                                    const Axis &frequency)
-{
-    std::vector<Line> lines;
-    lines.reserve(followed.size());
-    for (const Track &track : followed) {
-        Line line{track.id, {}};
-        line.points.reserve(qsizetype(track.points.size()));
-        const auto at = [&](std::size_t i, double cell) {
-            return QPointF(time.value(double(track.points[i].frame)), frequency.value(cell));
-        };
-        for (std::size_t i = 0; i < track.points.size(); ++i)
-            line.points << at(i, track.lastPosition(i, frequency));
-        for (std::size_t i = 0; i < track.smoothed.size(); ++i)
-            line.band << at(i, double(track.smoothed[i].low));
-        for (std::size_t i = track.smoothed.size(); i-- > 0;)
-            line.band << at(i, double(track.smoothed[i].high));
-        lines.push_back(std::move(line));
-    }
-    return lines;
-}
-
-std::vector<OverlayItem::Box> OverlayItem::boxesOf(const std::vector<AreaEvent> &areas)
-{
-    std::vector<Box> boxes;
-    for (const AreaEvent &area : areas)
-        boxes.push_back({{{area.onsetSeconds, area.endSeconds}, {area.low, area.high}},
-                         QCoreApplication::translate("OverlayItem", "area"),
-                         false});
-    return boxes;
-}
-
-std::vector<OverlayItem::Line> OverlayItem::linesOf(const std::vector<TruthLine> &known)
-{
-    std::vector<Line> lines;
-    for (const TruthLine &one : known) {
-        if (one.frequencyHz.empty())
-            continue;
-        Line line;
-        for (std::size_t i = 0; i < one.frequencyHz.size(); ++i) {
-            const double seconds = one.startSeconds + double(i) * one.stepSeconds;
-            line.points << QPointF(std::min(seconds, one.endSeconds), one.frequencyHz[i]);
-        }
-        if (line.points.back().x() < one.endSeconds)
-            line.points << QPointF(one.endSeconds, one.frequencyHz.back());
-        lines.push_back(std::move(line));
-    }
-    return lines;
-}
-
-std::vector<OverlayItem::Mark> OverlayItem::marksOf(const std::vector<Event> &events, const std::vector<Line> &lines,
-                                                    double frameSeconds, double binHz)
-{
-    std::unordered_map<int, const Line *> lineOf;
-    for (const Line &line : lines)
-        lineOf.try_emplace(line.id, &line);
-    std::vector<Mark> marks;
-    for (const Event &event : events) {
-        if (event.position.empty())
-            continue;
-        const auto track = lineOf.find(event.id);
-        const auto hzAt = [&](double seconds) {
-            return event.position.back() + event.driftPerSecond * (seconds - event.detectSeconds);
-        };
-        QPolygonF points{{event.onsetSeconds, hzAt(event.onsetSeconds)}, {event.endSeconds, hzAt(event.endSeconds)}};
-        if (track != lineOf.end() && !track->second->points.isEmpty())
-            points = track->second->points;
-        Mark mark{
-            event.id, {{event.onsetSeconds, event.endSeconds}, {points[0].y(), points[0].y()}}, event.isConfirmed};
-        for (const QPointF &point : points) {
-            mark.box.frequency.low = std::min(mark.box.frequency.low, point.y());
-            mark.box.frequency.high = std::max(mark.box.frequency.high, point.y());
-        }
-        mark.box.time = {mark.box.time.low - 0.5 * frameSeconds, mark.box.time.high + 0.5 * frameSeconds};
-        mark.box.frequency = {mark.box.frequency.low - 0.5 * binHz, mark.box.frequency.high + 0.5 * binHz};
-        marks.push_back(mark);
-    }
-    return marks;
-}
-
 QRectF OverlayItem::rectOf(const Viewport::Box &box, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
                            bool isTimeVertical)
 {
@@ -231,10 +149,10 @@ void OverlayItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScal
     painter->restore();
 }
 
-void OverlayItem::drawLines(const Canvas &canvas, const std::vector<Line> &lines, const QPen &pen) const
+void OverlayItem::drawLines(const Canvas &canvas, const std::vector<OverlayLine> &lines, const QPen &pen) const
 {
     const Span visible = canvas.visibleTime();
-    for (const Line &line : lines) {
+    for (const OverlayLine &line : lines) {
         canvas.painter.setOpacity(isFaint(line.id) ? faintOpacity : 1.0);
         // The visible part with one point more at either end; a point a pixel is enough.
         const auto isBefore = [](const QPointF &point, double seconds) { return point.x() < seconds; };
@@ -263,7 +181,7 @@ void OverlayItem::drawLines(const Canvas &canvas, const std::vector<Line> &lines
 void OverlayItem::drawSelectedBand(const Canvas &canvas) const
 {
     const auto line =
-        std::find_if(tracks.begin(), tracks.end(), [&](const Line &one) { return one.id == selectedEvent; });
+        std::find_if(tracks.begin(), tracks.end(), [&](const OverlayLine &one) { return one.id == selectedEvent; });
     if (selectedEvent == 0 || line == tracks.end() || line->band.isEmpty())
         return;
     QPolygonF ribbon;
@@ -285,9 +203,10 @@ bool OverlayItem::isFaint(int event) const
            && std::find(faintEvents.begin(), faintEvents.end(), event) != faintEvents.end();
 }
 
-void OverlayItem::drawBoxes(const Canvas &canvas, const std::vector<Box> &some, const QPen &pen, Labels labels) const
+void OverlayItem::drawBoxes(const Canvas &canvas, const std::vector<OverlayBox> &some, const QPen &pen,
+                            Labels labels) const
 {
-    for (const Box &box : some) {
+    for (const OverlayBox &box : some) {
         const QRectF rect =
             rectOf(box.box, canvas.x, canvas.y, isTimeVertical).intersected(canvas.rect.adjusted(-9, -9, 9, 9));
         if (!rect.isValid())
@@ -309,13 +228,13 @@ void OverlayItem::drawBoxes(const Canvas &canvas, const std::vector<Box> &some, 
 void OverlayItem::drawEvents(const Canvas &canvas) const
 {
     // Where there are many in sight their brackets would hide what they mark: the tracks alone are clearer.
-    const auto rectOfMark = [&](const Mark &mark) {
+    const auto rectOfMark = [&](const OverlayMark &mark) {
         return frameOf(rectOf(mark.box, canvas.x, canvas.y, isTimeVertical));
     };
     const auto inSight = std::size_t(std::count_if(
-        marks.begin(), marks.end(), [&](const Mark &mark) { return rectOfMark(mark).intersects(canvas.rect); }));
+        marks.begin(), marks.end(), [&](const OverlayMark &mark) { return rectOfMark(mark).intersects(canvas.rect); }));
     const bool areLabelled = inSight <= labelLimit;
-    const auto drawOne = [&](const Mark &mark) {
+    const auto drawOne = [&](const OverlayMark &mark) {
         const bool isSelected = mark.id == selectedEvent;
         const QRectF rect = rectOfMark(mark);
         if (!rect.intersects(canvas.rect) || (inSight > bracketLimit && hasTracks && !isSelected))
@@ -333,10 +252,10 @@ void OverlayItem::drawEvents(const Canvas &canvas) const
         else
             canvas.label(corner, QString::number(mark.id), colour);
     };
-    for (const Mark &mark : marks)
+    for (const OverlayMark &mark : marks)
         if (mark.id != selectedEvent)
             drawOne(mark);
-    for (const Mark &mark : marks)
+    for (const OverlayMark &mark : marks)
         if (mark.id == selectedEvent)
             drawOne(mark);
     canvas.painter.setOpacity(1.0);

@@ -239,13 +239,16 @@ void WaterfallPicture::restyle()
 {
     const bool isEmpty = !m_picture;
     const bool isLong = full().time.high > longSeconds;
+    m_timeDraw = nullptr;
+    m_numberDraw = nullptr;
     if (hasTime()) {
-        auto *draw = new TimeScaleDraw;
-        draw->setClock(isLong);
-        setAxisScaleDraw(timeAxis(), draw);
+        m_timeDraw = new TimeScaleDraw;
+        m_timeDraw->setClock(isLong);
+        setAxisScaleDraw(timeAxis(), m_timeDraw);
         setAxisTitle(timeAxis(), isLong ? tr("Time (h:min:s)") : tr("Time (s)"));
     } else {
-        setAxisScaleDraw(timeAxis(), new NumberScaleDraw);
+        m_numberDraw = new NumberScaleDraw;
+        setAxisScaleDraw(timeAxis(), m_numberDraw);
         setAxisTitle(timeAxis(), titleOf(m_picture->time()));
     }
     auto *hzDraw = new NumberScaleDraw;
@@ -276,17 +279,16 @@ void WaterfallPicture::followSpan()
     const QSize size = canvas()->contentsRect().size();
     const int along = isTimeVertical() ? size.height() : size.width();
     const int across = isTimeVertical() ? size.width() : size.height();
-    auto *timeDraw = dynamic_cast<TimeScaleDraw *>(axisScaleDraw(timeAxis()));
-    auto *numberDraw = dynamic_cast<NumberScaleDraw *>(axisScaleDraw(timeAxis()));
     auto *hzDraw = static_cast<NumberScaleDraw *>(axisScaleDraw(hzAxis()));
 
-    const int timeSpacing = isTimeVertical() ? 42 : timeDraw && timeDraw->isClock() ? 90 : 60;
+    const int timeSpacing = isTimeVertical() ? 42 : m_timeDraw && m_timeDraw->isClock() ? 90 : 60;
     const int timeTicks = std::clamp(along / timeSpacing, 1, 12);
-    const QwtScaleDiv timeDiv = timeDraw ? timeScaleDiv(time, timeTicks) : linearScaleDiv(time, timeTicks);
+    const QwtScaleDiv timeDiv = m_timeDraw ? timeScaleDiv(time, timeTicks) : linearScaleDiv(time, timeTicks);
     setAxisScaleDiv(timeAxis(), m_orientation == Orientation::OldestOnTop ? timeDiv.inverted() : timeDiv);
     setAxisScaleDiv(hzAxis(), linearScaleDiv(hz, std::clamp(across / (isTimeVertical() ? 60 : 42), 1, 12)));
 
-    const QString timeLabel = timeDraw ? timeDraw->widestLabel(full().time) : numberDraw->widestLabel(full().time);
+    const QString timeLabel =
+        m_timeDraw ? m_timeDraw->widestLabel(full().time) : m_numberDraw->widestLabel(full().time);
     const QString hzLabel = hzDraw->widestLabel(full().frequency);
     steadyAxes(*this, isTimeVertical() ? timeLabel : hzLabel, isTimeVertical() ? hzLabel : timeLabel);
 

@@ -16,7 +16,9 @@
 namespace faintline {
 
 class CanvasSentence;
+class NumberScaleDraw;
 class RasterItem;
+class TimeScaleDraw;
 
 /// A spectrogram, or a detector's statistic, over time and frequency; or over any two axes, such as a sonar's range and
 /// bearing: where the picture's own axis is no time, it is labelled as what it is.
@@ -139,6 +141,8 @@ private:
     Axis m_frequency;
     RasterItem *m_raster;
     CanvasSentence *m_sentence;
+    TimeScaleDraw *m_timeDraw = nullptr;     ///< the plot's; null where the picture's own axis is not time,
+    NumberScaleDraw *m_numberDraw = nullptr; ///< and then this one
     const ColourMap *m_colourMap;
     Orientation m_orientation = Orientation::NewestOnTop;
     ColourLevels m_levels;

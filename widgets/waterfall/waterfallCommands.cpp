@@ -104,69 +104,112 @@ bool pressKey(MarkedWaterfall &view, const QKeyEvent &event)
            || (isPlain && act(plainKeys, event.key()));
 }
 
+namespace {
+
+    /// Adds entries that act on a view.
+    class Commands
+    {
+    public:
+        explicit Commands(MarkedWaterfall &view) : m_view(&view) {}
+
+        template <class Action>
+        QAction *add(QMenu &menu, const QString &text, const QString &key, Action action) const
+        {
+            // The key is text only: as a shortcut it would take the key from the view that has the focus.
+            QAction *added = menu.addAction(key.isEmpty() ? text : text + QLatin1Char('\t') + key);
+            QObject::connect(added, &QAction::triggered, m_view, action);
+            return added;
+        }
+
+        template <class Action>
+        QAction *check(QMenu &menu, const QString &text, const QString &key, bool isOn, Action action) const
+        {
+            QAction *added = add(menu, text, key, action);
+            added->setCheckable(true);
+            added->setChecked(isOn);
+            return added;
+        }
+
+    private:
+        MarkedWaterfall *m_view;
+    };
+
+    QString tr(const char *text)
+    {
+        return MarkedWaterfall::tr(text);
+    }
+
+    void addZooming(QMenu &menu, MarkedWaterfall *view)
+    {
+        const Commands commands(*view);
+        const Viewport *viewport = view->viewport();
+        commands.add(menu, tr("Show all"), QStringLiteral("0"), [view] { view->viewport()->showAll(); })
+            ->setEnabled(viewport && !viewport->showsAll());
+        commands.add(menu, tr("Zoom back"), tr("Backspace"), [view] { view->viewport()->zoomBack(); })
+            ->setEnabled(viewport && viewport->canZoomBack());
+    }
+
+    void addOrientations(QMenu &menu, MarkedWaterfall *view)
+    {
+        auto *group = new QActionGroup(&menu);
+        using Orientation = MarkedWaterfall::Orientation;
+        const std::pair<Orientation, QString> ways[] = {{Orientation::NewestOnTop, tr("Newest on top")},
+                                                        {Orientation::OldestOnTop, tr("Oldest on top")},
+                                                        {Orientation::LeftToRight, tr("Left to right")}};
+        for (const auto &[way, text] : ways)
+            group->addAction(Commands(*view).check(menu, text, QString(), view->orientation() == way,
+                                                   [view, way = way] { view->setOrientation(way); }));
+    }
+
+    void addColours(QMenu &menu, MarkedWaterfall *view)
+    {
+        auto *group = new QActionGroup(&menu);
+        for (const QString &name : ColourMap::names())
+            group->addAction(Commands(*view).check(menu, name, QString(), name == view->colourMap().name(),
+                                                   [view, name] { view->setColourMap(name); }));
+    }
+
+    void addLayers(QMenu &menu, MarkedWaterfall *view)
+    {
+        using View = MarkedWaterfall;
+        const std::pair<View::Layer, QString> rows[] = {
+            {View::EventLayer, tr("Events")}, {View::TrackLayer, tr("Tracks")},
+            {View::TruthLayer, tr("Truth")},  {View::ThresholdLayer, tr("Threshold contour")},
+            {View::GridLayer, tr("Grid")},    {View::CursorLayer, tr("Cursor")}};
+        for (const auto &[layer, text] : rows)
+            Commands(*view).check(menu, text, QString(), view->layers().testFlag(layer),
+                                  [view, layer = layer](bool isOn) { view->setLayer(layer, isOn); });
+    }
+
+    void addMeasures(QMenu &menu, MarkedWaterfall *view)
+    {
+        const Commands commands(*view);
+        commands.check(menu, tr("Measure a box"), QStringLiteral("M"), view->isMeasuring(),
+                       [view](bool isOn) { view->setMeasuring(isOn); });
+        if (view->frequencyAxis().unit == "Hz") {
+            commands.check(menu, tr("Harmonics of the cursor"), QStringLiteral("H"), view->hasHarmonics(),
+                           [view](bool isOn) { view->setHarmonics(isOn); });
+            commands.check(menu, tr("Sidebands of the cursor"), QStringLiteral("I"), view->sidebandSpacing() > 0.0,
+                           [view](bool isOn) { view->setSidebands(isOn); });
+        }
+        commands.add(menu, tr("Cursor to the peak nearby"), QStringLiteral("K"), [view] { view->moveCursorToPeak(); })
+            ->setEnabled(view->viewport() && view->viewport()->cursor());
+    }
+
+} // namespace
+
 void addCommands(QMenu &menu, MarkedWaterfall &shown)
 {
     MarkedWaterfall *const view = &shown;
-    const auto tr = [](const char *text) { return MarkedWaterfall::tr(text); };
-    const auto add = [view](QMenu &to, const QString &text, const QString &key, auto action) {
-        // The key is text only: as a shortcut it would take the key from the view that has the focus.
-        QAction *added = to.addAction(key.isEmpty() ? text : text + QLatin1Char('\t') + key);
-        QObject::connect(added, &QAction::triggered, view, action);
-        return added;
-    };
-    const auto check = [&](QMenu &to, const QString &text, const QString &key, bool isOn, auto action) {
-        QAction *added = add(to, text, key, action);
-        added->setCheckable(true);
-        added->setChecked(isOn);
-        return added;
-    };
-    const Viewport *viewport = view->viewport();
-    add(menu, tr("Show all"), QStringLiteral("0"), [view] {
-        view->viewport()->showAll();
-    })->setEnabled(viewport && !viewport->showsAll());
-    add(menu, tr("Zoom back"), tr("Backspace"), [view] {
-        view->viewport()->zoomBack();
-    })->setEnabled(viewport && viewport->canZoomBack());
+    addZooming(menu, view);
     menu.addSeparator();
-
-    QMenu &orientations = *menu.addMenu(tr("Orientation"));
-    auto *orientationGroup = new QActionGroup(&orientations);
-    using Orientation = MarkedWaterfall::Orientation;
-    const std::pair<Orientation, QString> ways[] = {{Orientation::NewestOnTop, tr("Newest on top")},
-                                                    {Orientation::OldestOnTop, tr("Oldest on top")},
-                                                    {Orientation::LeftToRight, tr("Left to right")}};
-    for (const auto &[way, text] : ways)
-        orientationGroup->addAction(check(orientations, text, QString(), view->orientation() == way,
-                                          [view, way = way] { view->setOrientation(way); }));
-    QMenu &colours = *menu.addMenu(tr("Colours"));
-    auto *colourGroup = new QActionGroup(&colours);
-    for (const QString &name : ColourMap::names())
-        colourGroup->addAction(check(colours, name, QString(), name == view->colourMap().name(),
-                                     [view, name] { view->setColourMap(name); }));
-    check(menu, tr("Automatic range"), QStringLiteral("A"), view->isRangeAutomatic(),
-          [view] { view->setAutomaticRange(); });
-
-    QMenu &layers = *menu.addMenu(tr("Show"));
-    using View = MarkedWaterfall;
-    const std::pair<View::Layer, QString> rows[] = {
-        {View::EventLayer, tr("Events")}, {View::TrackLayer, tr("Tracks")},
-        {View::TruthLayer, tr("Truth")},  {View::ThresholdLayer, tr("Threshold contour")},
-        {View::GridLayer, tr("Grid")},    {View::CursorLayer, tr("Cursor")}};
-    for (const auto &[layer, text] : rows)
-        check(layers, text, QString(), view->layers().testFlag(layer),
-              [view, layer = layer](bool isOn) { view->setLayer(layer, isOn); });
+    addOrientations(*menu.addMenu(tr("Orientation")), view);
+    addColours(*menu.addMenu(tr("Colours")), view);
+    Commands(shown).check(menu, tr("Automatic range"), QStringLiteral("A"), view->isRangeAutomatic(),
+                          [view] { view->setAutomaticRange(); });
+    addLayers(*menu.addMenu(tr("Show")), view);
     menu.addSeparator();
-    check(menu, tr("Measure a box"), QStringLiteral("M"), view->isMeasuring(),
-          [view](bool isOn) { view->setMeasuring(isOn); });
-    if (view->frequencyAxis().unit == "Hz") {
-        check(menu, tr("Harmonics of the cursor"), QStringLiteral("H"), view->hasHarmonics(),
-              [view](bool isOn) { view->setHarmonics(isOn); });
-        check(menu, tr("Sidebands of the cursor"), QStringLiteral("I"), view->sidebandSpacing() > 0.0,
-              [view](bool isOn) { view->setSidebands(isOn); });
-    }
-    add(menu, tr("Cursor to the peak nearby"), QStringLiteral("K"), [view] {
-        view->moveCursorToPeak();
-    })->setEnabled(viewport && viewport->cursor());
+    addMeasures(menu, view);
 }
 
 } // namespace faintline

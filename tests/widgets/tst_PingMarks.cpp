@@ -1,0 +1,128 @@
+#include "widgets/pings/PingMarks.h"
+
+#include "pictures.h"
+
+#include <QtTest>
+
+#include <cmath>
+
+using namespace faintline;
+
+/// Tracks, events and targets on range and bearing, as each axis alone sees them.
+class tst_PingMarks : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void tracksAlongEachAxis();
+    void aTurnIsCutAtTheEndOfTheAxis();
+    void eventsAlongEachAxis();
+    void linesAreTheirOwnAxis();
+    void targetsBecomeLines();
+    void targetsBeyondTheGridLeaveAGap();
+    void theOldestBoxIsOnTop();
+
+private:
+    const Grid m_grid{{{"range", "m", 1000.0, 10.0, 100, false}, {"bearing", "deg", 0.0, 18.0, 20, true}}};
+    const Axis m_time{"time", "s", 0.0, 40.0, 10, false};
+
+    Track track(const std::vector<std::pair<Index, Index>> &cells) const
+    {
+        Track result;
+        result.id = 4;
+        for (std::size_t i = 0; i < cells.size(); ++i)
+            result.points.push_back({Index(i), cells[i].first * 20 + cells[i].second, 0, 10.0});
+        return result;
+    }
+    static std::vector<Index> cellsOf(const Track &track)
+    {
+        std::vector<Index> cells;
+        for (const TrackPoint &point : track.points)
+            cells.push_back(point.cell);
+        return cells;
+    }
+};
+
+void tst_PingMarks::tracksAlongEachAxis()
+{
+    const Track followed = track({{50, 3}, {52, 4}, {54, 4}});
+    const auto ranges = tracksAlong({followed}, m_grid, 0);
+    QCOMPARE(ranges.size(), std::size_t(1));
+    QCOMPARE(cellsOf(ranges[0]), (std::vector<Index>{50, 52, 54}));
+    const auto bearings = tracksAlong({followed}, m_grid, 1);
+    QCOMPARE(cellsOf(bearings[0]), (std::vector<Index>{3, 4, 4}));
+    QCOMPARE(bearings[0].id, 4);
+}
+
+void tst_PingMarks::aTurnIsCutAtTheEndOfTheAxis()
+{
+    const Track followed = track({{50, 18}, {50, 19}, {50, 0}, {50, 1}});
+    const auto bearings = tracksAlong({followed}, m_grid, 1);
+    QCOMPARE(bearings.size(), std::size_t(2)); // no stroke across the picture
+    QCOMPARE(cellsOf(bearings[0]), (std::vector<Index>{18, 19}));
+    QCOMPARE(cellsOf(bearings[1]), (std::vector<Index>{0, 1}));
+    QCOMPARE(bearings[1].id, 4);
+    QCOMPARE(tracksAlong({followed}, m_grid, 0).size(), std::size_t(1)); // range has no turn
+}
+
+void tst_PingMarks::eventsAlongEachAxis()
+{
+    Event event = test::event(4, 40.0, 120.0, 0.0);
+    event.position = {1500.0, 72.0};
+    event.ratesPerSecond = {-2.0, 0.5};
+    event.driftPerSecond = 0.5;
+    const auto ranges = eventsAlong({event}, 0);
+    QCOMPARE(ranges[0].position, std::vector<double>{1500.0});
+    QCOMPARE(ranges[0].driftPerSecond, -2.0);
+    const auto bearings = eventsAlong({event}, 1);
+    QCOMPARE(bearings[0].position, std::vector<double>{72.0});
+    QCOMPARE(bearings[0].driftPerSecond, 0.5);
+}
+
+/// An event on one axis is what that axis sees of it, so that nobody has to ask how many there are.
+void tst_PingMarks::linesAreTheirOwnAxis()
+{
+    Event line = test::event(1, 2.0, 8.0, 440.0);
+    line.ratesPerSecond = {1.5};
+    line.driftPerSecond = 1.5;
+    const Event seen = eventsAlong({line}, 0).front();
+    QCOMPARE(seen.position, line.position);
+    QCOMPARE(seen.ratesPerSecond, line.ratesPerSecond);
+    QCOMPARE(seen.driftPerSecond, line.driftPerSecond);
+    QCOMPARE(seen.onsetSeconds, line.onsetSeconds);
+}
+
+void tst_PingMarks::targetsBecomeLines()
+{
+    PingTruth truth;
+    truth.targets.push_back({12.0, 2, {1500.0, 1490.0, 1480.0}, {72.0, 73.0, 74.0}, {1004.0, 984.0, 964.0}});
+    const auto ranges = truthAlong(truth, m_grid, m_time, 0);
+    QCOMPARE(ranges.size(), std::size_t(1));
+    QCOMPARE(ranges[0].startSeconds, 80.0); // of its first ping
+    QCOMPARE(ranges[0].stepSeconds, 40.0);
+    QCOMPARE(ranges[0].frequencyHz, (std::vector<double>{1500.0, 1490.0, 1480.0}));
+    QCOMPARE(truthAlong(truth, m_grid, m_time, 1)[0].frequencyHz, (std::vector<double>{72.0, 73.0, 74.0}));
+}
+
+void tst_PingMarks::targetsBeyondTheGridLeaveAGap()
+{
+    PingTruth truth;
+    truth.targets.push_back({12.0, 0, {1010.0, 990.0, 1010.0}, {72.0, 72.0, 72.0}, {24.0, -1.0, 24.0}});
+    const auto ranges = truthAlong(truth, m_grid, m_time, 0);
+    QCOMPARE(ranges.size(), std::size_t(2));
+    QCOMPARE(ranges[0].frequencyHz.size(), std::size_t(1));
+    QCOMPARE(ranges[1].startSeconds, 80.0);
+}
+
+void tst_PingMarks::theOldestBoxIsOnTop()
+{
+    PingMarks marks;
+    // As the chain lists them, the oldest first.
+    marks.boxes = {{2, 9, {1050.0, 1200.0}, {20.0, 60.0}}, {5, 3, {1000.0, 1100.0}, {0.0, 40.0}}};
+    QCOMPARE(marks.boxAt({1075.0, 30.0})->pings, 9);
+    QCOMPARE(marks.boxAt({1010.0, 10.0})->track, 5);
+    QVERIFY(!marks.boxAt({1300.0, 30.0}));
+}
+
+QTEST_MAIN(tst_PingMarks)
+#include "tst_PingMarks.moc"

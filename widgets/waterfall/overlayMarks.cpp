@@ -1,0 +1,89 @@
+#include "widgets/waterfall/overlayMarks.h"
+
+#include <QCoreApplication>
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace faintline {
+
+std::vector<OverlayLine> overlayLines(const std::vector<Track> &followed, const Axis &time, const Axis &frequency)
+{
+    std::vector<OverlayLine> lines;
+    lines.reserve(followed.size());
+    for (const Track &track : followed) {
+        OverlayLine line{track.id, {}};
+        line.points.reserve(qsizetype(track.points.size()));
+        const auto at = [&](std::size_t i, double cell) {
+            return QPointF(time.value(double(track.points[i].frame)), frequency.value(cell));
+        };
+        for (std::size_t i = 0; i < track.points.size(); ++i)
+            line.points << at(i, track.lastPosition(i, frequency));
+        for (std::size_t i = 0; i < track.smoothed.size(); ++i)
+            line.band << at(i, double(track.smoothed[i].low));
+        for (std::size_t i = track.smoothed.size(); i-- > 0;)
+            line.band << at(i, double(track.smoothed[i].high));
+        lines.push_back(std::move(line));
+    }
+    return lines;
+}
+
+std::vector<OverlayBox> overlayBoxes(const std::vector<AreaEvent> &areas)
+{
+    std::vector<OverlayBox> boxes;
+    for (const AreaEvent &area : areas)
+        boxes.push_back({{{area.onsetSeconds, area.endSeconds}, {area.low, area.high}},
+                         QCoreApplication::translate("OverlayItem", "area"),
+                         false});
+    return boxes;
+}
+
+std::vector<OverlayLine> overlayLines(const std::vector<TruthLine> &known)
+{
+    std::vector<OverlayLine> lines;
+    for (const TruthLine &one : known) {
+        if (one.frequencyHz.empty())
+            continue;
+        OverlayLine line;
+        for (std::size_t i = 0; i < one.frequencyHz.size(); ++i) {
+            const double seconds = one.startSeconds + double(i) * one.stepSeconds;
+            line.points << QPointF(std::min(seconds, one.endSeconds), one.frequencyHz[i]);
+        }
+        if (line.points.back().x() < one.endSeconds)
+            line.points << QPointF(one.endSeconds, one.frequencyHz.back());
+        lines.push_back(std::move(line));
+    }
+    return lines;
+}
+
+std::vector<OverlayMark> overlayMarks(const std::vector<Event> &events, const std::vector<OverlayLine> &lines,
+                                      double frameSeconds, double binHz)
+{
+    std::unordered_map<int, const OverlayLine *> lineOf;
+    for (const OverlayLine &line : lines)
+        lineOf.try_emplace(line.id, &line);
+    std::vector<OverlayMark> marks;
+    for (const Event &event : events) {
+        if (event.position.empty())
+            continue;
+        const auto track = lineOf.find(event.id);
+        const auto hzAt = [&](double seconds) {
+            return event.position.back() + event.driftPerSecond * (seconds - event.detectSeconds);
+        };
+        QPolygonF points{{event.onsetSeconds, hzAt(event.onsetSeconds)}, {event.endSeconds, hzAt(event.endSeconds)}};
+        if (track != lineOf.end() && !track->second->points.isEmpty())
+            points = track->second->points;
+        OverlayMark mark{
+            event.id, {{event.onsetSeconds, event.endSeconds}, {points[0].y(), points[0].y()}}, event.isConfirmed};
+        for (const QPointF &point : points) {
+            mark.box.frequency.low = std::min(mark.box.frequency.low, point.y());
+            mark.box.frequency.high = std::max(mark.box.frequency.high, point.y());
+        }
+        mark.box.time = {mark.box.time.low - 0.5 * frameSeconds, mark.box.time.high + 0.5 * frameSeconds};
+        mark.box.frequency = {mark.box.frequency.low - 0.5 * binHz, mark.box.frequency.high + 0.5 * binHz};
+        marks.push_back(mark);
+    }
+    return marks;
+}
+
+} // namespace faintline

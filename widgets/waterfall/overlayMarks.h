@@ -1,0 +1,45 @@
+#pragma once
+
+#include "analysis/analyse.h"
+#include "recording/Truth.h"
+#include "widgets/base/Viewport.h"
+
+#include <QPolygonF>
+#include <QString>
+
+#include <vector>
+
+namespace faintline {
+
+// What an OverlayItem draws of events, tracks, areas and the truth.
+
+/// An event as a box with its number.
+struct OverlayMark {
+    int id = 0;
+    Viewport::Box box;
+    bool isConfirmed = true;
+};
+
+/// A box somebody drew.
+struct OverlayBox {
+    Viewport::Box box;
+    QString text;
+    bool isFaint = false;
+};
+
+/// A polyline, x in seconds, y in Hz.
+struct OverlayLine {
+    int id = 0;
+    QPolygonF points;
+    QPolygonF band{}; ///< 5 % of the posterior forth, 95 % back, where it is known
+};
+
+std::vector<OverlayLine> overlayLines(const std::vector<Track> &followed, const Axis &time, const Axis &frequency);
+std::vector<OverlayLine> overlayLines(const std::vector<TruthLine> &known);
+std::vector<OverlayBox> overlayBoxes(const std::vector<AreaEvent> &areas);
+/// Boxes around the events' tracks where there are any, otherwise along their straight lines; at least a bin and a
+/// frame wide.
+std::vector<OverlayMark> overlayMarks(const std::vector<Event> &events, const std::vector<OverlayLine> &lines,
+                                      double frameSeconds, double binHz);
+
+} // namespace faintline
