@@ -17,8 +17,8 @@ class Document;
 /// Whether the recording that is open is what its analysis takes it for.
 ///
 /// After each analysis the noise outside its tracks is looked at (`checkNoiseLaw`), and what a user should know
-/// (`advise`). On request, surrogates of the recording are sent through the whole chain (`countOnSurrogates`). All of it
-/// runs on worker threads and is forgotten as soon as the settings change.
+/// (`advise`). On request, surrogates of the recording are sent through the whole chain (`countOnSurrogates`). All of
+/// it runs on worker threads and is forgotten as soon as the settings change.
 class RecordingCheck : public QObject
 {
     Q_OBJECT

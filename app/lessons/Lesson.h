@@ -49,8 +49,8 @@ struct LessonStep {
 ///
 ///     { "title": "…", "sentence": "…", "steps": [
 ///         { "title": "…", "text": "…", "open": "scene.json", "preset": "sonar", "settings": {"detector.kind": "pOfN"},
-///           "show": ["why"], "zoom": {"seconds": [10, 30], "hz": [100, 200]} or "all", "cursor": {"seconds": 20, "hz": 150},
-///           "point": "output", "facts": {"events": 1},
+///           "show": ["why"], "zoom": {"seconds": [10, 30], "hz": [100, 200]} or "all",
+///           "cursor": {"seconds": 20, "hz": 150}, "point": "output", "facts": {"events": 1},
 ///           "ask": {"question": "…", "choices": ["…", "…"], "answer": 1, "why": "…"},
 ///           "do": "…", "until": {"threshold": [null, 12]}, "then": "…", "thenFacts": {"events": [2, null]} } ] }
 ///

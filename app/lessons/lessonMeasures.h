@@ -15,10 +15,12 @@ class WindowParts;
 ///     cursor.seconds, cursor.hz, cursor.range, cursor.bearing, visible.seconds, visible.hz, level, statistic
 ///     frameSeconds, binHz, windowSeconds, aboveTwice (share of cells whose power is more than twice the noise's mean)
 ///     threshold, falseAlarmsPerHour (on noise), events, peak, resetFraction, lnK
-///     line.1.followed, line.1.tracks, line.1.peak, line.1.seconds: of the truth's first line or target, the share of its frames that a
-///         shown track goes along with, how many do so, their largest statistic, how long after its beginning the first was detected
+///     line.1.followed, line.1.tracks, line.1.peak, line.1.seconds: of the truth's first line or target, the share of
+///         its frames that a shown track goes along with, how many do so, their largest statistic, how long after its
+///         beginning the first was detected
 ///     why.lnP: mean ln P of the path in the ladder
-///     walks.noise, walks.target (mean stages), walks.wrong, walks.fixed (stages of a test of fixed size), survey.saved, walks.selected ("noise" or "target"), walks.stage, walks.stages
+///     walks.noise, walks.target (mean stages), walks.wrong, walks.fixed (stages of a test of fixed size),
+///     survey.saved, walks.selected ("noise" or "target"), walks.stage, walks.stages
 ///     test.NAME: a setting of the sequential test; view.NAME: 1 while it can be seen; any setting by its own name
 ///
 /// Words for what has no number. Nothing where there is no such thing at the moment.

@@ -51,9 +51,10 @@ class tst_Closeup : public QObject
 private slots:
     void init()
     {
-        const QString scene = writeFile(
-            m_folder, "scene.json",
-            R"({"kind": "lines", "sampleRateHz": 400, "durationSeconds": 200, "lines": [{"snrDb": 6, "frequencyHz": 90}]})");
+        const QString scene =
+            writeFile(m_folder, "scene.json",
+                      R"({"kind": "lines", "sampleRateHz": 400, "durationSeconds": 200, "lines": [{"snrDb": 6,
+               "frequencyHz": 90}]})");
         m_window = newWindow();
         QVERIFY(openAndSettle(*m_window, scene,
                               [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; }));

@@ -21,7 +21,8 @@ class tst_Comparer : public QObject
     QString scene(const QString &name, double hz)
     {
         const QString text = QStringLiteral(R"({"kind": "lines", "sampleRateHz": 400, "durationSeconds": 60, "seed": 8,
-            "lines": [{"snrDb": 0, "referenceSeconds": 0.25, "frequencyHz": %1, "startSeconds": 10, "durationSeconds": 45}]})");
+            "lines": [{"snrDb": 0, "referenceSeconds": 0.25, "frequencyHz": %1, "startSeconds": 10,
+            "durationSeconds": 45}]})");
         return writeFile(m_folder, name, text.arg(hz).toUtf8());
     }
 

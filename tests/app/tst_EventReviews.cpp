@@ -55,7 +55,8 @@ private slots:
         Theme::apply(Theme::Kind::Light);
         const QString scene = writeFile(m_folder, "scene.json",
                                         R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
-            {"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 5, "durationSeconds": 40, "frequencyHz": 120, "driftHzPerSecond": 1},
+            {"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 5, "durationSeconds": 40, "frequencyHz": 120,
+            "driftHzPerSecond": 1},
             {"snrDb": 7, "referenceSeconds": 0.5, "startSeconds": 20, "durationSeconds": 30, "frequencyHz": 350}]})");
         m_window = newWindow({1440, 900});
         QVERIFY(openAndSettle(*m_window, scene));

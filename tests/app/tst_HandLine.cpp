@@ -44,7 +44,8 @@ void tst_HandLine::initTestCase()
     Theme::apply(Theme::Kind::Light);
     const QString scene =
         writeFile(m_folder, "scene.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
-        {"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 5, "durationSeconds": 50, "frequencyHz": 120, "driftHzPerSecond": 2}]})");
+        {"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 5, "durationSeconds": 50, "frequencyHz": 120,
+        "driftHzPerSecond": 2}]})");
     m_window = newWindow();
     QVERIFY(openAndSettle(*m_window, scene));
     QVERIFY(!m_window->document().analysis()->tracks.empty());

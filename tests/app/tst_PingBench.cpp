@@ -45,7 +45,8 @@ namespace {
 /// Small enough to be analysed at once: nine rates a cell.
 const char *const scene = R"({"kind": "pings", "pings": 24, "rangeCells": 120, "beams": 8, "seed": 5, "targets": [
     {"snrDb": 11, "rangeMetres": 3500, "bearingDegrees": 90, "appearPing": 4, "legs": [{"rangeCellsPerPing": 1}]},
-    {"snrDb": 11, "rangeMetres": 3900, "bearingDegrees": 315, "appearPing": 5, "legs": [{"rangeCellsPerPing": -1, "beamsPerPing": 0.15}]}]})";
+    {"snrDb": 11, "rangeMetres": 3900, "bearingDegrees": 315, "appearPing": 5, "legs": [{"rangeCellsPerPing": -1,
+    "beamsPerPing": 0.15}]}]})";
 
 AnalysisSettings nineRates(AnalysisSettings settings)
 {
@@ -378,9 +379,9 @@ private slots:
 
     void linesComeBackToTheirBench()
     {
-        writeFile(
-            m_folder, "lines.json",
-            R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": [{"snrDb": 8, "frequencyHz": 200}]})");
+        writeFile(m_folder, "lines.json",
+                  R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": [{"snrDb": 8,
+               "frequencyHz": 200}]})");
         const auto w = window();
         QVERIFY(openWithNineRates(*w, path("pings.json")));
         QVERIFY(openAndSettle(*w, path("lines.json")));
@@ -392,9 +393,9 @@ private slots:
 
     void nothingStaysUnderANewName()
     {
-        writeFile(
-            m_folder, "before.json",
-            R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": [{"snrDb": 8, "frequencyHz": 200}]})");
+        writeFile(m_folder, "before.json",
+                  R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": [{"snrDb": 8,
+               "frequencyHz": 200}]})");
         const auto w = window();
         QVERIFY(openAndSettle(*w, path("before.json")));
         QVERIFY(w->workbench().input()->picture());

@@ -18,9 +18,9 @@ class tst_Provisional : public QObject
 
     QString scene()
     {
-        return writeFile(
-            m_folder, "scene.json",
-            R"({"kind": "lines", "sampleRateHz": 400, "durationSeconds": 120, "lines": [{"snrDb": 5, "frequencyHz": 90}]})");
+        return writeFile(m_folder, "scene.json",
+                         R"({"kind": "lines", "sampleRateHz": 400, "durationSeconds": 120, "lines": [{"snrDb": 5,
+               "frequencyHz": 90}]})");
     }
 
 private slots:

@@ -19,9 +19,10 @@ class tst_SweepPanel : public QObject
 
     void openLine(MainWindow &window)
     {
-        const QString scene = writeFile(
-            m_folder, "scene.json",
-            R"({"kind": "lines", "sampleRateHz": 400, "durationSeconds": 60, "lines": [{"snrDb": 5, "frequencyHz": 90}]})");
+        const QString scene =
+            writeFile(m_folder, "scene.json",
+                      R"({"kind": "lines", "sampleRateHz": 400, "durationSeconds": 60, "lines": [{"snrDb": 5,
+               "frequencyHz": 90}]})");
         QVERIFY(openAndSettle(window, scene, [](AnalysisSettings &settings) {
             settings.spectrogram.windowSeconds = 0.5;
             settings.model.lowestSlope = settings.model.highestSlope = 0;

@@ -88,7 +88,8 @@ private:
 namespace {
 
 const QByteArray scene = R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 10, "seed": 3,
-        "lines": [{"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 2, "durationSeconds": 6, "frequencyHz": 210}]})";
+        "lines": [{"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 2, "durationSeconds": 6,
+        "frequencyHz": 210}]})";
 const QByteArray pings = R"({"kind": "pings", "pings": 4, "rangeCells": 20, "beams": 4})";
 const QByteArray model =
     R"({"axes": [{"cells": 4, "rates": [-1, 0, 1], "rateChange": [0.4, 0.3]}], "likelihood": {"kind": "linear"}})";
@@ -292,7 +293,8 @@ void tst_cliBadInput::sizesWithoutMemory()
     // The file asks for more cells than there is memory; what it is to be run on has four.
     writeBytes(
         pathOf("large.json"),
-        R"({"axes": [{"cells": 30000, "integrate": true}, {"cells": 30000}], "likelihood": {"kind": "exponential", "snr": 4}})");
+        R"({"axes": [{"cells": 30000, "integrate": true}, {"cells": 30000}], "likelihood": {"kind": "exponential",
+           "snr": 4}})");
     const QStringList arguments{"sequential", "--frames", "frames.npy", "--model", "large.json", "--out", "o.json"};
     const Outcome told = run("faintline-cli", arguments, limitMemory);
     QCOMPARE(told.err, QByteArray("error: large.json: has 30000 × 30000 cells, but the frames of frames.npy have 4\n"));

@@ -243,9 +243,9 @@ void tst_hostileNames::reviewsOfASessionAreHarmless()
 
 void tst_hostileNames::gridsAreHarmless()
 {
-    writeTextFile(
-        pathOfName("pings.json"),
-        R"({"kind": "pings", "pings": 3, "rangeCells": 12, "beams": 4, "targets": [{"rangeMetres": 3030, "legs": [{"pings": 1}, {}]}]})");
+    writeTextFile(pathOfName("pings.json"),
+                  R"({"kind": "pings", "pings": 3, "rangeCells": 12, "beams": 4, "targets": [{"rangeMetres": 3030,
+           "legs": [{"pings": 1}, {}]}]})");
     const auto window = newWindow();
     const QString unit = hostile + QStringLiteral("xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx");
     // Frames with axes of hostile names and units beside them.

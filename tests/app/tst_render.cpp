@@ -81,7 +81,8 @@ private slots:
         QFile scans(path("scans.json"));
         QVERIFY(scans.open(QIODevice::WriteOnly));
         scans.write(
-            R"({"kind": "scans", "azimuthCells": 1, "elevationCells": 1, "rangeCells": 20, "dopplerCells": 4, "stages": 12})");
+            R"({"kind": "scans", "azimuthCells": 1, "elevationCells": 1, "rangeCells": 20, "dopplerCells": 4,
+               "stages": 12})");
         QFile text(path("text.wav"));
         QVERIFY(text.open(QIODevice::WriteOnly));
         text.write("This is no sound.");
@@ -300,7 +301,8 @@ private slots:
         QFile file(path("pings.json"));
         QVERIFY(file.open(QIODevice::WriteOnly));
         file.write(
-            R"({"kind": "pings", "pings": 16, "rangeCells": 80, "beams": 6, "targets": [{"snrDb": 12, "rangeMetres": 3200,
+            R"({"kind": "pings", "pings": 16, "rangeCells": 80, "beams": 6, "targets": [{"snrDb": 12,
+               "rangeMetres": 3200,
                        "bearingDegrees": 120, "appearPing": 3}]})");
         file.close();
         const QStringList views{"window", "input", "output", "map", "polar", "histories", "slice"};

@@ -48,7 +48,8 @@ protected:
     {
         QVERIFY2(QFile::exists(program), "faintline-cli is not built");
         writeBytes(pathOf("scene.json"), R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 30, "seed": 3,
-            "lines": [{"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 8, "durationSeconds": 15, "frequencyHz": 210,
+            "lines": [{"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 8, "durationSeconds": 15,
+            "frequencyHz": 210,
                        "driftHzPerSecond": 0.2}]})");
         const Outcome made = run({"simulate", "scene.json", "--out", "line.wav", "--truth", "truth.json"});
         QCOMPARE(made.err, QByteArray());

@@ -84,7 +84,8 @@ void tst_cliBounded::smallFiles_data()
 QByteArray tst_cliBounded::provenance(const QByteArray &kind)
 {
     if (kind.contains("added"))
-        return R"({"version": "0", "settings": {}, "recording": {"scenario": {"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 2},
+        return R"({"version": "0", "settings": {}, "recording": {"scenario": {"kind": "lines", "sampleRateHz": 1000,
+                  "durationSeconds": 2},
             "injected": [)"
                + list(R"({"line": {"frequencyHz": 10}, "amplitude": 0.1})", 15000) + "]}}";
     return R"({"faintline": "0", "folder": ".", "inputs": [], "arguments": [)"

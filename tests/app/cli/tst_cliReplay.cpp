@@ -69,7 +69,8 @@ void tst_cliReplay::nothingElseIsTouched_data()
 {
     QTest::addColumn<QByteArray>("told");
     QTest::newRow("an output that is not told of") << provenance(
-        R"(["detect", "line.wav", "--set", "spectrogram.windowSeconds=0.5", "--events", "gift.csv", "--tracks", "../mine.csv"])",
+        R"(["detect", "line.wav", "--set", "spectrogram.windowSeconds=0.5", "--events", "gift.csv", "--tracks",
+           "../mine.csv"])",
         R"(["gift.csv"])");
     QTest::newRow("an output far away") << provenance(
         R"(["simulate", "scene.json", "--out", "gift.wav", "--truth=../mine.json"])", R"(["gift.wav"])");
@@ -78,7 +79,8 @@ void tst_cliReplay::nothingElseIsTouched_data()
     QTest::newRow("shards, one of them called detect")
         << provenance(R"(["evaluate", "merge", "detect", "--out", "../mine.csv"])", R"(["detect"])");
     QTest::newRow("a statistic of frames called inject") << provenance(
-        R"(["statistic", "--frames", "inject", "--model", "model.json", "--out", "../mine.npy", "--log", "../mine.csv"])",
+        R"(["statistic", "--frames", "inject", "--model", "model.json", "--out", "../mine.npy", "--log",
+           "../mine.csv"])",
         R"(["inject"])");
     QTest::newRow("a command after threads") << provenance(
         R"(["--threads", "1", "evaluate", "experiment.json", "--out=../mine.csv", "--chart=detect"])", R"(["detect"])");
@@ -89,9 +91,11 @@ void tst_cliReplay::nothingElseIsTouched_data()
                .replace("\"folder\": \".\"", "\"folder\": \"..\"");
     QTest::newRow("an experiment of the window")
         << QByteArray(R"({"version": "0", "outputs": ["../mine.csv"], "experiment": {"kind": "sweep", "trials": 2,
-        "durationSeconds": 2, "sampleRateHz": 100, "parameter": "decide.thresholdNats", "values": [5, 6], "out": "../mine.csv"}})");
+        "durationSeconds": 2, "sampleRateHz": 100, "parameter": "decide.thresholdNats", "values": [5, 6],
+        "out": "../mine.csv"}})");
     QTest::newRow("events of the window") << QByteArray(R"({"version": "0", "outputs": ["gift.csv"], "settings": {},
-        "recording": {"path": "../mine.csv", "name": "../mine", "scenario": {"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20}}})");
+        "recording": {"path": "../mine.csv", "name": "../mine", "scenario": {"kind": "lines", "sampleRateHz": 1000,
+        "durationSeconds": 20}}})");
     QTest::newRow("a link that leads away")
         << provenance(R"(["simulate", "scene.json", "--out", "gift.wav", "--truth", "link.json"])", R"(["gift.wav"])");
 }
@@ -109,7 +113,8 @@ void tst_cliReplay::nothingElseIsTouched()
     writeBytes(at("gift/pings.json"), R"({"kind": "pings", "pings": 4, "rangeCells": 20, "beams": 4})");
     writeBytes(at("gift/experiment.json"),
                R"({"kind": "lines", "runs": 2, "frames": 60, "blockFrames": 30, "blockBins": 30,
-        "durationWindows": 10, "snrDb": [3], "detectors": [{"name": "SMD", "settings": {"detector.kind": "smd", "smd.reset": "fixed"}}]})");
+        "durationWindows": 10, "snrDb": [3], "detectors": [{"name": "SMD", "settings": {"detector.kind": "smd",
+        "smd.reset": "fixed"}}]})");
     writeBytes(
         at("gift/model.json"),
         R"({"axes": [{"cells": 4, "rates": [-1, 0, 1], "rateChange": [0.4, 0.3]}], "likelihood": {"kind": "linear"}})");

@@ -54,12 +54,13 @@ void tst_cliSequential::sequentialByEye()
 
 void tst_cliSequential::sequentialInRadarScans()
 {
-    writeBytes(
-        pathOf("scans.json"),
-        R"({"kind": "scans", "azimuthCells": 2, "elevationCells": 2, "rangeCells": 20, "dopplerCells": 4, "snrDb": 20})");
+    writeBytes(pathOf("scans.json"),
+               R"({"kind": "scans", "azimuthCells": 2, "elevationCells": 2, "rangeCells": 20, "dopplerCells": 4,
+           "snrDb": 20})");
     writeBytes(pathOf("scans.model"),
                R"({"axes": [{"cells": 2, "step": "uniform-admissible"}, {"cells": 2, "step": "uniform-admissible"},
-        {"cells": 20, "step": "uniform-admissible"}, {"cells": 4, "integrate": true}], "likelihood": {"kind": "exponential", "snr": 100}})");
+        {"cells": 20, "step": "uniform-admissible"}, {"cells": 4, "integrate": true}],
+        "likelihood": {"kind": "exponential", "snr": 100}})");
     int found = 0;
     for (const char *seed : {"1", "2", "3", "4", "5"}) {
         QCOMPARE(run({"simulate", "scans.json", "--seed", seed, "--out", "scans.npy", "--truth", "scans.truth"}).code,

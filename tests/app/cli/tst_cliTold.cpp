@@ -51,7 +51,8 @@ void tst_cliTold::infoAsJson()
     writeBytes(pathOf("iq.sigmf-data"), QByteArray(400, '\0'));
     writeBytes(pathOf("iq.sigmf-meta"),
                R"({"global": {"core:datatype": "ci16_le", "core:sample_rate": 50, "core:version": "1.0.0"},
-        "captures": [{"core:sample_start": 0, "core:frequency": 7e6, "core:datetime": "2024-07-26T00:00:00Z"}], "annotations": []})");
+        "captures": [{"core:sample_start": 0, "core:frequency": 7e6, "core:datetime": "2024-07-26T00:00:00Z"}],
+        "annotations": []})");
     const Outcome told = run({"info", "iq.sigmf-meta", "--json"});
     QCOMPARE(told.code, 0);
     const Json json = parseJson(told.out.toStdString(), "info");
