@@ -18,6 +18,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <utility>
 
 namespace faintline {
 
@@ -35,19 +37,33 @@ namespace {
         lines.frames = needed * 3 + needed / 2;
     }
 
+    /// Inputs beside each other, with a word between them.
+    QHBoxLayout *row(QWidget *first, std::initializer_list<std::pair<QString, QWidget *>> others)
+    {
+        auto *layout = new QHBoxLayout;
+        layout->setSpacing(4);
+        layout->addWidget(first, 1);
+        for (const auto &[word, input] : others) {
+            layout->addWidget(new QLabel(word));
+            layout->addWidget(input, 1);
+        }
+        return layout;
+    }
+
 } // namespace
 
 ExperimentForm::ExperimentForm(QWidget *parent)
-    : QWidget(parent), m_noise(new QComboBox), m_lowestDb(numberInput(-5, -40, 40, 1, 1, tr(" dB"), tr("Lowest SNR"))),
-      m_highestDb(numberInput(3, -40, 40, 1, 1, tr(" dB"), tr("Highest SNR"))),
-      m_stepDb(numberInput(1, 0.1, 20, 0.5, 1, tr(" dB"), tr("Step between SNRs"))),
-      m_duration(numberInput(100, 1, 5000, 10, 0, tr(" T_FT"), tr("Duration of a line, in windows"))),
-      m_drift(numberInput(0, -5, 5, 0.05, 3, tr(" cells/T_FT"), tr("Steady drift, in resolution cells per window"))),
+    : QWidget(parent), m_noise(new QComboBox),
+      m_lowestDb(numberInput(-5, {-40, 40, 1, 1}, tr(" dB"), tr("Lowest SNR"))),
+      m_highestDb(numberInput(3, {-40, 40, 1, 1}, tr(" dB"), tr("Highest SNR"))),
+      m_stepDb(numberInput(1, {0.1, 20, 0.5, 1}, tr(" dB"), tr("Step between SNRs"))),
+      m_duration(numberInput(100, {1, 5000, 10, 0}, tr(" T_FT"), tr("Duration of a line, in windows"))),
+      m_drift(numberInput(0, {-5, 5, 0.05, 3}, tr(" cells/T_FT"), tr("Steady drift, in resolution cells per window"))),
       m_wander(
-          numberInput(0, 0, 20, 0.5, 2, tr(" cells"), tr("Standard deviation of the wander, in resolution cells"))),
-      m_wanderTime(numberInput(15, 1, 1000, 1, 0, tr(" T_FT"), tr("Correlation time of the wander, in windows"))),
+          numberInput(0, {0, 20, 0.5, 2}, tr(" cells"), tr("Standard deviation of the wander, in resolution cells"))),
+      m_wanderTime(numberInput(15, {1, 1000, 1, 0}, tr(" T_FT"), tr("Correlation time of the wander, in windows"))),
       m_falseAlarms(
-          numberInput(1, 0.001, 1000, 1, 3, tr(" /h"), tr("False alarms per hour to which all detectors are set"))),
+          numberInput(1, {0.001, 1000, 1, 3}, tr(" /h"), tr("False alarms per hour to which all detectors are set"))),
       m_runs(countInput(20, 1, 100000,
                         tr("Number of runs of 30 lines each in simulated noise, or of lines added one at a "
                            "time to a recording"))),
@@ -59,36 +75,6 @@ ExperimentForm::ExperimentForm(QWidget *parent)
     m_noise->setToolTip(
         tr("White noise as in Billon 2005, or the open recording, to which one line is added at a time"));
 
-    auto *detectors = new QGridLayout;
-    detectors->setVerticalSpacing(2);
-    std::vector<DetectorUnderTest> list = peers(1.0);
-    m_detectors.push_back(new QCheckBox(tr("current settings")));
-    for (const DetectorUnderTest &one : list)
-        m_detectors.push_back(new QCheckBox(QString::fromStdString(one.name)));
-    for (std::size_t i = 0; i < m_detectors.size(); ++i) {
-        m_detectors[i]->setChecked(i == 1 || i == 3 || i == 5);
-        detectors->addWidget(m_detectors[i], int(i / 2), int(i % 2));
-        connect(m_detectors[i], &QCheckBox::toggled, this, &ExperimentForm::changed);
-    }
-    m_detectors[0]->setToolTip(tr("The detector and model set in the pipeline"));
-
-    auto *snr = new QHBoxLayout;
-    snr->setSpacing(4);
-    snr->addWidget(m_lowestDb, 1);
-    snr->addWidget(new QLabel(tr("to")));
-    snr->addWidget(m_highestDb, 1);
-    snr->addWidget(new QLabel(tr("by")));
-    snr->addWidget(m_stepDb, 1);
-    auto *wander = new QHBoxLayout;
-    wander->setSpacing(4);
-    wander->addWidget(m_wander, 1);
-    wander->addWidget(new QLabel(tr("over")));
-    wander->addWidget(m_wanderTime, 1);
-    auto *runs = new QHBoxLayout;
-    runs->setSpacing(4);
-    runs->addWidget(m_runs, 1);
-    runs->addWidget(new QLabel(tr("seed")));
-    runs->addWidget(m_seed, 1);
     for (QDoubleSpinBox *box : {m_lowestDb, m_highestDb, m_stepDb})
         box->setButtonSymbols(QAbstractSpinBox::NoButtons);
 
@@ -97,20 +83,42 @@ ExperimentForm::ExperimentForm(QWidget *parent)
     form->setVerticalSpacing(4);
     form->setFieldGrowthPolicy(QFormLayout::ExpandingFieldsGrow);
     form->addRow(tr("Lines"), m_noise);
-    form->addRow(tr("SNR"), snr);
+    form->addRow(tr("SNR"), row(m_lowestDb, {{tr("to"), m_highestDb}, {tr("by"), m_stepDb}}));
     form->addRow(tr("Duration"), m_duration);
     form->addRow(tr("Drift"), m_drift);
-    form->addRow(tr("Wander"), wander);
-    form->addRow(tr("Runs"), runs);
+    form->addRow(tr("Wander"), row(m_wander, {{tr("over"), m_wanderTime}}));
+    form->addRow(tr("Runs"), row(m_runs, {{tr("seed"), m_seed}}));
     form->addRow(tr("False alarms"), m_falseAlarms);
-    form->addRow(tr("Detectors"), detectors);
+    form->addRow(tr("Detectors"), buildDetectors());
     form->addRow(m_meaning);
     m_meaning->setWordWrap(true);
     QPalette faint = m_meaning->palette();
     faint.setColor(QPalette::WindowText, Theme::colours(*this).faintText);
     m_meaning->setPalette(faint);
     m_meaning->setFont(Theme::font(12));
+    connectInputs();
+    showMeaning();
+}
 
+/// The current one, then the peers, in two columns.
+QLayout *ExperimentForm::buildDetectors()
+{
+    auto *detectors = new QGridLayout;
+    detectors->setVerticalSpacing(2);
+    m_detectors.push_back(new QCheckBox(tr("current settings")));
+    for (const DetectorUnderTest &one : peers(1.0))
+        m_detectors.push_back(new QCheckBox(QString::fromStdString(one.name)));
+    for (std::size_t i = 0; i < m_detectors.size(); ++i) {
+        m_detectors[i]->setChecked(i == 1 || i == 3 || i == 5);
+        detectors->addWidget(m_detectors[i], int(i / 2), int(i % 2));
+        connect(m_detectors[i], &QCheckBox::toggled, this, &ExperimentForm::changed);
+    }
+    m_detectors[0]->setToolTip(tr("The detector and model set in the pipeline"));
+    return detectors;
+}
+
+void ExperimentForm::connectInputs()
+{
     connect(m_noise, &QComboBox::currentIndexChanged, this, &ExperimentForm::changed);
     for (QDoubleSpinBox *box :
          {m_lowestDb, m_highestDb, m_stepDb, m_duration, m_drift, m_wander, m_wanderTime, m_falseAlarms})
@@ -119,7 +127,6 @@ ExperimentForm::ExperimentForm(QWidget *parent)
         connect(box, &QSpinBox::valueChanged, this, &ExperimentForm::changed);
     connect(m_noise, &QComboBox::currentIndexChanged, this, &ExperimentForm::fitDuration);
     connect(this, &ExperimentForm::changed, this, &ExperimentForm::showMeaning);
-    showMeaning();
 }
 
 void ExperimentForm::setCurrent(const AnalysisSettings &settings, double windowSeconds, double recordingSeconds)

@@ -48,6 +48,8 @@ signals:
     void changed();
 
 private:
+    QLayout *buildDetectors();
+    void connectInputs();
     void fitDuration();
     std::vector<DetectorUnderTest> chosen() const;
     std::vector<double> snrDb() const;

@@ -67,13 +67,13 @@ namespace {
 SweepForm::SweepForm(QWidget *parent)
     : QWidget(parent), m_parameter(new QComboBox), m_from(new QLineEdit), m_to(new QLineEdit),
       m_steps(countInput(6, 2, 60, tr("Number of values"))), m_byFactors(new QCheckBox(tr("logarithmic"))),
-      m_noise(new QComboBox), m_snr(numberInput(0, -40, 40, 1, 1, tr(" dB"),
+      m_noise(new QComboBox), m_snr(numberInput(0, {-40, 40, 1, 1}, tr(" dB"),
                                                 tr("SNR of a line, in a rectangular window of the current length"))),
-      m_duration(numberInput(30, 0.001, 1e6, 1, 1, tr(" s"), tr("Duration of a line"))),
-      m_margin(numberInput(15, 0, 1e6, 1, 1, tr(" s"),
+      m_duration(numberInput(30, {0.001, 1e6, 1, 1}, tr(" s"), tr("Duration of a line"))),
+      m_margin(numberInput(15, {0, 1e6, 1, 1}, tr(" s"),
                            tr("Noise before and after a line, in which false alarms are counted"))),
-      m_drift(numberInput(0, -1e6, 1e6, 1, 3, tr(" Hz/s"), tr("Steady drift"))),
-      m_wander(numberInput(0, 0, 1e6, 1, 2, tr(" Hz"), tr("Standard deviation of the wander"))),
+      m_drift(numberInput(0, {-1e6, 1e6, 1, 3}, tr(" Hz/s"), tr("Steady drift"))),
+      m_wander(numberInput(0, {0, 1e6, 1, 2}, tr(" Hz"), tr("Standard deviation of the wander"))),
       m_trials(countInput(40, 1, 100000, tr("Number of lines on which every value is tried"))),
       m_seed(countInput(1, 0, 2147483647, tr("Seed; the same seed gives identical results"))), m_meaning(plainLabel())
 {

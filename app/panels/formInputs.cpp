@@ -5,13 +5,12 @@
 
 namespace faintline {
 
-QDoubleSpinBox *numberInput(double value, double low, double high, double step, int decimals, const QString &suffix,
-                            const QString &toolTip)
+QDoubleSpinBox *numberInput(double value, const NumberRange &range, const QString &suffix, const QString &toolTip)
 {
     auto *box = new QDoubleSpinBox;
-    box->setRange(low, high);
-    box->setSingleStep(step);
-    box->setDecimals(decimals);
+    box->setRange(range.low, range.high);
+    box->setSingleStep(range.step);
+    box->setDecimals(range.decimals);
     box->setValue(value);
     box->setSuffix(suffix);
     box->setToolTip(toolTip);

@@ -9,8 +9,15 @@ namespace faintline {
 
 // Inputs of the forms of experiments; the tool tip is the accessible name as well.
 
-QDoubleSpinBox *numberInput(double value, double low, double high, double step, int decimals, const QString &suffix,
-                            const QString &toolTip);
+/// What a number may be, and how it is stepped and written.
+struct NumberRange {
+    double low;
+    double high;
+    double step;
+    int decimals;
+};
+
+QDoubleSpinBox *numberInput(double value, const NumberRange &range, const QString &suffix, const QString &toolTip);
 QSpinBox *countInput(int value, int low, int high, const QString &toolTip);
 
 } // namespace faintline
