@@ -162,12 +162,8 @@ void AnalysisController::run()
 void AnalysisController::startAnalysis()
 {
     m_firstEstimate.reset();
-    // Of pings one is looked at: that of the cursor.
-    const auto &cursor = m_document.viewport().cursor();
-    const Span visible =
-        m_document.hasPings() && cursor ? Span{cursor->seconds, cursor->seconds} : m_document.viewport().time();
     m_runner.start([this, opened = m_document.openedSource(), settings = m_document.analysedSettings(),
-                    previous = m_document.analysis(), visible, kept = m_kept,
+                    previous = m_document.analysis(), visible = m_document.lookedAt(), kept = m_kept,
                     showsFirstEstimates = m_showsFirstEstimates](const RunContext &context) -> JobRunner::Delivery {
         if (const bool isSame =
                 previous
@@ -230,7 +226,7 @@ void AnalysisController::showPreview(const AnalysisSettings &settings, const Sta
 void AnalysisController::dropPartialPreview()
 {
     const auto &shown = m_document.provisional();
-    if (!shown || m_document.hasPings()) // there it is of one ping, and shown with that one only
+    if (!shown || m_document.frameKind().isSeenSingly) // there it is of one frame, and shown with that one only
         return;
     const Span &visible = m_document.viewport().time();
     const Axis &time = shown->time();

@@ -50,14 +50,13 @@ namespace {
 
 } // namespace
 
-AnalysisSettings inBox(AnalysisSettings settings, double fromSeconds, double toSeconds, double lowHz, double highHz,
-                       double frameSeconds, double binHz)
+AnalysisSettings inBox(AnalysisSettings settings, const Viewport::Box &box, double frameSeconds, double binHz)
 {
     SelectionSettings &selection = settings.selection;
-    selection.fromSeconds = std::max(0.0, down(fromSeconds, frameSeconds));
-    selection.toSeconds = up(toSeconds, frameSeconds);
+    selection.fromSeconds = std::max(0.0, down(box.time.low, frameSeconds));
+    selection.toSeconds = up(box.time.high, frameSeconds);
     // The box of a family is one of its own axis; the band has to hold its members.
-    const auto [lowest, highest] = membersOf(settings.family, lowHz, highHz);
+    const auto [lowest, highest] = membersOf(settings.family, box.frequency.low, box.frequency.high);
     selection.lowHz = down(lowest, binHz);
     selection.highHz = up(highest, binHz);
     return settings;
@@ -92,13 +91,12 @@ void BoxAnalysis::addActionsTo(QMenu &menu)
 
 void BoxAnalysis::analyseBox()
 {
-    const auto box = m_document.viewport().selection();
+    const auto box = m_document.box();
     const auto &analysis = m_document.analysis();
-    if (!box || !analysis || m_document.hasPings())
+    if (!box || !analysis)
         return;
     const AnalysisSettings after =
-        inBox(m_document.settings(), box->time.low, box->time.high, box->frequency.low, box->frequency.high,
-              analysis->time().step, analysis->grid().axes.front().step);
+        inBox(m_document.settings(), *box, analysis->time().step, analysis->grid().axes.front().step);
     m_document.viewport().clearSelection();
     m_controller.setSettings(after, tr("Analyse a box"));
 }

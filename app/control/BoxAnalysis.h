@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/AnalysisSettings.h"
+#include "widgets/base/Viewport.h"
 
 #include <QObject>
 
@@ -13,10 +14,9 @@ class AnalysisController;
 class Document;
 class WaterfallView;
 
-/// The settings with the analysis restricted to a box of time (s) and frequency (Hz), rounded outwards to whole steps of
-/// a tenth of a frame and of a bin.
-AnalysisSettings inBox(AnalysisSettings settings, double fromSeconds, double toSeconds, double lowHz, double highHz,
-                       double frameSeconds, double binHz);
+/// The settings with the analysis restricted to a box of time and frequency, rounded outwards to whole steps of a tenth
+/// of a frame and of a bin.
+AnalysisSettings inBox(AnalysisSettings settings, const Viewport::Box &box, double frameSeconds, double binHz);
 
 /// *Analyse this box*: the measured box becomes the part of the recording that is analysed, and back to the whole. In
 /// the menu, and in those of the pictures.

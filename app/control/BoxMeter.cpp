@@ -48,11 +48,11 @@ void BoxMeter::follow()
 void BoxMeter::measure()
 {
     const auto &analysis = m_document.analysis();
-    const auto &selection = m_document.viewport().selection();
-    if (!analysis || !selection || analysis->grid().axes.size() != 1)
+    const auto selected = m_document.box();
+    if (!analysis || !selected)
         return;
-    const auto [beginFrame, endFrame] = cellsOf(analysis->time(), selection->time);
-    const auto [beginCell, endCell] = cellsOf(analysis->grid().axes.front(), selection->frequency);
+    const auto [beginFrame, endFrame] = cellsOf(analysis->time(), selected->time);
+    const auto [beginCell, endCell] = cellsOf(analysis->grid().axes.front(), selected->frequency);
     const FrameBox box{beginFrame, endFrame, beginCell, endCell};
     const bool saysMean = analysis->input->framesPerRow(0) > 1; // else the picture itself does
     m_runner.start([this, analysis, box, saysMean](const RunContext &context) -> JobRunner::Delivery {

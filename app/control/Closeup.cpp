@@ -41,8 +41,8 @@ bool Closeup::eventFilter(QObject *watched, QEvent *event)
 /// Nothing where the pictures say all that can be seen.
 FrameStretch Closeup::wanted() const
 {
-    const auto &analysis = m_document.analysis();
-    if (!analysis || m_document.hasPings() || analysis->grid().axes.size() != 1)
+    const auto analysis = m_document.lineAnalysis();
+    if (!analysis)
         return {};
     const Span &visible = m_document.viewport().time();
     const Axis &time = analysis->time();

@@ -179,8 +179,8 @@ void EventReviews::editNote()
 
 void EventReviews::annotateSelection(const QString &label)
 {
-    const auto &box = m_document.viewport().selection();
-    if (!box || m_document.hasPings())
+    const auto box = m_document.box();
+    if (!box)
         return;
     Annotations after = m_document.annotations();
     after.boxes.push_back({box->time.low,
@@ -205,7 +205,7 @@ void EventReviews::askForLabel()
 
 void EventReviews::fillContextMenu(QMenu &menu, double seconds, double hz)
 {
-    if (m_document.hasPings())
+    if (!m_document.frameKind().takesBoxes)
         return;
     menu.addSeparator();
     menu.addAction(m_addBox);
@@ -315,9 +315,10 @@ void EventReviews::show()
     for (const EventReview &one : said)
         if (one.verdict == Verdict::Rejected)
             rejected.push_back(one.event);
+    const bool hasBoxes = m_document.frameKind().takesBoxes;
     for (WaterfallView *view : m_views) {
         view->setFaintEvents(rejected);
-        view->setAnnotations(m_document.hasPings() ? std::vector<Annotation>() : m_document.annotations().boxes);
+        view->setAnnotations(hasBoxes ? m_document.annotations().boxes : std::vector<Annotation>());
     }
     for (PingMap *map : m_maps)
         map->setFaintTracks(rejected);
@@ -356,8 +357,7 @@ void EventReviews::enable()
     for (QAction *action : m_eventActions)
         action->setEnabled(!ids.empty());
     m_eventActions[4]->setEnabled(ids.size() > 1); // merging
-    m_addBox->setEnabled(m_document.viewport().selection().has_value() && !m_document.isEmpty()
-                         && !m_document.hasPings());
+    m_addBox->setEnabled(m_document.box().has_value() && !m_document.isEmpty());
     for (qsizetype i = m_actions.size() - 2; i < m_actions.size(); ++i) // import and export
         m_actions[i]->setEnabled(m_document.analysis() != nullptr);
 }

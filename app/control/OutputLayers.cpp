@@ -1,20 +1,16 @@
 #include "app/control/OutputLayers.h"
 
 #include "analysis/chain.h"
+#include "app/control/LayerPlane.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/quantities.h"
 #include "widgets/pings/PingMap.h"
-#include "widgets/pings/PolarLayerItem.h"
-#include "widgets/pings/PolarView.h"
 #include "widgets/waterfall/LayerItem.h"
 #include "widgets/waterfall/WaterfallView.h"
-
-#include <qwt_plot_canvas.h>
 
 #include <QEvent>
 
 #include <algorithm>
-#include <cmath>
 
 namespace faintline {
 
@@ -25,12 +21,8 @@ namespace {
 } // namespace
 
 OutputLayers::OutputLayers(Document &document, WaterfallView &output, QObject *parent)
-    : QObject(parent), m_document(document), m_output(output), m_item(new LayerItem)
+    : QObject(parent), m_document(document)
 {
-    m_item->attach(&output);
-    m_item->makeKey().release()->attach(&output); // the plot's from now on
-    output.installEventFilter(this);
-    output.canvas()->installEventFilter(this);
     m_pause.setSingleShot(true);
     m_pause.setInterval(pauseMs);
     connect(&m_pause, &QTimer::timeout, this, &OutputLayers::compute);
@@ -42,12 +34,7 @@ OutputLayers::OutputLayers(Document &document, WaterfallView &output, QObject *p
         show();
     });
     connect(&document, &Document::analysisChanged, this, &OutputLayers::follow);
-    connect(&document.viewport(), &Viewport::spanChanged, this, [this] {
-        if (m_layer != OutputLayer::Statistic)
-            follow();
-    });
-    connect(&document.viewport(), &Viewport::cursorChanged, this, &OutputLayers::followCursor);
-    connect(&output, &WaterfallView::orientationChanged, this, &OutputLayers::follow);
+    add(new LineLayerPlane(output, document.viewport(), this));
     connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
         emit failed(error);
         emit settled();
@@ -58,50 +45,46 @@ OutputLayers::OutputLayers(Document &document, WaterfallView &output, QObject *p
 
 void OutputLayers::addPings(PingMap &map, PingViewports &viewports)
 {
-    m_map = &map;
-    m_pings = &viewports;
-    m_pingItem = new LayerItem;
-    m_pingItem->attach(map.plane());
-    m_pingItem->makeKey().release()->attach(map.plane());
-    (new PolarLayerItem(*m_pingItem))->attach(map.polar());
-    m_pingItem->makeKey().release()->attach(map.polar());
-    map.plane()->installEventFilter(this);
-    map.plane()->canvas()->installEventFilter(this);
-    map.polar()->canvas()->installEventFilter(this);
-    connect(&viewports.map(), &Viewport::spanChanged, this, [this] {
-        if (m_layer != OutputLayer::Statistic)
-            follow();
-    });
-    connect(&viewports, &PingViewports::placeChanged, this, &OutputLayers::followPing);
-    connect(&map, &PingMap::polarChanged, this, &OutputLayers::follow);
-    connect(map.plane(), &WaterfallView::orientationChanged, this, &OutputLayers::follow);
+    add(new PingLayerPlane(map, viewports, this));
+}
+
+void OutputLayers::add(LayerPlane *plane)
+{
+    m_planes.push_back(plane);
+    connect(plane, &LayerPlane::spanChanged, this, &OutputLayers::followSpan);
+    connect(plane, &LayerPlane::shapeChanged, this, &OutputLayers::follow);
+    connect(plane, &LayerPlane::cursorChanged, this, [this, plane] { followCursor(*plane); });
+}
+
+LayerPlane &OutputLayers::plane() const
+{
+    const auto own = std::find_if(m_planes.begin(), m_planes.end(),
+                                  [this](const LayerPlane *one) { return &one->kind() == &m_document.frameKind(); });
+    return own == m_planes.end() ? *m_planes.front() : **own;
 }
 
 const LayerItem &OutputLayers::item() const
 {
-    return m_document.hasPings() && m_pingItem ? *m_pingItem : *m_item;
+    return plane().item();
 }
 
 bool OutputLayers::isOffered(OutputLayer layer) const
 {
-    return layer != OutputLayer::SecondRate || m_document.hasPings();
+    return layer != OutputLayer::SecondRate || m_document.frameKind().rates.size() > 1;
 }
 
 bool OutputLayers::isPossible() const
 {
-    const auto &analysis = m_document.analysis();
-    if (!analysis)
-        return false;
-    return m_document.hasPings() ? m_map != nullptr : analysis->grid().axes.size() == 1;
+    return m_document.analysis() && &plane().kind() == &m_document.frameKind();
 }
 
 bool OutputLayers::eventFilter(QObject *watched, QEvent *event)
 {
-    if (event->type() == QEvent::PaletteChange && (watched == &m_output || (m_map && watched == m_map->plane())))
+    const bool isView = qobject_cast<WaterfallView *>(watched); // otherwise a canvas
+    if (event->type() == QEvent::PaletteChange && isView)
         show();
-    if (event->type() == QEvent::Resize && !qobject_cast<WaterfallView *>(watched)
-        && m_layer != OutputLayer::Statistic) // of a canvas
-        follow();
+    if (event->type() == QEvent::Resize && !isView)
+        followSpan();
     return QObject::eventFilter(watched, event);
 }
 
@@ -119,9 +102,9 @@ QString OutputLayers::heading() const
 {
     switch (m_layer) {
     case OutputLayer::Rate:
-        return m_document.hasPings() ? tr("Winning range rate of each cell") : tr("Winning slope of each cell");
+        return tr("Winning %1 of each cell").arg(m_document.frameKind().rates.front());
     case OutputLayer::SecondRate:
-        return tr("Winning bearing rate of each cell");
+        return tr("Winning %1 of each cell").arg(m_document.frameKind().rates.back());
     case OutputLayer::Age:
         return tr("Age of each cell's best path");
     case OutputLayer::Reset:
@@ -160,80 +143,42 @@ void OutputLayers::setWatching(bool isWatching)
 
 void OutputLayers::follow()
 {
-    if (isPossible() && (m_layer != OutputLayer::Statistic || m_isWatching))
+    if (isPossible() && isWanted())
         m_pause.start();
 }
 
-void OutputLayers::followCursor()
+void OutputLayers::followSpan()
 {
-    if (!m_document.hasPings() && (m_isWatching || m_layer != OutputLayer::Statistic))
+    if (m_layer != OutputLayer::Statistic)
         follow();
 }
 
-/// A layer is of its own ping: what is known of another one is taken away at once.
-void OutputLayers::followPing()
+void OutputLayers::followCursor(const LayerPlane &of)
 {
-    if (!m_document.hasPings() || (!m_isWatching && m_layer == OutputLayer::Statistic))
+    if (&of.kind() != &m_document.frameKind() || !isWanted())
         return;
-    show();
+    if (of.kind().isSeenSingly) // what is known of another frame is taken away at once
+        show();
     follow();
 }
 
-std::optional<OutputLayers::Place> OutputLayers::cursor() const
+OutputLayers::Place OutputLayers::placeOf(const FramePlace &place) const
 {
     const Analysis &analysis = *m_document.analysis();
-    const std::vector<Axis> &axes = analysis.grid().axes;
-    if (m_document.hasPings()) {
-        const PingViewports::Place &place = m_pings->place();
-        return Place{analysis.time().nearest(place.seconds),
-                     axes[0].nearest(place.range) * axes[1].count + axes[1].nearest(place.bearing)};
-    }
-    const auto &at = m_document.viewport().cursor();
-    return at ? std::optional(Place{analysis.time().nearest(at->seconds), axes[0].nearest(at->hz)}) : std::nullopt;
+    const Grid &grid = analysis.grid();
+    std::vector<Index> cell;
+    for (std::size_t axis = 0; axis < place.position.size(); ++axis)
+        cell.push_back(grid.axes[axis].nearest(place.position[axis]));
+    const Index frame = analysis.time().nearest(place.seconds);
+    const Index row = m_document.frameKind().isSeenSingly ? cell.front() : frame;
+    return {frame, grid.cell(cell), row, cell.back()};
 }
 
-/// The part of the map in view, no finer than its pixels.
-LayerWindow OutputLayers::windowOfPing() const
+/// The frame of which a picture is made, where it is made of one.
+std::optional<Index> OutputLayers::singleFrame() const
 {
-    const std::vector<Axis> &axes = m_document.analysis()->grid().axes;
-    const Viewport &viewport = m_pings->map();
-    const auto span = [](const Axis &axis, const Span &visible) {
-        return std::pair(axis.nearest(visible.low), axis.nearest(visible.high) + 1);
-    };
-    const auto [firstRange, endRange] = span(axes[0], viewport.time());
-    // On a cyclic axis the ends of a view all round are neighbours.
-    const bool isAllRound = viewport.frequency().width() > axes[1].step * double(axes[1].count - 1);
-    const auto [firstBeam, endBeam] =
-        isAllRound ? std::pair(Index(0), axes[1].count) : span(axes[1], viewport.frequency());
-    LayerWindow window{firstRange, endRange, firstBeam, endBeam, axes[0].count, axes[1].count};
-    if (m_map->isPolar()) {
-        const PolarView &polar = *m_map->polar();
-        const double perPixel = polar.invTransform(QwtAxis::XBottom, 1.0) - polar.invTransform(QwtAxis::XBottom, 0.0);
-        window.mostRows = std::max<Index>(1, Index(viewport.time().width() / perPixel));
-    } else {
-        const QSize size = m_map->plane()->canvas()->contentsRect().size();
-        const bool isRangeVertical = m_map->plane()->orientation() != WaterfallView::Orientation::LeftToRight;
-        window.mostRows = std::max(1, isRangeVertical ? size.height() : size.width());
-        window.mostColumns = std::max(1, isRangeVertical ? size.width() : size.height());
-    }
-    return window;
-}
-
-/// The frames and cells in view, no finer than the pixels.
-LayerWindow OutputLayers::window() const
-{
-    const Analysis &analysis = *m_document.analysis();
-    const Viewport::Box &visible = m_document.viewport().visible();
-    const Axis &time = analysis.time();
-    const Axis &frequency = analysis.grid().axes.front();
-    const QSize size = (QSizeF(m_output.canvas()->contentsRect().size()) * m_output.devicePixelRatioF()).toSize();
-    const bool isTimeVertical = m_output.orientation() != WaterfallView::Orientation::LeftToRight;
-    return {time.nearest(visible.time.low),
-            time.nearest(visible.time.high) + 1,
-            frequency.nearest(visible.frequency.low),
-            frequency.nearest(visible.frequency.high) + 1,
-            std::max(1, isTimeVertical ? size.height() : size.width()),
-            std::max(1, isTimeVertical ? size.width() : size.height())};
+    const auto at = plane().cursor();
+    return m_document.frameKind().isSeenSingly && at ? std::optional(placeOf(*at).frame) : std::nullopt;
 }
 
 void OutputLayers::compute()
@@ -242,18 +187,18 @@ void OutputLayers::compute()
         return emit settled();
     const auto analysis = m_document.analysis();
     const bool wantsPicture = m_layer != OutputLayer::Statistic;
-    const bool isOfPing = m_document.hasPings();
-    const LayerWindow wanted = isOfPing ? windowOfPing() : window();
-    m_runner.start([this, analysis, cursor = cursor(), wantsPicture, isOfPing,
+    const LayerWindow wanted = plane().window(*analysis);
+    const auto at = plane().cursor();
+    const std::optional<Place> cursor = at ? std::optional(placeOf(*at)) : std::nullopt;
+    m_runner.start([this, analysis, cursor, frame = singleFrame(), wantsPicture,
                     wanted](const RunContext &context) -> JobRunner::Delivery {
         if (!m_replay || m_replay->analysis() != analysis)
             m_replay = std::make_shared<LayerReplay>(
                 analysis, memoryShares::orSome(memoryShares::layerReplay, 4 * bytesOfStates(*analysis)));
-        Result result{analysis, {}, {}, cursor};
+        Result result{analysis, {}, {}, cursor, frame};
         if (wantsPicture)
             result.picture = std::make_shared<const LayerPicture>(
-                isOfPing ? layerPictureOf(*m_replay, cursor->frame, wanted, context)
-                         : layerPicture(*m_replay, wanted, context));
+                frame ? layerPictureOf(*m_replay, *frame, wanted, context) : layerPicture(*m_replay, wanted, context));
         if (cursor)
             result.atCursor = readCell(
                 *analysis, m_replay->at(cursor->frame, context, {cursor->cell, cursor->cell + 1}), cursor->cell);
@@ -267,93 +212,57 @@ void OutputLayers::compute()
     });
 }
 
-std::optional<CellReading> OutputLayers::readingAt(const Viewport::Point &point) const
+std::optional<CellReading> OutputLayers::readingAt(const FramePlace &at) const
 {
     const auto &analysis = m_document.analysis();
-    if (!analysis)
+    if (!analysis || m_result.analysis != analysis)
         return {};
-    const Index frame = analysis->time().nearest(point.seconds);
-    const Index cell = analysis->grid().axes.front().nearest(point.hz);
-    return readingAt({frame, cell}, frame, cell);
-}
-
-std::optional<CellReading> OutputLayers::readingAt(const PingViewports::Place &place) const
-{
-    const auto &analysis = m_document.analysis();
-    if (!analysis)
-        return {};
-    const std::vector<Axis> &axes = analysis->grid().axes;
-    const Index frame = analysis->time().nearest(place.seconds);
-    const Index row = axes[0].nearest(place.range);
-    const Index column = axes[1].nearest(place.bearing);
-    if (m_result.cursor && m_result.cursor->frame != frame)
-        return {};
-    return readingAt({frame, row * axes[1].count + column}, row, column);
-}
-
-std::optional<CellReading> OutputLayers::readingAt(const Place &place, Index row, Index column) const
-{
-    if (m_result.analysis != m_document.analysis())
+    const Place place = placeOf(at);
+    if (m_result.frame && m_result.frame != place.frame)
         return {};
     if (m_result.atCursor && m_result.cursor == place)
         return m_result.atCursor;
-    const Index pixel = m_result.picture ? m_result.picture->pixelAt(row, column) : -1;
+    const Index pixel = m_result.picture ? m_result.picture->pixelAt(place.row, place.column) : -1;
     return pixel >= 0 ? std::optional(readPixel(*m_result.picture, pixel)) : std::nullopt;
 }
 
 void OutputLayers::show()
 {
     const auto &analysis = m_document.analysis();
-    const bool isOfPing = m_document.hasPings() && m_map;
-    WaterfallView &view = isOfPing ? *m_map->plane() : m_output;
-    LayerItem &item = isOfPing ? *m_pingItem : *m_item;
-    const auto replot = [&] {
-        view.replot();
-        if (isOfPing)
-            m_map->polar()->replot();
-    };
-    item.setTimeVertical(view.orientation() != WaterfallView::Orientation::LeftToRight);
-    const Theme::Colours &colours = Theme::colours(view);
+    LayerPlane &plane = this->plane();
+    LayerItem &item = plane.item();
+    item.setTimeVertical(plane.view().orientation() != WaterfallView::Orientation::LeftToRight);
+    const Theme::Colours &colours = Theme::colours(plane.view());
     item.setColours(colours.text, colours.canvas);
     const bool isKnown =
         analysis && m_result.analysis == analysis && m_result.picture && m_layer != OutputLayer::Statistic;
-    if (!isKnown || (isOfPing && m_result.cursor->frame != cursor()->frame)) {
+    if (!isKnown || m_result.frame != singleFrame()) {
         item.setPicture(nullptr, {}, {});
-        return replot();
+        return plane.replot();
     }
-    const std::vector<Axis> &axes = analysis->grid().axes;
-    item.setPicture(m_result.picture, isOfPing ? axes[0] : analysis->time(), isOfPing ? axes[1] : axes[0]);
+    const auto [rows, columns] = plane.axes(*analysis);
+    item.setPicture(m_result.picture, rows, columns);
     item.setOverlay(m_isOverlay, analysis->threshold);
+    showLayer(item);
+    plane.replot();
+}
+
+void OutputLayers::showLayer(LayerItem &item)
+{
     switch (m_layer) {
     case OutputLayer::Rate:
-        showRates(item, 0);
-        break;
+        return showRates(item, 0);
     case OutputLayer::SecondRate:
-        showRates(item, 1);
-        break;
-    case OutputLayer::Age: {
-        const std::vector<float> &ages = m_result.picture->age;
-        const double longest = std::max(double(*std::max_element(ages.begin(), ages.end())), analysis->time().step);
-        constexpr double manySeconds = 7200.0;
-        const bool isLong = longest > manySeconds;
-        if (isOfPing)
-            item.setLayer(m_layer, {0.0, longest}, tr("Path age since reset (pings)"), analysis->time().step);
-        else
-            item.setLayer(m_layer, {0.0, longest},
-                          isLong ? tr("Path age since reset (h)") : tr("Path age since reset (s)"),
-                          isLong ? 3600.0 : 1.0);
-        break;
-    }
+        return showRates(item, 1);
+    case OutputLayer::Age:
+        return showAges(item);
     case OutputLayer::Reset:
-        item.setLayer(m_layer, {0.0, 1.0}, tr("States reset (fraction)"), 1.0);
-        break;
+        return item.setLayer(m_layer, {0.0, 1.0}, tr("States reset (fraction)"), 1.0);
     case OutputLayer::Inhibited:
-        item.setLayer(m_layer, {0.0, 1.0}, tr("Inhibited"), 1.0);
-        break;
+        return item.setLayer(m_layer, {0.0, 1.0}, tr("Inhibited"), 1.0);
     case OutputLayer::Statistic:
-        break;
+        return;
     }
-    replot();
 }
 
 void OutputLayers::showRates(LayerItem &item, std::size_t axis)
@@ -361,10 +270,23 @@ void OutputLayers::showRates(LayerItem &item, std::size_t axis)
     const double largest = largestRate(*m_document.analysis(), axis);
     const QString name = QString::fromStdString(m_document.analysis()->grid().axes[axis].unit);
     const FrequencyUnit unit = name == QLatin1String("Hz") ? rateUnit(largest) : FrequencyUnit{name + "/s", 1.0};
-    const QString title = !m_document.hasPings() ? tr("Winning slope (%1)")
-                          : axis == 0            ? tr("Winning range rate (%1)")
-                                                 : tr("Winning bearing rate (%1)");
-    item.setLayer(m_layer, {-largest, largest}, title.arg(unit.name), unit.hz);
+    const QString title = tr("Winning %1 (%2)").arg(m_document.frameKind().rates[axis], unit.name);
+    item.setLayer(m_layer, {-largest, largest}, title, unit.hz);
+}
+
+/// In frames where each is a picture of its own, otherwise in hours or seconds.
+void OutputLayers::showAges(LayerItem &item)
+{
+    const double frameSeconds = m_document.analysis()->time().step;
+    const std::vector<float> &ages = m_result.picture->age;
+    const double longest = std::max(double(*std::max_element(ages.begin(), ages.end())), frameSeconds);
+    constexpr double manySeconds = 7200.0;
+    FrequencyUnit unit{tr("s"), 1.0};
+    if (const FrameKind &kind = m_document.frameKind(); kind.isSeenSingly)
+        unit = {kind.frames, frameSeconds};
+    else if (longest > manySeconds)
+        unit = {tr("h"), 3600.0};
+    item.setLayer(m_layer, {0.0, longest}, tr("Path age since reset (%1)").arg(unit.name), unit.hz);
 }
 
 } // namespace faintline

@@ -2,8 +2,8 @@
 
 #include "analysis/outputLayers.h"
 #include "app/base/JobRunner.h"
+#include "app/control/FramePlace.h"
 #include "app/document/Document.h"
-#include "widgets/pings/PingViewports.h"
 
 #include <QTimer>
 
@@ -13,12 +13,13 @@
 namespace faintline {
 
 class LayerItem;
+class LayerPlane;
 class PingMap;
 class WaterfallView;
 
 /// What else the detector says of its output than the statistic: winning rate, path age, resets, inhibited cells, in
-/// the statistic's place or over it; and the best state at the cursor. Of lines on their waterfall, of pings on the map
-/// of the one that is shown.
+/// the statistic's place or over it; and the best state at the cursor. Each kind of frames has a plane that they are
+/// shown on.
 ///
 /// Computed for what can be seen, on a worker, by going through the run again (LayerReplay); the newest view wins.
 /// Nothing is computed while no layer is on and nobody watches the cursor.
@@ -40,8 +41,7 @@ public:
     bool isBusy() const { return m_pause.isActive() || m_runner.isRunning(); }
 
     /// What is known of that cell: exactly of the one under the cursor, elsewhere as far as a layer's picture goes.
-    std::optional<CellReading> readingAt(const Viewport::Point &point) const;
-    std::optional<CellReading> readingAt(const PingViewports::Place &place) const;
+    std::optional<CellReading> readingAt(const FramePlace &place) const;
 
 public slots:
     void setLayer(faintline::OutputLayer layer);
@@ -63,6 +63,7 @@ private:
     struct Place {
         Index frame = -1;
         Index cell = -1;
+        Index row = -1, column = -1; ///< of the plane
         bool operator==(const Place &) const = default;
     };
 
@@ -71,26 +72,26 @@ private:
         std::shared_ptr<const LayerPicture> picture;
         std::optional<CellReading> atCursor;
         std::optional<Place> cursor;
+        std::optional<Index> frame; ///< the only one in the picture
     };
 
+    void add(LayerPlane *plane);
+    LayerPlane &plane() const; ///< of what is open
     bool isPossible() const;
+    bool isWanted() const { return m_isWatching || m_layer != OutputLayer::Statistic; }
     void follow();
-    void followCursor();
-    void followPing();
+    void followSpan();
+    void followCursor(const LayerPlane &of);
     void compute();
-    std::optional<Place> cursor() const;
-    std::optional<CellReading> readingAt(const Place &place, Index row, Index column) const;
-    LayerWindow window() const;
-    LayerWindow windowOfPing() const;
+    Place placeOf(const FramePlace &place) const;
+    std::optional<Index> singleFrame() const;
     void show();
+    void showLayer(LayerItem &item);
     void showRates(LayerItem &item, std::size_t axis);
+    void showAges(LayerItem &item);
 
     Document &m_document;
-    WaterfallView &m_output;
-    LayerItem *m_item; ///< the view's
-    PingMap *m_map = nullptr;
-    PingViewports *m_pings = nullptr;
-    LayerItem *m_pingItem = nullptr; ///< the map's
+    std::vector<LayerPlane *> m_planes; ///< one for each kind of frames
     OutputLayer m_layer = OutputLayer::Statistic;
     bool m_isOverlay = false;
     bool m_isWatching = false;

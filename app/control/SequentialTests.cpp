@@ -1,6 +1,7 @@
 #include "app/control/SequentialTests.h"
 
 #include "analysis/lineSequentialModel.h"
+#include "app/document/FrameKind.h"
 #include "base/parallel.h"
 
 #include <algorithm>
@@ -84,7 +85,7 @@ void SequentialTests::start(const Selection &selection, const SprtSettings &sprt
 {
     checkSprt(sprt, "sprt");
     const Grid &grid = selection.frames->grid();
-    if (grid.axes.size() != 1 || selection.model.motion != Motion::Slopes)
+    if (!frameKindOf(grid).takesBoxes || selection.model.motion != Motion::Slopes)
         throw Error("sequential test", "requires a line recording and model.motion = slopes");
     checkLikelihoodRatio(Likelihood(selection.model.likelihood, selection.model.snr), "model.likelihood");
     if (selection.frameCount < 1 || selection.cellCount < 1)

@@ -39,8 +39,8 @@ void ThresholdCurves::showClosedForm()
 void ThresholdCurves::showSelection()
 {
     const auto &analysis = m_document.analysis();
-    const auto &box = m_document.viewport().selection();
-    if (!analysis || !box || analysis->grid().axes.size() != 1)
+    const auto box = m_document.box();
+    if (!analysis || !box)
         return m_plot.setSelectionExceedance({});
     const Axis &time = analysis->time();
     const Axis &frequency = analysis->grid().axes.front();

@@ -7,7 +7,7 @@
 
 namespace faintline {
 
-QString hint(const Document &document, bool isBusy)
+QString hint(const Document &document, bool isBusy, const QString &usual)
 {
     const auto tr = [](const char *text) { return QCoreApplication::translate("hint", text); };
     if (document.isEmpty())
@@ -21,12 +21,9 @@ QString hint(const Document &document, bool isBusy)
         return tr("Provisional: new statistic of the visible part, with the old threshold and events. Calibrating …");
     if (document.analysis()->calibration->isFirstEstimate)
         return firstEstimateSentence(*document.analysis(), isBusy);
-    if (document.hasPings() && !document.shownEvents().empty())
-        return tr(
-            "J and L step through the pings, Space plays them, P shows them from above, N goes to the next track.");
     if (document.shownEvents().empty())
         return tr("Nothing exceeds the threshold. To lower it, drag its line to the left or press , (comma).");
-    return tr("Drag the threshold line to update contour and events. N goes to the next event, ? shows all keys.");
+    return usual;
 }
 
 } // namespace faintline

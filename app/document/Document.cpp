@@ -109,6 +109,17 @@ void Document::setAnalysis(std::shared_ptr<const Analysis> analysis, std::vector
     emit shownEventsChanged();
 }
 
+Span Document::lookedAt() const
+{
+    const auto &cursor = m_viewport.cursor();
+    return frameKind().isSeenSingly && cursor ? Span{cursor->seconds, cursor->seconds} : m_viewport.time();
+}
+
+std::optional<Viewport::Box> Document::box() const
+{
+    return frameKind().takesBoxes ? m_viewport.selection() : std::nullopt;
+}
+
 void Document::setProvisional(std::shared_ptr<const PeakPyramid> statistic)
 {
     if (statistic == m_provisional || !m_analysis)

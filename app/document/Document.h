@@ -9,6 +9,7 @@
 #include <QUndoStack>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace faintline {
@@ -33,8 +34,7 @@ public:
     const Source &source() const { return m_opened.source; }
     const RecordingPointer &recording() const { return m_opened.recording; }  ///< null where ready-made frames are open
     const NormalisedFramesPointer &frames() const { return m_opened.frames; } ///< null where a recording is open
-    /// Frames on range and bearing, to be looked at ping by ping.
-    bool hasPings() const { return m_opened.frames && m_opened.frames->grid().axes.size() == 2; }
+    const FrameKind &frameKind() const { return m_opened.kind(); }
     const PingTruth &pingTruth() const { return m_opened.pingTruth; }
     const Truth &truth() const { return m_opened.truth; }
     const OpenedSource &openedSource() const { return m_opened; }
@@ -71,10 +71,16 @@ public:
     // ---- view and results ----------------------------------------------------------------------------------------
 
     Viewport &viewport() { return m_viewport; }
+    /// The time that is looked at: what is visible, or where frames are seen singly, the cursor's.
+    Span lookedAt() const;
+    /// The measured box, where boxes of time × frequency say something of what is open.
+    std::optional<Viewport::Box> box() const;
 
     /// `events`: those of the analysis.
     void setAnalysis(std::shared_ptr<const Analysis> analysis, std::vector<Event> events);
     const std::shared_ptr<const Analysis> &analysis() const { return m_analysis; }
+    /// The same, where it is one picture of time × frequency, of which parts can be measured and analysed; else null.
+    std::shared_ptr<const Analysis> lineAnalysis() const { return frameKind().takesBoxes ? m_analysis : nullptr; }
     bool isCurrent() const;
 
     /// What the changed settings make of the visible frames, until their analysis is there; null where there is no such

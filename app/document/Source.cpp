@@ -34,10 +34,11 @@ namespace {
     NormalisedFramesPointer readStack(const QString &path)
     {
         auto frames = openFrames(pathBytes(path));
-        if (frames->grid().axes.size() > 2)
-            throw Error(pathBytes(path), "has frames on " + std::to_string(frames->grid().axes.size())
-                                             + " axes; at most two can be shown (faintline-cli sequential accepts "
-                                               "more)");
+        try {
+            frameKindOf(frames->grid());
+        } catch (const Error &error) {
+            throw Error(pathBytes(path), error.why());
+        }
         return frames;
     }
 
@@ -108,8 +109,8 @@ OpenedSource openSource(const Source &source)
 
 AnalysisSettings firstSettings(const OpenedSource &opened)
 {
-    const bool isPings = opened.frames && opened.frames->grid().axes.size() > 1;
-    return isPings ? preset("sonar").settings : AnalysisSettings();
+    const std::string &name = opened.kind().preset;
+    return name.empty() ? AnalysisSettings() : preset(name).settings;
 }
 
 std::shared_ptr<const Analysis> analyse(const OpenedSource &opened, const AnalysisSettings &settings,

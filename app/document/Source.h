@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/analyse.h"
+#include "app/document/FrameKind.h"
 #include "recording/InjectedRecording.h"
 #include "recording/LineScene.h"
 #include "recording/PingScene.h"
@@ -47,6 +48,8 @@ struct OpenedSource {
     Truth truth; ///< of a simulated one, and of injected lines
     NormalisedFramesPointer frames{};
     PingTruth pingTruth{}; ///< of simulated pings
+
+    const FrameKind &kind() const { return frames ? frameKindOf(frames->grid()) : lineFrames(); }
 };
 
 /// The source a path stands for: a scenario where it names a JSON file, frames where a NumPy file, otherwise a

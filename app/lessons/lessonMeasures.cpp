@@ -37,8 +37,7 @@ namespace {
     {
         return [f](WindowParts &window) -> Value {
             const auto &cursor = window.document().viewport().cursor();
-            return cursor && window.document().analysis() && !window.document().hasPings() ? Value(f(window, *cursor))
-                                                                                           : std::nullopt;
+            return cursor && window.document().lineAnalysis() ? Value(f(window, *cursor)) : std::nullopt;
         };
     }
 
@@ -83,15 +82,15 @@ namespace {
         return largest;
     }
 
-    // ---- truth and tracks ----------------------------------------------------------------------------------------------------
+    // ---- truth and tracks -------------------------------------------------------------------------------------------
 
     /// The cell that the truth's line or target fills in a frame; nothing where it is not there.
     std::optional<Index> truthCell(const Document &document, std::size_t line, Index frame)
     {
         const Analysis &analysis = *document.analysis();
-        if (document.hasPings()) {
-            const auto &targets = document.pingTruth().targets;
-            const Index cell = line < targets.size() ? targets[line].cellAt(frame) : -1;
+        const auto &targets = document.pingTruth().targets; // a truth has either these or lines
+        if (line < targets.size()) {
+            const Index cell = targets[line].cellAt(frame);
             return cell < 0 ? std::nullopt : std::optional(cell);
         }
         const auto &lines = document.truth().lines;
@@ -104,9 +103,11 @@ namespace {
     bool isNear(const Grid &grid, Index a, Index b)
     {
         constexpr Index reach = 3;
-        for (std::size_t axis = 0; axis < grid.axes.size(); ++axis) {
+        const std::vector<Index> from = grid.coordinates(a);
+        const std::vector<Index> to = grid.coordinates(b);
+        for (std::size_t axis = 0; axis < from.size(); ++axis) {
             const Axis &along = grid.axes[axis];
-            Index distance = std::abs(grid.coordinates(a)[axis] - grid.coordinates(b)[axis]);
+            Index distance = std::abs(from[axis] - to[axis]);
             if (along.cyclic)
                 distance = std::min(distance, along.count - distance);
             if (distance > reach)
@@ -174,7 +175,7 @@ namespace {
         return std::regex_match(name, pattern);
     }
 
-    // ---- sequential tests ----------------------------------------------------------------------------------------------------
+    // ---- sequential tests -------------------------------------------------------------------------------------------
 
     Measure meanStages(bool hasTarget)
     {

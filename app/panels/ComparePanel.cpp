@@ -1,11 +1,12 @@
 #include "app/panels/ComparePanel.h"
 
 #include "app/base/statisticUnit.h"
+#include "app/control/trackBox.h"
+#include "app/panels/differenceWords.h"
 #include "evaluate/comparison/differencePicture.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
-#include "widgets/base/settingWords.h"
 #include "widgets/waterfall/ColourBar.h"
 #include "widgets/waterfall/WaterfallView.h"
 
@@ -52,38 +53,6 @@ namespace {
     QString nameOf(In in)
     {
         return in == In::A ? QStringLiteral("A") : in == In::B ? QStringLiteral("B") : QObject::tr("both");
-    }
-
-    /// "Design SNR 0.5 → 0.25", with words for choices and a dash where one of the two has no such setting.
-    QString inWords(const SettingDifference &difference)
-    {
-        const auto value = [&](const std::string &text) {
-            const QString word = QString::fromStdString(text);
-            if (word.isEmpty())
-                return QStringLiteral("–");
-            return difference.field.kind == FieldKind::Choice ? choiceLabel(word) : word;
-        };
-        const QString name = QString::fromStdString(difference.field.name);
-        const QString label =
-            name == QLatin1String("detector.kind") ? stageLabel(QStringLiteral("detector")) : settingLabel(name);
-        const QString unit = difference.field.unit.empty()
-                                 ? QString()
-                                 : QLatin1Char(' ') + QString::fromStdString(difference.field.unit);
-        return QStringLiteral("%1 %2 → %3%4").arg(label, value(difference.a), value(difference.b), unit);
-    }
-
-    /// The box of time and of the last axis that a track fills.
-    Viewport::Box boxOf(const Track &track, const Analysis &analysis)
-    {
-        const Axis &time = analysis.time();
-        const Axis &last = analysis.grid().axes.back();
-        double low = 1e300, high = -1e300;
-        for (const TrackPoint &point : track.points) {
-            const double value = last.value(double(point.cell % last.count));
-            low = std::min(low, value);
-            high = std::max(high, value);
-        }
-        return {{time.value(double(track.onsetFrame)), time.value(double(track.endFrame))}, {low, high}};
     }
 
 } // namespace
@@ -274,7 +243,7 @@ void ComparePanel::updateButtons()
 void ComparePanel::showPicture()
 {
     const auto &result = m_comparer.result();
-    m_picturePane->setVisible(!m_document.hasPings());
+    m_picturePane->setVisible(m_document.frameKind().takesBoxes);
     m_picture->setEmptySentence(m_comparer.kept()
                                     ? tr("The difference appears here if A and B are of the same "
                                          "recording.")
@@ -395,7 +364,7 @@ void ComparePanel::showWords()
                         + costText());
     QStringList words;
     for (const SettingDifference &difference : result->settings)
-        words << inWords(difference);
+        words << differenceWords(difference);
     m_differences->setText(words.isEmpty() ? tr("A and B have the same settings. Change a setting to see its effect "
                                                 "here.")
                                            : tr("From A to B: %1.").arg(words.join(QStringLiteral("; "))));
@@ -411,9 +380,9 @@ void ComparePanel::goTo(int row)
     if (compared.b)
         return emit eventActivated(compared.b->id);
     const Track *track = trackOfId(result->a->tracks, compared.a->id);
-    if (!track || m_document.hasPings())
+    if (!track || !m_document.frameKind().takesBoxes)
         return;
-    m_document.viewport().reveal(boxOf(*track, *result->a));
+    m_document.viewport().reveal(trackBox(*track, *result->a));
     m_document.viewport().setCursor({compared.a->detectSeconds, compared.a->position.back()});
 }
 

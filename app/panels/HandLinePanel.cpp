@@ -176,8 +176,8 @@ HandLinePanel::Comparison HandLinePanel::compare(const Analysis &analysis, const
 
 void HandLinePanel::update()
 {
-    const auto &analysis = m_document.analysis();
-    if (!analysis || m_document.hasPings() || m_line->points().empty()) {
+    const auto analysis = m_document.lineAnalysis();
+    if (!analysis || m_line->points().empty()) {
         m_comparison.reset();
         m_table->clearContents();
         showSentence();
@@ -214,10 +214,10 @@ void HandLinePanel::showSentence()
 {
     if (!m_comparison) {
         m_sentence->setText(
-            m_document.hasPings()
-                ? tr("Lines can be drawn through recordings, not through pings.")
-                : tr("Press Draw and drag a line through the input where you expect a signal. Cover the statistic "
-                     "first to make it a prediction."));
+            m_document.frameKind().takesBoxes
+                ? tr("Press Draw and drag a line through the input where you expect a signal. Cover the statistic "
+                     "first to make it a prediction.")
+                : tr("Lines can be drawn through recordings, not through pings."));
         return;
     }
     const Comparison &both = *m_comparison;

@@ -75,7 +75,7 @@ namespace {
     void describeReadyFrames(Rows &rows, const Analysis &analysis)
     {
         const Axis &time = analysis.time();
-        rows.heading(analysis.grid().axes.size() > 1 ? tr("Pings") : tr("Frames"));
+        rows.heading(capitalised(frameKindOf(analysis.grid()).frames));
         rows.row(tr("Number"), tr("%1, every %2 s").arg(time.count).arg(time.step, 0, 'g', 4));
         for (const Axis &axis : analysis.grid().axes)
             rows.row(capitalised(labelText(axis.name, mostUnitLetters)),

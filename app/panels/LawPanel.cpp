@@ -34,6 +34,14 @@ namespace {
         return analysis.modelAt(analysis.modelCount() - 1).space;
     }
 
+    QString slopeTitle(const FrameKind &kind, int perBin)
+    {
+        const QString rate = kind.rates.size() == 1 ? kind.rates.front() : LawPanel::tr("either rate");
+        const QString unit = perBin == 1 ? kind.cellsPerFrame
+                                         : QStringLiteral("1/%1 %2").arg(QString::number(perBin), kind.cellPerFrame);
+        return LawPanel::tr("Change of %1 from %2 to %2 (%3)").arg(rate, kind.frame, unit);
+    }
+
     QString perSecond(double rate, const QString &unit)
     {
         return unit == QLatin1String("Hz") ? rateText(rate) : QStringLiteral("%1 %2/s").arg(powerText(rate, 3), unit);
@@ -72,43 +80,30 @@ QString LawPanel::sentence() const
 std::vector<LawPanel::Law> LawPanel::lawsOf(const Analysis &analysis) const
 {
     const ModelSettings &model = m_document.settings().model;
-    const auto frame = m_document.hasPings() ? tr("ping") : tr("frame");
-    const auto sloped = [&](int perBin) {
-        if (m_document.hasPings())
-            return perBin == 1 ? tr("Change of either rate from ping to ping (cells/ping)")
-                               : tr("Change of either rate from ping to ping (1/%1 cell/ping)").arg(perBin);
-        return perBin == 1 ? tr("Change of slope from frame to frame (bins/frame)")
-                           : tr("Change of slope from frame to frame (1/%1 bin/frame)").arg(perBin);
-    };
-    if (model.motion == Motion::Slopes) {
-        std::vector<std::size_t> axes;
-        for (std::size_t axis = 0; axis < analysis.grid().axes.size(); ++axis)
-            axes.push_back(axis);
-        return {{QStringLiteral("model.slopeChange"), sloped(model.slopesPerBin), model.slopeChange,
-                 analysis.model.space.axes().front().rateCount - 1, axes}};
-    }
-    if (analysis.grid().axes.size() != 2)
+    const FrameKind &kind = m_document.frameKind();
+    const auto rates = int(kind.rates.size());
+    if (model.motion == Motion::Slopes)
+        return {{QStringLiteral("model.slopeChange"), slopeTitle(kind, model.slopesPerBin), model.slopeChange,
+                 analysis.model.space.axes().front().rateCount - 1, rates}};
+    if (rates == 1)
         return {};
     if (model.motion == Motion::NonManoeuvring)
-        return {{{}, tr("Rates do not change from ping to ping (cells/ping)"), {1.0}, 0, {0, 1}}};
+        return {{{}, tr("Rates do not change from ping to ping (cells/ping)"), {1.0}, 0, rates}};
     const std::vector<KinematicAxis> &axes = turningSpace(analysis).axes();
-    return {{QStringLiteral("model.rangeRateChange"),
-             tr("Change of range rate per %1 (cells/%1)").arg(frame),
-             model.rangeRateChange,
-             axes[0].rateCount - 1,
-             {0}},
-            {QStringLiteral("model.bearingRateChange"),
-             tr("Change of bearing rate per %1 (cells/%1)").arg(frame),
-             model.bearingRateChange,
-             axes[1].rateCount - 1,
-             {1}}};
+    const auto title = [&](const QString &rate) {
+        return tr("Change of %1 per %2 (%3)").arg(rate, kind.frame, kind.cellsPerFrame);
+    };
+    return {{QStringLiteral("model.rangeRateChange"), title(kind.rates[0]), model.rangeRateChange,
+             axes[0].rateCount - 1, 1},
+            {QStringLiteral("model.bearingRateChange"), title(kind.rates[1]), model.bearingRateChange,
+             axes[1].rateCount - 1, 1}};
 }
 
 void LawPanel::show()
 {
     const auto &analysis = m_document.analysis();
     if (!analysis || analysis->model.space.axes().empty()
-        || analysis->model.space.axes().size() != analysis->grid().axes.size())
+        || analysis->model.space.axes().size() != m_document.frameKind().rates.size())
         return;
     std::vector<Law> laws = lawsOf(*analysis);
     while (m_laws.size() > laws.size()) {
@@ -149,14 +144,15 @@ void LawPanel::show()
 QString LawPanel::driftWords(const Analysis &analysis) const
 {
     QStringList drifts;
-    const std::vector<KinematicAxis> &axes = turningSpace(analysis).axes();
-    for (std::size_t i = 0; i < axes.size(); ++i) {
+    const StateSpace &space = turningSpace(analysis);
+    const QString &cells = m_document.frameKind().cellsPerFrame;
+    for (std::size_t i = 0; i < space.axes().size(); ++i) {
+        const KinematicAxis &moving = space.axes()[i];
         const Axis &axis = analysis.grid().axes[i];
         const double unit = axis.step / analysis.time().step;
-        const double lowest = axes[i].rate(0);
-        const double highest = axes[i].rate(axes[i].rateCount - 1);
+        const double lowest = moving.rate(0);
+        const double highest = moving.rate(moving.rateCount - 1);
         const QString name = labelText(axis.unit, mostUnitLetters);
-        const QString cells = m_document.hasPings() ? tr("cells/ping") : tr("bins/frame");
         const QString words = lowest == -highest
                                   ? tr("±%1 (±%2 %3)").arg(perSecond(highest * unit, name)).arg(highest).arg(cells)
                                   : tr("%1 … %2 (%3 … %4 %5)")
@@ -164,7 +160,7 @@ QString LawPanel::driftWords(const Analysis &analysis) const
                                         .arg(lowest)
                                         .arg(highest)
                                         .arg(cells);
-        drifts << (axes.size() > 1 ? labelText(axis.name, mostUnitLetters) + QLatin1Char(' ') + words : words);
+        drifts << (space.axes().size() > 1 ? labelText(axis.name, mostUnitLetters) + QLatin1Char(' ') + words : words);
     }
     return tr("Largest drift: %1.").arg(drifts.join(QStringLiteral(", ")));
 }
@@ -179,9 +175,8 @@ QString LawPanel::snrWords(const Analysis &analysis) const
     double changing = 0.0;
     for (const Law &law : m_laws) {
         const std::vector<double> &values = law.plot->law();
-        const auto times = double(law.axes.size());
-        kept -= times * std::log(values.front());
-        changing += times * damping(values).mean;
+        kept -= law.axes * std::log(values.front());
+        changing += law.axes * damping(values).mean;
     }
     const double lnK = usualLnK(analysis);
     const auto words = [&](double loss) {
@@ -192,11 +187,10 @@ QString LawPanel::snrWords(const Analysis &analysis) const
             return tr("no SNR");
         return tr("%1 dB").arg(numberText(dbFromRatio(snr), 1));
     };
-    const QString lines = m_document.hasPings() ? tr("a target") : tr("a line");
     return tr("At ln K = %1, evidence accumulates above these SNRs in one frame: %2 for %3 at a constant rate, %4 if "
               "the rate changes as the law says. Below them a single path loses evidence on average; neighbouring "
               "paths help a little.")
-        .arg(numberText(lnK, 2), words(kept), lines, words(changing));
+        .arg(numberText(lnK, 2), words(kept), m_document.frameKind().signal, words(changing));
 }
 
 /// Takes tens of milliseconds: of a panel in sight only.

@@ -32,13 +32,13 @@ signals:
     void lawRequested(const QString &field, const std::vector<double> &law);
 
 private:
-    /// A law of the settings, and the axes of the model that it moves.
+    /// A law of the settings, and how many axes of the model it moves.
     struct Law {
         QString field; ///< empty: fixed
         QString title;
         std::vector<double> values;
         int mostChange = 0;
-        std::vector<std::size_t> axes;
+        int axes = 1;
         LawPlot *plot = nullptr;
     };
 

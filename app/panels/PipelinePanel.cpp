@@ -42,10 +42,9 @@ namespace {
         QStringList axes;
         for (const Axis &axis : frames.grid().axes)
             axes << QStringLiteral("%1 %2").arg(axis.count).arg(labelText(axis.name, mostUnitLetters));
-        const QString kind = axes.size() > 1 ? QObject::tr("pings") : QObject::tr("frames");
         return QObject::tr("%1 %2, every %3 s · %4")
             .arg(frames.time().count)
-            .arg(kind)
+            .arg(frameKindOf(frames.grid()).frames)
             .arg(frames.time().step, 0, 'g', 4)
             .arg(axes.join(QStringLiteral(" × ")));
     }
@@ -118,7 +117,7 @@ void PipelinePanel::showSettings()
         m_document.recording() ? hzPerSecondOfABinAFrame(m_document.settings(), m_document.recording()->info()) : 0.0);
     for (const char *stage : {"selection", "spectrogram", "noise", "family"})
         m_form->setSectionShown(QString::fromLatin1(stage), m_document.isEmpty() || m_document.recording());
-    m_form->setSectionShown(QStringLiteral("conventional"), m_document.hasPings());
+    m_form->setSectionShown(QStringLiteral("conventional"), m_document.frameKind().hasConventional);
     int taken = 1;
     while (taken < m_preset->count() && withSelection(presetAt(taken).settings) != m_document.settings())
         ++taken;

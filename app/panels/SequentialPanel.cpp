@@ -315,9 +315,8 @@ void SequentialPanel::showBusy(bool isBusy)
 
 void SequentialPanel::followDocument()
 {
-    const auto &analysis = m_document.analysis();
-    m_onSelection->setEnabled(analysis && analysis->grid().axes.size() == 1
-                              && analysis->settings.model.motion == Motion::Slopes);
+    const auto analysis = m_document.lineAnalysis();
+    m_onSelection->setEnabled(analysis && analysis->settings.model.motion == Motion::Slopes);
 }
 
 // ---- showing --------------------------------------------------------------------------------------------------------

@@ -88,8 +88,8 @@ void SpectrumPanel::follow()
 {
     m_level->setEnabled(!m_document.isEmpty() && m_document.recording());
     m_calibration->setVisible(chosenLevel() == SpectrumLevel::Density);
-    const auto &analysis = m_document.analysis();
-    if (!analysis || m_document.hasPings() || !m_sight->isOn())
+    const auto analysis = m_document.lineAnalysis();
+    if (!analysis || !m_sight->isOn())
         return;
     const Span visible = m_document.viewport().time();
     const auto &cursor = m_document.viewport().cursor();

@@ -1,16 +1,15 @@
 #pragma once
 
-#include "analysis/StateReplay.h"
 #include "app/base/JobRunner.h"
 #include "app/document/Document.h"
-#include "widgets/base/Viewport.h"
-#include "widgets/pings/PingViewports.h"
+#include "app/panels/StateCut.h"
 
 #include <QWidget>
 
 class QBoxLayout;
 class QComboBox;
 class QLabel;
+class QLayout;
 class QTabBar;
 
 namespace faintline {
@@ -60,37 +59,25 @@ protected:
     void resizeEvent(QResizeEvent *event) override;
 
 private:
-    /// The cell under the cursor.
-    struct Place {
-        double seconds = 0.0;
-        std::vector<double> position; ///< one per axis of the grid
-    };
-    struct Cut {
-        StateSlice slice;
-        std::vector<Axis> axes;
-        std::shared_ptr<const PeakPyramid> picture;
-        std::vector<float> scores;  ///< rows × columns
-        std::vector<double> values; ///< of the cursor's state, one per axis
-        std::size_t model = 0;
-        Index frame = 0;
-        double best = 0.0;
-    };
-
+    QLayout *buildHead();
+    void buildView();
+    void connectChoices();
+    void connectDocument();
     bool isOfLines() const;
-    std::optional<Place> place() const;
+    bool hasChoice() const; ///< of axes
+    std::optional<StateCut::Wanted> wanted() const;
     void takeFrequencies();
     void giveFrequencies();
     void placeMarks();
-    QString bestWords(const Cut &cut) const;
-    double scoreAtCursor(const Cut &cut) const;
+    QString words(const StateCut &cut) const;
     void chooseRange();
-    QString otherWords(const Cut &cut) const;
     void layOut();
     void fillAxes();
     void chooseAxes(QComboBox &changed, QComboBox &other);
     void update();
     void followCursor();
-    void show(const Cut &cut);
+    void showSpans(const StateCut &cut, const Viewport::Point &cursor);
+    void show(const StateCut &cut);
 
     Document &m_document;
     PingViewports &m_viewports;
@@ -107,7 +94,7 @@ private:
     VisibilityWatcher *m_sight;
     QBoxLayout *m_body;
     std::unique_ptr<SliceMarks> m_marks;
-    std::optional<Cut> m_cut; ///< the one shown
+    std::optional<StateCut> m_cut; ///< the one shown
     Viewport m_viewport;
     std::pair<std::size_t, std::size_t> m_shownAxes{0, 0};
     Span m_givenRange;                     ///< of the colours, as this panel set it

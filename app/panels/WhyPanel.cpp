@@ -3,10 +3,10 @@
 #include "app/base/VisibilityWatcher.h"
 #include "app/base/readingTable.h"
 #include "app/base/statisticUnit.h"
+#include "app/control/FramePlace.h"
 #include "app/document/Document.h"
 #include "widgets/base/axisWords.h"
 #include "widgets/base/labelText.h"
-#include "widgets/pings/PingViewports.h"
 #include "widgets/plot/ChartPlot.h"
 
 #include <QHeaderView>
@@ -236,19 +236,14 @@ void WhyPanel::explainCursor()
     const auto &analysis = m_document.analysis();
     if (!analysis)
         return emit settled();
-    const auto cursor = m_document.viewport().cursor();
-    const bool isLines = analysis->grid().axes.size() == 1;
-    if (!(isLines ? cursor.has_value() : m_document.hasPings()))
+    const auto at = cursorOf(m_document, m_viewports);
+    if (!at)
         return emit settled();
     if (!std::holds_alternative<SmdSettings>(analysis->settings.detector))
         return say(tr("Only the sequential Markov detector decides along a path; choose it to see why."));
-    const PingViewports::Place place = m_viewports.place();
-    const double seconds = isLines ? cursor->seconds : place.seconds;
-    const std::vector<double> position =
-        isLines ? std::vector<double>{cursor->hz} : std::vector<double>{place.range, place.bearing};
     m_began.start();
-    m_runner.start([this, analysis, seconds, position](const RunContext &context) -> JobRunner::Delivery {
-        auto explanation = explain(*analysis, seconds, position, context);
+    m_runner.start([this, analysis, at = *at](const RunContext &context) -> JobRunner::Delivery {
+        auto explanation = explain(*analysis, at.seconds, at.position, context);
         return [this, analysis, explanation = std::move(explanation)] { show(explanation, *analysis); };
     });
 }
@@ -258,17 +253,18 @@ void WhyPanel::layColumns(const Analysis &analysis)
     QStringList names{tr("Time")};
     for (const Axis &axis : analysis.grid().axes)
         names << (axis.unit == "Hz" ? tr("f (%1)").arg(shownUnit(axis).name) : titleOf(axis));
-    const auto axes = int(analysis.grid().axes.size());
+    const auto evidence = int(names.size()); // the first column behind the places
     names << tr("λ") << tr("ln P") << tr("ln K") << tr("Sum") << tr("2nd");
     m_ladder->setColumnCount(int(names.size()));
     m_ladder->setHorizontalHeaderLabels(names);
-    m_ladder->horizontalHeaderItem(axes + 1)->setToolTip(tr("Evidence: log-likelihood ratio of the cell's power, nat"));
-    m_ladder->horizontalHeaderItem(axes + 2)->setToolTip(tr("Logarithm of the transition's probability, nat"));
-    m_ladder->horizontalHeaderItem(axes + 3)->setToolTip(tr("ln K: bonus for continuing the path instead of restarting "
-                                                            "it (nat)"));
-    m_ladder->horizontalHeaderItem(axes + 4)->setToolTip(tr("Sum of all terms so far, nat above background"));
-    m_ladder->horizontalHeaderItem(axes + 5)->setToolTip(
-        tr("Margin over the second-best transition into this step, nat"));
+    m_ladder->horizontalHeaderItem(evidence)->setToolTip(tr("Evidence: log-likelihood ratio of the cell's power, nat"));
+    m_ladder->horizontalHeaderItem(evidence + 1)->setToolTip(tr("Logarithm of the transition's probability, nat"));
+    m_ladder->horizontalHeaderItem(evidence + 2)
+        ->setToolTip(tr("ln K: bonus for continuing the path instead of restarting "
+                        "it (nat)"));
+    m_ladder->horizontalHeaderItem(evidence + 3)->setToolTip(tr("Sum of all terms so far, nat above background"));
+    m_ladder->horizontalHeaderItem(evidence + 4)
+        ->setToolTip(tr("Margin over the second-best transition into this step, nat"));
 }
 
 void WhyPanel::show(const Explanation &explanation, const Analysis &analysis)

@@ -198,7 +198,7 @@ namespace {
         if (has("why"))
             explainCursor(window);
         for (const std::string &view : views)
-            if (isOf(WindowView::Of::Pings, view) && !window.document().hasPings())
+            if (isOf(WindowView::Of::Pings, view) && !window.pingBench().isInUse())
                 throw Error("--view " + view, "requires pings on range and bearing");
         if (has("latency"))
             measureLatency(window);

@@ -11,7 +11,7 @@ WindowParts::~WindowParts() = default;
 
 Bench &WindowParts::bench() const
 {
-    return m_document.hasPings() ? static_cast<Bench &>(*m_pings) : *m_workbench;
+    return m_pings->isInUse() ? static_cast<Bench &>(*m_pings) : *m_workbench;
 }
 
 } // namespace faintline

@@ -488,13 +488,13 @@ void MainWindow::showEvents()
 {
     const std::vector<Event> events = m_document.shownEvents();
     m_events->setEvents(events);
-    m_overview->setEvents(m_document.hasPings() ? eventsAlong(events, 0) : events);
+    m_overview->setEvents(eventsAlong(events, 0));
     showHint();
 }
 
 void MainWindow::showHint()
 {
-    m_hint->setText(hint(m_document, m_controller.isBusy()));
+    m_hint->setText(hint(m_document, m_controller.isBusy(), bench().hint()));
 }
 
 void MainWindow::showTitle()

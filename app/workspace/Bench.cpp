@@ -6,7 +6,8 @@
 
 namespace faintline {
 
-Bench::Bench(Document &document, Kind kind, QWidget *parent) : QWidget(parent), m_document(document), m_kind(kind)
+Bench::Bench(Document &document, const FrameKind &kind, QWidget *parent)
+    : QWidget(parent), m_document(document), m_kind(kind)
 {
     whenInUse(&document, &Document::analysisChanged, &Bench::showAnalysis);
     whenInUse(&document, &Document::provisionalChanged, &Bench::showStatistic);
@@ -16,7 +17,7 @@ Bench::Bench(Document &document, Kind kind, QWidget *parent) : QWidget(parent), 
 
 bool Bench::isInUse() const
 {
-    return m_document.hasPings() == (m_kind == Kind::Pings);
+    return &m_document.frameKind() == &m_kind;
 }
 
 QByteArray Bench::saveSplitters() const

@@ -13,15 +13,13 @@ class QSplitter;
 namespace faintline {
 
 /// What fills the middle of the window while something is open: the pictures, and what moves about in them. There is
-/// one for lines over time and frequency, one for a sonar's pings. Each hears of the document only while the document's
+/// one for each kind of frames. Each hears of the document only while the document's
 /// frames are of its kind.
 class Bench : public QWidget
 {
     Q_OBJECT
 
 public:
-    enum class Kind { Lines, Pings };
-
     /// Where the cursor is, in the units of the axes; what a kind of frames does not have is not given.
     struct Place {
         std::optional<double> seconds;
@@ -30,7 +28,9 @@ public:
         std::optional<double> bearing;
     };
 
-    Bench(Document &document, Kind kind, QWidget *parent = nullptr);
+    Bench(Document &document, const FrameKind &kind, QWidget *parent = nullptr);
+
+    bool isInUse() const; ///< the document's frames are of this kind
 
     virtual Place place() const = 0;
     /// Moves the cursor; what is not given stays. Brings it into view.
@@ -41,6 +41,7 @@ public:
     virtual QWidget *firstView() const = 0;    ///< that has the focus at first
     virtual QString firstViewName() const = 0; ///< as in `windowViews`
     virtual bool hasReadOut() const = 0;       ///< of its own, and a history
+    virtual QString hint() const = 0;          ///< what can be done next, where there are events
 
     /// What the panes say while there is nothing to see.
     virtual void setEmptySentence(const QString &sentence) = 0;
@@ -77,7 +78,6 @@ protected:
     virtual void showEvents() = 0;
     virtual void readCursor() = 0;
 
-    bool isInUse() const; ///< the document's frames are of this kind
     /// Calls a member function when a signal is emitted, if this is in use.
     template <class Sender, class Signal, class B>
     void whenInUse(Sender *sender, Signal signal, void (B::*slot)())
@@ -91,7 +91,7 @@ protected:
     Document &m_document;
 
 private:
-    Kind m_kind;
+    const FrameKind &m_kind;
 };
 
 } // namespace faintline

@@ -3,22 +3,17 @@
 #include "analysis/regulation.h"
 #include "app/base/statisticUnit.h"
 #include "app/control/OutputLayers.h"
+#include "app/workspace/PingBar.h"
 #include "spectrum/pictureCuts.h"
-#include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 #include "widgets/pings/PingMap.h"
 #include "widgets/pings/PolarView.h"
 #include "widgets/plot/StripPlot.h"
 
-#include <QCheckBox>
-#include <QHBoxLayout>
 #include <QLabel>
-#include <QScopedValueRollback>
 #include <QShortcut>
-#include <QSlider>
 #include <QSplitter>
-#include <QToolButton>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -54,37 +49,50 @@ namespace {
 } // namespace
 
 PingBench::PingBench(Document &document, OutputLayers &layers, QWidget *parent)
-    : Bench(document, Kind::Pings, parent), m_layers(layers), m_viewports(document.viewport()),
+    : Bench(document, pingFrames(), parent), m_layers(layers), m_viewports(document.viewport()),
       m_input(new PingMap(tr("Input (dB over noise)"), m_viewports.map())),
-      m_output(new PingMap(tr("Statistic D (nat)"), m_viewports.map())),
+      m_output(new PingMap(tr("Statistic D (nat)"), m_viewports.map())), m_bar(new PingBar),
       m_rangeHistory(new WaterfallView(tr("D over range, best bearing"))),
       m_bearingHistory(new WaterfallView(tr("D over bearing, best range"))),
-      m_regulation(new StripPlot(tr("ln K (nat)"))), m_dragged(new QLabel), m_slider(new QSlider(Qt::Horizontal)),
-      m_reading(new QLabel), m_maps(new QSplitter(Qt::Horizontal)), m_histories(new QSplitter(Qt::Horizontal)),
-      m_rows(new QSplitter(Qt::Vertical))
+      m_regulation(new StripPlot(tr("ln K (nat)"))), m_dragged(new QLabel), m_maps(new QSplitter(Qt::Horizontal)),
+      m_histories(new QSplitter(Qt::Horizontal)), m_rows(new QSplitter(Qt::Vertical))
 {
     setObjectName(QStringLiteral("pingBench"));
-    m_input->setObjectName(QStringLiteral("pingInput"));
-    m_output->setObjectName(QStringLiteral("pingOutput"));
+    setMinimumHeight(220); // of the maps, as in the Workbench
+    layOut();
+    buildHistories();
+    linkViews();
+    linkBar();
+    layers.addPings(*m_output, m_viewports);
+    connect(&layers, &OutputLayers::layerChanged, this, &PingBench::showHeading);
+    whenInUse(&layers, &OutputLayers::readingChanged, &PingBench::readCursor);
+
+    connect(&document, &Document::opened, this, [this] { m_isFirstAnalysis = true; });
+    m_player.setInterval(playerInterval);
+    connect(&m_player, &QTimer::timeout, this, &PingBench::play);
+    auto *backward = new QShortcut(QKeySequence(Qt::SHIFT | Qt::Key_Space), this);
+    backward->setContext(Qt::WidgetWithChildrenShortcut);
+    connect(backward, &QShortcut::activated, this, [this] { setPlayingBackward(!m_player.isActive()); });
+}
+
+void PingBench::layOut()
+{
     m_maps->addWidget(m_input);
     m_maps->addWidget(m_output);
     m_histories->addWidget(m_rangeHistory);
     m_histories->addWidget(m_bearingHistory);
-    auto *upper = new QWidget;
-    auto *upperLayout = new QVBoxLayout(upper);
-    upperLayout->setContentsMargins(0, 0, 0, 0);
-    upperLayout->setSpacing(0);
-    upperLayout->addWidget(m_maps, 1);
-    upperLayout->addWidget(buildBar());
-    auto *lower = new QWidget;
-    auto *lowerLayout = new QVBoxLayout(lower);
-    lowerLayout->setContentsMargins(0, 0, 0, 0);
-    lowerLayout->setSpacing(0);
-    lowerLayout->addWidget(m_dragged);
-    lowerLayout->addWidget(m_regulation, 1);
-    m_rows->addWidget(upper);
+    const auto column = [](QWidget *first, QWidget *second, int share) {
+        auto *result = new QWidget;
+        auto *layout = new QVBoxLayout(result);
+        layout->setContentsMargins(0, 0, 0, 0);
+        layout->setSpacing(0);
+        layout->addWidget(first, share);
+        layout->addWidget(second, 1 - share);
+        return result;
+    };
+    m_rows->addWidget(column(m_maps, m_bar, 1));
     m_rows->addWidget(m_histories);
-    m_rows->addWidget(lower);
+    m_rows->addWidget(column(m_dragged, m_regulation, 0));
     m_rows->setStretchFactor(0, 1);
     m_rows->setSizes({470, 230, 120});
     for (QSplitter *splitter : {m_maps, m_histories, m_rows})
@@ -92,8 +100,13 @@ PingBench::PingBench(Document &document, OutputLayers &layers, QWidget *parent)
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(m_rows);
-    setMinimumHeight(220); // of the maps, as in the Workbench
+}
 
+/// What runs along time.
+void PingBench::buildHistories()
+{
+    m_input->setObjectName(QStringLiteral("pingInput"));
+    m_output->setObjectName(QStringLiteral("pingOutput"));
     m_dragged->setWordWrap(true);
     m_dragged->setTextFormat(Qt::PlainText);
     m_dragged->setContentsMargins(10, 4, 10, 0);
@@ -108,17 +121,6 @@ PingBench::PingBench(Document &document, OutputLayers &layers, QWidget *parent)
         view->setOrientation(WaterfallView::Orientation::LeftToRight);
         view->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
     }
-    linkViews();
-    layers.addPings(*m_output, m_viewports);
-    connect(&layers, &OutputLayers::layerChanged, this, &PingBench::showHeading);
-    whenInUse(&layers, &OutputLayers::readingChanged, &PingBench::readCursor);
-
-    connect(&document, &Document::opened, this, [this] { m_isFirstAnalysis = true; });
-    m_player.setInterval(playerInterval);
-    connect(&m_player, &QTimer::timeout, this, &PingBench::play);
-    auto *backward = new QShortcut(QKeySequence(Qt::SHIFT | Qt::Key_Space), this);
-    backward->setContext(Qt::WidgetWithChildrenShortcut);
-    connect(backward, &QShortcut::activated, this, [this] { setPlayingBackward(!m_player.isActive()); });
 }
 
 void PingBench::resizeEvent(QResizeEvent *event)
@@ -140,66 +142,18 @@ QWidget *PingBench::maps() const
     return m_maps;
 }
 
-QWidget *PingBench::buildBar()
+void PingBench::linkBar()
 {
-    const auto button = [this](const QString &text, const QString &toolTip, auto act) {
-        auto *result = new QToolButton;
-        result->setText(text);
-        result->setToolTip(toolTip);
-        result->setAutoRaise(true);
-        result->setFocusPolicy(Qt::TabFocus);
-        connect(result, &QToolButton::clicked, this, act);
-        return result;
-    };
-    m_slider->setRange(0, 0);
-    m_slider->setPageStep(10);
-    m_slider->setAccessibleName(tr("Ping"));
-    m_slider->setToolTip(tr("The ping shown; J and L step, Space plays, Shift+Space plays backwards"));
-    connect(m_slider, &QSlider::valueChanged, this, [this](int value) { showPing(value); });
-    m_reading->setFont(Theme::font(12));
-    m_reading->setTextFormat(Qt::PlainText);
-    m_reading->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    m_reading->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-    m_reading->setContentsMargins(8, 0, 8, 2);
-    m_reading->setAccessibleName(tr("Read-out"));
-    auto *inhibition = new QCheckBox(tr("Inhibited"));
-    inhibition->setToolTip(tr("Show the inhibited boxes around tracks"));
-    inhibition->setChecked(true);
-    inhibition->setFocusPolicy(Qt::TabFocus);
-    connect(inhibition, &QCheckBox::toggled, m_input, &PingMap::setInhibitionShown);
-    connect(inhibition, &QCheckBox::toggled, m_output, &PingMap::setInhibitionShown);
-    auto *conventional = new QCheckBox(tr("Conventional"));
-    conventional->setToolTip(tr("Show tracks found by thresholding each ping: M hits in N pings, in a gate that admits "
-                                "the largest speed (settings conventional.…)"));
-    conventional->setFocusPolicy(Qt::TabFocus);
-    connect(conventional, &QCheckBox::toggled, m_input, &PingMap::setConventionalShown);
-    connect(conventional, &QCheckBox::toggled, m_output, &PingMap::setConventionalShown);
-    auto *polar = new QCheckBox(tr("From above"));
-    polar->setToolTip(tr("Range and bearing as seen from above, north up (P)"));
-    polar->setFocusPolicy(Qt::TabFocus);
-    connect(polar, &QCheckBox::toggled, this, &PingBench::setPolar);
-    connect(m_output, &PingMap::polarChanged, polar, &QCheckBox::setChecked);
-
-    auto *bar = new QWidget;
-    auto *row = new QHBoxLayout;
-    row->setContentsMargins(8, 2, 8, 0);
-    row->setSpacing(6);
-    row->addWidget(
-        button(tr("◀"), tr("Play backwards (Shift+Space)"), [this] { setPlayingBackward(!m_player.isActive()); }));
-    row->addWidget(button(tr("−1"), tr("One ping back (J)"), [this] { stepFrames(-1); }));
-    row->addWidget(m_slider, 1);
-    row->addWidget(button(tr("+1"), tr("One ping forward (L)"), [this] { stepFrames(1); }));
-    row->addWidget(button(tr("▶"), tr("Play (Space)"), [this] { setPlaying(!m_player.isActive()); }));
-    row->addSpacing(10);
-    row->addWidget(inhibition);
-    row->addWidget(conventional);
-    row->addWidget(polar);
-    auto *layout = new QVBoxLayout(bar);
-    layout->setContentsMargins(0, 0, 0, 0);
-    layout->setSpacing(0);
-    layout->addLayout(row);
-    layout->addWidget(m_reading);
-    return bar;
+    connect(m_bar, &PingBar::pingRequested, this, &PingBench::showPing);
+    connect(m_bar, &PingBar::stepRequested, this, &PingBench::stepFrames);
+    connect(m_bar, &PingBar::playClicked, this, [this] { setPlaying(!m_player.isActive()); });
+    connect(m_bar, &PingBar::backwardClicked, this, [this] { setPlayingBackward(!m_player.isActive()); });
+    for (PingMap *map : {m_input, m_output}) {
+        connect(m_bar, &PingBar::inhibitionToggled, map, &PingMap::setInhibitionShown);
+        connect(m_bar, &PingBar::conventionalToggled, map, &PingMap::setConventionalShown);
+    }
+    connect(m_bar, &PingBar::polarToggled, this, &PingBench::setPolar);
+    connect(m_output, &PingMap::polarChanged, m_bar, &PingBar::setPolar);
 }
 
 std::vector<WaterfallView *> PingBench::views() const
@@ -247,7 +201,7 @@ void PingBench::setEmptySentence(const QString &sentence)
     m_regulation->removeSeries(tr("ln K"));
     m_regulation->removeSeries(tr("reset fraction"));
     m_regulation->setEmptySentence(sentence);
-    m_reading->clear();
+    m_bar->setReading({});
 }
 
 // ---- what is shown -------------------------------------------------------------------------------------------------
@@ -267,10 +221,7 @@ void PingBench::showAnalysis()
     m_rangeHistory->setTruth(truthAlong(m_document.pingTruth(), grid, analysis.time(), 0));
     m_bearingHistory->setTruth(truthAlong(m_document.pingTruth(), grid, analysis.time(), 1));
     showRegulation();
-    {
-        const QScopedValueRollback following(m_isFollowing, true);
-        m_slider->setRange(0, int(analysis.time().count) - 1);
-    }
+    m_bar->setPingCount(analysis.time().count);
     m_shownPing = -1;
     if (isFirst)
         placeCursor();
@@ -362,6 +313,11 @@ void PingBench::placeCursor()
         m_viewports.setPlace({m_viewports.rangeTime().full().time.middle(), map.time.middle(), map.frequency.middle()});
 }
 
+QString PingBench::hint() const
+{
+    return tr("J and L step through the pings, Space plays them, P shows them from above, N goes to the next track.");
+}
+
 QWidget *PingBench::inputView() const
 {
     return m_input;
@@ -406,8 +362,7 @@ void PingBench::followPlace()
         m_shownPing = now;
         m_input->setPicture(pictureOfFrame(*analysis.input, analysis.grid(), now), analysis.grid().axes[1]);
         showStatistic();
-        const QScopedValueRollback following(m_isFollowing, true);
-        m_slider->setValue(int(now));
+        m_bar->setPing(now);
         showMarks();
     }
     readCursor();
@@ -463,7 +418,7 @@ void PingBench::read(double range, double bearing)
                       axisText(bearings, b),
                       tr("y %1 dB").arg(value(*m_input->plane(), r, b)),
                       tr("D %1 %2").arg(value(*m_output->plane(), r, b), m_output->plane()->valueUnit())};
-    if (const auto best = m_layers.readingAt(PingViewports::Place{analysis.time().value(double(m_shownPing)), r, b})) {
+    if (const auto best = m_layers.readingAt({analysis.time().value(double(m_shownPing)), {r, b}})) {
         const auto rate = [&](const Axis &axis, double perSecond) {
             return numberText(perSecond, decimalsFor(axis.step / analysis.time().step)) + unitText(axis)
                    + QStringLiteral("/s");
@@ -475,7 +430,7 @@ void PingBench::read(double range, double bearing)
     if (const PingMarks::Box *box = m_marks.boxAt({r, b}))
         words << (box->pings == 1 ? tr("inhibited: track %1, from now on").arg(box->track)
                                   : tr("inhibited: track %1, %2 pings").arg(box->track).arg(box->pings));
-    m_reading->setText(words.join(QStringLiteral(" · ")));
+    m_bar->setReading(words.join(QStringLiteral(" · ")));
 }
 
 void PingBench::readCursor()
@@ -485,14 +440,14 @@ void PingBench::readCursor()
 
 QString PingBench::reading() const
 {
-    return m_reading->text();
+    return m_bar->reading();
 }
 
 // ---- moving about --------------------------------------------------------------------------------------------------
 
 void PingBench::showPing(Index ping)
 {
-    if (m_isFollowing || !m_document.analysis())
+    if (!m_document.analysis())
         return;
     const Axis &time = m_document.analysis()->time();
     PingViewports::Place place = m_viewports.place();

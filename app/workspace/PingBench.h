@@ -8,12 +8,12 @@
 #include <QTimer>
 
 class QLabel;
-class QSlider;
 class QSplitter;
 
 namespace faintline {
 
 class OutputLayers;
+class PingBar;
 class PingMap;
 class StripPlot;
 
@@ -39,6 +39,7 @@ public:
     QWidget *firstView() const override;
     QString firstViewName() const override { return QStringLiteral("map"); }
     bool hasReadOut() const override { return true; }
+    QString hint() const override;
     QWidget *histories() const;
     QWidget *maps() const;
     PingViewports &viewports() { return m_viewports; }
@@ -75,8 +76,10 @@ protected:
     void readCursor() override;
 
 private:
-    QWidget *buildBar();
+    void layOut();
+    void buildHistories();
     void linkViews();
+    void linkBar();
     std::vector<WaterfallView *> views() const;
     void showRegulation();
     const PeakPyramid *provisional() const;
@@ -92,12 +95,11 @@ private:
     PingViewports m_viewports;
     PingMap *m_input;
     PingMap *m_output;
+    PingBar *m_bar; ///< below them
     WaterfallView *m_rangeHistory;
     WaterfallView *m_bearingHistory;
     StripPlot *m_regulation;
     QLabel *m_dragged; ///< a warning where signals drag K down
-    QSlider *m_slider;
-    QLabel *m_reading;
     QSplitter *m_maps;
     QSplitter *m_histories;
     QSplitter *m_rows;
@@ -106,7 +108,6 @@ private:
     int m_playStep = 1;
     QTimer m_player;
     bool m_isFirstAnalysis = true; ///< of what is open
-    bool m_isFollowing = false;
 };
 
 } // namespace faintline

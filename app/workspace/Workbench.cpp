@@ -4,6 +4,7 @@
 #include "app/control/BoxMeter.h"
 #include "app/control/Closeup.h"
 #include "app/control/OutputLayers.h"
+#include "app/control/trackBox.h"
 #include "widgets/plot/StripPlot.h"
 #include "widgets/waterfall/ColourBar.h"
 
@@ -69,21 +70,10 @@ namespace {
         return {};
     }
 
-    /// The box a track's path fills.
-    Viewport::Box boxOf(const Track &track, const Analysis &analysis)
-    {
-        const Axis &time = analysis.time();
-        const Axis &frequency = analysis.grid().axes.back();
-        const auto hz = [&](const TrackPoint &point) { return frequency.value(double(point.cell % frequency.count)); };
-        const auto [low, high] = std::minmax_element(track.points.begin(), track.points.end(),
-                                                     [&](const auto &a, const auto &b) { return hz(a) < hz(b); });
-        return {{time.value(double(track.onsetFrame)), time.value(double(track.endFrame))}, {hz(*low), hz(*high)}};
-    }
-
 } // namespace
 
 Workbench::Workbench(Document &document, QWidget *parent)
-    : Bench(document, Kind::Lines, parent), m_input(new WaterfallView(tr("Input (dB over noise)"))),
+    : Bench(document, lineFrames(), parent), m_input(new WaterfallView(tr("Input (dB over noise)"))),
       m_output(new WaterfallView(tr("Statistic D (nat)"))), m_layers(new OutputLayers(document, *m_output, this)),
       m_boxMeter(new BoxMeter(document, this)), m_inputPane(ColourBar::pane(m_input)),
       m_outputPane(ColourBar::pane(m_output)), m_statistic(new StripPlot(tr("D (nat)"))),
@@ -148,6 +138,11 @@ void Workbench::linkViews()
     whenInUse(viewport, &Viewport::cursorChanged, &Workbench::readCursor);
     whenInUse(m_layers, &OutputLayers::readingChanged, &Workbench::readCursor);
     connect(m_layers, &OutputLayers::layerChanged, this, &Workbench::showHeading);
+}
+
+QString Workbench::hint() const
+{
+    return tr("Drag the threshold line to update contour and events. N goes to the next event, ? shows all keys.");
 }
 
 void Workbench::setEmptySentence(const QString &sentence)
@@ -306,7 +301,7 @@ void Workbench::read(const Viewport::Point &point)
                              m_output->valueAt(point.seconds, point.hz),
                              m_document.analysis() ? slopeAt(*m_document.analysis(), point) : std::nullopt,
                              {}};
-    if (const auto best = m_layers->readingAt(point)) {
+    if (const auto best = m_layers->readingAt({point.seconds, {point.hz}})) {
         reading.slopeHzPerSecond = best->ratePerSecond;
         reading.ageSeconds = best->ageSeconds;
         reading.statisticNats = best->statistic;
@@ -329,7 +324,7 @@ void Workbench::selectEvent(int id)
     const Track *track = m_document.track(id);
     if (!track || track->points.empty())
         return;
-    m_document.viewport().reveal(boxOf(*track, *m_document.analysis()));
+    m_document.viewport().reveal(trackBox(*track, *m_document.analysis()));
     for (const Event &event : m_document.shownEvents())
         if (event.id == id)
             m_document.viewport().setCursor({event.detectSeconds, event.position.back()});

@@ -30,6 +30,7 @@ public:
     QWidget *firstView() const override { return m_output; }
     QString firstViewName() const override { return QStringLiteral("output"); }
     bool hasReadOut() const override { return false; }
+    QString hint() const override;
 
     Place place() const override;
     void setPlace(const Place &place) override;

@@ -12,16 +12,16 @@ class tst_BoxAnalysis : public QObject
 private slots:
     void boxesAreRoundedOutwards()
     {
-        const SelectionSettings part = inBox({}, 12.3456, 45.6701, 70.06, 80.01, 0.125, 2.0).selection;
+        const SelectionSettings part = inBox({}, {{12.3456, 45.6701}, {70.06, 80.01}}, 0.125, 2.0).selection;
         QCOMPARE(part.fromSeconds, 12.34);
         QCOMPARE(part.toSeconds, 45.68);
         QCOMPARE(part.lowHz, 70.0);
         QCOMPARE(part.highHz, 80.1);
-        QCOMPARE(inBox({}, -0.02, 1.0, -5.0, 5.0, 0.125, 2.0).selection.fromSeconds, 0.0);
+        QCOMPARE(inBox({}, {{-0.02, 1.0}, {-5.0, 5.0}}, 0.125, 2.0).selection.fromSeconds, 0.0);
         // A box of fundamentals becomes the band that their members lie in.
         AnalysisSettings family;
         family.family = {FamilySettings::Relation::Harmonics, {2.0, 5.0}, FamilySettings::Present::Together};
-        const SelectionSettings band = inBox(family, 1.0, 2.0, 10.0, 12.0, 0.125, 2.0).selection;
+        const SelectionSettings band = inBox(family, {{1.0, 2.0}, {10.0, 12.0}}, 0.125, 2.0).selection;
         QCOMPARE(band.lowHz, 20.0);
         QCOMPARE(band.highHz, 60.0);
     }

@@ -284,7 +284,7 @@ private slots:
         // The read-out's figures are the cell's own.
         m_window->document().viewport().setCursor({13.0, 206.5});
         QVERIFY(settle(m_window->workbench().layers()));
-        const auto reading = layers.readingAt(Viewport::Point{13.0, 206.5});
+        const auto reading = layers.readingAt({13.0, {206.5}});
         QVERIFY(reading);
         LayerReplay replay(m_window->document().analysis());
         const Analysis &analysis = *m_window->document().analysis();
@@ -300,10 +300,10 @@ private slots:
         OutputLayers &layers = m_window->workbench().layers();
         m_window->document().viewport().setCursor({20.0, 210.0});
         QVERIFY(!layers.isBusy());
-        QVERIFY(!layers.readingAt(Viewport::Point{20.0, 210.0}));
+        QVERIFY(!layers.readingAt({20.0, {210.0}}));
         m_window->showStates();
         QVERIFY(settle(m_window->workbench().layers()));
-        QVERIFY(layers.readingAt(Viewport::Point{20.0, 210.0})); // watched with the states
+        QVERIFY(layers.readingAt({20.0, {210.0}})); // watched with the states
     }
 };
 

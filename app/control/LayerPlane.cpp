@@ -1,0 +1,114 @@
+#include "app/control/LayerPlane.h"
+
+#include "analysis/outputLayers.h"
+#include "widgets/pings/PingMap.h"
+#include "widgets/pings/PolarLayerItem.h"
+#include "widgets/pings/PolarView.h"
+#include "widgets/waterfall/LayerItem.h"
+#include "widgets/waterfall/WaterfallView.h"
+
+#include <qwt_plot_canvas.h>
+
+#include <algorithm>
+
+namespace faintline {
+
+namespace {
+
+    std::pair<Index, Index> cellsOf(const Axis &axis, const Span &visible)
+    {
+        return {axis.nearest(visible.low), axis.nearest(visible.high) + 1};
+    }
+
+} // namespace
+
+LayerPlane::LayerPlane(const FrameKind &kind, WaterfallView &view, QObject *parent)
+    : QObject(parent), m_kind(kind), m_view(view), m_item(*new LayerItem)
+{
+    m_item.attach(&view); // the plot's from now on, as its key
+    m_item.makeKey().release()->attach(&view);
+    view.installEventFilter(parent);
+    view.canvas()->installEventFilter(parent);
+    connect(&view, &WaterfallView::orientationChanged, this, &LayerPlane::shapeChanged);
+}
+
+bool LayerPlane::areRowsVertical() const
+{
+    return m_view.orientation() != WaterfallView::Orientation::LeftToRight;
+}
+
+LineLayerPlane::LineLayerPlane(WaterfallView &view, Viewport &viewport, QObject *watcher)
+    : LayerPlane(lineFrames(), view, watcher), m_viewport(viewport)
+{
+    connect(&viewport, &Viewport::spanChanged, this, &LayerPlane::spanChanged);
+    connect(&viewport, &Viewport::cursorChanged, this, &LayerPlane::cursorChanged);
+}
+
+LayerWindow LineLayerPlane::window(const Analysis &analysis) const
+{
+    const auto [beginFrame, endFrame] = cellsOf(analysis.time(), m_viewport.time());
+    const auto [beginCell, endCell] = cellsOf(analysis.grid().axes.front(), m_viewport.frequency());
+    const QSize size = (QSizeF(m_view.canvas()->contentsRect().size()) * m_view.devicePixelRatioF()).toSize();
+    return {beginFrame,
+            endFrame,
+            beginCell,
+            endCell,
+            std::max(1, areRowsVertical() ? size.height() : size.width()),
+            std::max(1, areRowsVertical() ? size.width() : size.height())};
+}
+
+std::pair<Axis, Axis> LineLayerPlane::axes(const Analysis &analysis) const
+{
+    return {analysis.time(), analysis.grid().axes.front()};
+}
+
+void LineLayerPlane::replot()
+{
+    m_view.replot();
+}
+
+PingLayerPlane::PingLayerPlane(PingMap &map, PingViewports &viewports, QObject *watcher)
+    : LayerPlane(pingFrames(), *map.plane(), watcher), m_map(map), m_viewports(viewports)
+{
+    (new PolarLayerItem(m_item))->attach(map.polar());
+    m_item.makeKey().release()->attach(map.polar());
+    map.polar()->canvas()->installEventFilter(watcher);
+    connect(&viewports.map(), &Viewport::spanChanged, this, &LayerPlane::spanChanged);
+    connect(&viewports, &PingViewports::placeChanged, this, &LayerPlane::cursorChanged);
+    connect(&map, &PingMap::polarChanged, this, &LayerPlane::shapeChanged);
+}
+
+LayerWindow PingLayerPlane::window(const Analysis &analysis) const
+{
+    const auto [ranges, bearings] = axes(analysis);
+    const Viewport &viewport = m_viewports.map();
+    const auto [firstRange, endRange] = cellsOf(ranges, viewport.time());
+    // On a cyclic axis the ends of a view all round are neighbours.
+    const bool isAllRound = viewport.frequency().width() > bearings.step * double(bearings.count - 1);
+    const auto [firstBeam, endBeam] =
+        isAllRound ? std::pair(Index(0), bearings.count) : cellsOf(bearings, viewport.frequency());
+    LayerWindow window{firstRange, endRange, firstBeam, endBeam, ranges.count, bearings.count};
+    if (m_map.isPolar()) {
+        const PolarView &polar = *m_map.polar();
+        const double perPixel = polar.invTransform(QwtAxis::XBottom, 1.0) - polar.invTransform(QwtAxis::XBottom, 0.0);
+        window.mostRows = std::max<Index>(1, Index(viewport.time().width() / perPixel));
+    } else {
+        const QSize size = m_view.canvas()->contentsRect().size();
+        window.mostRows = std::max(1, areRowsVertical() ? size.height() : size.width());
+        window.mostColumns = std::max(1, areRowsVertical() ? size.width() : size.height());
+    }
+    return window;
+}
+
+std::pair<Axis, Axis> PingLayerPlane::axes(const Analysis &analysis) const
+{
+    return {analysis.grid().axes[0], analysis.grid().axes[1]};
+}
+
+void PingLayerPlane::replot()
+{
+    m_view.replot();
+    m_map.polar()->replot();
+}
+
+} // namespace faintline

@@ -1,0 +1,83 @@
+#pragma once
+
+#include "app/control/FramePlace.h"
+#include "app/document/FrameKind.h"
+
+#include <QObject>
+
+#include <memory>
+#include <utility>
+
+namespace faintline {
+
+struct Analysis;
+class LayerItem;
+struct LayerWindow;
+class PingMap;
+class WaterfallView;
+
+/// The picture over which layers of one kind of frames are shown: of lines the output's waterfall, of pings the map of
+/// the one under the cursor.
+class LayerPlane : public QObject
+{
+    Q_OBJECT
+
+public:
+    const FrameKind &kind() const { return m_kind; }
+    LayerItem &item() const { return m_item; } ///< the view's
+    WaterfallView &view() const { return m_view; }
+
+    virtual std::optional<FramePlace> cursor() const = 0;
+    /// What can be seen, no finer than its pixels.
+    virtual LayerWindow window(const Analysis &analysis) const = 0;
+    /// Rows and columns of that window.
+    virtual std::pair<Axis, Axis> axes(const Analysis &analysis) const = 0;
+    virtual void replot() = 0;
+
+signals:
+    void spanChanged();  ///< another part can be seen
+    void shapeChanged(); ///< the same on other pixels
+    void cursorChanged();
+
+protected:
+    LayerPlane(const FrameKind &kind, WaterfallView &view, QObject *parent);
+    /// Whether rows run along the picture's height.
+    bool areRowsVertical() const;
+
+    const FrameKind &m_kind;
+    WaterfallView &m_view;
+    LayerItem &m_item;
+};
+
+/// Time × frequency on a waterfall.
+class LineLayerPlane : public LayerPlane
+{
+public:
+    LineLayerPlane(WaterfallView &view, Viewport &viewport, QObject *watcher);
+
+    std::optional<FramePlace> cursor() const override { return cursorOf(m_viewport); }
+    LayerWindow window(const Analysis &analysis) const override;
+    std::pair<Axis, Axis> axes(const Analysis &analysis) const override;
+    void replot() override;
+
+private:
+    const Viewport &m_viewport;
+};
+
+/// Range × bearing of one ping, as a plane or from above.
+class PingLayerPlane : public LayerPlane
+{
+public:
+    PingLayerPlane(PingMap &map, PingViewports &viewports, QObject *watcher);
+
+    std::optional<FramePlace> cursor() const override { return cursorOf(m_viewports); }
+    LayerWindow window(const Analysis &analysis) const override;
+    std::pair<Axis, Axis> axes(const Analysis &analysis) const override;
+    void replot() override;
+
+private:
+    PingMap &m_map;
+    const PingViewports &m_viewports;
+};
+
+} // namespace faintline

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "widgets/base/Viewport.h"
+
+namespace faintline {
+
+struct Analysis;
+struct Track;
+
+/// The box of time and of the last axis that a track's path fills.
+Viewport::Box trackBox(const Track &track, const Analysis &analysis);
+
+} // namespace faintline

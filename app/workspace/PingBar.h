@@ -1,0 +1,44 @@
+#pragma once
+
+#include "base/Axis.h"
+
+#include <QWidget>
+
+class QCheckBox;
+class QLabel;
+class QSlider;
+
+namespace faintline {
+
+/// Below the maps of a ping: which one it is, what is marked in it, and the read-out.
+class PingBar : public QWidget
+{
+    Q_OBJECT
+
+public:
+    explicit PingBar(QWidget *parent = nullptr);
+
+    void setPingCount(Index count);
+    void setPing(Index ping);
+    void setPolar(bool isPolar);
+    void setReading(const QString &words);
+    QString reading() const;
+
+signals:
+    void pingRequested(faintline::Index ping);
+    void stepRequested(int pings);
+    void playClicked();
+    void backwardClicked();
+    void inhibitionToggled(bool isShown);
+    void conventionalToggled(bool isShown);
+    void polarToggled(bool isPolar);
+
+private:
+    QLayout *buildRow();
+
+    QSlider *m_slider;
+    QCheckBox *m_polar;
+    QLabel *m_reading;
+};
+
+} // namespace faintline

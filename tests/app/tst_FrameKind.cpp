@@ -1,0 +1,105 @@
+#include "app/document/FrameKind.h"
+
+#include "app/control/FramePlace.h"
+#include "app/document/Document.h"
+#include "base/Error.h"
+
+#include <QtTest>
+
+using namespace faintline;
+
+/// What a document says of its frames, whatever their axes.
+class tst_FrameKind : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void aGridHasAKind();
+    void everyKindHasItsWords();
+    void nothingIsOpenLikeLines();
+    void boxesAreOfLines();
+    void pingsAreLookedAtOneByOne();
+    void theCursorIsThatOfTheKind();
+
+private:
+    static Grid spectrum() { return {{{"frequency", "Hz", 0.0, 1.0, 8, false}}}; }
+    static Grid ping() { return {{{"range", "m", 0.0, 1.0, 4, false}, {"bearing", "deg", 0.0, 90.0, 4, true}}}; }
+    static void open(Document &document, const Grid &grid)
+    {
+        OpenedSource opened;
+        opened.frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, 2, false}, grid,
+                                                     std::vector<float>(std::size_t(2 * grid.size()), 1.0f));
+        document.setOpened(opened, AnalysisSettings());
+        document.viewport().setExtents({0.0, 10.0}, {0.0, 8.0});
+    }
+};
+
+void tst_FrameKind::aGridHasAKind()
+{
+    QCOMPARE(&frameKindOf(spectrum()), &lineFrames());
+    QCOMPARE(&frameKindOf(ping()), &pingFrames());
+    Grid scan = ping();
+    scan.axes.push_back(scan.axes.front());
+    QVERIFY_THROWS_EXCEPTION(Error, frameKindOf(scan));
+}
+
+void tst_FrameKind::everyKindHasItsWords()
+{
+    for (const auto &[kind, axes] : {std::pair(&lineFrames(), 1), std::pair(&pingFrames(), 2)}) {
+        QCOMPARE(int(kind->rates.size()), axes);
+        for (const QString &words :
+             {kind->frame, kind->frames, kind->cellsPerFrame, kind->cellPerFrame, kind->signal, kind->rates.back()})
+            QVERIFY(!words.isEmpty());
+        QVERIFY(kind->cellsPerFrame.endsWith(kind->frame));
+    }
+}
+
+void tst_FrameKind::nothingIsOpenLikeLines()
+{
+    const Document document;
+    QCOMPARE(&document.frameKind(), &lineFrames());
+    QVERIFY(!document.lineAnalysis());
+}
+
+void tst_FrameKind::boxesAreOfLines()
+{
+    Document document;
+    for (const bool isPing : {false, true}) {
+        open(document, isPing ? ping() : spectrum());
+        QVERIFY(!document.box());
+        document.viewport().setSelection({{1.0, 2.0}, {3.0, 4.0}});
+        QCOMPARE(document.box().has_value(), !isPing);
+        document.setAnalysis(std::make_shared<Analysis>(), {});
+        QCOMPARE(document.lineAnalysis() != nullptr, !isPing);
+        QVERIFY(document.analysis());
+    }
+}
+
+void tst_FrameKind::pingsAreLookedAtOneByOne()
+{
+    Document document;
+    for (const bool isPing : {false, true}) {
+        open(document, isPing ? ping() : spectrum());
+        document.viewport().zoomTo({2.0, 6.0}, {0.0, 8.0});
+        QCOMPARE(document.lookedAt(), (Span{2.0, 6.0}));
+        document.viewport().setCursor({3.0, 1.0});
+        QCOMPARE(document.lookedAt(), isPing ? (Span{3.0, 3.0}) : (Span{2.0, 6.0}));
+    }
+}
+
+void tst_FrameKind::theCursorIsThatOfTheKind()
+{
+    Document document;
+    PingViewports pings(document.viewport());
+    open(document, spectrum());
+    QVERIFY(!cursorOf(document, pings));
+    document.viewport().setCursor({3.0, 5.0});
+    QCOMPARE(cursorOf(document, pings)->position, std::vector<double>{5.0});
+    open(document, ping());
+    pings.setPlace({4.0, 2.0, 180.0});
+    QCOMPARE(cursorOf(document, pings)->seconds, 4.0);
+    QCOMPARE(cursorOf(document, pings)->position, (std::vector<double>{2.0, 180.0}));
+}
+
+QTEST_MAIN(tst_FrameKind)
+#include "tst_FrameKind.moc"
