@@ -1,12 +1,10 @@
 // The window, and its twin that draws pictures without a screen.
 
-#include "app/base/filePath.h"
-#include "app/document/Recovery.h"
 #include "app/render/comparePictures.h"
-#include "app/render/readPicture.h"
 #include "app/render/renderCommand.h"
 #include "app/render/replayPicture.h"
 #include "app/window/MainWindow.h"
+#include "app/window/programWindows.h"
 #include "base/oneLine.h"
 #include "base/standardStreams.h"
 #include "widgets/base/icon.h"
@@ -156,11 +154,16 @@ namespace {
         return command;
     }
 
+    struct Screen {
+        QSize size; ///< of the largest window
+        double scale = 1.0;
+    };
+
     /// A screen for programs without one; the default of 800 × 800 would cut off windows.
-    std::unique_ptr<QTemporaryFile> useScreenOf(QSize size, double scale)
+    std::unique_ptr<QTemporaryFile> use(const Screen &screen)
     {
-        if (scale != 1.0)
-            qputenv("QT_SCALE_FACTOR", QByteArray::number(scale));
+        if (screen.scale != 1.0)
+            qputenv("QT_SCALE_FACTOR", QByteArray::number(screen.scale));
         if (qEnvironmentVariableIsSet("QT_QPA_PLATFORM"))
             return {};
         auto file = std::make_unique<QTemporaryFile>();
@@ -170,8 +173,8 @@ namespace {
             QStringLiteral(R"({"synchronousWindowSystemEvents": false, "windowFrameMargins": false, "screens": [)"
                            R"({"name": "picture", "x": 0, "y": 0, "width": %1, "height": %2,)"
                            R"( "logicalDpi": 96, "logicalBaseDpi": 96, "dpr": 1}]})")
-                .arg(std::lround(size.width() * scale))
-                .arg(std::lround(size.height() * scale))
+                .arg(std::lround(screen.size.width() * screen.scale))
+                .arg(std::lround(screen.size.height() * screen.scale))
                 .toLatin1());
         file->close();
         qputenv("QT_QPA_PLATFORM", "offscreen:configfile=" + QFile::encodeName(file->fileName()));
@@ -215,14 +218,13 @@ namespace {
                 throw Error(name, "must be a finite number");
     }
 
-    /// Draws in a window nobody sees, of at most that size.
+    /// Draws in a window nobody sees.
     template <class Options>
-    int runRender(int argc, char *argv[], const Options &options, QSize size, double scale,
-                  void (*draw)(const Options &))
+    int runRender(int argc, char *argv[], const Screen &wanted, const Options &options, void (*draw)(const Options &))
     {
         qInstallMessageHandler(keepQuiet);
         Theme::prepareEnvironment();
-        const auto screen = useScreenOf(size, scale);
+        const auto screen = use(wanted);
         QApplication application(argc, argv);
         draw(options);
         return 0;
@@ -232,10 +234,10 @@ namespace {
     int runReplay(int argc, char *argv[], const ReplayOptions &options)
     {
         if (isChart(options))
-            return runRender(argc, argv, options, RenderOptions().size, 1.0, replay);
+            return runRender(argc, argv, {RenderOptions().size}, options, replay);
         qInstallMessageHandler(keepQuiet);
-        const QImage picture = readPicture(pathText(options.picture));
-        return runRender(argc, argv, options, picture.size(), scaleOf(picture), replay);
+        const QImage picture = pictureOf(options);
+        return runRender(argc, argv, {picture.size(), scaleOf(picture)}, options, replay);
     }
 
     /// Arrays of a MiB and more go back to the system as they are let go. By itself the C library raises that limit to
@@ -257,16 +259,7 @@ namespace {
         QApplication::setApplicationName(QStringLiteral("faintline"));
         QApplication::setApplicationDisplayName(QStringLiteral("Faintline"));
         QApplication::setWindowIcon(programIcon());
-        Theme::apply(WindowMemory(WindowMemory::programStore()).theme());
-
-        std::vector<std::unique_ptr<MainWindow>> windows;
-        for (std::size_t i = 0; i < std::max<std::size_t>(1, files.size()); ++i) {
-            windows.push_back(std::make_unique<MainWindow>(WindowMemory::programStore(), Recovery::programFolder()));
-            if (i < files.size())
-                windows.back()->open(pathText(files[i]), options);
-            windows.back()->show();
-        }
-        windows.front()->offerRecovery();
+        const auto windows = programWindows(files, options);
         return QApplication::exec();
     }
 
@@ -300,14 +293,14 @@ namespace {
             return 0;
         }
         if (reportCommand->parsed())
-            return runRender(argc, argv, reporting, reporting.size, 1.0, report);
+            return runRender(argc, argv, {reporting.size}, reporting, report);
         if (replayCommand->parsed())
             return runReplay(argc, argv, replaying);
         if (!renderCommand->parsed())
             return runWindow(argc, argv, files, opening);
         checkNumbers(rendering);
         rendering.size = parseSize(size);
-        return runRender(argc, argv, rendering, rendering.size, rendering.scale, render);
+        return runRender(argc, argv, {rendering.size, rendering.scale}, rendering, render);
     }
 
 } // namespace

@@ -1,7 +1,6 @@
 #include "app/lessons/LessonGuide.h"
 
 #include "app/base/MessageBar.h"
-#include "app/control/scanScenario.h"
 #include "app/lessons/LessonPanel.h"
 #include "app/lessons/PointerFrame.h"
 #include "app/lessons/lessonMeasures.h"
@@ -109,7 +108,7 @@ void LessonGuide::set()
 {
     const QString path = m_lesson.steps[std::size_t(openingStep())].open;
     Document &document = m_parts.document();
-    if (isScanScenario(path)) {
+    if (WindowParts::holdsScans(path)) {
         m_opened = path;
         setScans(path);
     } else if (m_opened != path || document.source().path != path) {
@@ -131,9 +130,7 @@ void LessonGuide::set()
 void LessonGuide::setScans(const QString &path)
 {
     try {
-        const ScanTest test = readScanTest(path);
-        if (m_parts.sequentialTests().isEmpty() || m_parts.sequentialTests().test() != test)
-            m_parts.openScans(test);
+        m_parts.openScansOf(path);
     } catch (const Error &error) {
         m_parts.messages().showMessage(MessageBar::Kind::Error, QString::fromStdString(error.where()),
                                        QString::fromStdString(error.why()));
@@ -150,7 +147,7 @@ void LessonGuide::check()
 {
     if (!isRunning() || isBusy())
         return;
-    const bool isOfScans = isScanScenario(m_opened);
+    const bool isOfScans = WindowParts::holdsScans(m_opened);
     if (!isOfScans && m_parts.document().source().path != m_opened)
         return leave(); // something else is open now
     showPanel();

@@ -1,6 +1,5 @@
 #include "app/panels/HandLinePanel.h"
 
-#include "app/workspace/Workbench.h"
 #include "base/logmath.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
@@ -29,10 +28,10 @@ namespace {
     class Cover : public QWidget
     {
     public:
-        Cover(QWidget *over, const QString &sentence) : QWidget(over), m_sentence(sentence)
+        Cover(QWidget &over, const QString &sentence) : QWidget(&over), m_sentence(sentence)
         {
-            over->installEventFilter(this);
-            setGeometry(over->rect());
+            over.installEventFilter(this);
+            setGeometry(over.rect());
             setAccessibleName(sentence);
             show();
         }
@@ -65,8 +64,8 @@ namespace {
 
 } // namespace
 
-HandLinePanel::HandLinePanel(Document &document, Workbench &workbench, QWidget *parent)
-    : QWidget(parent), m_document(document), m_workbench(workbench), m_line(new HandLine(*workbench.input())),
+HandLinePanel::HandLinePanel(Document &document, const Pictures &pictures, QWidget *parent)
+    : QWidget(parent), m_document(document), m_pictures(pictures), m_line(new HandLine(pictures.input)),
       m_draw(new QPushButton(tr("Dra&w"))), m_cover(new QPushButton(tr("Cover the &statistic"))),
       m_add(new QPushButton(tr("Point at c&ursor"))), m_remove(new QPushButton(tr("Remove las&t"))),
       m_clear(new QPushButton(tr("&Clear"))), m_sentence(plainLabel()), m_table(new QTableWidget(3, 3))
@@ -79,20 +78,7 @@ HandLinePanel::HandLinePanel(Document &document, Workbench &workbench, QWidget *
     m_add->setToolTip(tr("Add a point at the cursor, which the arrow keys move"));
     m_sentence->setWordWrap(true);
     m_sentence->setTextFormat(Qt::PlainText);
-    m_table->setHorizontalHeaderLabels({tr("Frames"), tr("Σ λ (nat)"), tr("SNR")});
-    m_table->horizontalHeaderItem(1)->setToolTip(tr("Evidence: the sum of the log-likelihood ratios along the path"));
-    m_table->horizontalHeaderItem(2)->setToolTip(
-        tr("Mean power along the path over the noise power, less one, in one frame"));
-    m_table->setVerticalHeaderLabels({tr("Your line, all frames"), tr("Your line, shared frames"),
-                                      tr("Detector, "
-                                         "shared frames")});
-    m_table->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
-    m_table->verticalHeader()->setDefaultSectionSize(22);
-    m_table->setEditTriggers(QAbstractItemView::NoEditTriggers);
-    m_table->setFocusPolicy(Qt::ClickFocus);
-    m_table->setFrameShape(QFrame::NoFrame);
-    m_table->setFixedHeight(m_table->horizontalHeader()->sizeHint().height() + 3 * 22 + 2);
-    m_table->setAccessibleName(tr("Evidence along your line and along the detector's path"));
+    buildTable();
 
     auto *buttons = new QGridLayout;
     buttons->addWidget(m_draw, 0, 0);
@@ -107,6 +93,29 @@ HandLinePanel::HandLinePanel(Document &document, Workbench &workbench, QWidget *
     layout->addWidget(m_sentence);
     layout->addStretch(1);
 
+    connectInputs();
+    showSentence();
+}
+
+void HandLinePanel::buildTable()
+{
+    m_table->setHorizontalHeaderLabels({tr("Frames"), tr("Σ λ (nat)"), tr("SNR")});
+    m_table->horizontalHeaderItem(1)->setToolTip(tr("Evidence: the sum of the log-likelihood ratios along the path"));
+    m_table->horizontalHeaderItem(2)->setToolTip(
+        tr("Mean power along the path over the noise power, less one, in one frame"));
+    m_table->setVerticalHeaderLabels(
+        {tr("Your line, all frames"), tr("Your line, shared frames"), tr("Detector, shared frames")});
+    m_table->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
+    m_table->verticalHeader()->setDefaultSectionSize(22);
+    m_table->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    m_table->setFocusPolicy(Qt::ClickFocus);
+    m_table->setFrameShape(QFrame::NoFrame);
+    m_table->setFixedHeight(m_table->horizontalHeader()->sizeHint().height() + 3 * 22 + 2);
+    m_table->setAccessibleName(tr("Evidence along your line and along the detector's path"));
+}
+
+void HandLinePanel::connectInputs()
+{
     connect(m_draw, &QPushButton::toggled, this, [this](bool isOn) {
         m_line->setActive(isOn);
         showSentence();
@@ -119,13 +128,12 @@ HandLinePanel::HandLinePanel(Document &document, Workbench &workbench, QWidget *
             m_line->add(*cursor);
     });
     connect(m_line, &HandLine::changed, this, &HandLinePanel::update);
-    connect(&document, &Document::analysisChanged, this, &HandLinePanel::update);
-    connect(&document, &Document::opened, this, [this] {
+    connect(&m_document, &Document::analysisChanged, this, &HandLinePanel::update);
+    connect(&m_document, &Document::opened, this, [this] {
         m_line->clear();
         m_cover->setChecked(false);
     });
     connect(&m_runner, &JobRunner::finished, this, &HandLinePanel::settled);
-    showSentence();
 }
 
 QString HandLinePanel::sentence() const
@@ -243,13 +251,11 @@ void HandLinePanel::setCovered(bool isCovered)
         delete cover;
         cover = nullptr;
     }
-    WaterfallView &input = *m_workbench.input();
     for (const auto layer : {WaterfallView::EventLayer, WaterfallView::TrackLayer, WaterfallView::TruthLayer})
-        input.setLayer(layer, !isCovered);
+        m_pictures.input.setLayer(layer, !isCovered);
     if (isCovered) {
-        m_covers[0] =
-            new Cover(m_workbench.outputView(), tr("Where is the line? Draw it through the input, then reveal."));
-        m_covers[1] = new Cover(m_workbench.statisticPlot(), {});
+        m_covers[0] = new Cover(m_pictures.statistic, tr("Where is the line? Draw it through the input, then reveal."));
+        m_covers[1] = new Cover(m_pictures.statisticAlongTime, {});
         m_draw->setChecked(true);
     }
     m_cover->setChecked(isCovered);

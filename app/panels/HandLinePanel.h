@@ -15,7 +15,7 @@ class QTableWidget;
 namespace faintline {
 
 class HandLine;
-class Workbench;
+class WaterfallView;
 
 /// Beat the detector: a line drawn by hand through the input, and what the data say about it, beside the detector's
 /// path in the same frames.
@@ -37,7 +37,14 @@ public:
         double meanHz = 0.0; ///< how far apart they are on average
     };
 
-    HandLinePanel(Document &document, Workbench &workbench, QWidget *parent = nullptr);
+    /// Where the line is drawn, and what is covered meanwhile.
+    struct Pictures {
+        WaterfallView &input;
+        QWidget &statistic;
+        QWidget &statisticAlongTime;
+    };
+
+    HandLinePanel(Document &document, const Pictures &pictures, QWidget *parent = nullptr);
 
     HandLine &line() { return *m_line; }
     QPushButton *drawButton() const { return m_draw; }
@@ -65,12 +72,14 @@ protected:
     void hideEvent(QHideEvent *event) override;
 
 private:
+    void buildTable();
+    void connectInputs();
     void update();
     void show(const Comparison &comparison);
     void showSentence();
 
     Document &m_document;
-    Workbench &m_workbench;
+    Pictures m_pictures;
     HandLine *m_line;
     QPushButton *m_draw;
     QPushButton *m_cover;

@@ -2,8 +2,8 @@
 
 #include "app/base/filePath.h"
 #include "app/control/OutputLayers.h"
-#include "app/control/scanScenario.h"
 #include "app/document/Provenance.h"
+#include "app/document/scanScenario.h"
 #include "app/lessons/LessonGuide.h"
 #include "app/panels/ComparePanel.h"
 #include "app/panels/SequentialPanel.h"

@@ -30,6 +30,11 @@ bool isChart(const ReplayOptions &options)
     return pathText(options.picture).endsWith(QLatin1String(".csv"), Qt::CaseInsensitive);
 }
 
+QImage pictureOf(const ReplayOptions &options)
+{
+    return readPicture(pathText(options.picture));
+}
+
 double scaleOf(const QImage &picture)
 {
     const Json provenance = Json::parse(picture.text(pictureProvenanceKey()).toStdString(), nullptr, false);
@@ -137,7 +142,7 @@ void replay(const ReplayOptions &options)
     CalibrationStore::moveTo(pathBytes(folder.filePath(QStringLiteral("calibrations"))));
     if (isChart(options))
         return replayChart(options);
-    const QImage kept = readPicture(pathText(options.picture));
+    const QImage kept = pictureOf(options);
     const PictureOrigin origin = originOf(kept, options, folder.path());
     render(origin.options);
     const std::string remade = pictureName(origin.options, origin.view);

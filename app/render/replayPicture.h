@@ -18,6 +18,9 @@ struct ReplayOptions {
 /// Whether it is the latter.
 bool isChart(const ReplayOptions &options);
 
+/// The picture as it is. Throws Error.
+QImage pictureOf(const ReplayOptions &options);
+
 /// Device pixels per pixel that a picture says it was made with, else 1: Qt wants to know before its application
 /// begins.
 double scaleOf(const QImage &picture);

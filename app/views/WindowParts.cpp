@@ -1,5 +1,6 @@
 #include "app/views/WindowParts.h"
 
+#include "app/document/scanScenario.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
 
@@ -8,6 +9,18 @@ namespace faintline {
 WindowParts::WindowParts() : m_controller(m_document), m_comparer(m_document), m_check(m_document) {}
 
 WindowParts::~WindowParts() = default;
+
+bool WindowParts::holdsScans(const QString &path)
+{
+    return isScanScenario(path);
+}
+
+void WindowParts::openScansOf(const QString &path)
+{
+    const ScanTest test = readScanTest(path);
+    if (m_sequentialTests.isEmpty() || m_sequentialTests.test() != test)
+        openScans(test);
+}
 
 Bench &WindowParts::bench() const
 {

@@ -1,6 +1,6 @@
 #include "app/welcome/ScanCard.h"
 
-#include "app/control/scanScenario.h"
+#include "app/document/scanScenario.h"
 #include "widgets/base/Theme.h"
 #include "widgets/plot/CellPicture.h"
 #include "widgets/plot/WalkPlot.h"
@@ -18,7 +18,7 @@ namespace {
     /// Range and Doppler of the target in the scan that is shown.
     std::vector<QPointF> truthOn(const ScanCard::Result &result)
     {
-        const ScanCell cell = truthOf(result.test, result.scan.run)[std::size_t(result.scan.stage - 1)];
+        const ScanCell cell = truthOf(result.test, result.run)[std::size_t(result.stage - 1)];
         return {QPointF(double(cell[2]), double(cell[3]))};
     }
 
@@ -67,7 +67,9 @@ ScanCard::Result ScanCard::compute(const RunContext &context)
             result.walks.emplace_back(run, walkScan(result.test, model, run));
         }
     const auto &[first, found] = result.walks[1];
-    result.scan = {first, found.stages, rangeDopplerDb(result.test, first, found.stages - 1)};
+    result.run = first;
+    result.stage = found.stages;
+    result.db = rangeDopplerDb(result.test, first, found.stages - 1);
     return result;
 }
 
@@ -88,8 +90,8 @@ void ScanCard::setResult(const Result &result)
     const ScanScene &scene = result.test.scene;
     // As wide as the card: range to the right.
     m_scan->setPicture({"range", "cell", 0.0, 1.0, scene.rangeCells, false},
-                       {"Doppler", "cell", 0.0, 1.0, scene.dopplerCells, false}, result.scan.db,
-                       {0.0, scene.snrDb + 6.0}, tr("dB"));
+                       {"Doppler", "cell", 0.0, 1.0, scene.dopplerCells, false}, result.db, {0.0, scene.snrDb + 6.0},
+                       tr("dB"));
     m_scan->setPaths({{{}, CellPicture::Path::Kind::Rings, Theme::colours(*this).truth, truthOn(result)}});
     m_found->setText(tr("%1 of %2 targets found, in %3 scans each")
                          .arg(accepted)

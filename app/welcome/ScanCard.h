@@ -1,9 +1,11 @@
 #pragma once
 
-#include "app/control/SequentialTests.h"
 #include "app/welcome/Card.h"
+#include "base/RunContext.h"
+#include "evaluate/sequential/ScanTest.h"
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 class QLabel;
@@ -22,8 +24,10 @@ public:
     /// What the card shows of its test.
     struct Result {
         ScanTest test;
-        std::vector<SequentialTests::Walk> walks;
-        SequentialTests::Scan scan;
+        std::vector<std::pair<ScanRun, SprtResult>> walks;
+        ScanRun run; ///< whose scan is shown
+        Index stage = 1;
+        std::vector<float> db; ///< of that scan, range × Doppler
     };
 
     explicit ScanCard(QWidget *parent = nullptr);

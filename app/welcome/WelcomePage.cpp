@@ -3,7 +3,6 @@
 #include "analysis/analyse.h"
 #include "app/base/distinctLabels.h"
 #include "app/base/filePath.h"
-#include "app/lessons/LessonList.h"
 #include "app/welcome/ScanCard.h"
 #include "app/welcome/ScenarioCard.h"
 #include "widgets/base/Theme.h"
@@ -43,8 +42,8 @@ namespace {
 
 } // namespace
 
-WelcomePage::WelcomePage(QWidget *parent)
-    : QWidget(parent), m_scanCard(new ScanCard), m_lessons(new LessonList), m_recent(new QVBoxLayout)
+WelcomePage::WelcomePage(QWidget *lessons, QWidget *parent)
+    : QWidget(parent), m_scanCard(new ScanCard), m_recent(new QVBoxLayout)
 {
     connect(&m_runner, &JobRunner::failed, this, &WelcomePage::failed);
     auto *page = new QWidget;
@@ -54,19 +53,6 @@ WelcomePage::WelcomePage(QWidget *parent)
     open->setMinimumSize(180, 34);
     open->setToolTip(tr("WAV, FLAC and other audio, SigMF, raw I/Q, a scenario (.json), a session (.faintline)"));
     connect(open, &QPushButton::clicked, this, &WelcomePage::openRequested);
-
-    auto *cards = new QHBoxLayout;
-    cards->setSpacing(16);
-    for (const Scenario &scenario : scenarios()) {
-        if (!scenario.isWelcome)
-            continue;
-        auto *card = new ScenarioCard(scenario);
-        m_cards.push_back(card);
-        cards->addWidget(card, 1);
-        connect(card, &ScenarioCard::clicked, this, [this, card] { emit scenarioChosen(card); });
-    }
-    cards->addWidget(m_scanCard, 1);
-    connect(m_scanCard, &ScanCard::clicked, this, &WelcomePage::scansChosen);
 
     auto *opening = new QHBoxLayout;
     opening->addWidget(open);
@@ -83,10 +69,10 @@ WelcomePage::WelcomePage(QWidget *parent)
                     "taken. Click a picture to open it."),
                  Theme::font(15)));
     column->addSpacing(8);
-    column->addLayout(cards);
+    column->addLayout(buildCards());
     column->addSpacing(8);
     column->addLayout(opening);
-    column->addWidget(m_lessons);
+    column->addWidget(lessons);
     column->addLayout(m_recent);
     column->addStretch(1);
 
@@ -103,6 +89,23 @@ WelcomePage::WelcomePage(QWidget *parent)
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(area);
+}
+
+QLayout *WelcomePage::buildCards()
+{
+    auto *cards = new QHBoxLayout;
+    cards->setSpacing(16);
+    for (const Scenario &scenario : scenarios()) {
+        if (!scenario.isWelcome)
+            continue;
+        auto *card = new ScenarioCard(scenario);
+        m_cards.push_back(card);
+        cards->addWidget(card, 1);
+        connect(card, &ScenarioCard::clicked, this, [this, card] { emit scenarioChosen(card); });
+    }
+    cards->addWidget(m_scanCard, 1);
+    connect(m_scanCard, &ScanCard::clicked, this, &WelcomePage::scansChosen);
+    return cards;
 }
 
 void WelcomePage::setRecent(const QStringList &paths)

@@ -10,7 +10,6 @@ class QVBoxLayout;
 
 namespace faintline {
 
-class LessonList;
 class ScanCard;
 class ScenarioCard;
 
@@ -21,13 +20,13 @@ class WelcomePage : public QWidget
     Q_OBJECT
 
 public:
-    explicit WelcomePage(QWidget *parent = nullptr);
+    /// `lessons`: their list, which becomes a part of the page.
+    explicit WelcomePage(QWidget *lessons, QWidget *parent = nullptr);
 
     void setRecent(const QStringList &paths);
 
     const std::vector<ScenarioCard *> &cards() const { return m_cards; }
     ScanCard *scanCard() const { return m_scanCard; }
-    LessonList *lessonList() const { return m_lessons; }
 
 public slots:
     void start(); ///< goes on with the cards that are not ready yet
@@ -43,12 +42,12 @@ signals:
     void failed(const faintline::Error &error);
 
 private:
+    QLayout *buildCards();
     void startNext();
     void startScans();
 
     std::vector<ScenarioCard *> m_cards;
     ScanCard *m_scanCard;
-    LessonList *m_lessons;
     QVBoxLayout *m_recent;
     JobRunner m_runner; ///< last, so that its jobs end first
 };

@@ -23,6 +23,7 @@ class CommandPalette;
 class EquationSheet;
 class KeysOverlay;
 class LessonGuide;
+class LessonList;
 struct Lesson;
 class OverviewStrip;
 class OwnPresets;
@@ -88,6 +89,8 @@ private:
     void buildEditMenu();
     void buildViewMenu();
     void addLayerMenu(QMenu &menu);
+    void addPresentation(QMenu &menu);
+    void addThemeMenu(QMenu &menu);
     void buildDetectMenu();
     void buildReviewMenu();
     void buildEvaluateMenu();
@@ -142,6 +145,7 @@ private:
     ReportWriter *m_report = nullptr;
     std::unique_ptr<TrialViewer> m_trials;
     LessonGuide *m_lessons = nullptr;
+    LessonList *m_lessonList = nullptr;
     BoxAnalysis *m_boxAnalysis = nullptr;
     ChartMenus *m_chartMenus = nullptr;
     OwnPresets *m_ownPresets = nullptr;

@@ -7,10 +7,10 @@
 #include "app/control/AdviceMessages.h"
 #include "app/control/EventReviews.h"
 #include "app/control/OutputLayers.h"
-#include "app/control/scanScenario.h"
 #include "app/control/thresholdWords.h"
 #include "app/document/Recovery.h"
 #include "app/document/SessionSaver.h"
+#include "app/document/scanScenario.h"
 #include "app/lessons/Lesson.h"
 #include "app/lessons/LessonGuide.h"
 #include "app/lessons/LessonList.h"
@@ -22,7 +22,6 @@
 #include "app/panels/StateSlicePanel.h"
 #include "app/panels/SurveyPanel.h"
 #include "app/panels/SweepPanel.h"
-#include "app/panels/TrialViewer.h"
 #include "app/views/ChartMenus.h"
 #include "app/views/ReportWriter.h"
 #include "app/views/WindowViews.h"
@@ -31,6 +30,7 @@
 #include "app/window/ActivityBar.h"
 #include "app/window/FileDrop.h"
 #include "app/window/Panels.h"
+#include "app/window/TrialViewer.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
 #include "widgets/base/ReadOut.h"
@@ -145,7 +145,7 @@ void MainWindow::connectViews()
     connect(m_welcome, &WelcomePage::pathChosen, this, [this](const QString &path) { open(path); });
     connect(m_welcome, &WelcomePage::scenarioChosen, this, &MainWindow::openScenario);
     connect(m_welcome, &WelcomePage::scansChosen, this, [this] { open(radarScenarioPath()); });
-    connect(m_welcome->lessonList(), &LessonList::chosen, this,
+    connect(m_lessonList, &LessonList::chosen, this,
             [this](int lesson) { startLesson(lessons()[std::size_t(lesson)]); });
     connect(m_presentAction, &QAction::toggled, this,
             [](bool isPresenting) { Theme::setPlotScale(isPresenting ? 1.5 : 1.0); });

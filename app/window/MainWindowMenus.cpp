@@ -5,8 +5,8 @@
 #include "app/control/BoxAnalysis.h"
 #include "app/control/EventReviews.h"
 #include "app/control/OutputLayers.h"
-#include "app/control/scanScenario.h"
 #include "app/document/SessionSaver.h"
+#include "app/document/scanScenario.h"
 #include "app/document/scenarios.h"
 #include "app/help/KeysOverlay.h"
 #include "app/lessons/LessonGuide.h"
@@ -158,7 +158,13 @@ void MainWindow::buildViewMenu()
     m_panelsMenu->addSeparator();
     for (const QString &name : Panels::layoutNames())
         m_panelsMenu->addAction(tr("Layout: %1").arg(name), m_panels, [this, name] { m_panels->takeLayout(name); });
-    m_presentAction = addViewAction(*menu, tr("&Presentation"), Qt::Key_F5, {});
+    addPresentation(*menu);
+    addThemeMenu(*menu);
+}
+
+void MainWindow::addPresentation(QMenu &menu)
+{
+    m_presentAction = addViewAction(menu, tr("&Presentation"), Qt::Key_F5, {});
     m_presentAction->setCheckable(true);
     connect(m_presentAction, &QAction::toggled, m_panels, &Panels::setPresenting);
     // Escape leaves a presentation, and stops what runs only otherwise.
@@ -169,7 +175,11 @@ void MainWindow::buildViewMenu()
         (isPresenting ? m_stopAction : leave)->setShortcut({});
         (isPresenting ? leave : m_stopAction)->setShortcut(Qt::Key_Escape);
     });
-    QMenu *themes = menu->addMenu(tr("&Theme"));
+}
+
+void MainWindow::addThemeMenu(QMenu &menu)
+{
+    QMenu *themes = menu.addMenu(tr("&Theme"));
     auto *group = new QActionGroup(themes);
     const auto addTheme = [&](const QString &text, Theme::Kind kind) {
         QAction *action = themes->addAction(text, this, [this, kind] { setTheme(kind); });

@@ -7,8 +7,8 @@
 #include "app/panels/ExperimentsPanel.h"
 #include "app/panels/NoiseFitPanel.h"
 #include "app/panels/ReproductionPanel.h"
-#include "app/panels/TrialViewer.h"
-#include "app/panels/TrialWindow.h"
+#include "app/window/TrialViewer.h"
+#include "app/window/TrialWindow.h"
 #include "app/workspace/Workbench.h"
 #include "widgets/plot/ChartPlot.h"
 

@@ -1,8 +1,8 @@
 // Sequential tests from outside: a radar's scans and a recording's view are tested, looked into, cancelled and saved.
 
 #include "app/base/MessageBar.h"
-#include "app/control/scanScenario.h"
 #include "app/document/saveView.h"
+#include "app/document/scanScenario.h"
 #include "app/openWindow.h"
 #include "app/panels/ScanTestForm.h"
 #include "app/panels/SequentialPanel.h"

@@ -3,9 +3,9 @@
 #include "fuzz/fuzz.h"
 
 #include "app/base/filePath.h"
-#include "app/control/scanScenario.h"
 #include "app/document/Provenance.h"
 #include "app/document/Session.h"
+#include "app/document/scanScenario.h"
 #include "app/lessons/Lesson.h"
 #include "app/render/readPicture.h"
 #include "app/render/replayPicture.h"

@@ -1,4 +1,4 @@
-#include "app/panels/TrialWindow.h"
+#include "app/window/TrialWindow.h"
 
 #include "app/base/statisticUnit.h"
 #include "app/workspace/Workbench.h"

@@ -1,7 +1,7 @@
-#include "app/panels/TrialViewer.h"
+#include "app/window/TrialViewer.h"
 
 #include "app/base/statisticUnit.h"
-#include "app/panels/TrialWindow.h"
+#include "app/window/TrialWindow.h"
 #include "evaluate/experiments/campaignCharts.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"

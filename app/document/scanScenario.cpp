@@ -1,4 +1,4 @@
-#include "app/control/scanScenario.h"
+#include "app/document/scanScenario.h"
 
 #include "app/base/filePath.h"
 #include "base/Error.h"

@@ -1,0 +1,222 @@
+// How something gets into the window: files, scenarios, lessons, unsaved work.
+
+#include "app/window/MainWindow.h"
+
+#include "app/base/MessageBar.h"
+#include "app/base/distinctLabels.h"
+#include "app/base/filePath.h"
+#include "app/document/Recovery.h"
+#include "app/document/SessionSaver.h"
+#include "app/document/scanScenario.h"
+#include "app/lessons/Lesson.h"
+#include "app/lessons/LessonGuide.h"
+#include "app/panels/OpenOptionsDialog.h"
+#include "app/panels/SequentialPanel.h"
+#include "app/panels/SurveyPanel.h"
+#include "app/welcome/ScenarioCard.h"
+#include "app/welcome/WelcomePage.h"
+#include "app/window/Panels.h"
+#include "app/workspace/PingBench.h"
+#include "app/workspace/Workbench.h"
+#include "widgets/base/labelText.h"
+
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QLabel>
+#include <QMenu>
+#include <QStackedWidget>
+#include <QUrl>
+
+namespace faintline {
+
+void MainWindow::open(const QString &path, const OpenOptions &options, const AnalysisController::Adjust &adjust)
+{
+    if (SurveyPanel::isSurvey(path))
+        return openSurvey(path);
+    if (const bool isOfScans = isScanScenario(path); isOfScans || isLesson(path)) {
+        try {
+            return isOfScans ? openScans(readScanTest(path)) : startLesson(readLesson(path));
+        } catch (const Error &error) {
+            return showError(error);
+        }
+    }
+    const auto next = [this, path, options, adjust] { openNow(path, options, adjust); };
+    if (m_saver->mayLose(tr("opening something else"), next))
+        next();
+}
+
+void MainWindow::startLesson(const Lesson &lesson)
+{
+    const auto next = [this, lesson] { m_lessons->start(lesson); };
+    if (m_saver->mayLose(tr("starting the lesson"), next))
+        next();
+}
+
+void MainWindow::openNow(const QString &path, const OpenOptions &options, const AnalysisController::Adjust &adjust)
+{
+    OpenOptions chosen = options;
+    if (m_isAsking && needsRawOptions(path, options)) {
+        OpenOptionsDialog dialog(path, this);
+        if (dialog.exec() != QDialog::Accepted)
+            return;
+        chosen = dialog.options();
+    }
+    m_welcome->stop();
+    if (!isVisible()) {
+        for (Bench *one : std::initializer_list<Bench *>{m_workbench, m_pings})
+            one->setEmptySentence(tr("Reading %1 …").arg(fileLabel(path)));
+        showWorkbench();
+    }
+    m_controller.open(path, chosen, adjust);
+}
+
+void MainWindow::offerRecovery()
+{
+    const QStringList left = Recovery::leftBehind(m_recoveryFolder);
+    if (left.isEmpty())
+        return;
+    const QString when = QFileInfo(left.first()).lastModified().toString(QStringLiteral("yyyy-MM-dd hh:mm"));
+    m_messages->showMessage(MessageBar::Kind::Notice, tr("Unsaved work"),
+                            tr("of %1 can be restored; the program ended unexpectedly.").arg(when), tr("Restore"),
+                            [this, session = left.first()] {
+                                m_welcome->stop();
+                                // What was left behind goes when it is kept again.
+                                connect(
+                                    m_recovery, &Recovery::kept, this, [session] { Recovery::discard(session); },
+                                    Qt::SingleShotConnection);
+                                m_controller.recover(session);
+                            });
+}
+
+void MainWindow::openScenario(ScenarioCard *card)
+{
+    if (!card->analysis())
+        return open(card->scenario().path);
+    const auto next = [this, card] {
+        m_welcome->stop();
+        m_controller.adopt(card->opened(), card->analysis());
+    };
+    if (m_saver->mayLose(tr("opening something else"), next))
+        next();
+}
+
+void MainWindow::openScans(const ScanTest &test)
+{
+    m_welcome->stop();
+    m_messages->dismiss();
+    if (m_document.isEmpty()) {
+        m_pages->hide(); // the panel gets its room
+        m_presentAction->setEnabled(true);
+        setWindowTitle(tr("Radar scans — Faintline"));
+        m_hint->setText(tr("Click a walk to follow that test. J and L step through its stages."));
+    }
+    m_panels->show(m_sequential);
+    m_sequential->start(test);
+}
+
+void MainWindow::openSurvey(const QString &path)
+{
+    try {
+        m_survey->open(path);
+    } catch (const Error &error) {
+        return showError(error);
+    }
+    m_welcome->stop();
+    m_messages->dismiss();
+    if (m_document.isEmpty()) {
+        m_pages->hide(); // the panel gets its room
+        setWindowTitle(tr("Survey — Faintline"));
+        m_hint->setText(tr("Double-click an event to open its recording there."));
+    }
+    m_panels->show(m_survey);
+}
+
+void MainWindow::chooseFile()
+{
+    const QString folder = m_memory.recent().isEmpty() ? QString() : QFileInfo(m_memory.recent().first()).path();
+    const QString path =
+        pathOf(QFileDialog::getOpenFileUrl(this, tr("Open"), QUrl::fromLocalFile(folder), openFilter()));
+    if (!path.isEmpty())
+        open(path);
+}
+
+void MainWindow::chooseRawFile()
+{
+    const QString path = pathOf(QFileDialog::getOpenFileUrl(this, tr("Open as raw samples")));
+    if (path.isEmpty())
+        return;
+    OpenOptionsDialog dialog(path, this);
+    if (dialog.exec() == QDialog::Accepted)
+        open(path, dialog.options());
+}
+
+void MainWindow::openDropped(const QStringList &files)
+{
+    m_files.setFiles({});
+    if (files.size() > 1) {
+        QStringList absolute;
+        for (const QString &file : files)
+            absolute << absolutePath(file);
+        m_files.setFiles(absolute);
+        connect(
+            &m_document, &Document::opened, this,
+            [this, count = files.size()] {
+                m_messages->showMessage(MessageBar::Kind::Notice, tr("%1 files").arg(count),
+                                        tr("The first of them is shown. Ctrl+Page Down goes to the next."));
+            },
+            static_cast<Qt::ConnectionType>(Qt::QueuedConnection | Qt::SingleShotConnection));
+    }
+    open(files.front());
+}
+
+void MainWindow::goToFile(int by)
+{
+    const QString path = m_files.neighbour(m_document.source().path, by);
+    if (path.isEmpty()) {
+        m_messages->showMessage(MessageBar::Kind::Notice, m_document.source().name(),
+                                by > 0 ? tr("This is the last recording of its folder.")
+                                       : tr("This is the first recording of its folder."));
+        return;
+    }
+    const auto next = [this, path] {
+        AnalysisSettings settings = m_document.settings();
+        settings.selection.fromSeconds = settings.selection.toSeconds =
+            0.0; // a part of one recording is none of another
+        openNow(path, m_document.source().options, [settings](AnalysisSettings &opened) { opened = settings; });
+    };
+    // The settings go along: only what was said about events could be lost.
+    if (m_document.annotations().isEmpty() || m_saver->mayLose(tr("opening something else"), next))
+        next();
+}
+
+void MainWindow::showWritten(const QString &path)
+{
+    m_messages->showMessage(MessageBar::Kind::Notice, tr("Written"),
+                            labelText(pathBytes(absolutePath(path)), longestPath));
+}
+
+void MainWindow::offerIq()
+{
+    const OpenOptions options = m_document.source().options;
+    if (!m_document.recording())
+        return m_iqAction->setVisible(false);
+    const RecordingInfo &info = m_document.recording()->info();
+    const bool isPossible = !m_document.source().scene && !info.isComplex && info.channelCount % 2 == 0;
+    m_iqAction->setVisible(isPossible || options.iq);
+    if (isPossible && info.channelCount == 2)
+        m_messages->showMessage(MessageBar::Kind::Notice, m_document.source().name(),
+                                tr("Two channels; showing the first. Treat them as I/Q?"), tr("Treat as I/Q"),
+                                [this] { m_iqAction->trigger(); });
+}
+
+void MainWindow::fillRecentMenu()
+{
+    m_recentMenu->clear();
+    for (const QString &path : m_memory.recent())
+        m_recentMenu->addAction(buttonText(distinctLabel(path, m_memory.recent())), this, [this, path] { open(path); })
+            ->setToolTip(asHtml(labelText(pathBytes(path), longestPath)));
+    if (m_recentMenu->isEmpty())
+        m_recentMenu->addAction(tr("No recent files"))->setEnabled(false);
+}
+
+} // namespace faintline

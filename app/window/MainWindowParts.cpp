@@ -1,0 +1,163 @@
+// What the window consists of, and where it stands.
+
+#include "app/window/MainWindow.h"
+
+#include "app/base/MessageBar.h"
+#include "app/control/BoxAnalysis.h"
+#include "app/control/EventReviews.h"
+#include "app/control/ThresholdCurves.h"
+#include "app/document/OwnPresets.h"
+#include "app/lessons/LessonList.h"
+#include "app/panels/ComparePanel.h"
+#include "app/panels/EvaluatePanel.h"
+#include "app/panels/ExperimentsPanel.h"
+#include "app/panels/HandLinePanel.h"
+#include "app/panels/InfoPanel.h"
+#include "app/panels/LatencyPanel.h"
+#include "app/panels/NoiseFitPanel.h"
+#include "app/panels/PipelinePanel.h"
+#include "app/panels/ReproductionPanel.h"
+#include "app/panels/SequentialPanel.h"
+#include "app/panels/SpectrumPanel.h"
+#include "app/panels/StateSlicePanel.h"
+#include "app/panels/SurveyPanel.h"
+#include "app/panels/SweepPanel.h"
+#include "app/panels/ThresholdPanel.h"
+#include "app/panels/WhyPanel.h"
+#include "app/welcome/WelcomePage.h"
+#include "app/window/ActivityBar.h"
+#include "app/window/Panels.h"
+#include "app/workspace/PingBench.h"
+#include "app/workspace/Workbench.h"
+#include "widgets/base/ReadOut.h"
+#include "widgets/events/EventTable.h"
+#include "widgets/plot/ExceedancePlot.h"
+#include "widgets/plot/StripPlot.h"
+#include "widgets/waterfall/OverviewStrip.h"
+
+#include <QLabel>
+#include <QStackedWidget>
+#include <QStatusBar>
+#include <QToolBar>
+#include <QVBoxLayout>
+
+namespace faintline {
+
+void MainWindow::buildCentre()
+{
+    m_messages = new MessageBar;
+    m_lessonList = new LessonList;
+    m_welcome = new WelcomePage(m_lessonList);
+    m_workbench = new Workbench(m_document);
+    m_pages = new QStackedWidget;
+    m_pages->addWidget(m_welcome);
+    m_pages->addWidget(m_workbench);
+    m_pings = new PingBench(m_document, m_workbench->layers());
+    m_pages->addWidget(m_pings);
+    // What is not seen must not keep a small window from showing what is.
+    const auto measureCurrent = [this](int current) {
+        for (int i = 0; i < m_pages->count(); ++i) {
+            const auto policy = i == current ? QSizePolicy::Expanding : QSizePolicy::Ignored;
+            m_pages->widget(i)->setSizePolicy(policy, policy);
+        }
+    };
+    connect(m_pages, &QStackedWidget::currentChanged, this, measureCurrent);
+    measureCurrent(m_pages->currentIndex());
+
+    auto *centre = new QWidget;
+    auto *layout = new QVBoxLayout(centre);
+    layout->setSizeConstraint(QLayout::SetMaximumSize); // while the pages are hidden, a panel gets their room
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(m_messages);
+    layout->addWidget(m_pages, 1);
+    setCentralWidget(centre);
+}
+
+void MainWindow::buildDocks()
+{
+    m_ownPresets = new OwnPresets(m_memory.presetFolder(), this);
+    m_pipeline = new PipelinePanel(m_document, m_controller, *m_ownPresets);
+    m_threshold = new ExceedancePlot;
+    m_threshold->setObjectName(QStringLiteral("threshold"));
+    m_threshold->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+    new ThresholdCurves(m_document, *m_threshold, this);
+    m_events = new EventTable;
+    m_events->setEmptySentence(tr("No event at this threshold."));
+    m_reviews = new EventReviews(
+        m_document, *m_events,
+        {m_workbench->input(), m_workbench->output(), m_pings->rangeHistory(), m_pings->bearingHistory()}, this);
+    m_reviews->addMaps({m_pings->input(), m_pings->output()});
+    m_boxAnalysis = new BoxAnalysis(m_document, m_controller, {m_workbench->input(), m_workbench->output()}, this);
+    m_why = new WhyPanel(m_document, m_pings->viewports());
+    m_info = new InfoPanel(m_document, m_controller, m_check);
+    m_noiseFit = new NoiseFitPanel(m_document);
+    m_states = new StateSlicePanel(m_document, m_pings->viewports());
+    m_latency = new LatencyPanel(m_document);
+    m_handLine = new HandLinePanel(m_document,
+                                   {*m_workbench->input(), *m_workbench->outputView(), *m_workbench->statisticPlot()});
+    m_compare = new ComparePanel(m_document, m_controller, m_comparer);
+    m_spectrum = new SpectrumPanel(m_document);
+    m_evaluate = new EvaluatePanel(m_document, m_experiments);
+    m_sweep = new SweepPanel(m_document, m_experiments);
+    m_experimentList = new ExperimentsPanel(m_experiments);
+    m_reproduction = new ReproductionPanel;
+    m_survey = new SurveyPanel(m_document, m_controller);
+    m_sequential = new SequentialPanel(m_document, m_sequentialTests);
+
+    using Place = Panels::Place;
+    m_panels->add(QStringLiteral("pipelineDock"), tr("Pipeline"), m_pipeline, Place::Left);
+    // The threshold above the events it decides about: one sees both while dragging.
+    m_panels->add(QStringLiteral("thresholdDock"), tr("Threshold"),
+                  new ThresholdPanel(*m_threshold, m_controller, m_check), Place::RightTop);
+    m_panels->add(QStringLiteral("eventsDock"), tr("Events"), m_events, Place::RightBottom);
+    m_panels->add(QStringLiteral("whyDock"), tr("Why"), m_why, Place::RightBottom);
+    m_panels->add(QStringLiteral("noiseDock"), tr("Noise"), m_info, Place::RightBottom);
+    m_panels->add(QStringLiteral("noiseFitDock"), tr("Noise fit"), m_noiseFit, Place::RightBottom);
+    m_panels->add(QStringLiteral("statesDock"), tr("States"), m_states, Place::RightBottom);
+    m_panels->add(QStringLiteral("handDock"), tr("By hand"), m_handLine, Place::RightBottom);
+    m_handLine->parentWidget()->hide(); // until it is asked for
+    m_panels->add(QStringLiteral("evaluateDock"), tr("Pd and ROC"), m_evaluate, Place::Bottom);
+    m_panels->add(QStringLiteral("spectrumDock"), tr("Spectrum"), m_spectrum, Place::Bottom);
+    m_panels->add(QStringLiteral("compareDock"), tr("Compare"), m_compare, Place::Bottom);
+    m_panels->add(QStringLiteral("sweepDock"), tr("Sweep"), m_sweep, Place::Bottom);
+    m_panels->add(QStringLiteral("surveyDock"), tr("Survey"), m_survey, Place::Bottom);
+    m_panels->add(QStringLiteral("experimentsDock"), tr("Experiments"), m_experimentList, Place::Bottom);
+    m_panels->add(QStringLiteral("reproductionDock"), tr("Reproduction"), m_reproduction, Place::Bottom);
+    m_panels->add(QStringLiteral("sequentialDock"), tr("Sequential test"), m_sequential, Place::Bottom);
+    m_panels->add(QStringLiteral("latencyDock"), tr("Latency"), m_latency, Place::Bottom);
+}
+
+void MainWindow::buildBottom()
+{
+    const auto addBar = [this](const QString &name, const QString &title, QWidget *widget) {
+        auto *bar = new QToolBar(title);
+        bar->setObjectName(name);
+        bar->setMovable(false);
+        bar->setFloatable(false);
+        bar->addWidget(widget);
+        widget->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+        addToolBar(Qt::BottomToolBarArea, bar);
+        m_bottomBars.push_back(bar);
+    };
+    m_overview = new OverviewStrip;
+    m_overview->setViewport(&m_document.viewport());
+    m_readOut = new ReadOut;
+    addBar(QStringLiteral("readOutBar"), tr("Read-out"), m_readOut); // the first one is the lowest
+    addToolBarBreak(Qt::BottomToolBarArea);
+    addBar(QStringLiteral("overviewBar"), tr("Overview"), m_overview);
+}
+
+void MainWindow::buildStatusBar()
+{
+    m_hint = new QLabel;
+    m_hint->setTextFormat(Qt::PlainText);
+    m_hint->setContentsMargins(8, 0, 0, 0);
+    m_hint->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    m_activity = new ActivityBar;
+    statusBar()->setSizeGripEnabled(false);
+    statusBar()->addWidget(m_hint, 1);
+    statusBar()->addPermanentWidget(m_activity);
+}
+
+} // namespace faintline

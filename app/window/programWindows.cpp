@@ -1,0 +1,26 @@
+#include "app/window/programWindows.h"
+
+#include "app/base/filePath.h"
+#include "app/document/Recovery.h"
+#include "app/window/MainWindow.h"
+
+#include <algorithm>
+
+namespace faintline {
+
+std::vector<std::unique_ptr<MainWindow>> programWindows(const std::vector<std::string> &files,
+                                                        const OpenOptions &options)
+{
+    Theme::apply(WindowMemory(WindowMemory::programStore()).theme());
+    std::vector<std::unique_ptr<MainWindow>> windows;
+    for (std::size_t i = 0; i < std::max<std::size_t>(1, files.size()); ++i) {
+        windows.push_back(std::make_unique<MainWindow>(WindowMemory::programStore(), Recovery::programFolder()));
+        if (i < files.size())
+            windows.back()->open(pathText(files[i]), options);
+        windows.back()->show();
+    }
+    windows.front()->offerRecovery();
+    return windows;
+}
+
+} // namespace faintline

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "recording/openRecording.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace faintline {
+
+class MainWindow;
+
+/// The windows that the program begins with: one for each file, at least one, with the program's memory and theme.
+std::vector<std::unique_ptr<MainWindow>> programWindows(const std::vector<std::string> &files,
+                                                        const OpenOptions &options);
+
+} // namespace faintline
