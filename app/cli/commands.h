@@ -82,9 +82,6 @@ void addBench(CLI::App &app, Common &common);
 /// The simulated pings of a scene file whose kind is "pings"; nothing if the file is another.
 std::shared_ptr<const SimulatedPings> openPings(const std::string &path);
 
-/// Whether a frame is a spectrum, its cells on one axis; of pings they lie on several.
-bool isSpectrum(const Grid &grid);
-
 /// Opens a recording file, or simulates one from a scene's JSON file.
 RecordingPointer openAny(const std::string &path, const OpenOptions &options);
 

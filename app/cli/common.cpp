@@ -160,11 +160,6 @@ std::shared_ptr<const SimulatedPings> openPings(const std::string &path)
                              : nullptr;
 }
 
-bool isSpectrum(const Grid &grid)
-{
-    return grid.axes.size() == 1;
-}
-
 RecordingPointer openAny(const std::string &path, const OpenOptions &options)
 {
     if (options.rawType.empty() && holdsFrames(path))

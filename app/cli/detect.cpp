@@ -49,7 +49,7 @@ namespace {
     /// The analysis as if the conventional detector had made it.
     Analysis conventionally(const Analysis &analysis)
     {
-        if (isSpectrum(analysis.grid()))
+        if (analysis.grid().isSpectrum())
             throw Error("--conventional", "requires frames on several axes, such as sonar pings; for lines choose "
                                           "detector.kind = energy or pOfN");
         Analysis other = analysis;
@@ -213,7 +213,7 @@ namespace {
             input.recording = options.analysis.recording();
         if (options.annotations.empty())
             return input;
-        if (input.frames && !isSpectrum(input.frames->grid()))
+        if (input.frames && !input.frames->grid().isSpectrum())
             throw Error("--annotations", "requires frames on frequency only; these frames have more than one axis");
         input.annotations =
             readAnnotations(options.annotations, input.recording ? input.recording->info() : RecordingInfo());
@@ -302,7 +302,7 @@ namespace {
                 std::printf("%s\n", warning.c_str());
         if (input.truth)
             printScore(analysis, *input.truth);
-        if (isSpectrum(analysis.grid()))
+        if (analysis.grid().isSpectrum())
             return;
         std::printf("conventional detector: %zu track(s)\n", analysis.conventional.size());
         if (input.truth)

@@ -134,7 +134,7 @@ namespace {
     /// Along the axes of the frames, or of a recording where there are none.
     std::vector<double> ExplainOptions::position(const NormalisedFrames *frames) const
     {
-        if (frames && !isSpectrum(frames->grid())) {
+        if (frames && !frames->grid().isSpectrum()) {
             if (!range || !bearing)
                 throw Error("explain", "a cell of pings requires --range and --bearing");
             return {*range, *bearing};

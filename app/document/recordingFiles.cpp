@@ -1,6 +1,7 @@
 #include "app/document/recordingFiles.h"
 
 #include "app/base/filePath.h"
+#include "exchange/survey/findRecordings.h"
 
 #include <QCoreApplication>
 
@@ -18,9 +19,9 @@ namespace {
 
     bool isNamedLikeRecording(const QString &path)
     {
-        const QStringList endings = recordingEndings();
-        return std::any_of(endings.begin(), endings.end(), [&](const QString &ending) {
-            return path.endsWith(QLatin1Char('.') + ending, Qt::CaseInsensitive);
+        const std::vector<std::string> &endings = recordingEndings();
+        return std::any_of(endings.begin(), endings.end(), [&](const std::string &ending) {
+            return path.endsWith(QLatin1Char('.') + QString::fromStdString(ending), Qt::CaseInsensitive);
         });
     }
 
@@ -60,20 +61,13 @@ namespace {
 
 } // namespace
 
-QStringList recordingEndings()
-{
-    return {QStringLiteral("wav"),  QStringLiteral("flac"),       QStringLiteral("ogg"),  QStringLiteral("oga"),
-            QStringLiteral("opus"), QStringLiteral("mp3"),        QStringLiteral("aif"),  QStringLiteral("aiff"),
-            QStringLiteral("aifc"), QStringLiteral("au"),         QStringLiteral("caf"),  QStringLiteral("w64"),
-            QStringLiteral("rf64"), QStringLiteral("sigmf-meta"), QStringLiteral("hdf5"), QStringLiteral("h5"),
-            QStringLiteral("fil"),  QStringLiteral("npy")};
-}
-
 QString openFilter()
 {
     QStringList patterns;
-    for (const QString &ending : recordingEndings())
+    for (const std::string &name : recordingEndings()) {
+        const QString ending = QString::fromStdString(name);
         patterns << QStringLiteral("*.") + ending << QStringLiteral("*.") + ending.toUpper();
+    }
     return QStringList{tr("Recordings (%1)").arg(patterns.join(QLatin1Char(' '))), tr("Sessions (*.faintline)"),
                        tr("Surveys (*.sqlite)"), tr("Scenarios and lessons (*.json)"), tr("All files (*)")}
         .join(QStringLiteral(";;"));

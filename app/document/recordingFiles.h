@@ -5,10 +5,6 @@
 
 namespace faintline {
 
-/// How the names of files end that can be opened as recordings, without the dot. Others are recognised by their
-/// content, if one asks for them.
-QStringList recordingEndings();
-
 /// The kinds of files of the *Open* dialog, recordings first.
 QString openFilter();
 

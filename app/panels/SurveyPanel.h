@@ -17,8 +17,8 @@ namespace faintline {
 
 class SurveyModel;
 
-/// The events of a survey of many recordings (faintline-cli survey): one table for all of them, from which a double click
-/// opens the recording at the event. Reviews are written into the survey's file at once.
+/// The events of a survey of many recordings (faintline-cli survey): one table for all of them, from which a double
+/// click opens the recording at the event. Reviews are written into the survey's file at once.
 class SurveyPanel : public QWidget
 {
     Q_OBJECT

@@ -37,8 +37,8 @@ public:
 
     void save(const std::string &key, const Calibration &calibration) const;
 
-    /// Tries to be the one, of those that share the folder, who makes a key's calibration. True where that is so, or where
-    /// nothing is kept.
+    /// Tries to be the one, of those that share the folder, who makes a key's calibration. True where that is so, or
+    /// where nothing is kept.
     bool lock(std::optional<CalibrationLock> &lock, const std::string &key) const;
 
     /// Where a key's calibration is kept.

@@ -20,7 +20,8 @@ namespace faintline {
 /// the slope of the last three octaves of P goes on. A part whose quantiles lie within 3 % and three standard
 /// deviations of the exponential ones keeps g(y) = y. Cells within four resolution cells of a track, two frames before
 /// and after each of its points and ten before and behind the track do not count; neither do bins whose median over
-/// time exceeds that of noise, which hold a steady line. Under 128 frames g(y) = y: too few to tell a keyed line by them.
+/// time exceeds that of noise, which hold a steady line. Under 128 frames g(y) = y: too few to tell a keyed line by
+/// them.
 class OwnNoiseLaw
 {
 public:

@@ -71,8 +71,8 @@ bool same(double a, double b)
 
 } // namespace
 
-/// A survey's database: what is put in comes out to the last bit, the same content gives the same bytes, and a file that
-/// is no survey is refused in one line.
+/// A survey's database: what is put in comes out to the last bit, the same content gives the same bytes, and a file
+/// that is no survey is refused in one line.
 class tst_SurveyDatabase : public QObject
 {
     Q_OBJECT

@@ -12,9 +12,9 @@ namespace faintline {
 /// A survey of recordings in one SQLite file. `writeSurvey` makes one.
 ///
 /// Opening checks that the file is a survey: the tables must be those of `surveySchema`, to the letter, so that a
-/// stranger's file can hold neither triggers nor views. Paths below the folder of the database are relative to it. Every
-/// call throws Error naming the database: where it is damaged, holds values that cannot be, or cannot be written. For
-/// one thread at a time; any number of programs may read one, also while a survey adds to it.
+/// stranger's file can hold neither triggers nor views. Paths below the folder of the database are relative to it.
+/// Every call throws Error naming the database: where it is damaged, holds values that cannot be, or cannot be written.
+/// For one thread at a time; any number of programs may read one, also while a survey adds to it.
 class SurveyDatabase
 {
 public:
@@ -30,7 +30,7 @@ public:
     std::vector<SurveyPoint> points(std::int64_t recording);
     std::vector<AreaEvent> areas(std::int64_t recording);
 
-    // ---- writing: several changes between begin and commit are one ---------------------------------------------------
+    // ---- writing: several changes between begin and commit are one --------------------------------------------------
 
     void begin() { m_database.execute("BEGIN IMMEDIATE"); }
     void commit() { m_database.execute("COMMIT"); }

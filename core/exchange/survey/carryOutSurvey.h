@@ -41,8 +41,8 @@ using SurveyWarning = std::function<void(const std::string &path, const std::str
 /// What the database has already of files that have not changed (length and date, or else their hash) is kept; so a run
 /// that was interrupted or killed at any moment goes on where it was, and recordings may be added later. The first
 /// recording is analysed by all threads, because it calibrates for the others. Every second, or every 50 of them, the
-/// finished ones are committed. At the end the database is written anew in the order of the recordings: its bytes do not
-/// depend on jobs, threads, shards (mergeSurveys) or interruptions.
+/// finished ones are committed. At the end the database is written anew in the order of the recordings: its bytes do
+/// not depend on jobs, threads, shards (mergeSurveys) or interruptions.
 ///
 /// `warn` is called by the calling thread. Throws Error, where the database cannot be written or was made from other
 /// settings, and Cancelled, with all finished recordings kept.

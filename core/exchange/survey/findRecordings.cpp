@@ -23,11 +23,9 @@ namespace {
             return rawTypeOfExtension(path).has_value();
         if (hasEnding(path, ".npy"))
             return fs::exists(gridPathOf(path));
-        static const std::vector<std::string> endings{".wav",  ".flac", ".ogg",  ".oga",        ".opus", ".mp3",
-                                                      ".aif",  ".aiff", ".aifc", ".au",         ".caf",  ".w64",
-                                                      ".rf64", ".hdf5", ".h5",   ".sigmf-meta", ".fil"};
+        const std::vector<std::string> &endings = recordingEndings();
         return std::any_of(endings.begin(), endings.end(),
-                           [&](const std::string &ending) { return hasEnding(path, ending); });
+                           [&](const std::string &ending) { return hasEnding(path, "." + ending); });
     }
 
     std::string wholePath(const fs::path &path)
@@ -63,6 +61,14 @@ namespace {
     };
 
 } // namespace
+
+const std::vector<std::string> &recordingEndings()
+{
+    static const std::vector<std::string> endings{"wav",  "flac", "ogg",  "oga",        "opus", "mp3",
+                                                  "aif",  "aiff", "aifc", "au",         "caf",  "w64",
+                                                  "rf64", "hdf5", "h5",   "sigmf-meta", "fil",  "npy"};
+    return endings;
+}
 
 std::vector<std::string> findRecordings(const std::vector<std::string> &names, bool raw,
                                         std::vector<std::string> &unreadable)

@@ -5,6 +5,10 @@
 
 namespace faintline {
 
+/// How the names of files end that can be opened as recordings, without the dot. Others are recognised by their
+/// content, if one asks for them.
+const std::vector<std::string> &recordingEndings();
+
 /// The recordings in these files and folders, as whole paths in order; each once.
 ///
 /// A file is taken as it is. In a folder and the folders below it those count whose name ends as that of a recording

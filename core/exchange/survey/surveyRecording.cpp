@@ -43,7 +43,7 @@ namespace {
             described.startUnixSeconds = power->info().startUnixSeconds;
         }
         const auto frames = openFrames(path, {settings.analysis.selection, settings.analysis.noise}, context);
-        if (frames->grid().axes.size() != 1)
+        if (!frames->grid().isSpectrum())
             throw Error(path, "holds frames on several axes; a survey takes recordings, and frames on frequency only");
         described.durationSeconds = double(frames->time().count) * frames->time().step;
         return analyse(frames, withSlopesInBins(settings.analysis, *frames), context);

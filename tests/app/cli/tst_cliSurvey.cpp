@@ -9,8 +9,8 @@
 using namespace faintline;
 using namespace faintline::test;
 
-/// `survey`: what it finds in each recording is what `detect` finds, and its file has the same bytes whatever happened on
-/// the way.
+/// `survey`: what it finds in each recording is what `detect` finds, and its file has the same bytes whatever happened
+/// on the way.
 class tst_cliSurvey : public CommandLineTest
 {
     Q_OBJECT
@@ -41,7 +41,8 @@ private:
     {
         writeBytes(pathOf("one.json"),
                    QByteArray(R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "seed": %1,
-            "lines": [{"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 4, "durationSeconds": 12, "frequencyHz": 1%2}]})")
+            "lines": [{"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 4, "durationSeconds": 12,
+                       "frequencyHz": 1%2}]})")
                        .replace("%1", QByteArray::number(seed))
                        .replace("%2", QByteArray::number(10 + seed % 80)));
         const Outcome made = run({"simulate", "one.json", "--out", name});
