@@ -251,6 +251,12 @@ namespace {
         return [&writer](Index, std::span<const float> values) { writer->write(values); };
     }
 
+    std::shared_ptr<const Analysis> tracksOf(const DetectInput &input, const RunContext &context)
+    {
+        return analyseInChosenWindow(input.recording, input.settings, context, nullptr, {}, CalibrationDepth::Refined,
+                                     AnalysisDepth::Tracks);
+    }
+
     /// `writer`: where the statistic goes, if it is asked for.
     std::shared_ptr<const Analysis> run(const DetectInput &input, const DetectOptions &options,
                                         const RunContext &context, std::optional<NumPyWriter> &writer)
@@ -261,14 +267,16 @@ namespace {
                                  writesStatistic ? sinkOf(writer, options.statistic, shapeOf(*input.frames))
                                                  : StatisticSink());
         if (!writesStatistic)
-            return analyseInChosenWindow(input.recording, input.settings, context);
+            return tracksOf(input, context);
         if (!leavesWindowToRecording(input.settings))
             return analyse(input.recording, input.settings, context, nullptr,
-                           sinkOf(writer, options.statistic, shapeOf(input.recording, input.settings)));
+                           sinkOf(writer, options.statistic, shapeOf(input.recording, input.settings)), {},
+                           CalibrationDepth::Refined, AnalysisDepth::Tracks);
         // A window that is chosen first; its tracks are more than those of the statistic.
-        const auto chosen = analyseInChosenWindow(input.recording, input.settings, context.part(0.0, 0.7));
+        const auto chosen = tracksOf(input, context.part(0.0, 0.7));
         analyse(input.recording, chosen->settings, context.part(0.7, 1.0), chosen.get(),
-                sinkOf(writer, options.statistic, shapeOf(input.recording, chosen->settings)));
+                sinkOf(writer, options.statistic, shapeOf(input.recording, chosen->settings)), {},
+                CalibrationDepth::Refined, AnalysisDepth::Trial);
         return chosen;
     }
 

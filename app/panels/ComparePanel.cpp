@@ -48,7 +48,7 @@ namespace {
         double m_value;
     };
 
-    constexpr double nothing = 1e300;
+    constexpr double sortsLast = 1e300;
 
     QString nameOf(In in)
     {
@@ -305,10 +305,10 @@ void ComparePanel::showEvents()
                     ? hertzText(event.position.back(), place.step)
                     : numberText(event.position.back(), 1) + QLatin1Char(' ') + labelText(place.unit, mostUnitLetters),
                 event.position.back());
-            set(DetectedA, time(compared.a), compared.a ? compared.a->detectSeconds : nothing);
-            set(DetectedB, time(compared.b), compared.b ? compared.b->detectSeconds : nothing);
-            set(StatisticA, nats(compared.a), compared.a ? compared.a->statistic : nothing);
-            set(StatisticB, nats(compared.b), compared.b ? compared.b->statistic : nothing);
+            set(DetectedA, time(compared.a), compared.a ? compared.a->detectSeconds : sortsLast);
+            set(DetectedB, time(compared.b), compared.b ? compared.b->detectSeconds : sortsLast);
+            set(StatisticA, nats(compared.a), compared.a ? compared.a->statistic : sortsLast);
+            set(StatisticB, nats(compared.b), compared.b ? compared.b->statistic : sortsLast);
         }
     }
     m_table->setSortingEnabled(true);

@@ -176,11 +176,8 @@ namespace {
             analysis.areas = std::move(seen.areas);
         }
         analysis.tracks = withoutGhosts(analysis, std::move(analysis.tracks));
-        if (depth == AnalysisDepth::Whole && isHeldAgainstOwnNoise(analysis)) {
-            OverOwnNoise held = holdAgainstOwnNoise(analysis, std::move(analysis.tracks), context.part(0.95, 1.0));
-            analysis.tracks = std::move(held.kept);
-            analysis.explainedByNoise = std::move(held.explained);
-        }
+        if (depth != AnalysisDepth::Trial)
+            holdAgainstOwnNoise(analysis, context.part(0.95, 1.0));
     }
 
     /// A recording that is not over has no length to choose a window by.

@@ -14,8 +14,9 @@ namespace faintline {
 /// Called with every block of frames' statistic, in order: first frame, frames × cells values.
 using StatisticSink = std::function<void(Index firstFrame, std::span<const float> statistic)>;
 
-/// What an analysis is made for: everything, or its tracks without pictures and checkpoints.
-enum class AnalysisDepth { Whole, Tracks };
+/// What an analysis is made for: everything; its tracks, without pictures and checkpoints; or a trial of its settings,
+/// whose tracks are not held against the recording's own noise (overOwnNoise.h) either.
+enum class AnalysisDepth { Whole, Tracks, Trial };
 
 /// The pipeline: recording → frames → normalised frames → detector → threshold, clusters, tracks.
 ///

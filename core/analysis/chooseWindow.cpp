@@ -1,5 +1,6 @@
 #include "analysis/chooseWindow.h"
 
+#include "analysis/overOwnNoise.h"
 #include "analysis/steadyLines.h"
 #include "analysis/sureStatistic.h"
 #include "track/energyKept.h"
@@ -65,8 +66,8 @@ namespace {
     {
     public:
         WindowSearch(RecordingPointer recording, const AnalysisSettings &asked, CalibrationDepth calibrationDepth,
-                     RunContext context)
-            : m_recording(std::move(recording)), m_asked(asked), m_calibrationDepth(calibrationDepth),
+                     AnalysisDepth depth, RunContext context)
+            : m_recording(std::move(recording)), m_asked(asked), m_calibrationDepth(calibrationDepth), m_depth(depth),
               m_context(std::move(context))
         {
         }
@@ -75,7 +76,7 @@ namespace {
         std::shared_ptr<Analysis> run(const Analysis *previous, const PictureSink &pictures)
         {
             const std::shared_ptr<Analysis> automatic =
-                analyse(m_recording, m_asked, nextPart(), previous, {}, pictures, m_calibrationDepth);
+                analyse(m_recording, m_asked, nextPart(), previous, {}, pictures, m_calibrationDepth, m_depth);
             m_windowSeconds = windowSecondsOf(*automatic);
             m_cells = double(automatic->grid().size()) * automatic->grid().axes.back().step * m_windowSeconds;
             m_frames = double(automatic->time().count);
@@ -160,7 +161,7 @@ namespace {
             settings.spectrogram.windowSeconds = step * m_windowSeconds;
             settings.model = withLaw(m_asked.model, law);
             auto analysis =
-                analyse(m_recording, settings, nextPart(), nullptr, {}, {}, m_calibrationDepth, AnalysisDepth::Tracks);
+                analyse(m_recording, settings, nextPart(), nullptr, {}, {}, m_calibrationDepth, AnalysisDepth::Trial);
             note(settings, *analysis);
             return analysis;
         }
@@ -194,6 +195,7 @@ namespace {
         RecordingPointer m_recording;
         const AnalysisSettings &m_asked;
         CalibrationDepth m_calibrationDepth;
+        AnalysisDepth m_depth;
         RunContext m_context;
         double m_done = 0.0;
         double m_windowSeconds = 0.0; ///< T0
@@ -242,10 +244,11 @@ AnalysisSettings inWindowOf(const Analysis &analysis, const AnalysisSettings &se
 
 std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording, const AnalysisSettings &settings,
                                                       const RunContext &context, const Analysis *previous,
-                                                      const PictureSink &pictures, CalibrationDepth calibrationDepth)
+                                                      const PictureSink &pictures, CalibrationDepth calibrationDepth,
+                                                      AnalysisDepth depth)
 {
     if (!leavesWindowToRecording(settings))
-        return analyse(recording, settings, context, previous, {}, pictures, calibrationDepth);
+        return analyse(recording, settings, context, previous, {}, pictures, calibrationDepth, depth);
     const bool isChosen = previous && previous->recording == recording && previous->choice
                           && !previous->calibration->isFirstEstimate
                           && asksForTheSame(previous->choice->asked, settings);
@@ -256,19 +259,21 @@ std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording
         choice = *previous->choice;
         choice.asked = settings;
     } else {
-        WindowSearch search(recording, settings, calibrationDepth, context.part(0.0, 0.7));
+        WindowSearch search(recording, settings, calibrationDepth, depth, context.part(0.0, 0.7));
         found = search.run(previous, pictures);
         longer = search.nextLonger(*found);
         choice = search.choice(*found);
     }
-    if (isChosen || !found->statistic) {
+    const bool isTrial = !isChosen && choice.chosen != choice.automatic;
+    if (isTrial && depth == AnalysisDepth::Tracks)
+        holdAgainstOwnNoise(*found, context.part(0.7, 1.0));
+    else if (isChosen || isTrial)
         found = analyse(recording, ofTrial(choice, choice.chosen, settings),
                         context.part(isChosen ? 0.0 : 0.7, isChosen ? 0.6 : 1.0), isChosen ? previous : found.get(), {},
-                        pictures, calibrationDepth);
-    }
+                        pictures, calibrationDepth, depth);
     if (isChosen && previous->longer) // after the pictures, which are waited for
         longer = analyse(recording, ofTrial(choice, choice.chosen + 1, settings), context.part(0.6, 1.0),
-                         previous->longer.get(), {}, {}, calibrationDepth, AnalysisDepth::Tracks);
+                         previous->longer.get(), {}, {}, calibrationDepth, AnalysisDepth::Trial);
     found->longer = std::move(longer);
     if (found->longer)
         found->tracks = withSteadyLines(*found, *found->longer);

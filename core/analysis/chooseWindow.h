@@ -37,6 +37,7 @@ std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording
                                                       const RunContext &context = {},
                                                       const Analysis *previous = nullptr,
                                                       const PictureSink &pictures = {},
-                                                      CalibrationDepth calibrationDepth = CalibrationDepth::Refined);
+                                                      CalibrationDepth calibrationDepth = CalibrationDepth::Refined,
+                                                      AnalysisDepth depth = AnalysisDepth::Whole);
 
 } // namespace faintline

@@ -46,28 +46,24 @@ namespace {
 
 } // namespace
 
-bool isHeldAgainstOwnNoise(const AnalysisPlan &analysis)
+void holdAgainstOwnNoise(Analysis &analysis, const RunContext &context)
 {
-    return looksTwice(analysis) && analysis.settings.family.isNone();
-}
-
-OverOwnNoise holdAgainstOwnNoise(const Analysis &analysis, std::vector<Track> tracks, const RunContext &context)
-{
-    const OwnNoiseLaw law(*analysis.frames, tracks, analysis.frames->spectrogram()->binsPerCell(),
+    if (!looksTwice(analysis) || !analysis.settings.family.isNone())
+        return;
+    const OwnNoiseLaw law(*analysis.frames, analysis.tracks, analysis.frames->spectrogram()->binsPerCell(),
                           context.part(0.0, 0.5));
     if (law.isExponential())
-        return {std::move(tracks), {}};
+        return;
+    std::vector<Track> tracks = std::exchange(analysis.tracks, {});
     std::vector<PathStrip> strips(tracks.size());
     std::transform(tracks.begin(), tracks.end(), strips.begin(), stripOf);
     std::vector<PathStrip *> wanted(strips.size());
     std::transform(strips.begin(), strips.end(), wanted.begin(), [](PathStrip &strip) { return &strip; });
     readStrips(analysis, std::move(wanted), context.part(0.5, 1.0), "holding tracks against the noise");
-    OverOwnNoise result;
     for (std::size_t i = 0; i < tracks.size(); ++i) {
         const bool isKept = tracks[i].peakStatistic * shareLeft(strips[i], law) >= analysis.threshold;
-        (isKept ? result.kept : result.explained).push_back(std::move(tracks[i]));
+        (isKept ? analysis.tracks : analysis.explainedByNoise).push_back(std::move(tracks[i]));
     }
-    return result;
 }
 
 } // namespace faintline
