@@ -1,6 +1,7 @@
 #include "evaluate/experiments/NoisyField.h"
 
 #include "analysis/Calibration.h"
+#include "analysis/noiseCounts.h"
 #include "base/logmath.h"
 #include "base/parallel.h"
 
@@ -25,10 +26,13 @@ namespace {
         return {{Axis{"frequency", "cells", 0.0, 1.0 / experiment.binsPerCell, experiment.bins(), false}}};
     }
 
-    /// Fields of the experiment's own noise, of runs that no experiment reaches, to find K on.
-    std::vector<NormalisedFramesPointer> calibrationNoise(const LineExperiment &experiment, const RunContext &context)
+    /// Fields of the experiment's own noise, of runs that no experiment reaches, to find K on: longer than its runs
+    /// where a detector would not settle in those.
+    std::vector<NormalisedFramesPointer> calibrationNoise(LineExperiment experiment, const RunContext &context)
     {
         constexpr int fields = 4;
+        if (experiment.frames <= settlingFrames)
+            experiment.frames = 2 * settlingFrames;
         std::vector<NormalisedFramesPointer> noise(fields);
         parallelFor(fields, context, "calibrating K on noise", [&] {
             return [&, transform = std::make_shared<FieldTransform>(experiment)](Index i) {
