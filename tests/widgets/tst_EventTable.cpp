@@ -1,7 +1,6 @@
 #include "widgets/events/EventTable.h"
 
 #include "pictures.h"
-#include "widgets/base/ReadOut.h"
 #include "widgets/base/Theme.h"
 #include "widgets/events/EventFilter.h"
 #include "widgets/events/EventModel.h"
@@ -13,7 +12,7 @@
 
 using namespace faintline;
 
-/// Events as a table, and the line of figures.
+/// Events as a table.
 class tst_EventTable : public QObject
 {
     Q_OBJECT
@@ -33,7 +32,6 @@ private slots:
     void textsOfAnEvent();
     void dateAndRadioFrequencyWhereTheyAreKnown();
     void windowsWhereTheyDiffer();
-    void readOutLine();
 
 private:
     std::unique_ptr<EventTable> m_table;
@@ -208,18 +206,6 @@ void tst_EventTable::dateAndRadioFrequencyWhereTheyAreKnown()
     QVERIFY(!table.isColumnHidden(EventModel::Radio));
     m_table->setOrigin({}, 0.0);
     QVERIFY(table.isColumnHidden(EventModel::Utc));
-}
-
-void tst_EventTable::readOutLine()
-{
-    ReadOut readOut;
-    readOut.setResolution(0.5, 0.5);
-    readOut.setReading({83.5, 1065.5, -1.5, 14.0, {}});
-    QCOMPARE(readOut.text(), QString("83.5 s · 1065.5 Hz · −1.5 dB · 14.0 nat"));
-    readOut.setStartUnixSeconds(1721952000.0);
-    QCOMPARE(readOut.text(), QString("83.5 s · 2024-07-26 00:01:23.5 · 1065.5 Hz · −1.5 dB · 14.0 nat"));
-    readOut.clear();
-    QCOMPARE(readOut.text(), QString());
 }
 
 QTEST_MAIN(tst_EventTable)

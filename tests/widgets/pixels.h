@@ -1,0 +1,44 @@
+#pragma once
+
+#include <qwt_plot.h>
+
+#include <QImage>
+#include <QSet>
+#include <QtTest>
+
+namespace faintline::test {
+
+inline void show(QWidget &view, const QSize &size = {640, 360})
+{
+    view.resize(size);
+    view.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&view));
+}
+
+/// What is on a plot's canvas.
+inline QImage imageOf(QwtPlot &plot)
+{
+    return plot.canvas()->grab().toImage();
+}
+
+/// Opaque, so that it compares with a theme's colours.
+inline QRgb colourAt(const QImage &image, const QPointF &position)
+{
+    return image.pixel(position.toPoint()) | 0xff000000;
+}
+
+inline QSet<QRgb> coloursOf(const QImage &image)
+{
+    QSet<QRgb> colours;
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x)
+            colours.insert(image.pixel(x, y) | 0xff000000);
+    return colours;
+}
+
+inline QSet<QRgb> coloursOf(QwtPlot &plot)
+{
+    return coloursOf(imageOf(plot));
+}
+
+} // namespace faintline::test
