@@ -29,7 +29,6 @@ private slots:
     void selectionSurvivesNewEvents();
     void selectingFromOutsideIsSilent();
     void clickAndEnterActivate();
-    void textsOfAnEvent();
     void dateAndRadioFrequencyWhereTheyAreKnown();
     void windowsWhereTheyDiffer();
 
@@ -150,35 +149,6 @@ void tst_EventTable::clickAndEnterActivate()
     QCOMPARE(m_activated, (std::vector<int>{3}));
     QTest::keyClick(m_table->table(), Qt::Key_Return);
     QCOMPARE(m_activated, (std::vector<int>{3, 3}));
-}
-
-void tst_EventTable::textsOfAnEvent()
-{
-    EventModel model;
-    Event event = test::event(12, 3600.0, 3700.25, 14095.6);
-    event.driftPerSecond = -0.0125;
-    event.isOpen = true;
-    model.setEvents({event});
-    const auto text = [&](int column) { return model.data(model.index(0, column)).toString(); };
-    QCOMPARE(text(EventModel::Onset), QString("1:00:00"));
-    QCOMPARE(model.data(model.index(0, EventModel::End), Qt::ToolTipRole).toString(), QString("1:01:40.25"));
-    QCOMPARE(text(EventModel::Frequency), QString("14095.60"));
-    QCOMPARE(text(EventModel::Drift), QString("−0.0125"));
-    QCOMPARE(text(EventModel::State), QString("confirmed, open"));
-    QCOMPARE(text(EventModel::Confirmation), QString("–")); // not known
-    event.confirmSeconds = 3600.75;
-    event.onsetSeconds = 12.34;
-    model.setEvents({event});
-    QCOMPARE(text(EventModel::Confirmation), QString("1:00:01"));
-    QCOMPARE(text(EventModel::Onset), QString("12.3"));
-    model.setEvents({test::event(1, 0.01234, 0.5, 40000.0)}); // a whistle
-    QCOMPARE(text(EventModel::Onset), QString("0.0123"));
-    model.setEvents({event});
-    model.setOrigin(1721952000.0, 2.5e6);
-    QCOMPARE(text(EventModel::Utc), QString("2024-07-26T00:00:12.3Z"));
-    QCOMPARE(text(EventModel::Radio), QString("2514095.60"));
-    for (int column = 0; column < EventModel::ColumnCount; ++column)
-        QVERIFY(!model.headerData(column, Qt::Horizontal).toString().isEmpty());
 }
 
 void tst_EventTable::windowsWhereTheyDiffer()
