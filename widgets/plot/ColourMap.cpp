@@ -92,7 +92,7 @@ QString ColourMap::next(const QString &name)
 
 QRgb ColourMap::at(double position) const
 {
-    const double index = std::clamp(position, 0.0, 1.0) * 255.0;
+    const double index = position > 0.0 ? std::min(position, 1.0) * 255.0 : 0.0; // NaN is no number to round
     return m_entries[std::size_t(std::lround(index))];
 }
 

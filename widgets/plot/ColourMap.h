@@ -27,7 +27,7 @@ public:
     const QString &name() const { return m_name; }
     const std::array<QRgb, 256> &entries() const { return m_entries; }
 
-    /// The colour at 0 … 1, clamped.
+    /// The colour at 0 … 1, clamped; NaN has that of 0.
     QRgb at(double position) const;
 
     /// `stops`: sRGB colours at equal distances, interpolated linearly.
