@@ -77,7 +77,8 @@ QRgb LayerItem::colourOf(std::size_t pixel) const
                            : clear(qRgb(0, 0, 0), m_isOverlay ? 0.0 : 1.0);
     if (isRate(m_layer) && m_picture->resetFraction[pixel] >= 1.0f) // all states begin anew here: none has won
         return clear(noSlope, m_isOverlay ? 0.0 : 1.0);
-    const QRgb colour = mapOf(m_layer).at((value - m_range.low) / m_range.width());
+    // Where all rates looked for are 0, that is the middle of the colours, as in any other range.
+    const QRgb colour = mapOf(m_layer).at(m_range.isEmpty() ? 0.5 : (value - m_range.low) / m_range.width());
     if (!m_isOverlay)
         return clear(colour, 1.0);
     if (m_layer == OutputLayer::Reset)
@@ -147,9 +148,11 @@ void LayerItem::drawKey(QPainter *painter, const QRectF &canvas) const
     painter->setFont(Theme::plotTitleFont());
     const QFontMetricsF metrics(painter->font());
     const bool isFlag = m_layer == OutputLayer::Inhibited;
-    const double width = std::max(140.0, metrics.horizontalAdvance(m_title)) + 16.0;
+    constexpr double margin = 6.0;
+    const double width =
+        std::min(std::max(140.0, metrics.horizontalAdvance(m_title)) + 16.0, canvas.width() - 2.0 * margin);
     const double height = isFlag ? metrics.height() + 8.0 : 2.0 * metrics.height() + 20.0;
-    const QRectF plate(canvas.right() - width - 6.0, canvas.top() + 6.0, width, height);
+    const QRectF plate(canvas.right() - width - margin, canvas.top() + margin, width, height);
     painter->setPen(Qt::NoPen);
     QColor ground = m_plate;
     ground.setAlpha(240);
@@ -157,7 +160,8 @@ void LayerItem::drawKey(QPainter *painter, const QRectF &canvas) const
     painter->drawRoundedRect(plate, 3.0, 3.0);
     painter->setPen(m_text);
     const QRectF inner = plate.adjusted(8.0, 4.0, -8.0, -4.0);
-    painter->drawText(QRectF(inner.left(), inner.top(), inner.width(), metrics.height()), Qt::AlignCenter, m_title);
+    painter->drawText(QRectF(inner.left(), inner.top(), inner.width(), metrics.height()), Qt::AlignCenter,
+                      metrics.elidedText(m_title, Qt::ElideMiddle, inner.width()));
     if (isFlag) {
         painter->fillRect(QRectF(plate.left() + 3.0, inner.top() + 3.0, 8.0, metrics.height() - 6.0),
                           QColor(inhibitedColour));
