@@ -77,16 +77,16 @@ void BarPlot::setSelected(int place)
 
 void BarPlot::layOut()
 {
-    std::size_t places = 0;
+    m_places = 0;
     double highest = m_leastHeight;
     for (const Series &series : m_series) {
-        places = std::max(places, series.values.size());
+        m_places = std::max(m_places, int(series.values.size()));
         for (const double value : series.values)
             highest = std::max(highest, value);
     }
-    setSpans({m_first - 0.6, m_first + double(places) - 0.4}, {0.0, highest > 0.0 ? 1.25 * highest : 1.0});
-    setEmpty(places == 0);
-    m_key->setVisible(places > 0);
+    setSpans({m_first - 0.6, m_first + m_places - 0.4}, {0.0, highest > 0.0 ? 1.25 * highest : 1.0});
+    setEmpty(m_places == 0);
+    m_key->setVisible(m_places > 0);
 }
 
 void BarPlot::restyle()
@@ -106,7 +106,7 @@ void BarPlot::clicked(const QPointF &canvas)
 {
     MarkedPlot::clicked(canvas);
     const int place = int(std::lround(invTransform(QwtAxis::XBottom, canvas.x())));
-    if (!m_series.empty() && place >= m_first && place < m_first + int(m_series.front().values.size()))
+    if (place >= m_first && place < m_first + m_places)
         emit barActivated(place);
 }
 

@@ -4,6 +4,7 @@
 
 #include <QString>
 
+#include <limits>
 #include <vector>
 
 namespace faintline {
@@ -47,9 +48,10 @@ private:
 
     std::vector<Series> m_series;
     int m_first = 0;
+    int m_places = 0; ///< of the longest series
     bool m_isWide = false;
     double m_leastHeight = 0.0;
-    int m_selected = -1;
+    int m_selected = std::numeric_limits<int>::min();
     BarItem *m_item;
     CurveKey *m_key;
 };
