@@ -14,6 +14,7 @@
 #include <QPainter>
 
 #include <algorithm>
+#include <cmath>
 
 namespace faintline {
 
@@ -99,8 +100,11 @@ void MarkedPlot::layAxes()
 {
     const QSize size = canvas()->contentsRect().size();
     QwtScaleDiv x = linearScaleDiv(m_x, std::clamp(std::min(size.width() / 50, int(m_x.width())), 1, 12));
-    if (majorStep(x) <= 1.0) // whole numbers have nothing between them
-        x = QwtScaleDiv(m_x.low, m_x.high, {}, {}, x.ticks(QwtScaleDiv::MajorTick));
+    QList<double> numbers = x.ticks(QwtScaleDiv::MajorTick);
+    if (numbers.isEmpty()) // a single place, of which the step is too wide
+        numbers << std::ceil(m_x.low);
+    if (numbers.size() == 1 || majorStep(x) <= 1.0) // whole numbers have nothing between them
+        x = QwtScaleDiv(m_x.low, m_x.high, {}, {}, numbers);
     setAxisScaleDiv(QwtAxis::XBottom, x);
     setAxisScaleDiv(QwtAxis::YLeft, linearScaleDiv(m_y, std::clamp(size.height() / 30, 2, 10)));
     replot();
