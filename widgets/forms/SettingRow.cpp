@@ -184,7 +184,8 @@ void SettingRow::makeEditor()
         if (m_stepsInOne > 0) {
             auto *box = new ArrowBox([this](int steps) { stepBy(steps); });
             connect(box, &QAbstractSpinBox::editingFinished, this, [this, box] {
-                if (box->text() != shownText(m_value)) // Return has taken the line's own mark of it away
+                // Return has taken the line's own mark of an edit away; after a mistake the old value is one, too.
+                if (box->text() != shownText(m_value) || m_isRefused)
                     acceptText(box->text());
             });
             m_editor = box;
@@ -213,6 +214,7 @@ void SettingRow::acceptText(const QString &text)
         accept(parseFieldValue(m_info, QString(plain).replace(QChar(0x2212), QLatin1Char('-')).toStdString()));
     } catch (const Error &error) {
         setError(QString::fromStdString(error.why()));
+        m_isRefused = true;
     }
 }
 
@@ -242,6 +244,7 @@ void SettingRow::accept(const FieldValue &value)
 void SettingRow::setValue(const FieldValue &value)
 {
     m_value = value;
+    m_isRefused = false;
     const QSignalBlocker blocker(m_editor);
     if (auto *box = qobject_cast<QCheckBox *>(m_editor))
         box->setChecked(std::get<bool>(value));

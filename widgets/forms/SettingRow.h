@@ -48,6 +48,7 @@ private:
     FieldInfo m_info;
     FieldValue m_default;
     FieldValue m_value;
+    bool m_isRefused = false; ///< what was typed last
     double m_stepsInOne;
     QLabel *m_label;
     QWidget *m_editor = nullptr;

@@ -9,13 +9,15 @@ namespace faintline {
 namespace {
 
     constexpr int largestDenominator = 30;
-    constexpr std::size_t longestDecimal = 8; ///< letters; longer ones are fractions if they are any
+    constexpr double largestNumerator = 999.0; ///< 98761/8 is no easier to read than 12345.125
+    constexpr std::size_t longestDecimal = 8;  ///< letters; longer ones are fractions if they are any
 
     QString textOf(double value)
     {
         const std::string decimal = formatNumber(value);
         for (int under = 3; decimal.size() > longestDecimal && under <= largestDenominator; ++under)
-            if (const double over = std::round(value * under); over != 0.0 && over / under == value)
+            if (const double over = std::round(value * under);
+                over != 0.0 && std::abs(over) <= largestNumerator && over / under == value)
                 return QStringLiteral("%1/%2").arg(over).arg(under);
         return QString::fromStdString(decimal);
     }
