@@ -2,7 +2,6 @@
 
 #include "analysis/slopeUnit.h"
 
-#include <QElapsedTimer>
 #include <QUndoCommand>
 
 #include <algorithm>
@@ -13,7 +12,6 @@ namespace faintline {
 
 namespace {
 
-    constexpr qint64 mergeMilliseconds = 700;
     constexpr int editId = 1;
 
 } // namespace
@@ -24,9 +22,8 @@ class Document::Edit : public QUndoCommand
 public:
     Edit(Document &document, State after, const QString &text, QString field)
         : QUndoCommand(text), m_document(document), m_before(document.state()), m_after(std::move(after)),
-          m_field(std::move(field))
+          m_field(std::move(field)), m_gesture(document.m_isInGesture ? document.m_gesture : 0)
     {
-        m_age.start();
     }
 
     void undo() override { m_document.apply(m_before); }
@@ -37,10 +34,9 @@ public:
     bool mergeWith(const QUndoCommand *other) override
     {
         const auto &next = static_cast<const Edit &>(*other);
-        if (next.m_field != m_field || m_age.elapsed() > mergeMilliseconds)
+        if (next.m_field != m_field || m_gesture == 0 || next.m_gesture != m_gesture)
             return false;
         m_after = next.m_after;
-        m_age.restart();
         setObsolete(m_after.settings == m_before.settings && m_after.annotations == m_before.annotations);
         return true;
     }
@@ -50,7 +46,7 @@ private:
     State m_before;
     State m_after;
     QString m_field;
-    QElapsedTimer m_age; ///< since the last edit that went into this
+    int m_gesture; ///< 0: of none
 };
 
 Document::Document(QObject *parent) : QObject(parent)
@@ -72,6 +68,17 @@ void Document::setOpened(OpenedSource opened, const AnalysisSettings &settings, 
     m_undoStack.clear();
     emit this->opened();
     emit sessionChanged();
+}
+
+void Document::beginGesture()
+{
+    ++m_gesture;
+    m_isInGesture = true;
+}
+
+void Document::endGesture()
+{
+    m_isInGesture = false;
 }
 
 void Document::edit(const AnalysisSettings &after, const QString &text, const QString &field)

@@ -51,8 +51,11 @@ public:
     /// One undoable step to what is open with a line added, its settings as they are.
     void replaceOpened(OpenedSource opened, const QString &text);
 
-    /// One undoable step. Steps that name the same field and follow each other at once, as those of a held key or a
-    /// dragged value, become one.
+    /// What the user does in one go, as holding a key or dragging a value, begins and ends.
+    void beginGesture();
+    void endGesture();
+
+    /// One undoable step. Steps of one gesture that name the same field become one.
     void edit(const AnalysisSettings &after, const QString &text, const QString &field = {});
 
     // ---- annotations ---------------------------------------------------------------------------------------------
@@ -131,6 +134,8 @@ private:
     std::vector<Event> m_events;
     double m_shownThreshold = 0.0;
     QUndoStack m_undoStack;
+    int m_gesture = 0; ///< number of the last one
+    bool m_isInGesture = false;
 };
 
 } // namespace faintline

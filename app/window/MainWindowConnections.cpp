@@ -2,6 +2,7 @@
 
 #include "app/window/MainWindow.h"
 
+#include "app/base/GestureWatcher.h"
 #include "app/base/MessageBar.h"
 #include "app/base/filePath.h"
 #include "app/control/AdviceMessages.h"
@@ -67,6 +68,9 @@ namespace {
 
 void MainWindow::connectDocument()
 {
+    auto *gestures = new GestureWatcher(this);
+    connect(gestures, &GestureWatcher::began, &m_document, &Document::beginGesture);
+    connect(gestures, &GestureWatcher::ended, &m_document, &Document::endGesture);
     connect(&m_document, &Document::opened, this, [this] {
         m_messages->dismiss();
         if (m_document.recording())

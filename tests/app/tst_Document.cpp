@@ -66,28 +66,47 @@ private slots:
         QCOMPARE(document.undoStack().count(), 0);
     }
 
-    void aDraggedValueIsOneStep()
+    void aGestureIsOneStep()
     {
         Document document;
+        document.beginGesture();
         for (int i = 1; i <= 10; ++i)
             document.edit(withSnr(i), "Change the SNR", "model.snr");
+        document.endGesture();
         QCOMPARE(document.undoStack().count(), 1);
         document.undoStack().undo();
         QCOMPARE(document.settings(), AnalysisSettings());
     }
 
-    void otherFieldsAndPausesAreStepsOfTheirOwn()
+    void otherFieldsAndGesturesAreStepsOfTheirOwn()
     {
         Document document;
+        document.beginGesture();
         document.edit(withSnr(2.0), "Change the SNR", "model.snr");
         AnalysisSettings other = document.settings();
         other.noise.halfWidthCells = 30;
         document.edit(other, "Change the noise", "noise.halfWidthCells");
         QCOMPARE(document.undoStack().count(), 2);
-        QTest::qWait(800);
+        document.beginGesture(); // another key, at once
         other.noise.halfWidthCells = 31;
         document.edit(other, "Change the noise", "noise.halfWidthCells");
         QCOMPARE(document.undoStack().count(), 3);
+        document.endGesture();
+        for (int cells = 32; cells < 34; ++cells) { // by nobody's hand
+            other.noise.halfWidthCells = cells;
+            document.edit(other, "Change the noise", "noise.halfWidthCells");
+        }
+        QCOMPARE(document.undoStack().count(), 5);
+    }
+
+    void aGestureThatComesBackIsNone()
+    {
+        Document document;
+        document.beginGesture();
+        document.edit(withSnr(2.0), "Change the SNR", "model.snr");
+        document.edit(AnalysisSettings(), "Change the SNR", "model.snr");
+        QCOMPARE(document.undoStack().count(), 0);
+        QVERIFY(!document.isModified());
     }
 
     void twoHundredRandomEditsUndoneAreWhatTheyWere()

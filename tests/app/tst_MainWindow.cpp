@@ -321,9 +321,13 @@ private slots:
         QTest::keyClick(output, Qt::Key_Period);
         QVERIFY(settle(*window));
         QVERIFY(std::abs(document.analysis()->threshold - threshold - 0.5) < 0.1);
-        QCOMPARE(document.undoStack().count(), 1);
-        QTest::keyClick(output, Qt::Key_Comma);
+        QCOMPARE(document.undoStack().count(), 2);
+        for (int i = 0; i < 3; ++i) // held
+            QTest::keyPress(output, Qt::Key_Comma);
+        QTest::keyRelease(output, Qt::Key_Comma);
         QVERIFY(settle(*window));
+        QVERIFY(std::abs(document.analysis()->threshold - threshold + 0.25) < 0.1);
+        QCOMPARE(document.undoStack().count(), 3);
     }
 
     void nGoesFromEventToEvent()

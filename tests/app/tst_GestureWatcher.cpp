@@ -1,0 +1,117 @@
+#include "app/base/GestureWatcher.h"
+
+#include <QSignalSpy>
+#include <QSpinBox>
+#include <QWheelEvent>
+#include <QtTest>
+
+using namespace faintline;
+
+/// Where one gesture of keys, buttons and wheel ends, and the next begins.
+class tst_GestureWatcher : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void init();
+    void eachKeyIsOne();
+    void aHeldKeyIsOne();
+    void aDragIsOne();
+    void aWheelIsOneUntilThePress();
+
+private:
+    /// A key's press or release, of its repetition where `isRepeated`.
+    void sendKey(QEvent::Type type, bool isRepeated)
+    {
+        QKeyEvent event(type, Qt::Key_Up, Qt::NoModifier, QString(), isRepeated);
+        QCoreApplication::sendEvent(m_box.get(), &event);
+    }
+    void turnWheel()
+    {
+        const QPointF middle(5.0, 5.0);
+        QWheelEvent event(middle, m_box->mapToGlobal(middle), {}, {0, 120}, Qt::NoButton, Qt::NoModifier,
+                          Qt::NoScrollPhase, false);
+        QCoreApplication::sendEvent(m_box.get(), &event);
+    }
+    int beginnings() const { return int(m_began->count()); }
+    int endings() const
+    {
+        QCoreApplication::processEvents();
+        return int(m_ended->count());
+    }
+
+    std::unique_ptr<QSpinBox> m_box;
+    std::unique_ptr<GestureWatcher> m_watcher;
+    std::unique_ptr<QSignalSpy> m_began;
+    std::unique_ptr<QSignalSpy> m_ended;
+};
+
+void tst_GestureWatcher::init()
+{
+    m_box = std::make_unique<QSpinBox>();
+    m_box->show();
+    m_watcher = std::make_unique<GestureWatcher>();
+    m_began = std::make_unique<QSignalSpy>(m_watcher.get(), &GestureWatcher::began);
+    m_ended = std::make_unique<QSignalSpy>(m_watcher.get(), &GestureWatcher::ended);
+}
+
+void tst_GestureWatcher::eachKeyIsOne()
+{
+    sendKey(QEvent::KeyPress, false);
+    QCOMPARE(beginnings(), 1);
+    sendKey(QEvent::KeyRelease, false);
+    QCOMPARE(m_ended->count(), 0); // who handles the release still belongs to it
+    QCOMPARE(endings(), 1);
+    sendKey(QEvent::KeyPress, false);
+    sendKey(QEvent::KeyRelease, false);
+    QCOMPARE(beginnings(), 2);
+    QCOMPARE(endings(), 2);
+}
+
+void tst_GestureWatcher::aHeldKeyIsOne()
+{
+    sendKey(QEvent::KeyPress, false);
+    for (int i = 0; i < 5; ++i) {
+        sendKey(QEvent::KeyRelease, true);
+        sendKey(QEvent::KeyPress, true);
+    }
+    QCOMPARE(beginnings(), 1);
+    QCOMPARE(endings(), 0);
+    sendKey(QEvent::KeyRelease, false);
+    QCOMPARE(endings(), 1);
+    // A press before the end has come is the next gesture's, which that end does not cut short.
+    sendKey(QEvent::KeyPress, false);
+    sendKey(QEvent::KeyRelease, false);
+    sendKey(QEvent::KeyPress, false);
+    QCOMPARE(beginnings(), 3);
+    QCOMPARE(endings(), 1);
+}
+
+void tst_GestureWatcher::aDragIsOne()
+{
+    auto *line = m_box->findChild<QWidget *>(QStringLiteral("qt_spinbox_lineedit"));
+    QTest::mousePress(line, Qt::LeftButton);
+    const int begun = beginnings();
+    QVERIFY(begun >= 1);
+    QTest::mouseMove(line, {3, 3});
+    QCOMPARE(beginnings(), begun);
+    QCOMPARE(endings(), 0);
+    QTest::mouseRelease(line, Qt::LeftButton);
+    QVERIFY(endings() >= 1);
+    QCOMPARE(beginnings(), begun);
+}
+
+void tst_GestureWatcher::aWheelIsOneUntilThePress()
+{
+    for (int i = 0; i < 4; ++i)
+        turnWheel();
+    QCOMPARE(beginnings(), 1);
+    sendKey(QEvent::KeyPress, false);
+    sendKey(QEvent::KeyRelease, false);
+    QCOMPARE(beginnings(), 2);
+    turnWheel();
+    QCOMPARE(beginnings(), 3);
+}
+
+QTEST_MAIN(tst_GestureWatcher)
+#include "tst_GestureWatcher.moc"
