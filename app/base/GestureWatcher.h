@@ -4,8 +4,8 @@
 
 namespace faintline {
 
-/// What the user does in one go: from the press of a key or a mouse button to its release, however often the key repeats
-/// meanwhile; the notches of a wheel up to the next press. Watches the events of the application.
+/// What the user does in one go: from the press of a key or a mouse button to its release, however often the key
+/// repeats meanwhile; the notches of a wheel up to the next press. Watches the events of the application.
 class GestureWatcher : public QObject
 {
     Q_OBJECT

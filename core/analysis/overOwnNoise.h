@@ -6,8 +6,8 @@ namespace faintline {
 
 /// Moves tracks that the recording's own noise explains (OwnNoiseLaw) from `tracks` to `explainedByNoise`.
 ///
-/// A track is kept where its statistic D, less the share of its evidence that this noise explains, reaches the threshold
-/// T:
+/// A track is kept where its statistic D, less the share of its evidence that this noise explains, reaches the
+/// threshold T:
 ///
 ///   D · Λ(ḡ)/Λ(ȳ) ≥ T,   Λ(a) = n (a - 1 - ln a)
 ///
