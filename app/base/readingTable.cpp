@@ -7,7 +7,7 @@
 
 namespace faintline {
 
-void makeReadingTable(QTableWidget &table, int rowHeight)
+void makeReadingTable(QTableView &table, int rowHeight)
 {
     table.verticalHeader()->hide();
     table.verticalHeader()->setDefaultSectionSize(rowHeight);

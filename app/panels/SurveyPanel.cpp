@@ -1,6 +1,7 @@
 #include "app/panels/SurveyPanel.h"
 
 #include "app/base/filePath.h"
+#include "app/base/readingTable.h"
 #include "app/panels/SurveyModel.h"
 #include "widgets/base/labelText.h"
 
@@ -27,14 +28,8 @@ SurveyPanel::SurveyPanel(const Document &document, const AnalysisController &con
     m_table->setModel(m_proxy);
     m_table->setSortingEnabled(true);
     m_table->sortByColumn(SurveyModel::Statistic, Qt::DescendingOrder);
-    m_table->verticalHeader()->hide();
-    m_table->verticalHeader()->setDefaultSectionSize(22);
-    m_table->horizontalHeader()->setHighlightSections(false);
+    makeReadingTable(*m_table, 22);
     m_table->horizontalHeader()->setStretchLastSection(true);
-    m_table->setSelectionBehavior(QAbstractItemView::SelectRows);
-    m_table->setEditTriggers(QAbstractItemView::NoEditTriggers);
-    m_table->setShowGrid(false);
-    m_table->setFrameShape(QFrame::NoFrame);
     m_table->setColumnWidth(SurveyModel::Recording, 220);
     m_table->installEventFilter(this);
     m_table->setAccessibleName(tr("Events of the survey"));

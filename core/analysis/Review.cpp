@@ -170,10 +170,10 @@ SignalPath pathOf(const Analysis &analysis, const Event &event)
         if (i == 0)
             continue;
         // Across a cyclic axis's seam a path goes on where it was.
-        for (std::size_t number = 0; const Axis &axis : axes) {
-            const double before = path.position[i - 1][number];
-            double &now = path.position[i][number++];
-            now = before + wrapped(now - before, axis);
+        for (std::size_t axis = 0; axis < axes.size(); ++axis) {
+            const double before = path.position[i - 1][axis];
+            double &now = path.position[i][axis];
+            now = before + wrapped(now - before, axes[axis]);
         }
     }
     return path;
@@ -181,8 +181,7 @@ SignalPath pathOf(const Analysis &analysis, const Event &event)
 
 std::optional<double> distance(const SignalPath &a, const SignalPath &b, const std::vector<Axis> &axes)
 {
-    const auto isOnAxes = [&axes](const SignalPath &path) { return path.tolerance.size() == axes.size(); };
-    if (!isOnAxes(a) || !isOnAxes(b))
+    if (a.tolerance.size() != b.tolerance.size() || a.tolerance.size() != axes.size())
         return {};
     const double begin = std::max(a.seconds.front(), b.seconds.front());
     const double end = std::min(a.seconds.back(), b.seconds.back());
@@ -190,17 +189,16 @@ std::optional<double> distance(const SignalPath &a, const SignalPath &b, const s
     if (end < begin || end - begin < leastShare * shorter)
         return {};
     double sum = 0.0;
-    for (std::size_t number = 0; const Axis &axis : axes) {
+    for (std::size_t axis = 0; axis < axes.size(); ++axis) {
         double mean = 0.0;
         for (std::size_t i = 0; i < mostInstants; ++i) {
             const double seconds = std::lerp(begin, end, double(i) / double(mostInstants - 1));
-            mean += std::abs(wrapped(at(a, seconds, number) - at(b, seconds, number), axis)) / double(mostInstants);
+            mean += std::abs(wrapped(at(a, seconds, axis) - at(b, seconds, axis), axes[axis])) / double(mostInstants);
         }
-        const double inTolerances = mean / std::max(a.tolerance[number], b.tolerance[number]);
+        const double inTolerances = mean / std::max(a.tolerance[axis], b.tolerance[axis]);
         if (!(inTolerances <= 1.0))
             return {};
         sum += inTolerances;
-        ++number;
     }
     return sum;
 }

@@ -89,8 +89,8 @@ namespace {
             if (grid.isSpectrum())
                 return {picture};
             std::vector<std::shared_ptr<const PeakPyramid>> result;
-            std::transform(grid.axes.begin(), grid.axes.end(), std::back_inserter(result),
-                           [&](const Axis &) { return pictureAlong(*picture, grid, result.size()); });
+            for (std::size_t axis = 0; axis < grid.axes.size(); ++axis)
+                result.push_back(pictureAlong(*picture, grid, axis));
             return result;
         }
 

@@ -22,9 +22,8 @@ namespace {
     std::vector<Index> perAxis(const std::vector<double> &values, const Grid &grid)
     {
         std::vector<Index> result;
-        std::transform(grid.axes.begin(), grid.axes.end(), std::back_inserter(result), [&](const Axis &) {
-            return values.empty() ? 0 : Index(std::llround(values[std::min(result.size(), values.size() - 1)]));
-        });
+        for (std::size_t axis = 0; axis < grid.axes.size(); ++axis)
+            result.push_back(values.empty() ? 0 : Index(std::llround(values[std::min(axis, values.size() - 1)])));
         return result;
     }
 

@@ -177,9 +177,11 @@ namespace {
 
         static bool isSure(const Analysis &analysis)
         {
-            const std::vector<Track> found = foundIn(analysis);
-            return std::any_of(found.begin(), found.end(),
-                               [&](const Track &track) { return track.peakStatistic >= sureStatistic(analysis); });
+            const auto hasSure = [limit = sureStatistic(analysis)](const std::vector<Track> &tracks) {
+                return std::any_of(tracks.begin(), tracks.end(),
+                                   [limit](const Track &track) { return track.peakStatistic >= limit; });
+            };
+            return hasSure(analysis.tracks) || hasSure(analysis.explainedByNoise);
         }
 
         static double shareKept(const Analysis &shorter, const Analysis &longer)

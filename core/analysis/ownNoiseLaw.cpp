@@ -1,5 +1,7 @@
 #include "analysis/ownNoiseLaw.h"
 
+#include "spectrum/levels.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -24,6 +26,7 @@ namespace {
     constexpr double levelError = 0.03;
     constexpr float lowestSlope = 0.05f;
     constexpr double leastObserved = 0.2; ///< of a bin's frames
+    constexpr double raised = 1.1;        ///< median of a bin with a steady line, over noise's, but for its scatter
 
     /// Frames at even distances, row by row; NaN where there may be a signal.
     struct Sample {
@@ -80,12 +83,8 @@ namespace {
         const auto count = double(values.size());
         if (values.size() < 2 || count < leastObserved * double(sample.rows))
             return {};
-        const auto middle = values.begin() + std::ssize(values) / 2;
-        std::nth_element(values.begin(), middle, values.end());
-        const double level = double(*middle) / std::numbers::ln2;
-        if (level > 1.1 + 4.0 * std::sqrt(2.0 / count))
-            values.clear();
-        return values;
+        const double level = double(medianOf(values)) / std::numbers::ln2;
+        return level > raised + 4.0 * std::sqrt(2.0 / count) ? std::vector<float>() : values;
     }
 
 } // namespace

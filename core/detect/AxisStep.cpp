@@ -114,7 +114,7 @@ void shiftCells(const AxisStep<typename Semiring::Real> &step, Index cells,
             for (Index i = 0; i < wrong; ++i)
                 to[block + i] = from[block + i - by + (by > 0 ? period : -period)];
         } else {
-            std::fill_n(to + block, wrong, nothing<Semiring>());
+            std::fill_n(to + block, wrong, neutral<Semiring>());
         }
     }
 }

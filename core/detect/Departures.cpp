@@ -32,7 +32,7 @@ Departures<Semiring>::Departures(const StateSpace &space, double transitionScale
         if (!axis.transition.empty()) {
             Matrix matrix{axis.cells, inner, {}};
             for (const double p : axis.transition)
-                matrix.weights.push_back(p > 0.0 ? weight(std::log(p)) : nothing<Semiring>());
+                matrix.weights.push_back(p > 0.0 ? weight(std::log(p)) : neutral<Semiring>());
             m_matrices.push_back(std::move(matrix));
         }
         if (!axis.renormalised)
@@ -127,7 +127,7 @@ void Departures<Semiring>::apply(const OfRates &d, Index step, std::span<Real> s
             Real *to = from + (turn.toRate - turn.fromRate) * d.after * m_planeSize;
             for (Index i = 0; i < turn.count * d.inner; ++i) {
                 to[i] = Semiring::logarithmic ? std::max(to[i], from[i]) : to[i] + from[i];
-                from[i] = nothing<Semiring>();
+                from[i] = neutral<Semiring>();
             }
         });
     for (Index rate = 0; rate < d.rates; ++rate)

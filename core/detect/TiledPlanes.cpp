@@ -46,7 +46,7 @@ void TiledPlanes<Semiring>::fillMargins(std::span<const Real> scores)
             else if (m_shape.isCyclic)
                 std::copy_n(plane + wrapped * inner, n, to);
             else
-                std::fill_n(to, n, nothing<Semiring>());
+                std::fill_n(to, n, neutral<Semiring>());
             to += n;
             row = next;
         }

@@ -22,7 +22,7 @@ struct SumProduct {
 
 /// ⊕'s neutral element.
 template <class Semiring>
-constexpr typename Semiring::Real nothing()
+constexpr typename Semiring::Real neutral()
 {
     if constexpr (Semiring::logarithmic)
         return -std::numeric_limits<typename Semiring::Real>::infinity();
