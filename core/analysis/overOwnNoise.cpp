@@ -19,6 +19,15 @@ namespace {
         return mean > 1.0 ? count * (mean - 1.0 - std::log(mean)) : 0.0;
     }
 
+    /// What overlap alone adds to the variance of means over many frames, as a ratio.
+    double overlapOf(const Spectrogram &spectrogram)
+    {
+        const SpectrogramSettings &settings = spectrogram.settings();
+        const double scatter =
+            overlapFactor(sampleWindow(settings.window, spectrogram.windowSamples()), settings.stepsPerWindow);
+        return scatter * scatter;
+    }
+
     PathStrip stripOf(const Track &track)
     {
         PathStrip strip;
@@ -31,6 +40,7 @@ namespace {
     /// What is left of a track's evidence under the noise's own law, as a share.
     double shareLeft(const PathStrip &strip, const OwnNoiseLaw &law)
     {
+        double runs = 0.0;
         double count = 0.0;
         double power = 0.0;
         double own = 0.0;
@@ -39,9 +49,10 @@ namespace {
                 count += 1.0;
                 power += double(y);
                 own += double(law(strip.centres[i], y));
+                runs += law.runs(strip.centres[i], std::ssize(strip.centres));
             }
         const double all = evidence(count, power / count);
-        return all > 0.0 ? evidence(count, own / count) / all : 1.0;
+        return all > 0.0 ? evidence(count, own / count) / all * count / runs : 1.0;
     }
 
 } // namespace
@@ -50,9 +61,10 @@ void holdAgainstOwnNoise(Analysis &analysis, const RunContext &context)
 {
     if (!looksTwice(analysis) || !analysis.settings.family.isNone())
         return;
-    const OwnNoiseLaw law(*analysis.frames, analysis.tracks, analysis.frames->spectrogram()->binsPerCell(),
+    const Spectrogram &spectrogram = *analysis.frames->spectrogram();
+    const OwnNoiseLaw law(*analysis.frames, analysis.tracks, spectrogram.binsPerCell(), overlapOf(spectrogram),
                           context.part(0.0, 0.5));
-    if (law.isExponential())
+    if (law.isAsAssumed())
         return;
     std::vector<Track> tracks = std::exchange(analysis.tracks, {});
     std::vector<PathStrip> strips(tracks.size());

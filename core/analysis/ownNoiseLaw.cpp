@@ -1,21 +1,13 @@
 #include "analysis/ownNoiseLaw.h"
 
-#include "spectrum/levels.h"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
-#include <numbers>
 
 namespace faintline {
 
 namespace {
 
-    constexpr double mostValues = 4e6;
-    constexpr double cellsBeside = 4.0; ///< resolution cells, on either side of a track
-    constexpr Index framesBeside = 2;
-    constexpr Index framesBeyond = 10; ///< its ends
     constexpr Index fewestFrames = 128;
     constexpr Index mostParts = 16;
     constexpr Index fewestCells = 40;         ///< of a part
@@ -25,126 +17,140 @@ namespace {
     constexpr double deviations = 3.0;
     constexpr double levelError = 0.03;
     constexpr float lowestSlope = 0.05f;
-    constexpr double leastObserved = 0.2; ///< of a bin's frames
-    constexpr double raised = 1.1;        ///< median of a bin with a steady line, over noise's, but for its scatter
+    constexpr float highestPower = 5.0f; ///< of what runs are measured by
+    constexpr double runError = 0.05;
+    constexpr Index fewestRuns = 60;
+    constexpr double leastNoise = 0.5; ///< of a part's cells, for runs to be its noise's
 
-    /// Frames at even distances, row by row; NaN where there may be a signal.
-    struct Sample {
-        Index stride;
-        Index rows;
-        Index cells;
-        std::vector<float> y;
+    /// Sums of values one by one.
+    struct Scatter {
+        Index count = 0;
+        double sum = 0.0;
+        double squares = 0.0;
 
-        float &at(Index row, Index cell) { return y[std::size_t(row * cells + cell)]; }
+        void add(double value)
+        {
+            ++count;
+            sum += value;
+            squares += value * value;
+        }
+        double variance() const { return squares / double(count) - sum * sum / double(count) / double(count); }
     };
 
-    Sample sampleOf(const NormalisedFrames &frames, const RunContext &context)
+    /// Means over `length` successive frames of a run, where all of them are noise.
+    Scatter meansOf(const NoiseSample &sample, const std::vector<Index> &cells, Index length)
     {
-        Sample sample;
-        sample.cells = frames.grid().size();
-        const Index count = frames.time().count;
-        sample.stride = std::max<Index>(1, Index(std::ceil(double(count) * double(sample.cells) / mostValues)));
-        sample.rows = (count + sample.stride - 1) / sample.stride;
-        sample.y.resize(std::size_t(sample.rows * sample.cells));
-        for (Index row = 0; row < sample.rows; ++row) {
-            context.checkpoint(double(row) / double(sample.rows), "measuring the noise");
-            frames.read(row * sample.stride, 1, {&sample.at(row, 0), std::size_t(sample.cells)});
-        }
-        return sample;
-    }
-
-    void mask(Sample &sample, Index firstFrame, Index lastFrame, Index firstCell, Index lastCell)
-    {
-        const Index first = std::max<Index>(0, firstFrame + sample.stride - 1) / sample.stride;
-        const Index last = std::min(sample.rows - 1, lastFrame / sample.stride);
-        for (Index row = first; row <= last; ++row)
-            for (Index cell = std::max<Index>(0, firstCell); cell <= std::min(sample.cells - 1, lastCell); ++cell)
-                sample.at(row, cell) = std::numeric_limits<float>::quiet_NaN();
-    }
-
-    void maskTrack(Sample &sample, const std::vector<TrackPoint> &points, Index half)
-    {
-        const auto around = [&](const TrackPoint &point, Index before, Index behind) {
-            mask(sample, point.frame - before, point.frame + behind, point.cell - half, point.cell + half);
-        };
-        for (const TrackPoint &point : points)
-            around(point, framesBeside, framesBeside);
-        around(points.front(), framesBeyond, 0);
-        around(points.back(), 0, framesBeyond);
-    }
-
-    /// What a bin holds over time; nothing where that is no noise, or little of it is known.
-    std::vector<float> noiseIn(Sample &sample, Index cell)
-    {
-        std::vector<float> values;
-        for (Index row = 0; row < sample.rows; ++row)
-            if (const float y = sample.at(row, cell); y > 0.0f)
-                values.push_back(y);
-        const auto count = double(values.size());
-        if (values.size() < 2 || count < leastObserved * double(sample.rows))
-            return {};
-        const double level = double(medianOf(values)) / std::numbers::ln2;
-        return level > raised + 4.0 * std::sqrt(2.0 / count) ? std::vector<float>() : values;
+        Scatter scatter;
+        for (const Index cell : cells)
+            for (Index first = 0; first + length <= sample.rows(); first += length) {
+                float sum = 0.0f;
+                for (Index row = first; row < first + length; ++row)
+                    sum += std::isnan(sample.at(row, cell)) ? sample.at(row, cell)
+                                                            : std::min(sample.at(row, cell), highestPower);
+                if (!std::isnan(sum))
+                    scatter.add(double(sum) / double(length));
+            }
+        return scatter;
     }
 
 } // namespace
 
 OwnNoiseLaw::OwnNoiseLaw(const NormalisedFrames &frames, std::span<const Track> tracks, double binsPerCell,
-                         const RunContext &context)
+                         double overlap, const RunContext &context)
     : m_cells(frames.grid().size())
 {
     m_parts.resize(std::size_t(std::clamp<Index>(m_cells / fewestCells, 1, mostParts)));
     if (frames.time().count < fewestFrames)
         return;
-    Sample sample = sampleOf(frames, context);
-    for (const Track &track : tracks)
-        if (!track.points.empty())
-            maskTrack(sample, track.points, Index(std::ceil(cellsBeside * binsPerCell)));
+    const NoiseSample sample(frames, tracks, binsPerCell, context);
     const Index parts = std::ssize(m_parts);
     for (Index part = 0; part < parts; ++part) {
         std::vector<float> values;
-        for (Index cell = part * m_cells / parts; cell < (part + 1) * m_cells / parts; ++cell) {
-            const std::vector<float> noise = noiseIn(sample, cell);
-            values.insert(values.end(), noise.begin(), noise.end());
-        }
-        m_parts[std::size_t(part)] = partOf(std::move(values));
+        std::vector<Index> cells;
+        for (Index cell = part * m_cells / parts; cell < (part + 1) * m_cells / parts; ++cell)
+            if (const std::vector<float> noise = sample.noiseIn(cell); !noise.empty()) {
+                values.insert(values.end(), noise.begin(), noise.end());
+                cells.push_back(cell);
+            }
+        const std::size_t count = values.size();
+        setPowers(m_parts[std::size_t(part)], std::move(values));
+        const Index all = sample.rows() * ((part + 1) * m_cells / parts - part * m_cells / parts);
+        if (double(count) >= leastNoise * double(all))
+            setRuns(m_parts[std::size_t(part)], sample, cells, overlap);
     }
 }
 
-OwnNoiseLaw::Part OwnNoiseLaw::partOf(std::vector<float> values)
+void OwnNoiseLaw::setPowers(Part &part, std::vector<float> values) const
 {
     if (values.size() < fewestValues)
-        return {};
+        return;
     std::sort(values.begin(), values.end(), std::greater<>());
     const auto count = double(values.size());
     bool isExponential = true;
-    Part part{{0.0f}, {0.0f}};
+    std::vector<float> quantiles{0.0f};
+    std::vector<float> worths{0.0f};
     for (std::ptrdiff_t beyond = std::ssize(values) / 2; beyond >= fewestBeyond; beyond /= 2) {
         const float y = values[std::size_t(beyond)];
         const double g = -std::log(double(beyond) / count);
         const double error = levelError * double(y) + deviations * std::sqrt(alike / double(beyond));
         isExponential = isExponential && double(y) - g < error;
-        part.y.push_back(y);
-        part.g.push_back(std::min(y, float(g)));
+        quantiles.push_back(y);
+        worths.push_back(std::min(y, float(g)));
     }
     if (isExponential)
-        return {};
+        return;
+    part.y = std::move(quantiles);
+    part.g = std::move(worths);
     const std::size_t last = part.y.size() - 1;
     if (last >= 4 && part.y[last] > part.y[last - 3])
         part.slope =
             std::clamp((part.g[last] - part.g[last - 3]) / (part.y[last] - part.y[last - 3]), lowestSlope, 1.0f);
-    return part;
 }
 
-bool OwnNoiseLaw::isExponential() const
+void OwnNoiseLaw::setRuns(Part &part, const NoiseSample &sample, const std::vector<Index> &cells, double overlap) const
 {
-    return std::all_of(m_parts.begin(), m_parts.end(), [](const Part &part) { return part.y.empty(); });
+    const Scatter single = meansOf(sample, cells, 1);
+    if (single.count < Index(fewestValues))
+        return;
+    std::vector<double> runs{1.0};
+    for (Index length = 2; length <= NoiseSample::runFrames; length *= 2) {
+        const Scatter means = meansOf(sample, cells, length);
+        const auto count = double(means.count);
+        double ratio = 1.0;
+        if (means.count >= fewestRuns)
+            ratio = means.variance() * double(length) / (single.variance() * overlap);
+        const bool isSure = ratio > 1.0 + runError + deviations * std::sqrt(2.0 * alike / count);
+        runs.push_back(isSure ? std::max(ratio, runs.back()) : runs.back());
+    }
+    if (runs.back() > 1.0)
+        part.runs = std::move(runs);
+}
+
+bool OwnNoiseLaw::isAsAssumed() const
+{
+    return std::all_of(m_parts.begin(), m_parts.end(),
+                       [](const Part &part) { return part.y.empty() && part.runs.empty(); });
+}
+
+const OwnNoiseLaw::Part &OwnNoiseLaw::partAt(Index cell) const
+{
+    const Index parts = std::ssize(m_parts);
+    return m_parts[std::size_t(std::min(((cell + 1) * parts - 1) / m_cells, parts - 1))];
+}
+
+double OwnNoiseLaw::runs(Index cell, Index n) const
+{
+    const std::vector<double> &runs = partAt(cell).runs;
+    if (runs.empty())
+        return 1.0;
+    const double octave = std::min(std::log2(double(n)), double(runs.size() - 1));
+    const auto below = std::min(std::size_t(octave), runs.size() - 2);
+    return std::lerp(runs[below], runs[below + 1], octave - double(below));
 }
 
 float OwnNoiseLaw::operator()(Index cell, float y) const
 {
-    const Index parts = std::ssize(m_parts);
-    const Part &part = m_parts[std::size_t(std::min(((cell + 1) * parts - 1) / m_cells, parts - 1))];
+    const Part &part = partAt(cell);
     if (part.y.empty() || !(y > 0.0f))
         return y;
     const auto above = std::upper_bound(part.y.begin(), part.y.end(), y);
