@@ -2,6 +2,7 @@
 
 #include "base/Error.h"
 #include "evaluate/experiments/NoisyField.h"
+#include "evaluate/experiments/lineRuns.h"
 #include "evaluate/experiments/peers.h"
 
 #include <QtTest>

@@ -1,6 +1,7 @@
 #include "evaluate/experiments/showTrial.h"
 
 #include "evaluate/experiments/campaignCharts.h"
+#include "evaluate/experiments/lineRuns.h"
 
 #include <algorithm>
 
@@ -60,9 +61,7 @@ namespace {
                             const TrialPlace &place, const RunContext &context)
     {
         const auto &injection = std::get<InjectionExperiment>(campaign.experiment);
-        AnalysisSettings settings = injection.settings;
-        settings.model = injection.detectors[point.detector].settings.model;
-        settings.detector = injection.detectors[point.detector].settings.detector;
+        AnalysisSettings settings = settingsOf(injection, point.detector);
         setThreshold(settings, shownThreshold(campaign, point.detector));
         const InjectionTrials::Made made = trials.remake(place.run, injection.snrDb[point.snr]);
         return {analyse(made.recording, settings, context), {{made.truth}}};

@@ -2,6 +2,7 @@
 
 #include "analysis/analyse.h"
 #include "evaluate/experiments/Campaign.h"
+#include "evaluate/experiments/InjectionTrials.h"
 #include "recording/Truth.h"
 
 #include <cstddef>
