@@ -1,5 +1,6 @@
 // A radar looks into one sector after the other, into each until it is sure. Most are empty and are left early.
 #include "evaluate/sequential/ScanTest.h"
+#include "evaluate/sequential/simulate.h"
 
 #include <cstdio>
 
@@ -7,8 +8,7 @@ using namespace faintline;
 
 int main()
 {
-    // What may be there: a target of 10 dB somewhere in 3 × 3 × 40 cells that moves by at most one cell a scan, its
-    // Doppler unknown.
+    // What may be there: a target of 10 dB in 3 × 3 × 40 cells, at most one cell on each scan, its Doppler unknown.
     const ScanScene scene{.rangeCells = 40, .dopplerCells = 8, .stages = 30, .snrDb = 10.0, .seed = 11};
     SequentialStudy study;
     study.model = scanModel(scene, scene.snrDb);

@@ -2,7 +2,7 @@
 
 #include "base/Interval.h"
 #include "evaluate/reproduce/Reproduction.h"
-#include "evaluate/sequential/SequentialStudy.h"
+#include "evaluate/sequential/simulate.h"
 
 #include <array>
 #include <limits>

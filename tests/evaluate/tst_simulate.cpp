@@ -1,5 +1,6 @@
 #include "base/logmath.h"
-#include "evaluate/sequential/SequentialStudy.h"
+#include "evaluate/sequential/SequentialTrial.h"
+#include "evaluate/sequential/simulate.h"
 #include "evaluate/theory/waldTheory.h"
 
 #include <QtTest>
@@ -51,7 +52,7 @@ StageSource framesOf(const SequentialStudy &made, SequentialTrial &trial)
 } // namespace
 
 /// Simulated tests: exact where theory is, the same trials as the plain test takes, nothing that depends on threads.
-class tst_SequentialStudy : public QObject
+class tst_simulate : public QObject
 {
     Q_OBJECT
 
@@ -73,7 +74,7 @@ private slots:
     void refusals();
 };
 
-void tst_SequentialStudy::isTheExactWalk_data()
+void tst_simulate::isTheExactWalk_data()
 {
     QTest::addColumn<bool>("isTarget");
     QTest::addColumn<double>("actualDb");
@@ -82,7 +83,7 @@ void tst_SequentialStudy::isTheExactWalk_data()
     QTest::newRow("weaker") << true << 0.0;
 }
 
-void tst_SequentialStudy::isTheExactWalk()
+void tst_simulate::isTheExactWalk()
 {
     QFETCH(bool, isTarget);
     QFETCH(double, actualDb);
@@ -104,7 +105,7 @@ void tst_SequentialStudy::isTheExactWalk()
     QCOMPARE(counted, outcome.trials);
 }
 
-void tst_SequentialStudy::isThePlainTest_data()
+void tst_simulate::isThePlainTest_data()
 {
     QTest::addColumn<int>("world");
     QTest::addColumn<bool>("isTarget");
@@ -113,7 +114,7 @@ void tst_SequentialStudy::isThePlainTest_data()
             QTest::addRow("world %d, %s", world, isTarget ? "target" : "noise") << world << isTarget;
 }
 
-void tst_SequentialStudy::isThePlainTest()
+void tst_simulate::isThePlainTest()
 {
     // Abreast, unscaled and with ratios in single precision, or one by one as runSprt does it: the same decisions.
     QFETCH(int, world);
@@ -158,7 +159,7 @@ void tst_SequentialStudy::isThePlainTest()
     QCOMPARE(outcome.stopCounts, stopCounts);
 }
 
-void tst_SequentialStudy::threadsChangeNothing()
+void tst_simulate::threadsChangeNothing()
 {
     SequentialStudy made = study({walk(6, 1.0)}, {false}, 4.0, 4.0, 3500); // several pieces of work
     made.estimatesTrajectory = true;
@@ -172,7 +173,7 @@ void tst_SequentialStudy::threadsChangeNothing()
     QCOMPARE(a.correctTrack, b.correctTrack);
 }
 
-void tst_SequentialStudy::errorsAreKept_data()
+void tst_simulate::errorsAreKept_data()
 {
     QTest::addColumn<int>("reach");
     QTest::addColumn<std::vector<double>>("law");
@@ -185,7 +186,7 @@ void tst_SequentialStudy::errorsAreKept_data()
     QTest::newRow("slopes that are kept") << 1 << std::vector<double>{1.0} << false;
 }
 
-void tst_SequentialStudy::errorsAreKept()
+void tst_simulate::errorsAreKept()
 {
     // α = β = 1e-3, 0 dB, targets from the model's own law: at most three wrong of a thousand runs of either kind.
     QFETCH(int, reach);
@@ -209,7 +210,7 @@ void tst_SequentialStudy::errorsAreKept()
     QVERIFY2(targets.acceptedH1 >= 997, qPrintable(QString::number(1000 - targets.acceptedH1)));
 }
 
-void tst_SequentialStudy::targetsFollowTheLaw_data()
+void tst_simulate::targetsFollowTheLaw_data()
 {
     QTest::addColumn<int>("kind");
     QTest::newRow("Gaussian walk") << 0;
@@ -221,7 +222,7 @@ void tst_SequentialStudy::targetsFollowTheLaw_data()
     QTest::newRow("rates of half a cell between ends") << 6;
 }
 
-void tst_SequentialStudy::targetsFollowTheLaw()
+void tst_simulate::targetsFollowTheLaw()
 {
     QFETCH(int, kind);
     KinematicAxis a = kind == 0 ? walk(4, 0.8) : axis(4);
@@ -270,7 +271,7 @@ void tst_SequentialStudy::targetsFollowTheLaw()
         }
 }
 
-void tst_SequentialStudy::changeOfMeasureAgreesWithCounting()
+void tst_simulate::changeOfMeasureAgreesWithCounting()
 {
     const SequentialStudy noise = study({walk(5, 1.0)}, {false}, 2.0, std::nullopt, 20000);
     SequentialStudy target = noise;
@@ -290,7 +291,7 @@ void tst_SequentialStudy::changeOfMeasureAgreesWithCounting()
     QVERIFY(onNoise.otherError.value <= std::exp(sprtBoundaries(noise.sprt).lnLower));
 }
 
-void tst_SequentialStudy::strongTargetsAreFollowed()
+void tst_simulate::strongTargetsAreFollowed()
 {
     SequentialStudy made = study({walk(20, 0.5)}, {false}, 1e4, 1e4, 300);
     made.estimatesTrajectory = true;
@@ -300,7 +301,7 @@ void tst_SequentialStudy::strongTargetsAreFollowed()
     QVERIFY(outcome.correctLast >= outcome.correctTrack - 3);
 }
 
-void tst_SequentialStudy::cutOffEndsAll()
+void tst_simulate::cutOffEndsAll()
 {
     SequentialStudy made = study({walk(10, 1.0)}, {false}, 1.0, std::nullopt, 500);
     made.sprt.cutOffStage = 3;
@@ -309,7 +310,7 @@ void tst_SequentialStudy::cutOffEndsAll()
     QCOMPARE(outcome.undecided, Index(0));
 }
 
-void tst_SequentialStudy::averagedNoiseKeepsItsErrors()
+void tst_simulate::averagedNoiseKeepsItsErrors()
 {
     // The exact likelihood ratio of a cell over its neighbours' mean: for one cell among many α and β hold as ever.
     SequentialStudy made = study({axis(40)}, {false}, 6.0, std::nullopt, 3000);
@@ -320,7 +321,7 @@ void tst_SequentialStudy::averagedNoiseKeepsItsErrors()
     QVERIFY(averaged.stages.value > simulate(made).stages.value); // not to know the noise costs stages
 }
 
-void tst_SequentialStudy::fixedSize()
+void tst_simulate::fixedSize()
 {
     // A known trajectory has an exact answer.
     SequentialStudy made = study({axis(1)}, {false}, 6.0, std::nullopt, 20000);
@@ -331,7 +332,7 @@ void tst_SequentialStudy::fixedSize()
     QVERIFY(!simulatedFixedSampleSize(made, 1));
 }
 
-void tst_SequentialStudy::refusals()
+void tst_simulate::refusals()
 {
     SequentialStudy made = study({axis(4)}, {false}, 1.0, std::nullopt, 10);
     made.averagedCells = 4;
@@ -350,5 +351,5 @@ void tst_SequentialStudy::refusals()
     QVERIFY_EXCEPTION_THROWN(simulate(made, stopped), Cancelled);
 }
 
-QTEST_APPLESS_MAIN(tst_SequentialStudy)
-#include "tst_SequentialStudy.moc"
+QTEST_APPLESS_MAIN(tst_simulate)
+#include "tst_simulate.moc"
