@@ -197,8 +197,8 @@ void tst_Reproduction::cellsOfMeansAndFrequencies()
 
     const ReproducedCell exact = exactCell("row", "column", 1.0, 1.0 + 1e-6, 1e-9);
     QVERIFY(!exact.isInside() && exact.interval == Interval{});
-    QCOMPARE(trialsOf(5000, {false, 1}), Index(5000));
-    QCOMPARE(trialsOf(5000, {true, 1}), Index(500));
+    QCOMPARE(reducedTrials(5000, {false, 1}), Index(5000));
+    QCOMPARE(reducedTrials(5000, {true, 1}), Index(500));
 }
 
 void tst_Reproduction::deviationsHaveNames()
@@ -206,7 +206,7 @@ void tst_Reproduction::deviationsHaveNames()
     QCOMPARE(deviationName(0.5), std::string("σ = 0.5"));
     QCOMPARE(deviationName(2.0), std::string("σ = 2"));
     QCOMPARE(deviationName(INFINITY), std::string("uniform"));
-    QCOMPARE(formatted("%.2f stages", 1.236), std::string("1.24 stages"));
+    QCOMPARE(inFormat("%.2f stages", 1.236), std::string("1.24 stages"));
 }
 
 void tst_Reproduction::partsOfParsons()

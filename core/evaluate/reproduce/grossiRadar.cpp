@@ -12,7 +12,7 @@ namespace {
 
     struct RadarReference {
         std::optional<double> snrDb; ///< nothing: noise only
-        GrossiAsn stages;
+        PublishedAsn stages;
         double variation;
         double acceptH1;
         double acceptRounding;
@@ -54,7 +54,7 @@ namespace {
             m_made.quantity = "ASN (stages), CV, P(accept H1)";
             m_study.model = radarModel();
             m_study.sprt.cutOffStage = 20;
-            m_study.trials = trialsOf(10000, options);
+            m_study.trials = reducedTrials(10000, options);
         }
 
         Reproduction make()
@@ -139,8 +139,8 @@ namespace {
             const auto peak = std::max_element(m_stages.points.begin(), m_stages.points.end(),
                                                [](const auto &a, const auto &b) { return a.y < b.y; });
             m_made.notes.push_back(
-                "ASN peaks at " + formatNumber(peak->x) + " dB, " + formatted("%.2f", peak->y) + " stages against "
-                + formatted("%.2f", m_noiseStages)
+                "ASN peaks at " + formatNumber(peak->x) + " dB, " + inFormat("%.2f", peak->y) + " stages against "
+                + inFormat("%.2f", m_noiseStages)
                 + " on noise: half-way between noise and the design SNR ln Λ drifts nowhere, and the cut-off ends what "
                   "would hang. A test designed at each actual SNR has no such peak; it saturates at the cut-off and "
                   "falls.");
