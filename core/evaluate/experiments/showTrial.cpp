@@ -69,14 +69,14 @@ namespace {
 
 } // namespace
 
-std::vector<TrialOutcome> trialsOf(const Campaign &campaign, std::size_t detector, std::size_t snr)
+std::vector<TrialOutcome> trialsOf(const Campaign &campaign, const CampaignPoint &point)
 {
     std::vector<TrialOutcome> result;
     if (campaign.outcomes.empty())
         return result;
-    const double threshold = shownThreshold(campaign, detector);
+    const double threshold = shownThreshold(campaign, point.detector);
     for (const RunOutcome &outcome : campaign.outcomes) {
-        const std::vector<float> &signals = outcome.signal[detector][snr];
+        const std::vector<float> &signals = outcome.signal[point.detector][point.snr];
         for (std::size_t i = 0; i < signals.size(); ++i) {
             const auto statistic = double(signals[i]);
             result.push_back({{outcome.run, int(i)}, statistic, statistic > threshold});
