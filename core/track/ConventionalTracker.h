@@ -4,7 +4,6 @@
 #include "base/Grid.h"
 #include "track/Track.h"
 
-#include <cstdint>
 #include <deque>
 #include <span>
 #include <vector>

@@ -8,7 +8,6 @@
 #include "recording/Recording.h"
 #include "recording/Truth.h"
 
-#include <memory>
 #include <string>
 #include <vector>
 

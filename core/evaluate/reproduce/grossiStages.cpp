@@ -3,8 +3,6 @@
 #include "evaluate/theory/waldTheory.h"
 #include "evaluate/theory/walkOnLine.h"
 
-#include <algorithm>
-
 namespace faintline {
 
 namespace {
