@@ -3,7 +3,7 @@
 #include "analysis/chooseWindow.h"
 #include "analysis/events.h"
 #include "recording/SimulatedRecording.h"
-#include "support/sweeps.h"
+#include "support/lines.h"
 
 #include <QtTest>
 
