@@ -1,6 +1,6 @@
 #include "spectrum/FrequencyCurve.h"
 
-#include "support/recordings.h"
+#include "support/errors.h"
 
 #include <QtTest>
 
