@@ -2,43 +2,35 @@
 #include "evaluate/sequential/SequentialTrial.h"
 #include "evaluate/sequential/simulate.h"
 #include "evaluate/theory/waldTheory.h"
+#include "support/studies.h"
 
 #include <QtTest>
 
 #include <map>
 
 using namespace faintline;
+using test::axis;
 
 namespace {
 
-KinematicAxis axis(Index cells)
-{
-    KinematicAxis a;
-    a.cells = cells;
-    return a;
-}
-
 KinematicAxis walk(Index cells, double deviation)
 {
-    KinematicAxis a = axis(cells);
-    a.step = gaussianStep(deviation, cells);
+    KinematicAxis a = axis(cells, gaussianStep(deviation, cells));
     a.renormalised = true;
     return a;
 }
 
-SequentialStudy study(std::vector<KinematicAxis> axes, std::vector<bool> isFolded, double snr,
+SequentialStudy study(const std::vector<KinematicAxis> &axes, const std::vector<bool> &isFolded, double snr,
                       std::optional<double> actual, Index trials)
 {
-    SequentialStudy made;
-    made.model = makeSequentialModel(axes, isFolded, Likelihood(LikelihoodKind::Exponential, snr));
+    SequentialStudy made = test::study(axes, isFolded, snr, actual);
     made.sprt = {0.01, 0.02, 0};
-    made.actualSnr = actual;
     made.trials = trials;
     return made;
 }
 
 /// The trial's frames in the order of the model's frame: folded axes are the last ones here.
-StageSource framesOf(const SequentialStudy &made, SequentialTrial &trial)
+StageSource stagesOf(const SequentialStudy &made, SequentialTrial &trial)
 {
     return [&](Index, std::span<double> y) {
         const std::span<const float> blocks = trial.next();
@@ -141,7 +133,7 @@ void tst_simulate::isThePlainTest()
     Index acceptedH1 = 0;
     for (Index number = 0; number < made.trials; ++number) {
         SequentialTrial trial(made, sampler, number);
-        const StageSource source = framesOf(made, trial);
+        const StageSource source = stagesOf(made, trial);
         // Of the stages asked for a second time only the decision is looked at here.
         std::vector<std::vector<double>> taken;
         const SprtResult result = runSprt(made.model, made.sprt, 40, [&](Index stage, std::span<double> y) {
