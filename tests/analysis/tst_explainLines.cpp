@@ -143,6 +143,21 @@ private slots:
         QVERIFY(!at(*analysis, point.frame, (point.cell + 20) % cellCount).inhibitedFor);
     }
 
+    void cellsOfTracksThatNoiseExplainsAreTold()
+    {
+        Analysis analysis = *scaledInjection(14.0);
+        const Track track = analysis.tracks.front();
+        const auto isExplained = [&](Index frame, Index cell) { return at(analysis, frame, cell).isExplainedByNoise; };
+        for (const TrackPoint &point : track.points)
+            QVERIFY(!isExplained(point.frame, point.cell));
+        analysis.tracks.swap(analysis.explainedByNoise);
+        for (const TrackPoint &point : track.points) {
+            QVERIFY(isExplained(point.frame, point.cell));
+            QVERIFY(!isExplained(point.frame, point.cell + 1));
+        }
+        QVERIFY(!isExplained(track.points.front().frame - 1, track.points.front().cell));
+    }
+
     void farIntoALongOneItGoesOnFromTheRunsCheckpoints()
     {
         constexpr Index frames = 4096 + 400; // more than a chain remembers
