@@ -7,7 +7,6 @@
 #include <sndfile.h>
 
 #include <QByteArray>
-#include <QDir>
 #include <QFile>
 
 #include <algorithm>

@@ -4,8 +4,6 @@
 
 #include <QtTest>
 
-#include <cmath>
-
 using namespace faintline;
 
 /// Tracks, events and targets on range and bearing, as each axis alone sees them.
