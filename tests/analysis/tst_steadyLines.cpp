@@ -18,7 +18,7 @@ namespace {
 
 constexpr double steadyHz = 3000.3;
 
-/// Sweeps that ask for a short window, and a line that stands still, too faint for it.
+/// Sweeps that need a short window, and a steady line too faint for it.
 LineScene sweepsBesideAFaintLine(double faintDb)
 {
     LineScene result = sweeps();

@@ -150,7 +150,7 @@ void tst_finishMax::isTheDefinition()
                 }
                 QVERIFY(statistic[std::size_t(i)] == best);
             }
-            QVERIFY(statistic[std::size_t(n)] == 2.0f); // what lies beyond is nobody's
+            QVERIFY(statistic[std::size_t(n)] == 2.0f); // values beyond the tile stay as they were
             QCOMPARE(found.count, went);
             QVERIFY(std::abs(found.sum - sum) <= 1e-5 * (1.0 + sum));
         }

@@ -125,7 +125,7 @@ void tst_Reproduction::deviationsFromThePaper()
     cell.interval = {};
     QVERIFY(std::abs(*cell.z() - 2.5) < 1e-12);
     cell.paperError = 0.0;
-    QVERIFY(!cell.z()); // nobody knows how far they may differ
+    QVERIFY(!cell.z()); // neither figure has an error
 }
 
 void tst_Reproduction::judgedCellsAreCounted()

@@ -47,7 +47,7 @@ void tst_showTrial::everySignalIsATrial()
         QCOMPARE(trials[i].place, (TrialPlace{0, int(i)}));
         QCOMPARE(trials[i].isDetected, trials[i].statistic > shownThreshold(m_campaign, 1));
     }
-    // 6 dB for forty windows: nobody misses that.
+    // 6 dB for forty windows: every detector finds that.
     QVERIFY(std::all_of(trials.begin(), trials.end(), [](const TrialOutcome &trial) { return trial.isDetected; }));
 }
 
