@@ -1,44 +1,22 @@
 // A radar looks into one sector after the other, into each until it is sure. Most are empty and are left early.
-#include "base/logmath.h"
-#include "detect/Survey.h"
-#include "evaluate/sequential/SequentialStudy.h"
-#include "recording/ScanScene.h"
+#include "evaluate/sequential/ScanTest.h"
+#include "evaluate/sequential/simulate.h"
 
 #include <cstdio>
-#include <vector>
 
 using namespace faintline;
 
 int main()
 {
-    // What may be there: a target of 10 dB somewhere in 3 × 3 × 40 cells that moves by at most one cell a scan, its
-    // Doppler unknown.
-    const auto spatial = [](const char *name, Index cells) {
-        KinematicAxis axis;
-        axis.name = name;
-        axis.cells = cells;
-        axis.step = {1.0 / 3.0, 1.0 / 3.0};
-        axis.renormalised = true;
-        return axis;
-    };
-    KinematicAxis doppler;
-    doppler.name = "Doppler";
-    doppler.cells = 8;
-    const double snr = ratioFromDb(10.0);
-    const SequentialModel model =
-        makeSequentialModel({spatial("azimuth", 3), spatial("elevation", 3), spatial("range", 40), doppler},
-                            {false, false, false, true}, Likelihood(LikelihoodKind::Exponential, snr));
-    const SprtSettings sprt{1e-2, 1e-2, 30};
-
+    // What may be there: a target of 10 dB in 3 × 3 × 40 cells, at most one cell on each scan, its Doppler unknown.
+    const ScanScene scene{.rangeCells = 40, .dopplerCells = 8, .stages = 30, .snrDb = 10.0, .seed = 11};
     SequentialStudy study;
-    study.model = model;
-    study.sprt = sprt;
-    study.trials = 1000;
+    study.model = scanModel(scene, scene.snrDb);
+    study.sprt = {1e-2, 1e-2, scene.stages};
     const Index fixedSize = simulatedFixedSampleSize(study, 40).value_or(40);
     std::printf("a test of fixed size with the same errors takes %td scans a sector\n", fixedSize);
 
     // Six sectors, three rounds; the target is in sector 2.
-    ScanScene scene{.rangeCells = 40, .dopplerCells = 8, .stages = 30, .snrDb = 10.0, .seed = 11};
     const auto look = [&](const SectorVisit &visit) -> StageSource {
         ScanScene sector = scene;
         sector.hasTarget = visit.sector == 2;
@@ -49,13 +27,13 @@ int main()
             std::copy(y.begin(), y.end(), out.begin());
         };
     };
-    const Survey made = survey(model, sprt, {6, 3, scene.stages, fixedSize}, look);
-    for (const SectorVisit &visit : made.visits) {
-        std::printf("round %td, sector %td: %2td scans, %s", visit.round, visit.sector, visit.result.stages,
-                    visit.result.decision == SprtDecision::H1 ? "a target" : "nothing");
-        if (visit.result.decision == SprtDecision::H1)
-            std::printf(" in range cell %td at last", visit.result.trajectory.back()[2]);
-        std::printf("\n");
+    const Survey made = survey(study.model, study.sprt, {6, 3, scene.stages, fixedSize}, look);
+    for (const auto &[round, sector, firstStage, result] : made.visits) {
+        std::printf("round %td, sector %td: %2td scans, ", round, sector, result.stages);
+        if (result.decision == SprtDecision::H1)
+            std::printf("a target in range cell %td at last\n", result.trajectory.back()[2]);
+        else
+            std::printf("nothing\n");
     }
     std::printf("%td scans in all, %.0f %% fewer than tests of fixed size\n", made.stages, 100.0 * made.saving());
     return made.saving() > 0.0 ? 0 : 1;

@@ -1,8 +1,8 @@
 #!/bin/sh
-# Kills the command line with SIGKILL at random moments, COUNT times in all, while it detects, simulates, carries out a campaign and a survey:
+# Kills the command line with SIGKILL at random moments, COUNT times in all, while it runs detect, simulate, a campaign and a survey:
 #     sh tests/kill.sh CLI [COUNT]
-# Nothing half-written may stay, no result without its provenance, and campaign and survey are resumed to the bytes of one that nobody killed. A test
-# does it a few times; the whole is `sh tests/kill.sh build/app/faintline-cli 200`.
+# No half-written file and no result without its provenance may remain, and a resumed campaign or survey must give the same bytes as one that was not
+# killed. ctest kills a few times; the full test is `sh tests/kill.sh build/app/faintline-cli 200`.
 set -eu
 
 cli=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
@@ -27,7 +27,7 @@ cat > experiment.json <<'EOF'
 {"kind": "lines", "runs": 60, "frames": 400, "blockFrames": 100, "blockBins": 60, "durationWindows": 20, "snrDb": [0, 3],
  "detectors": [{"name": "P", "settings": {"detector.kind": "pOfN"}}, {"name": "SMD", "settings": {"detector.kind": "smd", "smd.reset": "fixed"}}]}
 EOF
-# In place of the shell that calls it, so that its process is the program's own.
+# Replaces the calling shell by the program, so that the signal reaches the program itself.
 become() {
     case $1 in
     detect) exec "$cli" detect line.wav --set spectrogram.windowSeconds=0.5 --events e.csv --tracks t.csv --statistic s.npy ;;
@@ -55,7 +55,7 @@ for file in e.csv t.csv s.npy made.sigmf-meta made.sigmf-data made.json curve.cs
 done
 rm -f -- *.provenance.json
 
-# As it is when nobody kills it, and never without what tells how it was made.
+# Existing files are complete and have their provenance.
 check() {
     for file in "$@"; do
         [ -f "$file" ] || continue
@@ -68,7 +68,7 @@ check() {
 killed=0
 resumed=0
 i=0
-while [ "$killed" -lt "$count" ]; do # some have ended before
+while [ "$killed" -lt "$count" ]; do # some runs end before they are killed
     i=$((i + 1))
     case $((i % 4)) in
     0) job=detect ;;
@@ -107,7 +107,7 @@ while [ "$killed" -lt "$count" ]; do # some have ended before
     esac
 done
 
-# The next run takes up or removes what they left.
+# The next runs resume or remove what the killed ones left.
 for job in detect simulate evaluate survey; do
     (become $job)
 done
@@ -117,4 +117,4 @@ cmp survey.sqlite whole/survey.sqlite || fail "the survey was resumed to other b
 for left in ./*.part ./*-journal; do
     [ -e "$left" ] && fail "$left was left"
 done
-echo "killed $killed times, $resumed of them in a campaign or a survey that was taken up again: nothing half-written, the same bytes"
+echo "killed $killed times, $resumed of them in a campaign or survey that was resumed: no half-written file, the same bytes"

@@ -1,6 +1,5 @@
 #include "app/control/Experiments.h"
 
-#include "evaluate/experiments/InjectionExperiment.h"
 #include "widgets/base/labelText.h"
 
 #include <algorithm>

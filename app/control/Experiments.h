@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/base/JobRunner.h"
+#include "evaluate/experiments/InjectionTrials.h"
 #include "evaluate/experiments/campaignCurve.h"
 #include "evaluate/reproduce/reproduce.h"
 

@@ -51,7 +51,7 @@ void TrialViewer::step(int trials, bool onlyMissed)
     const Experiments::Entry *entry = m_experiments.entry(m_experiment);
     if (!entry || !entry->campaign)
         return;
-    const auto all = trialsOf(*entry->campaign, m_detector, m_snr);
+    const auto all = trialsOf(*entry->campaign, {m_detector, m_snr});
     const auto count = std::ssize(all);
     for (std::ptrdiff_t i = 1; i <= count; ++i) {
         const std::ptrdiff_t next = ((m_trial + i * trials) % count + count) % count;
@@ -67,7 +67,7 @@ void TrialViewer::start()
     const Experiments::Entry *entry = m_experiments.entry(m_experiment);
     if (!entry || !entry->campaign)
         return;
-    const auto all = trialsOf(*entry->campaign, m_detector, m_snr);
+    const auto all = trialsOf(*entry->campaign, {m_detector, m_snr});
     if (all.empty())
         return;
     m_trial %= std::ssize(all);
@@ -87,7 +87,7 @@ void TrialViewer::show(const ShownTrial &trial)
     if (!entry || !entry->campaign)
         return;
     const Campaign &campaign = *entry->campaign;
-    const auto all = trialsOf(campaign, m_detector, m_snr);
+    const auto all = trialsOf(campaign, {m_detector, m_snr});
     const TrialOutcome &outcome = all[std::size_t(m_trial)];
     const DetectorUnderTest detector = detectorsOf(campaign.experiment)[m_detector];
     const QString name = labelText(detector.name);

@@ -3,9 +3,6 @@
 #include "base/parallel.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <limits>
 #include <utility>
 
 namespace faintline {
@@ -310,7 +307,7 @@ Index Recursion<Semiring>::framesAtOnce() const
 }
 
 template <class Semiring>
-Continued Recursion<Semiring>::advance(std::span<const float> scores, std::span<float> next, const Frames &frames,
+Continued Recursion<Semiring>::advance(std::span<const float> scores, std::span<float> next, const FrameBlock &frames,
                                        const Likelihood &likelihood,
                                        const FrameJoin &join) requires std::same_as<Semiring, MaxPlus<float>>
 {

@@ -67,12 +67,10 @@ public:
     /// end.
     void predict(std::span<const Real> scores, Index step, const Tile &take);
 
-    using Frames = FrameBlock;
-
     /// M joined with frames at once: u = λ + max(M + ln K, floor), D = max over rates. `scores` → `next`, which are not
     /// the same memory. Up to `framesAtOnce()`; any number of frames, cut in any way, on any number of threads gives
     /// the same bytes. Answers what went on in the last frame.
-    Continued advance(std::span<const float> scores, std::span<float> next, const Frames &frames,
+    Continued advance(std::span<const float> scores, std::span<float> next, const FrameBlock &frames,
                       const Likelihood &likelihood,
                       const FrameJoin &join) requires std::same_as<Semiring, MaxPlus<float>>;
     Index framesAtOnce() const;

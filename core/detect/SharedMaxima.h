@@ -23,7 +23,7 @@ struct SharedMaxima {
     std::vector<Index> largest; ///< shift that each is wanted at
     Index ring = 0;             ///< rates whose maxima are kept at a time; 0: there are none
 
-    /// How many cells more than its tile has one of them needs at most.
+    /// Most cells beyond those of its tile that a maximum needs.
     Index longestSpan() const;
 };
 

@@ -28,6 +28,7 @@ struct Survey {
 /// The stages of one look; may depend on when it begins.
 using SectorSource = std::function<StageSource(const SectorVisit &visit)>;
 
+/// How often each sector is visited, and how long a look may take.
 struct SurveyPlan {
     Index sectors = 1;
     Index rounds = 1;
@@ -35,9 +36,10 @@ struct SurveyPlan {
     Index fixedSize = 1;    ///< stages a look of the test that it is compared with
 };
 
-/// Visits sector after sector, round after round: each is looked at until its test decides or `stagesAtMost` are taken
-/// (no decision), then the beam moves on. Empty sectors, the many, are left early; that is what a sequential test saves
-/// against one of `fixedSize` stages a look. Source: Grossi and Lops 2006, section 4. Throws Error, Cancelled.
+/// Visits sector after sector, round after round: each is looked at until its test decides or `plan.stagesAtMost` are
+/// taken (no decision), then the beam moves on. Empty sectors, the many, are left early; that is what a sequential test
+/// saves against one of `plan.fixedSize` stages a look. Source: Grossi and Lops 2006, section 4. Throws Error,
+/// Cancelled.
 Survey survey(const SequentialModel &model, const SprtSettings &settings, const SurveyPlan &plan,
               const SectorSource &source, const RunContext &context = {});
 

@@ -14,6 +14,8 @@ namespace faintline {
 
 namespace {
 
+    using namespace vectors;
+
     constexpr Index lineFloats = 16; ///< of a cache line
 
     /// A target's sources as the inner loop wants them: of three, nearly always, the outer two weigh the same; of

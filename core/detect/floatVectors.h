@@ -2,7 +2,7 @@
 
 #include "base/multiversion.h"
 
-namespace faintline {
+namespace faintline::vectors {
 
 // Vectors of floats for the inner loops of the recursion; wide ones never cross a call, for all that takes them is
 // inlined.
@@ -30,4 +30,4 @@ template <class Values>
     return a > b ? a : b;
 }
 
-} // namespace faintline
+} // namespace faintline::vectors

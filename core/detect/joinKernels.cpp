@@ -14,6 +14,8 @@ namespace faintline {
 
 namespace {
 
+    using namespace vectors;
+
     constexpr Index lanes = 64; ///< values kept in registers while all sources are joined to them
 
     struct MaxJoin {

@@ -28,13 +28,17 @@ StateSpace::StateSpace(std::vector<KinematicAxis> axes) : m_axes(std::move(axes)
 StateSpace::Coordinates StateSpace::coordinates(Index state) const
 {
     Coordinates result;
+    result.rates.reserve(m_axes.size());
+    result.cells.reserve(m_axes.size());
+    const Index plane = planeOf(state);
+    const Index cell = cellOf(state);
     Index cells = m_cellCount;
     Index planes = m_planeCount;
     for (const KinematicAxis &axis : m_axes) {
         cells /= axis.cells;
         planes /= axis.rateCount;
-        result.cells.push_back(cellOf(state) / cells % axis.cells);
-        result.rates.push_back(int(planeOf(state) / planes % axis.rateCount));
+        result.cells.push_back(cell / cells % axis.cells);
+        result.rates.push_back(int(plane / planes % axis.rateCount));
     }
     return result;
 }
@@ -61,8 +65,12 @@ Index StateSpace::phaseCount() const
 std::vector<double> StateSpace::ratesOfPlane(Index plane) const
 {
     std::vector<double> rates;
-    for (auto axis = m_axes.begin(); const int rate : coordinates(plane * m_cellCount).rates)
-        rates.push_back((axis++)->rate(rate));
+    rates.reserve(m_axes.size());
+    Index planes = m_planeCount;
+    for (const KinematicAxis &axis : m_axes) {
+        planes /= axis.rateCount;
+        rates.push_back(axis.rate(int(plane / planes % axis.rateCount)));
+    }
     return rates;
 }
 

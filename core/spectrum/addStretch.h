@@ -3,7 +3,6 @@
 #include "spectrum/NoiseBackground.h"
 #include "spectrum/Spectrogram.h"
 
-#include <span>
 #include <vector>
 
 namespace faintline {

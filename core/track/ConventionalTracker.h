@@ -4,7 +4,6 @@
 #include "base/Grid.h"
 #include "track/Track.h"
 
-#include <cstdint>
 #include <deque>
 #include <span>
 #include <vector>
@@ -25,8 +24,9 @@ struct ConventionalSettings {
 
 /// What track-before-detect is held against: each frame is thresholded by itself, then hits are put together.
 ///
-///   hit: y(cell) > hitThreshold;   gate: |hit - last hit| ≤ speed · (frames since) along every axis;   track: M hits
-///                                  within N frames
+///   hit:   y(cell) > hitThreshold
+///   gate:  |hit - last hit| ≤ speed · (frames since) along every axis
+///   track: M hits within N frames
 ///
 /// The oldest track chooses first and takes the strongest hit of its gate, the lowest cell among equals; a hit that no
 /// gate took starts a track, which is reported once it has M hits in N frames and ends when it can have so many no

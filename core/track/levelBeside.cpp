@@ -42,6 +42,7 @@ namespace {
         double least() const { return independent > 0.0 ? mean * (1.0 - deviations * scatterOf(independent)) : 1.0; }
     };
 
+    /// The level on either side of a path.
     class Surroundings
     {
     public:

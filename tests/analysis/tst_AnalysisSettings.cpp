@@ -1,8 +1,7 @@
 #include "analysis/AnalysisSettings.h"
 
-#include "base/Error.h"
 #include "base/Random.h"
-#include "support/recordings.h"
+#include "support/errors.h"
 
 #include <QtTest>
 

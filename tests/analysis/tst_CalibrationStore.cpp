@@ -181,7 +181,7 @@ void tst_CalibrationStore::oneHoldsTheLock()
     second.reset();
     other.reset();
     QVERIFY(fs::is_empty(folder()));
-    QVERIFY(CalibrationStore({}).lock(first, "a")); // where nothing is kept nobody waits
+    QVERIFY(CalibrationStore({}).lock(first, "a")); // without a folder there is nothing to wait for
     QVERIFY(CalibrationStore("/dev/null").lock(first, "a"));
 }
 

@@ -4,6 +4,7 @@
 #include "analysis/chain.h"
 #include "base/Random.h"
 #include "spectrum/SimulatedPings.h"
+#include "support/frames.h"
 
 #include <QTest>
 
@@ -146,10 +147,7 @@ private slots:
         chosen.detector = SmdSettings{SmdSettings::Reset::Fixed, 0.6};
         chosen.decide.by = DecideSettings::By::Nats;
         chosen.decide.thresholdNats = 14.0;
-        const auto analysis =
-            analyse(std::make_shared<FrameArray>(Axis{"time", "s", 1.0, 0.25, frames, false},
-                                                 Grid{{{"frequency", "Hz", 100.0, 0.5, cells, false}}}, std::move(y)),
-                    chosen);
+        const auto analysis = analyse(test::framesOf(cells, std::move(y), 0.25, 0.5), chosen);
         QCOMPARE(analysis->checkpoints.count(), std::size_t(6)); // every 64 frames
         QVERIFY(!analysis->tracks.empty());
         Analysis alone = *analysis;

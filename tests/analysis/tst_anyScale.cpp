@@ -8,7 +8,6 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
-#include <bit>
 #include <cmath>
 #include <limits>
 

@@ -5,6 +5,7 @@
 #include "recording/SimulatedRecording.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "spectrum/Spectrogram.h"
+#include "support/frames.h"
 
 #include <QTest>
 
@@ -53,9 +54,7 @@ private slots:
     void sumsAreThoseOfTheCells()
     {
         Analysis analysis;
-        analysis.frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, 3},
-                                                       Grid{{Axis{"frequency", "Hz", 100.0, 10.0, 4}}},
-                                                       std::vector<float>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
+        analysis.frames = test::framesOf(4, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, 1.0, 10.0);
         const BoxLevels levels = boxLevels(analysis, {1, 3, 1, 3});
         QVERIFY(std::abs(levels.meanDb - 10.0 * std::log10((6.0 + 7.0 + 10.0 + 11.0) / 4.0)) < 1e-12);
         QVERIFY(std::abs(levels.peakDb - 10.0 * std::log10(11.0)) < 1e-12);
@@ -67,8 +66,7 @@ private slots:
     void whatIsNotThereIsRefused()
     {
         Analysis analysis;
-        analysis.frames = std::make_shared<FrameArray>(
-            Axis{"time", "s", 0.0, 1.0, 1}, Grid{{Axis{"frequency", "Hz", 0.0, 1.0, 2}}}, std::vector<float>{1, 2});
+        analysis.frames = test::framesOf(2, {1, 2});
         for (const FrameBox box : {FrameBox{0, 0, 0, 1}, FrameBox{0, 2, 0, 1}, FrameBox{0, 1, 1, 1},
                                    FrameBox{0, 1, -1, 1}, FrameBox{0, 1, 0, 3}})
             QVERIFY_EXCEPTION_THROWN(boxLevels(analysis, box), Error);

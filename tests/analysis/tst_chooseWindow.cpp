@@ -1,6 +1,6 @@
 #include "analysis/chooseWindow.h"
 #include "recording/SimulatedRecording.h"
-#include "support/sweeps.h"
+#include "support/lines.h"
 
 #include <QtTest>
 

@@ -1,6 +1,5 @@
 #include "analysis/closeup.h"
 
-#include "base/Error.h"
 #include "recording/SimulatedRecording.h"
 
 #include <QTest>

@@ -1,12 +1,11 @@
 #include "analysis/doppler/dopplerFit.h"
 #include "base/Random.h"
-#include "support/recordings.h"
+#include "support/errors.h"
 
 #include <QtTest>
 
 #include <array>
 #include <cmath>
-#include <functional>
 
 using namespace faintline;
 using namespace faintline::test;

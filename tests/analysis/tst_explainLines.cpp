@@ -1,6 +1,7 @@
 #include "analysis/StateReplay.h"
 #include "analysis/explain.h"
 #include "base/Random.h"
+#include "support/frames.h"
 
 #include <QTest>
 
@@ -32,9 +33,7 @@ std::shared_ptr<const Analysis> scaledInjection(double thresholdNats, double lin
     settings.decide.thresholdNats = thresholdNats;
     settings.decide.linkCells = {linkCells};
     settings.model.slopeChange = {0.5, 0.2, 0.05};
-    const Grid grid{{{"frequency", "Hz", 100.0, 0.5, cellCount, false}}};
-    return analyse(std::make_shared<FrameArray>(Axis{"time", "s", 1.0, 0.25, frames, false}, grid, std::move(y)),
-                   settings);
+    return analyse(test::framesOf(cellCount, std::move(y), 0.25, 0.5), settings);
 }
 
 Explanation at(const Analysis &analysis, Index frame, Index cell)
@@ -142,6 +141,21 @@ private slots:
         const TrackPoint &point = track.points.back();
         QCOMPARE(at(*analysis, point.frame, point.cell).inhibitedFor, std::optional(track.id));
         QVERIFY(!at(*analysis, point.frame, (point.cell + 20) % cellCount).inhibitedFor);
+    }
+
+    void cellsOfTracksThatNoiseExplainsAreTold()
+    {
+        Analysis analysis = *scaledInjection(14.0);
+        const Track track = analysis.tracks.front();
+        const auto isExplained = [&](Index frame, Index cell) { return at(analysis, frame, cell).isExplainedByNoise; };
+        for (const TrackPoint &point : track.points)
+            QVERIFY(!isExplained(point.frame, point.cell));
+        analysis.tracks.swap(analysis.explainedByNoise);
+        for (const TrackPoint &point : track.points) {
+            QVERIFY(isExplained(point.frame, point.cell));
+            QVERIFY(!isExplained(point.frame, point.cell + 1));
+        }
+        QVERIFY(!isExplained(track.points.front().frame - 1, track.points.front().cell));
     }
 
     void farIntoALongOneItGoesOnFromTheRunsCheckpoints()

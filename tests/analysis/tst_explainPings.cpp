@@ -2,8 +2,8 @@
 
 #include "analysis/explain.h"
 
-#include "base/Error.h"
 #include "spectrum/SimulatedPings.h"
+#include "support/errors.h"
 
 #include <QTest>
 
@@ -97,18 +97,13 @@ private slots:
     void refusalsNameTheAxis()
     {
         const Analysis analysis = plan(Motion::Slopes);
-        const auto refusal = [&](std::vector<double> at) {
-            try {
-                explain(analysis, 40.0, at);
-            } catch (const Error &error) {
-                return QString(error.what());
-            }
-            return QString();
+        const auto refusal = [&](const std::vector<double> &at) {
+            return test::errorOf([&] { explain(analysis, 40.0, at); });
         };
-        QVERIFY(refusal({9000.0, 0.0}).startsWith("range 9000 m"));
-        QVERIFY(refusal({2000.0, 0.0}).contains("must lie in 3000 … 3590 m"));
-        QVERIFY(refusal({3100.0, std::nan("")}).contains("bearing"));
-        QVERIFY(refusal({3100.0, 720.0}).isEmpty()); // bearings go round
+        QVERIFY(refusal({9000.0, 0.0}).starts_with("range 9000 m"));
+        QVERIFY(test::contains(refusal({2000.0, 0.0}), "must lie in 3000 … 3590 m"));
+        QVERIFY(test::contains(refusal({3100.0, std::nan("")}), "bearing"));
+        QVERIFY(refusal({3100.0, 720.0}).empty()); // bearings go round
     }
 };
 

@@ -1,6 +1,7 @@
 #include "analysis/analyse.h"
 #include "base/Error.h"
 #include "recording/SimulatedRecording.h"
+#include "support/frames.h"
 
 #include <QtTest>
 
@@ -133,9 +134,7 @@ void tst_families::isCalibratedInTheAutomaticWindow()
 void tst_families::isRefusedWhereLinesAreSingle()
 {
     AnalysisSettings settings = familyOf({1, 2});
-    const auto frames =
-        std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, 20, false},
-                                     Grid{{{"frequency", "Hz", 0.0, 1.0, 30, false}}}, std::vector<float>(600, 1.0f));
+    const auto frames = test::framesOf(30, std::vector<float>(600, 1.0f));
     QVERIFY_EXCEPTION_THROWN(analyse(frames, settings), Error);
     settings.noise.causal = true;
     QVERIFY_EXCEPTION_THROWN(checkSettings(settings), Error);

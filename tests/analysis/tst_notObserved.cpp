@@ -4,6 +4,7 @@
 #include "analysis/pathEvidence.h"
 #include "base/Random.h"
 #include "detect/makeDetector.h"
+#include "support/frames.h"
 
 #include <QtTest>
 
@@ -36,8 +37,7 @@ std::vector<float> values(float masked)
 
 NormalisedFramesPointer framesOf(std::vector<float> y)
 {
-    return std::make_shared<FrameArray>(Axis{"time", "s", 1.0, 0.25, frames, false},
-                                        Grid{{{"frequency", "Hz", 100.0, 0.5, cells, false}}}, std::move(y));
+    return test::framesOf(cells, std::move(y), 0.25, 0.5);
 }
 
 AnalysisSettings settings()

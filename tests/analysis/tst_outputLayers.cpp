@@ -3,6 +3,7 @@
 #include "analysis/explain.h"
 #include "base/Random.h"
 #include "spectrum/SimulatedPings.h"
+#include "support/frames.h"
 
 #include <QTest>
 
@@ -29,9 +30,7 @@ std::shared_ptr<const Analysis> scaledInjection(SmdSettings::Reset reset)
     settings.decide.by = DecideSettings::By::Nats;
     settings.decide.thresholdNats = 14.0;
     settings.model.slopeChange = {0.5, 0.2, 0.05};
-    const Grid grid{{{"frequency", "Hz", 100.0, 0.5, cellCount, false}}};
-    return analyse(std::make_shared<FrameArray>(Axis{"time", "s", 1.0, 0.25, frameCount, false}, grid, std::move(y)),
-                   settings);
+    return analyse(test::framesOf(cellCount, std::move(y), 0.25, 0.5), settings);
 }
 
 const std::shared_ptr<const Analysis> &analysed()

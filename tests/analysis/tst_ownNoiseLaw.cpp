@@ -2,6 +2,7 @@
 #include "analysis/ownNoiseLaw.h"
 #include "base/Random.h"
 
+#include "support/frames.h"
 #include "support/recordings.h"
 
 #include <QtTest>
@@ -40,8 +41,7 @@ std::vector<float> noise()
 
 FrameArray framesOf(std::vector<float> y)
 {
-    return FrameArray({"time", "s", 0.0, 1.0, frameCount, false}, Grid{{{"frequency", "Hz", 0.0, 1.0, cells, false}}},
-                      std::move(y));
+    return *test::framesOf(cells, std::move(y));
 }
 
 /// Powers of a first-order autoregressive amplitude in the upper half of the band; independent ones below. Neighbouring
@@ -188,8 +188,7 @@ void tst_ownNoiseLaw::aFewFramesTellNothing()
 {
     std::vector<float> y = noise();
     y.resize(127 * cells);
-    const FrameArray frames({"time", "s", 0.0, 1.0, 127, false}, Grid{{{"frequency", "Hz", 0.0, 1.0, cells, false}}},
-                            y);
+    const FrameArray frames = framesOf(std::move(y));
     QVERIFY(OwnNoiseLaw(frames, {}, 2.0, 1.0, {}).isAsAssumed());
 }
 

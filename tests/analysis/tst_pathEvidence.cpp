@@ -4,6 +4,7 @@
 #include "analysis/pathEvidence.h"
 #include "base/Error.h"
 #include "recording/SimulatedRecording.h"
+#include "support/frames.h"
 
 #include <QTest>
 
@@ -17,9 +18,7 @@ class tst_pathEvidence : public QObject
     static Analysis small()
     {
         Analysis analysis;
-        analysis.frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, 3},
-                                                       Grid{{Axis{"frequency", "Hz", 100.0, 10.0, 4}}},
-                                                       std::vector<float>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
+        analysis.frames = test::framesOf(4, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, 1.0, 10.0);
         return analysis;
     }
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 using namespace faintline;
 
@@ -32,8 +31,8 @@ AnalysisSettings settingsOf(std::size_t kind)
 }
 
 /// Noise, and a line of that power in cell 100 in a stretch of frames.
-std::shared_ptr<const FrameArray> framesOf(std::uint64_t seed, Index frames, float power = 0.0f, Index from = 0,
-                                           Index to = 0)
+std::shared_ptr<const FrameArray> noiseWithLine(std::uint64_t seed, Index frames, float power = 0.0f, Index from = 0,
+                                                Index to = 0)
 {
     std::vector<float> y(std::size_t(frames * cellCount));
     Random(seed, 0).exponentials(y);
@@ -48,7 +47,7 @@ double calibrationCellFrames(const DetectorSettings &detector)
     return framesPerDecision(detector, {}) > 1 ? 2e7 : 4e6;
 }
 
-/// An analysis whose chain can be made, at so many false alarms per cell and frame.
+/// An analysis ready to run its chain at a rate of false alarms per cell and frame.
 Analysis prepared(std::size_t kind, std::shared_ptr<const FrameArray> frames, double eventsPerCellFrame)
 {
     Analysis analysis;
@@ -98,7 +97,7 @@ void tst_peerChains::aCrossingForgetsItsOwnPlace()
 {
     // An integrator's statistic lies at 1, wherever its threshold: one crossing must not take the whole band with it.
     constexpr std::size_t integrator = 2;
-    const Analysis analysis = prepared(integrator, framesOf(5, 400, 1.5f, 150, 400), 1e-6);
+    const Analysis analysis = prepared(integrator, noiseWithLine(5, 400, 1.5f, 150, 400), 1e-6);
     const auto chain = makeChain(analysis);
     std::vector<float> y(cellCount);
     std::vector<float> statistic(cellCount);
@@ -135,7 +134,7 @@ void tst_peerChains::theShoulderIsAboveTheNoise()
 {
     QFETCH(std::size_t, kind);
     // Found on other noise, without an event to disturb it.
-    Analysis analysis = prepared(kind, framesOf(6, 2000), 1e-6);
+    Analysis analysis = prepared(kind, noiseWithLine(6, 2000), 1e-6);
     const Index decision = framesPerDecision(analysis.settings.detector, {});
     const double shoulder = analysis.calibration->levelExceededBy(1e-3 / double(decision));
     QVERIFY(shoulder < analysis.threshold);
@@ -161,7 +160,7 @@ void tst_peerChains::eventsHaveTheDetectorsUnit()
 {
     QFETCH(std::size_t, kind);
     // So strong a line for so long has hundreds of nats, but not hundreds of times the noise.
-    Analysis analysis = prepared(kind, framesOf(7, 600, 20.0f, 200, 400), 1e-6);
+    Analysis analysis = prepared(kind, noiseWithLine(7, 600, 20.0f, 200, 400), 1e-6);
     const auto chain = makeChain(analysis);
     std::vector<float> y(cellCount);
     std::vector<float> statistic(cellCount);
@@ -192,7 +191,7 @@ void tst_peerChains::anOrderIsKept()
     constexpr Index frames = 20000;
     constexpr double ordered = 60.0;
     const double rate = ordered / (double(frames) * cellCount);
-    const Analysis analysis = prepared(kind, framesOf(900 + kind, frames), rate);
+    const Analysis analysis = prepared(kind, noiseWithLine(900 + kind, frames), rate);
     const auto chain = makeChain(analysis, makePathDetector(analysis), false);
     std::vector<float> y(cellCount);
     std::vector<float> statistic(cellCount);

@@ -8,7 +8,6 @@
 #include <QtTest>
 
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <random>
 

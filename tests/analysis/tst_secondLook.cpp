@@ -3,6 +3,7 @@
 #include "base/Random.h"
 #include "recording/SimulatedRecording.h"
 
+#include "support/lines.h"
 #include "support/recordings.h"
 
 #include <QtTest>
@@ -20,23 +21,13 @@ constexpr double cellHz = 1.0 / windowSeconds;
 
 LineSettings line(double hz, double snrDb, double from, double seconds, double drift = 0.0)
 {
-    LineSettings result;
-    result.frequencyHz = hz;
-    result.snrDb = snrDb;
-    result.startSeconds = from;
-    result.durationSeconds = seconds;
-    result.driftHzPerSecond = drift;
-    result.referenceSeconds = windowSeconds;
-    return result;
+    return test::line(hz, drift, from, seconds, snrDb, windowSeconds);
 }
 
 std::shared_ptr<const Analysis> analysisOf(const std::vector<LineSettings> &lines, double seconds, int seed,
                                            bool bothWays = true)
 {
-    LineScene scene;
-    scene.sampleRateHz = rateHz;
-    scene.durationSeconds = seconds;
-    scene.seed = seed;
+    LineScene scene = test::scene(rateHz, seconds, seed);
     scene.lines = lines;
     AnalysisSettings settings;
     settings.spectrogram.windowSeconds = windowSeconds;
@@ -202,9 +193,7 @@ void tst_secondLook::anyThresholdWillDo_data()
 void tst_secondLook::anyThresholdWillDo()
 {
     QFETCH(double, nats);
-    LineScene scene;
-    scene.sampleRateHz = rateHz;
-    scene.durationSeconds = 20.0;
+    LineScene scene = test::scene(rateHz, 20.0, 1);
     scene.lines = {line(91.3, 10.0, 5.0, 10.0)};
     AnalysisSettings settings;
     settings.spectrogram.windowSeconds = windowSeconds;
@@ -223,9 +212,7 @@ void tst_secondLook::anyThresholdWillDo()
 
 void tst_secondLook::notUnderTheLinearLikelihood()
 {
-    LineScene scene;
-    scene.sampleRateHz = rateHz;
-    scene.durationSeconds = 60.0;
+    LineScene scene = test::scene(rateHz, 60.0, 1);
     scene.lines = {line(91.3, 10.0, 5.0, 50.0)};
     AnalysisSettings settings;
     settings.spectrogram.windowSeconds = windowSeconds;

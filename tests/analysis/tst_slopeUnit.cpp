@@ -2,6 +2,8 @@
 #include "analysis/slopeUnit.h"
 #include "base/Error.h"
 #include "recording/SimulatedRecording.h"
+#include "support/errors.h"
+#include "support/frames.h"
 
 #include <QtTest>
 
@@ -121,15 +123,9 @@ void tst_slopeUnit::framesAndPingsRefuse()
 {
     const AnalysisSettings settings = inHertz(-1.0, 1.0);
     checkSettings(settings);
-    const auto frames = std::make_shared<FrameArray>(
-        Axis{"time", "s", 0.0, 1.0, 2, false}, Grid{{{"f", "Hz", 0.0, 1.0, 20, false}}}, std::vector<float>(40, 1.0f));
-    try {
-        analyse(frames, settings);
-        QFAIL("slopes in Hz/s without a recording");
-    } catch (const Error &error) {
-        QVERIFY2(std::string(error.what()).starts_with("model.slopeUnit = hzPerSecond: needs a recording"),
-                 error.what());
-    }
+    const auto frames = test::framesOf(20, std::vector<float>(40, 1.0f));
+    const std::string said = test::errorOf([&] { analyse(frames, settings); });
+    QVERIFY2(said.starts_with("model.slopeUnit = hzPerSecond: needs a recording"), said.c_str());
 }
 
 void tst_slopeUnit::tooSteepIsRefused()

@@ -3,7 +3,7 @@
 #include "analysis/chooseWindow.h"
 #include "analysis/events.h"
 #include "recording/SimulatedRecording.h"
-#include "support/sweeps.h"
+#include "support/lines.h"
 
 #include <QtTest>
 
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double steadyHz = 3000.3;
 
-/// Sweeps that ask for a short window, and a line that stands still, too faint for it.
+/// Sweeps that need a short window, and a steady line too faint for it.
 LineScene sweepsBesideAFaintLine(double faintDb)
 {
     LineScene result = sweeps();

@@ -13,7 +13,7 @@
 
 namespace faintline::test {
 
-/// How tests of the window begin: a small scene, a window nobody has to answer, and patience.
+/// How tests of the window begin: a small scene, a window without questions, and waiting.
 
 constexpr int patience = 120'000 * slowdown; ///< ms, for a machine that is busy with other things
 

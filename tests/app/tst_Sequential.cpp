@@ -27,7 +27,6 @@
 #include <QSlider>
 #include <QTabWidget>
 
-#include <algorithm>
 #include <memory>
 
 using namespace faintline;

@@ -1,6 +1,6 @@
 #include "app/document/Session.h"
 
-#include "base/Error.h"
+#include "support/errors.h"
 
 #include <QDir>
 #include <QFile>
@@ -28,12 +28,7 @@ Session sessionOf(const QString &recording)
 /// What reading says, "" if nothing.
 std::string refusal(const QString &path)
 {
-    try {
-        readSession(path);
-    } catch (const Error &error) {
-        return error.what();
-    }
-    return {};
+    return test::errorOf([&] { readSession(path); });
 }
 
 } // namespace

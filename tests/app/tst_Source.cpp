@@ -2,6 +2,7 @@
 #include "app/panels/OpenOptionsDialog.h"
 
 #include "base/Error.h"
+#include "support/errors.h"
 
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -42,13 +43,9 @@ private slots:
     {
         const QString path =
             file("b.json", R"({"kind": "lines", "sampleRateHz": 100, "durationSeconds": 10, "moon": 1})");
-        try {
-            sourceOf(path);
-            QFAIL("taken");
-        } catch (const Error &error) {
-            QVERIFY(QString(error.what()).startsWith(path));
-            QVERIFY(QString(error.what()).contains("moon"));
-        }
+        const std::string said = test::errorOf([&] { sourceOf(path); });
+        QVERIFY2(said.starts_with(path.toStdString()), said.c_str());
+        QVERIFY2(test::contains(said, "moon"), said.c_str());
     }
 
     void linesAreAddedToRecordingsOnlyAndNotWithoutEnd()

@@ -28,7 +28,7 @@ private slots:
         Viewport &viewport = window->document().viewport();
         SpectrumPanel &panel = window->spectrum();
         viewport.setCursor({45.0, 120.0});
-        QVERIFY(panel.plot().chart().curves.empty()); // nobody looks
+        QVERIFY(panel.plot().chart().curves.empty()); // the panel is hidden
         QTest::keyClick(window.get(), Qt::Key_S, Qt::ShiftModifier);
         QVERIFY(settle(panel));
         QCOMPARE(panel.plot().chart().curves.size(), std::size_t(2));

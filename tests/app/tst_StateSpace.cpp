@@ -17,7 +17,6 @@
 #include <QDockWidget>
 #include <QTabBar>
 
-#include <algorithm>
 #include <cmath>
 
 using namespace faintline;

@@ -10,6 +10,7 @@
 #include "exchange/writeEvents.h"
 #include "recording/SimulatedRecording.h"
 #include "recording/writeRecording.h"
+#include "support/lines.h"
 #include "support/recordings.h"
 #include "widgets/base/Theme.h"
 #include "widgets/events/EventTable.h"
@@ -34,17 +35,9 @@ class tst_SurveyPanel : public QObject
     QString text(int row, int column) const { return table().model()->index(row, column).data().toString(); }
     void simulate(const char *name, double frequencyHz) const
     {
-        LineScene scene;
-        scene.sampleRateHz = 1000.0;
-        scene.durationSeconds = 30.0;
-        LineSettings line;
-        line.snrDb = 9.0;
-        line.referenceSeconds = 0.5;
-        line.startSeconds = 5.0;
-        line.durationSeconds = 20.0;
-        line.frequencyHz = frequencyHz;
-        scene.lines = {line};
-        writeRecording(SimulatedRecording(scene), path(name));
+        LineScene simulated = scene(1000.0, 30.0, 1);
+        simulated.lines = {line(frequencyHz, 0.0, 5.0, 20.0, 9.0, 0.5)};
+        writeRecording(SimulatedRecording(simulated), path(name));
     }
 
 private slots:

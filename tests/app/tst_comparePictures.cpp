@@ -1,6 +1,6 @@
 #include "app/render/comparePictures.h"
 
-#include "base/Error.h"
+#include "support/errors.h"
 #include "widgets/base/ReadOut.h"
 #include "widgets/base/Theme.h"
 #include "widgets/plot/ColourMap.h"
@@ -55,12 +55,7 @@ class tst_comparePictures : public QObject
     /// What the command says, "" where all is the same.
     static std::string refusal(const CheckOptions &options)
     {
-        try {
-            runCheckPictures(options);
-        } catch (const Error &error) {
-            return error.what();
-        }
-        return {};
+        return test::errorOf([&] { runCheckPictures(options); });
     }
 
 private slots:

@@ -13,8 +13,6 @@
 #include "widgets/plot/ExceedancePlot.h"
 #include "widgets/plot/StripPlot.h"
 
-#include <memory>
-
 using namespace faintline;
 using namespace faintline::test;
 

@@ -1,4 +1,3 @@
-#include <QDirIterator>
 #include <QRegularExpression>
 #include <QtTest>
 

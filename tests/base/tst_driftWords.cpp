@@ -1,7 +1,5 @@
 #include "base/driftWords.h"
 
-#include "base/checksum.h"
-
 #include <QtTest>
 
 #include <cmath>
@@ -9,7 +7,7 @@
 
 using namespace faintline;
 
-/// Small texts: drifts with a unit that suits them, and checksums as others compute them.
+/// Drifts with a unit that suits them.
 class tst_driftWords : public QObject
 {
     Q_OBJECT
@@ -18,8 +16,6 @@ private slots:
     void drifts_data();
     void drifts();
     void unitsOfALargestDrift();
-    void checksumsAreFnv1a_data();
-    void checksumsAreFnv1a();
 };
 
 void tst_driftWords::drifts_data()
@@ -62,24 +58,6 @@ void tst_driftWords::unitsOfALargestDrift()
                                                : QByteArray(driftUnit(drift).name).startsWith("mHz") ? 1e-3
                                                : QByteArray(driftUnit(drift).name).startsWith("Hz")  ? 1.0
                                                                                                      : 1e-6);
-}
-
-void tst_driftWords::checksumsAreFnv1a_data()
-{
-    QTest::addColumn<QByteArray>("text");
-    QTest::addColumn<QString>("digits");
-    // Fowler, Noll and Vo's own test vectors.
-    QTest::newRow("nothing") << QByteArray() << "cbf29ce484222325";
-    QTest::newRow("a") << QByteArray("a") << "af63dc4c8601ec8c";
-    QTest::newRow("foobar") << QByteArray("foobar") << "85944171f73967e8";
-    QTest::newRow("a zero byte") << QByteArray("\0", 1) << "af63bd4c8601b7df";
-}
-
-void tst_driftWords::checksumsAreFnv1a()
-{
-    QFETCH(QByteArray, text);
-    QFETCH(QString, digits);
-    QCOMPARE(QString::fromStdString(checksum(text.toStdString())), digits);
 }
 
 QTEST_APPLESS_MAIN(tst_driftWords)

@@ -140,7 +140,7 @@ void tst_durability::abandonedFilesGo()
     for (const char *name :
          {"a.4711-0.part", "a.4711-12.part", "a.part", "a.x-0.part", "ab.4711-0.part", "a.4711-0.part.old"})
         QVERIFY(QFile(m_folder->filePath("folder/") + name).open(QIODevice::WriteOnly));
-    AtomicFile held(path("a")); // is being written: nobody takes it away
+    AtomicFile held(path("a")); // a file that is being written stays
     writeTextFile(path("a"), "text");
     QStringList expected{
         "a",

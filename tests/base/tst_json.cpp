@@ -1,5 +1,7 @@
 #include "base/Axis.h"
+#include "base/json.h"
 #include "base/wholeNumber.h"
+#include "support/errors.h"
 
 #include <QtTest>
 
@@ -47,15 +49,12 @@ const std::vector<Field<Thing>> &fields()
     return table;
 }
 
-std::string errorOf(const char *text)
+std::string refusalOf(const char *text)
 {
-    try {
+    return test::errorOf([&] {
         Thing thing;
         readFields(parseJson(text, "here"), fields(), thing, "thing", {"other"});
-    } catch (const Error &error) {
-        return error.what();
-    }
-    return {};
+    });
 }
 
 } // namespace
@@ -112,7 +111,7 @@ void tst_json::mistakesAreNamed()
 {
     QFETCH(QString, text);
     QFETCH(QString, message);
-    const std::string said = errorOf(qPrintable(text));
+    const std::string said = refusalOf(qPrintable(text));
     QVERIFY2(QString::fromStdString(said).contains(message), said.c_str());
 }
 
@@ -137,14 +136,15 @@ void tst_json::wholeNumbers()
 
 void tst_json::textThatIsNoJson()
 {
-    QCOMPARE(errorOf("{\"a\": 1,\n  \"b\" 2}"), std::string("here: is not valid JSON at line 2, column 7"));
-    QCOMPARE(errorOf(""), std::string("here: is not valid JSON at line 1, column 1"));
-    QVERIFY(!errorOf("{\"size\": NaN}").empty());
-    QVERIFY(!errorOf("{\"size\": 1e999}").empty());
-    QVERIFY(!errorOf("{\"\xff\": 1}").empty());
-    QCOMPARE(errorOf(("{\"size\": " + std::string(500000, '[') + std::string(500000, ']') + "}").c_str()),
+    QCOMPARE(refusalOf("{\"a\": 1,\n  \"b\" 2}"), std::string("here: is not valid JSON at line 2, column 7"));
+    QCOMPARE(refusalOf(""), std::string("here: is not valid JSON at line 1, column 1"));
+    QVERIFY(!refusalOf("{\"size\": NaN}").empty());
+    QVERIFY(!refusalOf("{\"size\": 1e999}").empty());
+    QVERIFY(!refusalOf("{\"\xff\": 1}").empty());
+    QCOMPARE(refusalOf(("{\"size\": " + std::string(500000, '[') + std::string(500000, ']') + "}").c_str()),
              std::string("here: is nested more than 100 levels deep, the limit for any input"));
-    QVERIFY(errorOf(("{\"size\": " + std::string(99, '[') + std::string(99, ']') + "}").c_str()).ends_with("0 … 10 m"));
+    QVERIFY(
+        refusalOf(("{\"size\": " + std::string(99, '[') + std::string(99, ']') + "}").c_str()).ends_with("0 … 10 m"));
 }
 
 void tst_json::filesThatAreNone()

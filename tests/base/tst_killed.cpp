@@ -3,7 +3,6 @@
 #include <QtTest>
 
 #include <csignal>
-#include <filesystem>
 
 #include <sys/wait.h>
 #include <unistd.h>

@@ -6,7 +6,6 @@
 
 #include <QtTest>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>

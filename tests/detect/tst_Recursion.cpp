@@ -226,7 +226,7 @@ void tst_Recursion::bestPathWithoutReset()
         });
         const auto found = double(detector.scores()[std::size_t(last)]);
         if (best == minus)
-            QCOMPARE(found, minus); // nobody reaches this state
+            QCOMPARE(found, minus); // no state leads here
         else
             QVERIFY(std::abs(found - best) < 2e-5);
     }

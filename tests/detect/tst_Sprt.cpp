@@ -2,6 +2,7 @@
 #include "detect/MapTrajectory.h"
 #include "detect/Sprt.h"
 #include "detect/Survey.h"
+#include "support/errors.h"
 #include "support/paths.h"
 
 #include <QtTest>
@@ -424,7 +425,7 @@ void tst_Sprt::aThousandStages()
 
 void tst_Sprt::unreachableCellsDoNotDrownTheRest()
 {
-    // The target is in cell 0 and stays; a tremendous echo in cell 2 says nothing of it.
+    // The target is in cell 0 and stays; a strong echo in cell 2 does not change its ratio.
     const SequentialModel model = makeSequentialModel({axis(3)}, {false}, twoToOne, {1.0, 0.0, 0.0});
     LikelihoodRatio ratio(model);
     QCOMPARE(ratio.update(std::vector<double>{-1.0, 0.0, 5000.0}), -1.0);
@@ -435,36 +436,27 @@ void tst_Sprt::aTargetThatLeaves()
 {
     // Every target moves one cell up each stage and off the axis: such a law cannot be made to lose nothing.
     const auto refusal = [](const std::vector<KinematicAxis> &axes) {
-        try {
-            makeSequentialModel(axes, {false}, twoToOne);
-        } catch (const Error &error) {
-            return QString(error.what());
-        }
-        return QString();
+        return errorOf([&] { makeSequentialModel(axes, {false}, twoToOne); });
     };
     KinematicAxis rising = axis(2);
     rising.firstRate = 1;
-    QCOMPARE(refusal({rising}), QString("model.axes[0].rates: let no target in this cell stay on the axis: 1; a "
-                                        "lossless law needs a transition from every cell"));
+    QCOMPARE(refusal({rising}), std::string("model.axes[0].rates: let no target in this cell stay on the axis: 1; a "
+                                            "lossless law needs a transition from every cell"));
     KinematicAxis jumping = axis(3);
     jumping.step = {0.0, 0.0, 0.5};
-    QVERIFY(refusal({jumping}).startsWith("model.axes[0].step: let no target in this cell stay on the axis: 1"));
-    QVERIFY(refusal({matrix({0.0, 0.0, 0.5, 0.5})}).startsWith("model.axes[0].transition: row 0 contains only zeros"));
+    QVERIFY(refusal({jumping}).starts_with("model.axes[0].step: let no target in this cell stay on the axis: 1"));
+    QVERIFY(refusal({matrix({0.0, 0.0, 0.5, 0.5})}).starts_with("model.axes[0].transition: row 0 contains only zeros"));
     rising.cyclic = true;
-    QCOMPARE(refusal({rising}), QString());
+    QCOMPARE(refusal({rising}), std::string());
 
     // What is put together by hand is looked at, too.
     SequentialModel model = makeSequentialModel({axis(3)}, {false}, twoToOne);
     KinematicAxis slopes = bounded(3, -1, 3, {0.5, 0.25});
     slopes.name = "frequency";
     model.markov.space = StateSpace({slopes});
-    try {
-        runSprt(model, {}, 1, source(frames(3, 1, 1)));
-        QFAIL("accepted");
-    } catch (const Error &error) {
-        QCOMPARE(QString(error.what()), QString("model: has an axis of frequency that loses up to 100 % of a target's "
-                                                "probability per stage; a likelihood ratio needs a lossless law"));
-    }
+    QCOMPARE(errorOf([&] { runSprt(model, {}, 1, source(frames(3, 1, 1))); }),
+             std::string("model: has an axis of frequency that loses up to 100 % of a target's probability per stage; "
+                         "a likelihood ratio needs a lossless law"));
     model.markov.space = StateSpace({slopes.stochastic("axis")});
     runSprt(model, {}, 1, source(frames(3, 1, 1)));
     model.markov.transitionScale = 1.5;
@@ -662,29 +654,19 @@ void tst_Sprt::sectors()
 
 void tst_Sprt::refusals()
 {
-    const auto says = [](const auto &call) {
-        try {
-            call();
-        } catch (const Error &error) {
-            return QString(error.what());
-        }
-        return QString();
+    const auto ofTest = [](const SprtSettings &test) { return errorOf([&] { checkSprt(test, "test"); }); };
+    QVERIFY(ofTest({0.0, 1e-3, 0}).starts_with("test.falseAlarm = 0: must lie in"));
+    QVERIFY(ofTest({1e-3, 0.6, 0}).starts_with("test.miss = 0.6"));
+    QVERIFY(contains(ofTest({0.5, 0.5, 0}), "must be below 1"));
+    const auto ofModel = [](const KinematicAxis &axis, const std::vector<double> &initial = {}) {
+        return errorOf([&] { makeSequentialModel({axis}, {false}, twoToOne, initial); });
     };
-    QVERIFY(says([] { checkSprt({0.0, 1e-3, 0}, "test"); }).startsWith("test.falseAlarm = 0: must lie in"));
-    QVERIFY(says([] { checkSprt({1e-3, 0.6, 0}, "test"); }).startsWith("test.miss = 0.6"));
-    QVERIFY(says([] { checkSprt({0.5, 0.5, 0}, "test"); }).contains("must be below 1"));
-    QVERIFY(says([] { makeSequentialModel({axis(2)}, {false}, twoToOne, {0.5, 0.6}); }).contains("adds up to 1.1"));
-    QVERIFY(says([] {
-                makeSequentialModel({axis(2)}, {false}, twoToOne, {1.0});
-            }).contains("holds 1 probabilities; there are 2 states"));
-    QVERIFY(says([] {
-                makeSequentialModel({matrix({0.5, 0.6, 0.5, 0.5})}, {false}, twoToOne);
-            }).contains("row 0 adds up to 1.1"));
-    QVERIFY(says([] {
-                KinematicAxis a = admissible(2);
-                a.cyclic = true;
-                makeSequentialModel({a}, {false}, twoToOne);
-            }).contains("the same cell in both directions"));
+    QVERIFY(contains(ofModel(axis(2), {0.5, 0.6}), "adds up to 1.1"));
+    QVERIFY(contains(ofModel(axis(2), {1.0}), "holds 1 probabilities; there are 2 states"));
+    QVERIFY(contains(ofModel(matrix({0.5, 0.6, 0.5, 0.5})), "row 0 adds up to 1.1"));
+    KinematicAxis bothWays = admissible(2);
+    bothWays.cyclic = true;
+    QVERIFY(contains(ofModel(bothWays), "the same cell in both directions"));
 }
 
 QTEST_APPLESS_MAIN(tst_Sprt)

@@ -191,7 +191,7 @@ void tst_regulation::noiseBandHoldsItsNoise()
 
 void tst_regulation::signalsDragK()
 {
-    // Signals that nobody takes over: K leaves its band downward. Taken out and their cells inhibited, as the chain
+    // Signals that no track takes over: K leaves its band downward. Taken out and their cells inhibited, as the chain
     // does, it stays.
     const MarkovModel model = sonarModel(smallGrid, smallMotion({1.0}, {1.0}));
     const auto lastK = [&](float power, bool inhibited) {

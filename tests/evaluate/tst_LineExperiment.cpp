@@ -1,16 +1,17 @@
 #include "evaluate/experiments/LineExperiment.h"
 
-#include "base/Error.h"
 #include "evaluate/experiments/NoisyField.h"
+#include "evaluate/experiments/lineRuns.h"
 #include "evaluate/experiments/peers.h"
+#include "support/errors.h"
 
 #include <QtTest>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 using namespace faintline;
+using namespace faintline::test;
 
 namespace {
 
@@ -23,16 +24,6 @@ LineExperiment experiment(std::vector<DetectorUnderTest> detectors)
     made.snrDb = {-6.0, 4.0};
     made.detectors = std::move(detectors);
     return made;
-}
-
-std::string refusalOf(const LineExperiment &made)
-{
-    try {
-        checkExperiment(made);
-    } catch (const Error &error) {
-        return error.what();
-    }
-    return {};
 }
 
 } // namespace
@@ -216,7 +207,7 @@ void tst_LineExperiment::refusals()
     QFETCH(QString, member);
     QFETCH(QString, words);
     LineExperiment made = experiment({peer("energy", 10.0)});
-    QCOMPARE(refusalOf(made), std::string());
+    QCOMPARE(errorOf([&] { checkExperiment(made); }), std::string());
     if (member == "detectors")
         made.detectors.clear();
     else if (member == "snrDb")
@@ -231,7 +222,7 @@ void tst_LineExperiment::refusals()
         made.durationWindows = 30.5;
     else
         made.driftCellsPerWindow = 4.7; // 47 cells in ten windows, where 46 have room
-    QCOMPARE(QString::fromStdString(refusalOf(made)), words);
+    QCOMPARE(QString::fromStdString(errorOf([&] { checkExperiment(made); })), words);
 }
 
 QTEST_APPLESS_MAIN(tst_LineExperiment)

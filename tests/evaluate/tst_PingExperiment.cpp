@@ -1,6 +1,6 @@
 #include "evaluate/experiments/PingExperiment.h"
 
-#include "support/recordings.h"
+#include "support/errors.h"
 
 #include <QtTest>
 

@@ -1,9 +1,9 @@
 #include "evaluate/reproduce/Reproduction.h"
 
-#include "base/Error.h"
 #include "evaluate/reproduce/grossiParts.h"
 #include "evaluate/reproduce/parsonsParts.h"
 #include "evaluate/reproduce/reproduce.h"
+#include "support/errors.h"
 
 #include <QtTest>
 
@@ -12,6 +12,7 @@
 #include <set>
 
 using namespace faintline;
+using namespace faintline::test;
 
 namespace {
 
@@ -124,7 +125,7 @@ void tst_Reproduction::deviationsFromThePaper()
     cell.interval = {};
     QVERIFY(std::abs(*cell.z() - 2.5) < 1e-12);
     cell.paperError = 0.0;
-    QVERIFY(!cell.z()); // nobody knows how far they may differ
+    QVERIFY(!cell.z()); // neither figure has an error
 }
 
 void tst_Reproduction::judgedCellsAreCounted()
@@ -151,15 +152,10 @@ void tst_Reproduction::namesAreListedOnce()
 
 void tst_Reproduction::anUnknownNameIsToldTheKnownOnes()
 {
-    try {
-        reproducible("billon:table9");
-        QFAIL("was taken");
-    } catch (const Error &error) {
-        const std::string words = error.what();
-        QVERIFY2(words.find("billon:table9") != std::string::npos, words.c_str());
-        for (const Reproducible &one : reproducibles())
-            QVERIFY2(words.find(one.name) != std::string::npos, words.c_str());
-    }
+    const std::string words = errorOf([] { reproducible("billon:table9"); });
+    QVERIFY2(contains(words, "billon:table9"), words.c_str());
+    for (const Reproducible &one : reproducibles())
+        QVERIFY2(contains(words, one.name), words.c_str());
 }
 
 void tst_Reproduction::standardErrorsOfFrequencies()
@@ -197,8 +193,8 @@ void tst_Reproduction::cellsOfMeansAndFrequencies()
 
     const ReproducedCell exact = exactCell("row", "column", 1.0, 1.0 + 1e-6, 1e-9);
     QVERIFY(!exact.isInside() && exact.interval == Interval{});
-    QCOMPARE(trialsOf(5000, {false, 1}), Index(5000));
-    QCOMPARE(trialsOf(5000, {true, 1}), Index(500));
+    QCOMPARE(reducedTrials(5000, {false, 1}), Index(5000));
+    QCOMPARE(reducedTrials(5000, {true, 1}), Index(500));
 }
 
 void tst_Reproduction::deviationsHaveNames()
@@ -206,7 +202,7 @@ void tst_Reproduction::deviationsHaveNames()
     QCOMPARE(deviationName(0.5), std::string("σ = 0.5"));
     QCOMPARE(deviationName(2.0), std::string("σ = 2"));
     QCOMPARE(deviationName(INFINITY), std::string("uniform"));
-    QCOMPARE(formatted("%.2f stages", 1.236), std::string("1.24 stages"));
+    QCOMPARE(inFormat("%.2f stages", 1.236), std::string("1.24 stages"));
 }
 
 void tst_Reproduction::partsOfParsons()

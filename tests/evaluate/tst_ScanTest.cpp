@@ -3,6 +3,7 @@
 #include "detect/inspectStages.h"
 #include "evaluate/sequential/ScanTest.h"
 #include "evaluate/sequential/scanCurves.h"
+#include "evaluate/sequential/simulate.h"
 #include "evaluate/theory/walkOnLine.h"
 
 #include <QtTest>

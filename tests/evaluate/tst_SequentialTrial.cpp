@@ -1,4 +1,5 @@
 #include "evaluate/sequential/SequentialTrial.h"
+#include "support/studies.h"
 
 #include <QtTest>
 
@@ -8,46 +9,27 @@
 #include <optional>
 
 using namespace faintline;
+using test::axis;
 
 namespace {
-
-KinematicAxis axis(Index cells)
-{
-    KinematicAxis made;
-    made.cells = cells;
-    return made;
-}
 
 /// A target that stays or goes one cell to either side of a ring.
 KinematicAxis ring(Index cells)
 {
-    KinematicAxis made = axis(cells);
-    made.step = {0.5, 0.25};
-    made.cyclic = true;
-    return made;
+    return axis(cells, {0.5, 0.25}, true);
 }
 
 SequentialStudy study(const std::vector<KinematicAxis> &axes, const std::vector<bool> &isFolded,
                       std::optional<double> actualSnr = {})
 {
-    SequentialStudy made;
-    made.model = makeSequentialModel(axes, isFolded, Likelihood(LikelihoodKind::Exponential, 2.0));
-    made.actualSnr = actualSnr;
+    SequentialStudy made = test::study(axes, isFolded, 2.0, actualSnr);
     made.seed = 41;
     return made;
 }
 
-/// The frames of a trial, one after the other.
-std::vector<std::vector<float>> framesOf(const SequentialStudy &made, Index number, int stages)
+std::vector<std::vector<float>> framesOf(const SequentialStudy &made, Index trial, int stages)
 {
-    const TrajectorySampler sampler(made.model);
-    SequentialTrial trial(made, sampler, number);
-    std::vector<std::vector<float>> frames;
-    for (int stage = 0; stage < stages; ++stage) {
-        const std::span<const float> y = trial.next();
-        frames.emplace_back(y.begin(), y.end());
-    }
-    return frames;
+    return test::hear(made, trial, stages).frames;
 }
 
 } // namespace
@@ -101,33 +83,26 @@ void tst_SequentialTrial::trialsHaveNumbersOfTheirOwn()
 
 void tst_SequentialTrial::theTargetRaisesItsOwnCell()
 {
-    const SequentialStudy made = study({ring(6)}, {false}, 3.0);
-    const auto noise = framesOf(study({ring(6)}, {false}), 2, 50);
-    const TrajectorySampler sampler(made.model);
-    SequentialTrial trial(made, sampler, 2);
-    for (const std::vector<float> &frame : noise) {
-        const std::span<const float> y = trial.next();
-        for (Index cell = 0; cell < 6; ++cell) {
-            const float raise = cell == trial.state() ? 4.0f : 1.0f; // 1 + SNR
-            QCOMPARE(y[std::size_t(cell)], raise * frame[std::size_t(cell)]);
+    constexpr int stages = 50;
+    const auto noise = framesOf(study({ring(6)}, {false}), 2, stages);
+    const test::Heard heard = test::hear(study({ring(6)}, {false}, 3.0), 2, stages);
+    for (std::size_t stage = 0; stage < stages; ++stage)
+        for (std::size_t cell = 0; cell < 6; ++cell) {
+            const float raise = Index(cell) == heard.states[stage] ? 4.0f : 1.0f; // 1 + SNR
+            QCOMPARE(heard.frames[stage][cell], raise * noise[stage][cell]);
         }
-    }
 }
 
 void tst_SequentialTrial::theTargetMovesAsItsModelSays()
 {
     const SequentialStudy made = study({ring(6)}, {false}, 3.0);
-    const TrajectorySampler sampler(made.model);
     constexpr int trials = 4000;
     std::array<int, 6> starts{};
     std::array<int, 6> moves{};
     for (Index number = 0; number < trials; ++number) {
-        SequentialTrial trial(made, sampler, number);
-        trial.next();
-        const Index before = trial.state();
-        ++starts[std::size_t(before)];
-        trial.next();
-        ++moves[std::size_t((trial.state() - before + 6) % 6)];
+        const std::vector<Index> states = test::hear(made, number, 2).states;
+        ++starts[std::size_t(states[0])];
+        ++moves[std::size_t((states[1] - states[0] + 6) % 6)];
     }
     const auto isNear = [](int count, double p) {
         return std::abs(count - trials * p) < 4.5 * std::sqrt(trials * p * (1.0 - p));
@@ -141,22 +116,20 @@ void tst_SequentialTrial::theTargetMovesAsItsModelSays()
 // Four cells with three folded into each: block after block of the model's cells.
 void tst_SequentialTrial::aFoldedTargetIsAnywhereAnew()
 {
-    const SequentialStudy made = study({ring(4), axis(3)}, {false, true}, 5.0);
-    const TrajectorySampler sampler(made.model);
     constexpr int stages = 6000;
     const auto noise = framesOf(study({ring(4), axis(3)}, {false, true}), 0, stages);
-    SequentialTrial trial(made, sampler, 0);
+    const test::Heard heard = test::hear(study({ring(4), axis(3)}, {false, true}, 5.0), 0, stages);
     std::array<int, 3> visits{};
     int changes = 0;
     Index before = 0;
-    for (int stage = 0; stage < stages; ++stage) {
-        const std::span<const float> y = trial.next();
-        std::vector<float> expected = noise[std::size_t(stage)];
-        expected[std::size_t(trial.folded() * 4 + trial.state())] *= 6.0f;
-        QVERIFY(std::equal(y.begin(), y.end(), expected.begin(), expected.end()));
-        ++visits[std::size_t(trial.folded())];
-        changes += trial.folded() != before ? 1 : 0;
-        before = trial.folded();
+    for (std::size_t stage = 0; stage < stages; ++stage) {
+        const Index folded = heard.folded[stage];
+        std::vector<float> expected = noise[stage];
+        expected[std::size_t(folded * 4 + heard.states[stage])] *= 6.0f;
+        QVERIFY(heard.frames[stage] == expected);
+        ++visits[std::size_t(folded)];
+        changes += folded != before ? 1 : 0;
+        before = folded;
     }
     const double third = std::sqrt(stages * 2.0 / 9.0);
     for (const int count : visits)
@@ -166,12 +139,10 @@ void tst_SequentialTrial::aFoldedTargetIsAnywhereAnew()
 
 void tst_SequentialTrial::noiseHasNoTarget()
 {
-    const SequentialStudy made = study({ring(4), axis(3)}, {false, true});
-    const TrajectorySampler sampler(made.model);
-    SequentialTrial trial(made, sampler, 0);
-    QCOMPARE(trial.next().size(), std::size_t(12));
-    QCOMPARE(trial.state(), Index(-1));
-    QCOMPARE(trial.folded(), Index(0));
+    const test::Heard heard = test::hear(study({ring(4), axis(3)}, {false, true}), 0, 1);
+    QCOMPARE(heard.frames[0].size(), std::size_t(12));
+    QCOMPARE(heard.states[0], Index(-1));
+    QCOMPARE(heard.folded[0], Index(0));
 }
 
 // λ of t = y over the mean of its N neighbours, F-distributed, written back as the y of an exponential cell.

@@ -5,6 +5,7 @@
 #include "recording/SimulatedRecording.h"
 
 #include "base/Error.h"
+#include "support/errors.h"
 
 #include <QTemporaryDir>
 #include <QtTest>
@@ -43,12 +44,7 @@ Campaign carriedOut(const SweepExperiment &sweep, int threads = 1)
 
 std::string whyNot(const SweepExperiment &sweep)
 {
-    try {
-        checkExperiment(sweep);
-    } catch (const Error &error) {
-        return error.what();
-    }
-    return {};
+    return test::errorOf([&] { checkExperiment(sweep); });
 }
 
 SweepExperiment with(const std::string &parameter, const std::vector<double> &values)

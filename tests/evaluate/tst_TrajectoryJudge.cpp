@@ -1,30 +1,24 @@
 #include "evaluate/sequential/TrajectoryJudge.h"
 
+#include "support/studies.h"
+
 #include <QtTest>
 
 #include <algorithm>
 #include <cmath>
 
 using namespace faintline;
+using test::axis;
+using test::hear;
+using test::Heard;
 
 namespace {
 
 constexpr double snr = 2.0;
 
-KinematicAxis axis(Index cells, std::vector<double> step = {}, bool isCyclic = false)
-{
-    KinematicAxis made;
-    made.cells = cells;
-    made.step = std::move(step);
-    made.cyclic = isCyclic;
-    return made;
-}
-
 SequentialStudy study(const std::vector<KinematicAxis> &axes, const std::vector<bool> &isFolded, double actualSnr)
 {
-    SequentialStudy made;
-    made.model = makeSequentialModel(axes, isFolded, Likelihood(LikelihoodKind::Exponential, snr));
-    made.actualSnr = actualSnr;
+    SequentialStudy made = test::study(axes, isFolded, snr, actualSnr);
     made.seed = 23;
     return made;
 }
@@ -47,25 +41,6 @@ double moveProbability(const KinematicAxis &axis, Index from, Index to)
 double lambda(double y)
 {
     return y * snr / (1.0 + snr) - std::log(1.0 + snr);
-}
-
-struct Heard {
-    std::vector<std::vector<float>> frames;
-    std::vector<Index> truth;
-    std::vector<Index> folded;
-};
-
-Heard hear(const SequentialStudy &made, const TrajectorySampler &sampler, Index number, Index stages)
-{
-    SequentialTrial trial(made, sampler, number);
-    Heard heard;
-    for (Index stage = 0; stage < stages; ++stage) {
-        const std::span<const float> y = trial.next();
-        heard.frames.emplace_back(y.begin(), y.end());
-        heard.truth.push_back(trial.state());
-        heard.folded.push_back(trial.folded());
-    }
-    return heard;
 }
 
 /// The best of all cells^stages trajectories, tried one after the other. `evidence(stage, cell)`, `law(from, to)`.
@@ -127,7 +102,7 @@ void tst_TrajectoryJudge::onALine()
     TrajectoryJudge judge(made, sampler);
     Index largestOfAll = 0;
     for (Index number = 0; number < 12; ++number) {
-        const Heard heard = hear(made, sampler, number, stages);
+        const Heard heard = hear(made, number, stages);
         const std::vector<Index> best = bestOfAll(
             cells, stages,
             [&](Index k, Index cell) { return lambda(double(heard.frames[std::size_t(k)][std::size_t(cell)])); },
@@ -135,7 +110,7 @@ void tst_TrajectoryJudge::onALine()
         Index last = 0;
         Index largest = 0;
         for (std::size_t k = 0; k < best.size(); ++k) {
-            last = std::abs(best[k] - heard.truth[k]);
+            last = std::abs(best[k] - heard.states[k]);
             if (isCyclic)
                 last = std::min(last, cells - last);
             largest = std::max(largest, last);
@@ -157,7 +132,7 @@ void tst_TrajectoryJudge::onTwoAxesTheLargerErrorCounts()
     TrajectoryJudge judge(made, sampler);
     int differ = 0;
     for (Index number = 0; number < 12; ++number) {
-        const Heard heard = hear(made, sampler, number, 4);
+        const Heard heard = hear(made, number, 4);
         const std::vector<Index> best = bestOfAll(
             8, 4, [&](Index k, Index cell) { return lambda(double(heard.frames[std::size_t(k)][std::size_t(cell)])); },
             [&](Index from, Index to) {
@@ -166,8 +141,8 @@ void tst_TrajectoryJudge::onTwoAxesTheLargerErrorCounts()
         Index last = 0;
         Index largest = 0;
         for (std::size_t k = 0; k < best.size(); ++k) {
-            const Index down = std::abs(best[k] / 4 - heard.truth[k] / 4);
-            const Index along = std::abs(best[k] % 4 - heard.truth[k] % 4);
+            const Index down = std::abs(best[k] / 4 - heard.states[k] / 4);
+            const Index along = std::abs(best[k] % 4 - heard.states[k] % 4);
             differ += down != along ? 1 : 0;
             last = std::max(down, along);
             largest = std::max(largest, last);
@@ -186,7 +161,7 @@ void tst_TrajectoryJudge::theBestOfFoldedCellsStandsForThem()
     const TrajectorySampler sampler(made.model);
     TrajectoryJudge judge(made, sampler);
     for (Index number = 0; number < 12; ++number) {
-        const Heard heard = hear(made, sampler, number, 4);
+        const Heard heard = hear(made, number, 4);
         const std::vector<Index> best = bestOfAll(
             5, 4,
             [&](Index k, Index cell) {
@@ -197,8 +172,8 @@ void tst_TrajectoryJudge::theBestOfFoldedCellsStandsForThem()
             [&](Index from, Index to) { return moveProbability(line, from, to); });
         Index largest = 0;
         for (std::size_t k = 0; k < best.size(); ++k)
-            largest = std::max(largest, std::abs(best[k] - heard.truth[k]));
-        QCOMPARE(judge.errorsOf(number, 4).last, std::abs(best.back() - heard.truth.back()));
+            largest = std::max(largest, std::abs(best[k] - heard.states[k]));
+        QCOMPARE(judge.errorsOf(number, 4).last, std::abs(best.back() - heard.states.back()));
         QCOMPARE(judge.errorsOf(number, 4).largest, largest);
     }
 }
@@ -209,7 +184,7 @@ void tst_TrajectoryJudge::whereAllIsFoldedTheFoldedCellIsThePosition()
     const TrajectorySampler sampler(made.model);
     TrajectoryJudge judge(made, sampler);
     for (Index number = 0; number < 20; ++number) {
-        const Heard heard = hear(made, sampler, number, 6);
+        const Heard heard = hear(made, number, 6);
         Index last = 0;
         Index largest = 0;
         for (std::size_t k = 0; k < heard.frames.size(); ++k) {

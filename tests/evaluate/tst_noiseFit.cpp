@@ -1,6 +1,7 @@
 #include "evaluate/comparison/noiseFit.h"
 
 #include "base/Random.h"
+#include "support/frames.h"
 
 #include <QtTest>
 
@@ -45,11 +46,7 @@ private:
         return result;
     }
 
-    static FrameArray frames(Index count, Index bins, std::vector<float> y)
-    {
-        return {Axis{"time", "s", 0.0, 1.0, count, false}, Grid{{Axis{"frequency", "Hz", 100.0, 2.0, bins, false}}},
-                std::move(y)};
-    }
+    static FrameArray frames(Index bins, std::vector<float> y) { return *test::framesOf(bins, std::move(y), 1.0, 2.0); }
 };
 
 void tst_noiseFit::fourValuesByEye()
@@ -64,7 +61,7 @@ void tst_noiseFit::fourValuesByEye()
     QCOMPARE(law.exceedance(6.0), 0.0);
     QVERIFY(std::abs(law.quantile(0.25) - 5.0) < 2e-3);
     QVERIFY(std::abs(law.quantile(0.5) - 1.5) < 2e-3);
-    // Largest gap just below 0.5: nobody there yet, the law has 1 - e^-0.5 = 0.393; at 5: 1 - e^-1.5 - 0.5 = 0.277.
+    // Largest gap just below 0.5: no value below, the law has 1 - e^-0.5 = 0.393; at 5: 1 - e^-1.5 - 0.5 = 0.277.
     QVERIFY(std::abs(law.distance() - 0.393469) < 1e-3);
 }
 
@@ -96,13 +93,13 @@ void tst_noiseFit::bandsAreSeparate()
     std::vector<float> y = cells(4000, 1, 3);
     for (std::size_t i = 1; i < y.size(); i += 2)
         y[i] *= 3.0f;
-    const auto bands = fitNoise(frames(2000, 2, y), {2});
+    const auto bands = fitNoise(frames(2, y), {2});
     QCOMPARE(bands.size(), std::size_t(2));
     QCOMPARE(bands[0].low, 100.0);
     QCOMPARE(bands[0].high, 102.0);
     QCOMPARE(bands[1].high, 104.0);
     // Of what is left out at the ends nothing is counted.
-    const auto inner = fitNoise(frames(1000, 4, y), {1, 4000, 1});
+    const auto inner = fitNoise(frames(4, y), {1, 4000, 1});
     QCOMPARE(inner.front().low, 102.0);
     QCOMPARE(inner.front().high, 106.0);
     QCOMPARE(inner.front().law.count(), std::int64_t(2000));
@@ -112,13 +109,13 @@ void tst_noiseFit::bandsAreSeparate()
     QVERIFY(bands[0].fits());
     QVERIFY(!bands[1].fits());
     // Never more bands than bins; overlap leaves fewer independent values.
-    QCOMPARE(fitNoise(frames(2000, 2, y), {8}).size(), std::size_t(2));
-    QCOMPARE(fitNoise(frames(2000, 2, y), {1}, {2.0, 4.0}).front().independent, 500.0);
+    QCOMPARE(fitNoise(frames(2, y), {8}).size(), std::size_t(2));
+    QCOMPARE(fitNoise(frames(2, y), {1}, {2.0, 4.0}).front().independent, 500.0);
 }
 
 void tst_noiseFit::frameStrideBoundsTheWork()
 {
-    const auto bands = fitNoise(frames(1000, 4, cells(4000, 1, 5)), {1, 400}, {2.0, 1.0});
+    const auto bands = fitNoise(frames(4, cells(4000, 1, 5)), {1, 400}, {2.0, 1.0});
     QCOMPARE(bands.front().law.count(), std::int64_t(400));
     QCOMPARE(bands.front().independent, 400.0); // every tenth frame: those no longer overlap
 }
@@ -160,7 +157,7 @@ void tst_noiseFit::cancels()
     source.request_stop();
     RunContext context;
     context.stop = source.get_token();
-    QVERIFY_EXCEPTION_THROWN(fitNoise(frames(10, 2, cells(20, 1, 0)), {1}, {}, context), Cancelled);
+    QVERIFY_EXCEPTION_THROWN(fitNoise(frames(2, cells(20, 1, 0)), {1}, {}, context), Cancelled);
     QVERIFY_EXCEPTION_THROWN(misfitPfa(std::vector{FittedBand()}, AnalysisSettings(), 1e-3, context), Cancelled);
 }
 

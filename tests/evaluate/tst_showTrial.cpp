@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 using namespace faintline;
 
@@ -42,13 +41,13 @@ void tst_showTrial::initTestCase()
 
 void tst_showTrial::everySignalIsATrial()
 {
-    const auto trials = trialsOf(m_campaign, 1, 0);
+    const auto trials = trialsOf(m_campaign, {1, 0});
     QCOMPARE(trials.size(), std::size_t(5)); // one block in time, five in frequency
     for (std::size_t i = 0; i < trials.size(); ++i) {
         QCOMPARE(trials[i].place, (TrialPlace{0, int(i)}));
         QCOMPARE(trials[i].isDetected, trials[i].statistic > shownThreshold(m_campaign, 1));
     }
-    // 6 dB for forty windows: nobody misses that.
+    // 6 dB for forty windows: every detector finds that.
     QVERIFY(std::all_of(trials.begin(), trials.end(), [](const TrialOutcome &trial) { return trial.isDetected; }));
 }
 
@@ -63,7 +62,7 @@ void tst_showTrial::theTrialAnswersAsInTheCampaign()
 {
     QFETCH(int, index);
     const auto d = std::size_t(index);
-    const TrialOutcome outcome = trialsOf(m_campaign, d, 0)[2];
+    const TrialOutcome outcome = trialsOf(m_campaign, {d, 0})[2];
     const ShownTrial shown = showTrial(m_campaign, nullptr, {d, 0}, outcome.place);
     const Analysis &analysis = *shown.analysis;
     QCOMPARE(analysis.time().count, Index(300));
@@ -95,7 +94,7 @@ void tst_showTrial::anInjectionNeedsItsRecording()
     InjectionExperiment injection;
     injection.detectors = {peer("3 of 4", 40.0)};
     const Campaign elsewhere{injection, {3.0}, {}};
-    QVERIFY(trialsOf(elsewhere, 0, 0).empty());
+    QVERIFY(trialsOf(elsewhere, {0, 0}).empty());
     QVERIFY_EXCEPTION_THROWN(showTrial(elsewhere, nullptr, {0, 0}, {}), Error);
 }
 

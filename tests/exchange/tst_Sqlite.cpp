@@ -14,7 +14,7 @@
 using namespace faintline;
 using namespace faintline::test;
 
-/// What goes into a database comes out of it; what cannot be opened is told in one line.
+/// Values read back are those written; a file that cannot be opened gives an error of one line.
 class tst_Sqlite : public QObject
 {
     Q_OBJECT
@@ -96,11 +96,11 @@ void tst_Sqlite::statementsBeginAgain()
     SqliteStatement above = database.prepare("SELECT a FROM t WHERE a > ? ORDER BY a");
     QVERIFY(above.with(3).next());
     QCOMPARE(above.integer(0), std::int64_t(4));
-    QVERIFY(above.with(1).next()); // in the middle of the rows before
+    QVERIFY(above.with(1).next()); // before all rows of the last query were read
     QCOMPARE(above.integer(0), std::int64_t(2));
     QVERIFY(!above.with(5).next());
     QVERIFY(above.with(4).next() && !above.next());
-    QCOMPARE(database.integer("SELECT a FROM t WHERE a > 5"), std::int64_t(0)); // no row
+    QCOMPARE(database.integer("SELECT a FROM t WHERE a > 5"), std::int64_t(0)); // no row: 0
 }
 
 void tst_Sqlite::columnsAreCopied()

@@ -1,13 +1,11 @@
 #include "live/RtlTcpSource.h"
 #include "live/UdpSource.h"
 
-#include "base/Error.h"
 #include "base/Random.h"
-#include "support/recordings.h"
+#include "support/errors.h"
 
 #include <QtTest>
 
-#include <array>
 #include <atomic>
 #include <thread>
 

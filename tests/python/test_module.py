@@ -110,6 +110,31 @@ class Arrays(InFolder):
         self.refusal(result.explain, 1e6, 100.0)
         self.refusal(result.explain, 1.0)
 
+    def test_explain_tells_what_the_noise_explains(self):
+        # A tone of one window a second, anywhere, and one line that lasts.
+        rng = np.random.default_rng(8)
+        rate, seconds, length = 400, 600, 80
+        x = rng.normal(0, 0.1, rate * seconds)
+        starts = rate * np.arange(seconds) + rng.integers(0, 300, seconds)
+        pitches = rng.uniform(0, 200, seconds)
+        for start, hz in zip(starts, pitches):
+            x[start : start + length] += 0.1 * np.sin(2 * np.pi * hz * np.arange(length) / rate)
+        lasting = np.arange(100 * rate, 200 * rate)
+        x[lasting] += 0.05 * np.sin(2 * np.pi * 60 * lasting / rate)
+        result = fl.detect(x, rate, window_seconds=0.25, false_alarms_per_hour=60)
+        line = result.events[np.argmax(result.events["statistic"])]
+        self.assertLess(abs(line["f"] - 60), 3)
+        self.assertIs(result.explain(line["t_detect"], line["f"]).is_explained_by_noise, False)
+        explained = [
+            (start / rate, hz)
+            for start, hz in zip(starts[:80], pitches[:80])
+            if result.explain((start + length / 2) / rate, hz).is_explained_by_noise
+        ]
+        self.assertGreater(len(explained), 3)
+        for t, hz in explained:  # and what is explained is not reported
+            near = (abs(result.events["t_detect"] - t) < 0.5) & (abs(result.events["f"] - hz) < 4)
+            self.assertFalse(near.any())
+
     def test_areas_are_those_of_the_json(self):
         rng = np.random.default_rng(5)
         t = np.arange(120 * 400) / 400

@@ -1,6 +1,6 @@
 #include "recording/ArrayRecording.h"
 
-#include "support/recordings.h"
+#include "support/errors.h"
 
 #include <QtTest>
 

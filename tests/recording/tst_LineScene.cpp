@@ -1,7 +1,7 @@
 #include "recording/LineScene.h"
 
 #include "recording/Truth.h"
-#include "support/recordings.h"
+#include "support/errors.h"
 
 #include <QtTest>
 

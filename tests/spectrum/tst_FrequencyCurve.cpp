@@ -1,7 +1,6 @@
 #include "spectrum/FrequencyCurve.h"
 
-#include "spectrum/between.h"
-#include "support/recordings.h"
+#include "support/errors.h"
 
 #include <QtTest>
 
@@ -44,7 +43,6 @@ private slots:
     void turnsHaveNoStepAtAKnot();
     void oneKnotIsAConstant();
     void refusals();
-    void weightsBetweenCells();
 };
 
 void tst_FrequencyCurve::isLinearBetweenKnots()
@@ -102,23 +100,6 @@ void tst_FrequencyCurve::refusals()
     QCOMPARE(refusal(2, {1.0, std::nan("")}), finite);
     QCOMPARE(refusal(2, {std::numeric_limits<double>::infinity(), 1.0}), finite);
     QCOMPARE(refusal(2, {1.0, 2.0}), std::string());
-}
-
-void tst_FrequencyCurve::weightsBetweenCells()
-{
-    const Axis axis{"frequency", "Hz", 100.0, 10.0, 4, false};
-    const auto at = [&](double value) {
-        const Between found = between(axis, value);
-        return std::pair(found.lower, found.fraction);
-    };
-    QCOMPARE(at(100.0), std::pair(Index(0), 0.0));
-    QCOMPARE(at(112.5), std::pair(Index(1), 0.25));
-    QCOMPARE(at(130.0), std::pair(Index(2), 1.0)); // the last cell has no upper neighbour
-    QCOMPARE(at(-1e9), std::pair(Index(0), 0.0));
-    QCOMPARE(at(1e9), std::pair(Index(2), 1.0));
-    const Axis single{"frequency", "Hz", 100.0, 10.0, 1, false};
-    QCOMPARE(between(single, 500.0).lower, Index(0));
-    QCOMPARE(between(single, 500.0).fraction, 0.0);
 }
 
 QTEST_APPLESS_MAIN(tst_FrequencyCurve)

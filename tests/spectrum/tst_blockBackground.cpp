@@ -199,7 +199,6 @@ void tst_blockBackground::roundingIsNoNoise()
 void tst_blockBackground::flattenedFramesHaveOneLevel()
 {
     std::vector<float> frames = noise(60, 34, [](Index cell) { return 1.0 + double(cell % 7); });
-    const std::vector<float> before = frames;
     for (Index frame = 10; frame < 15; ++frame)
         for (Index cell = 0; cell < cells; ++cell)
             frames[std::size_t(frame * cells + cell)] *= 8.0f;
@@ -224,7 +223,11 @@ void tst_blockBackground::steadyNoiseIsLeftAlone()
     const std::vector<float> before = frames;
     const std::vector<float> taken = flatten(frames, cells);
     QVERIFY(std::count(taken.begin(), taken.end(), 0.0f) >= 299); // beyond 4.5 errors hardly ever
-    QVERIFY(frames == before || std::count(taken.begin(), taken.end(), 0.0f) == 299);
+    for (Index frame = 0; frame < 300; ++frame) {
+        const auto row = frames.begin() + frame * cells;
+        if (taken[std::size_t(frame)] == 0.0f)
+            QVERIFY(std::equal(row, row + cells, before.begin() + frame * cells));
+    }
 }
 
 void tst_blockBackground::flatteningSilence()

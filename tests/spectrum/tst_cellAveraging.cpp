@@ -3,8 +3,6 @@
 
 #include <QtTest>
 
-#include <numeric>
-
 using namespace faintline;
 
 /// Cells over the mean of their neighbours, and the evidence in them.

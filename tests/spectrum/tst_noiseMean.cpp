@@ -1,5 +1,7 @@
 #include "spectrum/noiseMean.h"
 
+#include "support/frames.h"
+
 #include <QtTest>
 
 #include <limits>
@@ -16,15 +18,6 @@ private slots:
     void ofExponentialNoise();
     void ofNothing();
 };
-
-namespace {
-
-FrameArray frames(Index count, Index cells, std::vector<float> values)
-{
-    return {Axis{"time", "s", 0.0, 1.0, count}, Grid{{Axis{"frequency", "Hz", 0.0, 1.0, cells}}}, std::move(values)};
-}
-
-} // namespace
 
 void tst_noiseMean::ofExponentialNoise_data()
 {
@@ -46,7 +39,7 @@ void tst_noiseMean::ofExponentialNoise()
         values[i] = i % 7 == 0    ? std::numeric_limits<float>::quiet_NaN() // not observed
                     : i % 50 == 3 ? 1000.0f * float(mean)                   // a signal
                                   : float(power(random));
-    const FrameArray made = frames(200, 100, values);
+    const FrameArray made = *test::framesOf(100, values);
     QVERIFY2(std::abs(noiseMeanOf(made) / mean - 1.0) < 0.08, qPrintable(QString::number(noiseMeanOf(made))));
     QCOMPARE(!noiseMeanWarning(made).empty(), isTold);
     if (mean == 5.0)
@@ -56,7 +49,7 @@ void tst_noiseMean::ofExponentialNoise()
 
 void tst_noiseMean::ofNothing()
 {
-    QCOMPARE(noiseMeanOf(frames(2, 3, std::vector<float>(6, std::numeric_limits<float>::quiet_NaN()))), 1.0);
+    QCOMPARE(noiseMeanOf(*test::framesOf(3, std::vector<float>(6, std::numeric_limits<float>::quiet_NaN()))), 1.0);
 }
 
 QTEST_APPLESS_MAIN(tst_noiseMean)

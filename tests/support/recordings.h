@@ -1,13 +1,12 @@
 #pragma once
 
-#include "base/Error.h"
 #include "base/Random.h"
 #include "recording/Recording.h"
+#include "support/errors.h"
 
 #include <sndfile.h>
 
 #include <QByteArray>
-#include <QDir>
 #include <QFile>
 
 #include <algorithm>
@@ -18,23 +17,6 @@
 #include <vector>
 
 namespace faintline::test {
-
-/// The message of the Error a call throws; empty where it throws none.
-template <class Call>
-std::string errorOf(Call call)
-{
-    try {
-        call();
-    } catch (const Error &error) {
-        return error.what();
-    }
-    return {};
-}
-
-inline bool contains(const std::string &text, const std::string &part)
-{
-    return text.find(part) != std::string::npos;
-}
 
 /// A file of ../shared/recordings; empty where there is none.
 inline std::string sharedRecording(const char *name)

@@ -2,7 +2,7 @@
 
 namespace faintline::test {
 
-// GCC has macros of its own; Qt defines __has_feature for it, which knows nothing.
+// GCC defines macros of its own; the __has_feature that Qt defines for it is always 0.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define FAINTLINE_IS_SANITIZED
 #elif defined(__has_feature)
@@ -12,12 +12,12 @@ namespace faintline::test {
 #endif
 
 #ifdef FAINTLINE_IS_SANITIZED
-constexpr bool isSanitized = true; ///< memory is another then, and time
+constexpr bool isSanitized = true; ///< sanitizers change memory use and speed
 #else
 constexpr bool isSanitized = false;
 #endif
 
-/// How many times as long as usual a test may have to wait.
+/// Factor on the time that a test may wait.
 constexpr int slowdown = isSanitized ? 10 : 1;
 
 } // namespace faintline::test

@@ -4,7 +4,6 @@
 #include <QtTest>
 
 #include <cmath>
-#include <map>
 
 using namespace faintline;
 

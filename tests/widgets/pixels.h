@@ -3,6 +3,7 @@
 #include <qwt_plot.h>
 
 #include <QImage>
+#include <QPolygon>
 #include <QSet>
 #include <QtTest>
 
@@ -25,6 +26,18 @@ inline QImage imageOf(QwtPlot &plot)
 inline QRgb colourAt(const QImage &image, const QPointF &position)
 {
     return image.pixel(position.toPoint()) | 0xff000000;
+}
+
+/// The pixels of a part of an image whose opaque colours are wanted.
+template <class IsWanted>
+QPolygon pixelsWhere(const QImage &image, const QRect &part, IsWanted isWanted)
+{
+    QPolygon pixels;
+    for (int y = part.top(); y <= part.bottom(); ++y)
+        for (int x = part.left(); x <= part.right(); ++x)
+            if (isWanted(image.pixel(x, y) | 0xff000000))
+                pixels << QPoint(x, y);
+    return pixels;
 }
 
 inline QSet<QRgb> coloursOf(const QImage &image)

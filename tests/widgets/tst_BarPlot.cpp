@@ -43,10 +43,7 @@ private:
     {
         const QImage image = test::imageOf(view);
         const int x = qRound(view.canvasPosition(place, 0.0).x());
-        int rows = 0;
-        for (int y = 0; y < image.height(); ++y)
-            rows += (image.pixel(x, y) | 0xff000000) == colour ? 1 : 0;
-        return rows;
+        return int(test::pixelsWhere(image, {x, 0, 1, image.height()}, [&](QRgb one) { return one == colour; }).size());
     }
 };
 

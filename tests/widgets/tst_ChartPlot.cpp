@@ -1,5 +1,6 @@
 #include "widgets/plot/ChartPlot.h"
 
+#include "pixels.h"
 #include "widgets/base/Theme.h"
 
 #include <qwt_plot.h>
@@ -68,9 +69,7 @@ void tst_ChartPlot::init()
     m_view = std::make_unique<ChartPlot>();
     m_view->setInvitation("click to open a trial");
     m_view->setChart(chart());
-    m_view->resize(640, 360);
-    m_view->show();
-    QVERIFY(QTest::qWaitForWindowExposed(m_view.get()));
+    test::show(*m_view);
 }
 
 void tst_ChartPlot::drawsEveryCurve()
@@ -78,11 +77,7 @@ void tst_ChartPlot::drawsEveryCurve()
     QCOMPARE(m_view->plot()->itemList(QwtPlotItem::Rtti_PlotCurve).size(), 4);
     QCOMPARE(m_view->plot()->itemList(QwtPlotItem::Rtti_PlotIntervalCurve).size(), 1);
     // The curve's colour is on the canvas; theory has its detector's colour, another detector another.
-    QSet<QRgb> colours;
-    const QImage image = m_view->plot()->canvas()->grab().toImage();
-    for (int y = 0; y < image.height(); ++y)
-        for (int x = 0; x < image.width(); ++x)
-            colours.insert(image.pixel(x, y) | 0xff000000);
+    const QSet<QRgb> colours = test::coloursOf(*m_view->plot());
     const Theme::Colours &theme = Theme::colours(Theme::Kind::Light);
     QVERIFY(colours.contains(theme.curves[0].rgb()));
     QVERIFY(colours.contains(theme.curves[1].rgb()));

@@ -4,9 +4,6 @@
 
 #include <QtTest>
 
-#include <limits>
-#include <numeric>
-
 using namespace faintline;
 
 /// Which values the colours stand for: by hand, or as the pixels suggest.
@@ -18,7 +15,6 @@ private slots:
     void nothingIsSuggestedBeforeTheFirstCount();
     void everyPixelIsCounted();
     void theSameZoomIsCountedOnce();
-    void scrollingSuggestsNothingNew();
     void noiseIsDarkAndALineBright();
     void levelsByHandStayApart();
     void zeroStaysInTheMiddleOfDifferences();
@@ -64,16 +60,6 @@ void tst_ColourLevels::theSameZoomIsCountedOnce()
     QVERIFY(!levels.count(*picture, 4.0, 2.0));
     levels.countAgain();
     QVERIFY(levels.count(*picture, 4.0, 2.0));
-}
-
-void tst_ColourLevels::scrollingSuggestsNothingNew()
-{
-    const auto picture = test::countingPicture(64, 64);
-    ColourLevels levels;
-    levels.count(*picture, 2.0, 2.0);
-    const Span before = levels.suggested(picture->scale(), {});
-    levels.count(*picture, 2.0, 2.0);
-    QCOMPARE(levels.suggested(picture->scale(), {}), before);
 }
 
 void tst_ColourLevels::noiseIsDarkAndALineBright()

@@ -1,6 +1,7 @@
 #include "widgets/events/EventTable.h"
 
 #include "pictures.h"
+#include "pixels.h"
 #include "widgets/base/Theme.h"
 #include "widgets/events/EventFilter.h"
 #include "widgets/events/EventModel.h"
@@ -47,9 +48,7 @@ void tst_EventTable::init()
     events[2].isOpen = true;
     m_table->setEvents(events);
     connect(m_table.get(), &EventTable::eventActivated, this, [this](int id) { m_activated.push_back(id); });
-    m_table->resize(700, 250);
-    m_table->show();
-    QVERIFY(QTest::qWaitForWindowExposed(m_table.get()));
+    test::show(*m_table, {700, 250});
 }
 
 void tst_EventTable::sortsByValueNotByText()

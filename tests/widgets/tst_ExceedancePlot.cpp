@@ -1,5 +1,6 @@
 #include "widgets/plot/ExceedancePlot.h"
 
+#include "pixels.h"
 #include "widgets/base/Theme.h"
 
 #include <qwt_scale_div.h>
@@ -53,9 +54,7 @@ void tst_ExceedancePlot::init()
     m_plot->setCalibration(calibration(), 1e6);
     m_plot->setHistogram({0, 0, 10, 100, 500, 1000, 800, 400, 100, 20, 5, 1});
     m_plot->setThreshold(12.0);
-    m_plot->resize(420, 300);
-    m_plot->show();
-    QVERIFY(QTest::qWaitForWindowExposed(m_plot.get()));
+    test::show(*m_plot, {420, 300});
 }
 
 void tst_ExceedancePlot::draggingRequestsLiveAndCommitsOnce()

@@ -1,5 +1,6 @@
 #include "widgets/plot/LawPlot.h"
 
+#include "pixels.h"
 #include "widgets/base/Theme.h"
 
 #include <QtTest>
@@ -49,9 +50,7 @@ void tst_LawPlot::init()
 {
     m_plot = std::make_unique<LawPlot>();
     m_plot->setLaw({0.5, 0.2, 0.05}, 6);
-    m_plot->resize(500, 300);
-    m_plot->show();
-    QVERIFY(QTest::qWaitForWindowExposed(m_plot.get()));
+    test::show(*m_plot, {500, 300});
     m_plot->setFocus();
 }
 

@@ -1,6 +1,7 @@
 #include "widgets/waterfall/LayerItem.h"
 
 #include "pictures.h"
+#include "pixels.h"
 #include "widgets/base/Theme.h"
 #include "widgets/pings/PolarLayerItem.h"
 #include "widgets/plot/ColourMap.h"
@@ -317,10 +318,7 @@ void tst_LayerItem::theKeyIsTheMapItself()
     m_item->setPicture(picture(10, 20), m_rows, m_columns);
     m_item->setLayer(OutputLayer::Rate, {-2.0, 2.0}, "Drift (Hz/s)", 1.0);
     const QImage key = drawnKey({400, 300});
-    QSet<QRgb> colours;
-    for (int y = 50; y < 150; ++y)
-        for (int x = 250; x < 450; ++x)
-            colours.insert(key.pixel(x, y));
+    const QSet<QRgb> colours = test::coloursOf(key.copy(250, 50, 200, 100));
     for (const double share : {0.0, 0.25, 0.5, 0.75})
         QVERIFY(colours.contains(mapped("blue-red", share)));
     // The numbers are in the unit of the title.

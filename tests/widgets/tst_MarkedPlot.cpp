@@ -8,8 +8,6 @@
 
 #include <QSignalSpy>
 
-#include <limits>
-
 using namespace faintline;
 
 namespace {
@@ -55,12 +53,9 @@ private:
     QRect placeOf(const QColor &colour) const
     {
         const QImage image = test::imageOf(*m_view);
-        QRect place;
-        for (int y = 3; y < image.height() - 3; ++y)
-            for (int x = 3; x < image.width() - 3; ++x)
-                if ((image.pixel(x, y) | 0xff000000) == colour.rgb())
-                    place |= QRect(x, y, 1, 1);
-        return place;
+        return test::pixelsWhere(image, image.rect().adjusted(3, 3, -3, -3),
+                                 [&](QRgb one) { return one == colour.rgb(); })
+            .boundingRect();
     }
     QPoint pixel(double x, double y) const { return m_view->canvasPosition(x, y).toPoint(); }
 
@@ -128,11 +123,11 @@ void tst_MarkedPlot::wordsOfNeighboursDoNotMeet()
         const auto rowsOf = [&](std::vector<MarkedPlot::Mark> marks) {
             m_view->setMarks(std::move(marks));
             const QImage image = test::imageOf(*m_view);
+            const int left = pixel(5.4, 0.0).x();
+            const QRect beside(left, 3, pixel(11.0, 0.0).x() - left, image.height() - 6);
             QSet<int> rows; // with letters: more than the line's own pixels
-            for (int y = 3; y < image.height() - 3; ++y)
-                for (int x = pixel(5.4, 0.0).x(); x < pixel(11.0, 0.0).x(); ++x)
-                    if (qGray(image.pixel(x, y)) < 100)
-                        rows << y;
+            for (const QPoint &dark : test::pixelsWhere(image, beside, [](QRgb one) { return qGray(one) < 100; }))
+                rows << dark.y();
             return rows;
         };
         const QSet<int> first = rowsOf({{5.0, true, "first of two", false}});

@@ -2,6 +2,7 @@
 
 #include "widgets/pings/PingMap.h"
 
+#include "pixels.h"
 #include "spectrum/pictureCuts.h"
 #include "widgets/base/Theme.h"
 #include "widgets/pings/PingOverlayItem.h"
@@ -15,7 +16,6 @@
 #include <QImage>
 #include <QSignalSpy>
 #include <QTest>
-#include <QWheelEvent>
 
 #include <cmath>
 
@@ -218,10 +218,8 @@ private slots:
         Viewport viewport;
         setExtents(viewport);
         PingMap map("Statistic", viewport);
-        map.resize(500, 400);
         map.setPicture(picture(10, 3), grid().axes[1]);
-        map.show();
-        QVERIFY(QTest::qWaitForWindowExposed(&map));
+        test::show(map, {500, 400});
         QSignalSpy changed(&map, &PingMap::polarChanged);
         QTest::keyClick(map.plane(), Qt::Key_P);
         QVERIFY(map.isPolar());
@@ -238,11 +236,9 @@ private slots:
         Viewport viewport;
         setExtents(viewport);
         PingMap map("Statistic", viewport);
-        map.resize(500, 400);
         map.setPicture(picture(10, 3), grid().axes[1]);
         map.setPolar(true);
-        map.show();
-        QVERIFY(QTest::qWaitForWindowExposed(&map));
+        test::show(map, {500, 400});
         PolarView &polar = *map.polar();
         const QPointF at = polar.positionOf({1250.0, 225.0});
         QTest::mouseClick(polar.canvas(), Qt::LeftButton, {}, at.toPoint());
@@ -277,10 +273,8 @@ private slots:
         Viewport viewport;
         setExtents(viewport);
         PingMap map("Statistic", viewport);
-        map.resize(500, 400);
         map.setPicture(picture(10, 3), grid().axes[1]);
-        map.show();
-        QVERIFY(QTest::qWaitForWindowExposed(&map));
+        test::show(map, {500, 400});
         const Span range = map.plane()->range();
         std::vector<float> louder(std::size_t(ranges * beams));
         for (std::size_t i = 0; i < louder.size(); ++i)
@@ -298,10 +292,8 @@ private slots:
         Viewport viewport;
         setExtents(viewport);
         PingMap map("Statistic", viewport);
-        map.resize(500, 400);
         map.setPicture(picture(10, 3), grid().axes[1]);
-        map.show();
-        QVERIFY(QTest::qWaitForWindowExposed(&map));
+        test::show(map, {500, 400});
         const PingMarks marks = pingMarks(sixPings(), {track(1, {{20, 6}, {24, 7}, {28, 0}, {32, 1}})}, {}, 3);
         for (const bool isPolar : {false, true}) {
             map.setPolar(isPolar);

@@ -4,8 +4,6 @@
 
 #include <QtTest>
 
-#include <cmath>
-
 using namespace faintline;
 
 /// Tracks, events and targets on range and bearing, as each axis alone sees them.
@@ -79,7 +77,7 @@ void tst_PingMarks::eventsAlongEachAxis()
     QCOMPARE(bearings[0].driftPerSecond, 0.5);
 }
 
-/// An event on one axis is what that axis sees of it, so that nobody has to ask how many there are.
+/// Events with a single axis stay as they are.
 void tst_PingMarks::linesAreTheirOwnAxis()
 {
     Event line = test::event(1, 2.0, 8.0, 440.0);

@@ -1,6 +1,7 @@
 #include "widgets/waterfall/RasterItem.h"
 
 #include "pictures.h"
+#include "pixels.h"
 
 #include <QtTest>
 
@@ -73,11 +74,7 @@ void tst_RasterItem::contour()
     item.setColours(ColourMap::named("grey"), {0.0, 20.0});
     item.setContour(10.0, 0xff00ff00);
     const QImage image = item.image({99.0, 109.0}, {0.0, 5.0}, false, {5, 5});
-    int marked = 0;
-    for (int y = 0; y < 5; ++y)
-        for (int x = 0; x < 5; ++x)
-            marked += image.pixel(x, y) == 0xff00ff00 ? 1 : 0;
-    QCOMPARE(marked, 4);
+    QCOMPARE(test::pixelsWhere(image, image.rect(), [](QRgb colour) { return colour == 0xff00ff00; }).size(), 4);
     QCOMPARE(image.pixel(2, 2), 0xffffffff);
     QCOMPARE(image.pixel(1, 2), 0xff00ff00);
 

@@ -300,7 +300,7 @@ void tst_SettingRow::theDefaultIsOneClickAway()
     type("5");
     QVERIFY(reset->isVisible());
     QCoreApplication::processEvents();
-    QCOMPARE(row.editor()->width(), width); // its place is kept for it
+    QCOMPARE(row.editor()->width(), width); // its width is reserved
     type("50");                             // a mistake as well
     QTest::mouseClick(reset, Qt::LeftButton);
     QCOMPARE(edited.last()[0].value<FieldValue>(), FieldValue(1.0));

@@ -15,7 +15,7 @@
 
 using namespace faintline;
 
-/// A form that nobody wrote: every setting is in it, edits are asked for, mistakes are answered.
+/// The form made from the fields: it has every setting, requests edits and shows errors.
 class tst_SettingsForm : public QObject
 {
     Q_OBJECT
@@ -154,7 +154,7 @@ void tst_SettingsForm::errorsFromOutside()
 {
     m_form->setError("model.slopeChange", "must sum to 1");
     QCOMPARE(errors(), QStringList{"must sum to 1"});
-    QVERIFY(m_form->editor("model.slopeChange")->isVisible()); // unfolded, or nobody would see it
+    QVERIFY(m_form->editor("model.slopeChange")->isVisible()); // its section unfolds to show it
     m_form->setError("no.such.field", "something else");
     QCOMPARE(errors().size(), 2);
     m_form->setSettings({});

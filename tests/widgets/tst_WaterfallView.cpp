@@ -1,9 +1,11 @@
 #include "widgets/waterfall/WaterfallView.h"
 
 #include "pictures.h"
+#include "pixels.h"
 #include "widgets/base/Theme.h"
 
 #include <QMenu>
+#include <QSignalSpy>
 #include <QtTest>
 
 #include <cmath>
@@ -36,6 +38,7 @@ private slots:
     void sidebandsAreDragged();
     void sidebandsByKey();
     void levelsAndAutomaticRange();
+    void scrollingKeepsTheLevels();
     void valueAtEveryCell();
     void emptyAndBack();
     void everyOrientationShowsTheSameCell();
@@ -61,9 +64,7 @@ void tst_WaterfallView::init()
     m_view = std::make_unique<WaterfallView>("Statistic");
     m_view->setViewport(&m_viewport);
     m_view->setPicture(picture, hz);
-    m_view->resize(500, 400);
-    m_view->show();
-    QVERIFY(QTest::qWaitForWindowExposed(m_view.get()));
+    test::show(*m_view, {500, 400});
 }
 
 void tst_WaterfallView::cleanup()
@@ -376,6 +377,24 @@ void tst_WaterfallView::levelsAndAutomaticRange()
     QVERIFY(m_view->range().width() > 0.0);
     QTest::keyClick(m_view.get(), Qt::Key_A);
     QCOMPARE(m_view->range(), automatic);
+}
+
+void tst_WaterfallView::scrollingKeepsTheLevels()
+{
+    // Quiet at first, loud later.
+    m_view->setPicture(test::picture(100, 200, [](Index f, Index c) { return float(f < 50 ? c % 3 : 20 + c % 30); }),
+                       test::hzAxis(200));
+    m_viewport.zoomTo({0.0, 20.0}, {100.0, 200.0});
+    m_view->grab();
+    const Span quiet = m_view->range();
+    QVERIFY(m_view->isRangeAutomatic());
+    QSignalSpy changed(m_view.get(), &WaterfallView::rangeChanged);
+    for (const double seconds : {20.0, 40.0, 60.0, 80.0}) {
+        m_viewport.zoomTo({seconds, seconds + 20.0}, {300.0, 400.0});
+        m_view->grab();
+        QCOMPARE(m_view->range(), quiet);
+    }
+    QCOMPARE(changed.count(), 0);
 }
 
 void tst_WaterfallView::valueAtEveryCell()

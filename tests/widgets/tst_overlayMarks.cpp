@@ -6,8 +6,6 @@
 
 #include <QtTest>
 
-#include <limits>
-
 using namespace faintline;
 
 /// What lies over a waterfall, in seconds and Hz, and the peak and lines one points at.

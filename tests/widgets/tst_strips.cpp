@@ -2,8 +2,8 @@
 #include "widgets/waterfall/OverviewStrip.h"
 
 #include "pictures.h"
+#include "pixels.h"
 #include "widgets/base/Theme.h"
-#include "widgets/waterfall/WaterfallView.h"
 
 #include <qwt_plot_curve.h>
 #include <qwt_text.h>
@@ -47,12 +47,6 @@ private:
         QCoreApplication::sendEvent(widget, &move);
         QTest::mouseRelease(widget, Qt::LeftButton, {}, to.toPoint());
     }
-    void show(QWidget &widget, const QSize &size)
-    {
-        widget.resize(size);
-        widget.show();
-        QVERIFY(QTest::qWaitForWindowExposed(&widget));
-    }
 
     Viewport m_viewport;
 };
@@ -64,7 +58,7 @@ void tst_strips::aPeakOfOneFrameIsDrawn()
     std::vector<float> values(100000, 1.0f);
     values[54321] = 42.0f;
     plot.setSeries("D", test::timeAxis(100000, 0.01), values);
-    show(plot, {400, 120});
+    test::show(plot, {400, 120});
     const QwtPlotCurve *drawn = curve(plot, "D");
     QVERIFY(drawn);
     QVERIFY(drawn->dataSize() < 2000);
@@ -76,7 +70,7 @@ void tst_strips::gapsAreLeftOut()
     StripPlot plot("D (nat)");
     plot.setViewport(&m_viewport);
     plot.setSeries("D", test::timeAxis(4, 250.0), {1.0f, std::nanf(""), 3.0f, std::nanf("")});
-    show(plot, {400, 120});
+    test::show(plot, {400, 120});
     QCOMPARE(curve(plot, "D")->dataSize(), std::size_t(2));
 }
 
@@ -85,7 +79,7 @@ void tst_strips::profileFollowsTheCursor()
     StripPlot plot("D (nat)");
     plot.setViewport(&m_viewport);
     plot.setProfile("at the cursor", test::countingPicture(4, 10), test::hzAxis(10));
-    show(plot, {400, 120});
+    test::show(plot, {400, 120});
     QVERIFY(!curve(plot, "at the cursor"));
     m_viewport.setCursor({1.0, 106.3}); // cell 3
     QVERIFY(curve(plot, "at the cursor"));
@@ -101,7 +95,7 @@ void tst_strips::stripScrollsZoomsAndPlacesTheCursor()
     StripPlot plot("D (nat)");
     plot.setViewport(&m_viewport);
     plot.setSeries("D", test::timeAxis(1000), std::vector<float>(1000, 1.0f));
-    show(plot, {500, 140});
+    test::show(plot, {500, 140});
     m_viewport.zoomTo({200.0, 400.0}, {99.0, 119.0});
     const auto position = [&](double seconds) { return QPointF(plot.transform(QwtAxis::XBottom, seconds), 20.0); };
     QTest::mouseClick(plot.canvas(), Qt::LeftButton, {}, position(250.0).toPoint());
@@ -123,7 +117,7 @@ void tst_strips::overviewBoxIsDragged()
     strip.setViewport(&m_viewport);
     strip.setPicture(test::countingPicture(4, 10), test::hzAxis(10));
     m_viewport.zoomTo({100.0, 300.0}, {103.0, 113.0});
-    show(strip, {1016, 60}); // one pixel a second, from x = 8 on
+    test::show(strip, {1016, 60}); // one pixel a second, from x = 8 on
     drag(&strip, {208.0, 20.0}, {408.0, 20.0});
     QVERIFY(std::abs(m_viewport.time().low - 300.0) < 1.0);
     QCOMPARE(m_viewport.time().width(), 200.0);
@@ -136,7 +130,7 @@ void tst_strips::overviewSidesZoom()
     strip.setViewport(&m_viewport);
     strip.setPicture(test::countingPicture(4, 10), test::hzAxis(10));
     m_viewport.zoomTo({100.0, 300.0}, {99.0, 119.0});
-    show(strip, {1016, 60});
+    test::show(strip, {1016, 60});
     drag(&strip, {308.0, 20.0}, {508.0, 20.0});
     QVERIFY(std::abs(m_viewport.time().low - 100.0) < 1.0);
     QVERIFY(std::abs(m_viewport.time().high - 500.0) < 1.0);
@@ -150,7 +144,7 @@ void tst_strips::overviewClickGoesThere()
     strip.setViewport(&m_viewport);
     strip.setPicture(test::countingPicture(4, 10), test::hzAxis(10));
     m_viewport.zoomTo({100.0, 300.0}, {99.0, 119.0});
-    show(strip, {1016, 60});
+    test::show(strip, {1016, 60});
     QTest::mouseClick(&strip, Qt::LeftButton, {}, {808, 20});
     QVERIFY(std::abs(m_viewport.time().middle() - 800.0) < 1.0);
     QTest::keyClick(&strip, Qt::Key_Left);
@@ -162,10 +156,7 @@ void tst_strips::overviewEmptyIsASentence()
     OverviewStrip strip;
     strip.resize(400, 56);
     const QImage image = strip.grab().toImage();
-    QSet<QRgb> colours;
-    for (int x = 0; x < image.width(); ++x)
-        colours.insert(image.pixel(x, 22));
-    QVERIFY(colours.size() > 3);
+    QVERIFY(test::coloursOf(image.copy(0, 22, image.width(), 1)).size() > 3);
     QTest::mouseClick(&strip, Qt::LeftButton);
     QTest::keyClick(&strip, Qt::Key_Right);
 }

@@ -6,7 +6,6 @@
 
 #include <QKeyEvent>
 #include <QMenu>
-#include <QSignalSpy>
 #include <QtTest>
 
 using namespace faintline;

@@ -4,6 +4,8 @@
 #include "base/Overloaded.h"
 #include "base/fileName.h"
 #include "base/wholeNumber.h"
+#include "evaluate/experiments/InjectionTrials.h"
+#include "evaluate/experiments/lineRuns.h"
 #include "recording/openRecording.h"
 
 #include <algorithm>

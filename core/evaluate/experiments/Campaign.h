@@ -3,6 +3,7 @@
 #include "base/Interval.h"
 #include "evaluate/experiments/InjectionExperiment.h"
 #include "evaluate/experiments/LineExperiment.h"
+#include "evaluate/experiments/RunOutcome.h"
 #include "evaluate/experiments/SweepExperiment.h"
 
 #include <cstdint>

@@ -46,4 +46,12 @@ Json toJson(const InjectionExperiment &experiment)
     return whole;
 }
 
+AnalysisSettings settingsOf(const InjectionExperiment &experiment, std::size_t detector)
+{
+    AnalysisSettings settings = experiment.settings;
+    settings.model = experiment.detectors[detector].settings.model;
+    settings.detector = experiment.detectors[detector].settings.detector;
+    return settings;
+}
+
 } // namespace faintline

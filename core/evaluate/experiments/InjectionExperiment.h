@@ -1,14 +1,10 @@
 #pragma once
 
 #include "analysis/AnalysisSettings.h"
-#include "base/RunContext.h"
 #include "base/json.h"
 #include "evaluate/experiments/LineExperiment.h"
-#include "recording/Recording.h"
-#include "recording/Truth.h"
 
-#include <functional>
-#include <memory>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -48,36 +44,7 @@ struct InjectionExperiment {
 InjectionExperiment injectionExperimentFromJson(const Json &json, const std::string &where);
 Json toJson(const InjectionExperiment &experiment);
 
-/// What all trials of an experiment share: the recording, its background, the detectors' thresholds.
-class InjectionTrials
-{
-public:
-    /// Estimates the recording's noise, calibrates every detector, finds what signals there are and measures
-    /// thresholds. Throws Error, Cancelled.
-    InjectionTrials(const InjectionExperiment &experiment, RecordingPointer recording, const RunContext &context = {});
-    ~InjectionTrials();
-
-    /// The thresholds, one per detector.
-    const std::vector<double> &thresholds() const { return m_thresholds; }
-
-    /// Does the given trials on context.threads threads; run = trial, noise = [detector][0] without the line, signal =
-    /// [detector][SNR][0] with it. Depends on nothing but the experiment and the recording.
-    std::vector<RunOutcome> run(const std::vector<int> &trials, const RunContext &context = {},
-                                const RunSink &sink = {}) const;
-
-    /// The recording with one trial's line in it, and the line's truth.
-    struct Made {
-        RecordingPointer recording;
-        TruthLine truth;
-    };
-    Made remake(int trial, double snrDb) const;
-
-private:
-    struct Shared;
-    class LineLook;
-    InjectionExperiment m_experiment;
-    std::unique_ptr<const Shared> m_shared;
-    std::vector<double> m_thresholds;
-};
+/// Of one detector: its model and itself on top of what all detectors share.
+AnalysisSettings settingsOf(const InjectionExperiment &experiment, std::size_t detector);
 
 } // namespace faintline

@@ -1,4 +1,4 @@
-#include "evaluate/experiments/InjectionExperiment.h"
+#include "evaluate/experiments/InjectionTrials.h"
 
 #include "analysis/Calibration.h"
 #include "analysis/chain.h"
@@ -29,16 +29,6 @@ namespace {
     constexpr double certainSignals = 1e-3; ///< of the false alarms asked for, where what is found is a signal
     constexpr int attempts = 1000;
     constexpr float lowest = -std::numeric_limits<float>::infinity();
-
-    /// Of one detector, slopes in bins a frame.
-    AnalysisSettings settingsOfDetector(const InjectionExperiment &experiment, std::size_t detector,
-                                        const RecordingInfo &info)
-    {
-        AnalysisSettings settings = experiment.settings;
-        settings.model = experiment.detectors[detector].settings.model;
-        settings.detector = experiment.detectors[detector].settings.detector;
-        return withSlopesInBins(settings, info);
-    }
 
     /// What the frames of a selection hold, its levels as its background has them: clicks are judged by a whole band
     /// only.
@@ -176,7 +166,8 @@ InjectionTrials::InjectionTrials(const InjectionExperiment &experiment, Recordin
     const auto frames = framesOf(shared->spectrogram, shared->background, experiment.settings.noise);
     std::vector<Analysis> analyses;
     for (std::size_t d = 0; d < experiment.detectors.size(); ++d) {
-        const AnalysisSettings settings = settingsOfDetector(experiment, d, shared->spectrogram->recording().info());
+        const AnalysisSettings settings =
+            withSlopesInBins(settingsOf(experiment, d), shared->spectrogram->recording().info());
         const auto n = double(experiment.detectors.size());
         const auto calibration = calibrateBand(settings, *shared->spectrogram,
                                                context.part(0.2 + 0.6 * double(d) / n, 0.2 + 0.6 * double(d + 1) / n));
@@ -275,7 +266,7 @@ public:
             std::max<Index>(0, Index(std::floor(time.position(m_truth.startSeconds))) - framesBefore);
         const Grid &grid = m_frames->grid();
         for (std::size_t d = 0; d < m_experiment.detectors.size(); ++d) {
-            const AnalysisSettings settings = settingsOfDetector(m_experiment, d, m_shared.recording->info());
+            const AnalysisSettings settings = withSlopesInBins(settingsOf(m_experiment, d), m_shared.recording->info());
             // Blocks stand where they do in the whole recording, and the one that the line ends in is waited for.
             const Index block = framesPerDecision(settings.detector, frameGeometry(settings.spectrogram));
             const Index blockEnd =

@@ -1,12 +1,9 @@
 #pragma once
 
 #include "analysis/AnalysisSettings.h"
-#include "base/RunContext.h"
 #include "base/json.h"
 #include "recording/LineScene.h"
-#include "spectrum/NormalisedFrames.h"
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -65,37 +62,5 @@ void checkExperiment(const LineExperiment &experiment);
 /// Error.
 LineExperiment lineExperimentFromJson(const Json &json, const std::string &where);
 Json toJson(const LineExperiment &experiment);
-
-/// What one run leaves behind: all that any estimate of Pd, Pfa or ROC needs.
-struct RunOutcome {
-    int run = 0;
-    /// [detector][block]: largest D on the noise alone.
-    std::vector<std::vector<float>> noise;
-    /// [detector][SNR][signal]: largest D at the line's own frequency while it lasts.
-    std::vector<std::vector<std::vector<float>>> signal;
-
-    bool operator==(const RunOutcome &) const = default;
-};
-
-/// The reset rule of every detector of the experiment, K found on the experiment's own noise (default for those without
-/// one).
-std::vector<ResetRule> calibratedResets(const LineExperiment &experiment, const RunContext &context = {});
-
-/// Called with every finished run, in any order, from one thread at a time.
-using RunSink = std::function<void(const RunOutcome &)>;
-
-/// Does the given runs, on context.threads threads; the answer is in the order of `runs` and depends on nothing but the
-/// experiment. K of sequential Markov detectors is calibrated first. Throws Error, Cancelled.
-std::vector<RunOutcome> runExperiment(const LineExperiment &experiment, const std::vector<int> &runs,
-                                      const RunContext &context = {}, const RunSink &sink = {});
-
-/// One signal of one run made again, by itself.
-struct LineTrial {
-    /// Its block, y with noise of mean 1; bins as frequency in cells, frames as windows.
-    std::shared_ptr<const FrameArray> frames;
-    Index firstFrame = 0;    ///< of the line, in the block
-    std::vector<Index> path; ///< its bin in the block, one per frame of its duration
-};
-LineTrial remakeTrial(const LineExperiment &experiment, double snrDb, int run, int signal);
 
 } // namespace faintline

@@ -2,6 +2,7 @@
 
 #include "base/Interval.h"
 #include "evaluate/experiments/LineExperiment.h"
+#include "evaluate/experiments/RunOutcome.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -16,7 +16,6 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
-#include <optional>
 
 namespace faintline {
 

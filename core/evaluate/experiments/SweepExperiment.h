@@ -4,10 +4,10 @@
 #include "base/RunContext.h"
 #include "base/json.h"
 #include "evaluate/experiments/LineExperiment.h"
+#include "evaluate/experiments/RunOutcome.h"
 #include "recording/Recording.h"
 #include "recording/Truth.h"
 
-#include <memory>
 #include <string>
 #include <vector>
 

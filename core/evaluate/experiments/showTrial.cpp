@@ -1,6 +1,7 @@
 #include "evaluate/experiments/showTrial.h"
 
 #include "evaluate/experiments/campaignCharts.h"
+#include "evaluate/experiments/lineRuns.h"
 
 #include <algorithm>
 
@@ -60,9 +61,7 @@ namespace {
                             const TrialPlace &place, const RunContext &context)
     {
         const auto &injection = std::get<InjectionExperiment>(campaign.experiment);
-        AnalysisSettings settings = injection.settings;
-        settings.model = injection.detectors[point.detector].settings.model;
-        settings.detector = injection.detectors[point.detector].settings.detector;
+        AnalysisSettings settings = settingsOf(injection, point.detector);
         setThreshold(settings, shownThreshold(campaign, point.detector));
         const InjectionTrials::Made made = trials.remake(place.run, injection.snrDb[point.snr]);
         return {analyse(made.recording, settings, context), {{made.truth}}};
@@ -70,14 +69,14 @@ namespace {
 
 } // namespace
 
-std::vector<TrialOutcome> trialsOf(const Campaign &campaign, std::size_t detector, std::size_t snr)
+std::vector<TrialOutcome> trialsOf(const Campaign &campaign, const CampaignPoint &point)
 {
     std::vector<TrialOutcome> result;
     if (campaign.outcomes.empty())
         return result;
-    const double threshold = shownThreshold(campaign, detector);
+    const double threshold = shownThreshold(campaign, point.detector);
     for (const RunOutcome &outcome : campaign.outcomes) {
-        const std::vector<float> &signals = outcome.signal[detector][snr];
+        const std::vector<float> &signals = outcome.signal[point.detector][point.snr];
         for (std::size_t i = 0; i < signals.size(); ++i) {
             const auto statistic = double(signals[i]);
             result.push_back({{outcome.run, int(i)}, statistic, statistic > threshold});

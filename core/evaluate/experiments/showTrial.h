@@ -2,6 +2,7 @@
 
 #include "analysis/analyse.h"
 #include "evaluate/experiments/Campaign.h"
+#include "evaluate/experiments/InjectionTrials.h"
 #include "recording/Truth.h"
 
 #include <cstddef>
@@ -18,6 +19,12 @@ struct TrialPlace {
     bool operator==(const TrialPlace &) const = default;
 };
 
+/// A point of a campaign's curves: which detector, at which of the experiment's SNRs.
+struct CampaignPoint {
+    std::size_t detector = 0;
+    std::size_t snr = 0;
+};
+
 /// The trials behind a point of a campaign's curve, in order, and whether the campaign's statistic exceeds the
 /// threshold shown.
 struct TrialOutcome {
@@ -25,13 +32,7 @@ struct TrialOutcome {
     double statistic = 0.0;
     bool isDetected = false;
 };
-std::vector<TrialOutcome> trialsOf(const Campaign &campaign, std::size_t detector, std::size_t snr);
-
-/// A point of a campaign's curves: which detector, at which of the experiment's SNRs.
-struct CampaignPoint {
-    std::size_t detector = 0;
-    std::size_t snr = 0;
-};
+std::vector<TrialOutcome> trialsOf(const Campaign &campaign, const CampaignPoint &point);
 
 /// A trial made again and put through the whole chain, to be looked at.
 struct ShownTrial {

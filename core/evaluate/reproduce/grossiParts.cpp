@@ -11,7 +11,7 @@ std::string deviationName(double deviation)
     return std::isinf(deviation) ? "uniform" : "σ = " + formatNumber(deviation);
 }
 
-std::string formatted(const char *format, double value)
+std::string inFormat(const char *format, double value)
 {
     char buffer[64];
     std::snprintf(buffer, sizeof buffer, format, value);
@@ -52,7 +52,7 @@ ReproducedCell exactCell(std::string row, std::string column, double ours, doubl
     return cell;
 }
 
-ReproducedCell frequencyCell(std::string row, std::string column, const Frequency &ours,
+ReproducedCell frequencyCell(std::string row, std::string column, const TrialCount &ours,
                              const PublishedFrequency &reference)
 {
     const auto n = double(ours.trials);
@@ -68,7 +68,7 @@ ReproducedCell frequencyCell(std::string row, std::string column, const Frequenc
     return cell;
 }
 
-Index trialsOf(Index full, const ReproduceOptions &options)
+Index reducedTrials(Index full, const ReproduceOptions &options)
 {
     return options.quick ? full / 10 : full;
 }

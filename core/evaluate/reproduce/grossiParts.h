@@ -1,17 +1,15 @@
 #pragma once
 
-#include "base/Interval.h"
 #include "evaluate/reproduce/Reproduction.h"
-#include "evaluate/sequential/SequentialStudy.h"
+#include "evaluate/sequential/simulate.h"
 
 #include <array>
 #include <limits>
 #include <string>
-#include <vector>
 
 namespace faintline {
 
-/// What the parts of Grossi's and Lops' reproduction (reproduceGrossi.h) share, one figure a file.
+// What the parts of Grossi's and Lops' reproduction (reproduceGrossi.h) share, one figure a file.
 
 Reproducible grossiStages();       ///< Figure 2
 Reproducible grossiTrajectories(); ///< Figure 3
@@ -23,7 +21,7 @@ constexpr std::array<double, 5> walkDeviations{0.5, 1.0, 2.0, 5.0, std::numeric_
 std::string deviationName(double deviation);
 
 /// A number of stages as published, with its standard error.
-struct GrossiAsn {
+struct PublishedAsn {
     double value;
     double error;
 };
@@ -35,8 +33,8 @@ struct Published {
     double rounding; ///< step of the last digit
 };
 
-/// So many of the trials.
-struct Frequency {
+/// Successes among independent trials.
+struct TrialCount {
     Index successes;
     Index trials;
 };
@@ -55,12 +53,12 @@ double toleranceOf(double referenceError, double ourError, double rounding);
 
 ReproducedCell measuredCell(std::string row, std::string column, const Estimate &ours, const Published &reference);
 ReproducedCell exactCell(std::string row, std::string column, double ours, double reference, double tolerance);
-ReproducedCell frequencyCell(std::string row, std::string column, const Frequency &ours,
+ReproducedCell frequencyCell(std::string row, std::string column, const TrialCount &ours,
                              const PublishedFrequency &reference);
 
-Index trialsOf(Index full, const ReproduceOptions &options);
+Index reducedTrials(Index full, const ReproduceOptions &options);
 
 /// A number in a sentence, by a format of printf.
-std::string formatted(const char *format, double value);
+std::string inFormat(const char *format, double value);
 
 } // namespace faintline

@@ -1,5 +1,6 @@
 #include "base/logmath.h"
 #include "evaluate/reproduce/grossiParts.h"
+#include "evaluate/sequential/ScanTest.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,7 @@ namespace {
 
     struct RadarReference {
         std::optional<double> snrDb; ///< nothing: noise only
-        GrossiAsn stages;
+        PublishedAsn stages;
         double variation;
         double acceptH1;
         double acceptRounding;
@@ -32,21 +33,12 @@ namespace {
     }
     constexpr double figure4ReferenceTrials = 10000.0;
 
-    SequentialModel radarModel(double snr)
+    SequentialModel radarModel()
     {
-        const auto spatial = [](const char *name, Index cells) {
-            KinematicAxis axis;
-            axis.name = name;
-            axis.cells = cells;
-            axis.step = {1.0 / 3.0, 1.0 / 3.0};
-            axis.renormalised = true;
-            return axis;
-        };
-        KinematicAxis doppler;
-        doppler.name = "Doppler";
-        doppler.cells = 16;
-        return makeSequentialModel({spatial("azimuth", 3), spatial("elevation", 3), spatial("range", 100), doppler},
-                                   {false, false, false, true}, Likelihood(LikelihoodKind::Exponential, snr));
+        ScanScene scene;
+        scene.rangeCells = 100;
+        scene.dopplerCells = 16;
+        return scanModel(scene, 12.0);
     }
 
     /// The figure under way.
@@ -60,9 +52,9 @@ namespace {
                            "× 3 × 100 × 16 cells, "
                            "cut-off 20 stages, design SNR 12 dB";
             m_made.quantity = "ASN (stages), CV, P(accept H1)";
-            m_study.model = radarModel(ratioFromDb(12.0));
+            m_study.model = radarModel();
             m_study.sprt.cutOffStage = 20;
-            m_study.trials = trialsOf(10000, options);
+            m_study.trials = reducedTrials(10000, options);
         }
 
         Reproduction make()
@@ -147,8 +139,8 @@ namespace {
             const auto peak = std::max_element(m_stages.points.begin(), m_stages.points.end(),
                                                [](const auto &a, const auto &b) { return a.y < b.y; });
             m_made.notes.push_back(
-                "ASN peaks at " + formatNumber(peak->x) + " dB, " + formatted("%.2f", peak->y) + " stages against "
-                + formatted("%.2f", m_noiseStages)
+                "ASN peaks at " + formatNumber(peak->x) + " dB, " + inFormat("%.2f", peak->y) + " stages against "
+                + inFormat("%.2f", m_noiseStages)
                 + " on noise: half-way between noise and the design SNR ln Λ drifts nowhere, and the cut-off ends what "
                   "would hang. A test designed at each actual SNR has no such peak; it saturates at the cut-off and "
                   "falls.");

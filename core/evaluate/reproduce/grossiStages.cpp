@@ -3,8 +3,6 @@
 #include "evaluate/theory/waldTheory.h"
 #include "evaluate/theory/walkOnLine.h"
 
-#include <algorithm>
-
 namespace faintline {
 
 namespace {
@@ -12,8 +10,8 @@ namespace {
     struct LineReference {
         int cells;
         Index trials; ///< ours
-        std::array<GrossiAsn, 5> h0;
-        std::array<GrossiAsn, 5> h1;
+        std::array<PublishedAsn, 5> h0;
+        std::array<PublishedAsn, 5> h1;
         double h0Bound;
         double h1Bound;
     };
@@ -113,14 +111,14 @@ namespace {
             Curve curve{
                 lineName, Curve::Kind::Measured, {{0.0, isTarget ? m_known.h1.meanStages : m_known.h0.meanStages, {}}}};
             m_study.actualSnr = isTarget ? std::optional(1.0) : std::nullopt;
-            m_study.trials = trialsOf(reference.trials, m_options);
+            m_study.trials = reducedTrials(reference.trials, m_options);
             for (std::size_t i = 0; i < walkDeviations.size(); ++i) {
                 const double deviation = walkDeviations[i];
                 m_study.model = walkOnLine(reference.cells, deviation, 1.0);
                 m_study.seed = m_options.seed * 1000 + std::uint64_t(reference.cells * 10 + (isTarget ? 5 : 0)) + i;
                 const SequentialOutcome outcome = simulate(m_study, m_context.part(m_done, m_done + 0.025));
                 m_done += 0.025;
-                const GrossiAsn &asn = isTarget ? reference.h1[i] : reference.h0[i];
+                const PublishedAsn &asn = isTarget ? reference.h1[i] : reference.h0[i];
                 const double rounding = reference.cells == 100 || asn.error >= 0.95 ? 0.1 : 0.01;
                 m_made.cells.push_back(
                     measuredCell(row, deviationName(deviation), outcome.stages, {asn.value, asn.error, rounding}));
@@ -134,7 +132,7 @@ namespace {
             m_made.cells.push_back(
                 exactCell(row, "(8) upper", bound, isTarget ? reference.h1Bound : reference.h0Bound, 0.006));
             std::string &list = m_excess[isTarget ? 1 : 0];
-            list += (list.empty() ? "" : ", ") + formatted("%+.1f", 100.0 * (curve.points.back().y / bound - 1.0))
+            list += (list.empty() ? "" : ", ") + inFormat("%+.1f", 100.0 * (curve.points.back().y / bound - 1.0))
                     + " % at " + lineName;
             m_charts[isTarget ? 1 : 0].curves.push_back(std::move(curve));
             m_upper[isTarget ? 1 : 0].push_back(levelCurve("(8) upper, " + lineName, bound));

@@ -28,7 +28,7 @@ namespace {
                      "Figure 3): M = 100";
         made.quantity = "probability, given H1 accepted";
         SequentialStudy study;
-        study.trials = trialsOf(5000, options);
+        study.trials = reducedTrials(5000, options);
         study.estimatesTrajectory = true;
         Chart lastChart{
             "Last cell correct within two cells, M = 100", "entropy rate / ln M", "P_c,last", false, false, {}};

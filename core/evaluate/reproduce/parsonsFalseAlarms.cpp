@@ -135,7 +135,7 @@ namespace {
         return std::min(1.0, states * lindleyExceedance(threshold, lnK));
     }
 
-    /// Tolerances are wider of a quarter of the pings.
+    /// A quick run has a quarter of the pings, so tolerances double.
     double widened(double tolerance, const ReproduceOptions &options)
     {
         return tolerance * (options.quick ? 2.0 : 1.0);

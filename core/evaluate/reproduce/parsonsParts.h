@@ -12,7 +12,7 @@
 
 namespace faintline {
 
-/// What the parts of Parsons' reproduction (reproduceParsons.h) share, one part a file.
+// What the parts of Parsons' reproduction (reproduceParsons.h) share, one part a file.
 
 std::vector<Reproducible> parsonsChain();       ///< Figure 1
 std::vector<Reproducible> parsonsFalseAlarms(); ///< Figures 2 and 3

@@ -2,6 +2,7 @@
 
 #include "base/logmath.h"
 #include "evaluate/experiments/PdCurve.h"
+#include "evaluate/experiments/lineRuns.h"
 #include "evaluate/experiments/peers.h"
 #include "evaluate/theory/theory.h"
 

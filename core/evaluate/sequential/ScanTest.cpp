@@ -4,6 +4,7 @@
 #include "base/json.h"
 #include "base/logmath.h"
 #include "detect/averagedStages.h"
+#include "evaluate/sequential/simulate.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,7 @@
 #include "evaluate/sequential/TrajectoryJudge.h"
 
+#include "evaluate/sequential/SequentialTrial.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

@@ -1,7 +1,8 @@
 #pragma once
 
 #include "detect/MapTrajectory.h"
-#include "evaluate/sequential/SequentialTrial.h"
+#include "evaluate/sequential/SequentialStudy.h"
+#include "model/TrajectorySampler.h"
 
 #include <vector>
 

@@ -4,7 +4,6 @@
 #include "evaluate/theory/walkOnLine.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace faintline {

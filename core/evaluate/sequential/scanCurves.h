@@ -2,6 +2,7 @@
 
 #include "evaluate/experiments/Chart.h"
 #include "evaluate/sequential/ScanTest.h"
+#include "evaluate/sequential/simulate.h"
 #include "evaluate/theory/waldTheory.h"
 
 #include <optional>

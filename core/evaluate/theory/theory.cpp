@@ -8,7 +8,6 @@
 #include <boost/math/tools/roots.hpp>
 
 #include <cmath>
-#include <cstdint>
 
 namespace faintline {
 

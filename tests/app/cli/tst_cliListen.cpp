@@ -188,7 +188,7 @@ void tst_cliListen::fifo()
     process.setWorkingDirectory(folder());
     process.start(program, QStringList{"listen", "pipe", "--events", "fifo.csv"} + settings);
     QVERIFY(process.waitForStarted());
-    QTest::qWait(300); // nobody writes yet, which is no end
+    QTest::qWait(300); // no writer yet: not the end
     QFile writer(path("pipe"));
     QVERIFY(writer.open(QIODevice::WriteOnly));
     writer.write(wav(content("made.sigmf-data")));

@@ -138,7 +138,7 @@ void tst_cliStatistic::lnLambdaByEye()
     QCOMPARE(content("eye.csv"),
              QByteArray("frame,lnK,reset_fraction,max_statistic\n0,-1,1,3\n1,-1,0.5,2\n2,-1,0.5,3\n"));
 
-    // A cell that nobody can have come from: rate 1 from the lowest cell, and no reset.
+    // The lowest cell at rate 1 has no predecessor, and there is no reset.
     writeBytes(pathOf("none.json"),
                R"({"axes": [{"cells": 2, "rates": [1], "rateChange": [1]}], "likelihood": {"kind": "linear"},
         "reset": {"law": "none"}})");

@@ -4,6 +4,7 @@
 
 namespace faintline::test {
 
+/// White noise without lines.
 inline LineScene scene(double rateHz, double seconds, int seed)
 {
     LineScene result;
@@ -13,6 +14,7 @@ inline LineScene scene(double rateHz, double seconds, int seed)
     return result;
 }
 
+/// A line of constant power. `snrDb` is its SNR in a rectangular window of `referenceSeconds`.
 inline LineSettings line(double hz, double driftHzPerSecond, double from, double seconds, double snrDb,
                          double referenceSeconds)
 {

@@ -1,43 +1,36 @@
 #include "base/logmath.h"
-#include "evaluate/sequential/SequentialStudy.h"
+#include "evaluate/sequential/SequentialTrial.h"
+#include "evaluate/sequential/simulate.h"
 #include "evaluate/theory/waldTheory.h"
+#include "support/studies.h"
 
 #include <QtTest>
 
 #include <map>
 
 using namespace faintline;
+using test::axis;
 
 namespace {
 
-KinematicAxis axis(Index cells)
-{
-    KinematicAxis a;
-    a.cells = cells;
-    return a;
-}
-
 KinematicAxis walk(Index cells, double deviation)
 {
-    KinematicAxis a = axis(cells);
-    a.step = gaussianStep(deviation, cells);
+    KinematicAxis a = axis(cells, gaussianStep(deviation, cells));
     a.renormalised = true;
     return a;
 }
 
-SequentialStudy study(std::vector<KinematicAxis> axes, std::vector<bool> isFolded, double snr,
+SequentialStudy study(const std::vector<KinematicAxis> &axes, const std::vector<bool> &isFolded, double snr,
                       std::optional<double> actual, Index trials)
 {
-    SequentialStudy made;
-    made.model = makeSequentialModel(axes, isFolded, Likelihood(LikelihoodKind::Exponential, snr));
+    SequentialStudy made = test::study(axes, isFolded, snr, actual);
     made.sprt = {0.01, 0.02, 0};
-    made.actualSnr = actual;
     made.trials = trials;
     return made;
 }
 
 /// The trial's frames in the order of the model's frame: folded axes are the last ones here.
-StageSource framesOf(const SequentialStudy &made, SequentialTrial &trial)
+StageSource stagesOf(const SequentialStudy &made, SequentialTrial &trial)
 {
     return [&](Index, std::span<double> y) {
         const std::span<const float> blocks = trial.next();
@@ -51,7 +44,7 @@ StageSource framesOf(const SequentialStudy &made, SequentialTrial &trial)
 } // namespace
 
 /// Simulated tests: exact where theory is, the same trials as the plain test takes, nothing that depends on threads.
-class tst_SequentialStudy : public QObject
+class tst_simulate : public QObject
 {
     Q_OBJECT
 
@@ -73,7 +66,7 @@ private slots:
     void refusals();
 };
 
-void tst_SequentialStudy::isTheExactWalk_data()
+void tst_simulate::isTheExactWalk_data()
 {
     QTest::addColumn<bool>("isTarget");
     QTest::addColumn<double>("actualDb");
@@ -82,7 +75,7 @@ void tst_SequentialStudy::isTheExactWalk_data()
     QTest::newRow("weaker") << true << 0.0;
 }
 
-void tst_SequentialStudy::isTheExactWalk()
+void tst_simulate::isTheExactWalk()
 {
     QFETCH(bool, isTarget);
     QFETCH(double, actualDb);
@@ -104,7 +97,7 @@ void tst_SequentialStudy::isTheExactWalk()
     QCOMPARE(counted, outcome.trials);
 }
 
-void tst_SequentialStudy::isThePlainTest_data()
+void tst_simulate::isThePlainTest_data()
 {
     QTest::addColumn<int>("world");
     QTest::addColumn<bool>("isTarget");
@@ -113,7 +106,7 @@ void tst_SequentialStudy::isThePlainTest_data()
             QTest::addRow("world %d, %s", world, isTarget ? "target" : "noise") << world << isTarget;
 }
 
-void tst_SequentialStudy::isThePlainTest()
+void tst_simulate::isThePlainTest()
 {
     // Abreast, unscaled and with ratios in single precision, or one by one as runSprt does it: the same decisions.
     QFETCH(int, world);
@@ -140,7 +133,7 @@ void tst_SequentialStudy::isThePlainTest()
     Index acceptedH1 = 0;
     for (Index number = 0; number < made.trials; ++number) {
         SequentialTrial trial(made, sampler, number);
-        const StageSource source = framesOf(made, trial);
+        const StageSource source = stagesOf(made, trial);
         // Of the stages asked for a second time only the decision is looked at here.
         std::vector<std::vector<double>> taken;
         const SprtResult result = runSprt(made.model, made.sprt, 40, [&](Index stage, std::span<double> y) {
@@ -158,7 +151,7 @@ void tst_SequentialStudy::isThePlainTest()
     QCOMPARE(outcome.stopCounts, stopCounts);
 }
 
-void tst_SequentialStudy::threadsChangeNothing()
+void tst_simulate::threadsChangeNothing()
 {
     SequentialStudy made = study({walk(6, 1.0)}, {false}, 4.0, 4.0, 3500); // several pieces of work
     made.estimatesTrajectory = true;
@@ -172,7 +165,7 @@ void tst_SequentialStudy::threadsChangeNothing()
     QCOMPARE(a.correctTrack, b.correctTrack);
 }
 
-void tst_SequentialStudy::errorsAreKept_data()
+void tst_simulate::errorsAreKept_data()
 {
     QTest::addColumn<int>("reach");
     QTest::addColumn<std::vector<double>>("law");
@@ -185,7 +178,7 @@ void tst_SequentialStudy::errorsAreKept_data()
     QTest::newRow("slopes that are kept") << 1 << std::vector<double>{1.0} << false;
 }
 
-void tst_SequentialStudy::errorsAreKept()
+void tst_simulate::errorsAreKept()
 {
     // α = β = 1e-3, 0 dB, targets from the model's own law: at most three wrong of a thousand runs of either kind.
     QFETCH(int, reach);
@@ -209,7 +202,7 @@ void tst_SequentialStudy::errorsAreKept()
     QVERIFY2(targets.acceptedH1 >= 997, qPrintable(QString::number(1000 - targets.acceptedH1)));
 }
 
-void tst_SequentialStudy::targetsFollowTheLaw_data()
+void tst_simulate::targetsFollowTheLaw_data()
 {
     QTest::addColumn<int>("kind");
     QTest::newRow("Gaussian walk") << 0;
@@ -221,7 +214,7 @@ void tst_SequentialStudy::targetsFollowTheLaw_data()
     QTest::newRow("rates of half a cell between ends") << 6;
 }
 
-void tst_SequentialStudy::targetsFollowTheLaw()
+void tst_simulate::targetsFollowTheLaw()
 {
     QFETCH(int, kind);
     KinematicAxis a = kind == 0 ? walk(4, 0.8) : axis(4);
@@ -270,7 +263,7 @@ void tst_SequentialStudy::targetsFollowTheLaw()
         }
 }
 
-void tst_SequentialStudy::changeOfMeasureAgreesWithCounting()
+void tst_simulate::changeOfMeasureAgreesWithCounting()
 {
     const SequentialStudy noise = study({walk(5, 1.0)}, {false}, 2.0, std::nullopt, 20000);
     SequentialStudy target = noise;
@@ -290,7 +283,7 @@ void tst_SequentialStudy::changeOfMeasureAgreesWithCounting()
     QVERIFY(onNoise.otherError.value <= std::exp(sprtBoundaries(noise.sprt).lnLower));
 }
 
-void tst_SequentialStudy::strongTargetsAreFollowed()
+void tst_simulate::strongTargetsAreFollowed()
 {
     SequentialStudy made = study({walk(20, 0.5)}, {false}, 1e4, 1e4, 300);
     made.estimatesTrajectory = true;
@@ -300,7 +293,7 @@ void tst_SequentialStudy::strongTargetsAreFollowed()
     QVERIFY(outcome.correctLast >= outcome.correctTrack - 3);
 }
 
-void tst_SequentialStudy::cutOffEndsAll()
+void tst_simulate::cutOffEndsAll()
 {
     SequentialStudy made = study({walk(10, 1.0)}, {false}, 1.0, std::nullopt, 500);
     made.sprt.cutOffStage = 3;
@@ -309,7 +302,7 @@ void tst_SequentialStudy::cutOffEndsAll()
     QCOMPARE(outcome.undecided, Index(0));
 }
 
-void tst_SequentialStudy::averagedNoiseKeepsItsErrors()
+void tst_simulate::averagedNoiseKeepsItsErrors()
 {
     // The exact likelihood ratio of a cell over its neighbours' mean: for one cell among many α and β hold as ever.
     SequentialStudy made = study({axis(40)}, {false}, 6.0, std::nullopt, 3000);
@@ -320,7 +313,7 @@ void tst_SequentialStudy::averagedNoiseKeepsItsErrors()
     QVERIFY(averaged.stages.value > simulate(made).stages.value); // not to know the noise costs stages
 }
 
-void tst_SequentialStudy::fixedSize()
+void tst_simulate::fixedSize()
 {
     // A known trajectory has an exact answer.
     SequentialStudy made = study({axis(1)}, {false}, 6.0, std::nullopt, 20000);
@@ -331,7 +324,7 @@ void tst_SequentialStudy::fixedSize()
     QVERIFY(!simulatedFixedSampleSize(made, 1));
 }
 
-void tst_SequentialStudy::refusals()
+void tst_simulate::refusals()
 {
     SequentialStudy made = study({axis(4)}, {false}, 1.0, std::nullopt, 10);
     made.averagedCells = 4;
@@ -350,5 +343,5 @@ void tst_SequentialStudy::refusals()
     QVERIFY_EXCEPTION_THROWN(simulate(made, stopped), Cancelled);
 }
 
-QTEST_APPLESS_MAIN(tst_SequentialStudy)
-#include "tst_SequentialStudy.moc"
+QTEST_APPLESS_MAIN(tst_simulate)
+#include "tst_simulate.moc"

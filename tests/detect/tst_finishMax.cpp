@@ -92,16 +92,16 @@ List singles(const Planes &planes, Index count)
 } // namespace
 
 /// Every way of going through a frame, against the definition, cell by cell and to the last bit.
-class tst_joinKernels : public QObject
+class tst_finishMax : public QObject
 {
     Q_OBJECT
 
 private slots:
-    void finishMax_data();
-    void finishMax();
+    void isTheDefinition_data();
+    void isTheDefinition();
 };
 
-void tst_joinKernels::finishMax_data()
+void tst_finishMax::isTheDefinition_data()
 {
     QTest::addColumn<QString>("law");
     QTest::addColumn<Index>("count");
@@ -111,7 +111,7 @@ void tst_joinKernels::finishMax_data()
             QTest::newRow(qPrintable(QString("%1, %2 targets").arg(law).arg(count))) << QString(law) << count;
 }
 
-void tst_joinKernels::finishMax()
+void tst_finishMax::isTheDefinition()
 {
     QFETCH(const QString, law);
     QFETCH(const Index, count);
@@ -132,8 +132,7 @@ void tst_joinKernels::finishMax()
         for (const Index n : {1, 15, 16, 33, 100}) {
             join.isFresh = isFresh;
             std::vector<float> statistic(rowCells, 2.0f);
-            const Continued found =
-                faintline::finishMax(list.targets(planes), {n}, lambda.data(), join, statistic.data());
+            const Continued found = finishMax(list.targets(planes), {n}, lambda.data(), join, statistic.data());
             Index went = 0;
             double sum = 0.0;
             for (Index i = 0; i < n; ++i) {
@@ -151,11 +150,11 @@ void tst_joinKernels::finishMax()
                 }
                 QVERIFY(statistic[std::size_t(i)] == best);
             }
-            QVERIFY(statistic[std::size_t(n)] == 2.0f); // what lies beyond is nobody's
+            QVERIFY(statistic[std::size_t(n)] == 2.0f); // values beyond the tile stay as they were
             QCOMPARE(found.count, went);
             QVERIFY(std::abs(found.sum - sum) <= 1e-5 * (1.0 + sum));
         }
 }
 
-QTEST_APPLESS_MAIN(tst_joinKernels)
-#include "tst_joinKernels.moc"
+QTEST_APPLESS_MAIN(tst_finishMax)
+#include "tst_finishMax.moc"

@@ -1,9 +1,10 @@
-#include "evaluate/sequential/SequentialStudy.h"
+#include "evaluate/sequential/simulate.h"
 
 #include "base/Error.h"
 #include "base/fastmath.h"
 #include "base/multiversion.h"
 #include "base/parallel.h"
+#include "evaluate/sequential/SequentialTrial.h"
 #include "evaluate/sequential/TrajectoryJudge.h"
 
 #include <algorithm>

@@ -1,9 +1,10 @@
-#include "evaluate/experiments/NoisyField.h"
+#include "evaluate/experiments/lineRuns.h"
 
 #include "analysis/Calibration.h"
 #include "analysis/noiseCounts.h"
 #include "base/logmath.h"
 #include "base/parallel.h"
+#include "evaluate/experiments/NoisyField.h"
 
 #include <algorithm>
 #include <cmath>

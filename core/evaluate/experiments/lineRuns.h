@@ -1,0 +1,32 @@
+#pragma once
+
+#include "base/RunContext.h"
+#include "detect/Smd.h"
+#include "evaluate/experiments/LineExperiment.h"
+#include "evaluate/experiments/RunOutcome.h"
+#include "spectrum/NormalisedFrames.h"
+
+#include <memory>
+#include <vector>
+
+namespace faintline {
+
+/// The reset rule of every detector of the experiment, K found on the experiment's own noise (default for those without
+/// one).
+std::vector<ResetRule> calibratedResets(const LineExperiment &experiment, const RunContext &context = {});
+
+/// Does the given runs, on context.threads threads; the answer is in the order of `runs` and depends on nothing but the
+/// experiment. K of sequential Markov detectors is calibrated first. Throws Error, Cancelled.
+std::vector<RunOutcome> runExperiment(const LineExperiment &experiment, const std::vector<int> &runs,
+                                      const RunContext &context = {}, const RunSink &sink = {});
+
+/// One signal of one run made again, by itself.
+struct LineTrial {
+    /// Its block, y with noise of mean 1; bins as frequency in cells, frames as windows.
+    std::shared_ptr<const FrameArray> frames;
+    Index firstFrame = 0;    ///< of the line, in the block
+    std::vector<Index> path; ///< its bin in the block, one per frame of its duration
+};
+LineTrial remakeTrial(const LineExperiment &experiment, double snrDb, int run, int signal);
+
+} // namespace faintline
