@@ -284,12 +284,15 @@ void OutputLayers::showAges(LayerItem &item)
     const std::vector<float> &ages = m_result.picture->age;
     const double longest = std::max(double(*std::max_element(ages.begin(), ages.end())), frameSeconds);
     constexpr double manySeconds = 7200.0;
-    FrequencyUnit unit{tr("s"), 1.0};
+    struct {
+        QString name;
+        double seconds;
+    } unit{tr("s"), 1.0};
     if (const FrameKind &kind = m_document.frameKind(); kind.isSeenSingly)
         unit = {kind.frames, frameSeconds};
     else if (longest > manySeconds)
         unit = {tr("h"), 3600.0};
-    item.setLayer(m_layer, {0.0, longest}, tr("Path age since reset (%1)").arg(unit.name), unit.hz);
+    item.setLayer(m_layer, {0.0, longest}, tr("Path age since reset (%1)").arg(unit.name), unit.seconds);
 }
 
 } // namespace faintline
