@@ -1,7 +1,7 @@
 #include "app/panels/ComparePanel.h"
 
-#include "app/base/statisticUnit.h"
 #include "app/control/trackBox.h"
+#include "app/document/statisticUnit.h"
 #include "app/panels/differenceWords.h"
 #include "evaluate/comparison/differencePicture.h"
 #include "widgets/base/Theme.h"
