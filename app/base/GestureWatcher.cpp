@@ -7,6 +7,36 @@
 
 namespace faintline {
 
+namespace {
+
+    /// Pressed while something else is done, to change what that does.
+    bool isModifier(const QKeyEvent &event)
+    {
+        switch (event.key()) {
+        case Qt::Key_Shift:
+        case Qt::Key_Control:
+        case Qt::Key_Alt:
+        case Qt::Key_Meta:
+        case Qt::Key_AltGr:
+            return true;
+        default:
+            return false;
+        }
+    }
+
+    /// A key by its place on the keyboard: with Shift let go first, the release of "!" is that of "1".
+    int keyOf(const QKeyEvent &event)
+    {
+        return event.nativeScanCode() != 0 ? int(event.nativeScanCode()) : event.key();
+    }
+
+    int buttonOf(const QEvent &event)
+    {
+        return -int(static_cast<const QMouseEvent &>(event).button());
+    }
+
+} // namespace
+
 GestureWatcher::GestureWatcher(QObject *parent) : QObject(parent)
 {
     QCoreApplication::instance()->installEventFilter(this);
@@ -20,6 +50,12 @@ void GestureWatcher::press(int what)
     m_down = what;
 }
 
+void GestureWatcher::release(int what)
+{
+    if (what == m_down)
+        endLater();
+}
+
 void GestureWatcher::begin()
 {
     ++m_number;
@@ -30,6 +66,7 @@ void GestureWatcher::begin()
 void GestureWatcher::endLater()
 {
     m_down = 0;
+    m_isWheel = false;
     const auto end = [this, number = m_number] {
         if (number == m_number)
             emit ended();
@@ -42,18 +79,21 @@ bool GestureWatcher::eventFilter(QObject *watched, QEvent *event)
     switch (event->type()) {
     case QEvent::ShortcutOverride: // a key that is a shortcut comes as nothing else
     case QEvent::KeyPress:
-        if (const auto *key = static_cast<QKeyEvent *>(event); !key->isAutoRepeat())
-            press(key->key());
+        if (const auto &key = static_cast<QKeyEvent &>(*event); !key.isAutoRepeat() && !isModifier(key))
+            press(keyOf(key));
         break;
     case QEvent::MouseButtonPress:
     case QEvent::MouseButtonDblClick:
-        press(-int(static_cast<QMouseEvent *>(event)->button()));
+        press(buttonOf(*event));
         break;
     case QEvent::KeyRelease:
-        if (!static_cast<QKeyEvent *>(event)->isAutoRepeat())
-            endLater();
+        if (const auto &key = static_cast<QKeyEvent &>(*event); !key.isAutoRepeat())
+            release(keyOf(key));
         break;
     case QEvent::MouseButtonRelease:
+        release(buttonOf(*event));
+        break;
+    case QEvent::ApplicationDeactivate: // the release goes to another application
         endLater();
         break;
     case QEvent::Wheel:

@@ -5,7 +5,8 @@
 namespace faintline {
 
 /// What the user does in one go: from the press of a key or a mouse button to its release, however often the key
-/// repeats meanwhile; the notches of a wheel up to the next press. Watches the events of the application.
+/// repeats and whatever modifiers are pressed meanwhile; the notches of a wheel up to the next press. Ends, too, when
+/// the application is left. Watches the events of the application.
 class GestureWatcher : public QObject
 {
     Q_OBJECT
@@ -22,6 +23,7 @@ protected:
 
 private:
     void press(int what);
+    void release(int what);
     void begin();
     void endLater();
 

@@ -12,7 +12,9 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
+#include <optional>
 
 namespace faintline::cli {
 

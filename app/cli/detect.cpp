@@ -319,8 +319,7 @@ namespace {
 
     void detect(DetectOptions options, const Common &common)
     {
-        if (options.events.empty() && options.tracks.empty() && options.statistic.empty()
-            && options.conventional.empty())
+        if (std::ranges::all_of(outputsOf(options), &std::string::empty))
             options.summary = true; // who asks for nothing else wants to know what there is
         checkOptions(options);
         const RunContext context = common.context();

@@ -74,14 +74,14 @@ namespace {
         return json;
     }
 
-    void printHeading(const std::vector<Axis> &axes, bool isLine)
+    void printHeading(const Grid &grid)
     {
-        if (isLine) {
+        if (grid.isSpectrum()) {
             std::printf("%12s %14s %8s %10s %10s %10s %12s\n", "t (s)", "f", "rate", "llr", "ln P", "ln K", "sum");
             return;
         }
         std::printf("%12s", "t (s)");
-        for (const Axis &axis : axes)
+        for (const Axis &axis : grid.axes)
             std::printf(" %14s %8s", oneLine(axis.name + " (" + axis.unit + ")").c_str(), "rate");
         std::printf(" %10s %10s %10s %12s\n", "llr", "ln P", "ln K", "sum");
     }
@@ -112,7 +112,7 @@ namespace {
         if (explanation.isExplainedByNoise)
             std::printf("its path is not reported: cells as strong are common in this recording's noise\n");
         std::printf("the best path began %zu frame(s) ago, when it was reset\n", explanation.steps.size() - 1);
-        printHeading(analysis.grid().axes, explanation.position.size() == 1);
+        printHeading(analysis.grid());
         printSteps(toJson(explanation, analysis)["steps"]);
         if (explanation.offset != 0.0)
             std::printf("and %.4f nat common to all states: K of the frame and the offset of the model\n",

@@ -2,23 +2,14 @@
 
 #include "analysis/boxLevels.h"
 #include "app/document/Document.h"
+#include "widgets/base/cellsOf.h"
 #include "widgets/base/quantities.h"
-
-#include <algorithm>
-#include <cmath>
 
 namespace faintline {
 
 namespace {
 
     constexpr int pauseMs = 40;
-
-    /// The whole cells of a box, at least one.
-    std::pair<Index, Index> cellsOf(const Axis &axis, const Span &span)
-    {
-        const auto within = [&](double index) { return std::clamp<Index>(std::lround(index), 0, axis.count - 1); };
-        return {within(axis.position(span.low)), within(axis.position(span.high)) + 1};
-    }
 
     QString noteOf(const BoxLevels &levels, bool saysMean)
     {

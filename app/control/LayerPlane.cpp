@@ -1,6 +1,7 @@
 #include "app/control/LayerPlane.h"
 
 #include "analysis/outputLayers.h"
+#include "widgets/base/cellsOf.h"
 #include "widgets/pings/PingMap.h"
 #include "widgets/pings/PolarLayerItem.h"
 #include "widgets/pings/PolarView.h"
@@ -12,15 +13,6 @@
 #include <algorithm>
 
 namespace faintline {
-
-namespace {
-
-    std::pair<Index, Index> cellsOf(const Axis &axis, const Span &visible)
-    {
-        return {axis.nearest(visible.low), axis.nearest(visible.high) + 1};
-    }
-
-} // namespace
 
 LayerPlane::LayerPlane(const FrameKind &kind, WaterfallView &view, QObject *parent)
     : QObject(parent), m_kind(kind), m_view(view), m_item(*new LayerItem)

@@ -4,7 +4,6 @@
 #include "app/control/LayerPlane.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/quantities.h"
-#include "widgets/pings/PingMap.h"
 #include "widgets/waterfall/LayerItem.h"
 #include "widgets/waterfall/WaterfallView.h"
 
@@ -174,11 +173,16 @@ OutputLayers::Place OutputLayers::placeOf(const FramePlace &place) const
     return {frame, grid.cell(cell), row, cell.back()};
 }
 
-/// The frame of which a picture is made, where it is made of one.
-std::optional<Index> OutputLayers::singleFrame() const
+std::optional<OutputLayers::Place> OutputLayers::cursor() const
 {
     const auto at = plane().cursor();
-    return m_document.frameKind().isSeenSingly && at ? std::optional(placeOf(*at).frame) : std::nullopt;
+    return at ? std::optional(placeOf(*at)) : std::nullopt;
+}
+
+/// The frame of which a picture is made, where it is made of one.
+std::optional<Index> OutputLayers::singleFrame(const std::optional<Place> &cursor) const
+{
+    return m_document.frameKind().isSeenSingly && cursor ? std::optional(cursor->frame) : std::nullopt;
 }
 
 void OutputLayers::compute()
@@ -188,9 +192,8 @@ void OutputLayers::compute()
     const auto analysis = m_document.analysis();
     const bool wantsPicture = m_layer != OutputLayer::Statistic;
     const LayerWindow wanted = plane().window(*analysis);
-    const auto at = plane().cursor();
-    const std::optional<Place> cursor = at ? std::optional(placeOf(*at)) : std::nullopt;
-    m_runner.start([this, analysis, cursor, frame = singleFrame(), wantsPicture,
+    const std::optional<Place> cursor = this->cursor();
+    m_runner.start([this, analysis, cursor, frame = singleFrame(cursor), wantsPicture,
                     wanted](const RunContext &context) -> JobRunner::Delivery {
         if (!m_replay || m_replay->analysis() != analysis)
             m_replay = std::make_shared<LayerReplay>(
@@ -236,7 +239,7 @@ void OutputLayers::show()
     item.setColours(colours.text, colours.canvas);
     const bool isKnown =
         analysis && m_result.analysis == analysis && m_result.picture && m_layer != OutputLayer::Statistic;
-    if (!isKnown || m_result.frame != singleFrame()) {
+    if (!isKnown || m_result.frame != singleFrame(cursor())) {
         item.setPicture(nullptr, {}, {});
         return plane.replot();
     }
@@ -281,12 +284,15 @@ void OutputLayers::showAges(LayerItem &item)
     const std::vector<float> &ages = m_result.picture->age;
     const double longest = std::max(double(*std::max_element(ages.begin(), ages.end())), frameSeconds);
     constexpr double manySeconds = 7200.0;
-    FrequencyUnit unit{tr("s"), 1.0};
+    struct {
+        QString name;
+        double seconds;
+    } unit{tr("s"), 1.0};
     if (const FrameKind &kind = m_document.frameKind(); kind.isSeenSingly)
         unit = {kind.frames, frameSeconds};
     else if (longest > manySeconds)
         unit = {tr("h"), 3600.0};
-    item.setLayer(m_layer, {0.0, longest}, tr("Path age since reset (%1)").arg(unit.name), unit.hz);
+    item.setLayer(m_layer, {0.0, longest}, tr("Path age since reset (%1)").arg(unit.name), unit.seconds);
 }
 
 } // namespace faintline

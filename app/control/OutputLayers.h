@@ -84,7 +84,8 @@ private:
     void followCursor(const LayerPlane &of);
     void compute();
     Place placeOf(const FramePlace &place) const;
-    std::optional<Index> singleFrame() const;
+    std::optional<Place> cursor() const;
+    std::optional<Index> singleFrame(const std::optional<Place> &cursor) const;
     void show();
     void showLayer(LayerItem &item);
     void showRates(LayerItem &item, std::size_t axis);

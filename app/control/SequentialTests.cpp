@@ -84,8 +84,8 @@ void SequentialTests::start(const ScanTest &test)
 void SequentialTests::start(const Selection &selection, const SprtSettings &sprt)
 {
     checkSprt(sprt, "sprt");
-    const Grid &grid = selection.frames->grid();
-    if (!frameKindOf(grid).takesBoxes || selection.model.motion != Motion::Slopes)
+    const FrameKind &kind = frameKindOf(selection.frames->grid());
+    if (&kind != &lineFrames() || selection.model.motion != Motion::Slopes)
         throw Error("sequential test", "requires a line recording and model.motion = slopes");
     checkLikelihoodRatio(Likelihood(selection.model.likelihood, selection.model.snr), "model.likelihood");
     if (selection.frameCount < 1 || selection.cellCount < 1)

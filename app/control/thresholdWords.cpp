@@ -1,6 +1,6 @@
 #include "app/control/thresholdWords.h"
 
-#include "app/base/statisticUnit.h"
+#include "app/document/statisticUnit.h"
 
 #include <QCoreApplication>
 

@@ -74,7 +74,7 @@ public:
     // ---- view and results ----------------------------------------------------------------------------------------
 
     Viewport &viewport() { return m_viewport; }
-    /// The time that is looked at: what is visible, or where frames are seen singly, the cursor's.
+    /// The time that is looked at: what is visible; where frames are seen singly, that of the cursor.
     Span lookedAt() const;
     /// The measured box, where boxes of time × frequency say something of what is open.
     std::optional<Viewport::Box> box() const;

@@ -46,7 +46,7 @@ const FrameKind &pingFrames()
     return kind;
 }
 
-const FrameKind &frameKindOf(const Grid &grid)
+const FrameKind &frameKindOf(const Grid &grid, const std::string &where)
 {
     switch (const std::size_t count = grid.axes.size()) {
     case 1:
@@ -54,8 +54,8 @@ const FrameKind &frameKindOf(const Grid &grid)
     case 2:
         return pingFrames();
     default:
-        throw Error("frames", "has frames on " + std::to_string(count)
-                                  + " axes; at most two can be shown (faintline-cli sequential accepts more)");
+        throw Error(where, "has frames on " + std::to_string(count)
+                               + " axes; at most two can be shown (faintline-cli sequential accepts more)");
     }
 }
 

@@ -31,8 +31,8 @@ struct FrameKind {
 };
 
 /// Of frames on that grid, of one or two axes. There is one object a kind: their addresses can be compared. Throws
-/// Error of more axes.
-const FrameKind &frameKindOf(const Grid &grid);
+/// Error of more axes, which says `where` the frames are from.
+const FrameKind &frameKindOf(const Grid &grid, const std::string &where = "frames");
 
 /// The kind of a recording's frames.
 const FrameKind &lineFrames();

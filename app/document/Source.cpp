@@ -34,11 +34,7 @@ namespace {
     NormalisedFramesPointer readStack(const QString &path)
     {
         auto frames = openFrames(pathBytes(path));
-        try {
-            frameKindOf(frames->grid());
-        } catch (const Error &error) {
-            throw Error(pathBytes(path), error.why());
-        }
+        frameKindOf(frames->grid(), pathBytes(path)); // throws where they cannot be shown
         return frames;
     }
 

@@ -1,6 +1,7 @@
 #include "app/document/recordingFiles.h"
 
 #include "app/base/filePath.h"
+#include "base/fileName.h"
 #include "exchange/survey/findRecordings.h"
 
 #include <QCoreApplication>
@@ -19,10 +20,9 @@ namespace {
 
     bool isNamedLikeRecording(const QString &path)
     {
-        const std::vector<std::string> &endings = recordingEndings();
-        return std::any_of(endings.begin(), endings.end(), [&](const std::string &ending) {
-            return path.endsWith(QLatin1Char('.') + QString::fromStdString(ending), Qt::CaseInsensitive);
-        });
+        const std::string name = pathBytes(path);
+        return std::ranges::any_of(recordingEndings(),
+                                   [&](const std::string &ending) { return hasEnding(name, "." + ending); });
     }
 
     /// Numbers with as many digits as any: 2 before 10.

@@ -1,6 +1,7 @@
 #include "app/lessons/LessonGuide.h"
 
 #include "app/base/MessageBar.h"
+#include "app/document/scanScenario.h"
 #include "app/lessons/LessonPanel.h"
 #include "app/lessons/PointerFrame.h"
 #include "app/lessons/lessonMeasures.h"
@@ -108,7 +109,7 @@ void LessonGuide::set()
 {
     const QString path = m_lesson.steps[std::size_t(openingStep())].open;
     Document &document = m_parts.document();
-    if (WindowParts::holdsScans(path)) {
+    if (isScanScenario(path)) {
         m_opened = path;
         setScans(path);
     } else if (m_opened != path || document.source().path != path) {
@@ -147,7 +148,7 @@ void LessonGuide::check()
 {
     if (!isRunning() || isBusy())
         return;
-    const bool isOfScans = WindowParts::holdsScans(m_opened);
+    const bool isOfScans = isScanScenario(m_opened);
     if (!isOfScans && m_parts.document().source().path != m_opened)
         return leave(); // something else is open now
     showPanel();

@@ -18,7 +18,7 @@ class WindowParts;
 ///     line.1.followed, line.1.tracks, line.1.peak, line.1.seconds: of the truth's first line or target, the share of
 ///         its frames that a shown track goes along with, how many do so, their largest statistic, how long after its
 ///         beginning the first was detected
-///     why.lnP: mean ln P of the path in the ladder
+///     why.lnP: mean ln P of the path in the path breakdown
 ///     walks.noise, walks.target (mean stages), walks.wrong, walks.fixed (stages of a test of fixed size),
 ///     survey.saved, walks.selected ("noise" or "target"), walks.stage, walks.stages
 ///     test.NAME: a setting of the sequential test; view.NAME: 1 while it can be seen; any setting by its own name

@@ -1,7 +1,7 @@
 #include "app/panels/ComparePanel.h"
 
-#include "app/base/statisticUnit.h"
 #include "app/control/trackBox.h"
+#include "app/document/statisticUnit.h"
 #include "app/panels/differenceWords.h"
 #include "evaluate/comparison/differencePicture.h"
 #include "widgets/base/Theme.h"
@@ -380,7 +380,7 @@ void ComparePanel::goTo(int row)
     if (compared.b)
         return emit eventActivated(compared.b->id);
     const Track *track = trackOfId(result->a->tracks, compared.a->id);
-    if (!track || !m_document.frameKind().takesBoxes)
+    if (!track || track->points.empty() || !m_document.frameKind().takesBoxes)
         return;
     m_document.viewport().reveal(trackBox(*track, *result->a));
     m_document.viewport().setCursor({compared.a->detectSeconds, compared.a->position.back()});

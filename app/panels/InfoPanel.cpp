@@ -1,9 +1,9 @@
 #include "app/panels/InfoPanel.h"
 
-#include "app/base/statisticUnit.h"
 #include "app/control/AnalysisController.h"
 #include "app/control/thresholdWords.h"
 #include "app/document/Document.h"
+#include "app/document/statisticUnit.h"
 #include "app/panels/NoiseCheck.h"
 #include "base/utc.h"
 #include "spectrum/NoiseNormaliser.h"

@@ -88,7 +88,8 @@ std::vector<LawPanel::Law> LawPanel::lawsOf(const Analysis &analysis) const
     if (rates == 1)
         return {};
     if (model.motion == Motion::NonManoeuvring)
-        return {{{}, tr("Rates do not change from ping to ping (cells/ping)"), {1.0}, 0, rates}};
+        return {
+            {{}, tr("Rates do not change from %1 to %1 (%2)").arg(kind.frame, kind.cellsPerFrame), {1.0}, 0, rates}};
     const std::vector<KinematicAxis> &axes = turningSpace(analysis).axes();
     const auto title = [&](const QString &rate) {
         return tr("Change of %1 per %2 (%3)").arg(rate, kind.frame, kind.cellsPerFrame);

@@ -20,14 +20,15 @@ namespace {
         return QCoreApplication::translate("StateCut", text);
     }
 
-    /// Of lines, drifts in a unit that suits them.
+    /// A single rate by its kind's word; drifts in a unit that suits them.
     std::vector<Axis> readableAxes(const Analysis &analysis, std::size_t model)
     {
         std::vector<Axis> axes = stateAxes(analysis, model);
-        if (!frameKindOf(analysis.grid()).takesBoxes)
+        const FrameKind &kind = frameKindOf(analysis.grid());
+        if (kind.rates.size() > 1)
             return axes;
         Axis &rate = axes.back();
-        rate.name = "slope";
+        rate.name = kind.rates.front().toStdString();
         if (rate.unit != "Hz/s")
             return axes;
         const FrequencyUnit unit = rateUnit(std::max(std::abs(rate.first), std::abs(rate.last())));

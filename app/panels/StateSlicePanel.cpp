@@ -349,12 +349,12 @@ void StateSlicePanel::show(const StateCut &cut)
 
 QString StateSlicePanel::words(const StateCut &cut) const
 {
+    const QString frame = tr("%1 %2").arg(capitalised(m_document.frameKind().frame)).arg(cut.frame + 1);
     if (!isOfLines())
-        return tr("Ping %1: %2; at most %3 nat").arg(cut.frame + 1).arg(cut.otherWords(), numberText(cut.best, 1));
+        return tr("%1: %2; at most %3 nat").arg(frame, cut.otherWords(), numberText(cut.best, 1));
     const Axis &time = m_document.analysis()->time();
-    return tr("Frame %1 at %2: %3")
-        .arg(cut.frame + 1)
-        .arg(secondsText(time.value(double(cut.frame)), time.step), cut.bestWords(*m_marks));
+    return tr("%1 at %2: %3")
+        .arg(frame, secondsText(time.value(double(cut.frame)), time.step), cut.bestWords(*m_marks));
 }
 
 /// A followed target's states stand far above the threshold; its hill is what there is to see. Of lines, that under the

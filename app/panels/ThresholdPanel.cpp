@@ -1,8 +1,8 @@
 #include "app/panels/ThresholdPanel.h"
 
-#include "app/base/statisticUnit.h"
 #include "app/control/AnalysisController.h"
 #include "app/control/RecordingCheck.h"
+#include "app/document/statisticUnit.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/quantities.h"
 #include "widgets/plot/ExceedancePlot.h"

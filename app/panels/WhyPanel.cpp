@@ -2,9 +2,9 @@
 
 #include "app/base/VisibilityWatcher.h"
 #include "app/base/readingTable.h"
-#include "app/base/statisticUnit.h"
 #include "app/control/FramePlace.h"
 #include "app/document/Document.h"
+#include "app/document/statisticUnit.h"
 #include "widgets/base/axisWords.h"
 #include "widgets/base/labelText.h"
 #include "widgets/plot/ChartPlot.h"

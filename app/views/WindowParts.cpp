@@ -10,11 +10,6 @@ WindowParts::WindowParts() : m_controller(m_document), m_comparer(m_document), m
 
 WindowParts::~WindowParts() = default;
 
-bool WindowParts::holdsScans(const QString &path)
-{
-    return isScanScenario(path);
-}
-
 void WindowParts::openScansOf(const QString &path)
 {
     const ScanTest test = readScanTest(path);

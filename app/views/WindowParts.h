@@ -81,9 +81,7 @@ public:
                          const AnalysisController::Adjust &adjust = {}) = 0;
     /// A radar's sequential test on simulated scans. Where no recording is open, nothing else is shown.
     virtual void openScans(const ScanTest &test) = 0;
-    /// Whether a path names the scenario of such a test.
-    static bool holdsScans(const QString &path);
-    /// Opens that scenario, unless its test is just what there is. Throws Error.
+    /// Opens the scenario of such a test, unless its test is just what there is. Throws Error.
     void openScansOf(const QString &path);
 
 protected:

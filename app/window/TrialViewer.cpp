@@ -1,6 +1,6 @@
 #include "app/window/TrialViewer.h"
 
-#include "app/base/statisticUnit.h"
+#include "app/document/statisticUnit.h"
 #include "app/window/TrialWindow.h"
 #include "evaluate/experiments/campaignCharts.h"
 #include "widgets/base/labelText.h"

@@ -1,6 +1,6 @@
 #include "app/window/TrialWindow.h"
 
-#include "app/base/statisticUnit.h"
+#include "app/document/statisticUnit.h"
 #include "app/workspace/Workbench.h"
 #include "widgets/base/ReadOut.h"
 #include "widgets/base/labelText.h"

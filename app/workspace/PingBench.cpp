@@ -1,8 +1,8 @@
 #include "app/workspace/PingBench.h"
 
 #include "analysis/regulation.h"
-#include "app/base/statisticUnit.h"
 #include "app/control/OutputLayers.h"
+#include "app/document/statisticUnit.h"
 #include "app/workspace/PingBar.h"
 #include "spectrum/pictureCuts.h"
 #include "widgets/base/labelText.h"

@@ -1,10 +1,10 @@
 #include "app/workspace/Workbench.h"
 
-#include "app/base/statisticUnit.h"
 #include "app/control/BoxMeter.h"
 #include "app/control/Closeup.h"
 #include "app/control/OutputLayers.h"
 #include "app/control/trackBox.h"
+#include "app/document/statisticUnit.h"
 #include "widgets/plot/StripPlot.h"
 #include "widgets/waterfall/ColourBar.h"
 

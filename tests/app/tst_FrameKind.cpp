@@ -40,7 +40,13 @@ void tst_FrameKind::aGridHasAKind()
     QCOMPARE(&frameKindOf(ping()), &pingFrames());
     Grid scan = ping();
     scan.axes.push_back(scan.axes.front());
-    QVERIFY_THROWS_EXCEPTION(Error, frameKindOf(scan));
+    try {
+        frameKindOf(scan, "scan.npy");
+        QFAIL("three axes have a kind");
+    } catch (const Error &error) {
+        QCOMPARE(error.where(), std::string("scan.npy"));
+        QVERIFY(error.why().starts_with("has frames on 3 axes"));
+    }
 }
 
 void tst_FrameKind::everyKindHasItsWords()

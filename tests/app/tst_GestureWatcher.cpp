@@ -16,16 +16,26 @@ private slots:
     void init();
     void eachKeyIsOne();
     void aHeldKeyIsOne();
+    void theReleaseOfAnotherKeyDoesNotEndIt();
+    void aKeyIsTheSameWithAndWithoutShift();
     void aDragIsOne();
+    void aModifierIsPartOfTheDrag();
+    void leavingTheApplicationEndsIt();
     void aWheelIsOneUntilThePress();
 
 private:
     /// A key's press or release, of its repetition where `isRepeated`.
-    void sendKey(QEvent::Type type, bool isRepeated)
+    void sendKey(QEvent::Type type, bool isRepeated, Qt::Key key = Qt::Key_Up)
     {
-        QKeyEvent event(type, Qt::Key_Up, Qt::NoModifier, QString(), isRepeated);
+        QKeyEvent event(type, key, Qt::NoModifier, QString(), isRepeated);
         QCoreApplication::sendEvent(m_box.get(), &event);
     }
+    void sendKeyAt(int scanCode, QEvent::Type type, Qt::Key key)
+    {
+        QKeyEvent event(type, key, Qt::NoModifier, quint32(scanCode), 0, 0);
+        QCoreApplication::sendEvent(m_box.get(), &event);
+    }
+    QWidget *line() const { return m_box->findChild<QWidget *>(QStringLiteral("qt_spinbox_lineedit")); }
     void turnWheel()
     {
         const QPointF middle(5.0, 5.0);
@@ -87,17 +97,66 @@ void tst_GestureWatcher::aHeldKeyIsOne()
     QCOMPARE(endings(), 1);
 }
 
+void tst_GestureWatcher::theReleaseOfAnotherKeyDoesNotEndIt()
+{
+    sendKey(QEvent::KeyPress, false, Qt::Key_Up);
+    sendKey(QEvent::KeyPress, false, Qt::Key_Down);
+    QCOMPARE(beginnings(), 2);
+    sendKey(QEvent::KeyRelease, false, Qt::Key_Up);
+    QCOMPARE(endings(), 0);
+    sendKey(QEvent::KeyRelease, false, Qt::Key_Down);
+    QCOMPARE(endings(), 1);
+    QCOMPARE(beginnings(), 2);
+}
+
+void tst_GestureWatcher::aKeyIsTheSameWithAndWithoutShift()
+{
+    constexpr int place = 10;
+    for (int i = 1; i <= 2; ++i) {
+        sendKeyAt(place, QEvent::ShortcutOverride, Qt::Key_Exclam); // Qt makes one without a place of a KeyPress
+        QCOMPARE(beginnings(), i);
+        sendKeyAt(place, QEvent::KeyRelease, Qt::Key_1);
+        QCOMPARE(endings(), i);
+    }
+}
+
+void tst_GestureWatcher::aModifierIsPartOfTheDrag()
+{
+    for (const Qt::Key key : {Qt::Key_Shift, Qt::Key_Control, Qt::Key_Alt, Qt::Key_Meta, Qt::Key_AltGr}) {
+        QTest::mousePress(line(), Qt::LeftButton);
+        const int begun = beginnings();
+        const int ended = endings();
+        sendKey(QEvent::KeyPress, false, key);
+        sendKey(QEvent::KeyRelease, false, key);
+        QCOMPARE(beginnings(), begun);
+        QCOMPARE(endings(), ended);
+        QTest::mouseRelease(line(), Qt::LeftButton);
+        QCOMPARE(endings(), ended + 1);
+    }
+}
+
+void tst_GestureWatcher::leavingTheApplicationEndsIt()
+{
+    QEvent leave(QEvent::ApplicationDeactivate);
+    sendKey(QEvent::KeyPress, false);
+    QCoreApplication::sendEvent(qApp, &leave);
+    QCOMPARE(endings(), 1);
+    sendKey(QEvent::KeyPress, false); // its release went elsewhere
+    QCOMPARE(beginnings(), 2);
+    sendKey(QEvent::KeyRelease, false);
+    QCOMPARE(endings(), 2);
+}
+
 void tst_GestureWatcher::aDragIsOne()
 {
-    auto *line = m_box->findChild<QWidget *>(QStringLiteral("qt_spinbox_lineedit"));
-    QTest::mousePress(line, Qt::LeftButton);
+    QTest::mousePress(line(), Qt::LeftButton);
     const int begun = beginnings();
     QVERIFY(begun >= 1);
-    QTest::mouseMove(line, {3, 3});
+    QTest::mouseMove(line(), {3, 3});
     QCOMPARE(beginnings(), begun);
     QCOMPARE(endings(), 0);
-    QTest::mouseRelease(line, Qt::LeftButton);
-    QVERIFY(endings() >= 1);
+    QTest::mouseRelease(line(), Qt::LeftButton);
+    QCOMPARE(endings(), 1);
     QCOMPARE(beginnings(), begun);
 }
 

@@ -513,6 +513,21 @@ private slots:
         QCOMPARE(layers.layer(), OutputLayer::Rate);
     }
 
+    void aLayerReachesTheLastBeamInView()
+    {
+        const auto w = window();
+        QVERIFY(openWithNineRates(*w, path("pings.json")));
+        Viewport &viewport = w->pingBench().viewports().map();
+        viewport.zoomTo(viewport.time(), {157.5, 337.5}); // beams 4 to 7, up to the edge of the last
+        OutputLayers &layers = w->workbench().layers();
+        layers.setLayer(OutputLayer::Age);
+        QVERIFY(settle(layers));
+        const auto picture = layers.item().picture();
+        QVERIFY(picture);
+        QCOMPARE(picture->firstColumn, Index(4));
+        QCOMPARE(picture->columns, Index(4));
+    }
+
     void aChangedDetectorIsSeenAtOnceOnThePingShown()
     {
         const auto w = window();

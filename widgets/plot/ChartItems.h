@@ -20,7 +20,7 @@ namespace faintline {
 /// points stand close; theory dashed; publications' points hollow.
 ///
 /// A theory curve or a publication's points take the colour of the measured curve whose name theirs begins with.
-/// Refers to the chart.
+/// Refers to the chart and the colours.
 class ChartItems
 {
 public:
@@ -45,7 +45,7 @@ private:
     QColor colourOf(std::size_t curve) const;
 
     const Chart &m_chart;
-    Theme::Colours m_colours;
+    const Theme::Colours &m_colours;
 };
 
 } // namespace faintline

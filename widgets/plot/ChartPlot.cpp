@@ -147,8 +147,12 @@ void ChartPlot::setShown(std::size_t curve, bool isShown)
 
 QPointF ChartPlot::canvasPosition(std::size_t curve, std::size_t point) const
 {
-    const QPointF at = items().place(m_chart.curves[curve].points[point]);
-    return {m_plot->transform(QwtAxis::XBottom, at.x()), m_plot->transform(QwtAxis::YLeft, at.y())};
+    return onCanvas(items().place(m_chart.curves[curve].points[point]));
+}
+
+QPointF ChartPlot::onCanvas(const QPointF &coordinates) const
+{
+    return {m_plot->transform(QwtAxis::XBottom, coordinates.x()), m_plot->transform(QwtAxis::YLeft, coordinates.y())};
 }
 
 QString ChartPlot::readOut() const
@@ -219,9 +223,10 @@ void ChartPlot::addCurve(std::size_t index)
 
 void ChartPlot::rebuildKey()
 {
+    const ChartItems items = this->items();
     std::vector<ChartKey::Entry> entries;
     for (std::size_t i = 0; i < m_chart.curves.size(); ++i)
-        entries.push_back({words(m_chart.curves[i].name), items().sample(i, devicePixelRatioF()), isShown(i)});
+        entries.push_back({words(m_chart.curves[i].name), items.sample(i, devicePixelRatioF()), isShown(i)});
     m_key->setEntries(entries);
     m_key->placeIn(*m_row, size());
 }
@@ -265,13 +270,14 @@ void ChartPlot::layAxes()
 
 std::optional<ChartPlot::Place> ChartPlot::nearest(const QPointF &canvas) const
 {
+    const ChartItems items = this->items();
     std::optional<Place> best;
     double shortest = reach;
     for (std::size_t c = 0; c < m_chart.curves.size(); ++c) {
         if (!isShown(c) || m_chart.curves[c].kind == Curve::Kind::Theory)
             continue;
         for (std::size_t p = 0; p < m_chart.curves[c].points.size(); ++p) {
-            const QPointF gap = canvasPosition(c, p) - canvas;
+            const QPointF gap = onCanvas(items.place(m_chart.curves[c].points[p])) - canvas;
             const double distance = std::hypot(gap.x(), gap.y());
             if (distance < shortest) {
                 shortest = distance;
@@ -292,16 +298,17 @@ void ChartPlot::showPlace(const std::optional<Place> &place)
         m_plot->replot();
         return;
     }
+    const ChartItems items = this->items();
     const Curve &curve = m_chart.curves[place->curve];
     const Curve::Point &point = curve.points[place->point];
-    m_ring->setValue(items().place(point));
+    m_ring->setValue(items.place(point));
     const QString name = curve.name.empty() ? QString() : words(curve.name) + QStringLiteral(":  ");
     QString text = tr("%1%2 = %3  →  %4").arg(name, words(m_chart.xLabel), valueText(point.x), valueText(point.y));
     if (!point.label.empty())
         text.prepend(words(point.label) + QStringLiteral(":  "));
     if (point.interval.low < point.interval.high)
         text += tr("  (95 %: %1 … %2)").arg(valueText(point.interval.low), valueText(point.interval.high));
-    if (!m_invitation.isEmpty() && items().isMeasured(place->curve))
+    if (!m_invitation.isEmpty() && items.isMeasured(place->curve))
         text += QStringLiteral("  ·  ") + m_invitation;
     m_readOut->setText(text);
     setAccessibleDescription(text);

@@ -82,6 +82,7 @@ private:
     void layAxes();
     void showPlace(const std::optional<Place> &place);
     void move(int points, int curves);
+    QPointF onCanvas(const QPointF &coordinates) const;
     std::optional<Place> nearest(const QPointF &canvas) const;
     ChartItems items() const;
 

@@ -20,7 +20,7 @@ struct OverlayMark {
     bool isConfirmed = true;
 };
 
-/// A box somebody drew.
+/// A box with a text: one that somebody drew, or an area of raised level.
 struct OverlayBox {
     Viewport::Box box;
     QString text;

@@ -1,13 +1,10 @@
 #include "widgets/waterfall/waterfallWords.h"
 
 #include "widgets/base/axisWords.h"
+#include "widgets/base/cellsOf.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/rasterise.h"
 #include "widgets/waterfall/WaterfallPicture.h"
-
-#include <algorithm>
-#include <cmath>
-#include <utility>
 
 namespace faintline {
 
@@ -43,14 +40,12 @@ QString boxText(const WaterfallPicture &view, const Viewport::Box &box)
         words << WaterfallPicture::tr("%1 %2/s").arg(
             powerText(hz / seconds, 3),
             frequency.unit.empty() ? QStringLiteral("Hz") : labelText(frequency.unit, mostUnitLetters));
-    const auto cellsOf = [](const Axis &axis, Index count, const Span &span) {
-        const auto clamped = [count](double index) { return std::clamp<Index>(std::lround(index), 0, count - 1); };
-        return std::pair(clamped(axis.position(span.low)), clamped(axis.position(span.high)) + 1);
-    };
     if (view.picture() && view.picture()->frameCount() > 0 && frequency.count > 0) {
         const PeakPyramid &picture = view.finestPicture(box.time);
-        const auto [firstFrame, endFrame] = cellsOf(picture.time(), picture.frameCount(), box.time);
-        const auto [firstCell, endCell] = cellsOf(frequency, frequency.count, box.frequency);
+        Axis time = picture.time();
+        time.count = picture.frameCount(); // of a run in progress those there are
+        const auto [firstFrame, endFrame] = cellsOf(time, box.time);
+        const auto [firstCell, endCell] = cellsOf(frequency, box.frequency);
         const BoxValues values = boxValues(picture, firstFrame, endFrame, firstCell, endCell);
         words << WaterfallPicture::tr("peak %1 %2").arg(numberText(values.peak, 1), view.valueUnit());
         if (values.mean)
