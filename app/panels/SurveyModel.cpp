@@ -9,6 +9,8 @@
 #include <QBrush>
 #include <QPalette>
 
+#include <algorithm>
+
 namespace faintline {
 
 namespace {
@@ -47,17 +49,19 @@ void SurveyModel::read(const QString &path)
 
 void SurveyModel::judge(const std::vector<int> &rows, Verdict verdict)
 {
+    if (rows.empty())
+        return;
     SurveyDatabase survey(pathBytes(m_path), Sqlite::Access::Write);
     survey.begin();
     for (const int number : rows) {
         const Row &one = row(number);
-        survey.setReview(m_recordings[one.recording].id, one.event.event.id, verdict, one.event.box.note);
+        survey.setReview(m_recordings[one.recording].file.path, one.event.event, verdict, one.event.box.note);
     }
     survey.commit();
-    for (const int number : rows) {
+    for (const int number : rows)
         m_rows[std::size_t(number)].event.box.verdict = verdict;
-        emit dataChanged(index(number, 0), index(number, ColumnCount - 1));
-    }
+    const auto [first, last] = std::minmax_element(rows.begin(), rows.end());
+    emit dataChanged(index(*first, 0), index(*last, ColumnCount - 1));
 }
 
 QString SurveyModel::text(const Row &row, int column) const

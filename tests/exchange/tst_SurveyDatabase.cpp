@@ -208,9 +208,15 @@ void tst_SurveyDatabase::reviewsAreKept()
     const std::string file = written("s.sqlite", {outcomeOf(path("a.wav")), outcomeOf(path("b.wav"))});
     {
         SurveyDatabase survey(file, Sqlite::Access::Write);
-        survey.setReview(2, 1, Verdict::Rejected, "a hum");
-        survey.setReview(2, 2, Verdict::Accepted, "");
-        survey.setReview(2, 2, Verdict::None, ""); // taken back
+        const std::vector<SurveyEvent> events = survey.events(2);
+        survey.setReview(path("b.wav"), events[1].event, Verdict::Rejected, "a hum");
+        survey.setReview(path("b.wav"), events[0].event, Verdict::Accepted, "");
+        survey.setReview(path("b.wav"), events[0].event, Verdict::None, ""); // taken back
+        Event other = events[0].event;
+        other.onsetSeconds += 1.0;
+        for (const auto &[recording, event] : {std::pair(path("b.wav"), other), {path("c.wav"), events[0].event}})
+            QCOMPARE(errorOf([&] { survey.setReview(recording, event, Verdict::Accepted, ""); }),
+                     file + ": has changed since it was opened; open it again");
     }
     {
         SurveyDatabase survey(file, Sqlite::Access::Write);
@@ -247,7 +253,10 @@ void tst_SurveyDatabase::mergesOnlyWhatBelongsTogether()
     QCOMPARE(merged({c, b, a}), std::string());
     QCOMPARE(SurveyDatabase(path("m.sqlite")).recordings().size(), std::size_t(2));
     QCOMPARE(merged({c, b, a}), std::string()); // once more
-    SurveyDatabase(path("m.sqlite"), Sqlite::Access::Write).setReview(1, 2, Verdict::Accepted, "mine");
+    {
+        SurveyDatabase survey(path("m.sqlite"), Sqlite::Access::Write);
+        survey.setReview(path("a.wav"), survey.events(1).front().event, Verdict::Accepted, "mine");
+    }
     QVERIFY(contains(merged({c, b, a}), "contains reviews"));
     QCOMPARE(SurveyDatabase(path("m.sqlite")).events(1).front().box.note, std::string("mine"));
 }

@@ -236,11 +236,21 @@ void SurveyDatabase::setModified(std::int64_t recording, const SurveyFile &file)
         .run(file.bytes, file.modified, recording);
 }
 
-void SurveyDatabase::setReview(std::int64_t recording, int event, Verdict verdict, const std::string &note)
+void SurveyDatabase::setReview(const std::string &recording, const Event &event, Verdict verdict,
+                               const std::string &note)
 {
-    m_database.prepare("INSERT OR REPLACE INTO reviews(recording, event, verdict, note) VALUES (?, ?, ?, ?)")
-        .run(recording, event, nameOf(verdict), note);
-    m_database.prepare("DELETE FROM reviews WHERE verdict = '' AND note = ''").run();
+    // Numbers of recordings change when some are added.
+    SqliteStatement there = m_database.prepare("SELECT recordings.id FROM events JOIN recordings ON recordings.id = "
+                                               "recording WHERE path = ? AND event = ? AND t_onset = ? AND f = ?");
+    if (!there.with(storedPath(recording, path()), event.id, event.onsetSeconds, event.position.back()).next())
+        throw Error(path(), "has changed since it was opened; open it again", Error::Kind::Failure);
+    const std::int64_t id = there.integer(0);
+    there.reset();
+    if (verdict == Verdict::None && note.empty())
+        m_database.prepare("DELETE FROM reviews WHERE recording = ? AND event = ?").run(id, event.id);
+    else
+        m_database.prepare("INSERT OR REPLACE INTO reviews(recording, event, verdict, note) VALUES (?, ?, ?, ?)")
+            .run(id, event.id, nameOf(verdict), note);
 }
 
 } // namespace faintline

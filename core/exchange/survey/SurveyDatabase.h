@@ -42,8 +42,8 @@ public:
     void put(const SurveyOutcome &outcome);
     /// The file's date has changed, but not its content.
     void setModified(std::int64_t recording, const SurveyFile &file);
-    /// What a person says of an event.
-    void setReview(std::int64_t recording, int event, Verdict verdict, const std::string &note);
+    /// What a person says of an event that was read here before. Throws Error where the survey has it no more.
+    void setReview(const std::string &recording, const Event &event, Verdict verdict, const std::string &note);
 
     Sqlite &connection() { return m_database; }
 
