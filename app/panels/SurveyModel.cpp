@@ -15,6 +15,8 @@ namespace faintline {
 
 namespace {
 
+    constexpr std::chrono::milliseconds patience(1000); ///< the window waits meanwhile
+
     QString verdictText(Verdict verdict)
     {
         switch (verdict) {
@@ -32,7 +34,7 @@ namespace {
 
 void SurveyModel::read(const QString &path)
 {
-    SurveyDatabase survey(pathBytes(path));
+    SurveyDatabase survey(pathBytes(path), Sqlite::Access::Read, patience);
     const SurveySettings settings = settingsOf(survey.origin(), survey.path());
     std::vector<SurveyRecording> recordings = survey.recordings();
     std::vector<Row> rows;
@@ -51,7 +53,7 @@ void SurveyModel::judge(const std::vector<int> &rows, Verdict verdict)
 {
     if (rows.empty())
         return;
-    SurveyDatabase survey(pathBytes(m_path), Sqlite::Access::Write);
+    SurveyDatabase survey(pathBytes(m_path), Sqlite::Access::Write, patience);
     survey.begin();
     for (const int number : rows) {
         const Row &one = row(number);

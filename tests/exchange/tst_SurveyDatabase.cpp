@@ -301,6 +301,8 @@ void tst_SurveyDatabase::noSurvey_data()
     QTest::newRow("header only") << QByteArray("SQLite format 3\0", 16) << QString() << "is not a";
     QTest::newRow("of another program") << QByteArray() << "CREATE TABLE t(x)"
                                         << "is not a survey";
+    QTest::newRow("a write-ahead log") << QByteArray("survey") << "PRAGMA journal_mode = WAL"
+                                       << "is not a survey; ";
     QTest::newRow("another format") << QByteArray("survey") << "PRAGMA user_version = 2"
                                     << "reads format 1";
     QTest::newRow("a trigger") << QByteArray("survey")
@@ -332,9 +334,11 @@ void tst_SurveyDatabase::noSurvey()
         writeBytes(file, bytes);
     if (!sql.isEmpty())
         change(file, sql.toStdString());
-    writeBytes(file, readBytes(file).replace("disguised", "sqlite_xx"));
+    const QByteArray whole = readBytes(file).replace("disguised", "sqlite_xx");
+    writeBytes(file, whole);
     const std::string said = errorOf([&] { SurveyDatabase database(file); });
     QVERIFY2(contains(said, complaint.toStdString()) && said.starts_with(file), said.c_str());
+    QCOMPARE(readBytes(file), whole);
     QVERIFY(contains(errorOf([&] { SurveyDatabase database(path("none.sqlite")); }), "there is no such file"));
     QVERIFY(contains(errorOf([&] { SurveyDatabase database(m_folder->path().toStdString()); }), "is not a file"));
 }

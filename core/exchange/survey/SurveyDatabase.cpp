@@ -3,10 +3,14 @@
 #include "base/Error.h"
 #include "base/fileName.h"
 #include "exchange/survey/surveySchema.h"
+#include "recording/FileBytes.h"
 
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <map>
+#include <string_view>
 #include <utility>
 
 namespace faintline {
@@ -26,6 +30,27 @@ namespace {
     }
 
     constexpr const char *otherTables = "is not a survey: its tables are not those of docs/reference/survey.md";
+
+    /// Throws where a file is not a survey by its header, before SQLite opens it: to open a database with a write-ahead
+    /// log, as another program may have it, changes it.
+    const std::string &checkedHeader(const std::string &path)
+    {
+        std::error_code code;
+        if (!fs::is_regular_file(path, code))
+            return path; // Sqlite says so
+        std::array<std::byte, 72> header{};
+        const std::size_t bytes = FileBytes(path).readAt(0, header);
+        constexpr std::string_view magic("SQLite format 3\0", 16);
+        if (bytes > 0 && std::memcmp(header.data(), magic.data(), magic.size()) != 0)
+            throw Error(path, "is not an SQLite database");
+        std::int64_t applicationId = 0;
+        for (std::size_t i = 68; i < 72; ++i)
+            applicationId = applicationId << 8 | std::to_integer<int>(header[i]);
+        const bool hasLog = header[18] != std::byte(1) || header[19] != std::byte(1);
+        if (bytes < header.size() || hasLog || applicationId != surveyApplicationId)
+            throw Error(path, "is not a survey; 'faintline-cli survey' writes one");
+        return path;
+    }
 
     /// A number of a row, finite.
     double number(const SqliteStatement &row, int column, const std::string &path)
@@ -55,7 +80,8 @@ std::string storedPath(const std::string &recording, const std::string &database
 
 // ---- reading -------------------------------------------------------------------------------------------------------
 
-SurveyDatabase::SurveyDatabase(const std::string &path, Sqlite::Access access) : m_database(path, access)
+SurveyDatabase::SurveyDatabase(const std::string &path, Sqlite::Access access, std::chrono::milliseconds patience)
+    : m_database(checkedHeader(path), access, patience)
 {
     check();
     m_origin = readOrigin();
@@ -63,8 +89,6 @@ SurveyDatabase::SurveyDatabase(const std::string &path, Sqlite::Access access) :
 
 void SurveyDatabase::check()
 {
-    if (m_database.integer("PRAGMA application_id") != surveyApplicationId)
-        throw Error(path(), "is not a survey; 'faintline-cli survey' writes one");
     if (const auto format = m_database.integer("PRAGMA user_version"); format != surveyFormat)
         throw Error(path(), "is a survey of format " + std::to_string(format) + "; this program reads format "
                                 + std::to_string(surveyFormat));
@@ -111,8 +135,11 @@ std::vector<SurveyRecording> SurveyDatabase::recordings()
     SqliteStatement row =
         m_database.prepare("SELECT id, path, " + surveyRecordingColumns + " FROM recordings ORDER BY id");
     while (row.next()) {
+        const std::int64_t id = row.integer(0);
+        if (!result.empty() && id <= result.back().id)
+            throw Error(path(), "is a damaged SQLite database");
         SurveyRecording &one = result.emplace_back();
-        one.id = row.integer(0);
+        one.id = id;
         one.file.path = absolutePath(row.text(1), folder);
         one.reason = row.text(2) == "done" ? std::string() : row.text(3);
         if (row.text(2) != "done" && one.reason.empty())

@@ -11,14 +11,16 @@ namespace faintline {
 
 /// A survey of recordings in one SQLite file. `writeSurvey` makes one.
 ///
-/// Opening checks that the file is a survey: the tables must be those of `surveySchema`, to the letter, so that a
+/// Opening checks that the file is a survey, and changes no other one: the tables must be those of `surveySchema`, to the letter, so that a
 /// stranger's file can hold neither triggers nor views. Paths below the folder of the database are relative to it.
 /// Every call throws Error naming the database: where it is damaged, holds values that cannot be, or cannot be written.
 /// For one thread at a time; any number of programs may read one, also while a survey adds to it.
 class SurveyDatabase
 {
 public:
-    explicit SurveyDatabase(const std::string &path, Sqlite::Access access = Sqlite::Access::Read);
+    /// `patience`: with other programs that use it.
+    explicit SurveyDatabase(const std::string &path, Sqlite::Access access = Sqlite::Access::Read,
+                            std::chrono::milliseconds patience = std::chrono::seconds(10));
 
     const std::string &path() const { return m_database.path(); }
     const SurveyOrigin &origin() const { return m_origin; }
