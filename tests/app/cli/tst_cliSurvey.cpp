@@ -1,6 +1,7 @@
 #include "app/cli/CommandLineTest.h"
 
 #include "exchange/survey/SurveyDatabase.h"
+#include "exchange/survey/carryOutSurvey.h"
 
 #include <QElapsedTimer>
 #include <QRegularExpression>
@@ -21,6 +22,7 @@ private slots:
     void killedIsResumed();
     void endsWithinASecond();
     void changedAndTouchedFiles();
+    void whatIsAwayKeepsItsRows();
     void unreadableFilesAreRows();
     void exports();
     void mistakes_data();
@@ -40,8 +42,7 @@ private:
     {
         process.setWorkingDirectory(folder());
         process.setReadChannel(QProcess::StandardError);
-        process.start(program,
-                      QStringList{"survey", "many", "--out", out, "--progress", "json"} + lineSettings + more);
+        process.start(program, QStringList{"survey", "many", "--out", out, "--progress", "json"} + lineSettings + more);
         static const QRegularExpression progress("\"progress\": ([0-9.]+)[^0-9.]");
         QString said;
         double done = 0.0;
@@ -196,6 +197,25 @@ void tst_cliSurvey::changedAndTouchedFiles()
     QCOMPARE(survey("fresh.sqlite", {}, "changing").code, 0);
     QCOMPARE(content("changing.sqlite"), content("fresh.sqlite"));
     QCOMPARE(database("fresh.sqlite").recordings().size(), std::size_t(3));
+}
+
+void tst_cliSurvey::whatIsAwayKeepsItsRows()
+{
+    QVERIFY(QDir(folder()).mkpath("away"));
+    QVERIFY(QFile::copy(path("night/one.wav"), path("away/a.wav")));
+    QCOMPARE(survey("away.sqlite", {}, "away").code, 0);
+    const SurveySettings settings = settingsOf(database("away.sqlite").origin(), "away.sqlite");
+    const SurveyEvent reviewed = database("away.sqlite").events(1).front();
+    SurveyDatabase(pathOf("away.sqlite"), Sqlite::Access::Write)
+        .setReview(pathOf("away/a.wav"), reviewed.event, Verdict::Accepted, "");
+    QVERIFY(QFile::remove(path("away/a.wav")));
+    int warnings = 0;
+    const SurveyTally tally = carryOutSurvey({settings, {pathOf("away/a.wav")}, {}, 1}, pathOf("away.sqlite"), {},
+                                             [&](const std::string &, const std::string &) { ++warnings; });
+    QCOMPARE(tally.failed, 1);
+    QCOMPARE(warnings, 1);
+    QVERIFY(database("away.sqlite").recordings().front().isAnalysed());
+    QCOMPARE(database("away.sqlite").events(1).front().box.verdict, Verdict::Accepted);
 }
 
 void tst_cliSurvey::unreadableFilesAreRows()
