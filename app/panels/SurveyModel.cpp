@@ -35,6 +35,7 @@ namespace {
 void SurveyModel::read(const QString &path)
 {
     SurveyDatabase survey(pathBytes(path), Sqlite::Access::Read, patience);
+    survey.hold();
     const SurveySettings settings = settingsOf(survey.origin(), survey.path());
     std::vector<SurveyRecording> recordings = survey.recordings();
     std::vector<Row> rows;

@@ -27,6 +27,9 @@ public:
     /// Whether the survey that writes it has come to its end.
     bool isFinished();
 
+    /// Until the object goes, all that is read is of one moment; who writes has to wait.
+    void hold() { m_database.execute("BEGIN"); }
+
     std::vector<SurveyRecording> recordings(); ///< by id: in order of their paths where the survey is finished
     std::vector<SurveyEvent> events(std::int64_t recording);
     std::vector<SurveyPoint> points(std::int64_t recording);

@@ -221,7 +221,7 @@ SurveyTally carryOutSurvey(const SurveyRun &run, const std::string &out, const R
     const SurveyOrigin origin = originOf(run.settings, run.shard.name());
     if (!isThere(out))
         beginSurvey(origin, out);
-    SurveyDatabase database(out, Sqlite::Access::Write);
+    SurveyDatabase database(out, Sqlite::Access::Write, std::chrono::minutes(1)); // an export may take so long
     checkOrigin(database.origin(), origin, out);
     int kept = 0;
     const std::vector<Task> tasks = tasksOf(run, database, kept);
