@@ -466,10 +466,30 @@ void tst_SurveyDatabase::camtrap()
     QVERIFY(readBytes(path("package/media.csv"))
                 .contains("\n\"night/a.wav\",\"night\",,\"2023-11-14T22:13:20Z\",\"night/a.wav\",\"false\",\"a.wav\","
                           "\"audio/wav\",,,\n"));
-    const QByteArray observations = readBytes(path("package/observations.csv"));
-    QCOMPARE(observations.count('\n'), qsizetype(5));
-    QVERIFY(observations.contains("\n\"night/a.wav#1\",\"night\",\"night/a.wav\",\"night/a.wav#1\","
-                                  "\"2023-11-14T22:13:25Z\",\"2023-11-14T22:13:27Z\",\"media\",\"unclassified\","));
+    // Every byte of the longest table: one row an event, and each recording's after those of the one before.
+    QByteArray observations = "observationID,deploymentID,mediaID,eventID,eventStart,eventEnd,observationLevel,"
+                              "observationType,cameraSetupType,scientificName,count,lifeStage,sex,behavior,"
+                              "individualID,individualPositionRadius,individualPositionAngle,individualSpeed,bboxX,"
+                              "bboxY,bboxWidth,bboxHeight,classificationMethod,classifiedBy,classificationTimestamp,"
+                              "classificationProbability,observationTags,observationComments\n";
+    for (const auto &[recording, deployment] : {std::pair("b.wav", "recordings"), std::pair("night/a.wav", "night")})
+        for (const auto &[event, start, end, onset, offset] :
+             {std::tuple(2, "20", "22", "0.1", "2.1"), std::tuple(1, "25", "27", "5", "7")})
+            observations += QString("\"%1#%3\",\"%2\",\"%1\",\"%1#%3\",\"2023-11-14T22:13:%4Z\","
+                                    "\"2023-11-14T22:13:%5Z\",\"media\",\"unclassified\",,,,,,,,,,,,,,,\"machine\","
+                                    "\"Faintline %8\",,,\"f_low:0.25 | f_high:0.5 | "
+                                    "f:0.30000000000000004 | drift_hz_per_s:-1e-17 | statistic:1e+300 | t_onset:%6 | "
+                                    "t_end:%7\",\"\"\n")
+                                .arg(recording)
+                                .arg(deployment)
+                                .arg(event)
+                                .arg(start)
+                                .arg(end)
+                                .arg(onset)
+                                .arg(offset)
+                                .arg(QString::fromStdString(survey.origin().version))
+                                .toUtf8();
+    QCOMPARE(readBytes(path("package/observations.csv")), observations);
 }
 
 QTEST_GUILESS_MAIN(tst_SurveyDatabase)
