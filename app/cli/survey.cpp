@@ -37,10 +37,9 @@ namespace {
     {
         if (options.names.empty() || options.out.empty())
             throw Error("survey", "needs folders or recordings, and --out");
-        const Shard shard = options.shard.empty() ? Shard{} : shardFrom(options.shard);
         SurveyRun run;
         run.settings = {options.analysis.settings(), options.analysis.open};
-        run.shard = {shard.index, shard.count};
+        run.shard = options.shard.empty() ? Shard{} : shardFrom(options.shard);
         run.jobs = options.jobs > 0 ? options.jobs : common.threads;
         std::vector<std::string> unreadable;
         run.recordings = findRecordings(options.names, !run.settings.open.rawType.empty(), unreadable);

@@ -210,11 +210,6 @@ namespace {
 
 } // namespace
 
-std::string SurveyShard::name() const
-{
-    return isWhole() ? std::string() : std::to_string(index % count) + "/" + std::to_string(count);
-}
-
 SurveyTally carryOutSurvey(const SurveyRun &run, const std::string &out, const RunContext &context,
                            const SurveyWarning &warn)
 {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/RunContext.h"
+#include "base/Shard.h"
 #include "exchange/survey/SurveyOrigin.h"
 
 #include <functional>
@@ -9,20 +10,11 @@
 
 namespace faintline {
 
-/// Part `index` of `count` of a survey: the recordings with number ≡ index (mod count). 0 and count name the same.
-struct SurveyShard {
-    int index = 0;
-    int count = 1;
-
-    bool isWhole() const { return count == 1; }
-    std::string name() const; ///< "2/8"; empty for the whole
-};
-
 /// What a survey does.
 struct SurveyRun {
     SurveySettings settings;
     std::vector<std::string> recordings; ///< whole paths of all of them, in order, whatever the shard
-    SurveyShard shard;
+    Shard shard;
     int jobs = 1; ///< recordings analysed at a time
 };
 
