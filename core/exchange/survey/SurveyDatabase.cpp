@@ -163,10 +163,9 @@ std::vector<SurveyRecording> SurveyDatabase::recordings()
 
 std::vector<SurveyEvent> SurveyDatabase::events(std::int64_t recording)
 {
-    SqliteStatement row = m_database.prepare(
-        "SELECT event, t_onset, t_detect, t_end, f, drift_hz_per_s, statistic, confirmed, open, snr_db, band_hz, "
-        "noise_probability, window_s, f_low, f_high, verdict, note "
-        "FROM events LEFT JOIN reviews USING (recording, event) WHERE events.recording = ? ORDER BY id");
+    SqliteStatement row = m_database.prepare("SELECT " + surveyTable("events").columns
+                                             + ", verdict, note FROM events LEFT JOIN reviews USING (recording, event) "
+                                               "WHERE events.recording = ? ORDER BY id");
     row.with(recording);
     std::vector<SurveyEvent> result;
     while (row.next()) {
@@ -200,26 +199,23 @@ std::vector<SurveyEvent> SurveyDatabase::events(std::int64_t recording)
 
 std::vector<SurveyPoint> SurveyDatabase::points(std::int64_t recording)
 {
-    SqliteStatement row =
-        m_database.prepare("SELECT track, t, f, statistic, f_low, f_high, presence, snr_db FROM tracks "
-                           "WHERE recording = ? ORDER BY track, point");
+    SqliteStatement row = m_database.prepare(surveyTable("tracks").query());
     row.with(recording);
     std::vector<SurveyPoint> result;
     while (row.next())
-        result.push_back({whole(row, 0, path()), number(row, 1, path()), number(row, 2, path()), number(row, 3, path()),
-                          row.number(4), row.number(5), row.number(6), row.number(7)});
+        result.push_back({whole(row, 0, path()), number(row, 2, path()), number(row, 3, path()), number(row, 4, path()),
+                          row.number(5), row.number(6), row.number(7), row.number(8)});
     return result;
 }
 
 std::vector<AreaEvent> SurveyDatabase::areas(std::int64_t recording)
 {
-    SqliteStatement row = m_database.prepare(
-        "SELECT t_onset, t_end, f_low, f_high, level_db FROM areas WHERE recording = ? ORDER BY area");
+    SqliteStatement row = m_database.prepare(surveyTable("areas").query());
     row.with(recording);
     std::vector<AreaEvent> result;
     while (row.next())
-        result.push_back({number(row, 0, path()), number(row, 1, path()), number(row, 2, path()),
-                          number(row, 3, path()), number(row, 4, path())});
+        result.push_back({number(row, 1, path()), number(row, 2, path()), number(row, 3, path()),
+                          number(row, 4, path()), number(row, 5, path())});
     return result;
 }
 
