@@ -204,6 +204,12 @@ void MainWindow::connectSurvey()
         m_panels->show(m_survey); // the first recording brings the panels of a recording in its place
         emit m_events->eventActivated(id);
     });
+    connect(m_survey, &SurveyPanel::opened, this, [this] {
+        showAlone(m_survey, tr("Survey — Faintline"), tr("Double-click an event to open its recording there."));
+    });
+    connect(m_survey, &SurveyPanel::busyChanged, m_activity, &ActivityBar::setBusy);
+    connect(m_survey, &SurveyPanel::progressed, m_activity, &ActivityBar::setProgress);
+    connect(m_activity, &ActivityBar::cancelRequested, m_survey, &SurveyPanel::cancel);
     connect(m_survey, &SurveyPanel::failed, this, &MainWindow::showError);
     connect(m_survey, &SurveyPanel::openRequested, this,
             [this](const QString &path, const OpenOptions &options, const AnalysisController::Adjust &adjust) {
