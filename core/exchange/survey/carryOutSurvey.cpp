@@ -31,10 +31,11 @@ namespace {
         Task task;
         std::optional<SurveyOutcome> outcome;
 
-        /// It was analysed before, and now not a byte of it could be read: on a disk that is away, say.
+        /// It was analysed before, and now it, or the second of its files, cannot be read: on a disk that is away, say.
         bool isAway() const
         {
-            return outcome && !outcome->recording.isAnalysed() && task.known && task.file.hash.empty();
+            return outcome && !outcome->recording.isAnalysed() && task.known
+                   && task.knownHash.starts_with(task.file.hash);
         }
     };
 

@@ -22,6 +22,7 @@ private slots:
     void killedIsResumed();
     void endsWithinASecond();
     void changedAndTouchedFiles();
+    void whatIsAwayKeepsItsRows_data();
     void whatIsAwayKeepsItsRows();
     void unreadableFilesAreRows();
     void exports();
@@ -199,23 +200,36 @@ void tst_cliSurvey::changedAndTouchedFiles()
     QCOMPARE(database("fresh.sqlite").recordings().size(), std::size_t(3));
 }
 
+void tst_cliSurvey::whatIsAwayKeepsItsRows_data()
+{
+    QTest::addColumn<QString>("recording");
+    QTest::addColumn<QString>("away");
+    QTest::newRow("a file") << "away/a.wav"
+                            << "away/a.wav";
+    QTest::newRow("one of two files") << "away/b.sigmf-meta"
+                                      << "away/b.sigmf-data";
+}
+
 void tst_cliSurvey::whatIsAwayKeepsItsRows()
 {
+    QFETCH(QString, recording);
+    QFETCH(QString, away);
     QVERIFY(QDir(folder()).mkpath("away"));
-    QVERIFY(QFile::copy(path("night/one.wav"), path("away/a.wav")));
-    QCOMPARE(survey("away.sqlite", {}, "away").code, 0);
+    simulate(recording, 4);
+    QCOMPARE(survey("away.sqlite", {}, recording).code, 0);
+    const std::string file = path(recording).toStdString();
     const SurveySettings settings = settingsOf(database("away.sqlite").origin(), "away.sqlite");
     const SurveyEvent reviewed = database("away.sqlite").events(1).front();
-    SurveyDatabase(pathOf("away.sqlite"), Sqlite::Access::Write)
-        .setReview(pathOf("away/a.wav"), reviewed.event, Verdict::Accepted, "");
-    QVERIFY(QFile::remove(path("away/a.wav")));
+    SurveyDatabase(pathOf("away.sqlite"), Sqlite::Access::Write).setReview(file, reviewed.event, Verdict::Accepted, "");
+    QVERIFY(QFile::remove(path(away)));
     int warnings = 0;
-    const SurveyTally tally = carryOutSurvey({settings, {pathOf("away/a.wav")}, {}, 1}, pathOf("away.sqlite"), {},
+    const SurveyTally tally = carryOutSurvey({settings, {file}, {}, 1}, pathOf("away.sqlite"), {},
                                              [&](const std::string &, const std::string &) { ++warnings; });
     QCOMPARE(tally.failed, 1);
     QCOMPARE(warnings, 1);
     QVERIFY(database("away.sqlite").recordings().front().isAnalysed());
     QCOMPARE(database("away.sqlite").events(1).front().box.verdict, Verdict::Accepted);
+    QVERIFY(QFile::remove(path("away.sqlite")));
 }
 
 void tst_cliSurvey::unreadableFilesAreRows()
