@@ -242,9 +242,10 @@ void tst_SurveyDatabase::mergesOnlyWhatBelongsTogether()
     };
     QCOMPARE(merged({a, b}), path("m.sqlite") + ": shard 2/3 is missing");
     QVERIFY(!QFile::exists(m_folder->filePath("m.sqlite")));
-    QVERIFY(contains(merged({a, b, c, a}), "a recording can be in one of the parts only"));
+    QVERIFY(contains(merged({a, b, c, a}), "a recording may be in one shard only"));
     beginSurvey(originOf({}, "2/3"), path("u.sqlite"));
-    QCOMPARE(merged({a, b, path("u.sqlite")}), path("u.sqlite") + ": is not finished; run its survey again");
+    QCOMPARE(merged({a, b, path("u.sqlite")}),
+             path("u.sqlite") + ": is not finished; run the survey again to complete it");
     SurveySettings other;
     other.analysis.spectrogram.windowSeconds = 1.0;
     beginSurvey(originOf(other, "2/3"), path("o.sqlite"));
@@ -275,14 +276,14 @@ void tst_SurveyDatabase::otherSettingsAreNamed()
                     "another name for this survey"));
     here = there;
     here.open.iq = true;
-    QVERIFY(contains(said(originOf(there), originOf(here)), "read as {}, not as {\"iq\":true}"));
+    QVERIFY(contains(said(originOf(there), originOf(here)), "reading options: {} there, {\"iq\":true} here"));
     here.open = {true, "ci16_le", 1e6, 2, 44};
     const SurveySettings back = settingsOf(originOf(here), "s.sqlite");
     QVERIFY(back.analysis == here.analysis && originOf(back) == originOf(here));
     QVERIFY(errorOf([&] { settingsOf({"{}", "[1]", {}, {}, {}}, "s.sqlite"); }).starts_with("s.sqlite"));
     SurveyOrigin older = originOf(there);
     older.version = "0.0.1";
-    QVERIFY(contains(said(older, originOf(there)), "is a survey by Faintline 0.0.1"));
+    QVERIFY(contains(said(older, originOf(there)), "was written by Faintline 0.0.1; this is Faintline "));
     older = originOf(there);
     older.sources = "?";
     QVERIFY(contains(said(older, originOf(there)), "another build"));
@@ -307,17 +308,17 @@ void tst_SurveyDatabase::noSurvey_data()
                                     << "reads format 1";
     QTest::newRow("a trigger") << QByteArray("survey")
                                << "CREATE TRIGGER t AFTER INSERT ON reviews BEGIN DELETE FROM events; END"
-                               << "its tables are not those of";
+                               << "its tables differ";
     // SQLite refuses such a name, but not in a file that has it.
     QTest::newRow("a trigger in disguise")
         << QByteArray("survey") << "CREATE TRIGGER disguised AFTER INSERT ON reviews BEGIN DELETE FROM events; END"
-        << "its tables are not those of";
+        << "its tables differ";
     QTest::newRow("a view") << QByteArray("survey") << "CREATE VIEW v AS SELECT * FROM events"
-                            << "its tables are not";
+                            << "its tables differ";
     QTest::newRow("a table is missing") << QByteArray("survey") << "DROP TABLE areas"
-                                        << "its tables are not";
+                                        << "its tables differ";
     QTest::newRow("another column") << QByteArray("survey") << "ALTER TABLE events ADD COLUMN x TEXT"
-                                    << "its tables are not";
+                                    << "its tables differ";
     QTest::newRow("no settings") << QByteArray("survey") << "DELETE FROM settings"
                                  << "contains no settings";
 }
@@ -441,7 +442,7 @@ void tst_SurveyDatabase::stoneSoupByTime()
     unknown.recording.startUnixSeconds.reset();
     SurveyDatabase survey(written("s.sqlite", {outcomeOf(path("a.wav")), early, unknown}));
     QVERIFY(contains(errorOf([&] { exportStoneSoup(survey, path("t.csv"), std::nullopt); }),
-                     "1 recording(s) do not know when they began"));
+                     "1 recording(s) have no start time"));
     QVERIFY(!QFile::exists(m_folder->filePath("t.csv")));
     exportStoneSoup(survey, path("t.csv"), 100.0);
     QCOMPARE(readBytes(path("t.csv")),

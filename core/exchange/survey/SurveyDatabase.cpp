@@ -29,7 +29,7 @@ namespace {
         return (folder / fileNameFromText(stored)).lexically_normal().string();
     }
 
-    constexpr const char *otherTables = "is not a survey: its tables are not those of docs/reference/survey.md";
+    constexpr const char *otherTables = "is not a survey: its tables differ from those in docs/reference/survey.md";
 
     /// Throws where a file is not a survey by its header, before SQLite opens it: to open a database with a write-ahead
     /// log, as another program may have it, changes it.
@@ -48,7 +48,7 @@ namespace {
             applicationId = applicationId << 8 | std::to_integer<int>(header[i]);
         const bool hasLog = header[18] != std::byte(1) || header[19] != std::byte(1);
         if (bytes < header.size() || hasLog || applicationId != surveyApplicationId)
-            throw Error(path, "is not a survey; 'faintline-cli survey' writes one");
+            throw Error(path, "is not a survey; 'faintline-cli survey' creates surveys");
         return path;
     }
 
@@ -65,7 +65,7 @@ namespace {
     {
         const std::int64_t value = row.integer(column);
         if (!std::in_range<int>(value))
-            throw Error(path, "contains a number of an event or a track that is too large");
+            throw Error(path, "contains an event or track number that is too large");
         return int(value);
     }
 
@@ -90,7 +90,7 @@ SurveyDatabase::SurveyDatabase(const std::string &path, Sqlite::Access access, s
 void SurveyDatabase::check()
 {
     if (const auto format = m_database.integer("PRAGMA user_version"); format != surveyFormat)
-        throw Error(path(), "is a survey of format " + std::to_string(format) + "; this program reads format "
+        throw Error(path(), "is a survey in format " + std::to_string(format) + "; this program reads format "
                                 + std::to_string(surveyFormat));
     // What SQLite adds by itself: indexes of what is unique, and statistics for queries.
     SqliteStatement objects =

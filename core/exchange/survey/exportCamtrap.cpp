@@ -125,8 +125,8 @@ namespace {
             const std::optional<double> start =
                 recording.startUnixSeconds ? recording.startUnixSeconds : place.startUnixSeconds;
             if (!start || formatUtc(*start).empty())
-                throw Error(recording.file.path, "does not know when it began, and Camtrap DP requires dates; give "
-                                                 "--start, such as 2024-07-26T00:00:00Z");
+                throw Error(recording.file.path, "has no start time, which Camtrap DP requires; give --start, such as "
+                                                 "2024-07-26T00:00:00Z");
             Medium one;
             one.path = textFromFileName(pathBelow(recording.file.path, survey.path()));
             const std::string folder = fs::path(one.path).parent_path().string();
@@ -137,7 +137,7 @@ namespace {
             media.push_back(std::move(one));
         }
         if (media.empty())
-            throw Error(survey.path(), "contains no recordings that were analysed");
+            throw Error(survey.path(), "contains no analysed recordings");
         return media;
     }
 

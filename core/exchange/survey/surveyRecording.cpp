@@ -46,7 +46,8 @@ namespace {
         }
         const auto frames = openFrames(path, {settings.analysis.selection, settings.analysis.noise}, context);
         if (!frames->grid().isSpectrum())
-            throw Error(path, "holds frames on several axes; a survey takes recordings, and frames on frequency only");
+            throw Error(path, "contains frames with several axes; a survey requires recordings, or frames with a "
+                              "frequency axis only");
         described.durationSeconds = double(frames->time().count) * frames->time().step;
         return analyse(frames, withSlopesInBins(settings.analysis, *frames), context);
     }

@@ -241,8 +241,8 @@ void tst_cliSurvey::unreadableFilesAreRows()
     const Outcome half = survey("broken.sqlite", {}, "broken");
     QCOMPARE(half.code, 1);
     QCOMPARE(half.err.count("warning: "), qsizetype(2));
-    QVERIFY(
-        half.err.contains("error: broken.sqlite: 2 recording(s) and 0 folder(s) could not be read; 1 were analysed"));
+    QVERIFY(half.err.contains("error: broken.sqlite: 2 recording(s) could not be analysed and 0 folder(s) could not be "
+                              "read; 1 recording(s) were analysed"));
     std::vector<SurveyRecording> rows = database("broken.sqlite").recordings();
     QCOMPARE(rows.size(), std::size_t(3));
     QVERIFY(!rows[0].isAnalysed() && rows[1].isAnalysed() && !rows[2].isAnalysed());
@@ -285,8 +285,8 @@ void tst_cliSurvey::mistakes_data()
     const auto row = [](const char *name, const QStringList &arguments, const char *complaint) {
         QTest::newRow(name) << QStringList{"survey"} + arguments << QByteArray("error: ") + complaint;
     };
-    row("nothing", {}, "survey: needs folders or recordings, and --out\n");
-    row("no output", {"night"}, "survey: needs folders or recordings, and --out\n");
+    row("nothing", {}, "survey: requires folders or recordings, and --out\n");
+    row("no output", {"night"}, "survey: requires folders or recordings, and --out\n");
     row("no such folder", {"nowhere", "--out", "x.sqlite"}, "nowhere: there is no such file or folder\n");
     row("no recordings", {"night/.hidden/..", "--out", "x.sqlite", "--raw-type", "ci16_le", "--raw-rate", "1"},
         "night/.hidden/..: contains no recordings\n");
@@ -303,7 +303,7 @@ void tst_cliSurvey::mistakes_data()
     row("export to", {"export", "first.sqlite", "--events", "x.txt"}, "x.txt: must end in .csv\n");
     row("no place", {"export", "first.sqlite", "--camtrap", "x"}, "--camtrap: requires --latitude and --longitude\n");
     row("no date", {"export", "first.sqlite", "--stone-soup", "x.csv"},
-        "first.sqlite: 4 recording(s) do not know when they began");
+        "first.sqlite: 4 recording(s) have no start time, which Stone Soup requires; give --start");
     row("start", {"export", "first.sqlite", "--stone-soup", "x.csv", "--start", "noon"},
         "--start noon: must be a date");
 }
