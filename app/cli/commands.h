@@ -5,6 +5,7 @@
 #include "analysis/AnalysisSettings.h"
 #include "base/Error.h"
 #include "base/RunContext.h"
+#include "base/Shard.h"
 #include "recording/openRecording.h"
 #include "spectrum/SimulatedPings.h"
 
@@ -91,12 +92,6 @@ CLI::Option *addInput(CLI::App &command, Common &common, const std::string &name
                       const std::string &description);
 CLI::Option *addOutput(CLI::App &command, Common &common, const std::string &name, std::string &path,
                        const std::string &description);
-
-/// Part `index` of `count` of a computation.
-struct Shard {
-    int index = 0;
-    int count = 1;
-};
 
 /// "2/8": counted from 0 or from 1, whichever suits the job scheduler; 0 and N name the same. Throws Error.
 Shard shardFrom(const std::string &text);

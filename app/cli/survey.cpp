@@ -36,16 +36,15 @@ namespace {
     void survey(const SurveyOptions &options, const Common &common)
     {
         if (options.names.empty() || options.out.empty())
-            throw Error("survey", "needs folders or recordings, and --out");
-        const Shard shard = options.shard.empty() ? Shard{} : shardFrom(options.shard);
+            throw Error("survey", "requires folders or recordings, and --out");
         SurveyRun run;
         run.settings = {options.analysis.settings(), options.analysis.open};
-        run.shard = {shard.index, shard.count};
+        run.shard = options.shard.empty() ? Shard{} : shardFrom(options.shard);
         run.jobs = options.jobs > 0 ? options.jobs : common.threads;
         std::vector<std::string> unreadable;
         run.recordings = findRecordings(options.names, !run.settings.open.rawType.empty(), unreadable);
         for (const std::string &folder : unreadable)
-            warnOf(folder, "the folder cannot be read");
+            warnOf(folder, "cannot be read");
         if (run.recordings.empty())
             throw Error(options.names.front(), "contains no recordings");
         checkOutputs({options.out});
@@ -54,9 +53,9 @@ namespace {
         context.checkpoint(1.0, "done");
         if (tally.failed > 0 || !unreadable.empty())
             throw Error(options.out,
-                        std::to_string(tally.failed) + " recording(s) and " + std::to_string(unreadable.size())
-                            + " folder(s) could not be read; " + std::to_string(tally.analysed + tally.kept)
-                            + " were analysed",
+                        std::to_string(tally.failed) + " recording(s) could not be analysed and "
+                            + std::to_string(unreadable.size()) + " folder(s) could not be read; "
+                            + std::to_string(tally.analysed + tally.kept) + " recording(s) were analysed",
                         Error::Kind::Failure);
     }
 
@@ -69,9 +68,9 @@ namespace {
         const auto options = std::make_shared<Options>();
         CLI::App *command = survey.add_subcommand("merge", "Merge the shards of a survey; the result is identical to a "
                                                            "survey without shards");
-        command->add_option("SHARD", options->shards, "Surveys, in any order")->required();
+        command->add_option("SHARD", options->shards, "Shards, in any order")->required();
         addOutput(*command, common, "--out", options->out, "Survey to write, .sqlite")->required();
-        command->fallthrough(false); // options of the search mean nothing here
+        command->fallthrough(false); // a merge has no settings
         command->callback([options] {
             checkOutputs({options->out});
             mergeSurveys(options->shards, options->out);
@@ -104,6 +103,7 @@ namespace {
         if (!options.camtrap.empty() && (!options.latitude || !options.longitude))
             throw Error("--camtrap", "requires --latitude and --longitude");
         SurveyDatabase survey(options.survey);
+        survey.hold();
         if (!survey.isFinished())
             std::fprintf(stderr, "warning: %s: the survey is not finished\n", oneLine(options.survey).c_str());
         if (!options.events.empty())
@@ -131,18 +131,18 @@ namespace {
         addOutput(*command, common, "--events", options->events, "Write all events, .csv");
         addOutput(*command, common, "--tracks", options->tracks, "Write all tracks, .csv");
         addOutput(*command, common, "--stone-soup", options->stoneSoup,
-                  "Write the points of all tracks by ISO dates, .csv for Stone Soup's readers");
+                  "Write the points of all tracks in order of time, .csv for Stone Soup");
         addOutput(*command, common, "--raven", options->raven, "Write a Raven selection table per recording: a folder");
         addOutput(*command, common, "--audacity", options->audacity, "Write Audacity labels per recording: a folder");
         addOutput(*command, common, "--sigmf", options->sigmf, "Write SigMF annotations per recording: a folder");
         addOutput(*command, common, "--camtrap", options->camtrap,
                   "Write a Camera Trap Data Package: a folder; requires --latitude and --longitude");
-        command->add_option("--latitude", options->latitude, "Of the recordings, degrees north")
+        command->add_option("--latitude", options->latitude, "Latitude of the recordings, degrees north")
             ->check(CLI::Range(-90.0, 90.0));
-        command->add_option("--longitude", options->longitude, "Of the recordings, degrees east")
+        command->add_option("--longitude", options->longitude, "Longitude of the recordings, degrees east")
             ->check(CLI::Range(-180.0, 180.0));
         command->add_option("--start", options->start,
-                            "UTC of the first sample of recordings that do not know it, as 2024-07-26T00:00:00Z");
+                            "Start time (UTC) of recordings without one, such as 2024-07-26T00:00:00Z");
         command->fallthrough(false);
         command->callback([options] {
             const std::string all = options->events + options->tracks + options->stoneSoup + options->raven
@@ -162,11 +162,11 @@ void addSurvey(CLI::App &app, Common &common)
     CLI::App *command =
         app.add_subcommand("survey", "Search many recordings with the same settings; an interrupted run is resumed");
     command->require_subcommand(0, 1);
-    command->add_option("FOLDER", options->names, "Folders, with the folders below them, and recordings");
+    command->add_option("FOLDER", options->names, "Folders, which are searched recursively, and recordings");
     options->analysis.addSettingsTo(*command, common);
     addOutput(*command, common, "--out", options->out, "Survey to write, .sqlite");
     command->add_option("--shard", options->shard, "Analyse only part I of N, for 'survey merge'");
-    command->add_option("--jobs", options->jobs, "Recordings analysed at a time; by default as many as threads")
+    command->add_option("--jobs", options->jobs, "Recordings analysed at the same time; by default one per thread")
         ->check(CLI::Range(1, 1024));
     addMergeTo(*command, common);
     addExportTo(*command, common);

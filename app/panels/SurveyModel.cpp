@@ -9,9 +9,15 @@
 #include <QBrush>
 #include <QPalette>
 
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
 namespace faintline {
 
 namespace {
+
+    constexpr std::chrono::milliseconds patience(1000); ///< the window waits meanwhile
 
     QString verdictText(Verdict verdict)
     {
@@ -26,38 +32,100 @@ namespace {
         return {};
     }
 
+    /// What a column is sorted by, but for the notes.
+    double sortKey(const SurveyModel::Row &row, int column)
+    {
+        const Event &event = row.event.event;
+        switch (column) {
+        case SurveyModel::Recording:
+            return double(row.recording);
+        case SurveyModel::Onset:
+            return event.onsetSeconds;
+        case SurveyModel::Duration:
+            return event.endSeconds - event.onsetSeconds;
+        case SurveyModel::Frequency:
+            return event.position.back();
+        case SurveyModel::Drift:
+            return event.driftPerSecond;
+        case SurveyModel::Statistic:
+            return event.statistic;
+        default:
+            return double(row.event.box.verdict);
+        }
+    }
+
+    bool isBefore(const SurveyModel::Row &a, const SurveyModel::Row &b, int column)
+    {
+        return column == SurveyModel::Note ? a.event.box.note < b.event.box.note
+                                           : sortKey(a, column) < sortKey(b, column);
+    }
+
 } // namespace
 
-void SurveyModel::read(const QString &path)
+SurveyModel::Content SurveyModel::read(const QString &path, const RunContext &context)
 {
-    SurveyDatabase survey(pathBytes(path));
-    const SurveySettings settings = settingsOf(survey.origin(), survey.path());
-    std::vector<SurveyRecording> recordings = survey.recordings();
-    std::vector<Row> rows;
-    for (std::size_t i = 0; i < recordings.size(); ++i)
-        for (SurveyEvent &event : survey.events(recordings[i].id))
-            rows.push_back({i, std::move(event)});
+    SurveyDatabase survey(pathBytes(path), Sqlite::Access::Read, patience);
+    survey.hold();
+    Content content{path, settingsOf(survey.origin(), survey.path()), survey.recordings(), {}};
+    for (std::size_t i = 0; i < content.recordings.size(); ++i) {
+        context.checkpoint(double(i) / double(content.recordings.size()), "reading the survey");
+        for (SurveyEvent &event : survey.events(content.recordings[i].id))
+            content.rows.push_back({i, std::move(event)});
+    }
+    return content;
+}
+
+void SurveyModel::show(Content content)
+{
     beginResetModel();
-    m_path = path;
-    m_settings = settings;
-    m_recordings = std::move(recordings);
-    m_rows = std::move(rows);
+    m_content = std::move(content);
+    m_order.resize(m_content.rows.size());
+    std::iota(m_order.begin(), m_order.end(), std::size_t(0));
+    arrange();
     endResetModel();
+}
+
+void SurveyModel::arrange()
+{
+    std::stable_sort(m_order.begin(), m_order.end(), [this](std::size_t a, std::size_t b) {
+        if (m_sortOrder == Qt::DescendingOrder)
+            std::swap(a, b);
+        return isBefore(m_content.rows[a], m_content.rows[b], m_sortColumn);
+    });
+}
+
+void SurveyModel::sort(int column, Qt::SortOrder order)
+{
+    m_sortColumn = column;
+    m_sortOrder = order;
+    emit layoutAboutToBeChanged();
+    const std::vector<std::size_t> before = m_order;
+    arrange();
+    std::vector<int> places(m_order.size());
+    for (std::size_t i = 0; i < m_order.size(); ++i)
+        places[m_order[i]] = int(i);
+    QModelIndexList moved; // what is selected stays so
+    for (const QModelIndex &one : persistentIndexList())
+        moved << index(places[before[std::size_t(one.row())]], one.column());
+    changePersistentIndexList(persistentIndexList(), moved);
+    emit layoutChanged();
 }
 
 void SurveyModel::judge(const std::vector<int> &rows, Verdict verdict)
 {
-    SurveyDatabase survey(pathBytes(m_path), Sqlite::Access::Write);
+    if (rows.empty())
+        return;
+    SurveyDatabase survey(pathBytes(path()), Sqlite::Access::Write, patience);
     survey.begin();
     for (const int number : rows) {
         const Row &one = row(number);
-        survey.setReview(m_recordings[one.recording].id, one.event.event.id, verdict, one.event.box.note);
+        survey.setReview(recordings()[one.recording].file.path, one.event.event, verdict, one.event.box.note);
     }
     survey.commit();
-    for (const int number : rows) {
-        m_rows[std::size_t(number)].event.box.verdict = verdict;
-        emit dataChanged(index(number, 0), index(number, ColumnCount - 1));
-    }
+    for (const int number : rows)
+        m_content.rows[m_order[std::size_t(number)]].event.box.verdict = verdict;
+    const auto [first, last] = std::minmax_element(rows.begin(), rows.end());
+    emit dataChanged(index(*first, 0), index(*last, ColumnCount - 1));
 }
 
 QString SurveyModel::text(const Row &row, int column) const
@@ -66,7 +134,7 @@ QString SurveyModel::text(const Row &row, int column) const
     constexpr double resolution = 0.01;
     switch (column) {
     case Recording:
-        return labelText(storedPath(m_recordings[row.recording].file.path, pathBytes(m_path)));
+        return labelText(storedPath(recordings()[row.recording].file.path, pathBytes(path())));
     case Onset:
         return secondsText(event.onsetSeconds, resolution);
     case Duration:
@@ -84,35 +152,12 @@ QString SurveyModel::text(const Row &row, int column) const
     }
 }
 
-QVariant SurveyModel::sortKey(const Row &row, int column) const
-{
-    const Event &event = row.event.event;
-    switch (column) {
-    case Recording:
-        return qulonglong(row.recording);
-    case Onset:
-        return event.onsetSeconds;
-    case Duration:
-        return event.endSeconds - event.onsetSeconds;
-    case Frequency:
-        return event.position.back();
-    case Drift:
-        return event.driftPerSecond;
-    case Statistic:
-        return event.statistic;
-    default:
-        return text(row, column);
-    }
-}
-
 QVariant SurveyModel::data(const QModelIndex &index, int role) const
 {
     const Row &one = row(index.row());
     switch (role) {
     case Qt::DisplayRole:
         return text(one, index.column());
-    case Qt::UserRole:
-        return sortKey(one, index.column());
     case Qt::TextAlignmentRole:
         return int(Qt::AlignVCenter
                    | (index.column() >= Onset && index.column() <= Statistic ? Qt::AlignRight : Qt::AlignLeft));
@@ -121,7 +166,7 @@ QVariant SurveyModel::data(const QModelIndex &index, int role) const
                    ? QVariant(QPalette().brush(QPalette::Disabled, QPalette::Text))
                    : QVariant();
     case Qt::ToolTipRole:
-        if (const auto start = m_recordings[one.recording].startUnixSeconds)
+        if (const auto start = recordings()[one.recording].startUnixSeconds)
             return QString::fromStdString(formatUtc(*start + one.event.event.onsetSeconds));
         return {};
     default:

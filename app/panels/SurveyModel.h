@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/RunContext.h"
 #include "exchange/survey/SurveyDatabase.h"
 
 #include <QAbstractTableModel>
@@ -8,7 +9,7 @@
 
 namespace faintline {
 
-/// The events of a survey as a table: recording, time, position, statistic, review.
+/// The events of a survey as a table: recording, time, position, statistic, review. Rows are in the order of a column.
 class SurveyModel : public QAbstractTableModel
 {
     Q_OBJECT
@@ -21,32 +22,41 @@ public:
         SurveyEvent event;
     };
 
+    /// All that is read of a survey.
+    struct Content {
+        QString path;
+        SurveySettings settings;
+        std::vector<SurveyRecording> recordings;
+        std::vector<Row> rows; ///< in the order of the file
+    };
+
     using QAbstractTableModel::QAbstractTableModel;
 
-    /// Reads everything. Throws Error; then the table stays as it was.
-    void read(const QString &path);
-    /// Writes a verdict into the file. Throws Error.
+    /// Reads a survey, on any thread. Throws Error and Cancelled.
+    static Content read(const QString &path, const RunContext &context = {});
+    void show(Content content);
+    /// Writes a verdict into the file, or nothing where one of the events is not there any more. Throws Error.
     void judge(const std::vector<int> &rows, Verdict verdict);
 
-    const QString &path() const { return m_path; }
-    const SurveySettings &settings() const { return m_settings; }
-    const std::vector<SurveyRecording> &recordings() const { return m_recordings; }
-    const Row &row(int number) const { return m_rows[std::size_t(number)]; }
+    const QString &path() const { return m_content.path; }
+    const SurveySettings &settings() const { return m_content.settings; }
+    const std::vector<SurveyRecording> &recordings() const { return m_content.recordings; }
+    const Row &row(int number) const { return m_content.rows[m_order[std::size_t(number)]]; }
 
-    int rowCount(const QModelIndex &parent = {}) const override { return parent.isValid() ? 0 : int(m_rows.size()); }
+    int rowCount(const QModelIndex &parent = {}) const override { return parent.isValid() ? 0 : int(m_order.size()); }
     int columnCount(const QModelIndex & = {}) const override { return ColumnCount; }
-    /// Qt::UserRole: what a column is sorted by.
     QVariant data(const QModelIndex &index, int role) const override;
     QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+    void sort(int column, Qt::SortOrder order) override;
 
 private:
     QString text(const Row &row, int column) const;
-    QVariant sortKey(const Row &row, int column) const;
+    void arrange();
 
-    QString m_path;
-    SurveySettings m_settings;
-    std::vector<SurveyRecording> m_recordings;
-    std::vector<Row> m_rows;
+    Content m_content;
+    std::vector<std::size_t> m_order; ///< of the rows shown: their places in the content
+    int m_sortColumn = Recording;
+    Qt::SortOrder m_sortOrder = Qt::AscendingOrder;
 };
 
 } // namespace faintline

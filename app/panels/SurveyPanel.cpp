@@ -2,7 +2,6 @@
 
 #include "app/base/filePath.h"
 #include "app/base/readingTable.h"
-#include "app/panels/SurveyModel.h"
 #include "widgets/base/labelText.h"
 
 #include <QHBoxLayout>
@@ -10,22 +9,21 @@
 #include <QKeyEvent>
 #include <QLabel>
 #include <QPushButton>
-#include <QSortFilterProxyModel>
 #include <QTableView>
 #include <QVBoxLayout>
 
 #include <algorithm>
+#include <memory>
+#include <new>
 #include <utility>
 
 namespace faintline {
 
 SurveyPanel::SurveyPanel(const Document &document, const AnalysisController &controller, QWidget *parent)
-    : QWidget(parent), m_document(document), m_model(new SurveyModel(this)), m_proxy(new QSortFilterProxyModel(this)),
-      m_table(new QTableView), m_summary(plainLabel())
+    : QWidget(parent), m_document(document), m_model(new SurveyModel(this)), m_table(new QTableView),
+      m_summary(plainLabel())
 {
-    m_proxy->setSourceModel(m_model);
-    m_proxy->setSortRole(Qt::UserRole);
-    m_table->setModel(m_proxy);
+    m_table->setModel(m_model);
     m_table->setSortingEnabled(true);
     m_table->sortByColumn(SurveyModel::Statistic, Qt::DescendingOrder);
     makeReadingTable(*m_table, 22);
@@ -47,8 +45,15 @@ SurveyPanel::SurveyPanel(const Document &document, const AnalysisController &con
     layout->setSpacing(0);
     layout->addWidget(m_table, 1);
     layout->addLayout(bottom);
-    m_summary->setText(tr("File > Open opens a survey, .sqlite, that faintline-cli survey has written."));
+    m_summary->setText(tr("Open a survey (.sqlite) with File > Open. The command faintline-cli survey creates one."));
 
+    const auto end = [this] { emit busyChanged(false); };
+    connect(&m_runner, &JobRunner::started, this, [this] { emit busyChanged(true); });
+    connect(&m_runner, &JobRunner::progressed, this, &SurveyPanel::progressed);
+    connect(&m_runner, &JobRunner::finished, this, end);
+    connect(&m_runner, &JobRunner::cancelled, this, end);
+    connect(&m_runner, &JobRunner::failed, this, end);
+    connect(&m_runner, &JobRunner::failed, this, &SurveyPanel::failed);
     connect(&controller, &AnalysisController::settled, this, &SurveyPanel::reach);
     connect(m_table, &QTableView::activated, this, &SurveyPanel::activate);
     connect(m_table->selectionModel(), &QItemSelectionModel::selectionChanged, this, &SurveyPanel::followSelection);
@@ -87,17 +92,30 @@ bool SurveyPanel::isSurvey(const QString &path)
 
 void SurveyPanel::open(const QString &path)
 {
-    m_model->read(path);
+    m_runner.start([this, path](const RunContext &context) -> JobRunner::Delivery {
+        try {
+            const auto content = std::make_shared<SurveyModel::Content>(SurveyModel::read(path, context));
+            return [this, content] { show(std::move(*content)); };
+        } catch (const std::bad_alloc &) {
+            throw Error(pathBytes(path), "out of memory", Error::Kind::Failure);
+        }
+    });
+}
+
+void SurveyPanel::show(SurveyModel::Content content)
+{
+    m_model->show(std::move(content));
     const auto &recordings = m_model->recordings();
     const auto failed = std::count_if(recordings.begin(), recordings.end(),
                                       [](const SurveyRecording &one) { return !one.isAnalysed(); });
     QString summary = tr("%1: %2 events in %3 recordings")
-                          .arg(fileLabel(path))
+                          .arg(fileLabel(m_model->path()))
                           .arg(m_model->rowCount())
                           .arg(qlonglong(recordings.size()));
     if (failed > 0)
         summary += tr(", %1 could not be analysed").arg(qlonglong(failed));
     m_summary->setText(summary);
+    emit opened();
 }
 
 void SurveyPanel::followSelection()
@@ -110,7 +128,7 @@ void SurveyPanel::judge(Verdict verdict)
 {
     std::vector<int> rows;
     for (const QModelIndex &index : m_table->selectionModel()->selectedRows())
-        rows.push_back(m_proxy->mapToSource(index).row());
+        rows.push_back(index.row());
     try {
         m_model->judge(rows, verdict);
     } catch (const Error &error) {
@@ -120,7 +138,7 @@ void SurveyPanel::judge(Verdict verdict)
 
 void SurveyPanel::activate(const QModelIndex &index)
 {
-    const SurveyModel::Row &row = m_model->row(m_proxy->mapToSource(index).row());
+    const SurveyModel::Row &row = m_model->row(index.row());
     const QString path = pathText(m_model->recordings()[row.recording].file.path);
     const int event = row.event.event.id;
     const SurveySettings &settings = m_model->settings();
@@ -134,9 +152,9 @@ void SurveyPanel::activate(const QModelIndex &index)
 
 void SurveyPanel::reach()
 {
-    if (m_wanted.event == 0 || !m_document.analysis() || absolutePath(m_document.source().path) != m_wanted.path)
-        return;
-    emit eventReached(std::exchange(m_wanted, {}).event);
+    const auto wanted = std::exchange(m_wanted, {}); // also where the recording could not be opened
+    if (wanted.event != 0 && m_document.analysis() && absolutePath(m_document.source().path) == wanted.path)
+        emit eventReached(wanted.event);
 }
 
 } // namespace faintline

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "app/base/JobRunner.h"
 #include "app/control/AnalysisController.h"
-#include "base/Error.h"
-#include "recording/openRecording.h"
+#include "app/panels/SurveyModel.h"
 
 #include <QHash>
 #include <QWidget>
@@ -10,12 +10,9 @@
 class QBoxLayout;
 class QLabel;
 class QPushButton;
-class QSortFilterProxyModel;
 class QTableView;
 
 namespace faintline {
-
-class SurveyModel;
 
 /// The events of a survey of many recordings (faintline-cli survey): one table for all of them, from which a double
 /// click opens the recording at the event. Reviews are written into the survey's file at once.
@@ -26,8 +23,9 @@ class SurveyPanel : public QWidget
 public:
     SurveyPanel(const Document &document, const AnalysisController &controller, QWidget *parent = nullptr);
 
-    /// Shows the survey in a file. Throws Error.
+    /// Reads the survey in a file in the background, then shows it; ends in `opened` or `failed`.
     void open(const QString &path);
+    void cancel() { m_runner.cancel(); }
     /// Whether a file is opened here: by its name.
     static bool isSurvey(const QString &path);
 
@@ -38,6 +36,9 @@ public:
     QSize sizeHint() const override { return {720, 240}; }
 
 signals:
+    void opened();
+    void busyChanged(bool isBusy);
+    void progressed(double fraction, const QString &what);
     /// A recording is to be opened with the settings of the survey.
     void openRequested(const QString &path, const faintline::OpenOptions &options,
                        const faintline::AnalysisController::Adjust &adjust);
@@ -49,6 +50,7 @@ protected:
     bool eventFilter(QObject *watched, QEvent *event) override;
 
 private:
+    void show(SurveyModel::Content content);
     void addVerdict(QBoxLayout &layout, const QString &text, const QString &tip, Qt::Key key, Verdict verdict);
     void activate(const QModelIndex &index);
     void reach();
@@ -56,7 +58,6 @@ private:
 
     const Document &m_document;
     SurveyModel *m_model;
-    QSortFilterProxyModel *m_proxy;
     QTableView *m_table;
     QLabel *m_summary;
     QList<QPushButton *> m_buttons;
@@ -67,6 +68,8 @@ private:
         QString path;
         int event = 0;
     } m_wanted;
+
+    JobRunner m_runner; ///< last, so that its job ends first
 };
 
 } // namespace faintline

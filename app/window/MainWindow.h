@@ -115,7 +115,8 @@ private:
     void showFailure(const Error &error);
     void offerIq();
     void openScenario(ScenarioCard *card);
-    void openSurvey(const QString &path);
+    /// What needs no recording gets the window to itself, until there is one.
+    void showAlone(QWidget *panel, const QString &title, const QString &hint);
     void chooseFile();
     void chooseRawFile();
     void openDropped(const QStringList &files);

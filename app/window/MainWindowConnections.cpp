@@ -204,12 +204,17 @@ void MainWindow::connectSurvey()
         m_panels->show(m_survey); // the first recording brings the panels of a recording in its place
         emit m_events->eventActivated(id);
     });
+    connect(m_survey, &SurveyPanel::opened, this, [this] {
+        showAlone(m_survey, tr("Survey — Faintline"), tr("Double-click an event to open its recording there."));
+    });
+    connect(m_survey, &SurveyPanel::busyChanged, m_activity, &ActivityBar::setBusy);
+    connect(m_survey, &SurveyPanel::progressed, m_activity, &ActivityBar::setProgress);
+    connect(m_activity, &ActivityBar::cancelRequested, m_survey, &SurveyPanel::cancel);
     connect(m_survey, &SurveyPanel::failed, this, &MainWindow::showError);
     connect(m_survey, &SurveyPanel::openRequested, this,
             [this](const QString &path, const OpenOptions &options, const AnalysisController::Adjust &adjust) {
-                // The settings go along: only what was said about events could be lost.
                 const auto next = [this, path, options, adjust] { openNow(path, options, adjust); };
-                if (m_document.annotations().isEmpty() || m_saver->mayLose(tr("opening something else"), next))
+                if (m_saver->mayLose(tr("opening something else"), next))
                     next();
             });
 }

@@ -32,7 +32,7 @@ namespace faintline {
 void MainWindow::open(const QString &path, const OpenOptions &options, const AnalysisController::Adjust &adjust)
 {
     if (SurveyPanel::isSurvey(path))
-        return openSurvey(path);
+        return m_survey->open(path);
     if (const bool isOfScans = isScanScenario(path); isOfScans || isLesson(path)) {
         try {
             return isOfScans ? openScans(readScanTest(path)) : startLesson(readLesson(path));
@@ -102,33 +102,22 @@ void MainWindow::openScenario(ScenarioCard *card)
 
 void MainWindow::openScans(const ScanTest &test)
 {
-    m_welcome->stop();
-    m_messages->dismiss();
-    if (m_document.isEmpty()) {
-        m_pages->hide(); // the panel gets its room
-        m_presentAction->setEnabled(true);
-        setWindowTitle(tr("Radar scans — Faintline"));
-        m_hint->setText(tr("Click a walk to follow that test. J and L step through its stages."));
-    }
-    m_panels->show(m_sequential);
+    m_presentAction->setEnabled(true);
+    showAlone(m_sequential, tr("Radar scans — Faintline"),
+              tr("Click a walk to follow that test. J and L step through its stages."));
     m_sequential->start(test);
 }
 
-void MainWindow::openSurvey(const QString &path)
+void MainWindow::showAlone(QWidget *panel, const QString &title, const QString &hint)
 {
-    try {
-        m_survey->open(path);
-    } catch (const Error &error) {
-        return showError(error);
-    }
     m_welcome->stop();
     m_messages->dismiss();
     if (m_document.isEmpty()) {
         m_pages->hide(); // the panel gets its room
-        setWindowTitle(tr("Survey — Faintline"));
-        m_hint->setText(tr("Double-click an event to open its recording there."));
+        setWindowTitle(title);
+        m_hint->setText(hint);
     }
-    m_panels->show(m_survey);
+    m_panels->show(panel);
 }
 
 void MainWindow::chooseFile()

@@ -21,9 +21,9 @@ AnalysisSettings dimensionless(AnalysisSettings settings);
 
 std::string calibrationKey(const AnalysisSettings &bare, CalibrationDepth depth);
 
-/// What is known under a key, or else what `make` answers, which is kept. Of the threads and programs that want the
-/// same at a time, one makes it and the others wait for it. Null only where `make` answers that. Throws what `make`
-/// throws, and Cancelled.
+/// The calibration kept under a key, or else the result of `make`, which is kept. If several threads and programs need
+/// the same one at the same time, one makes it and the others wait: threads without limit, programs up to two minutes.
+/// Null only if `make` returns null. Throws what `make` throws, and Cancelled.
 std::shared_ptr<const Calibration> keptCalibration(const std::string &key,
                                                    const std::function<std::shared_ptr<const Calibration>()> &make,
                                                    const RunContext &context);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -16,7 +17,7 @@ namespace faintline {
 class SqliteStatement
 {
 public:
-    /// Begins again with these values.
+    /// Resets the statement and binds these values.
     template <class... Values>
     SqliteStatement &with(const Values &...values)
     {
@@ -26,10 +27,11 @@ public:
         return *this;
     }
 
-    /// Goes to the next row; false after the last. Throws Error.
+    /// Steps to the next row; false after the last one. Throws Error, also where there are more rows than the file can
+    /// hold.
     bool next();
 
-    /// Does it with these values; rows are not looked at.
+    /// Executes the statement with these values and discards its rows.
     template <class... Values>
     void run(const Values &...values)
     {
@@ -43,7 +45,7 @@ public:
     void bind(int place, int value) { bind(place, std::int64_t(value)); }
     void bind(int place, const std::string &text);
     void bind(int place, const std::optional<double> &value);
-    /// The value of another statement's column in its present row.
+    /// Binds the value of a column in another statement's current row.
     void bindColumn(int place, const SqliteStatement &from, int column);
 
     int columnCount() const;
@@ -61,27 +63,31 @@ private:
         void operator()(sqlite3_stmt *statement) const;
     };
 
-    SqliteStatement(sqlite3 *database, const std::string &path, std::string_view sql);
+    SqliteStatement(sqlite3 *database, const std::string &path, std::string_view sql, std::int64_t mostRows);
     void check(int code) const;
 
     sqlite3 *m_database;
     std::string m_path;
     std::unique_ptr<sqlite3_stmt, Finalise> m_statement;
+    std::int64_t m_mostRows;
+    std::int64_t m_rows = 0; ///< since the last reset
 };
 
-/// A connection to an SQLite database file, closed with the object; errors of the library become Error, with the file's
-/// name. For one thread at a time. A file of a stranger may be opened: its schema is not trusted, and no text in it may
-/// be longer than 64 MiB.
+/// A connection to an SQLite database file; the destructor closes it. Errors of the library are thrown as Error with
+/// the name of the file. For one thread at a time. Files from untrusted sources may be opened: the schema is not
+/// trusted, a text may have at most 64 MiB, and pages that refer to each other in a cycle give an Error instead of
+/// endless rows.
 class Sqlite
 {
 public:
     enum class Access {
-        Read,  ///< of a file that exists; what a killed program left half-written is rolled back
-        Write, ///< of a file that exists
-        Fill   ///< of a temporary file that nobody else knows: without locks and journal
+        Read,  ///< an existing file; a transaction that a killed program left is rolled back
+        Write, ///< an existing file
+        Fill   ///< a temporary file that no other program uses: without locks and journal
     };
 
-    Sqlite(const std::string &path, Access access);
+    /// `patience`: how long to wait for other programs that use the file.
+    Sqlite(const std::string &path, Access access, std::chrono::milliseconds patience = std::chrono::seconds(10));
 
     SqliteStatement prepare(std::string_view sql);
     void execute(std::string_view sql) { prepare(sql).run(); }
@@ -96,6 +102,7 @@ private:
     };
 
     std::string m_path;
+    std::unique_ptr<std::int64_t> m_steps; ///< millions of steps left to a reader
     std::unique_ptr<sqlite3, Close> m_database;
 };
 

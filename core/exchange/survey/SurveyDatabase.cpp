@@ -3,10 +3,14 @@
 #include "base/Error.h"
 #include "base/fileName.h"
 #include "exchange/survey/surveySchema.h"
+#include "recording/FileBytes.h"
 
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <map>
+#include <string_view>
 #include <utility>
 
 namespace faintline {
@@ -25,6 +29,29 @@ namespace {
         return (folder / fileNameFromText(stored)).lexically_normal().string();
     }
 
+    constexpr const char *otherTables = "is not a survey: its tables differ from those in docs/reference/survey.md";
+
+    /// Throws where a file is not a survey by its header, before SQLite opens it: to open a database with a write-ahead
+    /// log, as another program may have it, changes it.
+    const std::string &checkedHeader(const std::string &path)
+    {
+        std::error_code code;
+        if (!fs::is_regular_file(path, code))
+            return path; // Sqlite says so
+        std::array<std::byte, 72> header{};
+        const std::size_t bytes = FileBytes(path).readAt(0, header);
+        constexpr std::string_view magic("SQLite format 3\0", 16);
+        if (bytes > 0 && std::memcmp(header.data(), magic.data(), magic.size()) != 0)
+            throw Error(path, "is not an SQLite database");
+        std::int64_t applicationId = 0;
+        for (std::size_t i = 68; i < 72; ++i)
+            applicationId = applicationId << 8 | std::to_integer<int>(header[i]);
+        const bool hasLog = header[18] != std::byte(1) || header[19] != std::byte(1);
+        if (bytes < header.size() || hasLog || applicationId != surveyApplicationId)
+            throw Error(path, "is not a survey; 'faintline-cli survey' creates surveys");
+        return path;
+    }
+
     /// A number of a row, finite.
     double number(const SqliteStatement &row, int column, const std::string &path)
     {
@@ -38,7 +65,7 @@ namespace {
     {
         const std::int64_t value = row.integer(column);
         if (!std::in_range<int>(value))
-            throw Error(path, "contains a number of an event or a track that is too large");
+            throw Error(path, "contains an event or track number that is too large");
         return int(value);
     }
 
@@ -53,7 +80,8 @@ std::string storedPath(const std::string &recording, const std::string &database
 
 // ---- reading -------------------------------------------------------------------------------------------------------
 
-SurveyDatabase::SurveyDatabase(const std::string &path, Sqlite::Access access) : m_database(path, access)
+SurveyDatabase::SurveyDatabase(const std::string &path, Sqlite::Access access, std::chrono::milliseconds patience)
+    : m_database(checkedHeader(path), access, patience)
 {
     check();
     m_origin = readOrigin();
@@ -61,19 +89,19 @@ SurveyDatabase::SurveyDatabase(const std::string &path, Sqlite::Access access) :
 
 void SurveyDatabase::check()
 {
-    if (m_database.integer("PRAGMA application_id") != surveyApplicationId)
-        throw Error(path(), "is not a survey; 'faintline-cli survey' writes one");
     if (const auto format = m_database.integer("PRAGMA user_version"); format != surveyFormat)
-        throw Error(path(), "is a survey of format " + std::to_string(format) + "; this program reads format "
+        throw Error(path(), "is a survey in format " + std::to_string(format) + "; this program reads format "
                                 + std::to_string(surveyFormat));
-    std::vector<std::string> found;
+    // What SQLite adds by itself: indexes of what is unique, and statistics for queries.
     SqliteStatement objects =
-        m_database.prepare("SELECT coalesce(sql, '') FROM sqlite_schema WHERE name NOT LIKE 'sqlite\\_%' ESCAPE '\\' "
-                           "ORDER BY rowid");
+        m_database.prepare("SELECT coalesce(sql, '') FROM sqlite_schema WHERE NOT (type = 'index' AND sql IS NULL) "
+                           "AND NOT (type = 'table' AND name IN ('sqlite_stat1', 'sqlite_stat4')) ORDER BY rowid");
+    std::size_t alike = 0;
     while (objects.next())
-        found.push_back(objects.text(0));
-    if (found != surveySchema())
-        throw Error(path(), "is not a survey: its tables are not those of docs/reference/survey.md");
+        if (alike == surveySchema().size() || objects.text(0) != surveySchema()[alike++])
+            throw Error(path(), otherTables);
+    if (alike < surveySchema().size())
+        throw Error(path(), otherTables);
 }
 
 SurveyOrigin SurveyDatabase::readOrigin()
@@ -107,8 +135,11 @@ std::vector<SurveyRecording> SurveyDatabase::recordings()
     SqliteStatement row =
         m_database.prepare("SELECT id, path, " + surveyRecordingColumns + " FROM recordings ORDER BY id");
     while (row.next()) {
+        const std::int64_t id = row.integer(0);
+        if (!result.empty() && id <= result.back().id)
+            throw Error(path(), "is a damaged SQLite database");
         SurveyRecording &one = result.emplace_back();
-        one.id = row.integer(0);
+        one.id = id;
         one.file.path = absolutePath(row.text(1), folder);
         one.reason = row.text(2) == "done" ? std::string() : row.text(3);
         if (row.text(2) != "done" && one.reason.empty())
@@ -132,10 +163,9 @@ std::vector<SurveyRecording> SurveyDatabase::recordings()
 
 std::vector<SurveyEvent> SurveyDatabase::events(std::int64_t recording)
 {
-    SqliteStatement row = m_database.prepare(
-        "SELECT event, t_onset, t_detect, t_end, f, drift_hz_per_s, statistic, confirmed, open, snr_db, band_hz, "
-        "noise_probability, window_s, f_low, f_high, verdict, note "
-        "FROM events LEFT JOIN reviews USING (recording, event) WHERE events.recording = ? ORDER BY id");
+    SqliteStatement row = m_database.prepare("SELECT " + surveyTable("events").columns
+                                             + ", verdict, note FROM events LEFT JOIN reviews USING (recording, event) "
+                                               "WHERE events.recording = ? ORDER BY id");
     row.with(recording);
     std::vector<SurveyEvent> result;
     while (row.next()) {
@@ -169,26 +199,23 @@ std::vector<SurveyEvent> SurveyDatabase::events(std::int64_t recording)
 
 std::vector<SurveyPoint> SurveyDatabase::points(std::int64_t recording)
 {
-    SqliteStatement row =
-        m_database.prepare("SELECT track, t, f, statistic, f_low, f_high, presence, snr_db FROM tracks "
-                           "WHERE recording = ? ORDER BY track, point");
+    SqliteStatement row = m_database.prepare(surveyTable("tracks").query());
     row.with(recording);
     std::vector<SurveyPoint> result;
     while (row.next())
-        result.push_back({whole(row, 0, path()), number(row, 1, path()), number(row, 2, path()), number(row, 3, path()),
-                          row.number(4), row.number(5), row.number(6), row.number(7)});
+        result.push_back({whole(row, 0, path()), number(row, 2, path()), number(row, 3, path()), number(row, 4, path()),
+                          row.number(5), row.number(6), row.number(7), row.number(8)});
     return result;
 }
 
 std::vector<AreaEvent> SurveyDatabase::areas(std::int64_t recording)
 {
-    SqliteStatement row = m_database.prepare(
-        "SELECT t_onset, t_end, f_low, f_high, level_db FROM areas WHERE recording = ? ORDER BY area");
+    SqliteStatement row = m_database.prepare(surveyTable("areas").query());
     row.with(recording);
     std::vector<AreaEvent> result;
     while (row.next())
-        result.push_back({number(row, 0, path()), number(row, 1, path()), number(row, 2, path()),
-                          number(row, 3, path()), number(row, 4, path())});
+        result.push_back({number(row, 1, path()), number(row, 2, path()), number(row, 3, path()),
+                          number(row, 4, path()), number(row, 5, path())});
     return result;
 }
 
@@ -236,11 +263,21 @@ void SurveyDatabase::setModified(std::int64_t recording, const SurveyFile &file)
         .run(file.bytes, file.modified, recording);
 }
 
-void SurveyDatabase::setReview(std::int64_t recording, int event, Verdict verdict, const std::string &note)
+void SurveyDatabase::setReview(const std::string &recording, const Event &event, Verdict verdict,
+                               const std::string &note)
 {
-    m_database.prepare("INSERT OR REPLACE INTO reviews(recording, event, verdict, note) VALUES (?, ?, ?, ?)")
-        .run(recording, event, nameOf(verdict), note);
-    m_database.prepare("DELETE FROM reviews WHERE verdict = '' AND note = ''").run();
+    // Numbers of recordings change when some are added.
+    SqliteStatement there = m_database.prepare("SELECT recordings.id FROM events JOIN recordings ON recordings.id = "
+                                               "recording WHERE path = ? AND event = ? AND t_onset = ? AND f = ?");
+    if (!there.with(storedPath(recording, path()), event.id, event.onsetSeconds, event.position.back()).next())
+        throw Error(path(), "has changed since it was opened; open it again", Error::Kind::Failure);
+    const std::int64_t id = there.integer(0);
+    there.reset();
+    if (verdict == Verdict::None && note.empty())
+        m_database.prepare("DELETE FROM reviews WHERE recording = ? AND event = ?").run(id, event.id);
+    else
+        m_database.prepare("INSERT OR REPLACE INTO reviews(recording, event, verdict, note) VALUES (?, ?, ?, ?)")
+            .run(id, event.id, nameOf(verdict), note);
 }
 
 } // namespace faintline

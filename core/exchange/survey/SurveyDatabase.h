@@ -9,41 +9,47 @@
 
 namespace faintline {
 
-/// A survey of recordings in one SQLite file. `writeSurvey` makes one.
+/// A survey of recordings in one SQLite file. `writeSurvey` creates one.
 ///
-/// Opening checks that the file is a survey: the tables must be those of `surveySchema`, to the letter, so that a
-/// stranger's file can hold neither triggers nor views. Paths below the folder of the database are relative to it.
-/// Every call throws Error naming the database: where it is damaged, holds values that cannot be, or cannot be written.
-/// For one thread at a time; any number of programs may read one, also while a survey adds to it.
+/// The constructor checks that the file is a survey; it changes no other file. The tables must be exactly those of
+/// `surveySchema`, so that an untrusted file can contain neither triggers nor views. Paths below the folder of the
+/// database are relative to it. Every call throws Error with the name of the database if it is damaged, contains
+/// invalid values, or cannot be written. For one thread at a time; other programs may read the file while a survey adds
+/// to it.
 class SurveyDatabase
 {
 public:
-    explicit SurveyDatabase(const std::string &path, Sqlite::Access access = Sqlite::Access::Read);
+    /// `patience`: how long to wait for other programs that use it.
+    explicit SurveyDatabase(const std::string &path, Sqlite::Access access = Sqlite::Access::Read,
+                            std::chrono::milliseconds patience = std::chrono::seconds(10));
 
     const std::string &path() const { return m_database.path(); }
     const SurveyOrigin &origin() const { return m_origin; }
-    /// Whether the survey that writes it has come to its end.
+    /// Whether the survey is complete.
     bool isFinished();
 
-    std::vector<SurveyRecording> recordings(); ///< by id: in order of their paths where the survey is finished
+    /// All later reads see the file as it is at the first of them; writers wait until the object is destroyed.
+    void hold() { m_database.execute("BEGIN"); }
+
+    std::vector<SurveyRecording> recordings(); ///< by id, which is the order of paths in a finished survey
     std::vector<SurveyEvent> events(std::int64_t recording);
     std::vector<SurveyPoint> points(std::int64_t recording);
     std::vector<AreaEvent> areas(std::int64_t recording);
 
-    // ---- writing: several changes between begin and commit are one --------------------------------------------------
+    // ---- writing; changes between begin and commit are one transaction ---------------------------------------------
 
     void begin() { m_database.execute("BEGIN IMMEDIATE"); }
     void commit() { m_database.execute("COMMIT"); }
-    /// Until the commit nobody else reads or writes.
+    /// No other program reads or writes until the commit.
     void lock() { m_database.execute("BEGIN EXCLUSIVE"); }
 
     void setUnfinished();
-    /// In place of what there was of the same path; its reviews go.
+    /// Replaces all rows of the same path; its reviews are deleted.
     void put(const SurveyOutcome &outcome);
-    /// The file's date has changed, but not its content.
+    /// Of a file whose date has changed, but not its content.
     void setModified(std::int64_t recording, const SurveyFile &file);
-    /// What a person says of an event.
-    void setReview(std::int64_t recording, int event, Verdict verdict, const std::string &note);
+    /// Stores a person's verdict on an event that was read before. Throws Error if the survey no longer has the event.
+    void setReview(const std::string &recording, const Event &event, Verdict verdict, const std::string &note);
 
     Sqlite &connection() { return m_database; }
 
@@ -55,7 +61,7 @@ private:
     SurveyOrigin m_origin;
 };
 
-/// A recording's path as a database has it: relative to the database's folder where it lies below it, in UTF-8.
+/// A recording's path as the database stores it, in UTF-8: relative if it lies below the database's folder.
 std::string storedPath(const std::string &recording, const std::string &database);
 
 } // namespace faintline

@@ -12,7 +12,7 @@ namespace {
 
     std::string shownSettings(const SurveyOrigin &origin)
     {
-        return origin.settings == "{}" ? "the default ones" : origin.settings;
+        return origin.settings == "{}" ? "the defaults" : origin.settings;
     }
 
     /// "spectrogram.windowSeconds = 0.5, here 1": the first in which settings differ.
@@ -64,12 +64,13 @@ void checkOrigin(const SurveyOrigin &there, const SurveyOrigin &wanted, const st
     if (there.settings != wanted.settings)
         throw Error(path, "is a survey with other settings: " + firstDifference(there, wanted) + advice);
     if (there.reading != wanted.reading)
-        throw Error(path, "is a survey of recordings that were read as " + there.reading + ", not as " + wanted.reading
-                              + advice);
+        throw Error(path, "is a survey with other reading options: " + there.reading + " there, " + wanted.reading
+                              + " here" + advice);
     if (there.version != wanted.version)
-        throw Error(path, "is a survey by Faintline " + there.version + ", and this is " + wanted.version + advice);
+        throw Error(path,
+                    "was written by Faintline " + there.version + "; this is Faintline " + wanted.version + advice);
     if (there.sources != wanted.sources)
-        throw Error(path, "is a survey by another build of Faintline " + there.version + advice);
+        throw Error(path, "was written by another build of Faintline " + there.version + advice);
     if (there.shard != wanted.shard)
         throw Error(path, "contains " + (there.shard.empty() ? "a whole survey" : "shard " + there.shard) + ", not "
                               + (wanted.shard.empty() ? "a whole survey" : "shard " + wanted.shard) + advice);

@@ -7,30 +7,30 @@
 
 namespace faintline {
 
-/// What all recordings of a survey are read and analysed with.
+/// Settings for reading and analysing all recordings of a survey.
 struct SurveySettings {
     AnalysisSettings analysis;
     OpenOptions open;
 };
 
-/// What a survey was made from, besides its recordings. Surveys of one origin, but for the shard, may be merged.
+/// Settings and program of a survey. Surveys whose origins differ in the shard only can be merged.
 struct SurveyOrigin {
     std::string settings; ///< JSON of those that differ from the defaults
     std::string reading;  ///< JSON of the OpenOptions
     std::string version;  ///< of the program
     std::string sources;  ///< fingerprint of the program's sources (analysis/sourceFingerprint.h)
-    std::string shard;    ///< "2/8": only these recordings of the whole; empty: all
+    std::string shard;    ///< "2/8": part of the recordings (base/Shard.h); empty: all
 
     bool operator==(const SurveyOrigin &) const = default;
 };
 
-/// The origin of a survey that this program makes.
+/// The origin of a survey by this program.
 SurveyOrigin originOf(const SurveySettings &settings, const std::string &shard = {});
 
-/// The settings of a survey that exists. Throws Error naming `where`.
+/// The settings of an existing survey. Throws Error naming `where`.
 SurveySettings settingsOf(const SurveyOrigin &origin, const std::string &where);
 
-/// Throws Error naming the first thing in which a survey that exists differs from the one wanted.
+/// Throws Error naming the first difference between an existing survey and the wanted one.
 void checkOrigin(const SurveyOrigin &there, const SurveyOrigin &wanted, const std::string &path);
 
 } // namespace faintline

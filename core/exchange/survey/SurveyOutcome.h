@@ -10,25 +10,25 @@
 
 namespace faintline {
 
-/// The file of a recording as it was when it was analysed; of a recording in two files (SigMF), both together.
+/// The file of a recording when it was analysed; for a recording in two files (SigMF), both together.
 struct SurveyFile {
     std::string path;          ///< absolute
     std::int64_t bytes = 0;    ///< length
     std::int64_t modified = 0; ///< ns since 1970-01-01 UTC
-    std::string hash;          ///< as recording/fileHash.h makes it; of two files both, "+" between them
+    std::string hash;          ///< see recording/fileHash.h; two hashes are joined by "+"
 };
 
-/// One recording of a survey: what it is, and what it was analysed with or why it could not be.
+/// One recording of a survey: its properties, and the settings of its analysis or the reason why it failed.
 struct SurveyRecording {
     std::int64_t id = 0; ///< its number in the database
     SurveyFile file;
-    std::string reason; ///< why it could not be analysed; empty: it was
+    std::string reason; ///< why it could not be analysed; empty if it was
     std::string container;
-    std::optional<double> sampleRateHz; ///< nothing of files that hold frames
+    std::optional<double> sampleRateHz; ///< empty for files that contain frames
     std::optional<double> durationSeconds;
     std::optional<double> centreHz;
     std::optional<double> startUnixSeconds;
-    std::string settings; ///< those used, JSON: with the window chosen, where the survey's leave it open
+    std::string settings; ///< of its analysis, JSON; with the chosen window where the survey leaves it open
     std::optional<double> windowSeconds;
     std::optional<double> threshold; ///< in `unit`
     std::string unit;                ///< of the statistic
@@ -37,13 +37,13 @@ struct SurveyRecording {
     bool isAnalysed() const { return reason.empty(); }
 };
 
-/// One event, and what its track fills in time and frequency with what a person said of it.
+/// One event, with the box of its track in time and frequency and its review.
 struct SurveyEvent {
     Event event;
     Annotation box;
 };
 
-/// One frame of a track, as `writeTracks` has it; NaN where the track was not looked at from both ends.
+/// One frame of a track, as `writeTracks` writes it; NaN where the track was not smoothed.
 struct SurveyPoint {
     int track = 0;
     double seconds = 0.0;
@@ -55,7 +55,7 @@ struct SurveyPoint {
     double snrDb = 0.0;
 };
 
-/// All that a survey keeps of one recording.
+/// All that a survey stores for one recording.
 struct SurveyOutcome {
     SurveyRecording recording;
     std::vector<SurveyEvent> events; ///< by onset, then frequency

@@ -30,12 +30,19 @@ namespace {
     struct Result {
         Task task;
         std::optional<SurveyOutcome> outcome;
+
+        /// It was analysed before, and now it, or the second of its files, cannot be read: on a disk that is away, say.
+        bool isAway() const
+        {
+            return outcome && !outcome->recording.isAnalysed() && task.known
+                   && task.knownHash.starts_with(task.file.hash);
+        }
     };
 
     Result resultOf(Task task, const SurveySettings &settings, const RunContext &context)
     {
         task.file.hash = hashOf(task.file, settings);
-        if (task.known != 0 && task.file.hash == task.knownHash)
+        if (task.known != 0 && !task.file.hash.empty() && task.file.hash == task.knownHash)
             return {task, std::nullopt};
         return {task, surveyRecording(task.file, settings, context)};
     }
@@ -152,10 +159,10 @@ namespace {
     {
         database.begin();
         for (const Result &result : results)
-            if (result.outcome)
-                database.put(*result.outcome);
-            else
+            if (!result.outcome)
                 database.setModified(result.task.known, result.task.file);
+            else if (!result.isAway())
+                database.put(*result.outcome);
         database.commit();
     }
 
@@ -204,18 +211,13 @@ namespace {
 
 } // namespace
 
-std::string SurveyShard::name() const
-{
-    return isWhole() ? std::string() : std::to_string(index % count) + "/" + std::to_string(count);
-}
-
 SurveyTally carryOutSurvey(const SurveyRun &run, const std::string &out, const RunContext &context,
                            const SurveyWarning &warn)
 {
     const SurveyOrigin origin = originOf(run.settings, run.shard.name());
     if (!isThere(out))
         beginSurvey(origin, out);
-    SurveyDatabase database(out, Sqlite::Access::Write);
+    SurveyDatabase database(out, Sqlite::Access::Write, std::chrono::minutes(1)); // an export may take so long
     checkOrigin(database.origin(), origin, out);
     int kept = 0;
     const std::vector<Task> tasks = tasksOf(run, database, kept);

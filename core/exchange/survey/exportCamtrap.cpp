@@ -58,31 +58,37 @@ namespace {
                                                       "observationTags",
                                                       "observationComments"};
 
-    /// Column names and rows of a table of the standard: columns that are not set stay empty.
+    /// A table of the standard, as a file: columns that are not set stay empty.
     class Table
     {
     public:
-        explicit Table(std::vector<std::string> columns) : m_columns(std::move(columns))
+        Table(const std::string &path, std::vector<std::string> columns) : m_columns(std::move(columns)), m_file(path)
         {
-            for (std::size_t i = 0; i < m_columns.size(); ++i)
-                m_text += (i == 0 ? "" : ",") + m_columns[i];
-            m_text += "\n";
+            write([](const std::string &column) { return column; });
         }
 
         void add(const std::map<std::string, std::string> &values)
         {
-            for (std::size_t i = 0; i < m_columns.size(); ++i) {
-                const auto value = values.find(m_columns[i]);
-                m_text += (i == 0 ? "" : ",") + (value == values.end() ? std::string() : csvText(value->second));
-            }
-            m_text += "\n";
+            write([&](const std::string &column) {
+                const auto value = values.find(column);
+                return value == values.end() ? std::string() : csvText(value->second);
+            });
         }
 
-        const std::string &text() const { return m_text; }
+        void commit() { m_file.commit(); }
 
     private:
+        template <class Cell>
+        void write(const Cell &cell)
+        {
+            std::string row;
+            for (const std::string &column : m_columns)
+                row += (&column == &m_columns.front() ? "" : ",") + cell(column);
+            m_file.write(row + "\n");
+        }
+
         std::vector<std::string> m_columns;
-        std::string m_text;
+        AtomicFile m_file;
     };
 
     /// A recording with its names in the package.
@@ -119,8 +125,8 @@ namespace {
             const std::optional<double> start =
                 recording.startUnixSeconds ? recording.startUnixSeconds : place.startUnixSeconds;
             if (!start || formatUtc(*start).empty())
-                throw Error(recording.file.path, "does not know when it began, and Camtrap DP requires dates; give "
-                                                 "--start, such as 2024-07-26T00:00:00Z");
+                throw Error(recording.file.path, "has no start time, which Camtrap DP requires; give --start, such as "
+                                                 "2024-07-26T00:00:00Z");
             Medium one;
             one.path = textFromFileName(pathBelow(recording.file.path, survey.path()));
             const std::string folder = fs::path(one.path).parent_path().string();
@@ -131,20 +137,20 @@ namespace {
             media.push_back(std::move(one));
         }
         if (media.empty())
-            throw Error(survey.path(), "contains no recordings that were analysed");
+            throw Error(survey.path(), "contains no analysed recordings");
         return media;
     }
 
-    std::string deployments(const std::vector<Medium> &media, const CamtrapPlace &place)
+    void writeDeployments(const std::string &path, const std::vector<Medium> &media, const CamtrapPlace &place)
     {
-        Table table({"deploymentID",     "locationID",        "locationName",
-                     "latitude",         "longitude",         "coordinateUncertainty",
-                     "deploymentStart",  "deploymentEnd",     "setupBy",
-                     "cameraID",         "cameraModel",       "cameraDelay",
-                     "cameraHeight",     "cameraDepth",       "cameraTilt",
-                     "cameraHeading",    "detectionDistance", "timestampIssues",
-                     "baitUse",          "featureType",       "habitat",
-                     "deploymentGroups", "deploymentTags",    "deploymentComments"});
+        Table table(path, {"deploymentID",     "locationID",        "locationName",
+                           "latitude",         "longitude",         "coordinateUncertainty",
+                           "deploymentStart",  "deploymentEnd",     "setupBy",
+                           "cameraID",         "cameraModel",       "cameraDelay",
+                           "cameraHeight",     "cameraDepth",       "cameraTilt",
+                           "cameraHeading",    "detectionDistance", "timestampIssues",
+                           "baitUse",          "featureType",       "habitat",
+                           "deploymentGroups", "deploymentTags",    "deploymentComments"});
         std::map<std::string, Stretch> stretches;
         for (const Medium &one : media) {
             Stretch &stretch = stretches[one.deployment];
@@ -157,7 +163,7 @@ namespace {
                        {"longitude", formatNumber(place.longitude)},
                        {"deploymentStart", wholeSeconds(stretch.start)},
                        {"deploymentEnd", wholeSeconds(std::ceil(stretch.end))}});
-        return table.text();
+        table.commit();
     }
 
     std::string mediatypeOf(const SurveyRecording &recording)
@@ -169,10 +175,10 @@ namespace {
         return "audio/" + (type.empty() ? "basic" : type);
     }
 
-    std::string mediaTable(const std::vector<Medium> &media)
+    void writeMedia(const std::string &path, const std::vector<Medium> &media)
     {
-        Table table({"mediaID", "deploymentID", "captureMethod", "timestamp", "filePath", "filePublic", "fileName",
-                     "fileMediatype", "exifData", "favorite", "mediaComments"});
+        Table table(path, {"mediaID", "deploymentID", "captureMethod", "timestamp", "filePath", "filePublic",
+                           "fileName", "fileMediatype", "exifData", "favorite", "mediaComments"});
         for (const Medium &one : media)
             table.add({{"mediaID", one.path},
                        {"deploymentID", one.deployment},
@@ -181,7 +187,7 @@ namespace {
                        {"filePublic", "false"},
                        {"fileName", fs::path(one.path).filename().string()},
                        {"fileMediatype", mediatypeOf(one.recording)}});
-        return table.text();
+        table.commit();
     }
 
     std::string tagsOf(const SurveyEvent &one)
@@ -194,9 +200,9 @@ namespace {
                + tag("t_end", e.endSeconds);
     }
 
-    std::string observations(SurveyDatabase &survey, const std::vector<Medium> &media)
+    void writeObservations(const std::string &path, SurveyDatabase &survey, const std::vector<Medium> &media)
     {
-        Table table(observationColumns);
+        Table table(path, observationColumns);
         for (const Medium &medium : media)
             for (const SurveyEvent &one : survey.events(medium.recording.id)) {
                 const Verdict verdict = one.box.verdict;
@@ -216,7 +222,7 @@ namespace {
                            {"observationTags", tagsOf(one)},
                            {"observationComments", oneLine(one.box.note)}});
             }
-        return table.text();
+        table.commit();
     }
 
     std::string package(const SurveyDatabase &survey, const std::vector<Medium> &media, const CamtrapPlace &place)
@@ -262,9 +268,9 @@ void exportCamtrap(SurveyDatabase &survey, const std::string &folder, const Camt
     fs::create_directories(folder, code);
     const auto in = [&](const char *name) { return (fs::path(folder) / name).string(); };
     CommitTogether files;
-    writeTextFile(in("deployments.csv"), deployments(media, place));
-    writeTextFile(in("media.csv"), mediaTable(media));
-    writeTextFile(in("observations.csv"), observations(survey, media));
+    writeDeployments(in("deployments.csv"), media, place);
+    writeMedia(in("media.csv"), media);
+    writeObservations(in("observations.csv"), survey, media);
     writeTextFile(in("datapackage.json"), package(survey, media, place));
     files.commit();
 }

@@ -7,11 +7,11 @@
 
 namespace faintline {
 
-/// Where and when recordings were made, as far as they do not know it.
+/// Where and when recordings were made.
 struct CamtrapPlace {
     double latitude = 0.0;                  ///< degrees north, WGS 84
     double longitude = 0.0;                 ///< degrees east
-    std::optional<double> startUnixSeconds; ///< of recordings that do not know when they began
+    std::optional<double> startUnixSeconds; ///< of recordings that have no start time
 };
 
 /// A survey as a Camera Trap Data Package, 1.0.2 (https://camtrap-dp.tdwg.org), in a folder: datapackage.json,
@@ -21,7 +21,7 @@ struct CamtrapPlace {
 /// An event without a review is "unclassified", an accepted one "unknown" and a rejected one "blank". Times are whole
 /// seconds, as the standard has them; observationTags hold what it has no columns for: f_low, f_high, f (Hz),
 /// drift_hz_per_s, statistic, t_onset, t_end (s from the first sample). Recordings that could not be analysed are left
-/// out. Throws Error where a recording does not know when it began and `place` does not tell.
+/// out. Throws Error where a recording has no start time and `place` gives none.
 void exportCamtrap(SurveyDatabase &survey, const std::string &folder, const CamtrapPlace &place);
 
 } // namespace faintline

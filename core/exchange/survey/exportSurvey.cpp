@@ -51,7 +51,7 @@ namespace {
         if (list == SurveyList::Audacity)
             return audacityText(rows);
         if (!recording.sampleRateHz)
-            throw Error(recording.file.path, "holds frames; events as SigMF require a recording");
+            throw Error(recording.file.path, "contains frames; SigMF annotations require samples");
         return sigmfText(rows, *recording.sampleRateHz, recording.centreHz.value_or(0.0));
     }
 
@@ -101,8 +101,8 @@ void exportStoneSoup(SurveyDatabase &survey, const std::string &path, std::optio
         "SELECT count(*) FROM recordings WHERE start_unix_s IS NULL AND id IN (SELECT recording FROM tracks)");
     if (unknown > 0 && !startUnixSeconds)
         throw Error(survey.path(), std::to_string(unknown)
-                                       + " recording(s) do not know when they began, and Stone Soup requires dates; "
-                                         "give --start, such as 2024-07-26T00:00:00Z");
+                                       + " recording(s) have no start time, which Stone Soup requires; give "
+                                         "--start, such as 2024-07-26T00:00:00Z");
     SqliteStatement point = survey.connection().prepare(
         "SELECT coalesce(start_unix_s, ?) + t AS time, f, recording || '-' || track, path, t, statistic, snr_db "
         "FROM tracks JOIN recordings ON recordings.id = recording ORDER BY time, recording, track, point");

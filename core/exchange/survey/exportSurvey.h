@@ -7,18 +7,17 @@
 
 namespace faintline {
 
-/// All events as CSV, by recording, then onset: recording, utc_onset (empty where the recording does not know when it
-/// began), the columns of `writeEvents`, f_low, f_high, review, note. Numbers are those that `detect` writes, to the
-/// last digit; what is not known of an event is empty. Like every export it appears when it is complete and throws
-/// Error.
+/// All events as CSV, by recording, then onset: recording, utc_onset (empty where the recording has no start time), the
+/// columns of `writeEvents`, f_low, f_high, review, note. Numbers have the digits that `detect` writes; unknown values
+/// are empty. Every export appears under its name only when it is complete, and throws Error.
 void exportEvents(SurveyDatabase &survey, const std::string &path);
 
 /// All tracks as CSV: recording and the columns of `writeTracks`.
 void exportTracks(SurveyDatabase &survey, const std::string &path);
 
 /// The points of all tracks as Stone Soup's CSV readers take them, ordered by time: time (ISO 8601, UTC), frequency_hz,
-/// track (unique), recording, t, statistic, snr_db. `startUnixSeconds`: of recordings that do not know when they began;
-/// without it they are refused.
+/// track (unique), recording, t, statistic, snr_db. `startUnixSeconds`: of recordings that have none; without it they
+/// are refused.
 void exportStoneSoup(SurveyDatabase &survey, const std::string &path, std::optional<double> startUnixSeconds);
 
 /// How events of a recording are written into a file of their own.

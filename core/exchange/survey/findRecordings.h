@@ -5,16 +5,16 @@
 
 namespace faintline {
 
-/// How the names of files end that can be opened as recordings, without the dot. Others are recognised by their
-/// content, if one asks for them.
+/// File name extensions of recordings, without the dot. Files with other extensions are recognised by their content if
+/// they are named explicitly.
 const std::vector<std::string> &recordingEndings();
 
-/// The recordings in these files and folders, as whole paths in order; each once.
+/// The recordings in these files and folders, as absolute paths in order, without duplicates.
 ///
-/// A file is taken as it is. In a folder and the folders below it those count whose name ends as that of a recording
-/// does (.wav, .flac, .sigmf-meta, .fil …; .npy with its NAME.grid.json); with `raw`, those of raw samples instead
-/// (.cf32, .cs16 …). Names that begin with a dot are left out, and links to folders are not followed. Folders that
-/// cannot be read are added to `unreadable`. Throws Error where a name does not exist.
+/// Named files are always included. Folders are searched recursively for files with the extension of a recording (.wav,
+/// .flac, .sigmf-meta, .fil …; .npy with its NAME.grid.json), or of raw samples if `raw` is set (.cf32, .cs16 …). Names
+/// that begin with a dot are ignored, and links to folders are not followed. Folders that cannot be read are added to
+/// `unreadable`. Throws Error if a name does not exist.
 std::vector<std::string> findRecordings(const std::vector<std::string> &names, bool raw,
                                         std::vector<std::string> &unreadable);
 

@@ -2,6 +2,7 @@
 
 #include "analysis/chooseWindow.h"
 #include "analysis/slopeUnit.h"
+#include "base/fileName.h"
 #include "base/logmath.h"
 #include "base/oneLine.h"
 #include "detect/SumDetector.h"
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <new>
 
@@ -29,7 +31,7 @@ namespace {
             } catch (const Error &) { // opening it will say why
                 return {path};
             }
-        if (path.ends_with(".npy"))
+        if (hasEnding(path, ".npy") && std::filesystem::exists(gridPathOf(path)))
             return {path, gridPathOf(path)};
         return {path};
     }
@@ -44,7 +46,8 @@ namespace {
         }
         const auto frames = openFrames(path, {settings.analysis.selection, settings.analysis.noise}, context);
         if (!frames->grid().isSpectrum())
-            throw Error(path, "holds frames on several axes; a survey takes recordings, and frames on frequency only");
+            throw Error(path, "contains frames with several axes; a survey requires recordings, or frames with a "
+                              "frequency axis only");
         described.durationSeconds = double(frames->time().count) * frames->time().step;
         return analyse(frames, withSlopesInBins(settings.analysis, *frames), context);
     }

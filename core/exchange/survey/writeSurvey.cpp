@@ -14,7 +14,7 @@ namespace faintline {
 
 namespace {
 
-    /// Copies the rows that a query gives, each after what `first` binds.
+    /// Copies the rows of a query, each with the number of its recording before it.
     void copyRows(SqliteStatement &from, SqliteStatement &to, std::int64_t recording)
     {
         while (from.next()) {
@@ -86,9 +86,9 @@ namespace {
         for (SurveyDatabase *part : parts)
             for (const SurveyRecording &one : part->recordings())
                 if (const auto [there, isNew] = places.emplace(one.file.path, Place{part, one.id}); !isNew)
-                    throw Error(part->path(), "contains " + one.file.path + ", and so does "
+                    throw Error(part->path(), "contains " + one.file.path + ", which is also in "
                                                   + there->second.part->path()
-                                                  + "; a recording can be in one of the parts only");
+                                                  + "; a recording may be in one shard only");
         return places;
     }
 
@@ -106,13 +106,13 @@ namespace {
         }
     }
 
-    /// A person's work must not go where a file is merely made again.
+    /// Reviews are a person's work, which a merge cannot make again.
     void checkHasNoReviews(const std::string &path)
     {
         std::error_code code;
         if (!std::filesystem::is_regular_file(path, code) || std::filesystem::file_size(path, code) == 0)
             return;
-        if (SurveyDatabase(path).connection().integer("SELECT count(*) FROM reviews") > 0)
+        if (SurveyDatabase(path).connection().integer("SELECT EXISTS (SELECT 1 FROM reviews)") != 0)
             throw Error(path, "contains reviews, which the merged survey would replace; choose another name");
     }
 
@@ -154,7 +154,7 @@ void mergeSurveys(const std::vector<std::string> &paths, const std::string &out)
     for (const std::string &path : paths) {
         parts.push_back(opened.emplace_back(std::make_unique<SurveyDatabase>(path)).get());
         if (!parts.back()->isFinished())
-            throw Error(path, "is not finished; run its survey again");
+            throw Error(path, "is not finished; run the survey again to complete it");
         SurveyOrigin origin = parts.front()->origin();
         origin.shard = parts.back()->origin().shard;
         checkOrigin(parts.back()->origin(), origin, path);
