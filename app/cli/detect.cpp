@@ -101,9 +101,10 @@ namespace {
             std::printf("\n");
         }
         if (!analysis.explainedByNoise.empty())
-            std::printf("%zu path(s) above the threshold not reported: cells as strong are common in this recording's "
-                        "noise\n",
-                        analysis.explainedByNoise.size());
+            std::printf(
+                "%zu path(s) above the threshold not reported: cells as strong, or such runs of them, are common in "
+                "this recording's noise\n",
+                analysis.explainedByNoise.size());
         const std::vector<AreaEvent> areas = areaEvents(analysis);
         if (areas.empty())
             return;

@@ -110,7 +110,8 @@ namespace {
                 "a sequential Markov detector guides its tracks; the path of that detector has %.4f nat here:\n",
                 explanation.statistic);
         if (explanation.isExplainedByNoise)
-            std::printf("its path is not reported: cells as strong are common in this recording's noise\n");
+            std::printf("its path is not reported: cells as strong, or such runs of them, are common in this "
+                        "recording's noise\n");
         std::printf("the best path began %zu frame(s) ago, when it was reset\n", explanation.steps.size() - 1);
         printHeading(analysis.grid());
         printSteps(toJson(explanation, analysis)["steps"]);

@@ -134,9 +134,8 @@ QString whySentence(const Explanation &explanation, const Analysis &analysis)
                      ? QObject::tr("This cell is inhibited by a track that was dropped later. ")
                      : QObject::tr("This cell is excluded: no signal is looked for here. ");
     if (explanation.isExplainedByNoise)
-        words +=
-            QObject::tr("The path through this cell is not reported: cells as strong as its own are common in this "
-                        "recording's noise. ");
+        words += QObject::tr("The path through this cell is not reported: cells as strong as its own, or such runs of "
+                             "them, are common in this recording's noise. ");
     const auto steps = explanation.steps.size();
     const QString since = secondsText(time.value(double(explanation.steps.front().frame)), time.step);
     words += steps == 1 ? QObject::tr("The path begins in this frame")
