@@ -96,9 +96,12 @@ CLI::Option *addOutput(CLI::App &command, Common &common, const std::string &nam
 /// "2/8": counted from 0 or from 1, whichever suits the job scheduler; 0 and N name the same. Throws Error.
 Shard shardFrom(const std::string &text);
 
-/// Throws where one of these files cannot be written, before anything is computed that would be lost. Empty names are
-/// none.
+/// Throws where one of these files cannot be written, or is named twice, before anything is computed that would be
+/// lost. Empty names are none.
 void checkOutputs(const std::vector<std::string> &paths);
+
+/// Throws where a chart's name does not end in .svg, which is what is written. An empty name is none.
+void checkChart(const std::string &path);
 
 /// What `make` finds wrong in a file is said with the file's name before it.
 template <class Make>

@@ -2,6 +2,7 @@
 
 #include "analysis/slopeUnit.h"
 #include "base/AtomicFile.h"
+#include "base/fileName.h"
 #include "base/json.h"
 #include "exchange/openFrames.h"
 #include "recording/SigmfRecording.h"
@@ -11,6 +12,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -148,9 +150,18 @@ Shard shardFrom(const std::string &text)
 
 void checkOutputs(const std::vector<std::string> &paths)
 {
-    for (const std::string &path : paths)
-        if (!path.empty())
-            const AtomicFile probe(path); // goes without a trace
+    for (auto path = paths.begin(); path != paths.end(); ++path)
+        if (!path->empty()) {
+            if (std::find(paths.begin(), path, *path) != path)
+                throw Error(*path, "is given for two outputs");
+            const AtomicFile probe(*path); // goes without a trace
+        }
+}
+
+void checkChart(const std::string &path)
+{
+    if (!path.empty() && !hasEnding(path, ".svg"))
+        throw Error(path, "the file name must end in .svg");
 }
 
 std::shared_ptr<const SimulatedPings> openPings(const std::string &path)

@@ -37,8 +37,7 @@ namespace {
     {
         if (!options.out.empty() && !options.out.ends_with(".json") && !options.out.ends_with(".csv"))
             throw Error(options.out, "the file name must end in .json or .csv");
-        if (!options.chart.empty() && !options.chart.ends_with(".svg"))
-            throw Error(options.chart, "the file name must end in .svg");
+        checkChart(options.chart);
         checkOutputs({options.out, options.chart});
     }
 

@@ -14,9 +14,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 namespace faintline::cli {
 
@@ -68,20 +70,41 @@ namespace {
                         static_cast<long long>(point.trials));
     }
 
-    void draw(const Campaign &campaign, const std::string &path)
-    {
-        if (!path.empty())
-            writeTextFile(path, chartSvg(pdChart(campaign)));
-    }
-
     struct EvaluateOptions {
         std::vector<std::string> files;
         std::string out;
         std::string chart;
+        std::string roc;
+        std::optional<double> rocSnrDb;
         std::string shard;
         int seed = -1;
         bool cost = false;
     };
+
+    /// Which of the experiment's SNRs the ROC is drawn at: the given one, else the middle one.
+    std::size_t rocSnr(const Experiment &experiment, const EvaluateOptions &options)
+    {
+        const std::vector<double> snrs = snrsOf(experiment);
+        if (!options.rocSnrDb)
+            return snrs.size() / 2;
+        const auto found = std::ranges::find(snrs, *options.rocSnrDb);
+        if (found == snrs.end()) {
+            std::string all;
+            for (const double db : snrs)
+                all += (all.empty() ? "" : ", ") + formatNumber(db);
+            throw Error("--roc-snr",
+                        formatNumber(*options.rocSnrDb) + " dB is no SNR of this experiment; it has " + all);
+        }
+        return std::size_t(found - snrs.begin());
+    }
+
+    void draw(const Campaign &campaign, const EvaluateOptions &options)
+    {
+        if (!options.chart.empty())
+            writeTextFile(options.chart, chartSvg(pdChart(campaign)));
+        if (!options.roc.empty())
+            writeTextFile(options.roc, chartSvg(rocChart(campaign, rocSnr(campaign.experiment, options))));
+    }
 
     /// Curve, or with --shard the runs of the shard; an interrupted run is resumed.
     void carryOutToFile(const Experiment &experiment, const std::vector<int> &runs, const EvaluateOptions &options,
@@ -92,19 +115,22 @@ namespace {
             writeCurve(campaign, options.out);
         else
             writeCampaign(campaign, options.out);
-        draw(campaign, options.chart);
+        draw(campaign, options);
         removeParts(options.out);
     }
 
     void evaluateExperiment(const EvaluateOptions &options, const Common &common)
     {
-        checkOutputs({options.out, options.chart});
+        checkChart(options.chart);
+        checkChart(options.roc);
+        checkOutputs({options.out, options.chart, options.roc});
         Experiment experiment = experimentFromJson(readJsonFile(options.files.front()), options.files.front());
         if (options.seed >= 0)
             setSeed(experiment, options.seed);
         const auto *sweep = std::get_if<SweepExperiment>(&experiment);
         if (options.cost && !sweep)
             throw Error("--cost", "requires an experiment of kind \"sweep\"");
+        rocSnr(experiment, options); // throws before the runs, not behind them
         const Shard shard = options.shard.empty() ? Shard{} : shardFrom(options.shard);
         const std::vector<int> runs = runsOfShard(experiment, shard.index, shard.count);
         if (!options.out.empty()) {
@@ -115,7 +141,7 @@ namespace {
             Campaign campaign = begin(experiment, common.context());
             carryOut(campaign, runs, common.context());
             print(campaign);
-            draw(campaign, options.chart);
+            draw(campaign, options);
         }
         if (options.cost)
             printCosts(*sweep, common.context());
@@ -148,7 +174,12 @@ void addEvaluate(CLI::App &app, Common &common)
                      "lines: Pd, false alarms, latency), or: merge SHARD…")
         ->required();
     addOutput(*command, common, "--out", options->out, "Curve to write, .csv; with --shard, the runs of the shard");
-    addOutput(*command, common, "--chart", options->chart, "Chart of Pd against SNR to write, .svg");
+    addOutput(*command, common, "--chart", options->chart,
+              "Chart of Pd against SNR to write, .svg, with the theory where there is one");
+    addOutput(*command, common, "--roc", options->roc,
+              "Receiver operating characteristic to write, .svg; of a sweep, Pd against false alarms");
+    command->add_option("--roc-snr", options->rocSnrDb,
+                        "SNR of the ROC, dB, one of the experiment's; default: the middle one");
     command->add_option("--shard", options->shard, "Compute only part I of N, for 'merge'");
     command->add_option("--seed", options->seed, "Seed in place of the experiment's")->check(CLI::Range(0, 2147483647));
     command->add_flag("--cost", options->cost, "For a sweep: print the cost of each value, in seconds on this machine");

@@ -1,0 +1,82 @@
+#include "app/cli/CommandLineTest.h"
+
+#include <QtTest>
+
+using namespace faintline;
+using namespace faintline::test;
+
+/// evaluate: the charts it writes beside its curve, and the theory on them.
+class tst_cliEvaluate : public CommandLineTest
+{
+    Q_OBJECT
+
+private slots:
+    void initTestCase();
+    void chartsHaveTheory();
+    void theRocIsOfTheSnrThatIsAsked();
+    void mistakes_data();
+    void mistakes();
+};
+
+void tst_cliEvaluate::initTestCase()
+{
+    QVERIFY2(QFile::exists(program), "faintline-cli is not built");
+    // A line of constant frequency and amplitude, an integrator of its duration and no taper: Marcum's Q holds.
+    writeBytes(
+        pathOf("experiment.json"),
+        R"({"kind": "lines", "runs": 8, "frames": 300, "blockFrames": 100, "blockBins": 60, "durationWindows": 20,
+                   "stepsPerWindow": 1, "binsPerCell": 1, "window": "rectangular", "snrDb": [-3, 0, 3],
+                   "detectors": [{"name": "sum of 20",
+                                  "settings": {"detector.kind": "integrator", "integrator.durationWindows": 20}}]})");
+}
+
+void tst_cliEvaluate::chartsHaveTheory()
+{
+    const Outcome done =
+        run({"evaluate", "experiment.json", "--out", "curve.csv", "--chart", "pd.svg", "--roc", "roc.svg"});
+    QCOMPARE(done.err, QByteArray());
+    QCOMPARE(done.code, 0);
+    for (const QString name : {"pd.svg", "roc.svg"}) {
+        const QByteArray svg = content(name);
+        QVERIFY2(svg.startsWith("<svg") && svg.contains("sum of 20"), qPrintable(name));
+        QVERIFY2(svg.contains("sum of 20, Marcum Q"), qPrintable(name));
+    }
+    QVERIFY(content("roc.svg").contains("False alarms per block"));
+    QVERIFY(!content("pd.svg").contains("False alarms per block"));
+}
+
+void tst_cliEvaluate::theRocIsOfTheSnrThatIsAsked()
+{
+    const auto roc = [&](const QString &name, const QStringList &options) {
+        const Outcome done = run(QStringList{"evaluate", "experiment.json", "--roc", name} + options);
+        return done.err.isEmpty() && done.code == 0 ? content(name) : QByteArray();
+    };
+    const QByteArray usual = roc("usual.svg", {});
+    QVERIFY(!usual.isEmpty());
+    QCOMPARE(roc("0.svg", {"--roc-snr", "0"}), usual);
+    QVERIFY(roc("3.svg", {"--roc-snr", "3"}) != usual);
+    QVERIFY(content("3.svg").startsWith("<svg"));
+}
+
+void tst_cliEvaluate::mistakes_data()
+{
+    QTest::addColumn<QStringList>("options");
+    QTest::addColumn<QByteArray>("says");
+    QTest::newRow("SNR") << QStringList{"--roc", "r.svg", "--roc-snr", "1"} << QByteArray("-3, 0, 3");
+    QTest::newRow("format") << QStringList{"--roc", "r.png"} << QByteArray(".svg");
+    QTest::newRow("one file twice") << QStringList{"--roc", "r.svg", "--chart", "r.svg"} << QByteArray("r.svg");
+}
+
+void tst_cliEvaluate::mistakes()
+{
+    QFETCH(QStringList, options);
+    QFETCH(QByteArray, says);
+    const Outcome done = run(QStringList{"evaluate", "experiment.json"} + options);
+    QVERIFY(done.code != 0);
+    QCOMPARE(done.err.count('\n'), 1);
+    QVERIFY2(done.err.contains(says), done.err.constData());
+    QVERIFY(!QFile::exists(path("r.svg")));
+}
+
+QTEST_GUILESS_MAIN(tst_cliEvaluate)
+#include "tst_cliEvaluate.moc"
