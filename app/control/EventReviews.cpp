@@ -26,6 +26,8 @@ namespace faintline {
 
 namespace {
 
+    constexpr int longestClass = 40; ///< letters shown
+
     /// "accepted, 12.3 … 45.6 s at 71.20: a note"
     QString lineOf(const Review &review)
     {
@@ -38,6 +40,8 @@ namespace {
                                                                       : QString();
         if (!verdict.isEmpty())
             line = verdict + QStringLiteral(", ") + line;
+        if (!review.label.empty())
+            line = messageText(review.label) + QStringLiteral(", ") + line;
         return review.note.empty() ? line : QStringLiteral("%1: %2").arg(line, messageText(review.note));
     }
 
@@ -50,11 +54,13 @@ EventReviews::EventReviews(Document &document, EventTable &table, std::vector<Wa
     m_eventActions << add(tr("&Accept"), Qt::Key_Y, tr("This is a signal"), &EventReviews::accept)
                    << add(tr("Re&ject"), Qt::Key_X, tr("Not a signal; show it dimmed"), &EventReviews::reject)
                    << add(tr("&Undecided"), Qt::Key_U, tr("Clear the accept or reject mark"), &EventReviews::takeBack)
-                   << add(tr("&Note…"), Qt::Key_E, tr("Edit the note on the event"), &EventReviews::editNote)
-                   << add(tr("&Merge"), Qt::Key_G,
-                          tr("Treat the selected events as one signal; select several with "
-                             "Ctrl or Shift and click"),
-                          &EventReviews::merge)
+                   << add(tr("&Note…"), Qt::Key_E, tr("Edit the note on the event"), &EventReviews::editNote);
+    addClasses();
+    m_merge = add(tr("&Merge"), Qt::Key_G,
+                  tr("Treat the selected events as one signal; select several with "
+                     "Ctrl or Shift and click"),
+                  &EventReviews::merge);
+    m_eventActions << m_merge
                    << add(tr("&Separate"), QKeySequence(Qt::SHIFT | Qt::Key_G),
                           tr("Treat merged events as several "
                              "signals again"),
@@ -104,6 +110,35 @@ QAction *EventReviews::add(const QString &text, const QKeySequence &key, const Q
     connect(action, &QAction::triggered, this, act);
     m_actions << action;
     return action;
+}
+
+void EventReviews::addClasses()
+{
+    constexpr int keys = 9;
+    auto *menu = new QMenu(tr("&Class"), m_window);
+    for (int key = 1; key <= keys; ++key) {
+        QAction *action = menu->addAction(QString(), this, [this, key] { classify(m_classNames[key - 1]); });
+        action->setShortcut(Qt::Key_0 + key);
+        m_classes << action;
+    }
+    QAction *none = menu->addAction(tr("&None"), this, [this] { classify({}); });
+    none->setShortcut(QKeySequence(Qt::SHIFT | Qt::Key_U));
+    m_eventActions << m_classes << none << menu->menuAction();
+    menu->addSeparator();
+    menu->addAction(tr("Name the &classes…"), this, &EventReviews::editClassNames);
+    m_actions << menu->menuAction();
+    setClassNames({});
+}
+
+void EventReviews::setClassNames(const QStringList &names)
+{
+    m_classNames.clear();
+    for (int i = 0; i < int(m_classes.size()); ++i) {
+        const QString name = QString::fromStdString(oneLine(names.value(i).trimmed().toStdString()));
+        m_classNames << (name.isEmpty() ? tr("class %1").arg(i + 1) : name);
+        m_classes[i]->setText(buttonText(m_classNames.back(), longestClass));
+    }
+    emit classNamesChanged(m_classNames);
 }
 
 void EventReviews::addActionsTo(QMenu &menu)
@@ -175,6 +210,28 @@ void EventReviews::editNote()
                                                before, &isGiven);
     if (isGiven && m_document.analysis())
         setNote(id, note);
+}
+
+void EventReviews::classify(const QString &name)
+{
+    const std::vector<int> ids = chosen();
+    if (ids.empty())
+        return;
+    const QString events = ids.size() == 1 ? tr("event %1").arg(ids.front()) : tr("%1 events").arg(ids.size());
+    setReviews(withLabel(m_document.annotations().reviews, *m_document.analysis(), m_document.shownEvents(), ids,
+                         name.toStdString()),
+               name.isEmpty() ? tr("Take the class of %1 back").arg(events)
+                              : tr("Call %1 %2").arg(events, buttonText(name, longestClass)));
+}
+
+void EventReviews::editClassNames()
+{
+    bool isGiven = false;
+    const QString names = QInputDialog::getMultiLineText(m_window, tr("Name the classes"),
+                                                         tr("Names of the classes on the keys 1 to 9, one a line:"),
+                                                         m_classNames.join(QLatin1Char('\n')), &isGiven);
+    if (isGiven)
+        setClassNames(names.split(QLatin1Char('\n')));
 }
 
 void EventReviews::annotateSelection(const QString &label)
@@ -356,7 +413,7 @@ void EventReviews::enable()
     const std::vector<int> ids = chosen();
     for (QAction *action : m_eventActions)
         action->setEnabled(!ids.empty());
-    m_eventActions[4]->setEnabled(ids.size() > 1); // merging
+    m_merge->setEnabled(ids.size() > 1);
     m_addBox->setEnabled(m_document.box().has_value() && !m_document.isEmpty());
     for (qsizetype i = m_actions.size() - 2; i < m_actions.size(); ++i) // import and export
         m_actions[i]->setEnabled(m_document.analysis() != nullptr);

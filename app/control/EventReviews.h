@@ -40,6 +40,11 @@ public:
     void merge();
     void separate();
     void setNote(int id, const QString &note);
+    /// Says what kind of signal the selected events are; an empty name takes it back.
+    void classify(const QString &name);
+    /// What the keys 1 to 9 call events; a key without a name of its own calls them "class 3".
+    QStringList classNames() const { return m_classNames; }
+    void setClassNames(const QStringList &names);
     /// The measured box becomes an annotation.
     void annotateSelection(const QString &label);
 
@@ -50,6 +55,7 @@ public:
     Provenance &provenance() { return m_provenance; }
 
 signals:
+    void classNamesChanged(const QStringList &names);
     void failed(const faintline::Error &error);
     void written(const QString &path);
     void told(const QString &where, const QString &what);
@@ -60,6 +66,8 @@ private:
     void reject() { judge(Verdict::Rejected); }
     void takeBack() { judge(Verdict::None); }
     void editNote();
+    void addClasses();
+    void editClassNames();
     void askForLabel();
     void askForImport();
     void askForExport();
@@ -79,6 +87,9 @@ private:
     QWidget *m_window;
     QList<QAction *> m_actions;      ///< null: a separator
     QList<QAction *> m_eventActions; ///< need a selected event
+    QAction *m_merge = nullptr;
+    QList<QAction *> m_classes; ///< of the keys 1 to 9
+    QStringList m_classNames;
     QAction *m_addBox = nullptr;
     std::vector<std::size_t> m_unmatched; ///< reviews, in the order they are listed
     Provenance m_provenance;

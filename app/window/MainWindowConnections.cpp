@@ -165,6 +165,8 @@ void MainWindow::connectViews()
         connect(one, &Bench::thresholdStepRequested, &m_controller, &AnalysisController::stepThreshold);
     }
     connect(m_events, &EventTable::eventActivated, this, goTo);
+    connect(m_reviews, &EventReviews::classNamesChanged, this,
+            [this](const QStringList &names) { m_memory.setClassNames(names); });
     connect(m_reviews, &EventReviews::failed, this, &MainWindow::showError);
     connect(m_reviews, &EventReviews::told, this, [this](const QString &where, const QString &what) {
         m_messages->showMessage(MessageBar::Kind::Notice, where, what);

@@ -87,6 +87,7 @@ void MainWindow::buildDocks()
     m_reviews = new EventReviews(
         m_document, *m_events,
         {m_workbench->input(), m_workbench->output(), m_pings->rangeHistory(), m_pings->bearingHistory()}, this);
+    m_reviews->setClassNames(m_memory.classNames());
     m_reviews->addMaps({m_pings->input(), m_pings->output()});
     m_boxAnalysis = new BoxAnalysis(m_document, m_controller, {m_workbench->input(), m_workbench->output()}, this);
     m_why = new WhyPanel(m_document, m_pings->viewports());

@@ -10,6 +10,7 @@ namespace {
 
     constexpr int mostRecent = 10;
     const QString recentKey = QStringLiteral("recent");
+    const QString classesKey = QStringLiteral("classes");
     const QString themeKey = QStringLiteral("view/theme");
     const QString colourMapKey = QStringLiteral("view/colourMap");
     const QString orientationKey = QStringLiteral("view/orientation");
@@ -45,6 +46,17 @@ void WindowMemory::addRecent(const QString &path)
 QString WindowMemory::presetFolder() const
 {
     return m_store ? QFileInfo(m_store->fileName()).path() + QStringLiteral("/presets") : QString();
+}
+
+QStringList WindowMemory::classNames() const
+{
+    return m_store ? m_store->value(classesKey).toStringList() : QStringList();
+}
+
+void WindowMemory::setClassNames(const QStringList &names)
+{
+    if (m_store)
+        m_store->setValue(classesKey, names);
 }
 
 WindowMemory::Layout WindowMemory::layout() const

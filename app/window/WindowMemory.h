@@ -34,6 +34,10 @@ public:
     /// Where presets of one's own are kept; empty without a store.
     QString presetFolder() const;
 
+    /// What events are called with the keys 1 to 9.
+    QStringList classNames() const;
+    void setClassNames(const QStringList &names);
+
     Layout layout() const;
     void setLayout(const Layout &layout);
 

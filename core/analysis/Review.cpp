@@ -45,7 +45,8 @@ namespace {
     {
         std::erase_if(reviews, [](const Review &review) {
             return review.paths.empty()
-                   || (review.verdict == Verdict::None && review.note.empty() && review.paths.size() == 1);
+                   || (review.verdict == Verdict::None && review.note.empty() && review.label.empty()
+                       && review.paths.size() == 1);
         });
     }
 
@@ -55,7 +56,7 @@ namespace {
         const int index = matchReviews(analysis, {event}, reviews).front();
         if (index >= 0)
             return reviews[std::size_t(index)];
-        return reviews.emplace_back(Review{{pathOf(analysis, event)}, Verdict::None, {}});
+        return reviews.emplace_back(Review{{pathOf(analysis, event)}, Verdict::None, {}, {}});
     }
 
     Json toJson(const SignalPath &path)
@@ -83,6 +84,8 @@ namespace {
             json["verdict"] = nameOf(review.verdict);
         if (!review.note.empty())
             json["note"] = review.note;
+        if (!review.label.empty())
+            json["label"] = review.label;
         json["paths"] = Json::array();
         for (const SignalPath &path : review.paths)
             json["paths"].push_back(toJson(path));
@@ -99,8 +102,9 @@ namespace {
 
     Review reviewFromJson(const Json &json, const std::string &where)
     {
-        checkKeys(json, where, {"verdict", "note", "paths"});
-        Review review{{}, verdictFromJson(json, where), json.value("note", std::string())};
+        checkKeys(json, where, {"verdict", "note", "label", "paths"});
+        Review review{
+            {}, verdictFromJson(json, where), json.value("note", std::string()), json.value("label", std::string())};
         for (const Json &path : json.at("paths"))
             review.paths.push_back(pathFromJson(path, where + ".paths[" + std::to_string(review.paths.size()) + "]"));
         return review;
@@ -240,7 +244,7 @@ std::vector<EventReview> eventReviews(const Analysis &analysis, const std::vecto
     std::vector<int> first(reviews.size(), 0);
     std::vector<EventReview> result;
     for (std::size_t i = 0; i < events.size(); ++i) {
-        EventReview &one = result.emplace_back(EventReview{events[i].id, Verdict::None, {}, events[i].id});
+        EventReview &one = result.emplace_back(EventReview{events[i].id, Verdict::None, {}, events[i].id, {}});
         if (matches[i] < 0)
             continue;
         const auto index = std::size_t(matches[i]);
@@ -248,6 +252,7 @@ std::vector<EventReview> eventReviews(const Analysis &analysis, const std::vecto
             first[index] = events[i].id;
         one.verdict = reviews[index].verdict;
         one.note = reviews[index].note;
+        one.label = reviews[index].label;
         one.signal = first[index];
     }
     return result;
@@ -270,6 +275,15 @@ std::vector<Review> withNote(std::vector<Review> reviews, const Analysis &analys
     return reviews;
 }
 
+std::vector<Review> withLabel(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events,
+                              const std::vector<int> &ids, const std::string &label)
+{
+    for (int id : ids)
+        reviewOf(reviews, analysis, eventOf(events, id)).label = label;
+    dropEmpty(reviews);
+    return reviews;
+}
+
 std::vector<Review> merged(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events,
                            const std::vector<int> &ids)
 {
@@ -284,6 +298,8 @@ std::vector<Review> merged(std::vector<Review> reviews, const Analysis &analysis
         one.paths.insert(one.paths.end(), own.paths.begin(), own.paths.end());
         if (one.verdict == Verdict::None)
             one.verdict = own.verdict;
+        if (one.label.empty())
+            one.label = own.label;
         if (!own.note.empty())
             one.note += (one.note.empty() ? "" : "; ") + own.note;
         own.paths.clear(); // so that none matches it again
@@ -303,7 +319,7 @@ std::vector<Review> separated(std::vector<Review> reviews, const Analysis &analy
         const Review whole = reviews[std::size_t(index)];
         reviews.erase(reviews.begin() + index);
         for (const SignalPath &path : whole.paths)
-            reviews.push_back({{path}, whole.verdict, whole.note});
+            reviews.push_back({{path}, whole.verdict, whole.note, whole.label});
     }
     dropEmpty(reviews);
     return reviews;

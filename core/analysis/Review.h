@@ -30,6 +30,7 @@ struct Review {
     std::vector<SignalPath> paths;
     Verdict verdict = Verdict::None;
     std::string note;
+    std::string label{}; ///< its class, as the person calls it
 
     bool operator==(const Review &) const = default;
 };
@@ -62,6 +63,7 @@ struct EventReview {
     Verdict verdict = Verdict::None;
     std::string note;
     int signal = 0; ///< number of the first event of the same signal: its own where it is alone
+    std::string label{};
 
     bool operator==(const EventReview &) const = default;
 };
@@ -94,7 +96,9 @@ std::vector<Review> withVerdict(std::vector<Review> reviews, const Analysis &ana
                                 const std::vector<int> &ids, Verdict verdict);
 std::vector<Review> withNote(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events,
                              int id, const std::string &note);
-/// Several events are one signal from now on, with the first verdict among theirs and all their notes.
+std::vector<Review> withLabel(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events,
+                              const std::vector<int> &ids, const std::string &label);
+/// Several events are one signal from now on, with the first verdict and the first label among theirs, and all notes.
 std::vector<Review> merged(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events,
                            const std::vector<int> &ids);
 /// Undoes a merge: what was said stays with each.

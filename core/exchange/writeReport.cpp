@@ -224,7 +224,9 @@ namespace {
                                          fixed(event.detectSeconds, 2), fixed(event.endSeconds, 2)};
             for (double position : event.position)
                 row.push_back(fixed(position, 2));
-            std::string review = nameOf(said[i].verdict);
+            std::string review = said[i].label;
+            if (said[i].verdict != Verdict::None)
+                review += (review.empty() ? "" : ", ") + nameOf(said[i].verdict);
             if (said[i].signal != event.id)
                 review += (review.empty() ? "part of " : ", part of ") + std::to_string(said[i].signal);
             for (std::size_t axis = 0; axis < units.size(); ++axis)

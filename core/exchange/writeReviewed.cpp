@@ -13,8 +13,10 @@ namespace faintline {
 
 namespace {
 
-    std::string labelOf(const Event &event, int signal)
+    std::string labelOf(const Event &event, int signal, const std::string &given)
     {
+        if (!given.empty())
+            return oneLine(given);
         std::string label = "event " + std::to_string(event.id);
         if (signal != event.id)
             label += " (of " + std::to_string(signal) + ")";
@@ -29,7 +31,7 @@ namespace {
         for (std::size_t i = 0; i < events.size(); ++i) {
             ReviewedRow row{&events[i], said[i].signal, {}};
             fillBox(analysis, events[i], row.box);
-            row.box.label = labelOf(events[i], said[i].signal);
+            row.box.label = labelOf(events[i], said[i].signal, said[i].label);
             row.box.note = oneLine(said[i].note);
             row.box.verdict = said[i].verdict;
             rows.push_back(row);

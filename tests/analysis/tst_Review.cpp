@@ -17,6 +17,7 @@ private slots:
     void crossingLinesAreTwo();
     void acrossTheSeamOfBearings();
     void nothingSaidIsNoReview();
+    void classesGoWithTheSignal();
     void mergeAndSeparate();
     void asJsonAndBack();
     void hostileJson();
@@ -153,6 +154,21 @@ void tst_Review::nothingSaidIsNoReview()
     QVERIFY_EXCEPTION_THROWN(withNote({}, analysis, all, 7, "x"), Error);
 }
 
+void tst_Review::classesGoWithTheSignal()
+{
+    const Analysis analysis = analysisOf({{0, line(100, 0, 20)}, {40, line(120, 0, 20)}, {80, line(200, 0, 20)}});
+    const std::vector<Event> all = events(analysis);
+    std::vector<Review> reviews = withLabel({}, analysis, all, {1, 3}, "whale");
+    reviews = withLabel(reviews, analysis, all, {2}, "ship");
+    QCOMPARE(eventReviews(analysis, all, reviews)[2], (EventReview{3, Verdict::None, "", 3, "whale"}));
+    // Of several that become one, the first one's.
+    const std::vector<Review> one = merged(reviews, analysis, all, {1, 2});
+    QCOMPARE(eventReviews(analysis, all, one)[1].label, std::string("whale"));
+    QCOMPARE(eventReviews(analysis, all, separated(one, analysis, all, {2}))[1].label, std::string("whale"));
+    QVERIFY(withLabel(reviews, analysis, all, {1, 2, 3}, "").empty());
+    QVERIFY_EXCEPTION_THROWN(withLabel({}, analysis, all, {7}, "x"), Error);
+}
+
 void tst_Review::mergeAndSeparate()
 {
     const Analysis analysis = analysisOf({{0, line(100, 0, 20)}, {40, line(120, 0, 20)}, {80, line(200, 0, 20)}});
@@ -183,6 +199,7 @@ void tst_Review::asJsonAndBack()
     Annotations annotations;
     annotations.reviews = merged({}, analysis, events(analysis), {1, 2});
     annotations.reviews = withNote(annotations.reviews, analysis, events(analysis), 1, "a \"note\", späť\t");
+    annotations.reviews = withLabel(annotations.reviews, analysis, events(analysis), {1}, "späť");
     annotations.boxes = {{1.0, 2.0, 3.0, 4.5, "box", "", Verdict::Rejected},
                          {0.1, 0.2, {}, {}, "", "n", Verdict::None}};
     const Json json = toJson(annotations);

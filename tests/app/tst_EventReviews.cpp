@@ -6,6 +6,7 @@
 #include "app/openWindow.h"
 #include "app/workspace/Workbench.h"
 #include "exchange/readAnnotations.h"
+#include "support/recordings.h"
 #include "widgets/events/EventModel.h"
 #include "widgets/events/EventTable.h"
 
@@ -89,6 +90,44 @@ private slots:
         document().undoStack().undo();
         document().undoStack().undo();
         QCOMPARE(verdicts().front(), Verdict::Rejected);
+    }
+
+    void digitsGiveClasses()
+    {
+        auto &table = m_window->eventTable();
+        QVERIFY(table.table()->isColumnHidden(EventModel::Class));
+        choose({1, 2});
+        m_window->activateWindow();
+        QVERIFY(QTest::qWaitForWindowActive(m_window.get()));
+        QTest::keyClick(table.table(), Qt::Key_3);
+        QCOMPARE(document().undoStack().count(), 1);
+        QCOMPARE(document().annotations().reviews.front().label, std::string("class 3"));
+        QVERIFY(!table.table()->isColumnHidden(EventModel::Class));
+        m_window->reviews().setClassNames({"hum", "  two\nlines "});
+        QCOMPARE(m_window->reviews().classNames().mid(0, 3), QStringList({"hum", "two lines", "class 3"}));
+        choose({2});
+        QTest::keyClick(table.table(), Qt::Key_1);
+        table.filter()->setText("class=hu");
+        QCOMPARE(table.shownIds(), std::vector<int>{2});
+        table.filter()->setText("class=");
+        QCOMPARE(table.shownIds().size(), document().shownEvents().size() - 2);
+        table.filter()->clear();
+        choose({1, 2});
+        QTest::keyClick(table.table(), Qt::Key_U, Qt::ShiftModifier);
+        QVERIFY(document().annotations().isEmpty());
+        QVERIFY(table.table()->isColumnHidden(EventModel::Class));
+        m_window->reviews().setClassNames({});
+    }
+
+    void aClassIsExported()
+    {
+        choose({1});
+        m_window->reviews().classify("fin whale");
+        const QString path = m_folder.filePath("classes.csv");
+        m_window->reviews().exportTo(path);
+        const QList<QByteArray> rows = test::readBytes(path.toStdString()).split('\n');
+        QVERIFY2(rows[1].contains(",\"fin whale\","), rows[1].constData());
+        QVERIFY2(rows[2].contains(",\"event 2\","), rows[2].constData());
     }
 
     void aRejectedEventIsFaintAndCanBeFilteredOut()

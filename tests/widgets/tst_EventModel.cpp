@@ -28,6 +28,7 @@ private slots:
     void theUnknownSortsLast();
     void everyColumnSortsByItsNumber();
     void reviewsAreMarkedAndSaid();
+    void classesAreSaidAndSorted();
     void rejectedRowsAreFaint();
     void reviewsOfOtherEventsAreIgnored();
     void hostileNotesStayOnOneLine();
@@ -147,7 +148,7 @@ void tst_EventModel::everyColumnSortsByItsNumber()
     weak.isConfirmed = true;
     strong.isConfirmed = false;
     m_model->setEvents({weak, strong});
-    m_model->setReviews({{2, Verdict::Accepted, "line", 2}, {10, Verdict::Rejected, {}, 10}});
+    m_model->setReviews({{2, Verdict::Accepted, "line", 2, "a"}, {10, Verdict::Rejected, {}, 10}});
     for (int column = 0; column < EventModel::ColumnCount; ++column)
         QVERIFY2(sortValue(column, 0) < sortValue(column, 1), qPrintable(heading(column)));
 }
@@ -167,6 +168,22 @@ void tst_EventModel::reviewsAreMarkedAndSaid()
     QCOMPARE(text(EventModel::Judged, 2), QString());
     QCOMPARE(text(EventModel::Note, 1), QString("hum"));
     QCOMPARE(EventModel::reviewText({5, Verdict::None, {}, 4}), QString("part of 4"));
+}
+
+void tst_EventModel::classesAreSaidAndSorted()
+{
+    m_model->setEvents(
+        {test::event(1, 1.0, 2.0, 300.0), test::event(2, 1.0, 2.0, 300.0), test::event(3, 1.0, 2.0, 3.0)});
+    QVERIFY(!m_model->hasClasses());
+    m_model->setReviews(
+        {{1, Verdict::None, {}, 1}, {2, Verdict::None, {}, 2, "whale"}, {3, Verdict::None, {}, 3, "ship"}});
+    QVERIFY(m_model->hasClasses());
+    QCOMPARE(text(EventModel::Class, 0), QString());
+    QCOMPARE(text(EventModel::Class, 1), QString("whale"));
+    const auto place = [&](int row) {
+        return m_model->index(row, EventModel::Class).data(EventModel::SortRole).toDouble();
+    };
+    QVERIFY(place(2) < place(1) && place(1) < place(0)); // ship, whale, none
 }
 
 void tst_EventModel::rejectedRowsAreFaint()

@@ -56,10 +56,24 @@ namespace {
         return [=](const Event &e, const EventReview &) { return of(e) >= limit; };
     }
 
+    /// "class=whale": the class begins so; "class=": has none.
+    Condition classOf(const QString &term)
+    {
+        const QString key = QStringLiteral("class=");
+        if (!term.startsWith(key))
+            return {};
+        return [name = term.mid(key.size())](const Event &, const EventReview &r) {
+            const QString label = QString::fromStdString(r.label).toLower();
+            return name.isEmpty() ? label.isEmpty() : label.startsWith(name);
+        };
+    }
+
     Condition state(const QString &term)
     {
         if (term.isEmpty())
             return {};
+        if (const Condition condition = classOf(term))
+            return condition;
         if (term.startsWith(QLatin1Char('!'))) {
             const Condition opposite = state(term.mid(1));
             if (!opposite)

@@ -17,7 +17,7 @@ namespace {
 
     Qt::Alignment alignmentOf(int column)
     {
-        const bool isWord = column == EventModel::State || column == EventModel::Judged;
+        const bool isWord = column == EventModel::State || column == EventModel::Judged || column == EventModel::Class;
         return (isWord                       ? Qt::AlignHCenter
                 : column == EventModel::Note ? Qt::AlignLeft
                                              : Qt::AlignRight)
@@ -70,6 +70,8 @@ double EventModel::sortValue(const Event &event, int column) const
         const EventReview said = review(event);
         return said.verdict == Verdict::Accepted ? 0.0 : said.verdict == Verdict::None ? 1.0 : 2.0;
     }
+    case Class:
+        return double(std::distance(m_labels.begin(), m_labels.find(review(event).label)));
     case Note:
         return review(event).note.empty() ? 1.0 : 0.0;
     default:
@@ -91,15 +93,19 @@ void EventModel::setEvents(std::vector<Event> events)
 void EventModel::setReviews(const std::vector<EventReview> &reviews)
 {
     m_reviews.clear();
-    for (const EventReview &one : reviews)
+    m_labels.clear();
+    for (const EventReview &one : reviews) {
         m_reviews.insert(one.event, one);
+        if (!one.label.empty())
+            m_labels.insert(one.label);
+    }
     if (!m_events.empty())
         emit dataChanged(index(0, 0), index(rowCount() - 1, ColumnCount - 1));
 }
 
 EventReview EventModel::review(const Event &event) const
 {
-    return m_reviews.value(event.id, EventReview{event.id, Verdict::None, {}, event.id});
+    return m_reviews.value(event.id, EventReview{event.id, Verdict::None, {}, event.id, {}});
 }
 
 QString EventModel::reviewText(const EventReview &review)
@@ -176,6 +182,8 @@ QString EventModel::text(const Event &event, int column) const
         return std::isfinite(event.windowSeconds) ? QString::number(event.windowSeconds, 'g', 4) : QStringLiteral("–");
     case Judged:
         return reviewText(review(event));
+    case Class:
+        return labelText(review(event).label, longestNote);
     case Note:
         return labelText(review(event).note, longestNote);
     default:
@@ -217,6 +225,11 @@ bool EventModel::hasWindows() const
     return std::any_of(m_events.begin(), m_events.end(), [this](const Event &event) {
         return sortValue(event, Window) != sortValue(m_events.front(), Window);
     });
+}
+
+bool EventModel::hasClasses() const
+{
+    return !m_labels.empty();
 }
 
 void EventModel::setStatisticUnit(const QString &unit)
@@ -265,6 +278,7 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
                              hasBearing() ? tr("Rate (%1/s)").arg(unit(0)) : tr("Drift (Hz/s)"),
                              tr("State"),
                              tr("Review"),
+                             tr("Class"),
                              tr("Note")};
     const QString tips[] = {
         tr("Number, in order of detection"),
@@ -283,6 +297,7 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
         tr("Straight-line slope of the track"),
         tr("Confirmed or tentative; open if the data ended before the track"),
         tr("Accepted (Y), rejected (X) or undecided (U), or part of another event's signal"),
+        tr("What kind of signal you say it is; 1 to 9 set it, Shift+U clears it"),
         tr("Your note on the event; E edits it")};
     if (section < 0 || section >= ColumnCount)
         return {};

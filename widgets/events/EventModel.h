@@ -6,6 +6,7 @@
 #include <QHash>
 
 #include <optional>
+#include <set>
 #include <vector>
 
 namespace faintline {
@@ -33,6 +34,7 @@ public:
         Drift,
         State,
         Judged,
+        Class, ///< where one of the events has one
         Note,
         ColumnCount
     };
@@ -54,6 +56,8 @@ public:
     bool hasUtc() const { return m_startUnixSeconds.has_value(); }
     /// Whether a longer window has found some of the events.
     bool hasWindows() const;
+    /// Whether one of the events was given a class.
+    bool hasClasses() const;
     bool hasRadio() const { return m_centreHz != 0.0; }
     const std::vector<Event> &events() const { return m_events; }
 
@@ -78,6 +82,7 @@ private:
 
     std::vector<Event> m_events;
     QHash<int, EventReview> m_reviews;
+    std::set<std::string> m_labels; ///< in order, for sorting; events without one come last
     std::vector<Axis> m_axes;
     std::optional<double> m_startUnixSeconds;
     double m_centreHz = 0.0;

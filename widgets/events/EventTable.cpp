@@ -26,9 +26,10 @@ EventTable::EventTable(QWidget *parent)
 {
     m_proxy->setSourceModel(m_model);
     m_filter->setPlaceholderText(tr("Filter: f>1000 stat>25 !rejected"));
-    m_filter->setToolTip(tr(
-        "Conditions that must all hold: open, confirmed, tentative, accepted, rejected, unreviewed, merged, noted, "
-        "negated by a leading !; id, t, detect, confirm, end, dur, f, drift, stat, snr compared by <, >, =, <=, >="));
+    m_filter->setToolTip(
+        tr("Conditions that must all hold: open, confirmed, tentative, accepted, rejected, unreviewed, merged, noted, "
+           "negated by a leading !; id, t, detect, confirm, end, dur, f, drift, stat, snr compared by <, >, =, <=, >=; "
+           "class=NAME"));
     m_filter->setClearButtonEnabled(true);
     m_filter->setAccessibleName(tr("Filter events"));
     connect(m_filter, &QLineEdit::textChanged, this, &EventTable::applyFilter);
@@ -104,7 +105,8 @@ void EventTable::setUpTable()
     m_table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
     m_table->setAccessibleName(tr("Events"));
     m_table->installEventFilter(this);
-    for (const int column : {EventModel::Bearing, EventModel::Window, EventModel::Utc, EventModel::Radio})
+    for (const int column :
+         {EventModel::Bearing, EventModel::Window, EventModel::Utc, EventModel::Radio, EventModel::Class})
         m_table->setColumnHidden(column, true);
     connect(m_table, &QTableView::clicked, this, [this](const QModelIndex &index) {
         if (selectedEvents().size() == 1) // several are being chosen otherwise
@@ -173,6 +175,7 @@ void EventTable::setReviews(const std::vector<EventReview> &reviews)
 {
     const int selected = selectedEvent();
     m_model->setReviews(reviews);
+    m_table->setColumnHidden(EventModel::Class, !m_model->hasClasses());
     m_proxy->setFilter(m_proxy->filter()); // it may ask for what has just been said
     if (selected != 0 && selectedEvent() != selected)
         setSelectedEvent(selected);
