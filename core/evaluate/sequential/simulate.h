@@ -33,9 +33,9 @@ struct SequentialOutcome {
     std::vector<Index> stopCounts; ///< trials that stopped after stage 1, 2, …
 };
 
-/// Simulates a study, several trials abreast: they are an axis of the recursion along which nothing moves. A trial is a pure
-/// function of (seed, trial); no result depends on threads. Evidence in single precision and at most 88 nats a cell,
-/// weights in double precision and unscaled, as Λ lies between the boundaries. Throws Error, Cancelled.
+/// Simulates a study, several trials abreast: they are an axis of the recursion along which nothing moves. A trial is a
+/// pure function of (seed, trial); no result depends on threads. Evidence in single precision and at most 88 nats a
+/// cell, weights in double precision and unscaled, as Λ lies between the boundaries. Throws Error, Cancelled.
 SequentialOutcome simulate(const SequentialStudy &study, const RunContext &context = {});
 
 /// The fixed number of stages at which a likelihood ratio test has the same errors: the smallest n for which a
