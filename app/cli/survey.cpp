@@ -104,6 +104,7 @@ namespace {
         if (!options.camtrap.empty() && (!options.latitude || !options.longitude))
             throw Error("--camtrap", "requires --latitude and --longitude");
         SurveyDatabase survey(options.survey);
+        survey.hold();
         if (!survey.isFinished())
             std::fprintf(stderr, "warning: %s: the survey is not finished\n", oneLine(options.survey).c_str());
         if (!options.events.empty())

@@ -9,9 +9,13 @@
 #include <QBrush>
 #include <QPalette>
 
+#include <algorithm>
+
 namespace faintline {
 
 namespace {
+
+    constexpr std::chrono::milliseconds patience(1000); ///< the window waits meanwhile
 
     QString verdictText(Verdict verdict)
     {
@@ -30,7 +34,8 @@ namespace {
 
 void SurveyModel::read(const QString &path)
 {
-    SurveyDatabase survey(pathBytes(path));
+    SurveyDatabase survey(pathBytes(path), Sqlite::Access::Read, patience);
+    survey.hold();
     const SurveySettings settings = settingsOf(survey.origin(), survey.path());
     std::vector<SurveyRecording> recordings = survey.recordings();
     std::vector<Row> rows;
@@ -47,17 +52,19 @@ void SurveyModel::read(const QString &path)
 
 void SurveyModel::judge(const std::vector<int> &rows, Verdict verdict)
 {
-    SurveyDatabase survey(pathBytes(m_path), Sqlite::Access::Write);
+    if (rows.empty())
+        return;
+    SurveyDatabase survey(pathBytes(m_path), Sqlite::Access::Write, patience);
     survey.begin();
     for (const int number : rows) {
         const Row &one = row(number);
-        survey.setReview(m_recordings[one.recording].id, one.event.event.id, verdict, one.event.box.note);
+        survey.setReview(m_recordings[one.recording].file.path, one.event.event, verdict, one.event.box.note);
     }
     survey.commit();
-    for (const int number : rows) {
+    for (const int number : rows)
         m_rows[std::size_t(number)].event.box.verdict = verdict;
-        emit dataChanged(index(number, 0), index(number, ColumnCount - 1));
-    }
+    const auto [first, last] = std::minmax_element(rows.begin(), rows.end());
+    emit dataChanged(index(*first, 0), index(*last, ColumnCount - 1));
 }
 
 QString SurveyModel::text(const Row &row, int column) const

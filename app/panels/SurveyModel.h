@@ -25,7 +25,7 @@ public:
 
     /// Reads everything. Throws Error; then the table stays as it was.
     void read(const QString &path);
-    /// Writes a verdict into the file. Throws Error.
+    /// Writes a verdict into the file, or nothing where one of the events is not there any more. Throws Error.
     void judge(const std::vector<int> &rows, Verdict verdict);
 
     const QString &path() const { return m_path; }

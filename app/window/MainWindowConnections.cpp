@@ -207,9 +207,8 @@ void MainWindow::connectSurvey()
     connect(m_survey, &SurveyPanel::failed, this, &MainWindow::showError);
     connect(m_survey, &SurveyPanel::openRequested, this,
             [this](const QString &path, const OpenOptions &options, const AnalysisController::Adjust &adjust) {
-                // The settings go along: only what was said about events could be lost.
                 const auto next = [this, path, options, adjust] { openNow(path, options, adjust); };
-                if (m_document.annotations().isEmpty() || m_saver->mayLose(tr("opening something else"), next))
+                if (m_saver->mayLose(tr("opening something else"), next))
                     next();
             });
 }

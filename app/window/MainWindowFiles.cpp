@@ -27,6 +27,8 @@
 #include <QStackedWidget>
 #include <QUrl>
 
+#include <new>
+
 namespace faintline {
 
 void MainWindow::open(const QString &path, const OpenOptions &options, const AnalysisController::Adjust &adjust)
@@ -120,6 +122,8 @@ void MainWindow::openSurvey(const QString &path)
         m_survey->open(path);
     } catch (const Error &error) {
         return showError(error);
+    } catch (const std::bad_alloc &) {
+        return showError(Error(pathBytes(path), "out of memory", Error::Kind::Failure));
     }
     m_welcome->stop();
     m_messages->dismiss();

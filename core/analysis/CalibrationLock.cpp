@@ -12,7 +12,7 @@ namespace faintline {
 
 CalibrationLock::CalibrationLock(std::filesystem::path file) : m_file(std::move(file))
 {
-    for (;;) {
+    for (int tries = 0; tries < 100; ++tries) {
         m_descriptor = ::open(m_file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
         m_isHeld = m_descriptor < 0 || ::flock(m_descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
         struct stat status = {};
@@ -21,6 +21,7 @@ CalibrationLock::CalibrationLock(std::filesystem::path file) : m_file(std::move(
         if (!wasRemoved) // by who held it until just now
             return;
         ::close(m_descriptor);
+        m_descriptor = -1;
     }
 }
 

@@ -5,8 +5,8 @@
 namespace faintline {
 
 /// Held by the one program, of those that share a folder, that makes a calibration; the others may wait for it rather
-/// than make the same. Gone with the object, or with the program however it ends. Where nothing can be locked it counts
-/// as held.
+/// than make the same. Gone with the object, or with the program however it ends. Where nothing can be locked, or the
+/// file goes again and again, it counts as held.
 class CalibrationLock
 {
 public:

@@ -9,6 +9,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <string_view>
 #include <thread>
 
 namespace faintline {
@@ -68,14 +69,14 @@ namespace {
         return entry.made;
     }
 
-    /// Until `isSo`, but not forever: who makes it may have been suspended.
+    using Clock = std::chrono::steady_clock;
+
+    /// Until `isSo`, or until `end`.
     template <class Condition>
-    void waitUntil(Condition isSo, const RunContext &context)
+    void waitUntil(Condition isSo, Clock::time_point end, std::string_view what, const RunContext &context)
     {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
-        while (!isSo() && std::chrono::steady_clock::now() < end) {
-            if (context.stop.stop_requested())
-                throw Cancelled();
+        while (!isSo() && Clock::now() < end) {
+            context.checkpoint(0.0, what);
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
         }
     }
@@ -90,9 +91,10 @@ std::shared_ptr<const Calibration> keptCalibration(const std::string &key, const
     if (Made made = known(entry, key, store))
         return made;
     std::unique_lock making(entry.making, std::defer_lock);
-    waitUntil([&] { return making.try_lock(); }, context);
+    waitUntil([&] { return making.try_lock(); }, Clock::time_point::max(), "waiting for the calibration", context);
     std::optional<CalibrationLock> lock;
-    waitUntil([&] { return store.lock(lock, key); }, context);
+    const Clock::time_point end = Clock::now() + std::chrono::minutes(2); // another program may have been suspended
+    waitUntil([&] { return store.lock(lock, key); }, end, "waiting for another program's calibration", context);
     if (Made made = known(entry, key, store))
         return made;
     Made made = make();

@@ -22,7 +22,8 @@ AnalysisSettings dimensionless(AnalysisSettings settings);
 std::string calibrationKey(const AnalysisSettings &bare, CalibrationDepth depth);
 
 /// What is known under a key, or else what `make` answers, which is kept. Of the threads and programs that want the
-/// same at a time, one makes it and the others wait for it. Null only where `make` answers that. Throws what `make`
+/// same at a time, one makes it and the others wait for it: threads as long as it takes, programs up to two minutes.
+/// Null only where `make` answers that. Throws what `make`
 /// throws, and Cancelled.
 std::shared_ptr<const Calibration> keptCalibration(const std::string &key,
                                                    const std::function<std::shared_ptr<const Calibration>()> &make,

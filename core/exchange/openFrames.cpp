@@ -1,15 +1,13 @@
 #include "exchange/openFrames.h"
 
+#include "base/fileName.h"
 #include "exchange/Hdf5Filterbank.h"
 #include "exchange/ModelFile.h"
 #include "exchange/NumPyPower.h"
 #include "exchange/SigprocFile.h"
 #include "spectrum/NormalisedPower.h"
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
-#include <string_view>
 
 namespace faintline {
 
@@ -17,11 +15,7 @@ namespace {
 
     bool isStack(const std::string &path)
     {
-        constexpr std::string_view ending = ".npy";
-        return path.size() >= ending.size()
-               && std::equal(
-                   ending.begin(), ending.end(), path.end() - Index(ending.size()),
-                   [](char small, char given) { return small == std::tolower(static_cast<unsigned char>(given)); });
+        return hasEnding(path, ".npy");
     }
 
     bool isFile(const std::string &path)

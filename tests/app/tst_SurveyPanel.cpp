@@ -112,6 +112,29 @@ private slots:
         QCOMPARE(stored(), Verdict::None);
     }
 
+    void reviewsFollowTheirEvents()
+    {
+        table().sortByColumn(SurveyModel::Recording, Qt::AscendingOrder);
+        simulate("0.wav", 60.0); // a.wav becomes the second
+        carryOutSurvey({m_settings, {path("0.wav"), path("a.wav"), path("b.wav"), path("c.wav")}, {}, 2},
+                       path("s.sqlite"));
+        table().selectRow(0);
+        panel().judge(Verdict::Accepted);
+        SurveyDatabase survey(path("s.sqlite"));
+        QCOMPARE(survey.recordings()[1].file.path, path("a.wav"));
+        QCOMPARE(survey.events(2).front().box.verdict, Verdict::Accepted);
+        QCOMPARE(survey.connection().integer("SELECT count(*) FROM reviews"), std::int64_t(1));
+        // Analysed anew, the recording has other events: none of them is reviewed by mistake.
+        simulate("a.wav", 130.0);
+        carryOutSurvey({m_settings, {path("a.wav")}, {}, 2}, path("s.sqlite"));
+        QSignalSpy failed(&panel(), &SurveyPanel::failed);
+        panel().judge(Verdict::Rejected);
+        QCOMPARE(failed.count(), 1);
+        QCOMPARE(SurveyDatabase(path("s.sqlite")).connection().integer("SELECT count(*) FROM reviews"),
+                 std::int64_t(0));
+        panel().open(m_folder.filePath("s.sqlite"));
+    }
+
     void whatIsNoSurveyIsRefused()
     {
         const int rows = table().model()->rowCount();

@@ -28,6 +28,7 @@ private slots:
     void namesWithAMeaningAreFiles();
     void refusals();
     void aDamagedFile();
+    void rowsWithoutEnd();
     void aLockedFile();
 
 private:
@@ -183,6 +184,19 @@ void tst_Sqlite::aDamagedFile()
                  while (all.next()) {
                  }
              }),
+             path + ": is a damaged SQLite database");
+}
+
+/// As pages give them that lead back to themselves.
+void tst_Sqlite::rowsWithoutEnd()
+{
+    const std::string path = emptyFile("endless");
+    Sqlite(path, Sqlite::Access::Write).execute("CREATE TABLE t (a INTEGER)");
+    Sqlite database(path, Sqlite::Access::Read);
+    const std::string endless = "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) ";
+    QCOMPARE(errorOf([&] { database.execute(endless + "SELECT i FROM n"); }), path + ": is a damaged SQLite database");
+    QCOMPARE(database.integer("SELECT count(*) FROM t"), std::int64_t(0)); // which is still usable
+    QCOMPARE(errorOf([&] { database.integer(endless + "SELECT count(*) FROM n"); }),
              path + ": is a damaged SQLite database");
 }
 

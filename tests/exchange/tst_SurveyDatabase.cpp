@@ -208,9 +208,15 @@ void tst_SurveyDatabase::reviewsAreKept()
     const std::string file = written("s.sqlite", {outcomeOf(path("a.wav")), outcomeOf(path("b.wav"))});
     {
         SurveyDatabase survey(file, Sqlite::Access::Write);
-        survey.setReview(2, 1, Verdict::Rejected, "a hum");
-        survey.setReview(2, 2, Verdict::Accepted, "");
-        survey.setReview(2, 2, Verdict::None, ""); // taken back
+        const std::vector<SurveyEvent> events = survey.events(2);
+        survey.setReview(path("b.wav"), events[1].event, Verdict::Rejected, "a hum");
+        survey.setReview(path("b.wav"), events[0].event, Verdict::Accepted, "");
+        survey.setReview(path("b.wav"), events[0].event, Verdict::None, ""); // taken back
+        Event other = events[0].event;
+        other.onsetSeconds += 1.0;
+        for (const auto &[recording, event] : {std::pair(path("b.wav"), other), {path("c.wav"), events[0].event}})
+            QCOMPARE(errorOf([&] { survey.setReview(recording, event, Verdict::Accepted, ""); }),
+                     file + ": has changed since it was opened; open it again");
     }
     {
         SurveyDatabase survey(file, Sqlite::Access::Write);
@@ -247,7 +253,10 @@ void tst_SurveyDatabase::mergesOnlyWhatBelongsTogether()
     QCOMPARE(merged({c, b, a}), std::string());
     QCOMPARE(SurveyDatabase(path("m.sqlite")).recordings().size(), std::size_t(2));
     QCOMPARE(merged({c, b, a}), std::string()); // once more
-    SurveyDatabase(path("m.sqlite"), Sqlite::Access::Write).setReview(1, 2, Verdict::Accepted, "mine");
+    {
+        SurveyDatabase survey(path("m.sqlite"), Sqlite::Access::Write);
+        survey.setReview(path("a.wav"), survey.events(1).front().event, Verdict::Accepted, "mine");
+    }
     QVERIFY(contains(merged({c, b, a}), "contains reviews"));
     QCOMPARE(SurveyDatabase(path("m.sqlite")).events(1).front().box.note, std::string("mine"));
 }
@@ -292,11 +301,17 @@ void tst_SurveyDatabase::noSurvey_data()
     QTest::newRow("header only") << QByteArray("SQLite format 3\0", 16) << QString() << "is not a";
     QTest::newRow("of another program") << QByteArray() << "CREATE TABLE t(x)"
                                         << "is not a survey";
+    QTest::newRow("a write-ahead log") << QByteArray("survey") << "PRAGMA journal_mode = WAL"
+                                       << "is not a survey; ";
     QTest::newRow("another format") << QByteArray("survey") << "PRAGMA user_version = 2"
                                     << "reads format 1";
     QTest::newRow("a trigger") << QByteArray("survey")
                                << "CREATE TRIGGER t AFTER INSERT ON reviews BEGIN DELETE FROM events; END"
                                << "its tables are not those of";
+    // SQLite refuses such a name, but not in a file that has it.
+    QTest::newRow("a trigger in disguise")
+        << QByteArray("survey") << "CREATE TRIGGER disguised AFTER INSERT ON reviews BEGIN DELETE FROM events; END"
+        << "its tables are not those of";
     QTest::newRow("a view") << QByteArray("survey") << "CREATE VIEW v AS SELECT * FROM events"
                             << "its tables are not";
     QTest::newRow("a table is missing") << QByteArray("survey") << "DROP TABLE areas"
@@ -319,8 +334,11 @@ void tst_SurveyDatabase::noSurvey()
         writeBytes(file, bytes);
     if (!sql.isEmpty())
         change(file, sql.toStdString());
+    const QByteArray whole = readBytes(file).replace("disguised", "sqlite_xx");
+    writeBytes(file, whole);
     const std::string said = errorOf([&] { SurveyDatabase database(file); });
     QVERIFY2(contains(said, complaint.toStdString()) && said.starts_with(file), said.c_str());
+    QCOMPARE(readBytes(file), whole);
     QVERIFY(contains(errorOf([&] { SurveyDatabase database(path("none.sqlite")); }), "there is no such file"));
     QVERIFY(contains(errorOf([&] { SurveyDatabase database(m_folder->path().toStdString()); }), "is not a file"));
 }

@@ -1,5 +1,6 @@
 """What the command line's survey keeps of a recording is what the module finds in it."""
 
+import contextlib
 import csv
 import json
 import sqlite3
@@ -32,7 +33,7 @@ class Survey(InFolder):
         self.command_line("survey", "night", "--out", "s.sqlite", *WINDOW)
         result = fl.detect(self.folder / "night/line.wav", window_seconds=0.5, false_alarms_per_hour=2)
         result.save(events=self.folder / "e.csv", tracks=self.folder / "t.csv")
-        with sqlite3.connect(self.folder / "s.sqlite") as database:
+        with contextlib.closing(sqlite3.connect(self.folder / "s.sqlite")) as database:
             self.assert_same_rows(database, "events", "id", "e.csv")
             self.assert_same_rows(database, "tracks", "track, point", "t.csv")
 

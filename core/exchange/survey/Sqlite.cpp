@@ -12,7 +12,6 @@ namespace faintline {
 
 namespace {
 
-    constexpr int patienceMilliseconds = 10'000; ///< with others that write the same file
     constexpr int longestText = 64 << 20;
 
     [[noreturn]] void fail(sqlite3 *database, const std::string &path, int code)
@@ -25,6 +24,7 @@ namespace {
         case SQLITE_NOTADB:
             throw Error(path, "is not an SQLite database");
         case SQLITE_CORRUPT:
+        case SQLITE_INTERRUPT: // by countSteps
             throw Error(path, "is a damaged SQLite database");
         case SQLITE_BUSY:
         case SQLITE_LOCKED:
@@ -33,6 +33,20 @@ namespace {
             throw Error(path, std::string("SQLite: ") + (database ? sqlite3_errmsg(database) : sqlite3_errstr(code)),
                         Error::Kind::Failure);
         }
+    }
+
+    constexpr int million = 1'000'000;
+
+    int countSteps(void *left)
+    {
+        return --*static_cast<std::int64_t *>(left) < 0 ? 1 : 0;
+    }
+
+    std::int64_t bytesOf(const std::string &path)
+    {
+        std::error_code code;
+        const auto bytes = std::filesystem::file_size(path, code);
+        return code ? 0 : std::int64_t(bytes);
     }
 
     /// SQLite gives a meaning to names such as ":memory:"; a whole path has none but its own.
@@ -55,8 +69,9 @@ void SqliteStatement::Finalise::operator()(sqlite3_stmt *statement) const
     sqlite3_finalize(statement);
 }
 
-SqliteStatement::SqliteStatement(sqlite3 *database, const std::string &path, std::string_view sql)
-    : m_database(database), m_path(path)
+SqliteStatement::SqliteStatement(sqlite3 *database, const std::string &path, std::string_view sql,
+                                 std::int64_t mostRows)
+    : m_database(database), m_path(path), m_mostRows(mostRows)
 {
     sqlite3_stmt *statement = nullptr;
     check(sqlite3_prepare_v2(database, sql.data(), int(sql.size()), &statement, nullptr));
@@ -72,6 +87,8 @@ void SqliteStatement::check(int code) const
 bool SqliteStatement::next()
 {
     const int code = sqlite3_step(m_statement.get());
+    if (code == SQLITE_ROW && ++m_rows > m_mostRows)
+        fail(m_database, m_path, SQLITE_CORRUPT);
     if (code == SQLITE_ROW)
         return true;
     if (code != SQLITE_DONE)
@@ -83,6 +100,7 @@ bool SqliteStatement::next()
 void SqliteStatement::reset()
 {
     sqlite3_reset(m_statement.get());
+    m_rows = 0;
 }
 
 void SqliteStatement::bind(int place, double value)
@@ -149,7 +167,7 @@ void Sqlite::Close::operator()(sqlite3 *database) const
     sqlite3_close_v2(database);
 }
 
-Sqlite::Sqlite(const std::string &path, Access access) : m_path(path)
+Sqlite::Sqlite(const std::string &path, Access access, std::chrono::milliseconds patience) : m_path(path)
 {
     // Who only reads may have to roll back what a killed program left, and so to write.
     const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE;
@@ -159,7 +177,7 @@ Sqlite::Sqlite(const std::string &path, Access access) : m_path(path)
     m_database.reset(database);
     if (code != SQLITE_OK)
         fail(database, path, code);
-    sqlite3_busy_timeout(database, patienceMilliseconds);
+    sqlite3_busy_timeout(database, int(patience.count()));
     sqlite3_limit(database, SQLITE_LIMIT_LENGTH, longestText);
     if (access == Access::Fill) {
         execute("PRAGMA journal_mode = OFF");
@@ -169,13 +187,18 @@ Sqlite::Sqlite(const std::string &path, Access access) : m_path(path)
     sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
     sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
     execute("PRAGMA cell_size_check = ON");
-    if (access == Access::Read)
-        execute("PRAGMA query_only = ON");
+    if (access == Access::Write)
+        return;
+    execute("PRAGMA query_only = ON");
+    // All exports of a survey together take some hundred steps a row, and a row takes some ten bytes.
+    m_steps = std::make_unique<std::int64_t>(20 + bytesOf(path) / 10'000);
+    sqlite3_progress_handler(database, million, countSteps, m_steps.get());
 }
 
 SqliteStatement Sqlite::prepare(std::string_view sql)
 {
-    return SqliteStatement(m_database.get(), m_path, sql);
+    constexpr std::int64_t shortestRow = 8;
+    return SqliteStatement(m_database.get(), m_path, sql, 1000 + bytesOf(m_path) / shortestRow);
 }
 
 std::int64_t Sqlite::integer(std::string_view sql)

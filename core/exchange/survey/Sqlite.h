@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -26,10 +27,10 @@ public:
         return *this;
     }
 
-    /// Goes to the next row; false after the last. Throws Error.
+    /// Goes to the next row; false after the last. Throws Error, also where there are more rows than the file can hold.
     bool next();
 
-    /// Does it with these values; rows are not looked at.
+    /// Executes the statement with these values and discards its rows.
     template <class... Values>
     void run(const Values &...values)
     {
@@ -61,17 +62,19 @@ private:
         void operator()(sqlite3_stmt *statement) const;
     };
 
-    SqliteStatement(sqlite3 *database, const std::string &path, std::string_view sql);
+    SqliteStatement(sqlite3 *database, const std::string &path, std::string_view sql, std::int64_t mostRows);
     void check(int code) const;
 
     sqlite3 *m_database;
     std::string m_path;
     std::unique_ptr<sqlite3_stmt, Finalise> m_statement;
+    std::int64_t m_mostRows;
+    std::int64_t m_rows = 0; ///< since it began
 };
 
 /// A connection to an SQLite database file, closed with the object; errors of the library become Error, with the file's
-/// name. For one thread at a time. A file of a stranger may be opened: its schema is not trusted, and no text in it may
-/// be longer than 64 MiB.
+/// name. For one thread at a time. Files from untrusted sources may be opened: the schema is not trusted, no text may
+/// be longer than 64 MiB, and pages that lead back to themselves give an Error, not rows without end.
 class Sqlite
 {
 public:
@@ -81,7 +84,8 @@ public:
         Fill   ///< of a temporary file that nobody else knows: without locks and journal
     };
 
-    Sqlite(const std::string &path, Access access);
+    /// `patience`: with other programs that use the file.
+    Sqlite(const std::string &path, Access access, std::chrono::milliseconds patience = std::chrono::seconds(10));
 
     SqliteStatement prepare(std::string_view sql);
     void execute(std::string_view sql) { prepare(sql).run(); }
@@ -96,6 +100,7 @@ private:
     };
 
     std::string m_path;
+    std::unique_ptr<std::int64_t> m_steps; ///< millions of steps that a reader may still make
     std::unique_ptr<sqlite3, Close> m_database;
 };
 

@@ -3,10 +3,14 @@
 #include "base/Error.h"
 #include "base/fileName.h"
 #include "exchange/survey/surveySchema.h"
+#include "recording/FileBytes.h"
 
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <map>
+#include <string_view>
 #include <utility>
 
 namespace faintline {
@@ -23,6 +27,29 @@ namespace {
     std::string absolutePath(const std::string &stored, const fs::path &folder)
     {
         return (folder / fileNameFromText(stored)).lexically_normal().string();
+    }
+
+    constexpr const char *otherTables = "is not a survey: its tables are not those of docs/reference/survey.md";
+
+    /// Throws where a file is not a survey by its header, before SQLite opens it: to open a database with a write-ahead
+    /// log, as another program may have it, changes it.
+    const std::string &checkedHeader(const std::string &path)
+    {
+        std::error_code code;
+        if (!fs::is_regular_file(path, code))
+            return path; // Sqlite says so
+        std::array<std::byte, 72> header{};
+        const std::size_t bytes = FileBytes(path).readAt(0, header);
+        constexpr std::string_view magic("SQLite format 3\0", 16);
+        if (bytes > 0 && std::memcmp(header.data(), magic.data(), magic.size()) != 0)
+            throw Error(path, "is not an SQLite database");
+        std::int64_t applicationId = 0;
+        for (std::size_t i = 68; i < 72; ++i)
+            applicationId = applicationId << 8 | std::to_integer<int>(header[i]);
+        const bool hasLog = header[18] != std::byte(1) || header[19] != std::byte(1);
+        if (bytes < header.size() || hasLog || applicationId != surveyApplicationId)
+            throw Error(path, "is not a survey; 'faintline-cli survey' writes one");
+        return path;
     }
 
     /// A number of a row, finite.
@@ -53,7 +80,8 @@ std::string storedPath(const std::string &recording, const std::string &database
 
 // ---- reading -------------------------------------------------------------------------------------------------------
 
-SurveyDatabase::SurveyDatabase(const std::string &path, Sqlite::Access access) : m_database(path, access)
+SurveyDatabase::SurveyDatabase(const std::string &path, Sqlite::Access access, std::chrono::milliseconds patience)
+    : m_database(checkedHeader(path), access, patience)
 {
     check();
     m_origin = readOrigin();
@@ -61,19 +89,19 @@ SurveyDatabase::SurveyDatabase(const std::string &path, Sqlite::Access access) :
 
 void SurveyDatabase::check()
 {
-    if (m_database.integer("PRAGMA application_id") != surveyApplicationId)
-        throw Error(path(), "is not a survey; 'faintline-cli survey' writes one");
     if (const auto format = m_database.integer("PRAGMA user_version"); format != surveyFormat)
         throw Error(path(), "is a survey of format " + std::to_string(format) + "; this program reads format "
                                 + std::to_string(surveyFormat));
-    std::vector<std::string> found;
+    // What SQLite adds by itself: indexes of what is unique, and statistics for queries.
     SqliteStatement objects =
-        m_database.prepare("SELECT coalesce(sql, '') FROM sqlite_schema WHERE name NOT LIKE 'sqlite\\_%' ESCAPE '\\' "
-                           "ORDER BY rowid");
+        m_database.prepare("SELECT coalesce(sql, '') FROM sqlite_schema WHERE NOT (type = 'index' AND sql IS NULL) "
+                           "AND NOT (type = 'table' AND name IN ('sqlite_stat1', 'sqlite_stat4')) ORDER BY rowid");
+    std::size_t alike = 0;
     while (objects.next())
-        found.push_back(objects.text(0));
-    if (found != surveySchema())
-        throw Error(path(), "is not a survey: its tables are not those of docs/reference/survey.md");
+        if (alike == surveySchema().size() || objects.text(0) != surveySchema()[alike++])
+            throw Error(path(), otherTables);
+    if (alike < surveySchema().size())
+        throw Error(path(), otherTables);
 }
 
 SurveyOrigin SurveyDatabase::readOrigin()
@@ -107,8 +135,11 @@ std::vector<SurveyRecording> SurveyDatabase::recordings()
     SqliteStatement row =
         m_database.prepare("SELECT id, path, " + surveyRecordingColumns + " FROM recordings ORDER BY id");
     while (row.next()) {
+        const std::int64_t id = row.integer(0);
+        if (!result.empty() && id <= result.back().id)
+            throw Error(path(), "is a damaged SQLite database");
         SurveyRecording &one = result.emplace_back();
-        one.id = row.integer(0);
+        one.id = id;
         one.file.path = absolutePath(row.text(1), folder);
         one.reason = row.text(2) == "done" ? std::string() : row.text(3);
         if (row.text(2) != "done" && one.reason.empty())
@@ -236,11 +267,21 @@ void SurveyDatabase::setModified(std::int64_t recording, const SurveyFile &file)
         .run(file.bytes, file.modified, recording);
 }
 
-void SurveyDatabase::setReview(std::int64_t recording, int event, Verdict verdict, const std::string &note)
+void SurveyDatabase::setReview(const std::string &recording, const Event &event, Verdict verdict,
+                               const std::string &note)
 {
-    m_database.prepare("INSERT OR REPLACE INTO reviews(recording, event, verdict, note) VALUES (?, ?, ?, ?)")
-        .run(recording, event, nameOf(verdict), note);
-    m_database.prepare("DELETE FROM reviews WHERE verdict = '' AND note = ''").run();
+    // Numbers of recordings change when some are added.
+    SqliteStatement there = m_database.prepare("SELECT recordings.id FROM events JOIN recordings ON recordings.id = "
+                                               "recording WHERE path = ? AND event = ? AND t_onset = ? AND f = ?");
+    if (!there.with(storedPath(recording, path()), event.id, event.onsetSeconds, event.position.back()).next())
+        throw Error(path(), "has changed since it was opened; open it again", Error::Kind::Failure);
+    const std::int64_t id = there.integer(0);
+    there.reset();
+    if (verdict == Verdict::None && note.empty())
+        m_database.prepare("DELETE FROM reviews WHERE recording = ? AND event = ?").run(id, event.id);
+    else
+        m_database.prepare("INSERT OR REPLACE INTO reviews(recording, event, verdict, note) VALUES (?, ?, ?, ?)")
+            .run(id, event.id, nameOf(verdict), note);
 }
 
 } // namespace faintline

@@ -30,12 +30,18 @@ namespace {
     struct Result {
         Task task;
         std::optional<SurveyOutcome> outcome;
+
+        /// It was analysed before, and now not a byte of it could be read: on a disk that is away, say.
+        bool isAway() const
+        {
+            return outcome && !outcome->recording.isAnalysed() && task.known && task.file.hash.empty();
+        }
     };
 
     Result resultOf(Task task, const SurveySettings &settings, const RunContext &context)
     {
         task.file.hash = hashOf(task.file, settings);
-        if (task.known != 0 && task.file.hash == task.knownHash)
+        if (task.known != 0 && !task.file.hash.empty() && task.file.hash == task.knownHash)
             return {task, std::nullopt};
         return {task, surveyRecording(task.file, settings, context)};
     }
@@ -152,10 +158,10 @@ namespace {
     {
         database.begin();
         for (const Result &result : results)
-            if (result.outcome)
-                database.put(*result.outcome);
-            else
+            if (!result.outcome)
                 database.setModified(result.task.known, result.task.file);
+            else if (!result.isAway())
+                database.put(*result.outcome);
         database.commit();
     }
 
@@ -215,7 +221,7 @@ SurveyTally carryOutSurvey(const SurveyRun &run, const std::string &out, const R
     const SurveyOrigin origin = originOf(run.settings, run.shard.name());
     if (!isThere(out))
         beginSurvey(origin, out);
-    SurveyDatabase database(out, Sqlite::Access::Write);
+    SurveyDatabase database(out, Sqlite::Access::Write, std::chrono::minutes(1)); // an export may take so long
     checkOrigin(database.origin(), origin, out);
     int kept = 0;
     const std::vector<Task> tasks = tasksOf(run, database, kept);

@@ -39,7 +39,8 @@ using SurveyWarning = std::function<void(const std::string &path, const std::str
 /// Analyses recordings with the same settings into the database `out` (SurveyDatabase.h).
 ///
 /// What the database has already of files that have not changed (length and date, or else their hash) is kept; so a run
-/// that was interrupted or killed at any moment goes on where it was, and recordings may be added later. The first
+/// that was interrupted or killed at any moment goes on where it was, and recordings may be added later. A
+/// recording that was analysed and cannot be read for the moment counts as failed, but its rows stay. The first
 /// recording is analysed by all threads, because it calibrates for the others. Every second, or every 50 of them, the
 /// finished ones are committed. At the end the database is written anew in the order of the recordings: its bytes do
 /// not depend on jobs, threads, shards (mergeSurveys) or interruptions.

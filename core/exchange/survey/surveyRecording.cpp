@@ -2,6 +2,7 @@
 
 #include "analysis/chooseWindow.h"
 #include "analysis/slopeUnit.h"
+#include "base/fileName.h"
 #include "base/logmath.h"
 #include "base/oneLine.h"
 #include "detect/SumDetector.h"
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <new>
 
@@ -29,7 +31,7 @@ namespace {
             } catch (const Error &) { // opening it will say why
                 return {path};
             }
-        if (path.ends_with(".npy"))
+        if (hasEnding(path, ".npy") && std::filesystem::exists(gridPathOf(path)))
             return {path, gridPathOf(path)};
         return {path};
     }

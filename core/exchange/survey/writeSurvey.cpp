@@ -112,7 +112,7 @@ namespace {
         std::error_code code;
         if (!std::filesystem::is_regular_file(path, code) || std::filesystem::file_size(path, code) == 0)
             return;
-        if (SurveyDatabase(path).connection().integer("SELECT count(*) FROM reviews") > 0)
+        if (SurveyDatabase(path).connection().integer("SELECT EXISTS (SELECT 1 FROM reviews)") != 0)
             throw Error(path, "contains reviews, which the merged survey would replace; choose another name");
     }
 
