@@ -8,6 +8,7 @@
 #include "analysis/judgeByBoxes.h"
 #include "analysis/noiseLaw.h"
 #include "analysis/regulation.h"
+#include "analysis/subtractLines.h"
 #include "base/AtomicFile.h"
 #include "base/json.h"
 #include "base/oneLine.h"
@@ -65,6 +66,8 @@ namespace {
                     formatNumber(time.step).c_str());
         if (analysis.choice)
             std::printf("%s\n", windowChoiceWords(*analysis.choice).c_str());
+        if (const std::string words = subtractionWords(analysis); !words.empty())
+            std::printf("%s\n", words.c_str());
         const DetectorSettings &detector = analysis.settings.detector;
         const std::string unit(statisticUnit(detector));
         std::printf("ln K %.4f (%.1f %% of noise states continued%s), threshold %.2f %s", analysis.calibration->lnK,
@@ -98,6 +101,8 @@ namespace {
                         analysis.isBank() ? (e.model == 0 ? ", non-manoeuvring" : ", manoeuvring") : "");
             if (analysis.longer && trackOfId(analysis.tracks, e.id)->windowSeconds > 0.0)
                 std::printf(", found with a window of %.4g s", e.windowSeconds);
+            if (e.isSubtracted)
+                std::printf(", subtracted");
             std::printf("\n");
         }
         if (!analysis.explainedByNoise.empty())

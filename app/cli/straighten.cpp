@@ -5,6 +5,7 @@
 #include "analysis/events.h"
 #include "analysis/lineHeight.h"
 #include "analysis/smoothFrequency.h"
+#include "analysis/subtractLines.h"
 #include "base/AtomicFile.h"
 #include "base/Field.h"
 #include "recording/writeRecording.h"
@@ -29,6 +30,7 @@ namespace {
         std::optional<double> target;
         std::string out;
         std::string curve;
+        std::string rest;
         std::string type = "float32";
     };
 
@@ -64,9 +66,20 @@ namespace {
         return text;
     }
 
+    /// The recording without the event's line, which every channel has with an amplitude and phase of its own.
+    RecordingPointer withoutEvent(const RecordingPointer &recording, const Analysis &analysis, int id,
+                                  const RunContext &context)
+    {
+        const std::vector<LinePath> paths = pathsOf(analysis, {*trackOfId(analysis.tracks, id)});
+        RecordingPointer rest = recording;
+        for (int channel = 0; channel < recording->info().channelCount; ++channel)
+            rest = std::make_shared<ResidualRecording>(rest, channel, paths, nullptr, context);
+        return rest;
+    }
+
     void straighten(const StraightenOptions &options, const Common &common)
     {
-        checkOutputs({options.out, options.curve});
+        checkOutputs({options.out, options.curve, options.rest});
         const RunContext context = common.context();
         const RecordingPointer recording = options.analysis.recording();
         const auto analysis = analyseInChosenWindow(recording, options.analysis.settings(), context.part(0.0, 0.6));
@@ -76,9 +89,12 @@ namespace {
                                              options.target.value_or(curve.meanHz()));
         const std::string told = heights(*recording, straight, event, *analysis, context.part(0.6, 0.8));
         CommitTogether files;
-        writeProvenance(common, options.analysis.inputs(), {options.out, options.curve});
-        writeRecording(straight, options.out, options.type == "int16" ? WrittenType::Int16 : WrittenType::Float32,
-                       context.part(0.8, 1.0));
+        writeProvenance(common, options.analysis.inputs(), {options.out, options.curve, options.rest});
+        const auto type = options.type == "int16" ? WrittenType::Int16 : WrittenType::Float32;
+        writeRecording(straight, options.out, type, context.part(0.8, 0.9));
+        if (!options.rest.empty())
+            writeRecording(*withoutEvent(recording, *analysis, event.id, context.part(0.9, 0.95)), options.rest, type,
+                           context.part(0.95, 1.0));
         if (!options.curve.empty())
             writeTextFile(options.curve, toCsv(curve));
         files.commit();
@@ -110,6 +126,8 @@ void addStraighten(CLI::App &app, Common &common)
         ->check(CLI::IsMember({"float32", "int16"}))
         ->capture_default_str();
     addOutput(*command, common, "--out", options->out, "Recording to write")->required();
+    addOutput(*command, common, "--rest", options->rest,
+              "Also write the recording without the line, which is subtracted with its phase from every channel");
     addOutput(*command, common, "--curve", options->curve, "Write the smooth frequency over time, .csv");
     command->callback([options, &common] { straighten(*options, common); });
 }

@@ -11,6 +11,8 @@
 #include "widgets/base/quantities.h"
 
 #include "analysis/falseAlarmWords.h"
+#include "analysis/subtractLines.h"
+
 #include <QCoreApplication>
 #include <QLabel>
 #include <QScrollArea>
@@ -99,6 +101,8 @@ namespace {
             rows.row(tr("Window T_FT"), tr("%1 s").arg(spectrogram->windowSeconds(), 0, 'g', 4));
         rows.row(tr("Frames"), tr("%1, every %2 s").arg(analysis.time().count).arg(analysis.time().step, 0, 'g', 4));
         rows.row(tr("Bins"), tr("%1, every %2 Hz").arg(frequency.count).arg(frequency.step, 0, 'g', 4));
+        if (const std::string words = subtractionWords(analysis); !words.empty())
+            rows.row(tr("Subtracted"), messageText(words));
     }
 
     void describeCalibration(Rows &rows, const Analysis &analysis, bool isBusy)

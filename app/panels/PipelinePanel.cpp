@@ -115,7 +115,7 @@ void PipelinePanel::showSettings()
     m_form->setSettings(m_document.settings());
     m_form->setHzPerSecondOfABinAFrame(
         m_document.recording() ? hzPerSecondOfABinAFrame(m_document.settings(), m_document.recording()->info()) : 0.0);
-    for (const char *stage : {"selection", "spectrogram", "noise", "family"})
+    for (const char *stage : {"selection", "spectrogram", "noise", "family", "subtract"})
         m_form->setSectionShown(QString::fromLatin1(stage), m_document.isEmpty() || m_document.recording());
     m_form->setSectionShown(QStringLiteral("conventional"), m_document.frameKind().hasConventional);
     int taken = 1;

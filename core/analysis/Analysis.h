@@ -75,6 +75,9 @@ struct Analysis : AnalysisPlan {
     /// There too: of the next longer window, whose steady lines are among `tracks` (steadyLines.h). Without pictures;
     /// null where none is longer.
     std::shared_ptr<const Analysis> longer;
+    /// Where strong lines were subtracted: of the recording as it is, without pictures. The frames, and all that a run
+    /// leaves behind, are of the rest; `tracks` has both (subtractLines.h). Null where nothing was.
+    std::shared_ptr<const Analysis> unsubtracted;
 
     /// Whether it is what these settings ask for.
     bool answers(const AnalysisSettings &wanted) const

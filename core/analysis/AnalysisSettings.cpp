@@ -129,6 +129,17 @@ namespace {
                              "gives " + std::to_string(slopeCount(model)) + " slopes; at most 1001 are possible");
     }
 
+    /// What is subtracted are lines whose place is known to a fraction of a cell.
+    void checkSubtracts(const AnalysisSettings &settings)
+    {
+        if (!settings.track.bothWays || settings.noise.causal || !std::holds_alternative<SmdSettings>(settings.detector)
+            || settings.model.likelihood == LikelihoodKind::Linear)
+            checkSubtractsNothing(settings, "requires tracks that are looked at from both ends: track.bothWays=true, "
+                                            "noise.causal=false, detector.kind=smd, and not model.likelihood=linear");
+        if (!settings.family.isNone())
+            checkSubtractsNothing(settings, "is not possible with a family; use family.relation=none");
+    }
+
     SonarMotion turning(const ModelSettings &settings)
     {
         SonarMotion motion = manoeuvring();
@@ -202,6 +213,19 @@ const std::vector<Field<DecideSettings>> &DecideSettings::fields()
     return table;
 }
 
+const std::vector<Field<SubtractSettings>> &SubtractSettings::fields()
+{
+    using S = SubtractSettings;
+    static const std::vector<Field<S>> table{
+        field(&S::lines, "lines",
+              "Whether strong lines are subtracted with their phase and the rest is searched again, for weak lines "
+              "beside them."),
+        field(&S::leastDb, "leastDb", "dB", 3.0, 200.0,
+              "Mean power over the noise, in one frame, from which on a line is subtracted."),
+    };
+    return table;
+}
+
 const std::vector<Field<AnalysisSettings>> &AnalysisSettings::fields()
 {
     static const std::vector<Field<AnalysisSettings>> table = [] {
@@ -216,6 +240,7 @@ const std::vector<Field<AnalysisSettings>> &AnalysisSettings::fields()
         appendDetectors(all, std::make_index_sequence<detectorNames.size()>());
         append(all, "decide", &S::decide);
         append(all, "track", &S::track);
+        append(all, "subtract", &S::subtract);
         append(all, "conventional", &S::conventional);
         return all;
     }();
@@ -262,6 +287,7 @@ void checkSettings(const AnalysisSettings &settings)
     checkFamily(settings.family);
     if (settings.noise.causal) // tracks that a stronger family explains are known at the end
         checkHasNoFamily(settings, "is not possible with noise.causal=true");
+    checkSubtracts(settings);
     checkSlopes(settings.model);
     if (settings.conventional.hits > settings.conventional.window)
         throw fieldError("conventional.hits", std::to_string(settings.conventional.hits),
@@ -279,6 +305,12 @@ void checkHasNoFamily(const AnalysisSettings &settings, std::string why)
         throw fieldError("family.relation",
                          std::string(FamilySettings::relationNames[std::size_t(settings.family.relation)]),
                          std::move(why));
+}
+
+void checkSubtractsNothing(const AnalysisSettings &settings, std::string why)
+{
+    if (settings.subtract.lines)
+        throw fieldError("subtract.lines", "true", std::move(why));
 }
 
 Stage firstStale(const AnalysisSettings &before, const AnalysisSettings &after)

@@ -80,6 +80,15 @@ namespace laws {
     ModelSettings glide();
 } // namespace laws
 
+/// Whether strong lines are taken out, and what lies beside them is looked for in the rest (analysis/subtractLines.h).
+struct SubtractSettings {
+    bool lines = false;
+    double leastDb = 20.0; ///< mean power over the noise along the track, in one frame
+
+    static const std::vector<Field<SubtractSettings>> &fields();
+    bool operator==(const SubtractSettings &) const = default;
+};
+
 /// Everything that determines a result besides the recording: one value, saved, undone, compared and passed as a whole.
 struct AnalysisSettings {
     SelectionSettings selection;
@@ -90,6 +99,7 @@ struct AnalysisSettings {
     DetectorSettings detector;
     DecideSettings decide;
     TrackSettings track;
+    SubtractSettings subtract;
     ConventionalSettings conventional; ///< beside the detector, on frames of several axes
 
     /// The table of all settings, "stage.name", in the order of the chain.
@@ -112,6 +122,10 @@ void checkSettings(const AnalysisSettings &settings);
 /// For what knows single lines only. Throws Error naming family.relation where a family is set, and `why` it is not
 /// possible.
 void checkHasNoFamily(const AnalysisSettings &settings, std::string why);
+
+/// For what knows the recording as it is only. Throws Error naming subtract.lines where lines are subtracted, and `why`
+/// it is not possible.
+void checkSubtractsNothing(const AnalysisSettings &settings, std::string why);
 
 /// The stages of the chain, in order; a change of one makes those after it stale.
 enum class Stage { Spectrogram, Noise, Detector, Nothing };

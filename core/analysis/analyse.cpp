@@ -7,10 +7,12 @@
 #include "analysis/plan.h"
 #include "analysis/regulation.h"
 #include "analysis/secondLook.h"
+#include "analysis/subtractLines.h"
 #include "base/memoryShares.h"
 #include "spectrum/FrameStream.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "spectrum/pictureCuts.h"
+#include "track/numberByDetection.h"
 
 #include <algorithm>
 
@@ -126,9 +128,10 @@ namespace {
         ConventionalTracker m_conventional;
     };
 
-    /// Streams the frames through the chain and fills in the rest of the analysis.
+    /// Streams the frames through the chain and fills in the rest of the analysis. `subtracted`: lines that the frames
+    /// were made without.
     void run(Analysis &analysis, const RunContext &context, const StatisticSink &sink, ProgressPublisher &publisher,
-             AnalysisDepth depth = AnalysisDepth::Whole)
+             AnalysisDepth depth = AnalysisDepth::Whole, const std::vector<Track> &subtracted = {})
     {
         const NormalisedFrames &frames = *analysis.frames;
         const auto cells = std::size_t(frames.grid().size());
@@ -171,11 +174,15 @@ namespace {
         pings.finish();
         analysis.tracks = chain->takeJoinedTracks();
         if (looksTwice(analysis)) {
-            SecondView seen = lookTwice(analysis, std::move(analysis.tracks), context.part(0.9, 0.95));
+            SecondView seen = lookTwice(analysis, std::move(analysis.tracks), subtracted, context.part(0.9, 0.95));
             analysis.tracks = std::move(seen.tracks);
             analysis.areas = std::move(seen.areas);
         }
         analysis.tracks = withoutGhosts(analysis, std::move(analysis.tracks));
+        if (!subtracted.empty()) {
+            analysis.tracks.insert(analysis.tracks.end(), subtracted.begin(), subtracted.end());
+            numberByDetection(analysis.tracks);
+        }
         if (depth != AnalysisDepth::Trial)
             holdAgainstOwnNoise(analysis, context.part(0.95, 1.0));
     }
@@ -188,6 +195,69 @@ namespace {
                              "is chosen from the whole recording; with noise.causal=true, give the window in seconds");
     }
 
+    /// Of a previous analysis what this one may take over: the frames of the recording, not those of a rest.
+    const Analysis *lender(const Analysis *previous, const RecordingPointer &recording)
+    {
+        if (!previous || previous->recording != recording)
+            return nullptr;
+        if (previous->unsubtracted)
+            return previous->unsubtracted.get();
+        const Spectrogram *spectrogram = previous->frames->spectrogram();
+        return spectrogram && spectrogram->recordingPointer() == recording ? previous : nullptr;
+    }
+
+    /// The frames of a recording through the chain, once.
+    std::shared_ptr<Analysis> analyseAsItIs(RecordingPointer recording, const AnalysisSettings &settings,
+                                            const RunContext &context, const Analysis *previous,
+                                            const StatisticSink &sink, const PictureSink &pictures,
+                                            CalibrationDepth calibrationDepth, AnalysisDepth depth)
+    {
+        auto analysis = std::make_shared<Analysis>();
+        analysis->settings = settings;
+        analysis->recording = recording;
+
+        const Stage stale = previous ? firstStale(previous->settings, settings) : Stage::Spectrogram;
+        ProgressPublisher publisher; // of what is computed anew: nobody takes away a picture for a part of the next one
+        if (stale >= Stage::Detector) {
+            analysis->frames = previous->frames;
+            analysis->background = previous->background;
+            analysis->input = previous->input;
+            analysis->inputAlong = previous->inputAlong;
+        } else {
+            const auto spectrogram = std::make_shared<Spectrogram>(recording, settings.spectrogram, settings.selection);
+            publisher = ProgressPublisher(pictures, spectrogram->time(),
+                                          familyAxis(settings.family, spectrogram->frequency()), settings);
+            if (settings.family.isNone())
+                publisher.publishQuickLook(spectrogram, settings.noise, context.part(0.0, 0.01));
+            normalisePlan(*analysis, spectrogram, context.part(0.01, 0.2));
+        }
+        calibratePlan(*analysis, context.part(0.2, 0.5), calibrationDepth);
+        run(*analysis, context.part(0.5, 1.0), sink, publisher, depth);
+        return analysis;
+    }
+
+    /// The same of what is left of it without the lines that a first run found to be strong.
+    std::shared_ptr<Analysis> analyseRest(std::shared_ptr<const Analysis> first, const std::vector<Track> &subtracted,
+                                          const RunContext &context, const StatisticSink &sink,
+                                          const PictureSink &pictures, AnalysisDepth depth)
+    {
+        const AnalysisSettings &settings = first->settings;
+        auto analysis = std::make_shared<Analysis>();
+        analysis->settings = settings;
+        analysis->recording = first->recording;
+        const RecordingPointer rest = restOf(*first, subtracted, context.part(0.0, 0.2));
+        const auto spectrogram = std::make_shared<Spectrogram>(rest, settings.spectrogram, settings.selection);
+        ProgressPublisher publisher(pictures, spectrogram->time(), spectrogram->frequency(), settings);
+        normalisePlan(*analysis, spectrogram, context.part(0.2, 0.4));
+        analysis->model = first->model; // of the same grid
+        analysis->calibration = first->calibration;
+        analysis->threshold = first->threshold;
+        analysis->cellFramesPerHour = first->cellFramesPerHour;
+        analysis->unsubtracted = std::move(first);
+        run(*analysis, context.part(0.4, 1.0), sink, publisher, depth, subtracted);
+        return analysis;
+    }
+
 } // namespace
 
 std::shared_ptr<Analysis> analyse(RecordingPointer recording, const AnalysisSettings &settings,
@@ -196,29 +266,19 @@ std::shared_ptr<Analysis> analyse(RecordingPointer recording, const AnalysisSett
 {
     checkSettings(settings);
     checkWindow(settings);
-    auto analysis = std::make_shared<Analysis>();
-    analysis->settings = settings;
-    analysis->recording = recording;
-
-    const bool sameRecording = previous && previous->recording == recording;
-    const Stage stale = sameRecording ? firstStale(previous->settings, settings) : Stage::Spectrogram;
-    ProgressPublisher publisher; // of what is computed anew: nobody takes away a picture for a part of the next one
-    if (stale >= Stage::Detector) {
-        analysis->frames = previous->frames;
-        analysis->background = previous->background;
-        analysis->input = previous->input;
-        analysis->inputAlong = previous->inputAlong;
-    } else {
-        const auto spectrogram = std::make_shared<Spectrogram>(recording, settings.spectrogram, settings.selection);
-        publisher = ProgressPublisher(pictures, spectrogram->time(),
-                                      familyAxis(settings.family, spectrogram->frequency()), settings);
-        if (settings.family.isNone())
-            publisher.publishQuickLook(spectrogram, settings.noise, context.part(0.0, 0.01));
-        normalisePlan(*analysis, spectrogram, context.part(0.01, 0.2));
-    }
-    calibratePlan(*analysis, context.part(0.2, 0.5), calibrationDepth);
-    run(*analysis, context.part(0.5, 1.0), sink, publisher, depth);
-    return analysis;
+    const Analysis *lent = lender(previous, recording);
+    if (!settings.subtract.lines)
+        return analyseAsItIs(recording, settings, context, lent, sink, pictures, calibrationDepth, depth);
+    const std::shared_ptr<Analysis> first =
+        analyseAsItIs(recording, settings, context.part(0.0, 0.4), lent, {}, {}, calibrationDepth,
+                      depth == AnalysisDepth::Whole ? AnalysisDepth::Tracks : depth);
+    const std::vector<Track> strong = tracksToSubtract(*first);
+    if (!strong.empty())
+        return analyseRest(first, strong, context.part(0.4, 1.0), sink, pictures, depth);
+    if (depth != AnalysisDepth::Whole && !sink)
+        return first;
+    return analyseAsItIs(recording, settings, context.part(0.4, 1.0), first.get(), sink, pictures, calibrationDepth,
+                         depth);
 }
 
 namespace {
@@ -228,6 +288,7 @@ namespace {
     {
         checkSettings(settings);
         checkHasNoFamily(settings, "requires a recording; these are ready-made frames");
+        checkSubtractsNothing(settings, "requires a recording; these are ready-made frames");
         auto analysis = std::make_shared<Analysis>();
         analysis->settings = settings;
         analysis->frames = std::move(frames);

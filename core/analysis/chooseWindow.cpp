@@ -59,6 +59,7 @@ namespace {
         static_cast<AnalysisPlan &>(*result) = analysis;
         result->tracks = analysis.tracks;
         result->explainedByNoise = analysis.explainedByNoise;
+        result->unsubtracted = analysis.unsubtracted;
         return result;
     }
 
@@ -254,6 +255,9 @@ std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording
     const bool isChosen = previous && previous->recording == recording && previous->choice
                           && !previous->calibration->isFirstEstimate
                           && asksForTheSame(previous->choice->asked, settings);
+    const bool subtracts = settings.subtract.lines;
+    AnalysisSettings asked = settings; // what is subtracted in a window tells nothing of the window
+    asked.subtract.lines = false;
     WindowChoice choice;
     std::shared_ptr<const Analysis> longer;
     std::shared_ptr<Analysis> found;
@@ -261,19 +265,29 @@ std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording
         choice = *previous->choice;
         choice.asked = settings;
     } else {
-        WindowSearch search(recording, settings, calibrationDepth, depth, context.part(0.0, 0.7));
+        WindowSearch search(recording, asked, calibrationDepth, subtracts ? AnalysisDepth::Trial : depth,
+                            context.part(0.0, subtracts ? 0.4 : 0.7));
         found = search.run(previous, pictures);
         longer = search.nextLonger(*found);
         choice = search.choice(*found);
+        choice.asked = settings;
     }
     const bool isTrial = !isChosen && choice.chosen != choice.automatic;
-    if (isTrial && depth == AnalysisDepth::Tracks)
+    if (subtracts) {
+        found = analyse(recording, ofTrial(choice, choice.chosen, settings), context.part(0.4, 0.8),
+                        isChosen ? previous : found.get(), {}, pictures, calibrationDepth, depth);
+        if (isChosen)
+            longer = previous->longer;
+        if (longer)
+            longer = analyse(recording, ofTrial(choice, choice.chosen + 1, settings), context.part(0.8, 1.0),
+                             longer.get(), {}, {}, calibrationDepth, AnalysisDepth::Trial);
+    } else if (isTrial && depth == AnalysisDepth::Tracks)
         holdAgainstOwnNoise(*found, context.part(0.7, 1.0));
     else if (isChosen || isTrial)
         found = analyse(recording, ofTrial(choice, choice.chosen, settings),
                         context.part(isChosen ? 0.0 : 0.7, isChosen ? 0.6 : 1.0), isChosen ? previous : found.get(), {},
                         pictures, calibrationDepth, depth);
-    if (isChosen && previous->longer) // after the pictures, which are waited for
+    if (isChosen && previous->longer && !subtracts) // after the pictures, which are waited for
         longer = analyse(recording, ofTrial(choice, choice.chosen + 1, settings), context.part(0.6, 1.0),
                          previous->longer.get(), {}, {}, calibrationDepth, AnalysisDepth::Trial);
     found->longer = std::move(longer);

@@ -31,6 +31,9 @@ AnalysisSettings inWindowOf(const WindowTrial &trial, AnalysisSettings settings)
 /// `settings` the window and law used. A change of the threshold or the tracks' settings alone keeps the choice of
 /// `previous`, unless that was made by a first estimate.
 ///
+/// Where strong lines are subtracted, windows are tried on the recording as it is, and lines subtracted in the one that
+/// is chosen and in the next longer one.
+///
 /// The answer's tracks are those of the window chosen and the steady lines that only the next longer one finds
 /// (steadyLines.h), which may have as few as four frames.
 std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording, const AnalysisSettings &settings,

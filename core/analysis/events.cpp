@@ -108,6 +108,7 @@ std::vector<Event> events(const AnalysisPlan &plan, const std::vector<Track> &tr
         event.statistic = statisticOf(track, plan);
         event.isConfirmed = track.isConfirmed;
         event.isOpen = track.isOpen;
+        event.isSubtracted = track.isSubtracted;
         if (!track.smoothed.empty())
             describe(event, track, plan);
         result.push_back(std::move(event));

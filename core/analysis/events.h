@@ -19,8 +19,9 @@ struct Event {
     double statistic = 0.0;
     bool isConfirmed = false;
     bool isOpen = false;
-    std::vector<double> ratesPerSecond;                               ///< as driftPerSecond, along every axis
-    std::size_t model = 0;                                            ///< of a bank, the one that found it
+    bool isSubtracted = false;          ///< from the recording that the others were found in (subtractLines.h)
+    std::vector<double> ratesPerSecond; ///< as driftPerSecond, along every axis
+    std::size_t model = 0;              ///< of a bank, the one that found it
     double confirmSeconds = std::numeric_limits<double>::quiet_NaN(); ///< NaN: never confirmed
 
     // Of tracks that were looked at from both ends (secondLook.h); NaN of others:

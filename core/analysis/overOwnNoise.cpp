@@ -73,7 +73,8 @@ void holdAgainstOwnNoise(Analysis &analysis, const RunContext &context)
     std::transform(strips.begin(), strips.end(), wanted.begin(), [](PathStrip &strip) { return &strip; });
     readStrips(analysis, std::move(wanted), context.part(0.5, 1.0), "holding tracks against the noise");
     for (std::size_t i = 0; i < tracks.size(); ++i) {
-        const bool isKept = tracks[i].peakStatistic * shareLeft(strips[i], law) >= analysis.threshold;
+        const bool isKept =
+            tracks[i].isSubtracted || tracks[i].peakStatistic * shareLeft(strips[i], law) >= analysis.threshold;
         (isKept ? analysis.tracks : analysis.explainedByNoise).push_back(std::move(tracks[i]));
     }
 }

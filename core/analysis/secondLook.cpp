@@ -17,15 +17,17 @@ namespace faintline {
 namespace {
 
     constexpr std::string_view following = "following tracks both ways";
-    constexpr Index extraFrames = 16;      ///< before and behind a path that presence is looked for in
-    constexpr Index slopeFrames = 24;      ///< at either end of it, for where it may go on
-    constexpr Index largestGapFrames = 24; ///< between two stretches of one signal
-    constexpr double levelCells = 0.75;    ///< where a signal's own maximum lies, on either side
-    constexpr Index skirtBins = 96;        ///< on either side of strong tracks
-    constexpr double strongGrowth = 2.0;   ///< nats a frame
-    constexpr double leastShare = 0.08;    ///< of a path's statistic, over the floor
-    constexpr Index longestPiece = 4096;   ///< frames of a track that are looked at together
-    constexpr Index pieceOverlap = 64;     ///< frames of the neighbouring pieces that are looked at too
+    constexpr Index extraFrames = 16;         ///< before and behind a path that presence is looked for in
+    constexpr Index slopeFrames = 24;         ///< at either end of it, for where it may go on
+    constexpr Index largestGapFrames = 24;    ///< between two stretches of one signal
+    constexpr double levelCells = 0.75;       ///< where a signal's own maximum lies, on either side
+    constexpr float strongerThanNoise = 7.0f; ///< once in a thousand cells
+    constexpr double notchCells = 1.0;        ///< where a subtracted line leaves less than noise, on either side
+    constexpr Index skirtBins = 96;           ///< on either side of strong tracks
+    constexpr double strongGrowth = 2.0;      ///< nats a frame
+    constexpr double leastShare = 0.08;       ///< of a path's statistic, over the floor
+    constexpr Index longestPiece = 4096;      ///< frames of a track that are looked at together
+    constexpr Index pieceOverlap = 64;        ///< frames of the neighbouring pieces that are looked at too
     constexpr std::size_t stripBytes = std::size_t(16) << 20; ///< that are read at a time
 
     /// A track as it was found, or of a long one some thousand frames.
@@ -90,11 +92,13 @@ namespace {
             m_model.binsPerCell = m_spectrogram.binsPerCell();
         }
 
-        SecondView run(std::vector<Track> found)
+        SecondView run(std::vector<Track> found, std::span<const Track> subtracted)
         {
             std::stable_sort(found.begin(), found.end(),
                              [](const Track &a, const Track &b) { return a.peakStatistic > b.peakStatistic; });
             std::vector<Piece> pieces;
+            for (const Track &track : subtracted)
+                cut(track, pieces);
             for (const Track &track : found)
                 cut(track, pieces);
             for (std::size_t first = 0; first < pieces.size();) {
@@ -113,7 +117,7 @@ namespace {
                            following);
                 for (Piece &piece : some) {
                     m_context.checkpoint(done(end), following);
-                    lookAt(piece);
+                    piece.track->isSubtracted ? explainRest(piece) : lookAt(piece);
                 }
                 first = end;
             }
@@ -260,6 +264,35 @@ namespace {
                 accept();
         }
 
+        /// What is left of a subtracted line, in frames where noise is not as strong, and its skirts.
+        void explainRest(Piece &piece)
+        {
+            PathStrip &strip = piece.strip;
+            const auto near = Index(std::floor(levelCells * m_model.binsPerCell));
+            ExplainedSignal rest;
+            rest.firstFrame = strip.firstFrame;
+            for (Index at = 0; at < strip.frameCount(); ++at) {
+                const Index centre = strip.centres[std::size_t(at)];
+                float power = 0.0f;
+                for (Index d = -near; d <= near; ++d)
+                    if (const float y = strip.valueAt(at, centre + d); !std::isnan(y))
+                        power = std::max(power, y);
+                rest.positions.push_back(double(centre));
+                rest.levels.push_back(power > strongerThanNoise ? power - 1.0f : 0.0f);
+            }
+            ExplainedSignal skirts{rest.firstFrame, rest.positions, std::vector<float>(rest.levels.size(), 1.0f), {}};
+            const auto notch = Index(std::ceil(notchCells * m_model.binsPerCell));
+            bool hasSkirts = false;
+            for (Index first = 0; first < strip.frameCount(); first += ExplainedSignal::skirtFrames) {
+                skirts.skirts.push_back(skirtOf(strip, skirts, 0, first, notch));
+                hasSkirts = hasSkirts || !skirts.skirts.back().empty();
+            }
+            m_explanations.add(std::move(rest));
+            if (hasSkirts)
+                m_explanations.add(std::move(skirts));
+            strip = {};
+        }
+
         void propose(const Piece &piece, const BothWays &seen, const Stretch &stretch)
         {
             Track track = trackOf(piece, seen, stretch);
@@ -371,9 +404,9 @@ namespace {
         }
 
         /// What lies beside the path in units of its level, the lower of both sides, falling outwards; as far as it is
-        /// significant.
+        /// significant. Nearer than `nearest` it is as there.
         static std::vector<float> skirtOf(const PathStrip &strip, const ExplainedSignal &signal, Index from,
-                                          Index first)
+                                          Index first, Index nearest = 0)
         {
             const Index end = std::min(std::ssize(signal.positions), first + ExplainedSignal::skirtFrames);
             const auto count = double(end - first);
@@ -395,7 +428,8 @@ namespace {
             std::vector<float> shares;
             double running = std::numeric_limits<double>::infinity();
             for (Index d = 0; d <= strip.halfWidth; ++d) {
-                running = std::min({running, excess(d), excess(-d)});
+                if (const Index outer = std::max(d, nearest); d == 0 || d > nearest)
+                    running = std::min({running, excess(outer), excess(-outer)});
                 if (running <= 1.0 + 3.0 / std::sqrt(count))
                     break;
                 shares.push_back(float(running / std::max(level, 1e-9)));
@@ -424,9 +458,10 @@ bool looksTwice(const AnalysisPlan &analysis)
            && analysis.settings.model.likelihood != LikelihoodKind::Linear && analysis.frames->spectrogram();
 }
 
-SecondView lookTwice(const Analysis &analysis, std::vector<Track> found, const RunContext &context)
+SecondView lookTwice(const Analysis &analysis, std::vector<Track> found, std::span<const Track> subtracted,
+                     const RunContext &context)
 {
-    return SecondLook(analysis, context).run(std::move(found));
+    return SecondLook(analysis, context).run(std::move(found), subtracted);
 }
 
 } // namespace faintline

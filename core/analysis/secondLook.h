@@ -3,6 +3,7 @@
 #include "analysis/Analysis.h"
 #include "track/Area.h"
 
+#include <span>
 #include <vector>
 
 namespace faintline {
@@ -32,8 +33,12 @@ struct SecondView {
 ///      statistic gained most, and every other whose own evidence reaches the threshold, which is then its statistic;
 ///   4. what stays is explained: it raises the floor for weaker ones.
 ///
+/// `subtracted`: lines that the frames were made without (subtractLines.h). What is left of them, and their skirts, is
+/// explained before all others: they are no signals of their own.
+///
 /// `found`: by detection, as is the answer, numbered anew. Reads all frames once; memory goes with the tracks' length.
 /// Deterministic.
-SecondView lookTwice(const Analysis &analysis, std::vector<Track> found, const RunContext &context);
+SecondView lookTwice(const Analysis &analysis, std::vector<Track> found, std::span<const Track> subtracted,
+                     const RunContext &context);
 
 } // namespace faintline

@@ -74,6 +74,7 @@ namespace {
         {
             const double shift = m_chosen.threshold - m_longer.threshold;
             Track result = track;
+            result.isSubtracted = false; // the longer window's; what is shown is the chosen one's
             result.windowSeconds = m_longer.frames->spectrogram()->windowSeconds();
             result.onsetFrame = frameOf(track.onsetFrame);
             result.detectFrame = frameOf(track.detectFrame);
@@ -213,6 +214,7 @@ std::vector<Track> withSteadyLines(const Analysis &chosen, const Analysis &longe
         for (std::size_t i = 0; i < followers.size(); ++i)
             if (followers[i]) {
                 isReplaced[i] = true;
+                line.isSubtracted = line.isSubtracted || chosen.tracks[i].isSubtracted;
                 line.detectFrame = std::clamp(chosen.tracks[i].detectFrame, line.onsetFrame, line.detectFrame);
             }
         lines.push_back(std::move(line));

@@ -211,6 +211,9 @@ std::string eventsCsv(const AnalysisPlan &plan, const std::vector<Event> &events
     const bool isSeenTwice = looksTwice(plan);
     if (isSeenTwice)
         names.insert(names.end(), smoothedNames.begin(), smoothedNames.end());
+    const bool subtracts = plan.settings.subtract.lines;
+    if (subtracts)
+        names.push_back("subtracted");
     std::string text = joined(names) + "\n";
     for (const Event &e : events) {
         const std::vector<std::string> cells{
@@ -218,7 +221,11 @@ std::string eventsCsv(const AnalysisPlan &plan, const std::vector<Event> &events
             formatNumber(e.endSeconds), joined(e.position),           formatNumber(e.driftPerSecond),
             formatNumber(e.statistic),  e.isConfirmed ? "1" : "0",    e.isOpen ? "1" : "0"};
         text += joined(cells) + (rates.empty() ? "" : "," + joined(e.ratesPerSecond))
-                + (isSeenTwice ? "," + joined(smoothedOf(e)) : "") + "\n";
+                + (isSeenTwice ? "," + joined(smoothedOf(e)) : "")
+                + (!subtracts       ? ""
+                   : e.isSubtracted ? ",1"
+                                    : ",0")
+                + "\n";
     }
     return text;
 }
@@ -240,6 +247,8 @@ Json eventJson(const Event &e, const Grid &grid)
     json["statistic"] = e.statistic;
     json["confirmed"] = e.isConfirmed;
     json["open"] = e.isOpen;
+    if (e.isSubtracted)
+        json["subtracted"] = true;
     for (std::size_t i = 0; i < smoothedNames.size() && !std::isnan(e.snrDb); ++i)
         json[smoothedNames[i]] = smoothedOf(e)[i];
     return json;

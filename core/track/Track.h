@@ -43,6 +43,7 @@ struct Track {
     double detectStatistic = 0.0;          ///< the detector's, in its own unit, where it was detected
     std::vector<SmoothedPoint> smoothed{}; ///< one per point; empty without the second pass
     double windowSeconds = 0.0; ///< of the longer window that found it (analysis/steadyLines.h); 0: the frames' own
+    bool isSubtracted = false;  ///< from the recording whose frames are shown (analysis/subtractLines.h)
 
     /// Where a point is along the last axis, in cells, as exactly as is known.
     double lastPosition(std::size_t point, const Axis &axis) const
@@ -66,7 +67,7 @@ struct Track {
     Track withoutPoints() const
     {
         return {id,           onsetFrame, detectFrame,     endFrame, peakStatistic, isConfirmed, isOpen, {},
-                confirmFrame, model,      detectStatistic, {},       windowSeconds};
+                confirmFrame, model,      detectStatistic, {},       windowSeconds, isSubtracted};
     }
 };
 

@@ -46,7 +46,7 @@ void tst_AnalysisSettings::roundTripOfRandomSettings()
             if (random.uniform() < 0.5 || field.name == "model.slopeChange" || field.name == "model.lowestSlope"
                 || field.name == "model.highestSlope" || field.name == "conventional.hits"
                 || field.name == "model.rangeRateChange" || field.name == "model.bearingRateChange"
-                || field.name == "family.relation") // held by others
+                || field.name == "family.relation" || field.name == "subtract.lines") // held by others
                 continue;
             switch (field.kind) {
             case FieldKind::Flag:
@@ -70,6 +70,9 @@ void tst_AnalysisSettings::roundTripOfRandomSettings()
             settings.family.relation = FamilySettings::Relation::Harmonics;
             settings.noise.causal = false; // which a family refuses
         }
+        settings.subtract.lines = !settings.noise.causal && settings.track.bothWays && settings.family.isNone()
+                                  && std::holds_alternative<SmdSettings>(settings.detector)
+                                  && settings.model.likelihood != LikelihoodKind::Linear; // others refuse it
         const double slope = 1.0 / settings.model.slopesPerBin;
         settings.model.lowestSlope = -slope * std::floor(random.uniform() * 20.0);
         settings.model.highestSlope = slope * std::floor(random.uniform() * 20.0);

@@ -129,7 +129,8 @@ int EventModel::rowOf(int id) const
 QString EventModel::stateText(const Event &event)
 {
     const QString state = event.isConfirmed ? tr("confirmed") : tr("tentative");
-    return event.isOpen ? tr("%1, open").arg(state) : state;
+    const QString ended = event.isOpen ? tr("%1, open").arg(state) : state;
+    return event.isSubtracted ? tr("%1, subtracted").arg(ended) : ended;
 }
 
 int EventModel::rowCount(const QModelIndex &parent) const

@@ -150,8 +150,11 @@ InjectionTrials::InjectionTrials(const InjectionExperiment &experiment, Recordin
         throw fieldError("noise.causal", "true",
                          "is not possible in this experiment, which estimates the noise once for all trials");
     checkHasNoFamily(experiment.settings, "is not possible in this experiment");
-    for (const DetectorUnderTest &detector : experiment.detectors)
+    checkSubtractsNothing(experiment.settings, "is not possible in this experiment");
+    for (const DetectorUnderTest &detector : experiment.detectors) {
         checkHasNoFamily(detector.settings, "is not possible in this experiment");
+        checkSubtractsNothing(detector.settings, "is not possible in this experiment");
+    }
     auto shared = std::make_unique<Shared>();
     shared->recording = std::move(recording);
     shared->spectrogram = std::make_shared<Spectrogram>(shared->recording, experiment.settings.spectrogram,

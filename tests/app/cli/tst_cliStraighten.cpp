@@ -21,6 +21,7 @@ private slots:
     void initTestCase() { simulateLine(); }
 
     void keepsADriftingLineAtOneFrequency();
+    void leavesTheRest();
     void saysWhatCannotBeStraightened();
     void decodesADriftingMessage();
 
@@ -50,6 +51,17 @@ void tst_cliStraighten::keepsADriftingLineAtOneFrequency()
     const QList<QByteArray> values = rows[1].split(',');
     QVERIFY(std::abs(values[names.indexOf("f")].toDouble() - 211.5) < 1.5);
     QVERIFY(std::abs(values[names.indexOf("drift_hz_per_s")].toDouble()) < 0.1);
+}
+
+void tst_cliStraighten::leavesTheRest()
+{
+    const Outcome made =
+        run(QStringList{"straighten", "line.wav", "--out", "straight.wav", "--rest", "rest.wav"} + lineSettings);
+    QCOMPARE(made.err, QByteArray());
+    QCOMPARE(made.code, 0);
+    QVERIFY(QFile::exists(path("rest.wav.provenance.json")));
+    QVERIFY(run(QStringList{"detect", "line.wav"} + lineSettings).out.contains("\n1 event(s)\n"));
+    QVERIFY(run(QStringList{"detect", "rest.wav"} + lineSettings).out.contains("\n0 event(s)\n"));
 }
 
 void tst_cliStraighten::saysWhatCannotBeStraightened()
