@@ -87,7 +87,8 @@ const std::vector<Equation> &equations()
              "docs/theory.md, False alarms; Lindley's recursion for the tail"),
         make("why", "Path breakdown", "u = Σ over the path's steps of  λ + ln P + ln K",
              "from the latest reset on, in which u = λ\n"
-             "margin = D − threshold",
+             "margin = D − threshold\n"
+             "a family's member brings  Σ λ(y of all) − λ(y of the others)",
              "Billon 2005, section 3"),
         make("events", "Events and tracks",
              "event: D(t, f) > T, clustered over neighbouring cells\n"

@@ -34,6 +34,7 @@
 #include "app/workspace/Workbench.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "widgets/base/ReadOut.h"
+#include "widgets/base/familyWords.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/plot/ExceedancePlot.h"
 #include "widgets/waterfall/OverviewStrip.h"
@@ -148,6 +149,7 @@ void MainWindow::showAnalysis()
     const Analysis &analysis = *m_document.analysis();
     const Axis &frequency = analysis.grid().axes.front(); // of pings: the range
     m_readOut->setResolution(analysis.time().step, frequency.step);
+    m_readOut->setFrequencyName(frequencyName(analysis.settings.family));
     const QString unit = statisticUnit(analysis.settings);
     m_threshold->setStatisticUnit(unit);
     m_readOut->setStatisticUnit(unit);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "evaluate/experiments/Chart.h"
+#include "widgets/plot/ChartMarks.h"
 
 #include <QSet>
 #include <QWidget>
@@ -45,6 +46,10 @@ public:
 
     /// As on paper: neither boxes to tick nor what is under the mouse.
     void setPrinted(bool isPrinted);
+
+    /// Places on the x axis with names, in ascending order. They move no axis.
+    void setMarks(std::vector<ChartMark> marks);
+    const std::vector<ChartMark> &marks() const { return m_marks->marks; }
 
     bool isShown(std::size_t curve) const;
     void setShown(std::size_t curve, bool isShown);
@@ -96,6 +101,7 @@ private:
     QwtPlot *m_plot;
     QwtPlotGrid *m_grid;
     QwtPlotMarker *m_ring; ///< around the point read out
+    ChartMarks *m_marks;
     CanvasSentence *m_sentence;
     QBoxLayout *m_row; ///< plot and key
     ChartKey *m_key;
