@@ -11,6 +11,7 @@
 #include "app/lessons/Lesson.h"
 #include "app/lessons/LessonGuide.h"
 #include "app/panels/ComparePanel.h"
+#include "app/panels/DopplerPanel.h"
 #include "app/panels/EvaluatePanel.h"
 #include "app/panels/ExperimentsPanel.h"
 #include "app/panels/HandLinePanel.h"
@@ -344,6 +345,11 @@ void MainWindow::showSweep()
 void MainWindow::showSpectrum()
 {
     m_panels->show(m_spectrum);
+}
+
+void MainWindow::showDoppler()
+{
+    m_panels->show(m_doppler);
 }
 
 void MainWindow::showCompare()

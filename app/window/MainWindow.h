@@ -66,6 +66,7 @@ public:
     void showHandLine();
     void learnMotion();
     void showSpectrum();
+    void showDoppler();
     void showCompare();
     void showSweep();
 
