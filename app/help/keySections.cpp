@@ -69,7 +69,7 @@ namespace {
                                       {"E   G   Shift + G", "note on the event; merge, separate several"},
                                       {"W", "why detected, or why not"},
                                       {"Ctrl + D", "draw a line by hand"},
-                                      {"D", "Doppler fit to the event"},
+                                      {"D   T", "Doppler fit to the event; straighten along its track"},
                                       {"Ctrl + B", "keep as A for comparison"},
                                       {"M   B   Ctrl + Return", "measure a box; annotate, analyse it"},
                                       {"K", "cursor to the nearest peak"},

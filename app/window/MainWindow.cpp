@@ -15,9 +15,7 @@
 #include "app/panels/EvaluatePanel.h"
 #include "app/panels/ExperimentsPanel.h"
 #include "app/panels/HandLinePanel.h"
-#include "app/panels/InjectDialog.h"
 #include "app/panels/LatencyPanel.h"
-#include "app/panels/LearnMotionDialog.h"
 #include "app/panels/NoiseFitPanel.h"
 #include "app/panels/ReproductionPanel.h"
 #include "app/panels/SpectrumPanel.h"
@@ -258,30 +256,6 @@ void MainWindow::exportReport()
                                                       tr("Report (*.html)"));
     if (!path.isEmpty())
         m_report->write(path);
-}
-
-void MainWindow::injectLine()
-{
-    const auto &analysis = m_document.analysis();
-    const Spectrogram *spectrogram = analysis ? analysis->frames->spectrogram() : nullptr;
-    if (!spectrogram)
-        return;
-    const RecordingInfo &info = m_document.recording()->info();
-    const Viewport &viewport = m_document.viewport();
-    const Viewport::Point at =
-        viewport.cursor().value_or(Viewport::Point{viewport.full().time.middle(), viewport.full().frequency.middle()});
-    InjectDialog dialog(info, at.seconds, at.hz, spectrogram->windowSeconds(), this);
-    if (dialog.exec() == QDialog::Accepted)
-        m_controller.inject(dialog.line());
-}
-
-void MainWindow::learnMotion()
-{
-    if (!m_document.analysis())
-        return;
-    auto *dialog = new LearnMotionDialog(m_document.analysis(), m_controller, this);
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->open();
 }
 
 void MainWindow::reproduce(const Reproducible &reproducible, bool quick)

@@ -67,6 +67,7 @@ public:
     void learnMotion();
     void showSpectrum();
     void showDoppler();
+    void straighten(); ///< along the selected event's track, or the strongest's
     void showCompare();
     void showSweep();
 

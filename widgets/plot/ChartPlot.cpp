@@ -117,6 +117,12 @@ void ChartPlot::setMarks(std::vector<ChartMark> marks)
     m_plot->replot();
 }
 
+void ChartPlot::setLeastOrdinates(std::optional<Span> span)
+{
+    m_leastOrdinates = span;
+    layAxes();
+}
+
 void ChartPlot::setEmptySentence(const QString &sentence)
 {
     m_sentence->text = sentence;
@@ -268,6 +274,8 @@ void ChartPlot::layAxes()
             }
         }
     }
+    if (m_leastOrdinates)
+        ys.insert(ys.end(), {items.ordinate(m_leastOrdinates->low), items.ordinate(m_leastOrdinates->high)});
     const QSize size = m_plot->canvas()->contentsRect().size();
     const Span x = aired(spanOf(xs), 0.03);
     const Span y = areShares && !m_chart.isLogarithmicY ? Span{-0.02, 1.02} : aired(spanOf(ys), 0.05);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "evaluate/experiments/Chart.h"
+#include "widgets/base/Span.h"
 #include "widgets/plot/ChartMarks.h"
 
 #include <QSet>
@@ -51,6 +52,9 @@ public:
     void setMarks(std::vector<ChartMark> marks);
     const std::vector<ChartMark> &marks() const { return m_marks->marks; }
 
+    /// The y axis holds this as well, so that charts side by side can have the same.
+    void setLeastOrdinates(std::optional<Span> span);
+
     bool isShown(std::size_t curve) const;
     void setShown(std::size_t curve, bool isShown);
 
@@ -92,6 +96,7 @@ private:
     ChartItems items() const;
 
     Chart m_chart;
+    std::optional<Span> m_leastOrdinates;
     QSet<QString> m_hidden; ///< by name
     std::optional<Place> m_place;
     int m_resizing = 0; ///< how deep in resizing of the canvas by what resizing it changed
