@@ -2,8 +2,6 @@
 #include "app/cli/provenance.h"
 
 #include "analysis/chooseWindow.h"
-#include "analysis/doppler/dopplerFit.h"
-#include "analysis/doppler/dopplerTrack.h"
 #include "base/AtomicFile.h"
 #include "exchange/writeChart.h"
 #include "exchange/writeDoppler.h"
@@ -35,8 +33,8 @@ namespace {
 
     void checkNames(const DopplerOptions &options)
     {
-        if (!options.out.empty() && !options.out.ends_with(".json") && !options.out.ends_with(".csv"))
-            throw Error(options.out, "the file name must end in .json or .csv");
+        if (!options.out.empty())
+            checkDopplerPath(options.out);
         checkChart(options.chart);
         checkOutputs({options.out, options.chart});
     }
@@ -49,34 +47,24 @@ namespace {
         return analyseInChosenWindow(options.analysis.recording(), settings, context);
     }
 
-    /// What 0 Hz of the frames stands for.
     double centreOf(const DopplerOptions &options, const Analysis &analysis)
     {
-        if (options.centreHz)
-            return *options.centreHz;
-        if (!analysis.recording || !analysis.recording->info().isComplex)
-            return 0.0;
-        const double centreHz = analysis.recording->info().centreHz;
-        if (centreHz <= 0.0)
+        const std::optional<double> centreHz = options.centreHz ? options.centreHz : centreOfFrames(analysis);
+        if (!centreHz)
             throw Error(options.analysis.file, "is I/Q and does not say its centre frequency; the fit needs absolute "
                                                "frequencies, so give --centre HZ");
-        return centreHz;
+        return *centreHz;
     }
 
     DopplerReport reportOf(const DopplerOptions &options, const Analysis &analysis)
     {
-        DopplerReport report;
+        std::vector<Event> chosen;
         for (const int number : options.events)
-            report.events.push_back(chosenEvent(analysis, number));
-        if (report.events.empty())
-            report.events.push_back(chosenEvent(analysis, 0));
-        report.centreHz = centreOf(options, analysis);
-        std::vector<DopplerTrack> tracks;
-        for (const Event &event : report.events)
-            tracks.push_back(dopplerTrack(analysis, *trackOfId(analysis.tracks, event.id), report.centreHz));
-        report.track = joined(tracks);
-        report.fit = fitDopplerPass(report.track.points, options.propagation.value_or(media.at(options.medium)));
-        return report;
+            chosen.push_back(chosenEvent(analysis, number));
+        if (chosen.empty())
+            chosen.push_back(chosenEvent(analysis, 0));
+        return dopplerReport(analysis, std::move(chosen), centreOf(options, analysis),
+                             options.propagation.value_or(media.at(options.medium)));
     }
 
     void print(const DopplerReport &report, bool isChosen, std::size_t eventCount)
@@ -111,7 +99,7 @@ namespace {
         CommitTogether files;
         writeProvenance(common, options.analysis.inputs(), {options.out, options.chart});
         if (!options.out.empty())
-            writeTextFile(options.out, options.out.ends_with(".csv") ? dopplerCsv(report) : dopplerJson(report));
+            writeDoppler(report, options.out);
         if (!options.chart.empty())
             writeTextFile(options.chart, chartsSvg(dopplerCharts(report)));
         files.commit();

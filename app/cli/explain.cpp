@@ -3,7 +3,9 @@
 #include "analysis/analyse.h"
 #include "analysis/chooseWindow.h"
 #include "analysis/explain.h"
+#include "analysis/familyTeeth.h"
 #include "base/json.h"
+#include "base/logmath.h"
 #include "base/oneLine.h"
 #include "exchange/ModelFile.h"
 
@@ -120,6 +122,35 @@ namespace {
                         explanation.offset);
     }
 
+    /// Of members that were never observed, and where there is no power, null.
+    Json toJson(const std::vector<FamilyTooth> &teeth)
+    {
+        Json members = Json::array();
+        for (const FamilyTooth &tooth : teeth)
+            members.push_back({{"member", tooth.member},
+                               {"frequency", tooth.hz},
+                               {"frames", tooth.frames},
+                               {"power_db", tooth.meanPower > 0.0 ? Json(dbFromRatio(tooth.meanPower)) : Json()},
+                               {"evidence", tooth.frames > 0 ? Json(tooth.evidence) : Json()}});
+        return members;
+    }
+
+    void print(const std::vector<FamilyTooth> &teeth, const FamilySettings &family)
+    {
+        const bool areHarmonics = family.relation == FamilySettings::Relation::Harmonics;
+        std::printf(
+            "members along the path: mean power over noise, and what the evidence would be less without each\n");
+        std::printf("%12s %14s %10s %10s\n", areHarmonics ? "multiple" : "offset (Hz)", "f", "dB", "nat");
+        for (const FamilyTooth &tooth : teeth) {
+            std::printf("%12.6g %14.8g", tooth.member, tooth.hz);
+            if (tooth.frames == 0)
+                std::printf(" %10s %10s  outside the band\n", "-", "-");
+            else
+                std::printf(" %10.2f %10.4f%s\n", dbFromRatio(tooth.meanPower), tooth.evidence,
+                            tooth.isSeen() ? "" : "  not seen: there is more evidence without it");
+        }
+    }
+
     struct ExplainOptions {
         AnalysisOptions analysis;
         double seconds = 0.0;
@@ -155,11 +186,18 @@ namespace {
         const auto analysis =
             frames ? analyse(frames, settings, context.part(0.0, 0.5))
                    : analyseInChosenWindow(options.analysis.recording(), settings, context.part(0.0, 0.5));
-        const Explanation explanation = explain(*analysis, options.seconds, position, context.part(0.5, 1.0));
-        if (options.json)
-            std::printf("%s\n", toJson(explanation, *analysis).dump(2, ' ', true).c_str());
-        else
-            print(explanation, *analysis);
+        const Explanation explanation = explain(*analysis, options.seconds, position, context.part(0.5, 0.9));
+        const std::vector<FamilyTooth> teeth = familyTeeth(*analysis, explanation, context.part(0.9, 1.0));
+        if (options.json) {
+            Json json = toJson(explanation, *analysis);
+            if (!teeth.empty())
+                json["members"] = toJson(teeth);
+            std::printf("%s\n", json.dump(2, ' ', true).c_str());
+            return;
+        }
+        print(explanation, *analysis);
+        if (!teeth.empty())
+            print(teeth, analysis->settings.family);
     }
 
 } // namespace

@@ -3,13 +3,11 @@
 
 #include "analysis/chooseWindow.h"
 #include "analysis/events.h"
-#include "analysis/lineHeight.h"
-#include "analysis/smoothFrequency.h"
+#include "analysis/straighten.h"
 #include "analysis/subtractLines.h"
 #include "base/AtomicFile.h"
 #include "base/Field.h"
 #include "recording/writeRecording.h"
-#include "spectrum/StraightenedRecording.h"
 
 #include <CLI/CLI.hpp>
 
@@ -43,26 +41,16 @@ namespace {
     }
 
     /// How far the line stands out in one spectrum of its duration, before and after.
-    std::string heights(const Recording &before, const StraightenedRecording &after, const Event &event,
-                        const AnalysisPlan &plan, const RunContext &context)
+    std::string heights(const Recording &before, const Straightened &straight, const RunContext &context)
     {
-        constexpr double leastCells = 40.0;
-        const FrequencyCurve &curve = after.curve();
-        const double half = 0.5 * plan.time().step;
-        Stretch stretch{plan.settings.selection.channel, event.onsetSeconds - half, event.endSeconds + half};
-        const auto [least, most] = std::minmax_element(curve.hz().begin(), curve.hz().end());
-        stretch.hz = 0.5 * (*least + *most);
-        stretch.halfBandHz = std::max(2.0 * (*most - *least), leastCells / (stretch.toSeconds - stretch.fromSeconds));
-        const double was = lineHeight(before, stretch, context.part(0.0, 0.4)).db;
-        stretch.channel = 0;
-        stretch.hz = after.targetHz();
-        const double is = lineHeight(after, stretch, context.part(0.4, 1.0)).db;
+        const double was = lineHeight(before, straight.before, context.part(0.0, 0.4)).db;
+        const double is = lineHeight(*straight.recording, straight.after, context.part(0.4, 1.0)).db;
         if (!std::isfinite(was) || !std::isfinite(is))
             return "its surroundings are silent";
         char text[160];
         std::snprintf(text, sizeof text,
                       "in one spectrum of its %.6g s %.1f dB over its surroundings before, %.1f dB after",
-                      stretch.toSeconds - stretch.fromSeconds, was, is);
+                      straight.before.toSeconds - straight.before.fromSeconds, was, is);
         return text;
     }
 
@@ -84,14 +72,13 @@ namespace {
         const RecordingPointer recording = options.analysis.recording();
         const auto analysis = analyseInChosenWindow(recording, options.analysis.settings(), context.part(0.0, 0.6));
         const Event event = chosenEvent(*analysis, options.event);
-        const FrequencyCurve curve = smoothFrequency(*analysis, *trackOfId(analysis->tracks, event.id), options.smooth);
-        const StraightenedRecording straight(recording, analysis->settings.selection.channel, curve,
-                                             options.target.value_or(curve.meanHz()));
-        const std::string told = heights(*recording, straight, event, *analysis, context.part(0.6, 0.8));
+        const Straightened straight = straightened(*analysis, event, options.smooth, options.target);
+        const FrequencyCurve &curve = straight.recording->curve();
+        const std::string told = heights(*recording, straight, context.part(0.6, 0.8));
         CommitTogether files;
         writeProvenance(common, options.analysis.inputs(), {options.out, options.curve, options.rest});
         const auto type = options.type == "int16" ? WrittenType::Int16 : WrittenType::Float32;
-        writeRecording(straight, options.out, type, context.part(0.8, 0.9));
+        writeRecording(*straight.recording, options.out, type, context.part(0.8, 0.9));
         if (!options.rest.empty())
             writeRecording(*withoutEvent(recording, *analysis, event.id, context.part(0.9, 0.95)), options.rest, type,
                            context.part(0.95, 1.0));
@@ -100,8 +87,8 @@ namespace {
         files.commit();
         const auto [least, most] = std::minmax_element(curve.hz().begin(), curve.hz().end());
         std::printf("event %d of %zu, %.6g … %.6g s, %.8g … %.8g Hz: now at %.8g Hz\n%s\n", event.id,
-                    analysis->tracks.size(), event.onsetSeconds, event.endSeconds, *least, *most, straight.targetHz(),
-                    told.c_str());
+                    analysis->tracks.size(), event.onsetSeconds, event.endSeconds, *least, *most,
+                    straight.recording->targetHz(), told.c_str());
     }
 
 } // namespace

@@ -4,19 +4,23 @@
 #include "analysis/analyse.h"
 #include "analysis/chooseWindow.h"
 #include "analysis/slopeUnit.h"
+#include "analysis/straighten.h"
 #include "base/fileName.h"
 #include "base/readingJson.h"
 #include "base/wholeNumber.h"
 #include "exchange/CampaignFile.h"
 #include "exchange/openFrames.h"
+#include "exchange/writeDoppler.h"
 #include "exchange/writeReviewed.h"
 #include "recording/InjectedRecording.h"
 #include "recording/SimulatedRecording.h"
 #include "recording/openRecording.h"
+#include "recording/writeRecording.h"
 #include "spectrum/SimulatedPings.h"
 
 #include <filesystem>
 #include <numeric>
+#include <optional>
 
 namespace faintline::cli {
 
@@ -84,16 +88,20 @@ namespace {
         return {withInjections(openRecording(path, options), injections), nullptr};
     }
 
+    std::shared_ptr<const Analysis> analysed(const WindowExport &table, const RunContext &context)
+    {
+        const Opened opened = open(table);
+        const AnalysisSettings settings = settingsFromJson(table.provenance.at("settings").dump(), "settings");
+        return opened.frames ? analyse(opened.frames, settings, context)
+                             : analyseInChosenWindow(opened.recording,
+                                                     withSlopesInBins(settings, opened.recording->info()), context);
+    }
+
     void remakeEvents(const WindowExport &table, const std::string &out, const RunContext &context)
     {
         checkReviewedPath(out);
         const Json &provenance = table.provenance;
-        const Opened opened = open(table);
-        const AnalysisSettings settings = settingsFromJson(provenance.at("settings").dump(), "settings");
-        const auto analysis =
-            opened.frames ? analyse(opened.frames, settings, context)
-                          : analyseInChosenWindow(opened.recording,
-                                                  withSlopesInBins(settings, opened.recording->info()), context);
+        const auto analysis = analysed(table, context);
         const Annotations annotations = provenance.contains("annotations")
                                             ? annotationsFromJson(provenance["annotations"], "annotations")
                                             : Annotations();
@@ -103,6 +111,32 @@ namespace {
                 return event.statistic < least;
             });
         writeReviewed(*analysis, shown, annotations, out);
+    }
+
+    void remakeDoppler(const WindowExport &table, const std::string &out, const RunContext &context)
+    {
+        checkDopplerPath(out);
+        const Json &made = table.provenance["doppler"];
+        const auto analysis = analysed(table, context);
+        std::vector<Event> chosen;
+        for (const Json &number : made.at("events"))
+            chosen.push_back(chosenEvent(*analysis, number.get<int>()));
+        writeDoppler(dopplerReport(*analysis, std::move(chosen), made.at("centreHz"), made.at("propagation")), out);
+    }
+
+    /// What was left to the program is not told.
+    void remakeStraightened(const WindowExport &table, const std::string &out, const RunContext &context)
+    {
+        const Json &made = table.provenance["straighten"];
+        const auto analysis = analysed(table, context.part(0.0, 0.8));
+        std::optional<double> targetHz;
+        if (made.contains("targetHz"))
+            targetHz = made["targetHz"].get<double>();
+        const Straightened straight = straightened(*analysis, chosenEvent(*analysis, made.at("event").get<int>()),
+                                                   made.value("smoothSeconds", 0.0), targetHz);
+        const bool isInteger = made.at("type").get<std::string>() == "int16";
+        writeRecording(*straight.recording, out, isInteger ? WrittenType::Int16 : WrittenType::Float32,
+                       context.part(0.8, 1.0));
     }
 
     /// Empty where it simulates all of its noise.
@@ -148,6 +182,10 @@ void remake(const WindowExport &table, const std::string &out, const RunContext 
                         "is a chart of a sequential test; use 'faintline replay' if the test was on radar scans");
         if (table.provenance.contains("experiment"))
             return remakeCurve(table, out, context);
+        if (table.provenance.contains("doppler"))
+            return remakeDoppler(table, out, context);
+        if (table.provenance.contains("straighten"))
+            return remakeStraightened(table, out, context);
         if (table.provenance.contains("recording"))
             return remakeEvents(table, out, context);
     } catch (const Json::exception &error) {

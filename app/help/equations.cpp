@@ -87,7 +87,8 @@ const std::vector<Equation> &equations()
              "docs/theory.md, False alarms; Lindley's recursion for the tail"),
         make("why", "Path breakdown", "u = Σ over the path's steps of  λ + ln P + ln K",
              "from the latest reset on, in which u = λ\n"
-             "margin = D − threshold",
+             "margin = D − threshold\n"
+             "a family's member brings  Σ λ(y of all) − λ(y of the others)",
              "Billon 2005, section 3"),
         make("events", "Events and tracks",
              "event: D(t, f) > T, clustered over neighbouring cells\n"
@@ -107,6 +108,14 @@ const std::vector<Equation> &equations()
              "y  power over noise background\n"
              "X  transform in a window of unit energy, f_s sample rate; full scale is 1",
              "Welch 1967"),
+        make("doppler", "Doppler fit",
+             "f(t) = f₀ / ( 1 + v²τ / (c·r(τ)) ),   r(τ) = √( R² + v²τ² )\n"
+             "t = t₀ + τ + r(τ)/c,   Σ ( (fᵢ − f(tᵢ))/σᵢ )² least",
+             "f₀  rest frequency, v  speed, R  closest range, t₀  its time at the source\n"
+             "τ  when it was sent, from t₀ on, t  when it arrives\n"
+             "c  speed of propagation, σᵢ  the track's own errors\n"
+             "intervals by profile likelihood, 90 %",
+             "Ferguson and Quinn 1994"),
         make("pd", "Detection probability",
              "Pd = (1/I²) Σᵢ Σⱼ [ D₁ᵢ > D₀ⱼ ]  per run, averaged over the runs\n"
              "at a threshold: k of n,  ( p + z²/2n ± z √( p(1−p)/n + z²/4n² ) ) / (1 + z²/n)",

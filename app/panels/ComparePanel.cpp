@@ -272,7 +272,7 @@ void ComparePanel::showEvents()
     if (result) {
         const Axis &place = result->b->grid().axes.back();
         const QString unitA = statisticUnit(result->a->settings), unitB = statisticUnit(result->b->settings);
-        const QString placeName = place.unit == "Hz" ? tr("Frequency") : labelText(place.name, mostUnitLetters);
+        const QString placeName = capitalised(labelText(place.name, mostUnitLetters));
         m_table->setHorizontalHeaderLabels(
             {tr("In"), tr("Onset"), placeName, tr("A at"), tr("B at"), tr("D of A"), tr("D of B")});
         m_table->horizontalHeaderItem(DetectedA)->setToolTip(tr("Time at which A detected it"));

@@ -2,6 +2,7 @@
 
 #include "app/base/VisibilityWatcher.h"
 #include "app/document/Document.h"
+#include "widgets/base/familyWords.h"
 #include "widgets/plot/ChartPlot.h"
 
 #include <QComboBox>
@@ -110,7 +111,7 @@ void SpectrumPanel::show()
         return;
     const bool isDensity = chosenLevel() == SpectrumLevel::Density && m_document.recording();
     const double added = isDensity ? m_calibration->value() : 0.0;
-    const Span &band = m_document.viewport().frequency();
+    const Span band = this->band();
     Chart chart{"Spectrum",
                 "Frequency (Hz)",
                 isDensity ? (added == 0.0 ? "Level (dB re full scale²/Hz)" : "Level (dB, calibrated, in 1 Hz)")
@@ -121,6 +122,34 @@ void SpectrumPanel::show()
     chart.curves.push_back(curveOf("at the cursor", m_spectra.position, m_spectra.frame, band, added));
     chart.curves.push_back(curveOf("mean of what is visible", m_spectra.position, m_spectra.mean, band, added));
     m_plot->setChart(chart);
+    markTeeth();
+}
+
+/// What is visible, and of a family, all that its members reach from there.
+Span SpectrumPanel::band() const
+{
+    const Span &visible = m_document.viewport().frequency();
+    const auto analysis = m_document.lineAnalysis();
+    if (!analysis || analysis->settings.family.isNone())
+        return visible;
+    const std::vector<double> lowest = memberFrequencies(analysis->settings.family, visible.low);
+    const std::vector<double> highest = memberFrequencies(analysis->settings.family, visible.high);
+    return {*std::min_element(lowest.begin(), lowest.end()), *std::max_element(highest.begin(), highest.end())};
+}
+
+void SpectrumPanel::markTeeth()
+{
+    const auto analysis = m_document.lineAnalysis();
+    const auto &cursor = m_document.viewport().cursor();
+    std::vector<ChartMark> marks;
+    if (analysis && cursor && !analysis->settings.family.isNone()) {
+        const FamilySettings &family = analysis->settings.family;
+        const std::vector<double> hz = memberFrequencies(family, cursor->hz);
+        for (std::size_t k = 0; k < hz.size(); ++k)
+            marks.push_back({hz[k], memberText(family, family.members[k])});
+        std::sort(marks.begin(), marks.end(), [](const ChartMark &a, const ChartMark &b) { return a.x < b.x; });
+    }
+    m_plot->setMarks(std::move(marks));
 }
 
 } // namespace faintline

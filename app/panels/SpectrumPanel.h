@@ -2,6 +2,7 @@
 
 #include "analysis/spectra.h"
 #include "app/base/JobRunner.h"
+#include "widgets/base/Span.h"
 
 #include <QWidget>
 
@@ -15,7 +16,8 @@ class Document;
 class VisibilityWatcher;
 
 /// The spectrum at the cursor, and the mean over the time that is visible, of the band that is visible: over the noise,
-/// or as a density in dB re full scale²/Hz, to which a calibration is added. Worked out while it is seen.
+/// or as a density in dB re full scale²/Hz, to which a calibration is added. Where a family of lines is looked for, of
+/// the band that its members reach, with marks at those of the cursor's place. Worked out while it is seen.
 class SpectrumPanel : public QWidget
 {
     Q_OBJECT
@@ -36,6 +38,8 @@ signals:
 private:
     void follow();
     void show();
+    Span band() const;
+    void markTeeth();
     SpectrumLevel chosenLevel() const;
 
     Document &m_document;

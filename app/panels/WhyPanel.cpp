@@ -5,7 +5,9 @@
 #include "app/control/FramePlace.h"
 #include "app/document/Document.h"
 #include "app/document/statisticUnit.h"
+#include "base/logmath.h"
 #include "widgets/base/axisWords.h"
+#include "widgets/base/familyWords.h"
 #include "widgets/base/labelText.h"
 #include "widgets/plot/ChartPlot.h"
 
@@ -16,6 +18,7 @@
 #include <QTimer>
 #include <QVBoxLayout>
 
+#include <algorithm>
 #include <cmath>
 
 namespace faintline {
@@ -154,25 +157,35 @@ QString whySentence(const Explanation &explanation, const Analysis &analysis)
     return words + QObject::tr(" add up to %1.").arg(numberText(explanation.statistic, 2));
 }
 
+QString teethSentence(const std::vector<FamilyTooth> &teeth, const FamilySettings &family)
+{
+    QStringList unseen;
+    for (const FamilyTooth &tooth : teeth)
+        if (!tooth.isSeen())
+            unseen << memberText(family, tooth.member);
+    if (unseen.isEmpty())
+        return QObject::tr("Each of the %1 members raises the evidence.").arg(teeth.size());
+    return QObject::tr("%1 of %2 members raise the evidence; it is no smaller without %3.")
+        .arg(std::ssize(teeth) - unseen.size())
+        .arg(teeth.size())
+        .arg(unseen.join(QStringLiteral(", ")));
+}
+
 WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *parent)
     : QWidget(parent), m_document(document), m_viewports(viewports), m_sentence(plainLabel()), m_plot(new ChartPlot),
-      m_ladder(new QTableWidget), m_sight(new VisibilityWatcher(*this)), m_pause(new QTimer(this))
+      m_teeth(new QTableWidget), m_ladder(new QTableWidget), m_sight(new VisibilityWatcher(*this)),
+      m_pause(new QTimer(this))
 {
     m_sentence->setWordWrap(true);
     m_sentence->setTextFormat(Qt::PlainText);
     m_sentence->setContentsMargins(8, 6, 8, 4);
     m_sentence->setText(tr("Click a cell to see why it was or was not detected."));
     m_plot->setEmptySentence(tr("The evidence along the path appears here."));
-    makeReadingTable(*m_ladder, 20);
-    m_ladder->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-    m_ladder->horizontalHeader()->setResizeContentsPrecision(200); // rows
-    m_ladder->setTextElideMode(Qt::ElideNone);
-    m_ladder->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
-    m_ladder->setAccessibleName(tr("The best path, newest step first"));
+    buildTables();
     auto *splitter = new QSplitter(Qt::Vertical);
-    splitter->addWidget(m_plot);
-    splitter->addWidget(m_ladder);
-    splitter->setSizes({180, 240});
+    for (QWidget *part : std::initializer_list<QWidget *>{m_plot, m_teeth, m_ladder})
+        splitter->addWidget(part);
+    splitter->setSizes({180, 190, 240});
     splitter->setChildrenCollapsible(false);
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
@@ -199,6 +212,26 @@ WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *
     connect(&m_runner, &JobRunner::finished, this, &WhyPanel::settled);
 }
 
+void WhyPanel::buildTables()
+{
+    for (QTableWidget *table : {m_teeth, m_ladder}) {
+        makeReadingTable(*table, 20);
+        table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+        table->horizontalHeader()->setResizeContentsPrecision(200); // rows
+        table->setTextElideMode(Qt::ElideNone);
+        table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
+    }
+    m_ladder->setAccessibleName(tr("The best path, newest step first"));
+    m_teeth->setAccessibleName(tr("The members of the family along the path"));
+    m_teeth->setColumnCount(4);
+    m_teeth->setHorizontalHeaderLabels({tr("Member"), tr("f (Hz)"), tr("y (dB)"), tr("Δλ (nat)")});
+    m_teeth->horizontalHeaderItem(1)->setToolTip(tr("Frequency of the member in this frame"));
+    m_teeth->horizontalHeaderItem(2)->setToolTip(tr("Mean power over noise along the path; 0 dB is noise"));
+    m_teeth->horizontalHeaderItem(3)->setToolTip(
+        tr("How much less evidence the path would have without this member; grey where it would have no less"));
+    m_teeth->hide();
+}
+
 QString WhyPanel::sentence() const
 {
     return m_sentence->text();
@@ -206,8 +239,8 @@ QString WhyPanel::sentence() const
 
 void WhyPanel::resizeEvent(QResizeEvent *event)
 {
-    constexpr int enoughForBoth = 400;
-    m_plot->setVisible(height() >= enoughForBoth);
+    constexpr int enoughForBoth = 400, enoughForAll = 560;
+    m_plot->setVisible(height() >= (m_teeth->isHidden() ? enoughForBoth : enoughForAll));
     QWidget::resizeEvent(event);
 }
 
@@ -225,6 +258,7 @@ void WhyPanel::say(const QString &sentence)
     m_runner.cancel();
     m_explanation.reset();
     m_ladder->setRowCount(0);
+    m_teeth->hide();
     m_plot->setChart({});
     m_sentence->setText(sentence);
     emit settled();
@@ -242,8 +276,11 @@ void WhyPanel::explainCursor()
         return say(tr("Only the sequential Markov detector decides along a path; choose it to see why."));
     m_began.start();
     m_runner.start([this, analysis, at = *at](const RunContext &context) -> JobRunner::Delivery {
-        auto explanation = explain(*analysis, at.seconds, at.position, context);
-        return [this, analysis, explanation = std::move(explanation)] { show(explanation, *analysis); };
+        auto explanation = explain(*analysis, at.seconds, at.position, context.part(0.0, 0.9));
+        auto teeth = familyTeeth(*analysis, explanation, context.part(0.9, 1.0));
+        return [this, analysis, explanation = std::move(explanation), teeth = std::move(teeth)] {
+            show(explanation, teeth, *analysis);
+        };
     });
 }
 
@@ -266,14 +303,38 @@ void WhyPanel::layColumns(const Analysis &analysis)
         ->setToolTip(tr("Margin over the second-best transition into this step, nat"));
 }
 
-void WhyPanel::show(const Explanation &explanation, const Analysis &analysis)
+void WhyPanel::showTeeth(const std::vector<FamilyTooth> &teeth, const FamilySettings &family)
+{
+    constexpr int enoughRows = 3; ///< in a low panel, whose path is to be seen as well
+    m_teeth->setHidden(teeth.empty());
+    m_teeth->setRowCount(int(teeth.size()));
+    const int height = m_teeth->horizontalHeader()->sizeHint().height() + m_teeth->verticalHeader()->length() + 2;
+    m_teeth->setMinimumHeight(std::min(height, (enoughRows + 1) * m_teeth->verticalHeader()->defaultSectionSize() + 8));
+    m_teeth->setMaximumHeight(height);
+    for (int row = 0; row < m_teeth->rowCount(); ++row) {
+        const FamilyTooth &tooth = teeth[std::size_t(row)];
+        const QString dash = QStringLiteral("–");
+        fillRow(*m_teeth, row,
+                {memberText(family, tooth.member), numberText(tooth.hz, 2),
+                 tooth.meanPower > 0.0 ? numberText(dbFromRatio(tooth.meanPower), 1) : dash,
+                 tooth.frames > 0 ? signedText(tooth.evidence) : dash});
+        for (int column = 0; column < m_teeth->columnCount(); ++column)
+            m_teeth->item(row, column)->setFlags(tooth.isSeen() ? Qt::ItemIsEnabled : Qt::NoItemFlags);
+    }
+}
+
+void WhyPanel::show(const Explanation &explanation, const std::vector<FamilyTooth> &teeth, const Analysis &analysis)
 {
     m_explanation = explanation;
     const Axis &time = analysis.time();
     const Grid &grid = analysis.grid();
     const StateSpace &space = spaceOf(explanation, analysis);
     layColumns(analysis);
-    m_sentence->setText(whySentence(explanation, analysis));
+    const FamilySettings &family = analysis.settings.family;
+    m_sentence->setText(teeth.empty()
+                            ? whySentence(explanation, analysis)
+                            : whySentence(explanation, analysis) + QLatin1Char(' ') + teethSentence(teeth, family));
+    showTeeth(teeth, family);
     m_plot->setChart(chartOf(explanation, time));
     const std::size_t count = std::min(explanation.steps.size(), longestLadder);
     m_ladder->setRowCount(int(count));

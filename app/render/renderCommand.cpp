@@ -208,6 +208,8 @@ namespace {
             settleNoiseCheck(window);
         if (has("spectrum"))
             settleSpectrum(window);
+        if (has("doppler"))
+            fitDoppler(window);
         if (has("noisefit"))
             measureNoise(window);
         if (std::any_of(views.begin(), views.end(), [](const auto &view) { return isOf(WindowView::Of::Scans, view); }))

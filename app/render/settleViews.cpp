@@ -2,6 +2,7 @@
 
 #include "app/control/Closeup.h"
 #include "app/control/OutputLayers.h"
+#include "app/panels/DopplerPanel.h"
 #include "app/panels/EvaluatePanel.h"
 #include "app/panels/ExperimentForm.h"
 #include "app/panels/InfoPanel.h"
@@ -95,6 +96,12 @@ void settleSpectrum(MainWindow &window)
 {
     window.showSpectrum();
     waitFor(window.spectrum());
+}
+
+void fitDoppler(MainWindow &window)
+{
+    window.showDoppler();
+    waitFor(window.doppler());
 }
 
 void settleNoiseCheck(MainWindow &window)

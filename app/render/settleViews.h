@@ -16,6 +16,8 @@ void sweepThreshold(MainWindow &window);
 /// Why there is, or is no, detection at the cursor.
 void explainCursor(MainWindow &window);
 void measureNoise(MainWindow &window);
+/// To the strongest event's track.
+void fitDoppler(MainWindow &window);
 void cutStates(MainWindow &window);
 void measureLatency(MainWindow &window);
 

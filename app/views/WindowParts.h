@@ -11,6 +11,7 @@ namespace faintline {
 
 class Bench;
 class ComparePanel;
+class DopplerPanel;
 class EvaluatePanel;
 class EventReviews;
 class EventTable;
@@ -69,6 +70,7 @@ public:
     ComparePanel &comparePanel() const { return *m_compare; }
     EvaluatePanel &evaluation() const { return *m_evaluate; }
     SpectrumPanel &spectrum() const { return *m_spectrum; }
+    DopplerPanel &doppler() const { return *m_doppler; }
     SurveyPanel &survey() const { return *m_survey; }
     SweepPanel &sweep() const { return *m_sweep; }
     ExperimentsPanel &experimentList() const { return *m_experimentList; }
@@ -116,6 +118,7 @@ protected:
     ComparePanel *m_compare = nullptr;
     EvaluatePanel *m_evaluate = nullptr;
     SpectrumPanel *m_spectrum = nullptr;
+    DopplerPanel *m_doppler = nullptr;
     SurveyPanel *m_survey = nullptr;
     SweepPanel *m_sweep = nullptr;
     ExperimentsPanel *m_experimentList = nullptr;

@@ -4,6 +4,7 @@
 #include "app/control/OutputLayers.h"
 #include "app/document/saveView.h"
 #include "app/panels/ComparePanel.h"
+#include "app/panels/DopplerPanel.h"
 #include "app/panels/EvaluatePanel.h"
 #include "app/panels/HandLinePanel.h"
 #include "app/panels/InfoPanel.h"
@@ -56,6 +57,7 @@ const std::vector<WindowView> &windowViews()
         {"noise", tr("Noise and calibration"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.info(); }},
         {"noisefit", tr("Noise fit"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.noiseFit(); }},
         {"spectrum", tr("Spectrum"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.spectrum(); }},
+        {"doppler", tr("Doppler fit"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.doppler(); }},
         {"pd", tr("Pd and ROC"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.evaluation(); }},
         {"why", tr("Why"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.why(); }},
         {"compare", tr("Compare"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.comparePanel(); }},

@@ -11,12 +11,11 @@
 #include "app/lessons/Lesson.h"
 #include "app/lessons/LessonGuide.h"
 #include "app/panels/ComparePanel.h"
+#include "app/panels/DopplerPanel.h"
 #include "app/panels/EvaluatePanel.h"
 #include "app/panels/ExperimentsPanel.h"
 #include "app/panels/HandLinePanel.h"
-#include "app/panels/InjectDialog.h"
 #include "app/panels/LatencyPanel.h"
-#include "app/panels/LearnMotionDialog.h"
 #include "app/panels/NoiseFitPanel.h"
 #include "app/panels/ReproductionPanel.h"
 #include "app/panels/SpectrumPanel.h"
@@ -34,6 +33,7 @@
 #include "app/workspace/Workbench.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "widgets/base/ReadOut.h"
+#include "widgets/base/familyWords.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/plot/ExceedancePlot.h"
 #include "widgets/waterfall/OverviewStrip.h"
@@ -148,6 +148,7 @@ void MainWindow::showAnalysis()
     const Analysis &analysis = *m_document.analysis();
     const Axis &frequency = analysis.grid().axes.front(); // of pings: the range
     m_readOut->setResolution(analysis.time().step, frequency.step);
+    m_readOut->setFrequencyName(frequencyName(analysis.settings.family));
     const QString unit = statisticUnit(analysis.settings);
     m_threshold->setStatisticUnit(unit);
     m_readOut->setStatisticUnit(unit);
@@ -257,30 +258,6 @@ void MainWindow::exportReport()
         m_report->write(path);
 }
 
-void MainWindow::injectLine()
-{
-    const auto &analysis = m_document.analysis();
-    const Spectrogram *spectrogram = analysis ? analysis->frames->spectrogram() : nullptr;
-    if (!spectrogram)
-        return;
-    const RecordingInfo &info = m_document.recording()->info();
-    const Viewport &viewport = m_document.viewport();
-    const Viewport::Point at =
-        viewport.cursor().value_or(Viewport::Point{viewport.full().time.middle(), viewport.full().frequency.middle()});
-    InjectDialog dialog(info, at.seconds, at.hz, spectrogram->windowSeconds(), this);
-    if (dialog.exec() == QDialog::Accepted)
-        m_controller.inject(dialog.line());
-}
-
-void MainWindow::learnMotion()
-{
-    if (!m_document.analysis())
-        return;
-    auto *dialog = new LearnMotionDialog(m_document.analysis(), m_controller, this);
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->open();
-}
-
 void MainWindow::reproduce(const Reproducible &reproducible, bool quick)
 {
     ReproduceOptions options;
@@ -342,6 +319,11 @@ void MainWindow::showSweep()
 void MainWindow::showSpectrum()
 {
     m_panels->show(m_spectrum);
+}
+
+void MainWindow::showDoppler()
+{
+    m_panels->show(m_doppler);
 }
 
 void MainWindow::showCompare()

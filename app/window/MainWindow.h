@@ -66,6 +66,8 @@ public:
     void showHandLine();
     void learnMotion();
     void showSpectrum();
+    void showDoppler();
+    void straighten(); ///< along the selected event's track, or the strongest's
     void showCompare();
     void showSweep();
 

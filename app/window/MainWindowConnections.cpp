@@ -16,6 +16,7 @@
 #include "app/lessons/LessonGuide.h"
 #include "app/lessons/LessonList.h"
 #include "app/panels/ComparePanel.h"
+#include "app/panels/DopplerPanel.h"
 #include "app/panels/EvaluatePanel.h"
 #include "app/panels/ExperimentsPanel.h"
 #include "app/panels/PipelinePanel.h"
@@ -197,6 +198,8 @@ void MainWindow::connectViews()
     connect(m_views, &WindowViews::written, this, &MainWindow::showWritten);
     connect(m_reviews, &EventReviews::written, this, &MainWindow::showWritten);
     connect(m_sequential, &SequentialPanel::written, this, &MainWindow::showWritten);
+    connect(m_doppler, &DopplerPanel::written, this, &MainWindow::showWritten);
+    connect(m_doppler, &DopplerPanel::failed, this, &MainWindow::showError);
     connect(new FileDrop(this), &FileDrop::dropped, this, &MainWindow::openDropped);
 }
 

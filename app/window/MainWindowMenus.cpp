@@ -243,6 +243,10 @@ void MainWindow::buildDetectMenu()
     menu->addSeparator();
     addViewAction(*menu, tr("&Why (not) detected"), QKeySequence(Qt::Key_W), [this] { showWhy(); });
     addViewAction(*menu, tr("Draw a line &by hand"), QKeySequence(Qt::CTRL | Qt::Key_D), [this] { showHandLine(); });
+    addViewAction(*menu, tr("Fit &Doppler…"), Qt::Key_D, [this] {
+        showDoppler();
+    })->setToolTip(tr("The pass of a source that the selected event's track tells of"));
+    addViewAction(*menu, tr("S&traighten recording along this track…"), Qt::Key_T, [this] { straighten(); });
     addViewAction(*menu, tr("Learn &motion from tracks…"), {}, [this] { learnMotion(); });
     menu->addSeparator();
     addViewAction(*menu, tr("&Keep as A"), QKeySequence(Qt::CTRL | Qt::Key_B), [this] {

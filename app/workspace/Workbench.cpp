@@ -5,6 +5,7 @@
 #include "app/control/OutputLayers.h"
 #include "app/control/trackBox.h"
 #include "app/document/statisticUnit.h"
+#include "widgets/base/familyWords.h"
 #include "widgets/plot/StripPlot.h"
 #include "widgets/waterfall/ColourBar.h"
 
@@ -311,7 +312,10 @@ void Workbench::read(const Viewport::Point &point)
 
 void Workbench::readCursor()
 {
-    if (const auto &cursor = m_document.viewport().cursor())
+    const auto &cursor = m_document.viewport().cursor();
+    const auto &analysis = m_document.analysis();
+    m_input->setCursorNote(cursor && analysis ? membersText(*analysis, cursor->hz) : QString());
+    if (cursor)
         read(*cursor);
     else
         emit readingChanged({});

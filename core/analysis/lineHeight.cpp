@@ -83,40 +83,76 @@ namespace {
         return powers;
     }
 
+    /// The middle of a stretch that is longer than what is held.
+    Stretch shortened(Stretch stretch, double longest)
+    {
+        if (const double spare = stretch.toSeconds - stretch.fromSeconds - longest; spare > 0.0) {
+            stretch.fromSeconds += 0.5 * spare;
+            stretch.toSeconds -= 0.5 * spare;
+        }
+        return stretch;
+    }
+
+    struct Band {
+        std::vector<float> powers;
+        double hz = 0.0;   ///< of the middle
+        double step = 0.0; ///< Hz
+        Index reach = 0;   ///< powers below the middle
+
+        double hzAt(std::ptrdiff_t i) const { return hz + step * double(i - reach); }
+        double median() const
+        {
+            std::vector<float> sorted = powers;
+            const auto middle = sorted.begin() + std::ssize(sorted) / 2;
+            std::nth_element(sorted.begin(), middle, sorted.end());
+            return double(*middle);
+        }
+    };
+
+    Band bandOf(const Recording &recording, const Stretch &whole, const RunContext &context)
+    {
+        const double rate = recording.info().sampleRateHz;
+        const auto refuse = [&whole] {
+            throw Error("a spectrum of " + formatNumber(whole.toSeconds - whole.fromSeconds) + " s",
+                        "is too short for a band of ±" + formatNumber(whole.halfBandHz) + " Hz");
+        };
+        if (!(whole.halfBandHz * (whole.toSeconds - whole.fromSeconds) > 1.0)) // a band of less than two cells
+            refuse();
+        const auto averaged = std::max<Index>(1, Index(rate / (2.0 * oversampling * whole.halfBandHz)));
+        const Stretch stretch = shortened(whole, double(most * averaged) / rate);
+        const auto first = Index(std::llround(stretch.fromSeconds * rate));
+        const auto count = Index(std::llround(stretch.toSeconds * rate)) - first;
+        if (count / averaged < fewest)
+            refuse();
+        const std::vector<float> all = powerSpectrum(
+            mixedDown(recording, {stretch.channel, first, count}, {stretch.hz / rate, averaged}, context));
+        Band band{{}, stretch.hz, rate / double(averaged * std::ssize(all)), 0};
+        const Index middle = std::ssize(all) / 2; // of 0 Hz
+        band.reach = std::min(middle, Index(stretch.halfBandHz / band.step));
+        band.powers.assign(all.begin() + middle - band.reach,
+                           all.begin() + std::min<Index>(std::ssize(all), middle + band.reach + 1));
+        return band;
+    }
+
 } // namespace
 
-LineHeight lineHeight(const Recording &recording, Stretch stretch, const RunContext &context)
+LineSpectrum lineSpectrum(const Recording &recording, const Stretch &stretch, const RunContext &context)
 {
-    const double rate = recording.info().sampleRateHz;
-    const auto refuse = [&stretch] {
-        throw Error("a spectrum of " + formatNumber(stretch.toSeconds - stretch.fromSeconds) + " s",
-                    "is too short for a band of ±" + formatNumber(stretch.halfBandHz) + " Hz");
-    };
-    if (!(stretch.halfBandHz * (stretch.toSeconds - stretch.fromSeconds) > 1.0)) // a band of less than two cells
-        refuse();
-    const auto averaged = std::max<Index>(1, Index(rate / (2.0 * oversampling * stretch.halfBandHz)));
-    const double longest = double(most * averaged) / rate;
-    if (const double spare = stretch.toSeconds - stretch.fromSeconds - longest; spare > 0.0) {
-        stretch.fromSeconds += 0.5 * spare;
-        stretch.toSeconds -= 0.5 * spare;
+    const Band band = bandOf(recording, stretch, context);
+    const double median = band.median();
+    LineSpectrum spectrum;
+    for (std::ptrdiff_t i = 0; i < std::ssize(band.powers); ++i) {
+        spectrum.hz.push_back(band.hzAt(i));
+        spectrum.db.push_back(dbFromRatio(double(band.powers[std::size_t(i)]) / median));
     }
-    const auto first = Index(std::llround(stretch.fromSeconds * rate));
-    const auto count = Index(std::llround(stretch.toSeconds * rate)) - first;
-    if (count / averaged < fewest)
-        refuse();
-    const std::vector<float> all =
-        powerSpectrum(mixedDown(recording, {stretch.channel, first, count}, {stretch.hz / rate, averaged}, context));
-    const double step = rate / double(averaged * std::ssize(all));
-    const Index middle = std::ssize(all) / 2; // of 0 Hz
-    const auto reach = std::min(middle, Index(stretch.halfBandHz / step));
-    std::vector<float> band(all.begin() + middle - reach,
-                            all.begin() + std::min<Index>(std::ssize(all), middle + reach + 1));
-    const auto highest = std::max_element(band.begin(), band.end());
-    const double hz = stretch.hz + step * double(highest - band.begin() - reach);
-    const auto power = double(*highest);
-    const auto median = band.begin() + std::ssize(band) / 2;
-    std::nth_element(band.begin(), median, band.end());
-    return {hz, dbFromRatio(power / double(*median))};
+    return spectrum;
+}
+
+LineHeight lineHeight(const Recording &recording, const Stretch &stretch, const RunContext &context)
+{
+    const Band band = bandOf(recording, stretch, context);
+    const auto highest = std::max_element(band.powers.begin(), band.powers.end());
+    return {band.hzAt(highest - band.powers.begin()), dbFromRatio(double(*highest) / band.median())};
 }
 
 } // namespace faintline

@@ -31,4 +31,12 @@ void calibratePlan(AnalysisPlan &plan, const RunContext &context, CalibrationDep
     plan.threshold = thresholdNats(plan.settings.decide, *plan.calibration, plan.cellFramesPerHour);
 }
 
+NormalisedFramesPointer framesOfLines(const AnalysisPlan &plan)
+{
+    if (plan.settings.family.isNone())
+        return plan.frames;
+    const std::shared_ptr<const Spectrogram> spectrogram(plan.frames, plan.frames->spectrogram());
+    return std::make_shared<NormalisedSpectrogram>(spectrogram, plan.background, plan.settings.noise);
+}
+
 } // namespace faintline

@@ -1,5 +1,6 @@
 #include "analysis/spectra.h"
 
+#include "analysis/plan.h"
 #include "spectrum/Spectrogram.h"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ namespace {
     {
     public:
         Reader(const Analysis &analysis, SpectrumLevel level)
-            : m_frames(*analysis.frames),
+            : m_frames(framesOfLines(analysis)),
               m_spectrogram(level == SpectrumLevel::Density ? analysis.frames->spectrogram() : nullptr),
               m_values(std::size_t(axis().count))
         {
@@ -32,7 +33,7 @@ namespace {
             m_unit = (info.isComplex ? 1.0 : 2.0) * std::pow(4.0, m_spectrogram->scaleExponent()) / info.sampleRateHz;
         }
 
-        const Axis &axis() const { return m_spectrogram ? m_spectrogram->frequency() : m_frames.grid().axes.back(); }
+        const Axis &axis() const { return m_spectrogram ? m_spectrogram->frequency() : m_frames->grid().axes.back(); }
 
         double value(std::size_t cell) const { return m_unit * double(m_values[cell]); }
 
@@ -41,11 +42,11 @@ namespace {
             if (m_spectrogram)
                 m_spectrogram->read(frame, 1, m_values, context);
             else
-                m_frames.read(frame, 1, m_values);
+                m_frames->read(frame, 1, m_values);
         }
 
     private:
-        const NormalisedFrames &m_frames;
+        NormalisedFramesPointer m_frames; ///< of single lines, also where a family is looked for
         const Spectrogram *m_spectrogram;
         double m_unit = 1.0;
         std::vector<float> m_values;

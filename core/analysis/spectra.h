@@ -13,7 +13,8 @@ enum class SpectrumLevel {
     Density    ///< power per Hz, of samples whose full scale is 1; one-sided for real samples
 };
 
-/// One frame, and the mean of many, along the last axis of frames on one axis.
+/// One frame, and the mean of many, along the last axis of frames on one axis; where a family is looked for, along the
+/// frequencies of its members.
 struct Spectra {
     std::vector<double> position; ///< Hz
     std::vector<double> frame;

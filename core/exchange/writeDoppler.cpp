@@ -1,5 +1,8 @@
 #include "exchange/writeDoppler.h"
 
+#include "analysis/doppler/dopplerFit.h"
+#include "base/AtomicFile.h"
+#include "base/Error.h"
 #include "base/Field.h"
 #include "base/json.h"
 
@@ -101,6 +104,27 @@ namespace {
 
 } // namespace
 
+std::optional<double> centreOfFrames(const AnalysisPlan &plan)
+{
+    if (!plan.recording || !plan.recording->info().isComplex)
+        return 0.0;
+    const double centreHz = plan.recording->info().centreHz;
+    return centreHz > 0.0 ? std::optional(centreHz) : std::nullopt;
+}
+
+DopplerReport dopplerReport(const Analysis &analysis, std::vector<Event> events, double centreHz, double propagation)
+{
+    DopplerReport report;
+    report.events = std::move(events);
+    report.centreHz = centreHz;
+    std::vector<DopplerTrack> tracks;
+    for (const Event &event : report.events)
+        tracks.push_back(dopplerTrack(analysis, *trackOfId(analysis.tracks, event.id), centreHz));
+    report.track = joined(tracks);
+    report.fit = fitDopplerPass(report.track.points, propagation);
+    return report;
+}
+
 std::vector<DopplerRow> dopplerRows(const DopplerFit &fit)
 {
     return {{"rest frequency", "Hz", fit.pass.restHz, fit.restHz},
@@ -188,6 +212,18 @@ std::string dopplerCsv(const DopplerReport &report)
         csv += formatNumber(report.fit.residualHz[i]) + (report.fit.isLeftOut[i] ? ",1\n" : ",0\n");
     }
     return csv;
+}
+
+void checkDopplerPath(const std::string &path)
+{
+    if (!path.ends_with(".json") && !path.ends_with(".csv"))
+        throw Error(path, "the file name must end in .json or .csv");
+}
+
+void writeDoppler(const DopplerReport &report, const std::string &path)
+{
+    checkDopplerPath(path);
+    writeTextFile(path, path.ends_with(".csv") ? dopplerCsv(report) : dopplerJson(report));
 }
 
 std::vector<Chart> dopplerCharts(const DopplerReport &report)

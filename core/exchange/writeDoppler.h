@@ -5,6 +5,7 @@
 #include "analysis/events.h"
 #include "evaluate/experiments/Chart.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,14 @@ struct DopplerReport {
     DopplerTrack track;
     DopplerFit fit;
 };
+
+/// What 0 Hz of an analysis's frames stands for, Hz: 0, or of I/Q the centre frequency; nothing where the recording
+/// does not say it.
+std::optional<double> centreOfFrames(const AnalysisPlan &plan);
+
+/// The fit to events of an analysis, the pieces of one pass. Throws Error where the events are no such pieces or their
+/// tracks too short (dopplerTrack.h, dopplerFit.h).
+DopplerReport dopplerReport(const Analysis &analysis, std::vector<Event> events, double centreHz, double propagation);
 
 /// One parameter as tables show it.
 struct DopplerRow {
@@ -43,6 +52,10 @@ std::vector<std::string> dopplerNotes(const DopplerReport &report);
 std::string dopplerJson(const DopplerReport &report);
 /// A row per point: t, f, deviation, fitted, residual, left_out (1: took no part).
 std::string dopplerCsv(const DopplerReport &report);
+
+/// Writes the one or the other by the path's ending, .json or .csv. Throws Error.
+void checkDopplerPath(const std::string &path);
+void writeDoppler(const DopplerReport &report, const std::string &path);
 
 /// Frequency against time with the fitted curve, and the residuals below. Bars on the frequencies are their own 5-95 %
 /// bands; points that were left out are a curve of their own.

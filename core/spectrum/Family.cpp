@@ -1,9 +1,7 @@
 #include "spectrum/Family.h"
 
-#include "spectrum/NormalisedPower.h"
 #include "spectrum/Spectrogram.h"
-
-#include <boost/math/special_functions/gamma.hpp>
+#include "spectrum/familyLaw.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,35 +13,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr std::size_t mostMembers = 64;
     constexpr double largestMultiple = 64.0;
-    constexpr float exact = 12.0f; ///< beyond this maximum, 1 - (1 - e^-m)^K is K·e^-m to single precision
-
-    /// The law of K summed cells; nothing to do for one.
-    LooksLaw sumLaw(std::size_t members)
-    {
-        const auto looks = double(members);
-        return {looks, boost::math::gamma_p_inv(looks, 0.5) / looks};
-    }
-
-    const LooksLaw &sumLawOf(std::size_t members)
-    {
-        static const std::vector<LooksLaw> laws = [] {
-            std::vector<LooksLaw> all;
-            for (std::size_t i = 1; i <= mostMembers; ++i)
-                all.push_back(sumLaw(i));
-            return all;
-        }();
-        return laws[members - 1];
-    }
-
-    float largestOf(float maximum, std::size_t members)
-    {
-        const auto K = float(members);
-        if (maximum > exact)
-            return maximum - std::log(K);
-        return -std::log(-std::expm1(K * std::log1p(-std::exp(-maximum))));
-    }
 
     /// The smallest distance between two members; ∞ of one.
     double closest(std::vector<double> members)
@@ -228,20 +198,15 @@ namespace {
                 out[cell] = law(out[cell], std::size_t(counts[cell]));
     }
 
-    float summed(float sum, std::size_t members)
-    {
-        return sumLawOf(members)(sum / float(members));
-    }
-
 } // namespace
 
 void FamilyMap::apply(std::span<const float> y, std::span<float> out) const
 {
     const auto larger = [](float a, float b) { return std::max(a, b); };
     if (m_settings.present == FamilySettings::Present::Together)
-        gather(y, m_places, out, std::plus<float>(), summed);
+        gather(y, m_places, out, std::plus<float>(), powerOfSum);
     else
-        gather(y, m_places, out, larger, largestOf);
+        gather(y, m_places, out, larger, powerOfLargest);
 }
 
 FamilyFrames::FamilyFrames(NormalisedFramesPointer lines, const FamilySettings &settings, Band band)

@@ -36,8 +36,8 @@ class tst_spectra : public QObject
     Q_OBJECT
 
 private slots:
-    /// A density is that of the recording: on its own axis, not on the fundamental's.
-    void aFamilyHasTheRecordingsDensity()
+    /// The spectra are those of the recording: on its own axis, not on the fundamental's.
+    void aFamilyHasTheRecordingsSpectra()
     {
         LineScene scene;
         scene.sampleRateHz = 500.0;
@@ -46,11 +46,15 @@ private slots:
         settings.spectrogram.windowSeconds = 0.5;
         settings.family = {FamilySettings::Relation::Harmonics, {1.0, 2.0, 3.0}, FamilySettings::Present::Together};
         const auto analysis = analyse(std::make_shared<SimulatedRecording>(scene), settings);
-        const Spectra density = spectraOf(*analysis, 10.0, {0.0, 30.0}, SpectrumLevel::Density);
-        QCOMPARE(density.position.back(), 250.0);
-        QCOMPARE(density.mean.size(), density.position.size());
-        const Spectra ratio = spectraOf(*analysis, 10.0, {0.0, 30.0}, SpectrumLevel::OverNoise);
-        QCOMPARE(ratio.position.back(), analysis->grid().axes.back().last());
+        settings.family = {};
+        const auto single = analyse(std::make_shared<SimulatedRecording>(scene), settings);
+        for (const SpectrumLevel level : {SpectrumLevel::Density, SpectrumLevel::OverNoise}) {
+            const Spectra spectra = spectraOf(*analysis, 10.0, {0.0, 30.0}, level);
+            const Spectra expected = spectraOf(*single, 10.0, {0.0, 30.0}, level);
+            QCOMPARE(spectra.position.back(), 250.0);
+            QVERIFY(spectra.frame == expected.frame); // bit for bit
+            QVERIFY(spectra.mean == expected.mean);
+        }
     }
 
     void whiteNoiseHasItsDensity()

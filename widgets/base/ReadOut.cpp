@@ -58,17 +58,16 @@ ReadOut::ReadOut(QWidget *parent) : QWidget(parent)
 
 ReadOut::Item ReadOut::addItem(const QString &name, const QString &widest)
 {
-    Item item{new QWidget, new QLabel};
-    auto *label = new QLabel(name);
-    label->setFont(Theme::font(12));
-    label->setForegroundRole(QPalette::PlaceholderText);
+    Item item{new QWidget, new QLabel(name), new QLabel};
+    item.name->setFont(Theme::font(12));
+    item.name->setForegroundRole(QPalette::PlaceholderText);
     item.value->setFont(Theme::monoFont(12));
     item.value->setMinimumWidth(QFontMetrics(item.value->font()).horizontalAdvance(widest));
     item.value->setAccessibleName(name);
     auto *row = new QHBoxLayout(item.box);
     row->setContentsMargins(0, 0, 0, 0);
     row->setSpacing(6);
-    row->addWidget(label);
+    row->addWidget(item.name);
     row->addWidget(item.value);
     layout()->addWidget(item.box);
     return item;
@@ -79,6 +78,12 @@ void ReadOut::setStartUnixSeconds(std::optional<double> unixSeconds)
     m_startUnixSeconds = unixSeconds;
     m_utc.box->setVisible(unixSeconds.has_value());
     setReading(m_reading);
+}
+
+void ReadOut::setFrequencyName(const QString &name)
+{
+    m_frequency.name->setText(name);
+    m_frequency.value->setAccessibleName(name);
 }
 
 void ReadOut::setResolution(double frameSeconds, double binHz)

@@ -29,6 +29,9 @@ public:
     /// What the statistic is measured in: "nat" unless said otherwise.
     void setStatisticUnit(const QString &unit);
 
+    /// What the frequency is that of: "Frequency" unless said otherwise.
+    void setFrequencyName(const QString &name);
+
     /// UTC of the first sample; without it only relative time is shown.
     void setStartUnixSeconds(std::optional<double> unixSeconds);
     /// Digits are chosen so that neighbouring cells differ.
@@ -45,6 +48,7 @@ protected:
 private:
     struct Item {
         QWidget *box = nullptr;
+        QLabel *name = nullptr;
         QLabel *value = nullptr;
     };
     Item addItem(const QString &name, const QString &widest);

@@ -283,7 +283,9 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
                              tr("Note")};
     const QString tips[] = {
         tr("Number, in order of detection"),
-        hasBearing() ? tr("Range at detection") : tr("Frequency at detection"),
+        hasBearing()     ? tr("Range at detection")
+        : m_axes.empty() ? tr("Frequency at detection")
+                         : tr("%1 at detection").arg(capitalised(labelText(m_axes.front().name, mostUnitLetters))),
         tr("Bearing at detection"),
         tr("Onset: time of the last reset of the detecting path, from the first sample; s, from ten "
            "minutes on h:min:s"),

@@ -59,6 +59,7 @@ ChartFigure::ChartFigure(const ChartPlot &chart, const QString &caption)
     auto *copy = new ChartPlot;
     copy->setFixedSize(chartSize);
     copy->setChart(chart.chart());
+    copy->setMarks(chart.marks());
     for (std::size_t curve = 0; curve < chart.chart().curves.size(); ++curve)
         copy->setShown(curve, chart.isShown(curve));
     copy->setPrinted(true);

@@ -21,17 +21,18 @@ namespace faintline {
 namespace {
 
     constexpr std::size_t mostBars = 24;    ///< more points than that: a band
-    constexpr std::size_t mostMarkers = 60; ///< more points than that: a line alone
+    constexpr std::size_t mostMarkers = 60; ///< more points than that: a line alone, or small points
 
     constexpr std::array<QwtSymbol::Style, 8> symbols{QwtSymbol::Ellipse,   QwtSymbol::Rect,      QwtSymbol::Diamond,
                                                       QwtSymbol::UTriangle, QwtSymbol::DTriangle, QwtSymbol::Hexagon,
                                                       QwtSymbol::LTriangle, QwtSymbol::RTriangle};
 
-    std::unique_ptr<QwtSymbol> symbolOf(Curve::Kind kind, std::size_t style, const QColor &colour, const QColor &canvas)
+    std::unique_ptr<QwtSymbol> symbolOf(Curve::Kind kind, std::size_t style, const QColor &colour, const QColor &canvas,
+                                        int size = 7)
     {
         const bool isHollow = kind == Curve::Kind::Paper;
         return std::make_unique<QwtSymbol>(symbols[style % symbols.size()], QBrush(isHollow ? canvas : colour),
-                                           QPen(colour, 1.4), QSize(7, 7));
+                                           QPen(colour, 1.4), QSize(size, size));
     }
 
     QPen penOf(Curve::Kind kind, const QColor &colour)
@@ -77,6 +78,17 @@ std::optional<std::size_t> ChartItems::styleOf(std::size_t curve) const
     return owner ? std::optional(countBefore(*owner)) : std::nullopt;
 }
 
+/// Points that belong to no measured curve are told from others of these.
+std::size_t ChartItems::symbolStyleOf(std::size_t curve) const
+{
+    if (const auto style = styleOf(curve))
+        return *style;
+    std::size_t before = 0;
+    for (std::size_t i = 0; i < curve; ++i)
+        before += m_chart.curves[i].kind == Curve::Kind::Paper && !styleOf(i) ? 1 : 0;
+    return before;
+}
+
 QColor ChartItems::colourOf(std::size_t curve) const
 {
     const auto style = styleOf(curve);
@@ -93,8 +105,10 @@ std::unique_ptr<QwtPlotCurve> ChartItems::curve(std::size_t index) const
     item->setZ(curve.kind == Curve::Kind::Theory ? 20.0 : 30.0);
     if (curve.kind == Curve::Kind::Paper)
         item->setStyle(QwtPlotCurve::NoCurve);
-    if (curve.kind != Curve::Kind::Theory && curve.points.size() <= mostMarkers)
-        item->setSymbol(symbolOf(curve.kind, styleOf(index).value_or(0), colour, m_colours.canvas).release());
+    const bool areMany = curve.points.size() > mostMarkers;
+    if (curve.kind == Curve::Kind::Paper || (curve.kind == Curve::Kind::Measured && !areMany))
+        item->setSymbol(
+            symbolOf(curve.kind, symbolStyleOf(index), colour, m_colours.canvas, areMany ? 4 : 7).release());
     QPolygonF samples;
     for (const Curve::Point &point : curve.points)
         samples << place(point);
@@ -170,8 +184,7 @@ QPixmap ChartItems::sample(std::size_t index, double devicePixelRatio) const
     if (curve.kind != Curve::Kind::Paper)
         painter.drawLine(QPointF(1, 6), QPointF(25, 6));
     if (curve.kind != Curve::Kind::Theory)
-        symbolOf(curve.kind, styleOf(index).value_or(0), colour, m_colours.canvas)
-            ->drawSymbol(&painter, QPointF(13, 6));
+        symbolOf(curve.kind, symbolStyleOf(index), colour, m_colours.canvas)->drawSymbol(&painter, QPointF(13, 6));
     return pixmap;
 }
 

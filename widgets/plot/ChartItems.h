@@ -42,6 +42,7 @@ public:
 
 private:
     std::optional<std::size_t> styleOf(std::size_t curve) const;
+    std::size_t symbolStyleOf(std::size_t curve) const;
     QColor colourOf(std::size_t curve) const;
 
     const Chart &m_chart;

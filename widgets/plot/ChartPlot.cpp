@@ -62,13 +62,14 @@ namespace {
 } // namespace
 
 ChartPlot::ChartPlot(QWidget *parent)
-    : QWidget(parent), m_plot(new QwtPlot), m_grid(new QwtPlotGrid), m_ring(new QwtPlotMarker),
+    : QWidget(parent), m_plot(new QwtPlot), m_grid(new QwtPlotGrid), m_ring(new QwtPlotMarker), m_marks(new ChartMarks),
       m_sentence(new CanvasSentence), m_row(new QBoxLayout(QBoxLayout::LeftToRight)), m_key(new ChartKey),
       m_readOut(plainLabel())
 {
     m_grid->attach(m_plot);
     m_ring->setZ(60.0);
     m_ring->attach(m_plot);
+    m_marks->attach(m_plot);
     m_sentence->attach(m_plot);
     m_plot->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
     m_plot->setMinimumSize(120, 90);
@@ -106,6 +107,20 @@ void ChartPlot::setChart(const Chart &chart)
         && (m_place->curve >= chart.curves.size() || m_place->point >= chart.curves[m_place->curve].points.size()))
         m_place.reset();
     restyle();
+}
+
+void ChartPlot::setMarks(std::vector<ChartMark> marks)
+{
+    if (m_marks->marks == marks)
+        return;
+    m_marks->marks = std::move(marks);
+    m_plot->replot();
+}
+
+void ChartPlot::setLeastOrdinates(std::optional<Span> span)
+{
+    m_leastOrdinates = span;
+    layAxes();
 }
 
 void ChartPlot::setEmptySentence(const QString &sentence)
@@ -177,6 +192,8 @@ void ChartPlot::restyle()
     Theme::style(*m_plot);
     m_grid->setPen(colours.grid, 1.0);
     m_sentence->colour = colours.faintText;
+    m_marks->colour = colours.text;
+    m_marks->plate = colours.canvas;
     QPalette faint = palette();
     faint.setColor(QPalette::WindowText, colours.faintText);
     m_readOut->setPalette(faint);
@@ -199,6 +216,7 @@ void ChartPlot::rebuild()
     const bool isEmpty = m_chart.curves.empty();
     m_sentence->setVisible(isEmpty);
     m_grid->setVisible(!isEmpty);
+    m_marks->setVisible(!isEmpty);
     m_plot->setAxisVisible(QwtAxis::XBottom, !isEmpty);
     m_plot->setAxisVisible(QwtAxis::YLeft, !isEmpty);
     m_readOut->setVisible(!isEmpty && !m_isPrinted);
@@ -256,6 +274,8 @@ void ChartPlot::layAxes()
             }
         }
     }
+    if (m_leastOrdinates)
+        ys.insert(ys.end(), {items.ordinate(m_leastOrdinates->low), items.ordinate(m_leastOrdinates->high)});
     const QSize size = m_plot->canvas()->contentsRect().size();
     const Span x = aired(spanOf(xs), 0.03);
     const Span y = areShares && !m_chart.isLogarithmicY ? Span{-0.02, 1.02} : aired(spanOf(ys), 0.05);

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "evaluate/experiments/Chart.h"
+#include "widgets/base/Span.h"
+#include "widgets/plot/ChartMarks.h"
 
 #include <QSet>
 #include <QWidget>
@@ -46,6 +48,13 @@ public:
     /// As on paper: neither boxes to tick nor what is under the mouse.
     void setPrinted(bool isPrinted);
 
+    /// Places on the x axis with names, in ascending order. They move no axis.
+    void setMarks(std::vector<ChartMark> marks);
+    const std::vector<ChartMark> &marks() const { return m_marks->marks; }
+
+    /// The y axis holds this as well, so that charts side by side can have the same.
+    void setLeastOrdinates(std::optional<Span> span);
+
     bool isShown(std::size_t curve) const;
     void setShown(std::size_t curve, bool isShown);
 
@@ -87,6 +96,7 @@ private:
     ChartItems items() const;
 
     Chart m_chart;
+    std::optional<Span> m_leastOrdinates;
     QSet<QString> m_hidden; ///< by name
     std::optional<Place> m_place;
     int m_resizing = 0; ///< how deep in resizing of the canvas by what resizing it changed
@@ -96,6 +106,7 @@ private:
     QwtPlot *m_plot;
     QwtPlotGrid *m_grid;
     QwtPlotMarker *m_ring; ///< around the point read out
+    ChartMarks *m_marks;
     CanvasSentence *m_sentence;
     QBoxLayout *m_row; ///< plot and key
     ChartKey *m_key;

@@ -142,6 +142,7 @@ void MarkedWaterfall::updateContent()
     overlay.selectionText = selectionText();
     overlay.sidebands = sidebands();
     overlay.sidebandText = sidebandText();
+    overlay.cursorNote = m_cursorNote;
     overlay.harmonicsHz.clear();
     if (m_hasHarmonics && frequencyAxis().unit == "Hz" && viewport() && viewport()->cursor())
         for (int i = 1; i <= harmonicCount; ++i)
@@ -203,6 +204,14 @@ QString MarkedWaterfall::selectionText() const
         return {};
     const QString text = boxText(*this, *viewport()->selection());
     return m_selectionNote.isEmpty() ? text : text + QLatin1Char('\n') + m_selectionNote;
+}
+
+void MarkedWaterfall::setCursorNote(const QString &note)
+{
+    if (note == m_cursorNote)
+        return;
+    m_cursorNote = note;
+    updateContent();
 }
 
 void MarkedWaterfall::setSelectionNote(const QString &note)

@@ -45,6 +45,7 @@ public:
     std::optional<Sidebands> sidebands() const; ///< as shown
     /// What is said about the sidebands: carrier, spacing, the level of each at the cursor's time.
     QString sidebandText() const;
+    const QString &cursorNote() const { return m_cursorNote; }
     /// What is said about the measured box.
     QString selectionText() const;
     int eventAt(const QPointF &canvasPosition) const; ///< 0: none
@@ -63,6 +64,7 @@ public slots:
     void setHarmonics(bool isOn);       ///< lines at the multiples of the cursor's frequency
     void setSidebandSpacing(double hz); ///< lines beside the cursor's frequency; 0: none
     void setSidebands(bool isOn); ///< with a spacing that suits what is visible; a cursor is placed where there is none
+    void setCursorNote(const QString &note);    ///< what else is known of the cursor's place; in a corner
     void setSelectionNote(const QString &note); ///< what else is known of the measured box; until it changes
     void moveCursorToPeak();                    ///< to the strongest cell nearby
     void setRubber(const std::optional<faintline::Viewport::Box> &box); ///< shown while a box is dragged
@@ -94,6 +96,7 @@ private:
     bool m_isMeasuring = false;
     bool m_hasHarmonics = false;
     double m_sidebandHz = 0.0;
+    QString m_cursorNote;
     QString m_selectionNote;
 };
 

@@ -143,6 +143,7 @@ void OverlayItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScal
     drawHarmonics(canvas);
     drawSidebands(canvas);
     drawCursor(canvas);
+    drawCursorNote(canvas);
     drawSelection(canvas); // over the cursor, which would cross its figures out
     if (hasEvents)
         drawEvents(canvas);
@@ -309,6 +310,14 @@ void OverlayItem::drawCursor(const Canvas &canvas) const
                    {centre.x(), canvas.rect.top(), centre.x(), centre.y() - gap},
                    {centre.x(), centre.y() + gap, centre.x(), canvas.rect.bottom()}},
                   linePen(colour, 1.0));
+}
+
+/// In the corner that the sidebands leave free.
+void OverlayItem::drawCursorNote(const Canvas &canvas) const
+{
+    if (cursor && !cursorNote.isEmpty())
+        canvas.label(canvas.rect.bottomRight() + QPointF(-6.0, -6.0), cursorNote, colours.cursor, QColor(0, 0, 0, 190),
+                     Theme::monoFont(Theme::plotFont().pixelSize()));
 }
 
 void OverlayItem::drawSelection(const Canvas &canvas) const

@@ -34,6 +34,7 @@ public:
     std::vector<double> harmonicsHz;
     std::optional<Sidebands> sidebands;
     QString sidebandText; ///< carrier, spacing and levels
+    QString cursorNote;   ///< what else is known of the cursor's place
     std::optional<Viewport::Box> selection;
     QString selectionText;
     std::optional<Viewport::Box> rubber; ///< while a box is dragged
@@ -59,6 +60,7 @@ private:
     void drawHarmonics(const Canvas &canvas) const;
     void drawSidebands(const Canvas &canvas) const;
     void drawCursor(const Canvas &canvas) const;
+    void drawCursorNote(const Canvas &canvas) const;
     void drawSelection(const Canvas &canvas) const;
 };
 

@@ -19,6 +19,8 @@ private slots:
     void onlyItsOwnFolderIsRead();
     void helpIsNoResult();
     void runsThatAreNone();
+    void whatTheWindowMadeOfATrack_data();
+    void whatTheWindowMadeOfATrack();
 
 private:
     Outcome runAtHome(const QStringList &arguments, const QString &home) const;
@@ -195,6 +197,37 @@ void tst_cliReplay::runsThatAreNone()
         QCOMPARE(outcome.code, 2);
         QVERIFY2(outcome.err.startsWith("error: runs"), outcome.err.constData());
     }
+}
+
+void tst_cliReplay::whatTheWindowMadeOfATrack_data()
+{
+    QTest::addColumn<QString>("command");
+    QTest::addColumn<QString>("name");
+    QTest::addColumn<QByteArray>("made");
+    QTest::newRow("fit") << "doppler"
+                         << "fit.json"
+                         << QByteArray(R"("doppler": {"events": [1], "centreHz": 0.0, "propagation": 343.0})");
+    QTest::newRow("straightened recording")
+        << "straighten"
+        << "straight.wav" << QByteArray(R"("straighten": {"event": 1, "type": "float32"})");
+}
+
+/// The window's provenance makes the bytes of the command line.
+void tst_cliReplay::whatTheWindowMadeOfATrack()
+{
+    QFETCH(QString, command);
+    QFETCH(QString, name);
+    QFETCH(QByteArray, made);
+    QCOMPARE(run(QStringList{command, "line.wav", "--event", "1", "--out", name} + lineSettings).code, 0);
+    const QByteArray hash = QCryptographicHash::hash(content("line.wav"), QCryptographicHash::Sha256).toHex();
+    writeBytes(pathOf((name + ".provenance.json").toUtf8().constData()),
+               R"({"version": "0", "settings": {"spectrogram.windowSeconds": 0.5, "decide.falseAlarmsPerHour": 2},
+        "recording": {"path": "line.wav", "sha256": ")"
+                   + hash + "\"}, " + made + "}");
+    const Outcome replayed = run({"replay", name});
+    QCOMPARE(replayed.err, QByteArray());
+    QVERIFY2(replayed.out.endsWith(name.toUtf8() + ": the same bytes\n"), replayed.out.constData());
+    QCOMPARE(replayed.code, 0);
 }
 
 void tst_cliReplay::helpIsNoResult()

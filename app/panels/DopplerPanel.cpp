@@ -1,0 +1,281 @@
+#include "app/panels/DopplerPanel.h"
+
+#include "app/base/VisibilityWatcher.h"
+#include "app/base/filePath.h"
+#include "app/base/readingTable.h"
+#include "app/document/Document.h"
+#include "app/document/Provenance.h"
+#include "app/panels/chosenEvents.h"
+#include "base/json.h"
+#include "widgets/base/labelText.h"
+#include "widgets/base/quantities.h"
+#include "widgets/events/EventTable.h"
+#include "widgets/plot/ChartPlot.h"
+
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QFileDialog>
+#include <QFormLayout>
+#include <QHeaderView>
+#include <QItemSelectionModel>
+#include <QLabel>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QSplitter>
+#include <QTableView>
+#include <QTableWidget>
+#include <QVBoxLayout>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int leftColumns = 1; ///< of the table
+
+    struct Medium {
+        const char *name;
+        double metresPerSecond;
+    };
+    constexpr Medium media[]{{QT_TRANSLATE_NOOP("faintline::DopplerPanel", "Air"), propagation::air},
+                             {QT_TRANSLATE_NOOP("faintline::DopplerPanel", "Water"), propagation::water},
+                             {QT_TRANSLATE_NOOP("faintline::DopplerPanel", "Light, radio"), propagation::light}};
+
+    QString text(const std::string &words)
+    {
+        return QString::fromStdString(words).replace(QLatin1Char('-'), QChar(0x2212));
+    }
+
+    QString sentenceOf(const DopplerReport &report)
+    {
+        const std::vector<DopplerPoint> &points = report.track.points;
+        const DopplerFit &fit = report.fit;
+        return (report.events.size() == 1 ? DopplerPanel::tr("Event %1") : DopplerPanel::tr("Events %1"))
+                   .arg(QString::fromStdString(eventNumbers(report)))
+               + DopplerPanel::tr(": %1 … %2, %3 points. Residuals: rms %4 Hz, %5 times the track's own errors.")
+                     .arg(secondsText(points.front().seconds, 0.1), secondsText(points.back().seconds, 0.1))
+                     .arg(points.size())
+                     .arg(powerText(fit.rmsHz, 3), powerText(fit.deviationScale, 2));
+    }
+
+} // namespace
+
+DopplerPanel::DopplerPanel(Document &document, const EventTable &events, Provenance &provenance, QWidget *parent)
+    : QWidget(parent), m_document(document), m_events(events), m_provenance(provenance), m_form(new QFormLayout),
+      m_medium(new QComboBox), m_propagation(new QDoubleSpinBox), m_centre(new QDoubleSpinBox),
+      m_save(new QPushButton(tr("&Save fit…"))), m_sentence(plainLabel()), m_table(new QTableWidget),
+      m_notes(plainLabel()), m_frequencies(new ChartPlot), m_residuals(new ChartPlot),
+      m_sight(new VisibilityWatcher(*this))
+{
+    buildInputs();
+    for (QLabel *label : {m_sentence, m_notes}) {
+        label->setWordWrap(true);
+        label->setTextFormat(Qt::PlainText);
+        label->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    }
+    makeReadingTable(*m_table, 20);
+    m_table->setColumnCount(4);
+    m_table->setHorizontalHeaderLabels({tr("Parameter"), tr("Estimate"), tr("90 % interval"), tr("Unit")});
+    m_table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+    m_table->setAccessibleName(tr("The pass and its 90 % intervals"));
+    m_table->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
+    m_table->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    m_frequencies->setEmptySentence(tr("The track and the fitted pass appear here."));
+    m_residuals->setEmptySentence(tr("The residuals appear here."));
+
+    auto *words = new QWidget;
+    auto *column = new QVBoxLayout(words);
+    column->setContentsMargins(8, 6, 8, 6);
+    column->addLayout(m_form);
+    column->addWidget(m_sentence);
+    column->addWidget(m_table);
+    column->addWidget(m_notes);
+    column->addWidget(m_save, 0, Qt::AlignLeft);
+    column->addStretch(1);
+    auto *scroll = new QScrollArea;
+    scroll->setWidget(words);
+    scroll->setWidgetResizable(true);
+    scroll->setFrameShape(QFrame::NoFrame);
+    scroll->setAccessibleName(tr("Doppler fit"));
+    auto *charts = new QSplitter(Qt::Vertical);
+    charts->addWidget(m_frequencies);
+    charts->addWidget(m_residuals);
+    charts->setSizes({3, 2});
+    auto *sides = new QSplitter(Qt::Horizontal);
+    sides->addWidget(scroll);
+    sides->addWidget(charts);
+    sides->setSizes({380, 520});
+    for (QSplitter *splitter : {charts, sides})
+        splitter->setChildrenCollapsible(false);
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addWidget(sides);
+    connectInputs();
+    takeCentre();
+    say(tr("Select an event to fit the pass of a source to its track."));
+}
+
+void DopplerPanel::buildInputs()
+{
+    for (const Medium &medium : media)
+        m_medium->addItem(tr(medium.name), medium.metresPerSecond);
+    m_medium->addItem(tr("Other"));
+    m_propagation->setRange(1e-3, 1e12);
+    m_propagation->setDecimals(3);
+    m_propagation->setSuffix(tr(" m/s"));
+    m_centre->setRange(0.0, 1e15);
+    m_centre->setDecimals(3);
+    m_centre->setSuffix(tr(" Hz"));
+    m_centre->setToolTip(tr("What 0 Hz of the I/Q recording stands for; the fit needs absolute frequencies"));
+    for (QDoubleSpinBox *box : {m_propagation, m_centre})
+        box->setKeyboardTracking(false);
+    m_form->addRow(tr("&Medium"), m_medium);
+    m_form->addRow(tr("S&peed of propagation"), m_propagation);
+    m_form->addRow(tr("&Centre frequency"), m_centre);
+    takeMedium();
+}
+
+void DopplerPanel::connectInputs()
+{
+    connect(m_medium, &QComboBox::activated, this, &DopplerPanel::takeMedium);
+    connect(m_medium, &QComboBox::activated, this, &DopplerPanel::follow);
+    connect(m_propagation, &QDoubleSpinBox::valueChanged, this, [this](double value) {
+        const int known = m_medium->findData(value);
+        m_medium->setCurrentIndex(known >= 0 ? known : m_medium->count() - 1);
+        follow();
+    });
+    connect(m_centre, &QDoubleSpinBox::valueChanged, this, &DopplerPanel::follow);
+    connect(m_save, &QPushButton::clicked, this, &DopplerPanel::ask);
+    connect(m_sight, &VisibilityWatcher::came, this, &DopplerPanel::follow);
+    connect(m_events.table()->selectionModel(), &QItemSelectionModel::selectionChanged, this, &DopplerPanel::follow);
+    connect(&m_document, &Document::opened, m_centre, [this] { m_centre->setValue(0.0); });
+    connect(&m_document, &Document::analysisChanged, this, &DopplerPanel::takeCentre);
+    connect(&m_document, &Document::shownEventsChanged, this, &DopplerPanel::follow);
+    connect(&m_runner, &JobRunner::finished, this, &DopplerPanel::settled);
+    connect(&m_runner, &JobRunner::cancelled, this, &DopplerPanel::settled);
+    connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) { say(messageText(error.what())); });
+}
+
+QString DopplerPanel::sentence() const
+{
+    return m_sentence->text();
+}
+
+void DopplerPanel::takeMedium()
+{
+    if (const QVariant speed = m_medium->currentData(); speed.isValid())
+        m_propagation->setValue(speed.toDouble());
+}
+
+/// Whether it is asked for, and what the recording says of it.
+void DopplerPanel::takeCentre()
+{
+    const auto analysis = m_document.lineAnalysis();
+    const std::optional<double> known = analysis ? centreOfFrames(*analysis) : 0.0;
+    m_form->setRowVisible(m_centre, !known || *known != 0.0);
+    if (known)
+        m_centre->setValue(*known);
+}
+
+/// Why there is no fit.
+void DopplerPanel::say(const QString &sentence)
+{
+    m_report.reset();
+    m_sentence->setText(sentence);
+    m_notes->clear();
+    m_table->setRowCount(0);
+    m_table->hide();
+    m_save->setEnabled(false);
+    m_frequencies->setChart({});
+    m_residuals->setChart({});
+    emit settled();
+}
+
+void DopplerPanel::follow()
+{
+    if (m_sight->isOn())
+        fit();
+}
+
+void DopplerPanel::fit()
+{
+    m_runner.cancel(); // of the selection before
+    const auto analysis = m_document.lineAnalysis();
+    if (!analysis)
+        return say(m_document.analysis() ? tr("A Doppler fit needs frames on frequency.")
+                                         : tr("Select an event to fit the pass of a source to its track."));
+    const std::vector<Event> events = chosenEvents(m_document, m_events);
+    if (events.empty())
+        return say(tr("There is no event at this threshold."));
+    const double centreHz = m_centre->isHidden() ? 0.0 : m_centre->value();
+    if (!m_centre->isHidden() && centreHz == 0.0)
+        return say(tr("The recording is I/Q and does not say its centre frequency; enter it, as the fit needs absolute "
+                      "frequencies."));
+    if (!m_report)
+        m_sentence->setText(tr("Fitting …"));
+    m_runner.start([this, analysis, events, centreHz,
+                    propagation = m_propagation->value()](const RunContext &) -> JobRunner::Delivery {
+        DopplerReport report = dopplerReport(*analysis, events, centreHz, propagation);
+        return [this, report = std::move(report)] { show(report); };
+    });
+}
+
+void DopplerPanel::show(const DopplerReport &report)
+{
+    m_report = report;
+    m_sentence->setText(sentenceOf(report));
+    std::vector<DopplerRow> rows = dopplerRows(report.fit);
+    m_table->setRowCount(int(rows.size()) + 2);
+    int row = 0;
+    for (const DopplerRow &one : rows)
+        fillRow(*m_table, row++,
+                {capitalised(QString::fromStdString(one.name)), text(valueText(one.value, one.bounds)),
+                 text(boundsText(one.bounds)), QString::fromStdString(one.unit)},
+                leftColumns);
+    fillRow(*m_table, row++,
+            {tr("  heard at"), text(valueText(report.fit.heardSeconds(), report.fit.closestSeconds)), {}, tr("s")},
+            leftColumns);
+    fillRow(*m_table, row, {tr("  slope there"), powerText(report.fit.slopeHzPerSecond(), 4), {}, tr("Hz/s")},
+            leftColumns);
+    m_table->show();
+    m_table->updateGeometry();
+    QStringList notes;
+    for (const std::string &note : dopplerNotes(report))
+        notes << QString::fromStdString(note);
+    m_notes->setText(notes.join(QLatin1Char('\n')));
+    std::vector<Chart> charts = dopplerCharts(report);
+    charts[0].curves.back().kind = Curve::Kind::Measured; // over the points, in a colour of its own
+    m_frequencies->setChart(charts[0]);
+    m_residuals->setChart(charts[1]);
+    m_save->setEnabled(true);
+}
+
+void DopplerPanel::ask()
+{
+    const QString path = QFileDialog::getSaveFileName(
+        this, tr("Save fit"), nameBeside(m_document.source().path, QStringLiteral("-doppler.json")),
+        tr("Fit (*.json);;Points and residuals (*.csv)"));
+    if (!path.isEmpty())
+        saveTo(path);
+}
+
+void DopplerPanel::saveTo(const QString &path)
+{
+    if (!m_report)
+        return;
+    m_provenance.with([this, path, report = *m_report](const std::string &provenance) {
+        try {
+            writeDoppler(report, pathBytes(path));
+            Json json = parseJson(provenance, "provenance");
+            json["doppler"] = {
+                {"events", Json::array()}, {"centreHz", report.centreHz}, {"propagation", report.fit.propagation}};
+            for (const Event &event : report.events)
+                json["doppler"]["events"].push_back(event.id);
+            writeProvenanceBeside(path, json.dump(2) + "\n");
+            emit written(path);
+        } catch (const Error &error) {
+            emit failed(error);
+        }
+    });
+}
+
+} // namespace faintline

@@ -1,0 +1,86 @@
+#pragma once
+
+#include "app/base/JobRunner.h"
+#include "exchange/writeDoppler.h"
+
+#include <QWidget>
+
+#include <optional>
+
+class QComboBox;
+class QDoubleSpinBox;
+class QFormLayout;
+class QLabel;
+class QPushButton;
+class QTableWidget;
+
+namespace faintline {
+
+class ChartPlot;
+class Document;
+class EventTable;
+class Provenance;
+class VisibilityWatcher;
+
+/// The pass of a source that the selected event's track tells of: rest frequency, speed, closest range and its time
+/// with their 90 % intervals, the residuals, and what the track of one sensor does not tell.
+///
+/// Several selected events are taken as pieces of one pass; without a selection the strongest event is fitted. Worked
+/// out while it is seen; the newest selection wins.
+class DopplerPanel : public QWidget
+{
+    Q_OBJECT
+
+public:
+    DopplerPanel(Document &document, const EventTable &events, Provenance &provenance, QWidget *parent = nullptr);
+
+    bool isBusy() const { return m_runner.isRunning(); }
+    const std::optional<DopplerReport> &report() const { return m_report; } ///< as shown
+    QString sentence() const;
+    QTableWidget *table() const { return m_table; }
+    ChartPlot &frequencies() { return *m_frequencies; }
+    ChartPlot &residuals() { return *m_residuals; }
+    QComboBox *medium() const { return m_medium; }
+    QDoubleSpinBox *propagation() const { return m_propagation; }
+    QDoubleSpinBox *centre() const { return m_centre; }
+
+    /// By the path's ending: .json, or .csv with the points.
+    void saveTo(const QString &path);
+
+    QSize sizeHint() const override { return {720, 340}; }
+
+signals:
+    void settled(); ///< the fit is of the selection, or the sentence says why there is none
+    void written(const QString &path);
+    void failed(const faintline::Error &error);
+
+private:
+    void buildInputs();
+    void connectInputs();
+    void takeMedium();
+    void takeCentre();
+    void follow();
+    void fit();
+    void show(const DopplerReport &report);
+    void say(const QString &sentence);
+    void ask();
+
+    Document &m_document;
+    const EventTable &m_events;
+    Provenance &m_provenance;
+    QFormLayout *m_form;
+    QComboBox *m_medium;
+    QDoubleSpinBox *m_propagation;
+    QDoubleSpinBox *m_centre; ///< shown of I/Q
+    QPushButton *m_save;
+    QLabel *m_sentence;
+    QTableWidget *m_table;
+    QLabel *m_notes;
+    ChartPlot *m_frequencies;
+    ChartPlot *m_residuals;
+    VisibilityWatcher *m_sight;
+    std::optional<DopplerReport> m_report;
+    JobRunner m_runner; ///< last, so that its jobs end first
+};
+
+} // namespace faintline

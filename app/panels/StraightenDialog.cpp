@@ -1,0 +1,268 @@
+#include "app/panels/StraightenDialog.h"
+
+#include "app/base/filePath.h"
+#include "app/document/Document.h"
+#include "app/document/Provenance.h"
+#include "base/json.h"
+#include "recording/writeRecording.h"
+#include "widgets/base/labelText.h"
+#include "widgets/base/quantities.h"
+#include "widgets/plot/ChartPlot.h"
+
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QDoubleSpinBox>
+#include <QFileDialog>
+#include <QFormLayout>
+#include <QLabel>
+#include <QPointer>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    constexpr double lowestDb = -15.0; ///< drawn; a spectrum's zeros lie anywhere below
+    constexpr double fewestFrames = 2.0, mostFrames = 4096.0, usualFrames = 32.0; ///< of smoothing
+
+    QDoubleSpinBox *number(double low, double high, double value, int decimals, const QString &suffix)
+    {
+        auto *box = new QDoubleSpinBox;
+        box->setDecimals(decimals);
+        box->setRange(low, high);
+        box->setValue(value);
+        box->setSuffix(suffix);
+        box->setKeyboardTracking(false);
+        return box;
+    }
+
+    Chart chartOf(const LineSpectrum &spectrum, const std::string &title)
+    {
+        constexpr std::size_t mostPoints = 2000;
+        Chart chart{title, "Frequency (Hz)", "Level (dB over the band's median)", false, false, {}};
+        Curve curve{title, Curve::Kind::Measured, {}};
+        const std::size_t step = std::max<std::size_t>(1, spectrum.db.size() / mostPoints);
+        for (std::size_t i = 0; i < spectrum.db.size(); i += step) {
+            const auto first = spectrum.db.begin() + std::ptrdiff_t(i);
+            const auto highest =
+                std::max_element(first, spectrum.db.begin() + std::ptrdiff_t(std::min(i + step, spectrum.db.size())));
+            if (std::isfinite(*highest) || *highest < 0.0)
+                curve.points.push_back(
+                    {spectrum.hz[std::size_t(highest - spectrum.db.begin())], std::max(*highest, lowestDb), {}});
+        }
+        chart.curves.push_back(std::move(curve));
+        return chart;
+    }
+
+    double highestOf(const LineSpectrum &spectrum)
+    {
+        return *std::max_element(spectrum.db.begin(), spectrum.db.end());
+    }
+
+} // namespace
+
+StraightenDialog::StraightenDialog(const Document &document, const Event &event, Provenance &provenance,
+                                   QWidget *parent)
+    : QDialog(parent), m_analysis(document.analysis()), m_event(event), m_path(document.source().path),
+      m_provenance(provenance), m_type(new QComboBox), m_sentence(plainLabel()), m_before(new ChartPlot),
+      m_after(new ChartPlot), m_progress(new QProgressBar), m_write(new QPushButton(tr("&Write recording…")))
+{
+    setWindowTitle(tr("Straighten the recording along event %1").arg(event.id));
+    buildInputs();
+    buildLayout();
+    connectInputs();
+    follow();
+}
+
+void StraightenDialog::buildInputs()
+{
+    const RecordingInfo &info = m_analysis->recording->info();
+    const double frame = m_analysis->time().step;
+    const Straightened straight = straightened(*m_analysis, m_event);
+    const double half = 0.5 * info.sampleRateHz;
+    m_target = number(info.isComplex ? -half : 0.0, half, straight.recording->targetHz(), 3, tr(" Hz"));
+    m_target->setToolTip(tr("Where the straightened line lies; at first the mean frequency of its track"));
+    m_smoothing =
+        number(fewestFrames * frame, mostFrames * frame, usualFrames * frame, decimalsFor(0.1 * frame), tr(" s"));
+    m_smoothing->setToolTip(tr("Period of a wander of the track that is halved by smoothing; at first 32 frames"));
+    m_usualTarget = m_target->value();
+    m_usualSmoothing = m_smoothing->value();
+    m_type->addItem(tr("32-bit float"), int(WrittenType::Float32));
+    m_type->addItem(tr("16-bit integer"), int(WrittenType::Int16));
+    m_sentence->setWordWrap(true);
+    m_sentence->setTextFormat(Qt::PlainText);
+    m_sentence->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    m_progress->setRange(0, 1000);
+    m_progress->setAccessibleName(tr("Progress"));
+    m_progress->hide();
+    for (ChartPlot *chart : {m_before, m_after})
+        chart->setEmptySentence(tr("The spectrum of the line's duration appears here."));
+}
+
+void StraightenDialog::buildLayout()
+{
+    auto *form = new QFormLayout;
+    form->addRow(tr("&Line at"), m_target);
+    form->addRow(tr("S&moothing"), m_smoothing);
+    form->addRow(tr("Sam&ples"), m_type);
+    auto *charts = new QHBoxLayout;
+    charts->addWidget(m_before);
+    charts->addWidget(m_after);
+    auto *buttons = new QDialogButtonBox(QDialogButtonBox::Close);
+    buttons->addButton(m_write, QDialogButtonBox::ActionRole);
+    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    auto *layout = new QVBoxLayout(this);
+    layout->addLayout(form);
+    layout->addLayout(charts, 1);
+    layout->addWidget(m_sentence);
+    layout->addWidget(m_progress);
+    layout->addWidget(buttons);
+    resize(920, 480);
+}
+
+void StraightenDialog::connectInputs()
+{
+    for (QDoubleSpinBox *box : {m_target, m_smoothing})
+        connect(box, &QDoubleSpinBox::valueChanged, this, &StraightenDialog::follow);
+    connect(m_write, &QPushButton::clicked, this, [this] { m_writer.isRunning() ? m_writer.cancel() : ask(); });
+    connect(&m_preview, &JobRunner::finished, this, &StraightenDialog::settled);
+    connect(&m_preview, &JobRunner::failed, this, &StraightenDialog::say);
+    connect(&m_writer, &JobRunner::progressed, this,
+            [this](double fraction, const QString &) { m_progress->setValue(int(1000.0 * fraction)); });
+    connect(&m_writer, &JobRunner::started, this, [this] { showWriting(true); });
+    connect(&m_writer, &JobRunner::finished, this, [this] { showWriting(false); });
+    connect(&m_writer, &JobRunner::cancelled, this, [this] {
+        showWriting(false);
+        m_sentence->setText(tr("Stopped; no file was written."));
+        emit settled();
+    });
+    connect(&m_writer, &JobRunner::failed, this, [this](const Error &error) {
+        showWriting(false);
+        say(error);
+    });
+}
+
+StraightenDialog::Choice StraightenDialog::choice() const
+{
+    Choice choice;
+    if (m_smoothing->value() != m_usualSmoothing)
+        choice.smoothingSeconds = m_smoothing->value();
+    if (m_target->value() != m_usualTarget)
+        choice.targetHz = m_target->value();
+    return choice;
+}
+
+QString StraightenDialog::sentence() const
+{
+    return m_sentence->text();
+}
+
+void StraightenDialog::showWriting(bool isWriting)
+{
+    m_progress->setVisible(isWriting);
+    m_write->setText(isWriting ? tr("&Stop") : tr("&Write recording…"));
+    for (QWidget *input : std::initializer_list<QWidget *>{m_target, m_smoothing, m_type})
+        input->setEnabled(!isWriting);
+}
+
+void StraightenDialog::say(const Error &error)
+{
+    m_sentence->setText(messageText(error.what()));
+    emit settled();
+}
+
+void StraightenDialog::follow()
+{
+    m_preview.start([this, analysis = m_analysis, event = m_event,
+                     chosen = choice()](const RunContext &context) -> JobRunner::Delivery {
+        Spectra spectra{straightened(*analysis, event, chosen.smoothingSeconds, chosen.targetHz), {}, {}};
+        const Straightened &straight = spectra.straightened;
+        spectra.before = lineSpectrum(*analysis->recording, straight.before, context.part(0.0, 0.4));
+        spectra.after = lineSpectrum(*straight.recording, straight.after, context.part(0.4, 1.0));
+        return [this, spectra = std::move(spectra)] { show(spectra); };
+    });
+}
+
+void StraightenDialog::show(const Spectra &spectra)
+{
+    const std::vector<double> &hz = spectra.straightened.recording->curve().hz();
+    const auto [least, most] = std::minmax_element(hz.begin(), hz.end());
+    const Stretch &stretch = spectra.straightened.before;
+    const double was = highestOf(spectra.before), is = highestOf(spectra.after);
+    QString words =
+        tr("Event %1: %2 … %3, %4 … %5, straightened at %6. ")
+            .arg(m_event.id)
+            .arg(secondsText(m_event.onsetSeconds, 0.1), secondsText(m_event.endSeconds, 0.1), hertzText(*least, 0.01),
+                 hertzText(*most, 0.01), hertzText(spectra.straightened.recording->targetHz(), 0.01));
+    words +=
+        std::isfinite(was) && std::isfinite(is)
+            ? tr("In one spectrum of its %1 the line stands %2 dB over its surroundings before, %3 dB after.")
+                  .arg(secondsText(stretch.toSeconds - stretch.fromSeconds, 0.1), numberText(was, 1), numberText(is, 1))
+            : tr("Its surroundings are silent.");
+    m_sentence->setText(words);
+    m_before->setChart(chartOf(spectra.before, "Before"));
+    m_after->setChart(chartOf(spectra.after, "After"));
+    for (ChartPlot *chart : {m_before, m_after})
+        chart->setLeastOrdinates(
+            std::isfinite(was) && std::isfinite(is) ? std::optional(Span{lowestDb, std::max(was, is)}) : std::nullopt);
+}
+
+void StraightenDialog::ask()
+{
+    const bool isComplex = m_analysis->recording->info().isComplex;
+    const QString audio = tr("Audio (*.wav *.flac *.aiff *.caf *.au *.w64 *.rf64)");
+    const QString sigmf = tr("SigMF (*.sigmf-meta)");
+    const QString path = QFileDialog::getSaveFileName(
+        this, tr("Write straightened recording"),
+        nameBeside(m_path, isComplex ? QStringLiteral("-straight.sigmf-meta") : QStringLiteral("-straight.wav")),
+        isComplex ? sigmf + QStringLiteral(";;") + audio : audio + QStringLiteral(";;") + sigmf);
+    if (!path.isEmpty())
+        writeTo(path);
+}
+
+void StraightenDialog::writeTo(const QString &path)
+{
+    if (!m_path.isEmpty() && absolutePath(path) == absolutePath(m_path))
+        return say(Error(pathBytes(path), "is the recording itself; choose another name"));
+    const auto type = WrittenType(m_type->currentData().toInt());
+    m_writer.start([this, path, analysis = m_analysis, event = m_event, chosen = choice(),
+                    type](const RunContext &context) -> JobRunner::Delivery {
+        const Straightened straight = straightened(*analysis, event, chosen.smoothingSeconds, chosen.targetHz);
+        writeRecording(*straight.recording, pathBytes(path), type, context);
+        return [this, path] { finish(path); };
+    });
+}
+
+/// Says beside the file what it was made from.
+void StraightenDialog::finish(const QString &path)
+{
+    const Choice chosen = choice();
+    Json made = {{"event", m_event.id}, {"type", m_type->currentIndex() == 0 ? "float32" : "int16"}};
+    if (chosen.smoothingSeconds != 0.0)
+        made["smoothSeconds"] = chosen.smoothingSeconds;
+    if (chosen.targetHz)
+        made["targetHz"] = *chosen.targetHz;
+    m_provenance.with([self = QPointer(this), path, made](const std::string &provenance) {
+        try {
+            Json json = parseJson(provenance, "provenance");
+            json["straighten"] = made;
+            writeProvenanceBeside(path, json.dump(2) + "\n");
+        } catch (const Error &error) {
+            if (self)
+                self->say(error);
+            return;
+        }
+        if (!self)
+            return;
+        self->m_sentence->setText(tr("Wrote %1.").arg(fileLabel(path)));
+        emit self->written(path);
+        emit self->settled();
+    });
+}
+
+} // namespace faintline

@@ -1,0 +1,50 @@
+#include "spectrum/familyMembers.h"
+
+#include "spectrum/familyLaw.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace faintline {
+
+std::vector<Index> memberBins(const FamilySettings &settings, double hz, const Axis &band, bool innerOnly)
+{
+    const Index first = innerOnly ? 1 : 0;
+    const Index last = band.count - 1 - first;
+    std::vector<Index> bins;
+    for (const double member : memberFrequencies(settings, hz)) {
+        const Index bin = std::lround(band.position(member));
+        bins.push_back(bin >= first && bin <= last ? bin : -1);
+    }
+    return bins;
+}
+
+float familyPower(FamilySettings::Present present, std::span<const float> members)
+{
+    float sum = 0.0f;
+    float largest = 0.0f;
+    std::size_t count = 0;
+    for (const float y : members) {
+        if (std::isnan(y))
+            continue;
+        sum += y;
+        largest = std::max(largest, y);
+        ++count;
+    }
+    if (count == 0)
+        return std::numeric_limits<float>::quiet_NaN();
+    const bool isSum = present == FamilySettings::Present::Together;
+    if (count == 1)
+        return isSum ? sum : largest;
+    return isSum ? powerOfSum(sum, count) : powerOfLargest(largest, count);
+}
+
+std::string memberName(const FamilySettings &settings, double member)
+{
+    if (settings.relation == FamilySettings::Relation::Harmonics)
+        return formatNumber(member) + "×";
+    return (member > 0.0 ? "+" : "") + formatNumber(member) + " Hz";
+}
+
+} // namespace faintline

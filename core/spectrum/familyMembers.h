@@ -1,0 +1,23 @@
+#pragma once
+
+#include "spectrum/Family.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace faintline {
+
+// A family member by member: what FamilyMap takes together.
+
+/// The bins of a band in which the members of a family at `hz` lie, in the order of the settings; -1: outside.
+/// `innerOnly` as FamilyMap has it.
+std::vector<Index> memberBins(const FamilySettings &settings, double hz, const Axis &band, bool innerOnly);
+
+/// y of the family from y of its members, as FamilyMap has it. NaN: not observed, so not a member. Thread-safe.
+float familyPower(FamilySettings::Present present, std::span<const float> members);
+
+/// "3×", or "+50 Hz" of offsets.
+std::string memberName(const FamilySettings &settings, double member);
+
+} // namespace faintline

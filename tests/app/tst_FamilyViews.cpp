@@ -1,0 +1,157 @@
+#include "app/openWindow.h"
+#include "app/panels/SpectrumPanel.h"
+#include "app/panels/WhyPanel.h"
+#include "app/workspace/Workbench.h"
+#include "widgets/base/ReadOut.h"
+#include "widgets/plot/ChartPlot.h"
+#include "widgets/waterfall/WaterfallView.h"
+
+#include <qwt_text.h>
+
+#include <QLabel>
+#include <QTableWidget>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace faintline;
+using namespace faintline::test;
+
+/// A family of lines in the window: its teeth at the cursor, in the spectrum, and one by one in *Why*. The third of
+/// five multiples is missing.
+class tst_FamilyViews : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void initTestCase();
+    void cleanupTestCase() { m_window.reset(); }
+
+    void theAxisIsTheFundamentals();
+    void theInputTellsTheMembersAtTheCursor();
+    void theSpectrumIsTheRecordingsWithTheTeethMarked();
+    void whyTellsWhatEachMemberBrought();
+    void singleLinesHaveNoTeeth();
+
+private:
+    static constexpr double fundamental = 57.3;
+
+    QTemporaryDir m_folder;
+    std::unique_ptr<MainWindow> m_window;
+};
+
+void tst_FamilyViews::initTestCase()
+{
+    Theme::apply(Theme::Kind::Light);
+    const QString scene =
+        writeFile(m_folder, "scene.json", R"({"kind": "lines", "sampleRateHz": 800, "durationSeconds": 40, "lines": [
+        {"snrDb": 8, "referenceSeconds": 1, "frequencyHz": 57.3},
+        {"snrDb": 8, "referenceSeconds": 1, "frequencyHz": 114.6},
+        {"snrDb": 8, "referenceSeconds": 1, "frequencyHz": 229.2},
+        {"snrDb": 8, "referenceSeconds": 1, "frequencyHz": 286.5}]})");
+    m_window = newWindow();
+    QVERIFY(openAndSettle(*m_window, scene, [](AnalysisSettings &settings) {
+        settings.spectrogram.windowSeconds = 1.0;
+        settings.family = {FamilySettings::Relation::Harmonics, {1.0, 2.0, 3.0, 4.0, 5.0}};
+    }));
+    QCOMPARE(m_window->document().shownEvents().size(), std::size_t(1));
+    QVERIFY(std::abs(m_window->document().viewport().cursor().value().hz - fundamental) < 0.3);
+}
+
+void tst_FamilyViews::theAxisIsTheFundamentals()
+{
+    const WaterfallView &input = *m_window->workbench().input();
+    QVERIFY2(input.axisTitle(input.hzAxis()).text().startsWith("Fundamental"),
+             qPrintable(input.axisTitle(input.hzAxis()).text()));
+    const auto labels = m_window->readOut().findChildren<QLabel *>();
+    QVERIFY(
+        std::any_of(labels.begin(), labels.end(), [](const QLabel *label) { return label->text() == "Fundamental"; }));
+}
+
+void tst_FamilyViews::theInputTellsTheMembersAtTheCursor()
+{
+    Viewport &viewport = m_window->document().viewport();
+    WaterfallView &input = *m_window->workbench().input();
+    viewport.setCursor({20.0, 50.0});
+    const QStringList lines = input.cursorNote().split('\n');
+    QCOMPARE(lines.size(), qsizetype(5));
+    for (int k = 1; k <= 5; ++k) {
+        QVERIFY2(lines[k - 1].startsWith(QStringLiteral("%1×").arg(k)), qPrintable(lines[k - 1]));
+        QVERIFY2(lines[k - 1].contains(QString::number(50 * k)), qPrintable(lines[k - 1]));
+    }
+    input.setFocus();
+    QTest::keyClick(&input, Qt::Key_Right); // one cell
+    QVERIFY(input.cursorNote() != lines.join('\n'));
+    QCOMPARE(m_window->workbench().output()->cursorNote(), QString());
+}
+
+void tst_FamilyViews::theSpectrumIsTheRecordingsWithTheTeethMarked()
+{
+    Viewport &viewport = m_window->document().viewport();
+    SpectrumPanel &panel = m_window->spectrum();
+    viewport.setCursor({20.0, fundamental});
+    QTest::keyClick(m_window.get(), Qt::Key_S, Qt::ShiftModifier);
+    QVERIFY(settle(panel));
+    const std::vector<ChartMark> &marks = panel.plot().marks();
+    QCOMPARE(marks.size(), std::size_t(5));
+    const std::vector<Curve::Point> &mean = panel.plot().chart().curves[1].points;
+    QVERIFY(mean.back().x > viewport.full().frequency.high); // all that the members reach
+    for (std::size_t k = 0; k < marks.size(); ++k) {
+        QCOMPARE(marks[k].name, QStringLiteral("%1×").arg(k + 1));
+        QVERIFY(std::abs(marks[k].x - double(k + 1) * fundamental) < 1e-9);
+        const auto tooth = std::min_element(mean.begin(), mean.end(), [&](const auto &a, const auto &b) {
+            return std::abs(a.x - marks[k].x) < std::abs(b.x - marks[k].x);
+        });
+        QVERIFY2(k == 2 ? tooth->y < 3.0 : tooth->y > 4.0, qPrintable(QString::number(tooth->y)));
+    }
+    viewport.zoomTo({10.0, 30.0}, {55.0, 60.0});
+    QVERIFY(settle(panel));
+    QVERIFY(panel.plot().chart().curves[0].points.front().x < 56.0);
+    QVERIFY(panel.plot().chart().curves[0].points.back().x > 299.0);
+    viewport.showAll();
+    viewport.setCursor({20.0, 40.0});
+    QVERIFY(settle(panel));
+    QCOMPARE(panel.plot().marks().back().x, 200.0);
+}
+
+void tst_FamilyViews::whyTellsWhatEachMemberBrought()
+{
+    WhyPanel &why = m_window->why();
+    QSignalSpy settled(&why, &WhyPanel::settled);
+    m_window->document().viewport().setCursor({30.0, fundamental});
+    QTest::keyClick(m_window.get(), Qt::Key_W);
+    QVERIFY(settled.wait(patience));
+    const QTableWidget &teeth = *why.teeth();
+    QVERIFY(teeth.isVisible());
+    QCOMPARE(teeth.rowCount(), 5);
+    for (int row = 0; row < 5; ++row) {
+        const bool isMissing = row == 2;
+        QCOMPARE(teeth.item(row, 0)->text(), QStringLiteral("%1×").arg(row + 1));
+        QCOMPARE(teeth.item(row, 0)->flags().testFlag(Qt::ItemIsEnabled), !isMissing);
+        const double db = teeth.item(row, 2)->text().replace(QChar(0x2212), '-').toDouble();
+        QVERIFY2(isMissing ? std::abs(db) < 2.0 : db > 4.0, qPrintable(teeth.item(row, 2)->text()));
+        QCOMPARE(teeth.item(row, 3)->text().startsWith('+'), !isMissing);
+    }
+    QVERIFY2(why.sentence().endsWith("4 of 5 members raise the evidence; it is no smaller without 3×."),
+             qPrintable(why.sentence()));
+}
+
+void tst_FamilyViews::singleLinesHaveNoTeeth()
+{
+    QSignalSpy settled(&m_window->why(), &WhyPanel::settled);
+    AnalysisSettings settings = m_window->document().settings();
+    settings.family = {};
+    m_window->controller().setSettings(settings, "No family");
+    QVERIFY(settle(*m_window));
+    QCOMPARE(m_window->workbench().input()->cursorNote(), QString());
+    QVERIFY(!settled.isEmpty() || settled.wait(patience));
+    QVERIFY(m_window->why().teeth()->isHidden());
+    QTest::keyClick(m_window.get(), Qt::Key_S, Qt::ShiftModifier);
+    QVERIFY(settle(m_window->spectrum()));
+    QVERIFY(m_window->spectrum().plot().marks().empty());
+    const WaterfallView &input = *m_window->workbench().input();
+    QVERIFY(input.axisTitle(input.hzAxis()).text().startsWith("Frequency"));
+}
+
+QTEST_MAIN(tst_FamilyViews)
+#include "tst_FamilyViews.moc"

@@ -1,0 +1,131 @@
+#include "analysis/straighten.h"
+#include "app/openWindow.h"
+#include "app/panels/StraightenDialog.h"
+#include "base/json.h"
+#include "recording/SimulatedRecording.h"
+#include "recording/writeRecording.h"
+#include "support/recordings.h"
+#include "widgets/plot/ChartPlot.h"
+
+#include <QAction>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QPushButton>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace faintline;
+using namespace faintline::test;
+
+/// A recording straightened from the window: the spectra before and after, and the command line's file.
+class tst_StraightenDialog : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void initTestCase();
+    void cleanupTestCase() { m_window.reset(); }
+
+    void showsTheLineBeforeAndAfter();
+    void writesTheCommandLinesFile();
+    void theTargetMovesTheLine();
+    void saysWhatCannotBeDone();
+    void withoutAnEventThereIsNoDialog();
+
+private:
+    StraightenDialog *dialog() const { return m_window->findChild<StraightenDialog *>(); }
+
+    QTemporaryDir m_folder;
+    QString m_path;
+    std::unique_ptr<MainWindow> m_window;
+};
+
+void tst_StraightenDialog::initTestCase()
+{
+    Theme::apply(Theme::Kind::Light);
+    LineScene scene;
+    scene.sampleRateHz = 500.0;
+    scene.durationSeconds = 60.0;
+    scene.lines = {{.snrDb = 12.0,
+                    .referenceSeconds = 0.5,
+                    .startSeconds = 5.0,
+                    .durationSeconds = 50.0,
+                    .frequencyHz = 100.0,
+                    .driftHzPerSecond = 0.2}};
+    m_path = m_folder.filePath("line.wav");
+    writeRecording(SimulatedRecording(scene), m_path.toStdString());
+    m_window = newWindow();
+    QVERIFY(
+        openAndSettle(*m_window, m_path, [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; }));
+    QCOMPARE(m_window->document().shownEvents().size(), std::size_t(1));
+}
+
+void tst_StraightenDialog::showsTheLineBeforeAndAfter()
+{
+    QTest::keyClick(m_window.get(), Qt::Key_T);
+    QVERIFY(dialog());
+    QVERIFY(dialog()->isVisible());
+    QVERIFY(settle(*dialog()));
+    const auto peakOf = [](ChartPlot &chart) {
+        const auto &points = chart.chart().curves.at(0).points;
+        return *std::max_element(points.begin(), points.end(), [](const auto &a, const auto &b) { return a.y < b.y; });
+    };
+    const Curve::Point before = peakOf(dialog()->before()), after = peakOf(dialog()->after());
+    // 10 Hz in 50 s: 500 cells against one.
+    QVERIFY2(after.y > before.y + 8.0, qPrintable(QStringLiteral("%1 %2").arg(before.y).arg(after.y)));
+    QVERIFY(std::abs(after.x - dialog()->target()->value()) < 0.1);
+    QVERIFY2(dialog()->sentence().contains("dB over its surroundings before"), qPrintable(dialog()->sentence()));
+}
+
+void tst_StraightenDialog::writesTheCommandLinesFile()
+{
+    const QString path = m_folder.filePath("straight.wav");
+    QSignalSpy written(dialog(), &StraightenDialog::written);
+    dialog()->writeTo(path);
+    QVERIFY(dialog()->isBusy());
+    QVERIFY(!dialog()->target()->isEnabled());
+    QVERIFY(!written.isEmpty() || written.wait(patience));
+    QTRY_VERIFY(dialog()->target()->isEnabled());
+    const Analysis &analysis = *m_window->document().analysis();
+    const std::string expected = m_folder.filePath("expected.wav").toStdString();
+    writeRecording(*straightened(analysis, chosenEvent(analysis, 0)).recording, expected);
+    QVERIFY(readBytes(path.toStdString()) == readBytes(expected));
+    const Json provenance = parseJson(readBytes(path.toStdString() + ".provenance.json").toStdString(), "provenance");
+    QCOMPARE(provenance["straighten"]["event"].get<int>(), chosenEvent(analysis, 0).id);
+}
+
+void tst_StraightenDialog::theTargetMovesTheLine()
+{
+    dialog()->target()->setValue(50.0);
+    QVERIFY(settle(*dialog()));
+    const auto &points = dialog()->after().chart().curves.at(0).points;
+    const auto peak =
+        std::max_element(points.begin(), points.end(), [](const auto &a, const auto &b) { return a.y < b.y; });
+    QVERIFY2(std::abs(peak->x - 50.0) < 0.1, qPrintable(QString::number(peak->x)));
+}
+
+void tst_StraightenDialog::saysWhatCannotBeDone()
+{
+    const QByteArray original = readBytes(m_path.toStdString());
+    dialog()->writeTo(m_path);
+    QVERIFY2(dialog()->sentence().contains("is the recording itself"), qPrintable(dialog()->sentence()));
+    QCOMPARE(readBytes(m_path.toStdString()), original);
+    dialog()->writeTo(m_folder.filePath("straight.txt"));
+    QVERIFY(settle(*dialog()));
+    QVERIFY2(dialog()->sentence().contains("straight.txt"), qPrintable(dialog()->sentence()));
+    QVERIFY(!QFile::exists(m_folder.filePath("straight.txt")));
+    QTest::keyClick(dialog(), Qt::Key_Escape);
+    QTRY_VERIFY(!dialog());
+}
+
+void tst_StraightenDialog::withoutAnEventThereIsNoDialog()
+{
+    m_window->document().setShownThreshold(1e6);
+    QTest::keyClick(m_window.get(), Qt::Key_T);
+    QVERIFY(!dialog());
+}
+
+QTEST_MAIN(tst_StraightenDialog)
+#include "tst_StraightenDialog.moc"
