@@ -35,6 +35,7 @@ private slots:
     void inANarrowPanelCurvesComeBeforeTheirNames();
     void emptySaysWhatToDo();
     void anyWidthSettles();
+    void followsTheTheme();
 
 private:
     static Chart chart(bool isLogarithmicX = false)
@@ -197,6 +198,20 @@ void tst_ChartPlot::anyWidthSettles()
         QVERIFY2(m_view->plot()->canvas()->width() > 2 * width / 5, // key and labels take the rest
                  qPrintable(QString("%1 of %2").arg(m_view->plot()->canvas()->width()).arg(width)));
     }
+}
+
+void tst_ChartPlot::followsTheTheme()
+{
+    const auto lightness = [&] {
+        QCoreApplication::processEvents();
+        return m_view->plot()->canvasBackground().color().lightness();
+    };
+    QVERIFY(lightness() > 200);
+    Theme::apply(Theme::Kind::Dark);
+    const int dark = lightness();
+    Theme::apply(Theme::Kind::Light);
+    QVERIFY2(dark < 60, qPrintable(QString::number(dark)));
+    QVERIFY(lightness() > 200);
 }
 
 QTEST_MAIN(tst_ChartPlot)

@@ -77,6 +77,7 @@ ChartPlot::ChartPlot(QWidget *parent)
     m_plot->canvas()->setFocusPolicy(Qt::NoFocus);
     m_plot->canvas()->setMouseTracking(true);
     m_plot->canvas()->installEventFilter(this);
+    m_plot->installEventFilter(this);
     setFocusPolicy(Qt::StrongFocus);
 
     connect(m_key, &ChartKey::toggled, this, &ChartPlot::setShown);
@@ -97,7 +98,8 @@ ChartPlot::ChartPlot(QWidget *parent)
 
 ChartPlot::~ChartPlot()
 {
-    m_plot->canvas()->removeEventFilter(this); // it outlives what the filter looks at
+    m_plot->canvas()->removeEventFilter(this); // they outlive what the filter looks at
+    m_plot->removeEventFilter(this);
 }
 
 void ChartPlot::setChart(const Chart &chart)
@@ -376,6 +378,8 @@ void ChartPlot::keyPressEvent(QKeyEvent *event)
 
 bool ChartPlot::eventFilter(QObject *watched, QEvent *event)
 {
+    if (watched == m_plot && event->type() == QEvent::PaletteChange)
+        restyle(); // the plot gets a new theme's palette after the chart
     if (watched != m_plot->canvas())
         return QWidget::eventFilter(watched, event);
     // Labels take room by the ticks there are, and there are ticks for the room: where the two never agree, the third
