@@ -27,10 +27,10 @@ struct LinePath {
 ///   G(Δ) = sinc⁸(Δ) / Σ_k sinc⁸(Δ + k)            (1 - 2·10⁻⁵ at 0.2, ½ at ½, at most 2·10⁻⁴ from ¾ on)
 ///
 /// The curve is first corrected by how a turns. The line begins and ends where it explains most energy, to a sample,
-/// from 4T inside the path's ends to 2T beyond them; the spline is broken there, so that neither an abrupt nor a gradual
-/// end leaves anything behind. What is silent (`silentSamples` of them that are 0) stays silent and tells nothing.
-/// Source: Unser 1999 (the filter that a spline is). Thread-safe; values are a pure function of the samples and the
-/// path.
+/// from 4T inside the path's ends to 2T beyond them; the spline is broken there, so that neither an abrupt nor a
+/// gradual end leaves anything behind. What is silent (`silentSamples` of them that are 0) stays silent and tells
+/// nothing. Source: Unser 1999 (the filter that a spline is). Thread-safe; values are a pure function of the samples
+/// and the path.
 class LineFit
 {
 public:

@@ -15,8 +15,8 @@ namespace faintline {
 class ResidualRecording final : public Recording
 {
 public:
-    /// `paths`: by falling strength; `noise`: as long as the recording, of one channel; null for none. Reads the samples
-    /// along each path. Throws Cancelled.
+    /// `paths`: by falling strength; `noise`: as long as the recording, of one channel; null for none. Reads the
+    /// samples along each path. Throws Cancelled.
     ResidualRecording(RecordingPointer base, int channel, std::vector<LinePath> paths, const Recording *noise = nullptr,
                       const RunContext &context = {});
 
