@@ -84,6 +84,8 @@ private slots:
     void pathsAreRelativeBelow();
     void aChangedRecordingReplacesItsRows();
     void reviewsAreKept();
+    void theDatabaseMayBeMoved();
+    void aReaderSeesOneMoment();
     void mergesOnlyWhatBelongsTogether();
     void otherSettingsAreNamed();
     void noSurvey_data();
@@ -230,6 +232,37 @@ void tst_SurveyDatabase::reviewsAreKept()
     QCOMPARE(events[1].box.note, std::string("a hum"));
     exportEvents(survey, path("e.csv"));
     QVERIFY(readBytes(path("e.csv")).endsWith(",rejected,\"a hum\"\n"));
+}
+
+void tst_SurveyDatabase::theDatabaseMayBeMoved()
+{
+    QVERIFY(QDir(m_folder->path()).mkdir("db"));
+    const std::string file = path("s.sqlite");
+    std::filesystem::rename(written("db/s.sqlite", {outcomeOf(path("a.wav"))}), file);
+    SurveyDatabase survey(file, Sqlite::Access::Write);
+    QCOMPARE(survey.recordings().front().file.path, path("a.wav")); // stored whole, though it lies below now
+    survey.setReview(path("a.wav"), survey.events(1).front().event, Verdict::Accepted, "");
+    QCOMPARE(survey.connection().integer("SELECT count(*) FROM reviews"), std::int64_t(1));
+    survey.put(outcomeOf(path("a.wav")));
+    QCOMPARE(survey.connection().integer("SELECT count(*) FROM recordings"), std::int64_t(1));
+    QCOMPARE(survey.connection().integer("SELECT count(*) FROM events"), std::int64_t(2));
+}
+
+void tst_SurveyDatabase::aReaderSeesOneMoment()
+{
+    const std::string file = written("s.sqlite", {outcomeOf(path("a.wav"))});
+    SurveyDatabase writer(file, Sqlite::Access::Write, std::chrono::milliseconds(50));
+    {
+        SurveyDatabase reader(file);
+        reader.hold();
+        QCOMPARE(reader.recordings().size(), std::size_t(1));
+        writer.begin();
+        writer.setUnfinished();
+        QCOMPARE(errorOf([&] { writer.commit(); }), file + ": is in use by another program");
+        QVERIFY(reader.isFinished());
+    }
+    writer.commit();
+    QVERIFY(!SurveyDatabase(file).isFinished());
 }
 
 void tst_SurveyDatabase::mergesOnlyWhatBelongsTogether()

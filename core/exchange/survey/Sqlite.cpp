@@ -4,9 +4,12 @@
 
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <new>
+#include <thread>
+#include <utility>
 
 namespace faintline {
 
@@ -193,6 +196,31 @@ Sqlite::Sqlite(const std::string &path, Access access, std::chrono::milliseconds
     // All exports of a survey together take some hundred steps a row, and a row takes some ten bytes.
     m_steps = std::make_unique<std::int64_t>(20 + bytesOf(path) / 10'000);
     sqlite3_progress_handler(database, million, countSteps, m_steps.get());
+}
+
+void Sqlite::waitWhile(std::function<bool()> goesOn)
+{
+    m_goesOn = std::make_unique<std::function<bool()>>(std::move(goesOn));
+    const auto ask = [](void *function, int) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        return (*static_cast<std::function<bool()> *>(function))() ? 1 : 0;
+    };
+    sqlite3_busy_handler(m_database.get(), ask, m_goesOn.get());
+}
+
+std::size_t Sqlite::readBeginning(std::span<std::byte> out)
+{
+    sqlite3_file *file = nullptr;
+    sqlite3_int64 size = 0;
+    int code = sqlite3_file_control(m_database.get(), "main", SQLITE_FCNTL_FILE_POINTER, &file);
+    if (code == SQLITE_OK)
+        code = file->pMethods->xFileSize(file, &size);
+    const std::size_t count = std::min(out.size(), std::size_t(size));
+    if (code == SQLITE_OK)
+        code = file->pMethods->xRead(file, out.data(), int(count), 0);
+    if (code != SQLITE_OK)
+        fail(m_database.get(), m_path, code);
+    return count;
 }
 
 SqliteStatement Sqlite::prepare(std::string_view sql)

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -94,6 +97,12 @@ public:
     /// The first column of the only row of a query.
     std::int64_t integer(std::string_view sql);
 
+    /// Waits for other programs as long as `goesOn` answers true, and asks it every 20 ms.
+    void waitWhile(std::function<bool()> goesOn);
+    /// The first bytes of the file, as they are on the disk, and how many there are. Read through the connection: who
+    /// closes a file of their own takes all locks of the process from it (POSIX).
+    std::size_t readBeginning(std::span<std::byte> out);
+
     const std::string &path() const { return m_path; }
 
 private:
@@ -103,6 +112,7 @@ private:
 
     std::string m_path;
     std::unique_ptr<std::int64_t> m_steps; ///< millions of steps left to a reader
+    std::unique_ptr<std::function<bool()>> m_goesOn;
     std::unique_ptr<sqlite3, Close> m_database;
 };
 

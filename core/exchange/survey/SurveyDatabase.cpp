@@ -3,7 +3,6 @@
 #include "base/Error.h"
 #include "base/fileName.h"
 #include "exchange/survey/surveySchema.h"
-#include "recording/FileBytes.h"
 
 #include <array>
 #include <cmath>
@@ -30,27 +29,6 @@ namespace {
     }
 
     constexpr const char *otherTables = "is not a survey: its tables differ from those in docs/reference/survey.md";
-
-    /// Throws where a file is not a survey by its header, before SQLite opens it: to open a database with a write-ahead
-    /// log, as another program may have it, changes it.
-    const std::string &checkedHeader(const std::string &path)
-    {
-        std::error_code code;
-        if (!fs::is_regular_file(path, code))
-            return path; // Sqlite says so
-        std::array<std::byte, 72> header{};
-        const std::size_t bytes = FileBytes(path).readAt(0, header);
-        constexpr std::string_view magic("SQLite format 3\0", 16);
-        if (bytes > 0 && std::memcmp(header.data(), magic.data(), magic.size()) != 0)
-            throw Error(path, "is not an SQLite database");
-        std::int64_t applicationId = 0;
-        for (std::size_t i = 68; i < 72; ++i)
-            applicationId = applicationId << 8 | std::to_integer<int>(header[i]);
-        const bool hasLog = header[18] != std::byte(1) || header[19] != std::byte(1);
-        if (bytes < header.size() || hasLog || applicationId != surveyApplicationId)
-            throw Error(path, "is not a survey; 'faintline-cli survey' creates surveys");
-        return path;
-    }
 
     /// A number of a row, finite.
     double number(const SqliteStatement &row, int column, const std::string &path)
@@ -81,10 +59,27 @@ std::string storedPath(const std::string &recording, const std::string &database
 // ---- reading -------------------------------------------------------------------------------------------------------
 
 SurveyDatabase::SurveyDatabase(const std::string &path, Sqlite::Access access, std::chrono::milliseconds patience)
-    : m_database(checkedHeader(path), access, patience)
+    : m_database(path, access, patience)
 {
+    checkHeader();
     check();
     m_origin = readOrigin();
+}
+
+/// Before the first transaction: to read a database with a write-ahead log, as another program may have it, changes it.
+void SurveyDatabase::checkHeader()
+{
+    std::array<std::byte, 72> header{};
+    const std::size_t bytes = m_database.readBeginning(header);
+    constexpr std::string_view magic("SQLite format 3\0", 16);
+    if (bytes > 0 && std::memcmp(header.data(), magic.data(), magic.size()) != 0)
+        throw Error(path(), "is not an SQLite database");
+    std::int64_t applicationId = 0;
+    for (std::size_t i = 68; i < 72; ++i)
+        applicationId = applicationId << 8 | std::to_integer<int>(header[i]);
+    const bool hasLog = header[18] != std::byte(1) || header[19] != std::byte(1);
+    if (bytes < header.size() || hasLog || applicationId != surveyApplicationId)
+        throw Error(path(), "is not a survey; 'faintline-cli survey' creates surveys");
 }
 
 void SurveyDatabase::check()
@@ -230,10 +225,12 @@ void SurveyDatabase::put(const SurveyOutcome &outcome)
 {
     const SurveyRecording &r = outcome.recording;
     const std::string stored = storedPath(r.file.path, path());
+    const std::string whole = textFromFileName(r.file.path); // as it was stored before the database lay above it
     for (const SurveyTable &one : surveyTables())
-        m_database.prepare("DELETE FROM " + one.name + " WHERE recording = (SELECT id FROM recordings WHERE path = ?)")
-            .run(stored);
-    m_database.prepare("DELETE FROM recordings WHERE path = ?").run(stored);
+        m_database
+            .prepare("DELETE FROM " + one.name + " WHERE recording IN (SELECT id FROM recordings WHERE path IN (?, ?))")
+            .run(stored, whole);
+    m_database.prepare("DELETE FROM recordings WHERE path IN (?, ?)").run(stored, whole);
     m_database.prepare(insertionInto("recordings", "path, " + surveyRecordingColumns))
         .run(stored, std::string(r.isAnalysed() ? "done" : "failed"), r.reason, r.file.bytes, r.file.modified,
              r.file.hash, r.container, r.sampleRateHz, r.durationSeconds, r.centreHz, r.startUnixSeconds, r.settings,
@@ -268,8 +265,12 @@ void SurveyDatabase::setReview(const std::string &recording, const Event &event,
 {
     // Numbers of recordings change when some are added.
     SqliteStatement there = m_database.prepare("SELECT recordings.id FROM events JOIN recordings ON recordings.id = "
-                                               "recording WHERE path = ? AND event = ? AND t_onset = ? AND f = ?");
-    if (!there.with(storedPath(recording, path()), event.id, event.onsetSeconds, event.position.back()).next())
+                                               "recording WHERE path IN (?, ?) AND event = ? AND t_onset = ? "
+                                               "AND f = ?");
+    if (!there
+             .with(storedPath(recording, path()), textFromFileName(recording), event.id, event.onsetSeconds,
+                   event.position.back())
+             .next())
         throw Error(path(), "has changed since it was opened; open it again", Error::Kind::Failure);
     const std::int64_t id = there.integer(0);
     there.reset();

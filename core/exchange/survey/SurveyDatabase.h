@@ -11,7 +11,7 @@ namespace faintline {
 
 /// A survey of recordings in one SQLite file. `writeSurvey` creates one.
 ///
-/// The constructor checks that the file is a survey; it changes no other file. The tables must be exactly those of
+/// The constructor checks that the file is a survey, and leaves one that is not as it was. The tables must be exactly those of
 /// `surveySchema`, so that an untrusted file can contain neither triggers nor views. Paths below the folder of the
 /// database are relative to it. Every call throws Error with the name of the database if it is damaged, contains
 /// invalid values, or cannot be written. For one thread at a time; other programs may read the file while a survey adds
@@ -28,7 +28,8 @@ public:
     /// Whether the survey is complete.
     bool isFinished();
 
-    /// All later reads see the file as it is at the first of them; writers wait until the object is destroyed.
+    /// For readers: all later reads see the file as it is at the first of them; writers wait until the object is
+    /// destroyed.
     void hold() { m_database.execute("BEGIN"); }
 
     std::vector<SurveyRecording> recordings(); ///< by id, which is the order of paths in a finished survey
@@ -48,12 +49,14 @@ public:
     void put(const SurveyOutcome &outcome);
     /// Of a file whose date has changed, but not its content.
     void setModified(std::int64_t recording, const SurveyFile &file);
-    /// Stores a person's verdict on an event that was read before. Throws Error if the survey no longer has the event.
+    /// Between begin and commit: stores a person's verdict on an event that was read before. Throws Error if the survey
+    /// no longer has the event.
     void setReview(const std::string &recording, const Event &event, Verdict verdict, const std::string &note);
 
     Sqlite &connection() { return m_database; }
 
 private:
+    void checkHeader();
     void check();
     SurveyOrigin readOrigin();
 

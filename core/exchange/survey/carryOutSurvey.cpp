@@ -31,7 +31,8 @@ namespace {
         Task task;
         std::optional<SurveyOutcome> outcome;
 
-        /// It was analysed before, and now it, or the second of its files, cannot be read: on a disk that is away, say.
+        /// It was analysed before, and now it, or the second of its files, cannot be read, for example on a disk that
+        /// is not mounted.
         bool isAway() const
         {
             return outcome && !outcome->recording.isAnalysed() && task.known
@@ -217,18 +218,25 @@ SurveyTally carryOutSurvey(const SurveyRun &run, const std::string &out, const R
     const SurveyOrigin origin = originOf(run.settings, run.shard.name());
     if (!isThere(out))
         beginSurvey(origin, out);
-    SurveyDatabase database(out, Sqlite::Access::Write, std::chrono::minutes(1)); // an export may take so long
+    SurveyDatabase database(out, Sqlite::Access::Write);
+    database.connection().waitWhile([&] { return !context.stop.stop_requested(); }); // for an export, for instance
     checkOrigin(database.origin(), origin, out);
     int kept = 0;
     const std::vector<Task> tasks = tasksOf(run, database, kept);
     if (tasks.empty() && database.isFinished())
         return {0, kept, 0};
-    database.setUnfinished();
-    SurveyTally tally = analyseAll(tasks, run, database, context, warn);
-    tally.kept += kept;
-    database.lock(); // nobody's review falls between the reading and the new file
-    writeSurvey({&database}, origin, out);
-    return tally;
+    try {
+        database.setUnfinished();
+        SurveyTally tally = analyseAll(tasks, run, database, context, warn);
+        tally.kept += kept;
+        database.lock(); // nobody's review falls between the reading and the new file
+        writeSurvey({&database}, origin, out);
+        return tally;
+    } catch (const Error &) {
+        if (context.stop.stop_requested()) // while it waited for another program
+            throw Cancelled();
+        throw;
+    }
 }
 
 } // namespace faintline

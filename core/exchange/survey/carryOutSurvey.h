@@ -35,10 +35,11 @@ using SurveyWarning = std::function<void(const std::string &path, const std::str
 /// analysed before and cannot be read now counts as failed and keeps its rows. The first recording is analysed with all
 /// threads, because the others reuse its calibration. Finished recordings are committed every second, or every 50 of
 /// them. At the end the database is rewritten in the order of the recordings: its bytes do not depend on jobs, threads,
-/// shards (mergeSurveys) or interruptions.
+/// shards (mergeSurveys) or interruptions. Commits wait while
+/// another program reads the database.
 ///
 /// `warn` is called by the calling thread. Throws Error if the database cannot be written or has other settings, and
-/// Cancelled; finished recordings are kept in both cases.
+/// Cancelled; what was committed is kept in both cases.
 SurveyTally carryOutSurvey(const SurveyRun &run, const std::string &out, const RunContext &context = {},
                            const SurveyWarning &warn = {});
 
