@@ -100,9 +100,6 @@ Shard shardFrom(const std::string &text);
 /// lost. Empty names are none.
 void checkOutputs(const std::vector<std::string> &paths);
 
-/// Throws where a chart's name does not end in .svg, which is what is written. An empty name is none.
-void checkChart(const std::string &path);
-
 /// What `make` finds wrong in a file is said with the file's name before it.
 template <class Make>
 auto inFile(const std::string &path, const Make &make)

@@ -2,7 +2,6 @@
 
 #include "analysis/slopeUnit.h"
 #include "base/AtomicFile.h"
-#include "base/fileName.h"
 #include "base/json.h"
 #include "exchange/openFrames.h"
 #include "recording/SigmfRecording.h"
@@ -156,12 +155,6 @@ void checkOutputs(const std::vector<std::string> &paths)
                 throw Error(*path, "is given for two outputs");
             const AtomicFile probe(*path); // goes without a trace
         }
-}
-
-void checkChart(const std::string &path)
-{
-    if (!path.empty() && !hasEnding(path, ".svg"))
-        throw Error(path, "the file name must end in .svg");
 }
 
 std::shared_ptr<const SimulatedPings> openPings(const std::string &path)

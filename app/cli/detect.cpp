@@ -107,7 +107,7 @@ namespace {
         }
         if (!analysis.explainedByNoise.empty())
             std::printf(
-                "%zu path(s) above the threshold not reported: cells as strong, or such runs of them, are common in "
+                "%zu path(s) above the threshold not reported: cells this strong, or runs of them, are common in "
                 "this recording's noise\n",
                 analysis.explainedByNoise.size());
         const std::vector<AreaEvent> areas = areaEvents(analysis);

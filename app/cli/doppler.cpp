@@ -3,6 +3,7 @@
 
 #include "analysis/chooseWindow.h"
 #include "base/AtomicFile.h"
+#include "base/fileName.h"
 #include "exchange/writeChart.h"
 #include "exchange/writeDoppler.h"
 
@@ -34,8 +35,9 @@ namespace {
     void checkNames(const DopplerOptions &options)
     {
         if (!options.out.empty())
-            checkDopplerPath(options.out);
-        checkChart(options.chart);
+            checkEnding(options.out, {".json", ".csv"});
+        if (!options.chart.empty())
+            checkEnding(options.chart, {".svg"});
         checkOutputs({options.out, options.chart});
     }
 

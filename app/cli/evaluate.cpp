@@ -19,17 +19,18 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <span>
 
 namespace faintline::cli {
 
 namespace {
 
-    void mergeFiles(const std::vector<std::string> &paths, const std::string &out)
+    Campaign mergedFiles(std::span<const std::string> paths)
     {
         std::vector<Campaign> parts;
         for (const std::string &path : paths)
             parts.push_back(readCampaign(path));
-        writeCurve(merge(std::move(parts)), out);
+        return merge(std::move(parts));
     }
 
     void printSweep(const Campaign &campaign)
@@ -93,7 +94,7 @@ namespace {
             for (const double db : snrs)
                 all += (all.empty() ? "" : ", ") + formatNumber(db);
             throw Error("--roc-snr",
-                        formatNumber(*options.rocSnrDb) + " dB is no SNR of this experiment; it has " + all);
+                        formatNumber(*options.rocSnrDb) + " dB is not one of the experiment's SNRs: " + all);
         }
         return std::size_t(found - snrs.begin());
     }
@@ -119,25 +120,33 @@ namespace {
         removeParts(options.out);
     }
 
+    void checkNames(const EvaluateOptions &options)
+    {
+        for (const std::string &chart : {options.chart, options.roc})
+            if (!chart.empty())
+                checkEnding(chart, {".svg"});
+        if (options.rocSnrDb && options.roc.empty())
+            throw Error("--roc-snr", "requires --roc");
+        checkOutputs({options.out, options.chart, options.roc});
+    }
+
     void evaluateExperiment(const EvaluateOptions &options, const Common &common)
     {
-        checkChart(options.chart);
-        checkChart(options.roc);
-        checkOutputs({options.out, options.chart, options.roc});
+        checkNames(options);
         Experiment experiment = experimentFromJson(readJsonFile(options.files.front()), options.files.front());
         if (options.seed >= 0)
             setSeed(experiment, options.seed);
         const auto *sweep = std::get_if<SweepExperiment>(&experiment);
         if (options.cost && !sweep)
             throw Error("--cost", "requires an experiment of kind \"sweep\"");
-        rocSnr(experiment, options); // throws before the runs, not behind them
+        rocSnr(experiment, options); // fails before the runs, not after them
         const Shard shard = options.shard.empty() ? Shard{} : shardFrom(options.shard);
         const std::vector<int> runs = runsOfShard(experiment, shard.index, shard.count);
         if (!options.out.empty()) {
             carryOutToFile(experiment, runs, options, common.context());
         } else {
             if (!options.shard.empty())
-                throw Error("--shard", "needs --out for the shard's runs");
+                throw Error("--shard", "requires --out for the shard's runs");
             Campaign campaign = begin(experiment, common.context());
             carryOut(campaign, runs, common.context());
             print(campaign);
@@ -151,9 +160,11 @@ namespace {
     {
         if (options.files.front() == "merge") {
             if (options.files.size() < 2 || options.out.empty())
-                throw Error("evaluate merge", "needs shards and --out");
-            checkOutputs({options.out});
-            return mergeFiles({options.files.begin() + 1, options.files.end()}, options.out);
+                throw Error("evaluate merge", "requires shards and --out");
+            checkNames(options);
+            const Campaign campaign = mergedFiles(std::span(options.files).subspan(1));
+            writeCurve(campaign, options.out);
+            return draw(campaign, options);
         }
         if (options.files.size() > 1)
             throw Error("evaluate " + options.files[1], "only one experiment can be given; to merge shards, use "
@@ -199,7 +210,7 @@ void addMerge(CLI::App &app, Common &common)
     addOutput(*command, common, "--out", options->out, "Curve to write, .csv")->required();
     command->callback([options] {
         checkOutputs({options->out});
-        mergeFiles(options->shards, options->out);
+        writeCurve(mergedFiles(options->shards), options->out);
     });
 }
 

@@ -59,14 +59,20 @@ namespace {
                                   const RunContext &context)
     {
         const std::vector<LinePath> paths = pathsOf(analysis, {*trackOfId(analysis.tracks, id)});
+        const int channels = recording->info().channelCount;
         RecordingPointer rest = recording;
-        for (int channel = 0; channel < recording->info().channelCount; ++channel)
-            rest = std::make_shared<ResidualRecording>(rest, channel, paths, nullptr, context);
+        for (int channel = 0; channel < channels; ++channel)
+            rest = std::make_shared<ResidualRecording>(
+                rest, channel, paths, nullptr,
+                context.part(double(channel) / channels, double(channel + 1) / channels));
         return rest;
     }
 
     void straighten(const StraightenOptions &options, const Common &common)
     {
+        for (const std::string &name : {options.out, options.rest})
+            if (!name.empty())
+                checkRecordingName(name);
         checkOutputs({options.out, options.curve, options.rest});
         const RunContext context = common.context();
         const RecordingPointer recording = options.analysis.recording();

@@ -115,7 +115,6 @@ namespace {
 
     void remakeDoppler(const WindowExport &table, const std::string &out, const RunContext &context)
     {
-        checkDopplerPath(out);
         const Json &made = table.provenance["doppler"];
         const auto analysis = analysed(table, context);
         std::vector<Event> chosen;
@@ -124,7 +123,7 @@ namespace {
         writeDoppler(dopplerReport(*analysis, std::move(chosen), made.at("centreHz"), made.at("propagation")), out);
     }
 
-    /// What was left to the program is not told.
+    /// Values that were left to the program are not in the provenance.
     void remakeStraightened(const WindowExport &table, const std::string &out, const RunContext &context)
     {
         const Json &made = table.provenance["straighten"];

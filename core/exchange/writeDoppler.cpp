@@ -4,6 +4,7 @@
 #include "base/AtomicFile.h"
 #include "base/Error.h"
 #include "base/Field.h"
+#include "base/fileName.h"
 #include "base/json.h"
 
 #include <algorithm>
@@ -214,16 +215,10 @@ std::string dopplerCsv(const DopplerReport &report)
     return csv;
 }
 
-void checkDopplerPath(const std::string &path)
-{
-    if (!path.ends_with(".json") && !path.ends_with(".csv"))
-        throw Error(path, "the file name must end in .json or .csv");
-}
-
 void writeDoppler(const DopplerReport &report, const std::string &path)
 {
-    checkDopplerPath(path);
-    writeTextFile(path, path.ends_with(".csv") ? dopplerCsv(report) : dopplerJson(report));
+    checkEnding(path, {".json", ".csv"});
+    writeTextFile(path, hasEnding(path, ".csv") ? dopplerCsv(report) : dopplerJson(report));
 }
 
 std::vector<Chart> dopplerCharts(const DopplerReport &report)

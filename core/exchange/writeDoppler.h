@@ -23,7 +23,8 @@ struct DopplerReport {
 /// does not say it.
 std::optional<double> centreOfFrames(const AnalysisPlan &plan);
 
-/// The fit to events of an analysis, the pieces of one pass. Throws Error where the events are no such pieces or their
+/// The fit to events of an analysis, the pieces of one pass. `centreHz`: what 0 Hz of its frames stands for, Hz
+/// (centreOfFrames); `propagation`: speed of the waves, m/s, > 0. Throws Error where the events are no such pieces or their
 /// tracks too short (dopplerTrack.h, dopplerFit.h).
 DopplerReport dopplerReport(const Analysis &analysis, std::vector<Event> events, double centreHz, double propagation);
 
@@ -54,7 +55,6 @@ std::string dopplerJson(const DopplerReport &report);
 std::string dopplerCsv(const DopplerReport &report);
 
 /// Writes the one or the other by the path's ending, .json or .csv. Throws Error.
-void checkDopplerPath(const std::string &path);
 void writeDoppler(const DopplerReport &report, const std::string &path);
 
 /// Frequency against time with the fitted curve, and the residuals below. Bars on the frequencies are their own 5-95 %

@@ -1,6 +1,7 @@
 #include "recording/writeRecording.h"
 
 #include "base/AtomicFile.h"
+#include "base/fileName.h"
 #include "base/json.h"
 #include "base/utc.h"
 #include "recording/SampleType.h"
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -31,6 +31,11 @@ namespace {
         {".au", SF_FORMAT_AU},
         {".flac", SF_FORMAT_FLAC},
     }};
+
+    auto kindOf(const std::string &path)
+    {
+        return std::ranges::find_if(audioKinds, [&](const auto &kind) { return hasEnding(path, kind.first); });
+    }
 
     /// Takes interleaved samples, all channels, in order.
     class Writer
@@ -210,18 +215,19 @@ namespace {
 
     std::unique_ptr<Writer> makeWriter(const RecordingInfo &info, const std::string &path, WrittenType type)
     {
+        checkRecordingName(path);
         if (SigmfRecording::isNamedSo(path))
             return std::make_unique<SigmfWriter>(info, path, type);
-        std::string extension = std::filesystem::path(path).extension().string();
-        std::transform(extension.begin(), extension.end(), extension.begin(),
-                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-        for (const auto &[name, kind] : audioKinds)
-            if (extension == name)
-                return std::make_unique<AudioWriter>(info, path, kind, type);
-        throw Error(path, "has no known extension; expected .wav, .rf64, .w64, .aiff, .caf, .au, .flac or .sigmf-meta");
+        return std::make_unique<AudioWriter>(info, path, kindOf(path)->second, type);
     }
 
 } // namespace
+
+void checkRecordingName(const std::string &path)
+{
+    if (!SigmfRecording::isNamedSo(path) && kindOf(path) == audioKinds.end())
+        throw Error(path, "has no known extension; expected .wav, .rf64, .w64, .aiff, .caf, .au, .flac or .sigmf-meta");
+}
 
 Index writeRecording(const Recording &recording, const std::string &path, WrittenType type, const RunContext &context)
 {

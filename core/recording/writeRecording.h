@@ -9,6 +9,9 @@ namespace faintline {
 
 enum class WrittenType { Float32, Int16 };
 
+/// Throws Error where writeRecording does not know a file name's extension.
+void checkRecordingName(const std::string &path);
+
 /// Writes a recording to a file, its kind by the extension: .wav (RF64 where it gets larger than 4 GB), .rf64, .w64,
 /// .aiff, .caf, .au, .flac (float samples as 24 bits), or a SigMF pair (.sigmf-meta or .sigmf-data).
 ///

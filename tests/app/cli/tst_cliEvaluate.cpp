@@ -14,6 +14,7 @@ private slots:
     void initTestCase();
     void chartsHaveTheory();
     void theRocIsOfTheSnrThatIsAsked();
+    void shardsAreDrawnTogether();
     void mistakes_data();
     void mistakes();
 };
@@ -58,11 +59,26 @@ void tst_cliEvaluate::theRocIsOfTheSnrThatIsAsked()
     QVERIFY(content("3.svg").startsWith("<svg"));
 }
 
+void tst_cliEvaluate::shardsAreDrawnTogether()
+{
+    for (const QString shard : {"1", "2"}) {
+        const Outcome done =
+            run({"evaluate", "experiment.json", "--shard", shard + "/2", "--out", "shard" + shard + ".json"});
+        QCOMPARE(done.err, QByteArray());
+    }
+    QCOMPARE(run({"evaluate", "merge", "shard1.json", "shard2.json", "--out", "merged.csv", "--roc", "merged.svg"}).err,
+             QByteArray());
+    QCOMPARE(run({"evaluate", "experiment.json", "--roc", "whole.svg"}).err, QByteArray());
+    QVERIFY(content("whole.svg").startsWith("<svg"));
+    QCOMPARE(content("merged.svg"), content("whole.svg"));
+}
+
 void tst_cliEvaluate::mistakes_data()
 {
     QTest::addColumn<QStringList>("options");
     QTest::addColumn<QByteArray>("says");
     QTest::newRow("SNR") << QStringList{"--roc", "r.svg", "--roc-snr", "1"} << QByteArray("-3, 0, 3");
+    QTest::newRow("SNR of no ROC") << QStringList{"--roc-snr", "0"} << QByteArray("requires --roc");
     QTest::newRow("format") << QStringList{"--roc", "r.png"} << QByteArray(".svg");
     QTest::newRow("one file twice") << QStringList{"--roc", "r.svg", "--chart", "r.svg"} << QByteArray("r.svg");
 }
@@ -75,7 +91,7 @@ void tst_cliEvaluate::mistakes()
     QVERIFY(done.code != 0);
     QCOMPARE(done.err.count('\n'), 1);
     QVERIFY2(done.err.contains(says), done.err.constData());
-    QVERIFY(!QFile::exists(path("r.svg")));
+    QVERIFY(QDir(folder()).entryList({"r.*"}).isEmpty());
 }
 
 QTEST_GUILESS_MAIN(tst_cliEvaluate)
