@@ -258,38 +258,32 @@ std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording
     const bool subtracts = settings.subtract.lines;
     AnalysisSettings asked = settings; // what is subtracted in a window tells nothing of the window
     asked.subtract.lines = false;
+    const double searched = isChosen ? 0.0 : subtracts ? 0.4 : 0.7; // shares of the progress
+    const double detected = isChosen ? 0.6 : subtracts ? 0.8 : 1.0;
     WindowChoice choice;
     std::shared_ptr<const Analysis> longer;
     std::shared_ptr<Analysis> found;
     if (isChosen) {
         choice = *previous->choice;
-        choice.asked = settings;
+        longer = previous->longer;
     } else {
         WindowSearch search(recording, asked, calibrationDepth, subtracts ? AnalysisDepth::Trial : depth,
-                            context.part(0.0, subtracts ? 0.4 : 0.7));
+                            context.part(0.0, searched));
         found = search.run(previous, pictures);
         longer = search.nextLonger(*found);
         choice = search.choice(*found);
-        choice.asked = settings;
     }
+    choice.asked = settings;
     const bool isTrial = !isChosen && choice.chosen != choice.automatic;
-    if (subtracts) {
-        found = analyse(recording, ofTrial(choice, choice.chosen, settings), context.part(0.4, 0.8),
+    const bool isComplete = !isChosen && !subtracts; // the search ran with these settings
+    if (isTrial && isComplete && depth == AnalysisDepth::Tracks)
+        holdAgainstOwnNoise(*found, context.part(searched, 1.0));
+    else if (isTrial || !isComplete)
+        found = analyse(recording, ofTrial(choice, choice.chosen, settings), context.part(searched, detected),
                         isChosen ? previous : found.get(), {}, pictures, calibrationDepth, depth);
-        if (isChosen)
-            longer = previous->longer;
-        if (longer)
-            longer = analyse(recording, ofTrial(choice, choice.chosen + 1, settings), context.part(0.8, 1.0),
-                             longer.get(), {}, {}, calibrationDepth, AnalysisDepth::Trial);
-    } else if (isTrial && depth == AnalysisDepth::Tracks)
-        holdAgainstOwnNoise(*found, context.part(0.7, 1.0));
-    else if (isChosen || isTrial)
-        found = analyse(recording, ofTrial(choice, choice.chosen, settings),
-                        context.part(isChosen ? 0.0 : 0.7, isChosen ? 0.6 : 1.0), isChosen ? previous : found.get(), {},
-                        pictures, calibrationDepth, depth);
-    if (isChosen && previous->longer && !subtracts) // after the pictures, which are waited for
-        longer = analyse(recording, ofTrial(choice, choice.chosen + 1, settings), context.part(0.6, 1.0),
-                         previous->longer.get(), {}, {}, calibrationDepth, AnalysisDepth::Trial);
+    if (longer && !isComplete) // after the pictures, which are waited for
+        longer = analyse(recording, ofTrial(choice, choice.chosen + 1, settings), context.part(detected, 1.0),
+                         longer.get(), {}, {}, calibrationDepth, AnalysisDepth::Trial);
     found->longer = std::move(longer);
     if (found->longer)
         found->tracks = withSteadyLines(*found, *found->longer);

@@ -4,6 +4,7 @@
 #include "base/Field.h"
 #include "base/logmath.h"
 #include "spectrum/Fft.h"
+#include "spectrum/levels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -102,10 +103,8 @@ namespace {
         double hzAt(std::ptrdiff_t i) const { return hz + step * double(i - reach); }
         double median() const
         {
-            std::vector<float> sorted = powers;
-            const auto middle = sorted.begin() + std::ssize(sorted) / 2;
-            std::nth_element(sorted.begin(), middle, sorted.end());
-            return double(*middle);
+            std::vector<float> values = powers;
+            return double(medianOf(values));
         }
     };
 

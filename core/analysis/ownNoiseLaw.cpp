@@ -80,7 +80,7 @@ OwnNoiseLaw::OwnNoiseLaw(const NormalisedFrames &frames, std::span<const Track> 
     }
 }
 
-void OwnNoiseLaw::setPowers(Part &part, std::vector<float> values) const
+void OwnNoiseLaw::setPowers(Part &part, std::vector<float> values)
 {
     if (values.size() < fewestValues)
         return;
@@ -107,7 +107,7 @@ void OwnNoiseLaw::setPowers(Part &part, std::vector<float> values) const
             std::clamp((part.g[last] - part.g[last - 3]) / (part.y[last] - part.y[last - 3]), lowestSlope, 1.0f);
 }
 
-void OwnNoiseLaw::setRuns(Part &part, const NoiseSample &sample, const std::vector<Index> &cells, double overlap) const
+void OwnNoiseLaw::setRuns(Part &part, const NoiseSample &sample, const std::vector<Index> &cells, double overlap)
 {
     const Scatter single = meansOf(sample, cells, 1);
     if (single.count < Index(fewestValues))

@@ -46,8 +46,8 @@ private:
         std::vector<double> runs; ///< V(1), V(2), V(4) …; empty where it is 1
     };
 
-    void setPowers(Part &part, std::vector<float> values) const;
-    void setRuns(Part &part, const NoiseSample &sample, const std::vector<Index> &cells, double overlap) const;
+    static void setPowers(Part &part, std::vector<float> values);
+    static void setRuns(Part &part, const NoiseSample &sample, const std::vector<Index> &cells, double overlap);
     const Part &partAt(Index cell) const;
 
     Index m_cells;
