@@ -111,8 +111,10 @@ namespace {
             std::printf(
                 "a sequential Markov detector guides its tracks; the path of that detector has %.4f nat here:\n",
                 explanation.statistic);
+        if (explanation.isSubtracted)
+            std::printf("a line was subtracted here; the path is that of the rest\n");
         if (explanation.isExplainedByNoise)
-            std::printf("its path is not reported: cells as strong, or such runs of them, are common in this "
+            std::printf("its path is not reported: cells this strong, or runs of them, are common in this "
                         "recording's noise\n");
         std::printf("the best path began %zu frame(s) ago, when it was reset\n", explanation.steps.size() - 1);
         printHeading(analysis.grid());
@@ -122,7 +124,7 @@ namespace {
                         explanation.offset);
     }
 
-    /// Of members that were never observed, and where there is no power, null.
+    /// evidence is null where a member was never observed, power_db where its power is 0.
     Json toJson(const std::vector<FamilyTooth> &teeth)
     {
         Json members = Json::array();
@@ -138,8 +140,7 @@ namespace {
     void print(const std::vector<FamilyTooth> &teeth, const FamilySettings &family)
     {
         const bool areHarmonics = family.relation == FamilySettings::Relation::Harmonics;
-        std::printf(
-            "members along the path: mean power over noise, and what the evidence would be less without each\n");
+        std::printf("members along the path: mean power over noise, and the evidence that would be lost without it\n");
         std::printf("%12s %14s %10s %10s\n", areHarmonics ? "multiple" : "offset (Hz)", "f", "dB", "nat");
         for (const FamilyTooth &tooth : teeth) {
             std::printf("%12.6g %14.8g", tooth.member, tooth.hz);

@@ -27,6 +27,7 @@ namespace faintline {
 namespace {
 
     constexpr int longestClass = 40; ///< letters shown
+    constexpr int keys = 9;          ///< that give a class
 
     /// "accepted, 12.3 … 45.6 s at 71.20: a note"
     QString lineOf(const Review &review)
@@ -114,18 +115,20 @@ QAction *EventReviews::add(const QString &text, const QKeySequence &key, const Q
 
 void EventReviews::addClasses()
 {
-    constexpr int keys = 9;
     auto *menu = new QMenu(tr("&Class"), m_window);
     for (int key = 1; key <= keys; ++key) {
         QAction *action = menu->addAction(QString(), this, [this, key] { classify(m_classNames[key - 1]); });
         action->setShortcut(Qt::Key_0 + key);
-        m_classes << action;
     }
     QAction *none = menu->addAction(tr("&None"), this, [this] { classify({}); });
     none->setShortcut(QKeySequence(Qt::SHIFT | Qt::Key_U));
-    m_eventActions << m_classes << none << menu->menuAction();
+    for (QAction *action : menu->actions()) {
+        m_window->addAction(action); // a hidden menu's keys do nothing
+        m_classes << action;
+    }
+    m_table.table()->addAction(menu->menuAction());
     menu->addSeparator();
-    menu->addAction(tr("Name the &classes…"), this, &EventReviews::editClassNames);
+    menu->addAction(tr("&Edit class names…"), this, &EventReviews::editClassNames);
     m_actions << menu->menuAction();
     setClassNames({});
 }
@@ -133,7 +136,7 @@ void EventReviews::addClasses()
 void EventReviews::setClassNames(const QStringList &names)
 {
     m_classNames.clear();
-    for (int i = 0; i < int(m_classes.size()); ++i) {
+    for (int i = 0; i < keys; ++i) {
         const QString name = QString::fromStdString(oneLine(names.value(i).trimmed().toStdString()));
         m_classNames << (name.isEmpty() ? tr("class %1").arg(i + 1) : name);
         m_classes[i]->setText(buttonText(m_classNames.back(), longestClass));
@@ -220,15 +223,15 @@ void EventReviews::classify(const QString &name)
     const QString events = ids.size() == 1 ? tr("event %1").arg(ids.front()) : tr("%1 events").arg(ids.size());
     setReviews(withLabel(m_document.annotations().reviews, *m_document.analysis(), m_document.shownEvents(), ids,
                          name.toStdString()),
-               name.isEmpty() ? tr("Take the class of %1 back").arg(events)
-                              : tr("Call %1 %2").arg(events, buttonText(name, longestClass)));
+               name.isEmpty() ? tr("Clear the class of %1").arg(events)
+                              : tr("Classify %1 as %2").arg(events, buttonText(name, longestClass)));
 }
 
 void EventReviews::editClassNames()
 {
     bool isGiven = false;
-    const QString names = QInputDialog::getMultiLineText(m_window, tr("Name the classes"),
-                                                         tr("Names of the classes on the keys 1 to 9, one a line:"),
+    const QString names = QInputDialog::getMultiLineText(m_window, tr("Edit class names"),
+                                                         tr("Class names for the keys 1 to 9, one per line:"),
                                                          m_classNames.join(QLatin1Char('\n')), &isGiven);
     if (isGiven)
         setClassNames(names.split(QLatin1Char('\n')));
@@ -411,7 +414,7 @@ void EventReviews::goToUnmatched(int line)
 void EventReviews::enable()
 {
     const std::vector<int> ids = chosen();
-    for (QAction *action : m_eventActions)
+    for (QAction *action : m_eventActions + m_classes)
         action->setEnabled(!ids.empty());
     m_merge->setEnabled(ids.size() > 1);
     m_addBox->setEnabled(m_document.box().has_value() && !m_document.isEmpty());

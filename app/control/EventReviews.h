@@ -40,9 +40,9 @@ public:
     void merge();
     void separate();
     void setNote(int id, const QString &note);
-    /// Says what kind of signal the selected events are; an empty name takes it back.
+    /// Gives the selected events a class; an empty name clears it.
     void classify(const QString &name);
-    /// What the keys 1 to 9 call events; a key without a name of its own calls them "class 3".
+    /// The classes that the keys 1 to 9 give; a key without a name of its own gives "class 3".
     QStringList classNames() const { return m_classNames; }
     void setClassNames(const QStringList &names);
     /// The measured box becomes an annotation.
@@ -88,7 +88,7 @@ private:
     QList<QAction *> m_actions;      ///< null: a separator
     QList<QAction *> m_eventActions; ///< need a selected event
     QAction *m_merge = nullptr;
-    QList<QAction *> m_classes; ///< of the keys 1 to 9
+    QList<QAction *> m_classes; ///< of the keys 1 to 9, and the one that clears them
     QStringList m_classNames;
     QAction *m_addBox = nullptr;
     std::vector<std::size_t> m_unmatched; ///< reviews, in the order they are listed

@@ -3,6 +3,7 @@
 #include "app/base/VisibilityWatcher.h"
 #include "app/base/filePath.h"
 #include "app/base/readingTable.h"
+#include "app/control/thresholdWords.h"
 #include "app/document/Document.h"
 #include "app/document/Provenance.h"
 #include "app/panels/chosenEvents.h"
@@ -21,10 +22,13 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QScrollArea>
+#include <QSignalBlocker>
 #include <QSplitter>
 #include <QTableView>
 #include <QTableWidget>
 #include <QVBoxLayout>
+
+#include <utility>
 
 namespace faintline {
 
@@ -111,7 +115,7 @@ DopplerPanel::DopplerPanel(Document &document, const EventTable &events, Provena
     layout->addWidget(sides);
     connectInputs();
     takeCentre();
-    say(tr("Select an event to fit the pass of a source to its track."));
+    clear();
 }
 
 void DopplerPanel::buildInputs()
@@ -125,7 +129,7 @@ void DopplerPanel::buildInputs()
     m_centre->setRange(0.0, 1e15);
     m_centre->setDecimals(3);
     m_centre->setSuffix(tr(" Hz"));
-    m_centre->setToolTip(tr("What 0 Hz of the I/Q recording stands for; the fit needs absolute frequencies"));
+    m_centre->setToolTip(tr("Radio frequency at 0 Hz of the I/Q recording; the fit needs absolute frequencies"));
     for (QDoubleSpinBox *box : {m_propagation, m_centre})
         box->setKeyboardTracking(false);
     m_form->addRow(tr("&Medium"), m_medium);
@@ -137,7 +141,6 @@ void DopplerPanel::buildInputs()
 void DopplerPanel::connectInputs()
 {
     connect(m_medium, &QComboBox::activated, this, &DopplerPanel::takeMedium);
-    connect(m_medium, &QComboBox::activated, this, &DopplerPanel::follow);
     connect(m_propagation, &QDoubleSpinBox::valueChanged, this, [this](double value) {
         const int known = m_medium->findData(value);
         m_medium->setCurrentIndex(known >= 0 ? known : m_medium->count() - 1);
@@ -147,11 +150,10 @@ void DopplerPanel::connectInputs()
     connect(m_save, &QPushButton::clicked, this, &DopplerPanel::ask);
     connect(m_sight, &VisibilityWatcher::came, this, &DopplerPanel::follow);
     connect(m_events.table()->selectionModel(), &QItemSelectionModel::selectionChanged, this, &DopplerPanel::follow);
-    connect(&m_document, &Document::opened, m_centre, [this] { m_centre->setValue(0.0); });
+    connect(&m_document, &Document::opened, this, &DopplerPanel::clear);
     connect(&m_document, &Document::analysisChanged, this, &DopplerPanel::takeCentre);
     connect(&m_document, &Document::shownEventsChanged, this, &DopplerPanel::follow);
     connect(&m_runner, &JobRunner::finished, this, &DopplerPanel::settled);
-    connect(&m_runner, &JobRunner::cancelled, this, &DopplerPanel::settled);
     connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) { say(messageText(error.what())); });
 }
 
@@ -166,19 +168,31 @@ void DopplerPanel::takeMedium()
         m_propagation->setValue(speed.toDouble());
 }
 
-/// Whether it is asked for, and what the recording says of it.
+/// Nothing of a source that was open before stays.
+void DopplerPanel::clear()
+{
+    const QSignalBlocker quiet(m_centre);
+    m_centre->setValue(0.0);
+    m_isCentreKnown = false;
+    say(tr("Select an event to fit the pass of a source to its track."));
+}
+
+/// Whether it is asked for, and what the recording says of it; a value that was typed since stays.
 void DopplerPanel::takeCentre()
 {
     const auto analysis = m_document.lineAnalysis();
     const std::optional<double> known = analysis ? centreOfFrames(*analysis) : 0.0;
     m_form->setRowVisible(m_centre, !known || *known != 0.0);
-    if (known)
-        m_centre->setValue(*known);
+    if (!analysis || !known || std::exchange(m_isCentreKnown, true))
+        return;
+    const QSignalBlocker quiet(m_centre);
+    m_centre->setValue(*known);
 }
 
 /// Why there is no fit.
 void DopplerPanel::say(const QString &sentence)
 {
+    m_runner.cancel();
     m_report.reset();
     m_sentence->setText(sentence);
     m_notes->clear();
@@ -198,7 +212,7 @@ void DopplerPanel::follow()
 
 void DopplerPanel::fit()
 {
-    m_runner.cancel(); // of the selection before
+    m_save->setEnabled(false); // until what is saved is of what is selected
     const auto analysis = m_document.lineAnalysis();
     if (!analysis)
         return say(m_document.analysis() ? tr("A Doppler fit needs frames on frequency.")
@@ -232,9 +246,9 @@ void DopplerPanel::show(const DopplerReport &report)
                  text(boundsText(one.bounds)), QString::fromStdString(one.unit)},
                 leftColumns);
     fillRow(*m_table, row++,
-            {tr("  heard at"), text(valueText(report.fit.heardSeconds(), report.fit.closestSeconds)), {}, tr("s")},
+            {tr("Arrival of f₀"), text(valueText(report.fit.heardSeconds(), report.fit.closestSeconds)), {}, tr("s")},
             leftColumns);
-    fillRow(*m_table, row, {tr("  slope there"), powerText(report.fit.slopeHzPerSecond(), 4), {}, tr("Hz/s")},
+    fillRow(*m_table, row, {tr("Slope at f₀"), powerText(report.fit.slopeHzPerSecond(), 4), {}, tr("Hz/s")},
             leftColumns);
     m_table->show();
     m_table->updateGeometry();
@@ -262,6 +276,8 @@ void DopplerPanel::saveTo(const QString &path)
 {
     if (!m_report)
         return;
+    if (const auto analysis = m_document.lineAnalysis(); !analysis || analysis->calibration->isFirstEstimate)
+        return emit failed(firstEstimateError());
     m_provenance.with([this, path, report = *m_report](const std::string &provenance) {
         try {
             writeDoppler(report, pathBytes(path));

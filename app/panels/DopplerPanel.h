@@ -59,6 +59,7 @@ private:
     void connectInputs();
     void takeMedium();
     void takeCentre();
+    void clear();
     void follow();
     void fit();
     void show(const DopplerReport &report);
@@ -71,7 +72,8 @@ private:
     QFormLayout *m_form;
     QComboBox *m_medium;
     QDoubleSpinBox *m_propagation;
-    QDoubleSpinBox *m_centre; ///< shown of I/Q
+    QDoubleSpinBox *m_centre;     ///< shown of I/Q
+    bool m_isCentreKnown = false; ///< the recording's was taken
     QPushButton *m_save;
     QLabel *m_sentence;
     QTableWidget *m_table;

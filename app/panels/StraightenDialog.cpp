@@ -1,6 +1,7 @@
 #include "app/panels/StraightenDialog.h"
 
 #include "app/base/filePath.h"
+#include "app/control/thresholdWords.h"
 #include "app/document/Document.h"
 #include "app/document/Provenance.h"
 #include "base/json.h"
@@ -13,6 +14,7 @@
 #include <QDialogButtonBox>
 #include <QDoubleSpinBox>
 #include <QFileDialog>
+#include <QFileInfo>
 #include <QFormLayout>
 #include <QLabel>
 #include <QPointer>
@@ -59,6 +61,18 @@ namespace {
         return chart;
     }
 
+    /// Whether one would overwrite the other: by any name of the file, and of SigMF by either of its two files.
+    bool isSameRecording(const QString &a, const QString &b)
+    {
+        const auto wholeOf = [](const QString &path) {
+            const QFileInfo file(path);
+            const QString whole = file.exists() ? file.canonicalFilePath() : file.absoluteFilePath();
+            const bool isSigmf = QFileInfo(whole).suffix().startsWith(QStringLiteral("sigmf-"));
+            return isSigmf ? whole.left(whole.lastIndexOf(QLatin1Char('.'))) : whole;
+        };
+        return !b.isEmpty() && wholeOf(a) == wholeOf(b);
+    }
+
     double highestOf(const LineSpectrum &spectrum)
     {
         return *std::max_element(spectrum.db.begin(), spectrum.db.end());
@@ -86,10 +100,10 @@ void StraightenDialog::buildInputs()
     const Straightened straight = straightened(*m_analysis, m_event);
     const double half = 0.5 * info.sampleRateHz;
     m_target = number(info.isComplex ? -half : 0.0, half, straight.recording->targetHz(), 3, tr(" Hz"));
-    m_target->setToolTip(tr("Where the straightened line lies; at first the mean frequency of its track"));
+    m_target->setToolTip(tr("Frequency of the straightened line; default: mean frequency of the track"));
     m_smoothing =
         number(fewestFrames * frame, mostFrames * frame, usualFrames * frame, decimalsFor(0.1 * frame), tr(" s"));
-    m_smoothing->setToolTip(tr("Period of a wander of the track that is halved by smoothing; at first 32 frames"));
+    m_smoothing->setToolTip(tr("Smoothing halves frequency variations of this period; default: 32 frames"));
     m_usualTarget = m_target->value();
     m_usualSmoothing = m_smoothing->value();
     m_type->addItem(tr("32-bit float"), int(WrittenType::Float32));
@@ -131,7 +145,11 @@ void StraightenDialog::connectInputs()
         connect(box, &QDoubleSpinBox::valueChanged, this, &StraightenDialog::follow);
     connect(m_write, &QPushButton::clicked, this, [this] { m_writer.isRunning() ? m_writer.cancel() : ask(); });
     connect(&m_preview, &JobRunner::finished, this, &StraightenDialog::settled);
-    connect(&m_preview, &JobRunner::failed, this, &StraightenDialog::say);
+    connect(&m_preview, &JobRunner::failed, this, [this](const Error &error) {
+        for (ChartPlot *chart : {m_before, m_after})
+            chart->setChart({}); // they are of other numbers
+        say(error);
+    });
     connect(&m_writer, &JobRunner::progressed, this,
             [this](double fraction, const QString &) { m_progress->setValue(int(1000.0 * fraction)); });
     connect(&m_writer, &JobRunner::started, this, [this] { showWriting(true); });
@@ -227,7 +245,9 @@ void StraightenDialog::ask()
 
 void StraightenDialog::writeTo(const QString &path)
 {
-    if (!m_path.isEmpty() && absolutePath(path) == absolutePath(m_path))
+    if (m_analysis->calibration->isFirstEstimate)
+        return say(firstEstimateError());
+    if (isSameRecording(path, m_path))
         return say(Error(pathBytes(path), "is the recording itself; choose another name"));
     const auto type = WrittenType(m_type->currentData().toInt());
     m_writer.start([this, path, analysis = m_analysis, event = m_event, chosen = choice(),

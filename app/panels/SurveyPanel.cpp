@@ -77,6 +77,12 @@ bool SurveyPanel::eventFilter(QObject *watched, QEvent *event)
         return QWidget::eventFilter(watched, event);
     const auto *pressed = static_cast<QKeyEvent *>(event);
     const auto verdict = m_keys.constFind(pressed->key());
+    const bool isClass = (pressed->key() >= Qt::Key_1 && pressed->key() <= Qt::Key_9)
+                         || (pressed->key() == Qt::Key_U && pressed->modifiers() == Qt::ShiftModifier);
+    if (isClass) { // which a survey does not keep
+        event->accept();
+        return true;
+    }
     if (verdict == m_keys.constEnd() || pressed->modifiers() != Qt::NoModifier)
         return QWidget::eventFilter(watched, event);
     if (event->type() == QEvent::KeyPress)

@@ -136,8 +136,10 @@ QString whySentence(const Explanation &explanation, const Analysis &analysis)
                  : *explanation.inhibitedFor < 0
                      ? QObject::tr("This cell is inhibited by a track that was dropped later. ")
                      : QObject::tr("This cell is excluded: no signal is looked for here. ");
+    if (explanation.isSubtracted)
+        words += QObject::tr("A line was subtracted here; the path is that of the rest. ");
     if (explanation.isExplainedByNoise)
-        words += QObject::tr("The path through this cell is not reported: cells as strong as its own, or such runs of "
+        words += QObject::tr("The path through this cell is not reported: cells as strong as its own, or runs of "
                              "them, are common in this recording's noise. ");
     const auto steps = explanation.steps.size();
     const QString since = secondsText(time.value(double(explanation.steps.front().frame)), time.step);

@@ -243,9 +243,9 @@ void MainWindow::buildDetectMenu()
     menu->addSeparator();
     addViewAction(*menu, tr("&Why (not) detected"), QKeySequence(Qt::Key_W), [this] { showWhy(); });
     addViewAction(*menu, tr("Draw a line &by hand"), QKeySequence(Qt::CTRL | Qt::Key_D), [this] { showHandLine(); });
-    addViewAction(*menu, tr("Fit &Doppler…"), Qt::Key_D, [this] {
+    addViewAction(*menu, tr("Doppler &fit"), Qt::Key_D, [this] {
         showDoppler();
-    })->setToolTip(tr("The pass of a source that the selected event's track tells of"));
+    })->setToolTip(tr("Fit a source that passes at constant speed to the selected event's track"));
     addViewAction(*menu, tr("S&traighten recording along this track…"), Qt::Key_T, [this] { straighten(); });
     addViewAction(*menu, tr("Learn &motion from tracks…"), {}, [this] { learnMotion(); });
     menu->addSeparator();

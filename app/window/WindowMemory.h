@@ -34,7 +34,7 @@ public:
     /// Where presets of one's own are kept; empty without a store.
     QString presetFolder() const;
 
-    /// What events are called with the keys 1 to 9.
+    /// The classes that the keys 1 to 9 give events.
     QStringList classNames() const;
     void setClassNames(const QStringList &names);
 

@@ -207,16 +207,19 @@ namespace {
         return -1;
     }
 
-    /// Whether one of the tracks runs through the cell, or past it within a resolution cell.
-    bool isOnPath(const std::vector<Track> &tracks, const Analysis &analysis, Index frame, Index cell)
+    /// The tracks that run through the cell, or past it within a resolution cell.
+    std::vector<const Track *> tracksThrough(const std::vector<Track> &tracks, const Analysis &analysis, Index frame,
+                                             Index cell)
     {
         const Spectrogram *spectrogram = analysis.frames->spectrogram();
         const auto near = spectrogram ? Index(std::ceil(spectrogram->binsPerCell())) : 0;
-        return std::any_of(tracks.begin(), tracks.end(), [&](const Track &track) {
-            return std::any_of(track.points.begin(), track.points.end(), [&](const TrackPoint &point) {
-                return point.frame == frame && std::abs(point.cell - cell) <= near;
-            });
-        });
+        std::vector<const Track *> through;
+        for (const Track &track : tracks)
+            if (std::any_of(track.points.begin(), track.points.end(), [&](const TrackPoint &point) {
+                    return point.frame == frame && std::abs(point.cell - cell) <= near;
+                }))
+                through.push_back(&track);
+        return through;
     }
 
     Index frameAt(const Axis &time, double seconds)
@@ -286,7 +289,9 @@ Explanation explain(const Analysis &analysis, double seconds, const std::vector<
     explanation.displayed = double(statistic[std::size_t(cell)]);
     explanation.threshold = analysis.threshold;
     explanation.isTracked = path.isTracked;
-    explanation.isExplainedByNoise = isOnPath(analysis.explainedByNoise, analysis, frame, cell);
+    explanation.isExplainedByNoise = !tracksThrough(analysis.explainedByNoise, analysis, frame, cell).empty();
+    explanation.isSubtracted = std::ranges::any_of(tracksThrough(analysis.tracks, analysis, frame, cell),
+                                                   [](const Track *track) { return track->isSubtracted; });
     explanation.steps = path.steps;
     std::size_t ownSteps = path.steps.size(); // the detector's, before a tracker's
     explanation.model = path.model;

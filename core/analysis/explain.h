@@ -37,6 +37,7 @@ struct Explanation {
     double otherMargin = 0.0;
     /// The track for which the cell was kept from the detector in this frame; 0: a blind place, -1: one dropped later.
     std::optional<int> inhibitedFor;
+    bool isSubtracted = false;       ///< on a line that was subtracted: what is explained is the rest (subtractLines.h)
     bool isExplainedByNoise = false; ///< on a path that the recording's own noise explains (overOwnNoise.h)
     bool isTracked = false;          ///< a tracker follows this cell; its path runs on without reset
 };

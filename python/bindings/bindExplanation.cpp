@@ -84,7 +84,7 @@ void bindExplanation(py::module_ &module)
         .def_property_readonly("is_tracked", member(&Explanation::isTracked),
                                "A tracker follows this cell; its path goes on without reset.")
         .def_property_readonly("is_explained_by_noise", member(&Explanation::isExplainedByNoise),
-                               "On a path that is not reported: cells as strong, or such runs of them, are common in "
+                               "On a path that is not reported: cells this strong, or runs of them, are common in "
                                "the recording's noise.")
         .def_property_readonly(
             "reset", [](const HeldExplanation &self) { return resetNames[std::size_t(self.explanation.reset.kind)]; },

@@ -109,6 +109,8 @@ private slots:
         QTest::keyClick(table.table(), Qt::Key_1);
         table.filter()->setText("class=hu");
         QCOMPARE(table.shownIds(), std::vector<int>{2});
+        table.filter()->setText("class=class3"); // "class 3"
+        QCOMPARE(table.shownIds(), std::vector<int>{1});
         table.filter()->setText("class=");
         QCOMPARE(table.shownIds().size(), document().shownEvents().size() - 2);
         table.filter()->clear();

@@ -74,7 +74,7 @@ QString settingLabel(const QString &name)
         {"decide.linkCells", "Link distance"},
         {"decide.inhibitCells", "Inhibit half width"},
         {"subtract.lines", "Subtract strong lines"},
-        {"subtract.leastDb", "From"},
+        {"subtract.leastDb", "Least level"},
         {"track.windowCells", "Window half width"},
         {"track.decayNats", "Decay per frame"},
         {"track.ceilingNats", "Ceiling"},

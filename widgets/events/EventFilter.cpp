@@ -56,14 +56,14 @@ namespace {
         return [=](const Event &e, const EventReview &) { return of(e) >= limit; };
     }
 
-    /// "class=whale": the class begins so; "class=": has none.
+    /// "class=finwhale": the class begins so, spaces left out; "class=": has none.
     Condition classOf(const QString &term)
     {
         const QString key = QStringLiteral("class=");
         if (!term.startsWith(key))
             return {};
         return [name = term.mid(key.size())](const Event &, const EventReview &r) {
-            const QString label = QString::fromStdString(r.label).toLower();
+            const QString label = QString::fromStdString(r.label).toLower().remove(QLatin1Char(' '));
             return name.isEmpty() ? label.isEmpty() : label.startsWith(name);
         };
     }

@@ -300,7 +300,7 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
         tr("Straight-line slope of the track"),
         tr("Confirmed or tentative; open if the data ended before the track"),
         tr("Accepted (Y), rejected (X) or undecided (U), or part of another event's signal"),
-        tr("What kind of signal you say it is; 1 to 9 set it, Shift+U clears it"),
+        tr("Your class of the signal; 1 to 9 set it, Shift+U clears it"),
         tr("Your note on the event; E edits it")};
     if (section < 0 || section >= ColumnCount)
         return {};

@@ -29,7 +29,7 @@ EventTable::EventTable(QWidget *parent)
     m_filter->setToolTip(
         tr("Conditions that must all hold: open, confirmed, tentative, accepted, rejected, unreviewed, merged, noted, "
            "negated by a leading !; id, t, detect, confirm, end, dur, f, drift, stat, snr compared by <, >, =, <=, >=; "
-           "class=NAME"));
+           "class=NAME, without spaces"));
     m_filter->setClearButtonEnabled(true);
     m_filter->setAccessibleName(tr("Filter events"));
     connect(m_filter, &QLineEdit::textChanged, this, &EventTable::applyFilter);
