@@ -69,7 +69,7 @@ namespace {
         bool isBetter(double likeness)
         {
             constexpr double better = 1.1;
-            constexpr double explained = 1.3;
+            constexpr double explained = 1.4;
             divideByNoise(0);
             m_rest = blockBackground(m_frames, m_cells, m_half);
             for (Index frame = 0; frame < m_stretchFrames.count; ++frame)

@@ -175,16 +175,36 @@ namespace {
         return result;
     }
 
+    /// Cells near which a colour falls or rises steeply: smoothing would move such an edge, and flatten what leaks over it.
+    void markEdges(const std::vector<float> &ln, std::vector<char> &isEdge)
+    {
+        constexpr float steep = 1.4f; // 6 dB from one neighbour to the other
+        constexpr Index reach = 6;
+        const Index cells = std::ssize(ln);
+        for (Index cell = 1; cell + 1 < cells; ++cell)
+            if (std::abs(ln[std::size_t(cell + 1)] - ln[std::size_t(cell - 1)]) > steep)
+                std::fill(isEdge.begin() + std::max<Index>(0, cell - reach),
+                          isEdge.begin() + std::min(cells, cell + reach + 1), 1);
+    }
+
     void smoothColours(NoiseSources &sources, Index half)
     {
-        std::vector<float> ln(std::size_t(sources.cells));
+        const auto cells = std::size_t(sources.cells);
+        std::vector<std::vector<float>> smooth;
+        std::vector<char> isEdge(cells, 0);
+        for (Index k = 0; k < sources.count(); ++k) {
+            const float *colour = sources.colours.data() + k * sources.cells;
+            std::vector<float> ln(cells);
+            for (std::size_t cell = 0; cell < cells; ++cell)
+                ln[cell] = std::log(std::max(colour[cell], least));
+            smooth.push_back(runningMedian(ln, half));
+            markEdges(smooth.back(), isEdge);
+        }
         for (Index k = 0; k < sources.count(); ++k) {
             float *colour = sources.colours.data() + k * sources.cells;
-            for (std::size_t cell = 0; cell < ln.size(); ++cell)
-                ln[cell] = std::log(std::max(colour[cell], least));
-            const std::vector<float> smooth = runningMedian(ln, half);
-            for (std::size_t cell = 0; cell < ln.size(); ++cell)
-                colour[cell] = std::exp(smooth[cell]);
+            for (std::size_t cell = 0; cell < cells; ++cell)
+                if (!isEdge[cell])
+                    colour[cell] = std::exp(smooth[std::size_t(k)][cell]);
         }
     }
 

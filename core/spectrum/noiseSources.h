@@ -16,8 +16,8 @@ namespace faintline {
 ///
 ///   P_k ← P_k·Σ_f a_k min(y, cB)/B² / Σ_f a_k/B,  and for a_k likewise over t.
 ///
-/// Colours go through a running median over ±half cells each time, so that no line is part of a colour. Sources begin
-/// as the frames that differ most from one another. Source: Févotte, Bertin and Durrieu 2009, Nonnegative matrix
+/// Colours go through a running median over ±half cells each time, so that no line is part of a colour, but near their
+/// steep edges, which it would move. Sources begin as the frames that differ most from one another. Source: Févotte, Bertin and Durrieu 2009, Nonnegative matrix
 /// factorization with the Itakura-Saito divergence, section 3.
 struct NoiseSources {
     Index cells = 0;
