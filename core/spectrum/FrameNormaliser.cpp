@@ -101,6 +101,8 @@ void FrameNormaliser::normalise(std::span<float> values, const NoiseBackground &
         divideBinByBin(values, m_ln.data());
     else
         divideByBackground(values, m_ln.data(), start, perBin, double(b.frequency.count - 1));
+    if (!b.lnAtEdges.empty() && b.bins == axis)
+        divideBinByBin(values, b.lnAtEdges.data());
     if (m_guardsAgainstClicks)
         guardAgainstClicks(m_spectrogram.binsPerCell(), values);
 }

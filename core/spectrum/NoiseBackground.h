@@ -49,6 +49,9 @@ struct NoiseBackground {
     std::vector<float> lnLevel; ///< levelTime.count × bandCount, to be added to lnPower
     /// In the order of time: instead of lnPower, where it is several noises in turn.
     std::vector<NoiseStretch> stretches{};
+    Axis bins{}; ///< of the detector's frames, Hz
+    std::vector<float>
+        lnAtEdges; ///< of each of those bins, to be added to what is interpolated; empty: nothing is steep
 
     /// ln power that stands for "nothing was recorded".
     static constexpr float silence = -200.0f;

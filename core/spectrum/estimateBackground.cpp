@@ -6,6 +6,7 @@
 #include "spectrum/bandLevels.h"
 #include "spectrum/blockBackground.h"
 #include "spectrum/coarseFrames.h"
+#include "spectrum/edgeCorrection.h"
 #include "spectrum/unevenness.h"
 
 #include <algorithm>
@@ -40,6 +41,44 @@ namespace {
             result.emplace_back(windows.recordingPointer(), windows.settings(), later);
         }
         return result;
+    }
+
+    /// The frames that a background is estimated from, in blocks.
+    struct BlockedFrames {
+        const Spectrogram &frames;
+        const std::vector<Spectrogram> &shifted;
+        Index steps;
+        double blockFrames;
+
+        Index blockBegin(Index block) const
+        {
+            return std::min(frames.time().count, Index(std::floor(double(block) * blockFrames)));
+        }
+    };
+
+    /// Where blocks change their colour, a dozen at a time: noise that is a sum of sources.
+    void addStretches(NoiseBackground &background, const BlockedFrames &blocked, const std::vector<Unevenness> &changes,
+                      Index half, double likeness, std::vector<float> &levels)
+    {
+        constexpr Index stretchBlocks = 13;
+        constexpr double noticeable = 1.5;
+        const Index blockCount = std::ssize(changes);
+        const double expected = Unevenness::ofNoise(likeness);
+        const Index together = std::clamp<Index>(
+            Index(double(valuesPerBlock / background.frequency.count) / blocked.blockFrames), 1, stretchBlocks);
+        for (Index block = 0; block < blockCount; block += together) {
+            const Index next = std::min(blockCount, block + together);
+            Unevenness change;
+            for (Index each = block; each < next; ++each) {
+                change.sum += changes[std::size_t(each)].sum;
+                change.freedom += changes[std::size_t(each)].freedom;
+            }
+            const Index first = blocked.blockBegin(block);
+            const Index end = next < blockCount ? blocked.blockBegin(next) : blocked.frames.time().count;
+            if (change.variance() > noticeable * expected)
+                addStretch(background, {first, end - first, blocked.steps, blocked.frames, blocked.shifted}, half,
+                           likeness, levels);
+        }
     }
 
 } // namespace
@@ -145,27 +184,16 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
     }
     const double overlap = overlapFactor(window, int(steps));
     background->lnLevel = finishLevels(levels, *background, overlap, likeness);
-    if (background->bandCount == 0 || stride > 1)
-        return background;
-    constexpr Index stretchBlocks = 13;
-    constexpr double noticeable = 1.5;
-    const double expected = Unevenness::ofNoise(likeness);
-    const Index together = std::clamp<Index>(Index(double(valuesPerBlock / cells) / blockFrames), 1, stretchBlocks);
-    for (Index b = 0; b < blockCount; b += together) {
-        const auto first = Index(std::floor(double(b) * blockFrames));
-        const Index end =
-            b + together < blockCount ? Index(std::floor(double(b + together) * blockFrames)) : frameCount;
-        Unevenness change;
-        for (Index each = b; each < std::min(blockCount, b + together); ++each) {
-            change.sum += changes[std::size_t(each)].sum;
-            change.freedom += changes[std::size_t(each)].freedom;
-        }
-        if (change.variance() > noticeable * expected)
-            addStretch(*background, {first, end - first, steps, frames, shifted}, settings.halfWidthCells, likeness,
-                       levels);
+    if (background->bandCount > 0 && stride == 1) {
+        addStretches(*background, {frames, shifted, steps, blockFrames}, changes, settings.halfWidthCells, likeness,
+                     levels);
+        if (!background->stretches.empty())
+            background->lnLevel = finishLevels(levels, *background, overlap, likeness);
     }
-    if (!background->stretches.empty())
-        background->lnLevel = finishLevels(levels, *background, overlap, likeness);
+    if (!isSketch) {
+        background->bins = spectrogram.frequency();
+        background->lnAtEdges = edgeCorrection(spectrogram, *background);
+    }
     return background;
 }
 
