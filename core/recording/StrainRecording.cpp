@@ -2,28 +2,15 @@
 
 #include "base/Error.h"
 #include "base/Field.h"
+#include "recording/timeInName.h"
 
-#include <array>
 #include <cmath>
-#include <utility>
 
 namespace faintline {
 
 namespace {
 
     constexpr const char *strainName = "strain/Strain";
-
-    double unixFromGps(double gps)
-    {
-        constexpr double gpsEpoch = 315964800.0; // 1980-01-06 in seconds since 1970
-        constexpr std::array<std::pair<double, int>, 4> leaps{
-            {{1167264018.0, 18}, {1119744017.0, 17}, {1025136016.0, 16}, {914803215.0, 15}}};
-        int leap = 14;
-        for (auto since = leaps.rbegin(); since != leaps.rend(); ++since)
-            if (gps >= since->first)
-                leap = since->second;
-        return gps + gpsEpoch - leap;
-    }
 
 } // namespace
 
