@@ -46,9 +46,15 @@ struct AnalysisOptions {
     int channel = -1;
     PartOptions part;
     OpenOptions open;
+    std::vector<std::string> more; ///< further files of the recording
+    bool asTimeline = false;
 
     void addTo(CLI::App &command, Common &common);
     void addSettingsTo(CLI::App &command, Common &common); ///< all but the recording
+    /// Further files of the recording, with --timeline.
+    void addMoreTo(CLI::App &command, Common &common);
+    void checkMore() const; ///< throws where there are some without it
+    std::vector<std::string> names() const;
     AnalysisSettings settings() const;
     RecordingPointer recording() const;
     /// The frames of a file that is no recording: simulated pings, a stack (FILE.npy), power over time and frequency;

@@ -179,6 +179,7 @@ namespace {
 
     void checkOptions(const DetectOptions &options)
     {
+        options.analysis.checkMore();
         if (!options.annotations.empty() && options.events.empty())
             throw Error("--annotations", "requires --events");
         if (!options.events.empty())
@@ -346,6 +347,7 @@ void addDetect(CLI::App &app, Common &common)
     CLI::App *command = app.add_subcommand("detect", "Find lines in a recording, or signals in ready-made frames");
     options->analysis.addTo(*command, common);
     command->get_option("FILE")->required(false);
+    options->analysis.addMoreTo(*command, common);
     addInput(*command, common, "--frames", options->frames,
              "Ready-made normalised frames, .npy of shape (frames, cells…), noise mean 1");
     addInput(*command, common, "--grid", options->grid, "JSON that describes the axes of the frames");

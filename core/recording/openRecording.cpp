@@ -6,6 +6,7 @@
 #include "recording/RawRecording.h"
 #include "recording/SigmfRecording.h"
 #include "recording/StrainRecording.h"
+#include "recording/Timeline.h"
 #include "recording/fileHash.h"
 
 namespace faintline {
@@ -40,6 +41,8 @@ namespace {
 
 RecordingPointer openRecording(const std::string &path, const OpenOptions &options)
 {
+    if (Timeline::isNamedSo(path))
+        return std::make_shared<Timeline>(std::vector{path}, options);
     if (!options.rawType.empty())
         return openRaw(path, options.rawType, options);
     if (SigmfRecording::isNamedSo(path))
@@ -62,6 +65,8 @@ RecordingPointer openRecording(const std::string &path, const OpenOptions &optio
 
 std::string recordingHash(const std::string &path)
 {
+    if (Timeline::isNamedSo(path))
+        return filesHash(filesBehind({path}));
     return fileHash(path.ends_with(".sigmf-meta") ? SigmfRecording::dataPath(path) : path);
 }
 
