@@ -81,6 +81,7 @@ void addListen(CLI::App &app, Common &common);
 void addStraighten(CLI::App &app, Common &common);
 void addDoppler(CLI::App &app, Common &common);
 void addSurvey(CLI::App &app, Common &common);
+void addCadence(CLI::App &app, Common &common);
 
 /// Does what a command line asks for. Throws CLI::ParseError, Error, Cancelled.
 void runCommandLine(const std::vector<std::string> &arguments, Common common);

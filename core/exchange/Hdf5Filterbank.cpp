@@ -62,6 +62,7 @@ void Hdf5Filterbank::read(const PowerPart &part, std::span<float> out) const
     if (m_descends)
         for (auto row = out.begin(); row != out.end(); row += part.cells)
             std::reverse(row, row + part.cells);
+    excludeDc(m_info, part, m_descends, out);
 }
 
 } // namespace faintline
