@@ -26,6 +26,14 @@ Index Stretches::missing() const
     return missing;
 }
 
+Index Stretches::samples() const
+{
+    Index samples = 0;
+    for (const Stretch &each : m_stretches)
+        samples += each.count;
+    return samples;
+}
+
 Index Stretches::end() const
 {
     return m_stretches.empty() ? 0 : m_stretches.back().end();

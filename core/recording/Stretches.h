@@ -25,6 +25,7 @@ public:
     bool hasGaps() const { return m_stretches.size() > 1; }
     Index gaps() const { return hasGaps() ? std::ssize(m_stretches) - 1 : 0; }
     Index missing() const; ///< samples in all gaps
+    Index samples() const; ///< in all stretches
     Index end() const;     ///< behind the last sample, in time
 
     /// Whether all of these samples were heard, of those that lie before the end.
