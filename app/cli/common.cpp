@@ -6,6 +6,7 @@
 #include "exchange/openFrames.h"
 #include "recording/SimulatedRecording.h"
 #include "recording/Timeline.h"
+#include "recording/openTogether.h"
 
 #include <CLI/CLI.hpp>
 
@@ -138,7 +139,7 @@ AnalysisSettings AnalysisOptions::settings() const
 
 RecordingPointer AnalysisOptions::recording() const
 {
-    return asTimeline ? std::make_shared<Timeline>(names(), open) : openAny(file, open);
+    return asTimeline ? openTogether(names(), open) : openAny(file, open);
 }
 
 NormalisedFramesPointer AnalysisOptions::frames(AnalysisSettings &settings, const RunContext &context) const
@@ -155,7 +156,8 @@ NormalisedFramesPointer AnalysisOptions::frames(AnalysisSettings &settings, cons
 
 std::vector<std::string> AnalysisOptions::inputs() const
 {
-    std::vector<std::string> files = file.empty() ? std::vector<std::string>() : filesBehind(names(), open);
+    std::vector<std::string> files =
+        file.empty() ? std::vector<std::string>() : filesBehind(names(), !open.rawType.empty());
     files.push_back(session);
     return files;
 }

@@ -28,13 +28,21 @@ namespace {
                            [&](const std::string &ending) { return hasEnding(path, "." + ending); });
     }
 
+    /// What Digital RF keeps beside its samples, and what it is writing now.
+    bool isBesideSamples(const std::string &name)
+    {
+        return name == "drf_properties.h5" || name == "dmd_properties.h5" || name.starts_with("metadata@")
+               || name.starts_with("tmp.rf@");
+    }
+
     void addFolder(const fs::path &folder, std::set<std::string> &files)
     {
         std::error_code code;
         fs::directory_iterator entry(folder, code);
         for (const fs::directory_iterator end; !code && entry != end; entry.increment(code)) {
             std::error_code ignored;
-            if (entry->path().filename().native().starts_with('.'))
+            const std::string name = entry->path().filename().string();
+            if (name.starts_with('.') || isBesideSamples(name))
                 continue;
             if (entry->is_directory(ignored) && !entry->is_symlink(ignored))
                 addFolder(entry->path(), files);
@@ -95,7 +103,7 @@ std::vector<std::string> Timeline::filesOf(const std::vector<std::string> &names
     return {files.begin(), files.end()};
 }
 
-Timeline::Timeline(const std::vector<std::string> &names, const OpenOptions &options) : m_options(options)
+Timeline::Timeline(const std::vector<std::string> &names, OpenFile open) : m_openFile(std::move(open))
 {
     std::vector<TimedFile> timed;
     for (const std::string &file : filesOf(names))
@@ -124,7 +132,7 @@ Timeline::Timeline(const std::vector<std::string> &names, const OpenOptions &opt
 /// Opens a file for what its header says.
 TimedFile Timeline::addPart(const std::string &path)
 {
-    const RecordingPointer recording = openRecording(path, m_options);
+    const RecordingPointer recording = m_openFile(path);
     const RecordingInfo &info = recording->info();
     const std::optional<double> start = info.startUnixSeconds ? info.startUnixSeconds : timeInName(path);
     if (!start)
@@ -137,7 +145,10 @@ TimedFile Timeline::addPart(const std::string &path)
     const bool hasGaps = !recording->isWhole(0, info.sampleCount);
     m_hasGapsWithin = m_hasGapsWithin || hasGaps;
     m_parts.push_back({path, {}, 0, info.sampleCount, hasGaps});
-    return {path, *start, info.sampleRateHz, info.sampleCount};
+    const bool isExact =
+        info.startUnixSeconds
+        && (info.container == "Digital RF" || info.container == "HDF5 strain" || info.container == "KiwiSDR WAV");
+    return {path, *start, info.sampleRateHz, info.sampleCount, isExact};
 }
 
 void Timeline::checkLike(const RecordingInfo &other) const
@@ -164,7 +175,7 @@ RecordingPointer Timeline::partAt(std::size_t number) const
         return m_open.back().second;
     }
     const Part &part = m_parts[number];
-    RecordingPointer opened = openRecording(part.path, m_options);
+    RecordingPointer opened = m_openFile(part.path);
     if (opened->info().sampleCount != part.fileSamples || opened->info().isComplex != m_info.isComplex
         || opened->info().channelCount != m_info.channelCount)
         throw Error(part.path, "has changed since the timeline was opened", Error::Kind::Failure);
@@ -239,11 +250,11 @@ const std::vector<std::string> &sampleEndings()
     return endings;
 }
 
-std::vector<std::string> filesBehind(const std::vector<std::string> &names, const OpenOptions &options)
+std::vector<std::string> filesBehind(const std::vector<std::string> &names, bool areRaw)
 {
     std::vector<std::string> files;
     for (const std::string &name : Timeline::filesOf(names)) {
-        const bool isSigmf = options.rawType.empty() && SigmfRecording::isNamedSo(name);
+        const bool isSigmf = !areRaw && SigmfRecording::isNamedSo(name);
         files.push_back(isSigmf ? SigmfRecording::metaPath(name) : name);
         if (isSigmf)
             files.push_back(SigmfRecording::dataPath(name));

@@ -1,11 +1,12 @@
 #pragma once
 
+#include "recording/Recording.h"
 #include "recording/Stretches.h"
 #include "recording/alignFiles.h"
-#include "recording/openRecording.h"
 
-#include <memory>
+#include <functional>
 #include <mutex>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -20,8 +21,11 @@ namespace faintline {
 class Timeline final : public Recording
 {
 public:
-    /// The recordings of `names`: files, folders, lists. Throws Error naming the file at fault.
-    Timeline(const std::vector<std::string> &names, const OpenOptions &options);
+    using OpenFile = std::function<RecordingPointer(const std::string &path)>;
+
+    /// The recordings of `names`: files, folders, lists. `open` opens one file, again and again, from any thread.
+    /// Throws Error naming the file at fault.
+    Timeline(const std::vector<std::string> &names, OpenFile open);
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;
     bool isWhole(Index first, Index count) const override;
@@ -50,7 +54,7 @@ private:
     std::size_t partOf(Index stored) const;
     void readStored(int channel, Index stored, std::span<float> out) const;
 
-    OpenOptions m_options;
+    OpenFile m_openFile;
     std::vector<Part> m_parts; ///< in the order of time
     Stretches m_stretches;     ///< of the used samples in time
     bool m_hasGapsWithin = false;
@@ -62,6 +66,7 @@ private:
 const std::vector<std::string> &sampleEndings();
 
 /// All files that recordings of these names are read from: a SigMF recording's are two, a timeline's many.
-std::vector<std::string> filesBehind(const std::vector<std::string> &names, const OpenOptions &options = {});
+/// `areRaw`: whatever their names, they are read as raw samples.
+std::vector<std::string> filesBehind(const std::vector<std::string> &names, bool areRaw = false);
 
 } // namespace faintline

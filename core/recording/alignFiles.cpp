@@ -15,6 +15,7 @@ namespace {
 
     constexpr double clockError = 200e-6; ///< of a crystal, relative
     constexpr double leastResolution = 0.01;
+    constexpr double exactness = 1e-4;    ///< of stamps that count samples, s
     constexpr double leastScatter = 1e-3; ///< of stamps that a program took
 
     /// Files that follow on one another.
@@ -47,6 +48,8 @@ namespace {
                 return file.startUnixSeconds == std::floor(file.startUnixSeconds);
             });
             m_resolution = areWhole && m_files.size() > 1 ? 1.0 : leastResolution;
+            m_areExact =
+                std::all_of(m_files.begin(), m_files.end(), [](const TimedFile &file) { return file.isExact; });
             findRuns();
             fitClock();
             m_result.startUnixSeconds = m_runs.front().startUnixSeconds;
@@ -83,7 +86,7 @@ namespace {
                     const TimedFile &last = file(run.files.back());
                     const double lasts = double(last.samples) / m_nominalHz;
                     const double late = now.startUnixSeconds - last.startUnixSeconds - lasts;
-                    if (std::abs(late) <= m_resolution + clockError * lasts) {
+                    if (std::abs(late) <= (m_areExact ? exactness : m_resolution + clockError * lasts)) {
                         run.before.push_back(run.before.back() + double(last.samples));
                         run.files.push_back(next);
                         continue;
@@ -218,6 +221,7 @@ namespace {
         double m_epoch = 0.0;
         double m_nominalHz = 0.0;
         double m_resolution = 0.0;
+        bool m_areExact = false;
         Index m_gaps = 0, m_missing = 0;
         Index m_overlaps = 0, m_twice = 0;
         Alignment m_result;

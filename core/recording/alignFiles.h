@@ -13,6 +13,7 @@ struct TimedFile {
     double startUnixSeconds = 0.0;
     double rateHz = 0.0;
     Index samples = 0;
+    bool isExact = false; ///< samples are counted by the same clock as the stamp: GNSS, or a file's own count
 };
 
 /// Where a file's samples lie in time.
@@ -33,8 +34,8 @@ struct Alignment {
 /// Lays files on one timeline by their time stamps, for samples are counted exactly and stamps are not.
 ///
 /// A file follows on without a gap where its stamp lies within the stamps' resolution (1 s where all are whole seconds,
-/// else 10 ms) and 200 ppm of where the one before ends: crystals are that good. Files that follow on one another are a
-/// run. Over all runs the clock is a straight line,
+/// else 10 ms) and 200 ppm of where the one before ends: crystals are that good. Where all stamps are exact, 0.1 ms
+/// decide. Files that follow on one another are a run. Over all runs the clock is a straight line,
 ///
 ///   t(n) = t0(run) + n/rate,
 ///

@@ -3,7 +3,7 @@
 #include "bindings/Source.h"
 #include "bindings/jsonFromPython.h"
 #include "exchange/openFrames.h"
-#include "recording/Timeline.h"
+#include "recording/openTogether.h"
 
 namespace faintline::python {
 
@@ -40,7 +40,7 @@ namespace {
             names.push_back(pathFromPython(py::reinterpret_borrow<py::object>(path)));
         if (names.empty())
             throw Error("path", "is an empty list; give the files of one recording");
-        return py::cast(HeldRecording{std::make_shared<Timeline>(names, optionsFrom(options)), nullptr});
+        return py::cast(HeldRecording{openTogether(names, optionsFrom(options)), nullptr});
     }
 
 } // namespace

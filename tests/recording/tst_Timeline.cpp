@@ -1,6 +1,7 @@
 #include "recording/Timeline.h"
 
 #include "base/Error.h"
+#include "recording/openTogether.h"
 #include "recording/timeInName.h"
 #include "support/errors.h"
 #include "support/recordings.h"
@@ -28,6 +29,7 @@ private slots:
     void filesThatFollowOn();
     void clockThatIsOff();
     void stampsOfWholeSeconds();
+    void exactStamps();
     void gapsAndOverlaps();
     void refusals_data();
     void refusals();
@@ -159,6 +161,17 @@ void tst_Timeline::stampsOfWholeSeconds()
     QCOMPARE(minutes.places.back().inTime, Index(2) * 48000 * 60);
 }
 
+// Whole seconds that are exact leave a gap of a second one.
+void tst_Timeline::exactStamps()
+{
+    for (const bool isExact : {false, true}) {
+        const Alignment aligned =
+            alignFiles({{"a", newYear, 100.0, 100, isExact}, {"b", newYear + 2.0, 100.0, 100, isExact}});
+        QCOMPARE(aligned.startUnixSeconds, isExact ? newYear : newYear + 0.5);
+        QCOMPARE(aligned.places[1].inTime, Index(isExact ? 200 : 100));
+    }
+}
+
 void tst_Timeline::gapsAndOverlaps()
 {
     const Alignment aligned = alignFiles({{"b", newYear + 15.25, 100.0, 1000},
@@ -227,7 +240,7 @@ void tst_Timeline::listsAndMoreFiles()
     writeBytes(path("some.timeline"), "# two of them\r\ndays/two.sigmf-meta\r\n\r\nother.sigmf-data\n");
     QCOMPARE(lettersOf(*openRecording(path("some.timeline"))), QByteArray("def.......ghi"));
     const std::vector<std::string> names{path("other.sigmf-meta"), path("days"), path("days/one.sigmf-meta")};
-    QCOMPARE(lettersOf(Timeline(names, {})), QByteArray("abc.......def.......ghi"));
+    QCOMPARE(lettersOf(*openTogether(names)), QByteArray("abc.......def.......ghi"));
     QCOMPARE(filesBehind(names).size(), std::size_t(6));
     const std::string before = recordingHash(path("some.timeline"));
     QVERIFY(before.starts_with("files:"));
