@@ -5,6 +5,8 @@
 #include "exchange/openFrames.h"
 #include "recording/openTogether.h"
 
+#include <filesystem>
+
 namespace faintline::python {
 
 namespace py = pybind11;
@@ -32,6 +34,26 @@ namespace {
         return result;
     }
 
+    std::string wholePath(const std::string &path)
+    {
+        return std::filesystem::absolute(path).lexically_normal().string();
+    }
+
+    /// What the command line has to be told to open the same.
+    std::vector<std::string> argumentsFor(const std::string &path, const py::kwargs &given)
+    {
+        const OpenOptions options = optionsFrom(given);
+        std::vector<std::string> arguments{wholePath(path)};
+        if (options.iq)
+            arguments.push_back("--iq");
+        if (!options.rawType.empty())
+            arguments.insert(arguments.end(),
+                             {"--raw-type", options.rawType, "--raw-rate", formatNumber(options.rawRateHz),
+                              "--raw-channels", std::to_string(options.rawChannels), "--raw-header",
+                              std::to_string(options.rawHeaderBytes)});
+        return arguments;
+    }
+
     /// Many files that make one recording.
     py::object openTogether(const py::sequence &paths, const py::kwargs &options)
     {
@@ -40,7 +62,7 @@ namespace {
             names.push_back(pathFromPython(py::reinterpret_borrow<py::object>(path)));
         if (names.empty())
             throw Error("path", "is an empty list; give the files of one recording");
-        return py::cast(HeldRecording{openTogether(names, optionsFrom(options)), nullptr});
+        return py::cast(HeldRecording{openTogether(names, optionsFrom(options)), nullptr, {}});
     }
 
 } // namespace
@@ -51,8 +73,8 @@ py::object openSource(const std::string &path, const py::kwargs &options)
         return simulatedSource(readJsonFile(path), path);
     const bool isRaw = options.contains("raw_type");
     if (!isRaw && holdsFrames(path))
-        return py::cast(HeldFrames{openFrames(path), nullptr, false, openPower(path)});
-    return py::cast(HeldRecording{openRecording(path, optionsFrom(options)), nullptr});
+        return py::cast(HeldFrames{openFrames(path), nullptr, false, openPower(path), {wholePath(path)}});
+    return py::cast(HeldRecording{openRecording(path, optionsFrom(options)), nullptr, argumentsFor(path, options)});
 }
 
 void bindOpen(py::module_ &module)
