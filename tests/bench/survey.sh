@@ -43,9 +43,12 @@ TIME
 }
 
 survey() {
-    "$cli" --progress none survey night --set spectrogram.windowSeconds=0.5 --jobs 2 --out "$1" >/dev/null
+    exec "$cli" --progress none survey night --set spectrogram.windowSeconds=0.5 --jobs 2 --out "$1" >/dev/null
 }
 
+# What both calibrate for once.
+"$cli" --progress none detect long.wav --set spectrogram.windowSeconds=0.5 --events long.csv
+(survey warm.sqlite)
 processor "one recording" "$cli" --progress none detect long.wav --set spectrogram.windowSeconds=0.5 --events long.csv
 processor "$count recordings" "$cli" --progress none survey night --set spectrogram.windowSeconds=0.5 --jobs 2 --out whole.sqlite
 
@@ -60,9 +63,8 @@ while [ "$kills" -lt 3 ]; do
         kills=$((kills + 1))
     fi
     wait "$job" 2>/dev/null || true
-    pkill -9 -P "$job" 2>/dev/null || true
     echo "killed after $(stat -c %s killed.sqlite 2>/dev/null || echo 0) bytes ($before before)"
 done
-survey killed.sqlite
+(survey killed.sqlite)
 cmp whole.sqlite killed.sqlite
 echo "the same bytes after three kills"
