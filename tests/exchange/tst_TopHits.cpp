@@ -267,8 +267,8 @@ void tst_TopHits::cadence()
     QCOMPARE(events[0].hits[0].startHz, 1.1e9);
     QCOMPARE(events[0].hits[1].snr, 55.0);
     QCOMPARE(findCadence(all, 500.0).size(), std::size_t(2));
-    QVERIFY(cadenceCsv(events).starts_with(
-        "event,observation,frequency_hz,drift_hz_per_s,snr\n1,1,1.1e+09,-0.2,30\n1,3,"));
+    QVERIFY(
+        cadenceCsv(events).starts_with("event,observation,frequency_hz,drift_hz_per_s,snr\n1,1,1.1e+09,-0.2,30\n1,3,"));
 }
 
 void tst_TopHits::cadencesThatAreNone()
