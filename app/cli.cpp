@@ -31,13 +31,13 @@ void addCommands(CLI::App &app, faintline::cli::Common &common)
                    "Progress on standard error: auto (a bar on a terminal), json (lines), none")
         ->check(CLI::IsMember({"auto", "json", "none"}))
         ->capture_default_str();
-    for (const auto add :
-         {faintline::cli::addInfo, faintline::cli::addDescribe, faintline::cli::addDetect, faintline::cli::addStatistic,
-          faintline::cli::addExplain, faintline::cli::addSimulate, faintline::cli::addReproduce,
-          faintline::cli::addEvaluate, faintline::cli::addMerge, faintline::cli::addCalibrate,
-          faintline::cli::addInject, faintline::cli::addSequential, faintline::cli::addCompare,
-          faintline::cli::addListen, faintline::cli::addStraighten, faintline::cli::addDoppler,
-          faintline::cli::addSurvey, faintline::cli::addReplay, faintline::cli::addBench})
+    for (const auto add : {faintline::cli::addInfo,      faintline::cli::addDescribe, faintline::cli::addDetect,
+                           faintline::cli::addStatistic, faintline::cli::addExplain,  faintline::cli::addSimulate,
+                           faintline::cli::addReproduce, faintline::cli::addEvaluate, faintline::cli::addMerge,
+                           faintline::cli::addCalibrate, faintline::cli::addInject,   faintline::cli::addSequential,
+                           faintline::cli::addCompare,   faintline::cli::addListen,   faintline::cli::addStraighten,
+                           faintline::cli::addDoppler,   faintline::cli::addSurvey,   faintline::cli::addCadence,
+                           faintline::cli::addReplay,    faintline::cli::addBench})
         add(app, common);
 }
 

@@ -46,9 +46,15 @@ struct AnalysisOptions {
     int channel = -1;
     PartOptions part;
     OpenOptions open;
+    std::vector<std::string> more; ///< further files of the recording
+    bool asTimeline = false;
 
     void addTo(CLI::App &command, Common &common);
     void addSettingsTo(CLI::App &command, Common &common); ///< all but the recording
+    /// Further files of the recording, with --timeline.
+    void addMoreTo(CLI::App &command, Common &common);
+    void checkMore() const; ///< throws where there are some without it
+    std::vector<std::string> names() const;
     AnalysisSettings settings() const;
     RecordingPointer recording() const;
     /// The frames of a file that is no recording: simulated pings, a stack (FILE.npy), power over time and frequency;
@@ -75,6 +81,7 @@ void addListen(CLI::App &app, Common &common);
 void addStraighten(CLI::App &app, Common &common);
 void addDoppler(CLI::App &app, Common &common);
 void addSurvey(CLI::App &app, Common &common);
+void addCadence(CLI::App &app, Common &common);
 
 /// Does what a command line asks for. Throws CLI::ParseError, Error, Cancelled.
 void runCommandLine(const std::vector<std::string> &arguments, Common common);

@@ -4,8 +4,9 @@
 #include "base/AtomicFile.h"
 #include "base/json.h"
 #include "exchange/openFrames.h"
-#include "recording/SigmfRecording.h"
 #include "recording/SimulatedRecording.h"
+#include "recording/Timeline.h"
+#include "recording/openTogether.h"
 
 #include <CLI/CLI.hpp>
 
@@ -63,9 +64,34 @@ CLI::Option *addOutput(CLI::App &command, Common &common, const std::string &nam
 
 void AnalysisOptions::addTo(CLI::App &command, Common &common)
 {
-    addInput(command, common, "FILE", file, "Recording (WAV, FLAC, SigMF …), or a scene to simulate (.json)")
+    addInput(command, common, "FILE", file,
+             "Recording (WAV, FLAC, SigMF …), a folder or a list (.timeline) of those that make one, or a scene to "
+             "simulate (.json)")
         ->required();
     addSettingsTo(command, common);
+}
+
+void AnalysisOptions::addMoreTo(CLI::App &command, Common &common)
+{
+    const auto read = [&common](const std::string &asked) { return common.read ? common.read(asked) : asked; };
+    command.add_option("FILES", more, "Further files of the same recording, in any order; needs --timeline")
+        ->transform(read);
+    command.add_flag("--timeline", asTimeline,
+                     "Take several files as one recording, in the order of their time stamps, with gaps as gaps");
+}
+
+std::vector<std::string> AnalysisOptions::names() const
+{
+    std::vector<std::string> all{file};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+}
+
+void AnalysisOptions::checkMore() const
+{
+    if (!more.empty() && !asTimeline)
+        throw Error(more.front(), "is a second recording; give --timeline to take several files as one recording; "
+                                  "'survey' searches each of them");
 }
 
 void AnalysisOptions::addSettingsTo(CLI::App &command, Common &common)
@@ -113,16 +139,16 @@ AnalysisSettings AnalysisOptions::settings() const
 
 RecordingPointer AnalysisOptions::recording() const
 {
-    return openAny(file, open);
+    return asTimeline ? openTogether(names(), open) : openAny(file, open);
 }
 
 NormalisedFramesPointer AnalysisOptions::frames(AnalysisSettings &settings, const RunContext &context) const
 {
     if (const auto pings = openPings(file))
         return pings;
-    const bool isRaw = !open.rawType.empty();
+    const bool areSamples = !open.rawType.empty() || !more.empty();
     const NormalisedFramesPointer frames =
-        isRaw ? nullptr : openFrames(file, {settings.selection, settings.noise}, context);
+        areSamples ? nullptr : openFrames(file, {settings.selection, settings.noise}, context);
     if (frames)
         settings = withSlopesInBins(settings, *frames);
     return frames;
@@ -130,9 +156,10 @@ NormalisedFramesPointer AnalysisOptions::frames(AnalysisSettings &settings, cons
 
 std::vector<std::string> AnalysisOptions::inputs() const
 {
-    if (open.rawType.empty() && SigmfRecording::isNamedSo(file))
-        return {SigmfRecording::metaPath(file), SigmfRecording::dataPath(file), session};
-    return {file, session};
+    std::vector<std::string> files =
+        file.empty() ? std::vector<std::string>() : filesBehind(names(), !open.rawType.empty());
+    files.push_back(session);
+    return files;
 }
 
 Shard shardFrom(const std::string &text)

@@ -17,6 +17,8 @@
 #include "evaluate/comparison/trackScore.h"
 #include "exchange/ModelFile.h"
 #include "exchange/NumPy.h"
+#include "exchange/TopHits.h"
+#include "exchange/openFrames.h"
 #include "exchange/readAnnotations.h"
 #include "exchange/writeEvents.h"
 #include "exchange/writeReviewed.h"
@@ -27,6 +29,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -44,6 +47,8 @@ namespace {
         std::string tracks;
         std::string statistic;
         std::string conventional;
+        std::string hits;
+        double leastSnr = 0.0;
         bool summary = false;
     };
 
@@ -174,11 +179,12 @@ namespace {
     /// The files that are asked for.
     std::vector<std::string> outputsOf(const DetectOptions &options)
     {
-        return {options.events, options.tracks, options.statistic, options.conventional};
+        return {options.events, options.tracks, options.statistic, options.conventional, options.hits};
     }
 
     void checkOptions(const DetectOptions &options)
     {
+        options.analysis.checkMore();
         if (!options.annotations.empty() && options.events.empty())
             throw Error("--annotations", "requires --events");
         if (!options.events.empty())
@@ -187,6 +193,10 @@ namespace {
             checkTracksPath(options.tracks);
         if (!options.conventional.empty())
             checkEventsPath(options.conventional);
+        if (!options.hits.empty() && !options.hits.ends_with(".dat"))
+            throw Error(options.hits, "the file name must end in .dat");
+        if (options.leastSnr > 0.0 && options.hits.empty())
+            throw Error("--least-snr", "requires --hits");
         checkOutputs(outputsOf(options));
         if (!options.frames.empty() && !options.analysis.file.empty())
             throw Error("detect", "accepts either a recording or --frames");
@@ -200,6 +210,20 @@ namespace {
         std::optional<PingTruth> truth; ///< of simulated pings
         std::vector<Annotation> annotations;
     };
+
+    /// What a table of hits says of where they come from.
+    Observation observationOf(const DetectInput &input, const DetectOptions &options)
+    {
+        Observation observation;
+        observation.name = std::filesystem::path(options.analysis.file).filename().string();
+        if (input.recording) {
+            observation.startUnixSeconds = input.recording->info().startUnixSeconds;
+            observation.centreHz = input.recording->info().centreHz;
+        } else if (const auto power = options.analysis.file.empty() ? nullptr : openPower(options.analysis.file)) {
+            observation.startUnixSeconds = power->info().startUnixSeconds;
+        }
+        return observation;
+    }
 
     DetectInput open(const DetectOptions &options, const RunContext &context)
     {
@@ -301,6 +325,9 @@ namespace {
             writeTracks(analysis, options.tracks);
         if (!options.conventional.empty())
             writeEvents(conventionally(analysis), options.conventional);
+        if (!options.hits.empty())
+            writeTextFile(options.hits,
+                          topHitsText(topHits(analysis, observationOf(input, options), options.leastSnr)));
         if (writer)
             writer->finish();
         files.commit();
@@ -346,6 +373,7 @@ void addDetect(CLI::App &app, Common &common)
     CLI::App *command = app.add_subcommand("detect", "Find lines in a recording, or signals in ready-made frames");
     options->analysis.addTo(*command, common);
     command->get_option("FILE")->required(false);
+    options->analysis.addMoreTo(*command, common);
     addInput(*command, common, "--frames", options->frames,
              "Ready-made normalised frames, .npy of shape (frames, cells…), noise mean 1");
     addInput(*command, common, "--grid", options->grid, "JSON that describes the axes of the frames");
@@ -362,6 +390,10 @@ void addDetect(CLI::App &app, Common &common)
               "N in a gate), like --events");
     addOutput(*command, common, "--statistic", options->statistic,
               "Write the statistic: .npy, float32, shape (frames, cells…)");
+    addOutput(*command, common, "--hits", options->hits,
+              "Write a table of drifting signals in turboSETI's columns: .dat");
+    command->add_option("--least-snr", options->leastSnr, "The smallest SNR of such a table")
+        ->check(CLI::Range(0.0, 1e12));
     command->add_flag("--summary", options->summary, "Print a summary of the result; default if no output is written");
     command->callback([options, &common] { detect(*options, common); });
 }

@@ -11,6 +11,7 @@
 #include "base/oneLine.h"
 #include "base/temporaries.h"
 #include "recording/SigmfRecording.h"
+#include "recording/Timeline.h"
 #include "recording/fileHash.h"
 
 #include <CLI/CLI.hpp>
@@ -259,6 +260,9 @@ namespace {
         confined.read = [&readable](const std::string &file) {
             readable.check(file);
             checkSigmf(file, readable);
+            if (Timeline::isNamedSo(file))
+                for (const std::string &part : filesBehind({file}))
+                    readable.check(part);
             return file;
         };
         confined.written = [redirection](const std::string &file) { return (*redirection)(file); };

@@ -14,6 +14,7 @@
 #include "exchange/writeReviewed.h"
 #include "recording/InjectedRecording.h"
 #include "recording/SimulatedRecording.h"
+#include "recording/Timeline.h"
 #include "recording/openRecording.h"
 #include "recording/writeRecording.h"
 #include "spectrum/SimulatedPings.h"
@@ -44,6 +45,9 @@ namespace {
             throw Error(path, "the input of " + table.path + " was not found; give its path with --recording");
         if (isBeside)
             table.mayRead(path);
+        if (isBeside && Timeline::isNamedSo(path))
+            for (const std::string &file : filesBehind({path}))
+                table.mayRead(file);
         if (recordingHash(path) != source.at("sha256").get<std::string>())
             throw Error(path, "is not the input of " + table.path);
         return path;

@@ -5,6 +5,8 @@
 #include "exchange/survey/findRecordings.h"
 
 #include <QCoreApplication>
+#include <QDir>
+#include <QFileInfo>
 
 #include <algorithm>
 #include <filesystem>
@@ -68,9 +70,19 @@ QString openFilter()
         const QString ending = QString::fromStdString(name);
         patterns << QStringLiteral("*.") + ending << QStringLiteral("*.") + ending.toUpper();
     }
+    patterns << QStringLiteral("*.timeline");
     return QStringList{tr("Recordings (%1)").arg(patterns.join(QLatin1Char(' '))), tr("Sessions (*.faintline)"),
                        tr("Surveys (*.sqlite)"), tr("Scenarios and lessons (*.json)"), tr("All files (*)")}
         .join(QStringLiteral(";;"));
+}
+
+std::string timelineText(const QStringList &files, const QString &list)
+{
+    const QDir folder = QFileInfo(absolutePath(list)).dir();
+    std::string text;
+    for (const QString &file : files)
+        text += pathBytes(folder.relativeFilePath(absolutePath(file))) + "\n";
+    return text;
 }
 
 QString FileSequence::neighbour(const QString &path, int by) const

@@ -135,6 +135,10 @@ const std::vector<Equation> &equations()
              "false alarms per hour = tracks that touch no line / hours",
              "every value on the same trials; Pd with Wilson's interval, counts with Garwood's",
              "Wilson 1927; Garwood 1936"),
+        make("survey", "Many recordings", "(settings, recording) → events,  for every recording by itself",
+             "one set of settings; the threshold is that of each recording's own length and band\n"
+             "the row of an event is what detect writes",
+             "docs/reference/survey.md"),
         make("map", "A ping",
              "M(n, t) = maxₘ [ ln p(δu) + ln p(δv) + lnL(m, t−1) ],  W = max(M, 0)\n"
              "lnL(n, t) = y(n, t) + W + K,  K(t) = K₀ − mean W",

@@ -7,6 +7,7 @@
 #include "app/lessons/LessonGuide.h"
 #include "app/panels/ComparePanel.h"
 #include "app/panels/SequentialPanel.h"
+#include "app/panels/SurveyPanel.h"
 #include "app/panels/WhyPanel.h"
 #include "app/render/settleViews.h"
 #include "app/views/ReportWriter.h"
@@ -136,6 +137,25 @@ namespace {
                                               "walk, stopping, posterior, scan, asn, prior, sectors");
     }
 
+    /// The table of a survey.
+    void openSurvey(MainWindow &window, const RenderOptions &options)
+    {
+        for (const std::string &view : options.views)
+            if (view != "window" && !isOf(WindowView::Of::Survey, view))
+                throw Error("--view " + view, "requires a recording; views of surveys are window, survey");
+        QEventLoop loop;
+        std::optional<Error> failure;
+        QObject::connect(&window.survey(), &SurveyPanel::failed, &loop, [&](const Error &error) {
+            failure = error;
+            loop.quit();
+        });
+        QObject::connect(&window.survey(), &SurveyPanel::opened, &loop, &QEventLoop::quit, Qt::QueuedConnection);
+        window.open(pathText(options.source));
+        loop.exec();
+        if (failure)
+            throw *failure;
+    }
+
     void testSelection(MainWindow &window, const std::vector<std::string> &views)
     {
         for (const char *view : {"stopping", "scan", "asn", "prior", "sectors"})
@@ -200,6 +220,8 @@ namespace {
         for (const std::string &view : views)
             if (isOf(WindowView::Of::Pings, view) && !window.pingBench().isInUse())
                 throw Error("--view " + view, "requires pings on range and bearing");
+            else if (isOf(WindowView::Of::Survey, view))
+                throw Error("--view " + view, "requires a survey (.sqlite)");
         if (has("latency"))
             measureLatency(window);
         if (has("slice"))
@@ -222,9 +244,11 @@ namespace {
     }
 
     /// Of what the window shows; a radar's scans are known by their test.
-    Json provenanceOf(MainWindow &window)
+    Json provenanceOf(MainWindow &window, const RenderOptions &options)
     {
         const Document &document = window.document();
+        if (SurveyPanel::isSurvey(pathText(options.source)))
+            return {{"version", FAINTLINE_VERSION}, {"survey", textFromFileName(options.source)}};
         if (document.isEmpty())
             return {{"version", FAINTLINE_VERSION},
                     {"sequential", writeFields(window.sequentialTests().test(), ScanTest::fields())}};
@@ -303,6 +327,8 @@ void render(const RenderOptions &options)
     } else if (isScanScenario(pathText(options.source))) {
         checkViewsOfScans(options.views);
         testScans(window, options);
+    } else if (SurveyPanel::isSurvey(pathText(options.source))) {
+        openSurvey(window, options);
     } else {
         const AnalysisSettings settings = openAndSettle(window, options);
         if (has(options.views, "compare") || !options.presetA.empty() || !options.settingsA.empty())
@@ -311,7 +337,7 @@ void render(const RenderOptions &options)
         prepare(window, options.views);
         showLayer(window, options);
     }
-    Json provenance = provenanceOf(window);
+    Json provenance = provenanceOf(window, options);
     const bool wasPolar = window.pingBench().output()->isPolar();
     for (const std::string &view : wholesFirst(options.views)) {
         window.pingBench().setPolar(view == "polar" || (view != "map" && wasPolar));

@@ -13,6 +13,7 @@
 #include "app/panels/SequentialPanel.h"
 #include "app/panels/SpectrumPanel.h"
 #include "app/panels/StateSlicePanel.h"
+#include "app/panels/SurveyPanel.h"
 #include "app/panels/SweepPanel.h"
 #include "app/panels/TrajectoryPage.h"
 #include "app/panels/WhyPanel.h"
@@ -79,6 +80,7 @@ const std::vector<WindowView> &windowViews()
         {"asn", tr("Average sample number"), Of::Scans, [](Parts parts) { return parts.sequential().curvesPage(); }},
         {"prior", tr("Prior"), Of::Scans, [](Parts parts) { return parts.sequential().priorPage(); }},
         {"sectors", tr("Sectors"), Of::Scans, [](Parts parts) { return parts.sequential().sectorsPage(); }},
+        {"survey", tr("Survey"), Of::Survey, [](Parts parts) -> QWidget * { return &parts.survey(); }},
     };
     return table;
 }

@@ -18,7 +18,7 @@ class WindowParts;
 /// equations.
 struct WindowView {
     /// What it shows, where something else is open there is nothing to be seen in it.
-    enum class Of { Recording, Pings, Scans };
+    enum class Of { Recording, Pings, Scans, Survey };
 
     QString name;  ///< in `render`, lessons and sessions
     QString title; ///< in menus

@@ -120,8 +120,10 @@ private:
     /// What needs no recording gets the window to itself, until there is one.
     void showAlone(QWidget *panel, const QString &title, const QString &hint);
     void chooseFile();
+    void chooseFolder();
     void chooseRawFile();
     void openDropped(const QStringList &files);
+    void openTogether(const QStringList &files); ///< as one recording
     /// The file that is so many after the one that is open, with the same settings.
     void goToFile(int by);
     void showWritten(const QString &path);

@@ -7,6 +7,7 @@
 #include "app/base/filePath.h"
 #include "app/document/Recovery.h"
 #include "app/document/SessionSaver.h"
+#include "app/document/recordingFiles.h"
 #include "app/document/scanScenario.h"
 #include "app/lessons/Lesson.h"
 #include "app/lessons/LessonGuide.h"
@@ -18,8 +19,10 @@
 #include "app/window/Panels.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
+#include "base/AtomicFile.h"
 #include "widgets/base/labelText.h"
 
+#include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QLabel>
@@ -129,6 +132,15 @@ void MainWindow::chooseFile()
         open(path);
 }
 
+void MainWindow::chooseFolder()
+{
+    const QString folder = m_memory.recent().isEmpty() ? QString() : QFileInfo(m_memory.recent().first()).path();
+    const QString path = pathOf(
+        QFileDialog::getExistingDirectoryUrl(this, tr("Open a folder as one recording"), QUrl::fromLocalFile(folder)));
+    if (!path.isEmpty())
+        open(path);
+}
+
 void MainWindow::chooseRawFile()
 {
     const QString path = pathOf(QFileDialog::getOpenFileUrl(this, tr("Open as raw samples")));
@@ -149,13 +161,29 @@ void MainWindow::openDropped(const QStringList &files)
         m_files.setFiles(absolute);
         connect(
             &m_document, &Document::opened, this,
-            [this, count = files.size()] {
-                m_messages->showMessage(MessageBar::Kind::Notice, tr("%1 files").arg(count),
-                                        tr("The first of them is shown. Ctrl+Page Down goes to the next."));
+            [this, files] {
+                m_messages->showMessage(MessageBar::Kind::Notice, tr("%1 files").arg(files.size()),
+                                        tr("The first of them is shown. Ctrl+Page Down goes to the next."),
+                                        tr("Open as one recording"), [this, files] { openTogether(files); });
             },
             static_cast<Qt::ConnectionType>(Qt::QueuedConnection | Qt::SingleShotConnection));
     }
     open(files.front());
+}
+
+void MainWindow::openTogether(const QStringList &files)
+{
+    const QString first = QFileInfo(files.front()).absoluteDir().filePath(QStringLiteral("recording.timeline"));
+    const QString list = pathOf(QFileDialog::getSaveFileUrl(this, tr("Save the list of files as"),
+                                                            QUrl::fromLocalFile(first), tr("Lists (*.timeline)")));
+    if (list.isEmpty())
+        return;
+    try {
+        writeTextFile(pathBytes(list), timelineText(files, list));
+        open(list);
+    } catch (const Error &error) {
+        showError(error);
+    }
 }
 
 void MainWindow::goToFile(int by)

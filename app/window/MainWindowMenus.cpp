@@ -70,6 +70,8 @@ void MainWindow::buildFileMenu()
 {
     QMenu *menu = menuBar()->addMenu(tr("&File"));
     menu->addAction(tr("&Open…"), QKeySequence::Open, this, &MainWindow::chooseFile);
+    menu->addAction(tr("Open &folder as one recording…"), this, &MainWindow::chooseFolder)
+        ->setToolTip(tr("Put the recordings of a folder on one timeline by their time stamps"));
     menu->addAction(tr("Open as &raw samples…"), this, &MainWindow::chooseRawFile);
     m_recentMenu = menu->addMenu(tr("Open re&cent"));
     connect(m_recentMenu, &QMenu::aboutToShow, this, &MainWindow::fillRecentMenu);

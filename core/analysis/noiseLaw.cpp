@@ -87,7 +87,7 @@ namespace {
                 lookAt(first, first + length,
                        m_context.part(double(i) / double(stretches), double(i + 1) / double(stretches)));
             }
-            return m_sum / m_counted;
+            return m_counted > 0.0 ? m_sum / m_counted : 0.0;
         }
 
         double counted() const { return m_counted; }
@@ -101,12 +101,15 @@ namespace {
             const PointsByFrame points = byFrame(pieces);
             findSkirts(pieces, points);
             Smd detector(m_analysis.model, m_rule);
+            Index seen = 0;
             for (Index frame = first; frame < end; ++frame) {
                 context.checkpoint(double(frame - first) / double(end - first), checking);
                 m_frames.read(frame, 1, m_y);
+                if (std::isnan(m_y.front())) // a gap, of no cell of which anything is known
+                    continue;
                 putNoiseOver(points, frame);
                 detector.update(m_y, m_statistic);
-                if (frame - first < settlingFrames)
+                if (++seen <= settlingFrames)
                     continue;
                 m_sum += detector.regulation().continuedFraction;
                 m_counted += 1.0;
@@ -128,6 +131,8 @@ namespace {
                 m_context.checkpoint(0.0, checking);
                 const Index frame = it->first;
                 m_frames.read(frame, 1, m_y);
+                std::replace_if(
+                    m_y.begin(), m_y.end(), [](float y) { return y != y; }, 0.0f);
                 for (; it != points.end() && it->first == frame; ++it) {
                     auto &[piece, cell] = it->second;
                     for (Index offset = 0; offset < widest; ++offset) {
@@ -195,6 +200,8 @@ std::optional<NoiseLawCheck> checkNoiseLaw(const Analysis &analysis, const RunCo
     NoiseLawCheck law;
     law.expected = analysis.calibration->continuedFraction;
     law.found = noise.continuedFraction(length, stretches);
+    if (noise.counted() < double(leastCounted))
+        return {};
     const double sigma =
         std::sqrt(clusterVariance * law.expected * (1.0 - law.expected) / (noise.counted() * double(cells)));
     const double half = deviations * sigma + tolerance + 1.0 / double(cells);

@@ -35,6 +35,18 @@ ModelSettings laws::glide()
 
 namespace {
 
+    /// Straight lines of up to 4 Hz/s.
+    ModelSettings driftingLaw()
+    {
+        ModelSettings model;
+        model.slopeUnit = SlopeUnit::HzPerSecond;
+        model.lowestSlope = -4.0;
+        model.highestSlope = 4.0;
+        model.slopesPerBin = 4;
+        model.slopeChange = {0.98, 0.01};
+        return model;
+    }
+
     /// Parsons' chain with the constants that were found to do well (README of the core).
     AnalysisSettings sonarSettings()
     {
@@ -94,6 +106,13 @@ const std::vector<Preset> &presets()
             {"sonarSteady", "Active sonar, targets that keep their rates: Parsons' non-manoeuvring model.", sonar});
         sonar.model.motion = Motion::Bank;
         all.push_back({"sonarBank", "Active sonar, both models in parallel at equal false-alarm probability.", sonar});
+
+        AnalysisSettings narrowband;
+        narrowband.model = driftingLaw();
+        all.push_back({"narrowband",
+                       "Drifting narrow-band signals of spacecraft and the like: slopes of up to 4 Hz/s that hardly "
+                       "change.",
+                       narrowband});
 
         all.push_back({"whistles",
                        "Fast sweeps such as whistles and calls: slopes of half a bin to four bins per frame.",

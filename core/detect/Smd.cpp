@@ -28,7 +28,8 @@ void Smd::update(std::span<const float> y, std::span<float> statistic)
     const Index cells = m_space.cellCount();
     const Continued apart = inhibitedPart(y);
     const Index counted = m_rule.law == ResetLaw::None ? cells : cells - std::ssize(m_inhibited);
-    if (counted > 0) {
+    const bool isObserved = std::any_of(y.begin(), y.end(), [](float value) { return value == value; });
+    if (counted > 0 && isObserved) { // without evidence all paths fade, which says nothing of K
         const auto states = double(counted * m_space.planeCount());
         m_regulation = {m_lnK, double(all.count - apart.count) / states, m_lnK};
         regulate(m_regulation.continuedFraction, (all.sum - apart.sum) / states);

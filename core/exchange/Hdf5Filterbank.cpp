@@ -25,7 +25,7 @@ bool Hdf5Filterbank::recognises(const std::string &path)
 Hdf5Filterbank::Hdf5Filterbank(const std::string &path)
     : m_file(std::make_unique<Hdf5File>(path)), m_data(m_file->dataset(dataName))
 {
-    if (!m_data || m_data->shape().size() != 3)
+    if (!m_data || m_data->isComplex() || m_data->shape().size() != 3)
         throw Error(path, "holds no dataset \"data\" of frames, polarisations and channels");
     const std::vector<Index> &shape = m_data->shape();
     constexpr Index mostChannels = 1 << 26;
@@ -62,6 +62,7 @@ void Hdf5Filterbank::read(const PowerPart &part, std::span<float> out) const
     if (m_descends)
         for (auto row = out.begin(); row != out.end(); row += part.cells)
             std::reverse(row, row + part.cells);
+    excludeDc(m_info, part, m_descends, out);
 }
 
 } // namespace faintline

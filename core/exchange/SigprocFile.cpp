@@ -260,6 +260,7 @@ void SigprocFile::read(const PowerPart &part, std::span<float> out) const
         if (m_descends)
             std::reverse(frame.begin(), frame.end());
     }
+    excludeDc(m_info, part, m_descends, out);
 }
 
 } // namespace faintline

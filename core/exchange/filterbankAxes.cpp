@@ -4,6 +4,7 @@
 #include "base/Field.h"
 
 #include <cmath>
+#include <limits>
 
 namespace faintline {
 
@@ -34,6 +35,21 @@ void setFilterbankAxes(PowerInfo &info, const FilterbankHeader &header, const st
     info.time = {"time", "s", 0.5 * header.tsamp, header.tsamp, header.frames, false};
     if (header.tstart > unixDay && header.tstart < 1e6)
         info.startUnixSeconds = (header.tstart - unixDay) * daySeconds;
+}
+
+void excludeDc(const PowerInfo &info, const PowerPart &part, bool descends, std::span<float> out)
+{
+    constexpr Index coarse = Index(1) << 20;
+    constexpr Index fewest = Index(1) << 16;
+    const Index all = info.frequency.count;
+    if (all < fewest)
+        return;
+    const Index spacing = all % coarse == 0 ? coarse : all;
+    for (Index middle = spacing / 2; middle < all; middle += spacing) {
+        const Index cell = (descends ? all - 1 - middle : middle) - part.firstCell;
+        for (Index frame = 0; cell >= 0 && cell < part.cells && frame < part.frames; ++frame)
+            out[std::size_t(frame * part.cells + cell)] = std::numeric_limits<float>::quiet_NaN();
+    }
 }
 
 } // namespace faintline

@@ -2,6 +2,7 @@
 
 #include "spectrum/PowerFrames.h"
 
+#include <span>
 #include <string>
 
 namespace faintline {
@@ -19,5 +20,10 @@ struct FilterbankHeader {
 /// Sets an information's axes and start time: frequencies ascend, in Hz; the time of a frame is its middle. Throws
 /// Error naming `path` and the value that cannot be.
 void setFilterbankAxes(PowerInfo &info, const FilterbankHeader &header, const std::string &path);
+
+/// Sets to NaN, not observed, what a part holds of the channels in which a receiver's constant offset lies: the middle
+/// one of each coarse channel, of files of so fine a resolution that they have such. A coarse channel has 2²⁰ channels;
+/// a file of fewer but at least 2¹⁶ is one. `descends`: as in the file.
+void excludeDc(const PowerInfo &info, const PowerPart &part, bool descends, std::span<float> out);
 
 } // namespace faintline

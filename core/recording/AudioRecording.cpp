@@ -92,7 +92,10 @@ AudioRecording::AudioRecording(const std::string &path, bool iq) : m_file(std::m
     }
     if (m_info.sampleCount <= 0)
         throw Error(path, "is a " + m_info.container + " file without samples");
-    readAudioMetadata(*decoder, m_info);
+    m_stored = m_info.sampleCount;
+    m_stretches = readAudioMetadata(*decoder, m_info);
+    if (m_stretches.hasGaps())
+        m_info.sampleCount = m_stretches.end();
 
     auto handle = std::make_unique<Handle>();
     handle->decoder = std::move(decoder);
@@ -165,12 +168,20 @@ void AudioRecording::giveBack(std::unique_ptr<Handle> handle) const
 void AudioRecording::read(int channel, Index first, Index count, std::span<float> out) const
 {
     fill(first, count, out, [&](Index from, std::span<float> inside) {
-        const Index offset = channel * m_info.floatsPerSample();
-        if (m_access == Access::Direct)
-            readDirectly(offset, from, inside);
-        else
-            readBlocks(offset, from, inside);
+        if (!m_stretches.hasGaps())
+            return readStored(channel, from, inside);
+        m_stretches.read(from, m_info.floatsPerSample(), inside,
+                         [&](Index stored, std::span<float> part) { readStored(channel, stored, part); });
     });
+}
+
+void AudioRecording::readStored(int channel, Index first, std::span<float> out) const
+{
+    const Index offset = channel * m_info.floatsPerSample();
+    if (m_access == Access::Direct)
+        readDirectly(offset, first, out);
+    else
+        readBlocks(offset, first, out);
 }
 
 /// One channel's floats out of interleaved ones.
@@ -234,7 +245,7 @@ void AudioRecording::decodeBlock(Handle &handle, Index block) const
         handle.decoder = openDecoder(); // a used one remembers, to the last bit, what it decoded before
     AudioDecoder &decoder = *handle.decoder;
     const Index start = block * m_blockSamples;
-    const Index count = std::min(m_blockSamples, m_info.sampleCount - start);
+    const Index count = std::min(m_blockSamples, m_stored - start);
     handle.samples.resize(std::size_t(m_blockSamples * m_streams));
     if (m_access == Access::Blocks && !decoder.seek(std::max<Index>(0, start - m_runUp)))
         failAt(start);

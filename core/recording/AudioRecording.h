@@ -2,6 +2,7 @@
 
 #include "recording/AudioDecoder.h"
 #include "recording/Recording.h"
+#include "recording/Stretches.h"
 
 #include <memory>
 #include <mutex>
@@ -12,7 +13,8 @@ namespace faintline {
 ///
 /// With `iq`, channels 2k and 2k+1 are I and Q of complex channel k. Start time and centre frequency are taken from a
 /// broadcast chunk (bext), from the chunk that receivers write (auxi) or that of XWAV (harp), where there is one. A
-/// file that was cut short gives the existing part, with a note.
+/// file that was cut short gives the existing part, with a note. Where harp tells that samples are missing between
+/// stretches, they keep their place in time, read as 0, and isWhole tells.
 ///
 /// Uncompressed data is read where it is wanted. Compressed data is decoded in fixed blocks that are kept while they
 /// are in use. Each block of a lossy codec (OGG, MP3) is decoded by a fresh decoder after a run-up, which it needs to
@@ -26,6 +28,7 @@ public:
     ~AudioRecording() override;
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;
+    bool isWhole(Index first, Index count) const override { return m_stretches.isWhole(first, count); }
     int scaleExponent(int channel) const override { return m_isFloat ? measuredScaleExponent(channel) : 0; }
 
     /// Whether libsndfile knows the content of a file, sound or damaged.
@@ -50,7 +53,11 @@ private:
     void copyChannel(std::span<const float> frames, Index offset, std::span<float> out) const;
     [[noreturn]] void failAt(Index sample) const;
 
+    void readStored(int channel, Index first, std::span<float> out) const;
+
     std::shared_ptr<const FileBytes> m_file;
+    Index m_stored = 0;     ///< samples in the file
+    Stretches m_stretches;  ///< of them in time; none: all of them lie together
     Index m_streams = 1;    ///< channels of the file
     bool m_isFloat = false; ///< uncompressed floats, whose full scale need not be 1
     Access m_access = Access::Direct;

@@ -176,6 +176,38 @@ namespace {
                                    + " MiB of values, of which the file holds next to nothing");
     }
 
+    bool isNumber(hid_t type)
+    {
+        const H5T_class_t kind = H5Tget_class(type);
+        return (kind == H5T_FLOAT || kind == H5T_INTEGER) && H5Tget_size(type) <= sizeof(double);
+    }
+
+    /// The type of a dataset's numbers: its own, or that of both parts of pairs "r" and "i". Throws Error for others.
+    hid_t numberType(hid_t type, const std::string &where)
+    {
+        if (isNumber(type))
+            return H5Tcopy(type);
+        if (H5Tget_class(type) == H5T_COMPOUND && H5Tget_nmembers(type) == 2 && H5Tget_member_index(type, "r") == 0
+            && H5Tget_member_index(type, "i") == 1) {
+            Handle real(H5Tget_member_type(type, 0), H5Tclose);
+            const Handle imaginary(H5Tget_member_type(type, 1), H5Tclose);
+            if (isNumber(real) && H5Tequal(real, imaginary) > 0)
+                return real.release();
+        }
+        throw Error(where, "holds no numbers of up to 64 bits");
+    }
+
+    /// What a value is read as: a float, or two of them.
+    hid_t floatType(bool isComplex)
+    {
+        if (!isComplex)
+            return H5Tcopy(H5T_NATIVE_FLOAT);
+        const hid_t pair = H5Tcreate(H5T_COMPOUND, 2 * sizeof(float));
+        H5Tinsert(pair, "r", 0, H5T_NATIVE_FLOAT);
+        H5Tinsert(pair, "i", sizeof(float), H5T_NATIVE_FLOAT);
+        return pair;
+    }
+
     /// Whether a name leads on within the file.
     bool follows(hid_t file, const std::string &name, const std::string &path)
     {
@@ -236,9 +268,8 @@ std::unique_ptr<Hdf5Dataset> Hdf5File::dataset(const std::string &name) const
     if (handle < 0)
         throw Error(where, "is no dataset, or damaged");
     const Handle type(H5Dget_type(handle), H5Tclose);
-    const H5T_class_t kind = H5Tget_class(type);
-    if ((kind != H5T_FLOAT && kind != H5T_INTEGER) || H5Tget_size(type) > sizeof(double))
-        throw Error(where, "holds no numbers of up to 64 bits");
+    const Handle number(numberType(type, where), H5Tclose);
+    const H5T_class_t kind = H5Tget_class(number);
     const Handle space(H5Dget_space(handle), H5Sclose);
     std::array<hsize_t, H5S_MAX_RANK> sizes{};
     const int axes = H5Sget_simple_extent_dims(space, sizes.data(), nullptr);
@@ -254,9 +285,10 @@ std::unique_ptr<Hdf5Dataset> Hdf5File::dataset(const std::string &name) const
     std::unique_ptr<Hdf5Dataset> dataset(new Hdf5Dataset(m_path, handle.release()));
     dataset->m_shape.assign(sizes.begin(), sizes.begin() + axes);
     dataset->m_chunk = std::move(chunk);
+    dataset->m_isComplex = H5Tget_class(type) == H5T_COMPOUND;
     dataset->m_isFloat = kind == H5T_FLOAT;
-    dataset->m_isSigned = kind == H5T_FLOAT || H5Tget_sign(type) == H5T_SGN_2;
-    dataset->m_bits = 8 * int(H5Tget_size(type));
+    dataset->m_isSigned = kind == H5T_FLOAT || H5Tget_sign(number) == H5T_SGN_2;
+    dataset->m_bits = 8 * int(H5Tget_size(number));
     return dataset;
 }
 
@@ -321,7 +353,7 @@ std::optional<std::string> Hdf5Dataset::text(const std::string &name) const
 void Hdf5Dataset::checkChunks(const std::vector<Index> &first, const std::vector<Index> &count) const
 {
     constexpr double mostUnpacked = 16.0; // times what is read
-    double wanted = 0.125 * m_bits;
+    double wanted = (m_isComplex ? 0.25 : 0.125) * m_bits;
     double unpacked = wanted;
     for (std::size_t axis = 0; axis < m_chunk.size(); ++axis) {
         const Index chunks = (first[axis] + count[axis] - 1) / m_chunk[axis] - first[axis] / m_chunk[axis] + 1;
@@ -342,9 +374,25 @@ void Hdf5Dataset::read(const std::vector<Index> &first, const std::vector<Index>
     const std::vector<hsize_t> size(count.begin(), count.end());
     const Handle file(H5Dget_space(m_handle), H5Sclose);
     const Handle memory(H5Screate_simple(int(size.size()), size.data(), nullptr), H5Sclose);
+    const Handle type(floatType(m_isComplex), H5Tclose);
     if (H5Sselect_hyperslab(file, H5S_SELECT_SET, from.data(), nullptr, size.data(), nullptr) < 0
-        || H5Dread(m_handle, H5T_NATIVE_FLOAT, memory, file, H5P_DEFAULT, out.data()) < 0)
+        || H5Dread(m_handle, type, memory, file, H5P_DEFAULT, out.data()) < 0)
         throw Error(m_path, "is damaged where it is read, or became shorter while it was open", Error::Kind::Failure);
+}
+
+std::vector<std::int64_t> Hdf5Dataset::readIntegers() const
+{
+    constexpr double most = 1 << 20;
+    double count = 1.0;
+    for (const Index size : m_shape)
+        count *= double(size);
+    if (m_isFloat || m_isComplex || count > most)
+        throw Error(m_path, "holds a table that is not of whole numbers, or of more than a million");
+    const LibraryUse use;
+    std::vector<std::int64_t> values(static_cast<std::size_t>(count));
+    if (H5Dread(m_handle, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+        throw Error(m_path, "is damaged where it is read, or became shorter while it was open", Error::Kind::Failure);
+    return values;
 }
 
 } // namespace faintline

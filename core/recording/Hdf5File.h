@@ -11,24 +11,28 @@
 
 namespace faintline {
 
-/// A dataset of numbers in an open HDF5 file: random access to boxes of it.
+/// A dataset of numbers, or of pairs "r" and "i", in an open HDF5 file: random access to boxes of it.
 class Hdf5Dataset
 {
 public:
     ~Hdf5Dataset();
 
     const std::vector<Index> &shape() const { return m_shape; }
+    bool isComplex() const { return m_isComplex; }
     bool isFloat() const { return m_isFloat; }
     bool isSigned() const { return m_isSigned; }
-    int bits() const { return m_bits; }
+    int bits() const { return m_bits; } ///< of a number
 
     /// A number or a text of an attribute; nothing where there is none, or one of another kind.
     std::optional<double> number(const std::string &attribute) const;
     std::optional<std::string> text(const std::string &attribute) const;
 
-    /// Reads a box, last axis contiguous, converted to single precision. Precondition: it lies within the shape. Throws
+    /// Reads a box, last axis contiguous, converted to single precision, two floats a pair. Precondition: it lies within the shape. Throws
     /// Error where the file is damaged there, or packed in chunks of which a small box needs more than are kept.
     void read(const std::vector<Index> &first, const std::vector<Index> &count, std::span<float> out) const;
+
+    /// All values of a table of whole numbers, at most a million. Throws Error as read does.
+    std::vector<std::int64_t> readIntegers() const;
 
 private:
     friend class Hdf5File;
@@ -39,6 +43,7 @@ private:
     std::int64_t m_handle;
     std::vector<Index> m_shape;
     std::vector<Index> m_chunk; ///< empty where the values lie in one piece
+    bool m_isComplex = false;
     bool m_isFloat = false;
     bool m_isSigned = false;
     int m_bits = 0;

@@ -2,6 +2,7 @@
 
 #include "base/Error.h"
 #include "base/Field.h"
+#include "recording/timeInName.h"
 
 #include <algorithm>
 #include <array>
@@ -81,66 +82,95 @@ namespace {
             if (!stamp)
                 return;
             constexpr double week = 604800.0;
-            if (m_last && *stamp < m_last->seconds - m_weeks * week - 0.5 * week)
+            if (m_isKnown && *stamp < m_last.seconds - m_weeks * week - 0.5 * week)
                 m_weeks += 1.0;
             const Stamp now{sample, *stamp + m_weeks * week};
-            m_first = m_first ? m_first : now;
-            if (m_last && sample > m_last->sample) {
-                const double expected = double(sample - m_last->sample) / m_nominalHz;
-                const double missing = now.seconds - m_last->seconds - expected;
+            if (!m_isKnown)
+                m_first = m_last = m_begin = m_longestBegin = m_longestEnd = now;
+            m_isKnown = true;
+            if (sample > m_last.sample) {
+                const double expected = double(sample - m_last.sample) / m_nominalHz;
+                const double missing = now.seconds - m_last.seconds - expected;
                 if (std::abs(missing) > 0.5 * expected) {
-                    ++m_gaps;
-                    m_missing += missing;
+                    if (m_gaps.size() < mostRuns)
+                        m_gaps.push_back({sample, missing});
                     m_begin = now;
                 }
             }
             m_last = now;
-            m_begin = m_begin ? m_begin : now;
-            if (!m_longest || now.sample - m_begin->sample > m_longest->second.sample - m_longest->first.sample)
-                m_longest.emplace(*m_begin, now);
+            if (now.sample - m_begin.sample > m_longestEnd.sample - m_longestBegin.sample) {
+                m_longestBegin = m_begin;
+                m_longestEnd = now;
+            }
         }
 
         /// Over the longest stretch without a gap; the header's where that is short or says something else altogether.
         double rateHz() const
         {
-            if (!m_longest || m_longest->second.sample == m_longest->first.sample)
-                return m_nominalHz;
-            const double seconds = m_longest->second.seconds - m_longest->first.seconds;
-            const double rate = double(m_longest->second.sample - m_longest->first.sample) / seconds;
+            const double seconds = m_longestEnd.seconds - m_longestBegin.seconds;
+            const double rate = double(m_longestEnd.sample - m_longestBegin.sample) / seconds;
             constexpr double farOff = 1e-3;
             constexpr double shortest = 1.0;
             return seconds >= shortest && std::abs(rate / m_nominalHz - 1.0) < farOff ? rate : m_nominalHz;
         }
 
+        /// The second of the GPS week of the first sample.
+        std::optional<double> firstSecond() const
+        {
+            return m_isKnown ? std::optional(m_first.seconds - double(m_first.sample) / rateHz()) : std::nullopt;
+        }
+
+        /// Where `stored` samples lie in time; adds what the stamps contradict to `notes`.
+        Stretches stretches(Index stored, std::vector<std::string> &notes) const
+        {
+            Stretches stretches;
+            Index begin = 0;
+            Index shift = 0;
+            for (const Gap &gap : m_gaps) {
+                const Index missing = std::llround(gap.seconds * rateHz());
+                if (missing < 0 || double(gap.sample + shift + missing) > Stretches::longestSeconds * rateHz()) {
+                    notes.push_back("The time stamp of sample " + std::to_string(gap.sample)
+                                    + " contradicts those before it and is ignored.");
+                    break;
+                }
+                stretches.add(begin + shift, begin, gap.sample - begin);
+                begin = gap.sample;
+                shift += missing;
+            }
+            stretches.add(begin + shift, begin, stored - begin);
+            return stretches;
+        }
+
         std::vector<std::string> notes() const
         {
             std::vector<std::string> notes;
-            if (m_first)
-                notes.push_back("The first time stamp is second " + formatNumber(m_first->seconds)
+            if (m_isKnown)
+                notes.push_back("The first time stamp is second " + formatNumber(m_first.seconds)
                                 + " of the GPS week.");
             if (rateHz() != m_nominalHz)
                 notes.push_back("The sample rate is that of the time stamps; the header says "
                                 + formatNumber(m_nominalHz) + " Hz.");
-            if (m_gaps > 0)
-                notes.push_back("The time stamps tell of " + std::to_string(m_gaps) + " gap(s), "
-                                + formatNumber(std::round(1e3 * m_missing) / 1e3)
-                                + " s altogether; the samples are read as if there were none.");
             return notes;
         }
 
     private:
         struct Stamp {
-            Index sample;
+            Index sample = 0;
+            double seconds = 0.0;
+        };
+
+        struct Gap {
+            Index sample; ///< the first one behind it
             double seconds;
         };
 
         double m_nominalHz;
         double m_weeks = 0.0;
-        std::optional<Stamp> m_first, m_last;
-        std::optional<Stamp> m_begin; ///< of the stretch without a gap that goes on
-        std::optional<std::pair<Stamp, Stamp>> m_longest;
-        int m_gaps = 0;
-        double m_missing = 0.0;
+        bool m_isKnown = false; ///< whether there was any stamp
+        Stamp m_first, m_last;
+        Stamp m_begin;                      ///< of the stretch without a gap that goes on
+        Stamp m_longestBegin, m_longestEnd; ///< of the longest one
+        std::vector<Gap> m_gaps;
     };
 
 } // namespace
@@ -180,12 +210,12 @@ KiwiRecording::KiwiRecording(const std::string &path) : m_file(path)
         if (!chunk->is("data"))
             continue;
         const Index there = std::min(chunk->size, m_file.size() - chunk->offset);
-        clock.add(m_info.sampleCount, std::exchange(stamp, std::nullopt));
+        clock.add(stored(), std::exchange(stamp, std::nullopt));
         add(chunk->offset, there / m_bytesPerSample);
         if (there < chunk->size)
             m_info.notes.push_back("The file ends within a chunk of samples; what is there is read.");
     }
-    if (m_info.sampleCount == 0)
+    if (stored() == 0)
         throw Error(path, "is a WAV file of a KiwiSDR without samples");
     m_info.path = path;
     m_info.container = "KiwiSDR WAV";
@@ -195,6 +225,21 @@ KiwiRecording::KiwiRecording(const std::string &path) : m_file(path)
     m_info.sampleRateHz = clock.rateHz();
     const std::vector<std::string> said = clock.notes();
     m_info.notes.insert(m_info.notes.end(), said.begin(), said.end());
+    const auto second = clock.firstSecond();
+    if (const auto named = timeInName(path); named && second)
+        m_info.startUnixSeconds = unixFromGpsWeekSecond(*second, *named);
+    m_stretches = clock.stretches(stored(), m_info.notes);
+    m_info.sampleCount = m_stretches.end();
+    if (m_stretches.hasGaps())
+        m_info.notes.push_back(
+            "The time stamps tell of " + std::to_string(m_stretches.gaps()) + " gap(s), "
+            + formatNumber(std::round(1e3 * double(m_stretches.missing()) / m_info.sampleRateHz) / 1e3)
+            + " s altogether, which are not observed.");
+}
+
+Index KiwiRecording::stored() const
+{
+    return m_runs.empty() ? 0 : m_runs.back().firstSample + m_runs.back().samples * m_runs.back().count;
 }
 
 void KiwiRecording::add(Index offset, Index samples)
@@ -207,15 +252,13 @@ void KiwiRecording::add(Index offset, Index samples)
         if (run.samples == samples && (run.count == 1 || offset - last == run.stride)) {
             run.stride = offset - last;
             ++run.count;
-            m_info.sampleCount += samples;
             return;
         }
     }
     if (m_runs.size() >= mostRuns)
         throw Error(m_file.path(),
                     "has chunks of samples of more than a million sizes and distances, which no receiver writes");
-    m_runs.push_back({m_info.sampleCount, offset, samples, 0, 1});
-    m_info.sampleCount += samples;
+    m_runs.push_back({stored(), offset, samples, 0, 1});
 }
 
 /// Samples of one run, from one of its own on.
@@ -238,20 +281,26 @@ void KiwiRecording::readWithin(const Run &run, Index sample, std::span<float> ou
     }
 }
 
+void KiwiRecording::readStored(Index sample, std::span<float> out) const
+{
+    auto run = std::upper_bound(m_runs.begin(), m_runs.end(), sample,
+                                [](Index wanted, const Run &r) { return wanted < r.firstSample; })
+               - 1;
+    const Index floats = m_info.floatsPerSample();
+    for (; !out.empty(); ++run) {
+        const Index within = sample - run->firstSample;
+        const Index here = std::min(run->samples * run->count - within, std::ssize(out) / floats);
+        readWithin(*run, within, out.first(std::size_t(here * floats)));
+        out = out.subspan(std::size_t(here * floats));
+        sample += here;
+    }
+}
+
 void KiwiRecording::read(int, Index first, Index count, std::span<float> out) const
 {
     fill(first, count, out, [&](Index from, std::span<float> inside) {
-        auto run = std::upper_bound(m_runs.begin(), m_runs.end(), from,
-                                    [](Index sample, const Run &r) { return sample < r.firstSample; })
-                   - 1;
-        const Index floats = m_info.floatsPerSample();
-        for (; !inside.empty(); ++run) {
-            const Index within = from - run->firstSample;
-            const Index here = std::min(run->samples * run->count - within, std::ssize(inside) / floats);
-            readWithin(*run, within, inside.first(std::size_t(here * floats)));
-            inside = inside.subspan(std::size_t(here * floats));
-            from += here;
-        }
+        m_stretches.read(from, m_info.floatsPerSample(), inside,
+                         [&](Index sample, std::span<float> part) { readStored(sample, part); });
     });
 }
 

@@ -2,6 +2,7 @@
 
 #include "recording/FileBytes.h"
 #include "recording/Recording.h"
+#include "recording/Stretches.h"
 
 #include <vector>
 
@@ -15,9 +16,11 @@ namespace faintline {
 ///   "data" n: 16-bit samples
 ///
 /// Two channels are I and Q. The sample rate is that of the time stamps over the longest stretch without a gap, where
-/// they tell one, for the header holds but whole hertz. Gaps between stamps are told in a note; samples are read as if
-/// there were none. A file that was cut short is read as far as it goes. Memory: of chunks of equal size none, however
-/// many. Source: kiwiclient, kiwirecorder.py. Thread-safe.
+/// they tell one, for the header holds but whole hertz. Where stamps lie farther apart than the samples between them
+/// last, samples are missing: they keep their place in time, read as 0, and isWhole tells. Stamps do not tell the week;
+/// it is that of the time in the file's name (timeInName), which kiwirecorder writes. A file that was cut short is read
+/// as far as it goes. Memory: of chunks of equal size none, however many. Source: kiwiclient, kiwirecorder.py.
+/// Thread-safe.
 class KiwiRecording final : public Recording
 {
 public:
@@ -25,6 +28,7 @@ public:
     explicit KiwiRecording(const std::string &path);
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;
+    bool isWhole(Index first, Index count) const override { return m_stretches.isWhole(first, count); }
 
     /// Whether a "kiwi" chunk follows the format of a WAV file.
     static bool recognises(const std::string &path);
@@ -40,11 +44,14 @@ private:
     };
 
     void add(Index offset, Index samples);
+    Index stored() const; ///< samples in all chunks
+    void readStored(Index sample, std::span<float> out) const;
     void readWithin(const Run &run, Index sample, std::span<float> out) const;
 
     FileBytes m_file;
     Index m_bytesPerSample = 4; ///< of all channels
     std::vector<Run> m_runs;
+    Stretches m_stretches; ///< of the stored samples in time
 };
 
 } // namespace faintline

@@ -91,12 +91,17 @@ namespace {
 } // namespace
 
 struct SigmfRecording::Meta {
+    /// Where a sample of the file, and those that follow it, lie in time.
+    struct Start {
+        Index inTime;
+        Index inFile;
+    };
     std::string dataPath;
     RawLayout layout;
     double centreHz = 0.0;
     std::optional<double> startUnixSeconds;
     std::vector<std::string> notes;
-    std::vector<Stretch> stretches;
+    std::vector<Start> starts;
     Index firstGlobal = 0;
 
     void readLayout(const Section &global);
@@ -195,22 +200,21 @@ void SigmfRecording::Meta::readStartTime(const std::optional<std::string> &time,
 /// A capture's first sample in the file and in time, if it comes later in time than the file has it.
 void SigmfRecording::addStretch(Meta &meta, Index start, Index globalIndex)
 {
-    if (meta.stretches.empty()) {
-        meta.stretches.push_back({start, start});
+    if (meta.starts.empty()) {
+        meta.starts.push_back({start, start});
         meta.firstGlobal = globalIndex - start;
         return;
     }
     const Index inTime = globalIndex - meta.firstGlobal;
-    const Stretch &last = meta.stretches.back();
+    const Meta::Start &last = meta.starts.back();
     const Index gap = (inTime - last.inTime) - (start - last.inFile);
-    constexpr double longestDays = 400.0;
-    if (gap < 0 || start < last.inFile || double(inTime) > longestDays * 86400.0 * meta.layout.sampleRateHz) {
+    if (gap < 0 || start < last.inFile || double(inTime) > Stretches::longestSeconds * meta.layout.sampleRateHz) {
         meta.notes.push_back("From sample " + std::to_string(start)
                              + " on, core:global_index contradicts what comes before it and is ignored.");
         return;
     }
     if (gap > 0)
-        meta.stretches.push_back({inTime, start});
+        meta.starts.push_back({inTime, start});
 }
 
 SigmfRecording::SigmfRecording(const std::string &path, bool iq) : SigmfRecording(path, readMeta(path), iq) {}
@@ -223,61 +227,41 @@ SigmfRecording::SigmfRecording(const std::string &path, const Meta &meta, bool i
     m_info.centreHz = meta.centreHz;
     m_info.startUnixSeconds = meta.startUnixSeconds;
     m_info.notes.insert(m_info.notes.end(), meta.notes.begin(), meta.notes.end());
-    m_fileSamples = m_info.sampleCount;
-    for (const Stretch &stretch : meta.stretches)
-        if (stretch.inFile < m_fileSamples) // what was not written yet is not there
-            m_stretches.push_back(stretch);
-    if (m_stretches.size() < 2) {
-        m_stretches.clear();
-        return;
+    placeInTime(meta);
+}
+
+void SigmfRecording::placeInTime(const Meta &meta)
+{
+    Meta::Start next{0, 0};
+    for (const Meta::Start &start : meta.starts) {
+        if (start.inFile >= m_info.sampleCount) // what was not written yet is not there
+            continue;
+        m_stretches.add(next.inTime, next.inFile, start.inFile - next.inFile);
+        next = start;
     }
-    m_stretches.front() = {0, 0};
-    m_info.sampleCount = endOf(m_stretches.end() - 1);
-    m_info.notes.push_back(std::to_string(m_stretches.size() - 1) + " gap(s), in all "
-                           + std::to_string(m_info.sampleCount - m_fileSamples) + " samples, are read as 0.");
-}
-
-/// The stretch that a sample lies in or behind.
-std::vector<SigmfRecording::Stretch>::const_iterator SigmfRecording::stretchOf(Index sample) const
-{
-    return std::upper_bound(m_stretches.begin(), m_stretches.end(), sample,
-                            [](Index wanted, const Stretch &each) { return wanted < each.inTime; })
-           - 1;
-}
-
-Index SigmfRecording::endOf(std::vector<Stretch>::const_iterator stretch) const
-{
-    const Index fileEnd = stretch + 1 == m_stretches.end() ? m_fileSamples : (stretch + 1)->inFile;
-    return stretch->inTime + fileEnd - stretch->inFile;
+    m_stretches.add(next.inTime, next.inFile, m_info.sampleCount - next.inFile);
+    if (!m_stretches.hasGaps())
+        return;
+    m_info.sampleCount = m_stretches.end();
+    m_info.notes.push_back(std::to_string(m_stretches.gaps()) + " gap(s), in all "
+                           + std::to_string(m_stretches.missing()) + " samples, are not observed.");
 }
 
 void SigmfRecording::read(int channel, Index first, Index count, std::span<float> out) const
 {
-    if (m_stretches.empty()) {
+    if (!m_stretches.hasGaps()) {
         RawRecording::read(channel, first, count, out);
         return;
     }
     fill(first, count, out, [&](Index from, std::span<float> inside) {
-        const Index floats = m_info.floatsPerSample();
-        const Index to = from + std::ssize(inside) / floats;
-        std::fill(inside.begin(), inside.end(), 0.0f);
-        for (auto stretch = stretchOf(from); stretch != m_stretches.end() && stretch->inTime < to; ++stretch) {
-            const Index begin = std::max(from, stretch->inTime);
-            const Index end = std::min(to, endOf(stretch));
-            if (begin < end)
-                readFile(channel, stretch->inFile + begin - stretch->inTime,
-                         inside.subspan(std::size_t((begin - from) * floats), std::size_t((end - begin) * floats)));
-        }
+        m_stretches.read(from, m_info.floatsPerSample(), inside,
+                         [&](Index inFile, std::span<float> part) { readFile(channel, inFile, part); });
     });
 }
 
 bool SigmfRecording::isWhole(Index first, Index count) const
 {
-    if (m_stretches.empty())
-        return true;
-    const Index from = std::max<Index>(0, first);
-    const Index to = std::min(first + count, m_info.sampleCount);
-    return from >= to || to <= endOf(stretchOf(from));
+    return m_stretches.isWhole(first, count);
 }
 
 } // namespace faintline

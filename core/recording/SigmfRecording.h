@@ -1,6 +1,7 @@
 #pragma once
 
 #include "recording/RawRecording.h"
+#include "recording/Stretches.h"
 
 #include <vector>
 
@@ -34,17 +35,9 @@ private:
     SigmfRecording(const std::string &path, const Meta &meta, bool iq);
     static Meta readMeta(const std::string &path);
     static void addStretch(Meta &meta, Index start, Index globalIndex);
+    void placeInTime(const Meta &meta);
 
-    /// Samples of the file that lie together in time.
-    struct Stretch {
-        Index inTime; ///< the first one's place
-        Index inFile;
-    };
-    std::vector<Stretch>::const_iterator stretchOf(Index sample) const;
-    Index endOf(std::vector<Stretch>::const_iterator stretch) const; ///< in time
-
-    std::vector<Stretch> m_stretches; ///< ascending; none where nothing is missing
-    Index m_fileSamples = 0;
+    Stretches m_stretches; ///< of the file's samples in time
 };
 
 } // namespace faintline

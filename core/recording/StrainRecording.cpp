@@ -2,28 +2,15 @@
 
 #include "base/Error.h"
 #include "base/Field.h"
+#include "recording/timeInName.h"
 
-#include <array>
 #include <cmath>
-#include <utility>
 
 namespace faintline {
 
 namespace {
 
     constexpr const char *strainName = "strain/Strain";
-
-    double unixFromGps(double gps)
-    {
-        constexpr double gpsEpoch = 315964800.0; // 1980-01-06 in seconds since 1970
-        constexpr std::array<std::pair<double, int>, 4> leaps{
-            {{1167264018.0, 18}, {1119744017.0, 17}, {1025136016.0, 16}, {914803215.0, 15}}};
-        int leap = 14;
-        for (auto since = leaps.rbegin(); since != leaps.rend(); ++since)
-            if (gps >= since->first)
-                leap = since->second;
-        return gps + gpsEpoch - leap;
-    }
 
 } // namespace
 
@@ -35,7 +22,7 @@ bool StrainRecording::recognises(const std::string &path)
 StrainRecording::StrainRecording(const std::string &path)
     : m_file(std::make_unique<Hdf5File>(path)), m_strain(m_file->dataset(strainName))
 {
-    if (!m_strain || m_strain->shape().size() != 1)
+    if (!m_strain || m_strain->isComplex() || m_strain->shape().size() != 1)
         throw Error(path, "holds no strain/Strain of one number a sample");
     const double spacing = m_strain->number("Xspacing").value_or(0.0);
     constexpr double shortest = 1e-9;
@@ -53,6 +40,35 @@ StrainRecording::StrainRecording(const std::string &path)
     m_info.channelCount = 1;
     if (const auto start = m_strain->number("Xstart"); start && *start > 0.0 && *start < 1e10)
         m_info.startUnixSeconds = unixFromGps(*start);
+    readMask();
+}
+
+void StrainRecording::readMask()
+{
+    constexpr Index dataBit = 1;
+    const auto mask = m_file->dataset("quality/simple/DQmask");
+    const auto seconds = Index(std::ceil(m_info.durationSeconds()));
+    if (!mask || mask->isFloat() || mask->isComplex() || mask->shape() != std::vector<Index>{seconds}
+        || double(seconds) > Stretches::longestSeconds)
+        return;
+    std::vector<float> bits(static_cast<std::size_t>(seconds));
+    mask->read({0}, {seconds}, bits);
+    const auto sampleOf = [&](Index second) {
+        return std::min(m_info.sampleCount, Index(std::llround(double(second) * m_info.sampleRateHz)));
+    };
+    for (Index second = 0; second < seconds; ++second)
+        if (const Index first = sampleOf(second); Index(bits[std::size_t(second)]) & dataBit)
+            m_taken.add(first, first, sampleOf(second + 1) - first);
+    m_hasMask = true;
+    if (const Index missing = m_info.sampleCount - m_taken.samples(); missing > 0)
+        m_info.notes.push_back(formatNumber(double(missing) / m_info.sampleRateHz)
+                               + " s were not taken by the detector and are not observed.");
+}
+
+bool StrainRecording::isWhole(Index first, Index count) const
+{
+    return !m_hasMask
+           || (std::min(first + count, m_info.sampleCount) <= m_taken.end() && m_taken.isWhole(first, count));
 }
 
 void StrainRecording::read(int, Index first, Index count, std::span<float> out) const

@@ -108,42 +108,62 @@ namespace {
         }
     }
 
-    /// Scripps' XWAV: what is known of the deployment, then for each stretch of samples (a "raw file") when it began
-    /// and how long it is.
-    void readHarp(const std::vector<std::byte> &harp, RecordingInfo &info)
+    /// One stretch of samples of an XWAV (a "raw file"): when it began, and how long it is.
+    struct HarpEntry {
+        double startUnixSeconds;
+        Index samples;
+    };
+
+    /// Scripps' XWAV: what is known of the deployment, then an entry for each stretch. Those before the first one whose
+    /// time is none.
+    std::vector<HarpEntry> harpEntries(const std::vector<std::byte> &harp, int channels)
     {
         constexpr std::size_t entriesAt = 56;
         constexpr std::size_t entryBytes = 32;
+        constexpr Index sampleBytes = 2; // XWAV holds 16 bits
+        std::vector<HarpEntry> entries;
         if (harp.size() < entriesAt + entryBytes)
-            return;
+            return entries;
         const std::size_t count =
             std::min<std::size_t>(littleEndian(harp, 36, 2), (harp.size() - entriesAt) / entryBytes);
-        const double bytesPerSecond = 2.0 * info.channelCount * info.sampleRateHz; // XWAV holds 16 bits
-        std::optional<double> end;
-        int gaps = 0;
-        double missing = 0.0;
         for (std::size_t entry = 0; entry < count; ++entry) {
             const std::size_t at = entriesAt + entry * entryBytes;
             const auto byte = [&](std::size_t i) { return int(littleEndian(harp, at + i, 1)); };
             const auto start = unixSeconds(2000 + byte(0), byte(1), byte(2),
                                            {byte(3), byte(4), byte(5) + littleEndian(harp, at + 6, 2) / 1000.0});
             if (!start)
-                return;
-            if (entry == 0) {
-                info.startUnixSeconds = start;
-                info.notes.push_back("Start time taken from the harp chunk, read as UTC.");
-            }
-            constexpr double smallest = 0.01; // its times are in milliseconds
-            if (end && *start - *end > smallest) {
-                ++gaps;
-                missing += *start - *end;
-            }
-            end = *start + littleEndian(harp, at + 12, 4) / bytesPerSecond;
+                break;
+            entries.push_back({*start, Index(littleEndian(harp, at + 12, 4)) / (sampleBytes * channels)});
         }
-        if (gaps > 0)
-            info.notes.push_back("The harp chunk tells of " + std::to_string(gaps) + " gap(s), "
-                                 + std::to_string(std::llround(missing))
-                                 + " s altogether; the samples are read as if there were none.");
+        return entries;
+    }
+
+    Stretches readHarp(const std::vector<std::byte> &harp, RecordingInfo &info)
+    {
+        constexpr double smallest = 0.01; // its times are in milliseconds
+        Stretches stretches;
+        const std::vector<HarpEntry> entries = harpEntries(harp, std::max(1, info.channelCount));
+        if (entries.empty() || info.isComplex)
+            return stretches;
+        info.startUnixSeconds = entries.front().startUnixSeconds;
+        info.notes.push_back("Start time taken from the harp chunk, read as UTC.");
+        Index stored = 0;
+        for (const HarpEntry &entry : entries) {
+            const double late =
+                entry.startUnixSeconds - *info.startUnixSeconds - double(stretches.end()) / info.sampleRateHz;
+            if (late > Stretches::longestSeconds)
+                break;
+            const Index gap = late > smallest ? std::llround(late * info.sampleRateHz) : 0;
+            const Index count = std::min(entry.samples, info.sampleCount - stored);
+            stretches.add(stretches.end() + gap, stored, count);
+            stored += std::max<Index>(0, count);
+        }
+        stretches.add(stretches.end(), stored, info.sampleCount - stored);
+        if (stretches.hasGaps())
+            info.notes.push_back("The harp chunk tells of " + std::to_string(stretches.gaps()) + " gap(s), "
+                                 + std::to_string(std::llround(double(stretches.missing()) / info.sampleRateHz))
+                                 + " s altogether, which are not observed.");
+        return stretches;
     }
 
     std::uint32_t bigEndian(std::span<const std::byte> bytes)
@@ -189,7 +209,7 @@ std::string sampleTypeName(int format)
     return nameIn(sampleTypes, format & SF_FORMAT_SUBMASK);
 }
 
-void readAudioMetadata(const AudioDecoder &decoder, RecordingInfo &info)
+Stretches readAudioMetadata(const AudioDecoder &decoder, RecordingInfo &info)
 {
     if (const auto bext = decoder.broadcastInfo()) {
         info.startUnixSeconds = bextTime(*bext, info.sampleRateHz);
@@ -197,9 +217,10 @@ void readAudioMetadata(const AudioDecoder &decoder, RecordingInfo &info)
             info.notes.push_back("Start time taken from the bext chunk, read as UTC.");
     }
     readAuxi(decoder.chunk("auxi"), info);
-    readHarp(decoder.chunk("harp"), info);
+    Stretches stretches = readHarp(decoder.chunk("harp"), info);
     if (!info.startUnixSeconds)
         info.startUnixSeconds = parseUtc(decoder.text(SF_STR_DATE));
+    return stretches;
 }
 
 long long missingBytes(const std::string &log)

@@ -2,6 +2,7 @@
 
 #include "recording/AudioDecoder.h"
 #include "recording/Recording.h"
+#include "recording/Stretches.h"
 
 namespace faintline {
 
@@ -10,8 +11,9 @@ std::string containerName(int format);
 std::string sampleTypeName(int format);
 
 /// Fills in what the header says of when and at which frequency it was recorded: bext (origination date and time
-/// reference), auxi (a receiver's start time and centre frequency), or a date string that is an ISO 8601 time.
-void readAudioMetadata(const AudioDecoder &decoder, RecordingInfo &info);
+/// reference), auxi (a receiver's start time and centre frequency), harp (XWAV's start times), or a date string that is
+/// an ISO 8601 time. Answers where the file's samples lie in time, which only harp tells.
+Stretches readAudioMetadata(const AudioDecoder &decoder, RecordingInfo &info);
 
 /// The number of bytes, as libsndfile's log tells, by which a header claims more than the file holds; 0 if it does not.
 long long missingBytes(const std::string &log);

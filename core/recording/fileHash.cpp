@@ -52,6 +52,14 @@ namespace {
         }
     }
 
+    void addLength(Sha256 &hash, const FileBytes &file)
+    {
+        std::array<std::byte, 8> length; // little-endian
+        for (std::size_t i = 0; i < length.size(); ++i)
+            length[i] = static_cast<std::byte>(std::uint64_t(file.size()) >> (8 * i));
+        hash.add(length);
+    }
+
 } // namespace
 
 std::string fileHash(const std::string &path)
@@ -65,11 +73,21 @@ std::string fileHash(const std::string &path)
     }
     addBytes(hash, file, 0, mebibyte);
     addBytes(hash, file, file.size() - mebibyte, mebibyte);
-    std::array<std::byte, 8> length; // little-endian
-    for (std::size_t i = 0; i < length.size(); ++i)
-        length[i] = static_cast<std::byte>(std::uint64_t(file.size()) >> (8 * i));
-    hash.add(length);
+    addLength(hash, file);
     return "part:" + hash.hexadecimal();
+}
+
+std::string filesHash(const std::vector<std::string> &paths)
+{
+    constexpr Index end = 1 << 16;
+    Sha256 hash;
+    for (const std::string &path : paths) {
+        const FileBytes file(path);
+        addBytes(hash, file, 0, std::min(end, file.size()));
+        addBytes(hash, file, std::max<Index>(0, file.size() - end), std::min(end, file.size()));
+        addLength(hash, file);
+    }
+    return "files:" + hash.hexadecimal();
 }
 
 } // namespace faintline

@@ -2,10 +2,12 @@
 
 #include "base/Error.h"
 #include "recording/AudioRecording.h"
+#include "recording/DigitalRfRecording.h"
 #include "recording/KiwiRecording.h"
 #include "recording/RawRecording.h"
 #include "recording/SigmfRecording.h"
 #include "recording/StrainRecording.h"
+#include "recording/Timeline.h"
 #include "recording/fileHash.h"
 
 namespace faintline {
@@ -40,6 +42,9 @@ namespace {
 
 RecordingPointer openRecording(const std::string &path, const OpenOptions &options)
 {
+    if (Timeline::isNamedSo(path))
+        return std::make_shared<Timeline>(std::vector{path},
+                                          [options](const std::string &file) { return openRecording(file, options); });
     if (!options.rawType.empty())
         return openRaw(path, options.rawType, options);
     if (SigmfRecording::isNamedSo(path))
@@ -51,9 +56,12 @@ RecordingPointer openRecording(const std::string &path, const OpenOptions &optio
     if (Hdf5File::recognises(path)) {
         if (StrainRecording::recognises(path))
             return std::make_shared<StrainRecording>(path);
+        if (DigitalRfRecording::recognises(path))
+            return std::make_shared<DigitalRfRecording>(path);
         throw Error(
             path,
-            "is an HDF5 file of another kind; strain (strain/Strain) and filterbanks (data, with fch1) can be read");
+            "is an HDF5 file of another kind; strain (strain/Strain), Digital RF (rf_data) and filterbanks (data, with "
+            "fch1) can be read");
     }
     if (const auto rawType = rawTypeOfExtension(path); rawType && !AudioRecording::recognises(path))
         return openByRawExtension(path, *rawType, options);
@@ -62,6 +70,8 @@ RecordingPointer openRecording(const std::string &path, const OpenOptions &optio
 
 std::string recordingHash(const std::string &path)
 {
+    if (Timeline::isNamedSo(path))
+        return filesHash(filesBehind({path}));
     return fileHash(path.ends_with(".sigmf-meta") ? SigmfRecording::dataPath(path) : path);
 }
 

@@ -15,10 +15,10 @@ struct OpenOptions {
     Index rawHeaderBytes = 0;
 };
 
-/// Opens a recording: a raw file where rawType is given; SigMF by either of its two names; a KiwiSDR's WAV; GWOSC's
-/// strain; else any format that libsndfile recognises, by content; else, where the extension is one of raw samples
-/// (".cf32", ".cs16" …), a raw file of that type, for which the rate must be given. Reads no more than headers. Throws
-/// Error{path, what is wrong and what would be accepted}.
+/// Opens a recording: of many files where a folder or a list is named (Timeline); raw where rawType is given; SigMF by
+/// either of its two names; a KiwiSDR's WAV; GWOSC's strain; else any format that libsndfile recognises, by content;
+/// else, where the extension is one of raw samples (".cf32", ".cs16" …), a raw file of that type, for which the rate
+/// must be given. Reads no more than headers. Throws Error{path, what is wrong and what would be accepted}.
 RecordingPointer openRecording(const std::string &path, const OpenOptions &options = {});
 
 /// SHA-256 of the recording's data file as lower-case hexadecimal digits; of its first and last mebibyte and its length

@@ -4,6 +4,7 @@
 #include "recording/endless.h"
 #include "spectrum/FrameNormaliser.h"
 #include "spectrum/coarseFrames.h"
+#include "spectrum/observed.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,8 +60,8 @@ CausalBackground CausalSpectrogram::begin() const
     const Index windows = std::min(m_geometry.blockWindows, (m_coarse.time().count - 1) / steps + 1);
     std::vector<float> block(std::size_t(windows * m_geometry.cells));
     for (Index window = 0; window < windows; ++window)
-        readPower(window * steps,
-                  std::span(block).subspan(std::size_t(window * m_geometry.cells), std::size_t(m_geometry.cells)));
+        m_coarse.read(window * steps, 1,
+                      std::span(block).subspan(std::size_t(window * m_geometry.cells), std::size_t(m_geometry.cells)));
     return {m_geometry, m_coarse.frequency(), block};
 }
 
@@ -72,17 +73,8 @@ const NoiseBackground &CausalSpectrogram::step() const
         const std::size_t bytes = state->bytes();
         m_kept.keep(m_next, std::move(state), bytes);
     }
-    readPower(m_next++, m_power);
+    m_coarse.read(m_next++, 1, m_power);
     return m_background->next(m_power);
-}
-
-/// Of a frame that is torn, which tells nothing of the noise: silence.
-void CausalSpectrogram::readPower(Index frame, std::span<float> power) const
-{
-    if (isTorn(frame))
-        std::fill(power.begin(), power.end(), 0.0f);
-    else
-        m_coarse.read(frame, 1, power);
 }
 
 void CausalSpectrogram::goTo(Index frame) const
@@ -96,12 +88,6 @@ void CausalSpectrogram::goTo(Index frame) const
         step();
 }
 
-bool CausalSpectrogram::isTorn(Index frame) const
-{
-    const Index first = m_spectrogram->firstSample() + frame * m_spectrogram->hopSamples();
-    return !m_spectrogram->recording().isWhole(first, m_spectrogram->windowSamples());
-}
-
 void CausalSpectrogram::read(Index first, Index count, std::span<float> out) const
 {
     m_spectrogram->read(first, count, out);
@@ -112,9 +98,8 @@ void CausalSpectrogram::read(Index first, Index count, std::span<float> out) con
     for (Index i = 0; i < count; ++i) {
         const NoiseBackground &background = step();
         const std::span<float> values = out.subspan(std::size_t(i) * cells, cells);
-        const bool isSilent = std::none_of(values.begin(), values.end(), [](float value) { return value > 0.0f; });
         normaliser.normalise(values, background, 0.0);
-        if (!isSilent && isTorn(first + i))
+        if (!isObserved(*m_spectrogram, first + i))
             std::fill(values.begin(), values.end(), std::numeric_limits<float>::quiet_NaN());
     }
 }

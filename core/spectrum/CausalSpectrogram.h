@@ -16,7 +16,7 @@ namespace faintline {
 
 /// A spectrogram over its noise background, each frame over one from that frame and those before it (CausalBackground):
 /// y(t, f) = |S(t, f)|²/B(t, f), mean 1 on noise; 0 in digital silence, NaN (not observed) in a frame whose window
-/// holds both samples and a gap (Recording::isWhole).
+/// reaches into a gap (Recording::isWhole).
 ///
 /// The first frame needs the first block, `noise.blockWindows` windows, and a frame after that block needs nothing
 /// behind it: the delay is (blockWindows - 1)·T_FT at the beginning and 0 from then on. Values are a function of the
@@ -43,8 +43,6 @@ private:
     CausalBackground begin() const;
     void goTo(Index frame) const;
     const NoiseBackground &step() const;
-    void readPower(Index frame, std::span<float> power) const;
-    bool isTorn(Index frame) const;
 
     std::shared_ptr<const Spectrogram> m_spectrogram;
     NormaliserSettings m_settings;

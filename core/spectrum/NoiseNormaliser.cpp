@@ -1,6 +1,10 @@
 #include "spectrum/NoiseNormaliser.h"
 
 #include "spectrum/FrameNormaliser.h"
+#include "spectrum/observed.h"
+
+#include <algorithm>
+#include <limits>
 
 namespace faintline {
 
@@ -17,9 +21,13 @@ void NormalisedSpectrogram::read(Index first, Index count, std::span<float> out)
     m_spectrogram->read(first, count, out);
     const auto cells = std::size_t(grid().size());
     FrameNormaliser normaliser(*m_spectrogram, m_settings.followLevel);
-    for (Index i = 0; i < count; ++i)
-        normaliser.normalise(out.subspan(std::size_t(i) * cells, cells), *m_background,
-                             time().value(double(first + i)));
+    for (Index i = 0; i < count; ++i) {
+        const std::span<float> values = out.subspan(std::size_t(i) * cells, cells);
+        if (isObserved(*m_spectrogram, first + i))
+            normaliser.normalise(values, *m_background, time().value(double(first + i)));
+        else
+            std::fill(values.begin(), values.end(), std::numeric_limits<float>::quiet_NaN());
+    }
 }
 
 } // namespace faintline

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace faintline {
@@ -27,10 +28,12 @@ namespace {
     {
         constexpr float stepsPerNeper = 8.6858896381f;                      // 2 · 10 / ln 10
         constexpr auto lowest = std::bit_cast<std::int32_t>(0.0316227766f); // -15 dB
+        constexpr auto infinite = std::bit_cast<std::int32_t>(std::numeric_limits<float>::infinity());
         for (Index i = 0; i < n; ++i) {
             // As whole numbers, positive floats have the same order; a comparison of floats keeps the compiler from
             // vector code.
-            const std::int32_t bits = std::max(std::bit_cast<std::int32_t>(values[i]), lowest);
+            const auto given = std::bit_cast<std::int32_t>(values[i]);
+            const std::int32_t bits = given > infinite ? lowest : std::max(given, lowest); // NaN: nothing to be seen
             const auto byte = std::int32_t(stepsPerNeper * fastLn(std::bit_cast<float>(bits)) + 30.5f);
             bytes[i] = std::uint8_t(std::min(byte, 255));
         }

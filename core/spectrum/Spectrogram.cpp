@@ -226,8 +226,11 @@ void Spectrogram::readRun(Index first, Index count, std::vector<float> &samples,
     m_recording->read(m_selection.channel, m_firstSample + first * m_hopSamples, sampleCount, samples);
     for (Index frame = 0; frame < count; ++frame) {
         const std::size_t offset = std::size_t(frame * m_hopSamples) * floats;
-        transformFrame(std::span(samples).subspan(offset, std::size_t(m_windowSamples) * floats), buffer,
-                       out.subspan(std::size_t(frame) * bins, bins));
+        const std::span<float> values = out.subspan(std::size_t(frame) * bins, bins);
+        if (m_recording->isWhole(m_firstSample + (first + frame) * m_hopSamples, m_windowSamples)) // observed.h
+            transformFrame(std::span(samples).subspan(offset, std::size_t(m_windowSamples) * floats), buffer, values);
+        else
+            std::fill(values.begin(), values.end(), 0.0f);
     }
 }
 

@@ -26,6 +26,7 @@ public:
                        std::uint64_t seed);
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;
+    bool isWhole(Index first, Index count) const override { return m_base->isWhole(first, count); }
 
 private:
     void fillWhite(Index block, std::span<std::complex<float>> samples) const;

@@ -2,6 +2,7 @@
 
 #include "analysis/analyse.h"
 #include "bindings/interruptible.h"
+#include "bindings/provenance.h"
 
 #include <memory>
 #include <vector>
@@ -12,9 +13,13 @@ namespace faintline::python {
 class Result
 {
 public:
-    explicit Result(std::shared_ptr<const Analysis> analysis) : m_analysis(std::move(analysis)) {}
+    explicit Result(std::shared_ptr<const Analysis> analysis, Origin origin = {})
+        : m_analysis(std::move(analysis)), m_origin(std::move(origin))
+    {
+    }
 
     const std::shared_ptr<const Analysis> &analysis() const { return m_analysis; }
+    const Origin &origin() const { return m_origin; }
 
     using Values = std::shared_ptr<const std::vector<float>>;
 
@@ -29,6 +34,7 @@ private:
     std::size_t valueCount() const;
 
     std::shared_ptr<const Analysis> m_analysis;
+    Origin m_origin;
     Values m_input;
     Values m_statistic;
 };

@@ -8,6 +8,8 @@
 #include <pybind11/pybind11.h>
 
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace faintline::python {
 
@@ -15,6 +17,8 @@ namespace faintline::python {
 struct HeldRecording {
     RecordingPointer recording;
     Json truth; ///< null where it is not known
+    /// Arguments with which the command line opens the same; none of what is in memory.
+    std::vector<std::string> arguments{};
 };
 
 /// Frames as Python holds them.
@@ -24,6 +28,7 @@ struct HeldFrames {
     bool isPings = false; ///< a sonar's, whose settings start from the preset "sonar"
     /// Of a file of power, which settings take a part of and normalise anew.
     std::shared_ptr<const PowerFrames> power{};
+    std::vector<std::string> arguments{}; ///< as a recording's
 };
 
 /// Opens what a path names: a recording, ready-made frames, or a scene to simulate. Throws Error.

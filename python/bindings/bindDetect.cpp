@@ -55,18 +55,19 @@ namespace {
             checkSettings(inBins);
             analysis = analyse(frames, inBins, context.part(held.power ? 0.1 : 0.0, 1.0));
         });
-        return std::make_shared<Result>(analysis);
+        return std::make_shared<Result>(analysis, Origin{held.arguments, settings});
     }
 
     std::shared_ptr<Result> detectIn(const HeldRecording &held, const AskedSettings &asked, const RunOptions &options)
     {
-        const AnalysisSettings settings = withSlopesInBins(settingsFromPython(asked), held.recording->info());
+        const AnalysisSettings wanted = settingsFromPython(asked);
+        const AnalysisSettings settings = withSlopesInBins(wanted, held.recording->info());
         checkSettings(settings);
         std::shared_ptr<const Analysis> analysis;
         runInterruptibly(options, [&](const RunContext &context) {
             analysis = analyseInChosenWindow(held.recording, settings, context);
         });
-        return std::make_shared<Result>(analysis);
+        return std::make_shared<Result>(analysis, Origin{held.arguments, wanted});
     }
 
     std::shared_ptr<Result> detect(const py::object &x, const std::optional<double> &rate, double centreHz,

@@ -60,6 +60,8 @@ namespace {
             checkTracksPath(tracksPath);
         runInterruptibly({0, progress}, [&](const RunContext &context) {
             CommitTogether files;
+            writeProvenance(self.origin(),
+                            {{"--events", eventsPath}, {"--tracks", tracksPath}, {"--statistic", statisticPath}});
             if (!eventsPath.empty())
                 writeEvents(*self.analysis(), eventsPath);
             if (!tracksPath.empty())
@@ -181,7 +183,7 @@ outside of the recording.)")
              R"(Writes what the command line writes, byte for byte, the kind by the extension.
 
 events: .csv, .json, .txt (Audacity labels) or .sigmf-meta; tracks: .csv or .json; statistic: .npy. Files appear together when all are
-complete. Raises Error.)")
+complete. Beside each, if the source is a file, stands NAME.provenance.json, with which faintline-cli replay makes it again. Raises Error.)")
         .def("__repr__", &textOf);
 }
 

@@ -41,7 +41,7 @@ namespace {
             return py::cast(HeldFrames{pings, toJson(pings->truth()), true});
         }
         const auto recording = std::make_shared<SimulatedRecording>(withSeed(lineSceneFromJson(scene), seed));
-        return py::cast(HeldRecording{recording, toJson(recording->truth())});
+        return py::cast(HeldRecording{recording, toJson(recording->truth()), {}});
     }
 
 } // namespace

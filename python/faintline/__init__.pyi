@@ -208,7 +208,7 @@ class Posterior:
 _Law = Union[Mapping[str, Any], NDArray[np.float64]]
 
 def open(
-    path: _Path,
+    path: Union[_Path, list[_Path], tuple[_Path, ...]],
     *,
     iq: bool = False,
     raw_type: str = "",

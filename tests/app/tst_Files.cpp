@@ -1,6 +1,7 @@
 #include "app/base/MessageBar.h"
 #include "app/base/distinctLabels.h"
 #include "app/control/EventReviews.h"
+#include "app/document/Session.h"
 #include "app/document/recordingFiles.h"
 #include "app/openWindow.h"
 #include "app/views/WindowViews.h"
@@ -12,6 +13,7 @@
 #include <QDropEvent>
 #include <QLineEdit>
 #include <QMimeData>
+#include <QToolButton>
 
 using namespace faintline;
 using namespace faintline::test;
@@ -96,9 +98,43 @@ private slots:
         QVERIFY(settle(*window));
         QCOMPARE(window->document().source().path, path("night 10.wav"));
         QTRY_VERIFY(window->messages().text().contains("2 files"));
+        const auto buttons = window->messages().findChildren<QToolButton *>();
+        QVERIFY(std::any_of(buttons.begin(), buttons.end(),
+                            [](const QToolButton *button) { return button->text() == "Open as one recording"; }));
         QTest::keyClick(window.get(), Qt::Key_PageDown, Qt::ControlModifier);
         QVERIFY(settle(*window));
         QCOMPARE(window->document().source().path, path("site 2/night 2.wav"));
+    }
+
+    void listsAreRelativeToTheirFolder()
+    {
+        const QStringList files{path("night 10.wav"), path("site 2/night 2.wav")};
+        QCOMPARE(timelineText(files, path("a.timeline")), std::string("night 10.wav\nsite 2/night 2.wav\n"));
+        QCOMPARE(timelineText(files, path("site 2/a.timeline")), std::string("../night 10.wav\nnight 2.wav\n"));
+        QVERIFY(openFilter().contains("*.timeline"));
+    }
+
+    // A folder is one recording, and so it is in a session and in the window's tables.
+    void foldersAreOneRecording()
+    {
+        QVERIFY(QDir(m_folder.path()).mkpath("site 3"));
+        LineScene scene;
+        scene.sampleRateHz = 200.0;
+        scene.durationSeconds = 30.0;
+        for (const char *name :
+             {"site 3/20260101_000000.wav", "site 3/20260101_000030.wav", "site 3/20260101_000130.wav"})
+            writeRecording(SimulatedRecording(scene), path(name).toStdString());
+        const auto window = newWindow();
+        QVERIFY(openAndSettle(*window, path("site 3")));
+        QCOMPARE(window->document().recording()->info().sampleCount, Index(24000));
+        QVERIFY(!window->document().recording()->isWhole(0, 24000));
+        QCOMPARE(window->windowTitle(), QString("site 3[*] — Faintline"));
+        writeSession(path("site 3.faintline"),
+                     {window->document().source(), {}, window->document().settings(), {}, {}});
+        const Session session = readSession(path("site 3.faintline"));
+        QCOMPARE(recordingMismatch(session), QString());
+        writeRecording(SimulatedRecording(scene), path("site 3/20260101_000200.wav").toStdString());
+        QVERIFY(!recordingMismatch(session).isEmpty());
     }
 
     void titlesOfOneNameTellTheFolder()

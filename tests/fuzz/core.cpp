@@ -16,6 +16,7 @@
 #include "exchange/CampaignFile.h"
 #include "exchange/ModelFile.h"
 #include "exchange/NumPy.h"
+#include "exchange/TopHits.h"
 #include "exchange/openFrames.h"
 #include "exchange/readAnnotations.h"
 #include "exchange/survey/exportSurvey.h"
@@ -24,9 +25,11 @@
 #include "recording/PingTruth.h"
 #include "recording/ScanScene.h"
 #include "recording/SimulatedRecording.h"
+#include "recording/Timeline.h"
 #include "recording/Truth.h"
 #include "recording/bitshuffle.h"
 #include "recording/openRecording.h"
+#include "recording/timeInName.h"
 #include "spectrum/SimulatedPings.h"
 
 #include <algorithm>
@@ -306,6 +309,9 @@ const std::vector<Parser> &faintline::fuzz::parsers()
         {"calibration", ".json", readCalibration},
         {"survey", ".sqlite", readSurvey},
         {"json", ".json", [](const Input &input) { parseJson(input.text, "json"); }},
+        {"hits", ".dat", [](const Input &input) { topHitsText(readTopHits(input.path)); }},
+        {"timeline", ".timeline", [](const Input &input) { Timeline::filesOf({input.path}); }},
+        {"timeInName", ".txt", [](const Input &input) { timeInName(input.text.substr(0, 255)); }},
         {"names", ".txt", readNames},
         {"wavStream", ".wav", readStream},
         {"provenance", ".json", [](const Input &input) { cli::readProvenance(input.path); }},

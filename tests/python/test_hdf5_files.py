@@ -241,6 +241,22 @@ class Strain(InFolder):
         x[4096:8192] = np.nan
         self.assertTrue((fl.open(self.write(x)).read(4096, 4096) == 0).all())
 
+    def test_seconds_that_were_not_taken(self):
+        for mask, unseen in (([1, 0, 1, 3], 1.0), ([0, 2, 1, 1], 2.0), ([1, 1, 1, 1], 0.0)):
+            path = self.write(self.strain(4))
+            with h5py.File(path, "r+") as file:
+                file.create_dataset("quality/simple/DQmask", data=np.array(mask, "u4"))
+            recording = fl.open(path)
+            self.assertEqual(any("not observed" in note for note in recording.notes), unseen > 0, mask)
+            seen = fl.detect(recording, window_seconds=0.25).input
+            torn = np.isnan(seen).all(axis=1).sum() * 0.125
+            self.assertTrue(abs(torn - unseen) <= 0.3, (mask, torn))
+        for lie in (np.ones(3, "u4"), np.ones((2, 2), "u4"), np.full(4, np.nan)):
+            path = self.write(self.strain(4))
+            with h5py.File(path, "r+") as file:
+                file.create_dataset("quality/simple/DQmask", data=lie)
+            self.assertEqual(fl.open(path).notes, [])
+
     def test_hostile_files(self):
         for attributes in ({"Xspacing": 0.0}, {"Xspacing": np.nan}, {"Xspacing": -1.0}, {"Xspacing": "fast"}):
             with self.subTest(attributes):

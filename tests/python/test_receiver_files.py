@@ -70,6 +70,16 @@ class KiwiFiles(InFolder):
         x = self.samples()
         gappy = fl.open(self.write(riff(form(), *self.chunks(x, gap_at=512 * 100))))
         self.assertIn("1 gap(s), 2.5", " ".join(gappy.notes))
+        gap = round(2.5 * gappy.rate)
+        self.assertEqual(len(gappy), len(x) + gap)
+        y = gappy.read()
+        self.assertTrue((y[512 * 100 : 512 * 100 + gap] == 0).all())
+        expected = (x[:, 0] + 1j * x[:, 1]).astype("c8") / 32768
+        self.assertTrue(np.array_equal(np.delete(y, slice(512 * 100, 512 * 100 + gap)), expected))
+        seen = fl.detect(gappy, window_seconds=0.25).input
+        unseen = np.isnan(seen).all(axis=1)
+        self.assertEqual(np.isnan(seen).any(axis=1).tolist(), unseen.tolist())
+        self.assertTrue(19 <= unseen.sum() <= 22, unseen.sum())  # 2.5 s, and what reaches into them
         self.assertAlmostEqual(gappy.rate, 12001.25, delta=1e-2)
         blind = fl.open(self.write(riff(form(), *self.chunks(x, age=255))))
         self.assertEqual((blind.rate, blind.notes), (12000.0, []))
@@ -78,6 +88,16 @@ class KiwiFiles(InFolder):
         recording = fl.open(self.write(riff(form(), *self.chunks(self.samples(), begins=604795.0))))
         self.assertAlmostEqual(recording.rate, 12001.25, delta=1e-3)
         self.assertNotIn("gap", " ".join(recording.notes))
+
+    def test_stamps_that_go_back(self):
+        x = self.samples(2048)
+        parts = [part for at in (500, 100, 300000, 5) for part in (stamp(at), chunk(b"data", x[:512].tobytes()))]
+        self.assertGreaterEqual(len(fl.open(self.write(riff(form(), *parts)))), 2048)
+
+    def test_the_week_from_the_name(self):
+        path = self.folder / "20260123T235958Z_7050000_iq.wav"
+        path.write_bytes(riff(form(), *self.chunks(self.samples(), begins=518418.25)))  # 2026-01-24T00:00:00Z less GPS - UTC
+        self.assertAlmostEqual(fl.open(path).start, 1769212800.25, delta=1e-3)
 
     def test_a_signal_in_one(self):
         n = np.arange(512 * 600)
@@ -106,7 +126,7 @@ class KiwiFiles(InFolder):
                 self.assertIn(part, self.refusal(fl.open, self.write(content)).what)
 
     def test_lying_lengths_are_read_as_far_as_they_go(self):
-        content = riff(form(), stamp(1), chunk(b"data", bytes(2048)), stamp(2)) + b"data" + struct.pack("<I", 2**32 - 2) + bytes(100)
+        content = riff(form(), stamp(1), chunk(b"data", bytes(2048)), stamp(1 + 512 / RATE)) + b"data" + struct.pack("<I", 2**32 - 2) + bytes(100)
         recording = fl.open(self.write(content))
         self.assertEqual(len(recording), 512 + 25)
         self.assertIn("ends within", " ".join(recording.notes))
@@ -131,6 +151,8 @@ class XwavFiles(InFolder):
         recording = fl.open(self.write(self.harp((24, 7, 26, 1, 2, 3, 500), (24, 7, 26, 1, 2, 43, 500))))
         self.assertEqual(recording.start, 1721955723.5)
         self.assertIn("1 gap(s), 30 s", " ".join(recording.notes))
+        self.assertEqual(len(recording), 50000)
+        self.assertTrue((recording.read(10000, 30000) == 0).all())
 
     def test_lies(self):
         for harp in (self.harp((24, 13, 40, 1, 2, 3, 0)), self.harp((24, 7, 26, 1, 2, 3, 0), count=65535), chunk(b"harp", b"x" * 50)):

@@ -41,6 +41,16 @@ class SameBytes(InFolder):
         self.assertIsInstance(result.window_choice, str)
         self.assert_same_files(result)
 
+    def test_what_is_saved_can_be_replayed(self):
+        for number, keywords in enumerate(
+            ({}, {"window_seconds": 0.5, "false_alarms_per_hour": 2}, {"preset": "whistles"}, {"settings": {"detector.kind": "pOfN", "pOfN.n": 5}})
+        ):
+            name = f"r{number}.csv"
+            fl.detect(self.wav, **keywords).save(events=self.folder / name)
+            self.assertIn("the same bytes", self.command_line("replay", name), keywords)
+        fl.detect(fl.open(self.wav).read(), 1000).save(events=self.folder / "memory.csv")
+        self.assertFalse((self.folder / "memory.csv.provenance.json").exists())
+
     def test_samples_in_memory(self):
         self.events_of_command_line(*WINDOW)
         x = fl.open(self.wav).read()

@@ -260,10 +260,8 @@ void tst_CausalSpectrogram::tornFramesAreNotObserved()
     for (Index frame = 300; frame < 340; ++frame) {
         const std::vector<float> y = readFrames(frames, frame, 1);
         const Index first = frame * frames.spectrogram()->hopSamples();
-        const bool isSilent = first >= 40'001 && first + 250 <= 41'001;
-        const bool isTorn = !isSilent && !recording->isWhole(first, 250);
+        const bool isTorn = first < 41'001 && first + 250 > 40'001;
         QCOMPARE(std::count_if(y.begin(), y.end(), [](float value) { return std::isnan(value); }), isTorn ? cells : 0);
-        QCOMPARE(std::all_of(y.begin(), y.end(), [](float value) { return value == 0.0f; }), isSilent);
     }
 }
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 using namespace faintline;
 
@@ -22,6 +23,7 @@ private slots:
     void byteIsTheNearest();
     void encodingIsTheScale();
     void differencesKeepTheirSign();
+    void whatWasNotObservedIsDark();
     void strangeValues();
     void nineFramesByEye();
     void maximaOfEveryLevel_data();
@@ -127,6 +129,17 @@ void tst_PeakPyramid::byteIsTheNearest()
     QFETCH(double, shown);
     const ByteScale scale(static_cast<ByteScale::Kind>(kind));
     QVERIFY(std::abs(scale.value(scale.byte(value)) - shown) < 1e-6 * std::max(1.0, shown));
+}
+
+void tst_PeakPyramid::whatWasNotObservedIsDark()
+{
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const std::vector<float> values{nan, 1.0f, -nan, std::numeric_limits<float>::infinity(), 0.0f};
+    std::vector<std::uint8_t> bytes(values.size());
+    ByteScale(ByteScale::Kind::PowerDb).encode(values, bytes);
+    QCOMPARE(bytes, (std::vector<std::uint8_t>{0, 30, 0, 255, 0}));
+    ByteScale(ByteScale::Kind::ScoreNats).encode(values, bytes);
+    QCOMPARE(bytes[0], std::uint8_t(0));
 }
 
 void tst_PeakPyramid::differencesKeepTheirSign()

@@ -5,6 +5,7 @@
 #include "exchange/openFrames.h"
 #include "recording/SampleType.h"
 #include "recording/SigmfRecording.h"
+#include "recording/Timeline.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -64,9 +65,11 @@ namespace {
 
 const std::vector<std::string> &recordingEndings()
 {
-    static const std::vector<std::string> endings{"wav",  "flac", "ogg",  "oga",        "opus", "mp3",
-                                                  "aif",  "aiff", "aifc", "au",         "caf",  "w64",
-                                                  "rf64", "hdf5", "h5",   "sigmf-meta", "fil",  "npy"};
+    static const std::vector<std::string> endings = [] {
+        std::vector<std::string> all = sampleEndings();
+        all.insert(all.end(), {"fil", "npy"});
+        return all;
+    }();
     return endings;
 }
 

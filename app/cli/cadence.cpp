@@ -1,0 +1,53 @@
+#include "app/cli/commands.h"
+
+#include "base/AtomicFile.h"
+#include "exchange/findCadence.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <memory>
+
+namespace faintline::cli {
+
+namespace {
+
+    struct CadenceOptions {
+        std::vector<std::string> tables;
+        std::string events;
+        double slackHz = 0.0;
+    };
+
+    void findIn(const CadenceOptions &options)
+    {
+        checkOutputs({options.events});
+        std::vector<TopHits> observations;
+        for (const std::string &table : options.tables)
+            observations.push_back(readTopHits(table));
+        const std::vector<CadenceEvent> events = findCadence(observations, options.slackHz);
+        if (!options.events.empty())
+            writeTextFile(options.events, cadenceCsv(events));
+        else
+            std::printf("%s", cadenceCsv(events).c_str());
+    }
+
+} // namespace
+
+void addCadence(CLI::App &app, Common &common)
+{
+    const auto options = std::make_shared<CadenceOptions>();
+    CLI::App *command = app.add_subcommand("cadence", "Find drifting signals that are there in all observations on "
+                                                      "target, and in none off it");
+    command
+        ->add_option("TABLES", options->tables,
+                     "Tables of hits (.dat) of observations on and off target in turn, as detect --hits writes them")
+        ->required()
+        ->expected(2, 1000);
+    addOutput(*command, common, "--events", options->events, "Write the events: .csv; default: print them");
+    command->add_option("--slack", options->slackHz, "Hz by which a signal may be off its straight line in addition")
+        ->check(CLI::Range(0.0, 1e9))
+        ->capture_default_str();
+    command->callback([options] { findIn(*options); });
+}
+
+} // namespace faintline::cli

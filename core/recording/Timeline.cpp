@@ -1,0 +1,265 @@
+#include "recording/Timeline.h"
+
+#include "base/Error.h"
+#include "base/Field.h"
+#include "base/fileName.h"
+#include "recording/SigmfRecording.h"
+#include "recording/timeInName.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+namespace faintline {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+    constexpr std::size_t mostOpen = 8;
+    constexpr std::size_t mostFiles = 1'000'000;
+    constexpr const char *listEnding = ".timeline";
+
+    bool isSampleFile(const std::string &path)
+    {
+        const std::vector<std::string> &endings = sampleEndings();
+        return std::any_of(endings.begin(), endings.end(),
+                           [&](const std::string &ending) { return hasEnding(path, "." + ending); });
+    }
+
+    /// What Digital RF keeps beside its samples, and what it is writing now.
+    bool isBesideSamples(const std::string &name)
+    {
+        return name == "drf_properties.h5" || name == "dmd_properties.h5" || name.starts_with("metadata@")
+               || name.starts_with("tmp.rf@");
+    }
+
+    void addFolder(const fs::path &folder, std::set<std::string> &files)
+    {
+        std::error_code code;
+        fs::directory_iterator entry(folder, code);
+        for (const fs::directory_iterator end; !code && entry != end; entry.increment(code)) {
+            std::error_code ignored;
+            const std::string name = entry->path().filename().string();
+            if (name.starts_with('.') || isBesideSamples(name))
+                continue;
+            if (entry->is_directory(ignored) && !entry->is_symlink(ignored))
+                addFolder(entry->path(), files);
+            else if (entry->is_regular_file(ignored) && isSampleFile(entry->path().native()))
+                files.insert(entry->path().string());
+            if (files.size() > mostFiles)
+                throw Error(folder.string(), "holds more than a million recordings; choose a part of them");
+        }
+        if (code)
+            throw Error(folder.string(), "cannot be read: " + code.message());
+    }
+
+    void addList(const std::string &path, std::set<std::string> &files)
+    {
+        constexpr std::size_t longestLine = 1 << 16;
+        std::ifstream list(path, std::ios::binary);
+        if (!list)
+            throw Error(path, "cannot be read");
+        std::string line;
+        while (std::getline(list, line)) {
+            if (line.ends_with('\r'))
+                line.pop_back();
+            if (line.empty() || line.starts_with('#'))
+                continue;
+            if (line.size() > longestLine || line.find('\0') != std::string::npos || files.size() >= mostFiles)
+                throw Error(path, "is no list of at most a million file names, one a line");
+            const std::string name = (fs::path(path).parent_path() / line).lexically_normal().string();
+            if (Timeline::isNamedSo(name))
+                throw Error(path, "names " + name + ", which is a folder or a list itself; name files");
+            files.insert(name);
+        }
+    }
+
+} // namespace
+
+bool Timeline::isNamedSo(const std::string &path)
+{
+    std::error_code ignored;
+    return hasEnding(path, listEnding) || fs::is_directory(path, ignored);
+}
+
+std::vector<std::string> Timeline::filesOf(const std::vector<std::string> &names)
+{
+    std::error_code ignored;
+    std::set<std::string> files;
+    for (const std::string &name : names) {
+        std::set<std::string> found;
+        if (fs::is_directory(name, ignored))
+            addFolder(name, found);
+        else if (isNamedSo(name))
+            addList(name, found);
+        else
+            found.insert(name);
+        if (found.empty())
+            throw Error(name, "holds no recordings (files such as .wav, .flac or .sigmf-meta)");
+        files.merge(found);
+    }
+    return {files.begin(), files.end()};
+}
+
+Timeline::Timeline(const std::vector<std::string> &names, OpenFile open) : m_openFile(std::move(open))
+{
+    std::vector<TimedFile> timed;
+    for (const std::string &file : filesOf(names))
+        timed.push_back(addPart(file));
+    const Alignment aligned = alignFiles(timed);
+    std::vector<Part> ordered;
+    Index stored = 0;
+    for (const PlacedFile &place : aligned.places) {
+        Part part = m_parts[place.file];
+        part.place = place;
+        part.firstStored = stored;
+        m_stretches.add(place.inTime, stored, place.count);
+        stored += place.count;
+        ordered.push_back(std::move(part));
+    }
+    m_parts = std::move(ordered);
+    m_info.path = names.front();
+    m_info.sampleRateHz = aligned.rateHz;
+    m_info.sampleCount = m_stretches.end();
+    m_info.startUnixSeconds = aligned.startUnixSeconds;
+    m_info.notes = aligned.notes;
+    if (m_hasGapsWithin)
+        m_info.notes.push_back("Some files have gaps of their own, which are not observed.");
+}
+
+/// Opens a file for what its header says.
+TimedFile Timeline::addPart(const std::string &path)
+{
+    const RecordingPointer recording = m_openFile(path);
+    const RecordingInfo &info = recording->info();
+    const std::optional<double> start = info.startUnixSeconds ? info.startUnixSeconds : timeInName(path);
+    if (!start)
+        throw Error(path, "has no time stamp, neither in it nor in its name (such as 20260123_235959); a timeline "
+                          "needs one");
+    if (m_parts.empty())
+        m_info = info;
+    else
+        checkLike(info);
+    const bool hasGaps = !recording->isWhole(0, info.sampleCount);
+    m_hasGapsWithin = m_hasGapsWithin || hasGaps;
+    m_parts.push_back({path, {}, 0, info.sampleCount, hasGaps});
+    const bool isExact =
+        info.startUnixSeconds
+        && (info.container == "Digital RF" || info.container == "HDF5 strain" || info.container == "KiwiSDR WAV");
+    return {path, *start, info.sampleRateHz, info.sampleCount, isExact};
+}
+
+void Timeline::checkLike(const RecordingInfo &other) const
+{
+    const auto differs = [&](const std::string &what, const std::string &own, const std::string &first) {
+        throw Error(other.path, "has " + what + " " + own + ", but " + m_info.path + " has " + first
+                                    + "; files of one timeline must agree");
+    };
+    if (other.channelCount != m_info.channelCount)
+        differs("a channel count of", std::to_string(other.channelCount), std::to_string(m_info.channelCount));
+    if (other.isComplex != m_info.isComplex)
+        differs("samples that are", other.isComplex ? "I/Q" : "real", m_info.isComplex ? "I/Q" : "real ones");
+    if (other.centreHz != m_info.centreHz)
+        differs("a centre frequency of", formatNumber(other.centreHz) + " Hz", formatNumber(m_info.centreHz) + " Hz");
+}
+
+RecordingPointer Timeline::partAt(std::size_t number) const
+{
+    const std::lock_guard lock(m_mutex);
+    const auto known =
+        std::find_if(m_open.begin(), m_open.end(), [&](const auto &each) { return each.first == number; });
+    if (known != m_open.end()) {
+        std::rotate(known, known + 1, m_open.end());
+        return m_open.back().second;
+    }
+    const Part &part = m_parts[number];
+    RecordingPointer opened = m_openFile(part.path);
+    if (opened->info().sampleCount != part.fileSamples || opened->info().isComplex != m_info.isComplex
+        || opened->info().channelCount != m_info.channelCount)
+        throw Error(part.path, "has changed since the timeline was opened", Error::Kind::Failure);
+    if (m_open.size() >= mostOpen)
+        m_open.erase(m_open.begin());
+    m_open.emplace_back(number, std::move(opened));
+    return m_open.back().second;
+}
+
+/// The part that holds a sample.
+std::size_t Timeline::partOf(Index stored) const
+{
+    const auto behind = std::upper_bound(m_parts.begin(), m_parts.end(), stored,
+                                         [](Index wanted, const Part &part) { return wanted < part.firstStored; });
+    return std::size_t(behind - m_parts.begin()) - 1;
+}
+
+void Timeline::read(int channel, Index first, Index count, std::span<float> out) const
+{
+    fill(first, count, out, [&](Index from, std::span<float> inside) {
+        m_stretches.read(from, m_info.floatsPerSample(), inside,
+                         [&](Index stored, std::span<float> part) { readStored(channel, stored, part); });
+    });
+}
+
+void Timeline::readStored(int channel, Index stored, std::span<float> out) const
+{
+    const Index floats = m_info.floatsPerSample();
+    for (std::size_t number = partOf(stored); !out.empty(); ++number) {
+        const Part &part = m_parts[number];
+        const Index within = stored - part.firstStored;
+        const Index count = std::min(part.place.count - within, std::ssize(out) / floats);
+        partAt(number)->read(channel, part.place.skipped + within, count, out.first(std::size_t(count * floats)));
+        out = out.subspan(std::size_t(count * floats));
+        stored += count;
+    }
+}
+
+bool Timeline::isWhole(Index first, Index count) const
+{
+    if (!m_stretches.isWhole(first, count))
+        return false;
+    bool isWhole = true;
+    const Index to = std::min(first + count, m_info.sampleCount);
+    for (auto part = std::upper_bound(
+             m_parts.begin(), m_parts.end(), std::max<Index>(0, first),
+             [](Index wanted, const Part &each) { return wanted < each.place.inTime + each.place.count; });
+         m_hasGapsWithin && isWhole && part != m_parts.end() && part->place.inTime < to; ++part) {
+        const Index from = std::max(first, part->place.inTime) - part->place.inTime;
+        const Index end = std::min(to - part->place.inTime, part->place.count);
+        isWhole = !part->hasGaps
+                  || partAt(std::size_t(part - m_parts.begin()))->isWhole(part->place.skipped + from, end - from);
+    }
+    return isWhole;
+}
+
+/// That of the first file that is not silent; they come from one recorder.
+int Timeline::scaleExponent(int channel) const
+{
+    constexpr std::size_t mostLookedAt = 16;
+    const std::size_t step = std::max<std::size_t>(1, m_parts.size() / mostLookedAt);
+    for (std::size_t number = 0; number < m_parts.size(); number += step)
+        if (const int exponent = partAt(number)->scaleExponent(channel); exponent != 0)
+            return exponent;
+    return 0;
+}
+
+const std::vector<std::string> &sampleEndings()
+{
+    static const std::vector<std::string> endings{"wav",  "flac", "ogg", "oga", "opus", "mp3",  "aif", "aiff",
+                                                  "aifc", "au",   "caf", "w64", "rf64", "hdf5", "h5",  "sigmf-meta"};
+    return endings;
+}
+
+std::vector<std::string> filesBehind(const std::vector<std::string> &names, bool areRaw)
+{
+    std::vector<std::string> files;
+    for (const std::string &name : Timeline::filesOf(names)) {
+        const bool isSigmf = !areRaw && SigmfRecording::isNamedSo(name);
+        files.push_back(isSigmf ? SigmfRecording::metaPath(name) : name);
+        if (isSigmf)
+            files.push_back(SigmfRecording::dataPath(name));
+    }
+    return files;
+}
+
+} // namespace faintline

@@ -1,0 +1,13 @@
+#include "recording/openTogether.h"
+
+#include "recording/Timeline.h"
+
+namespace faintline {
+
+RecordingPointer openTogether(const std::vector<std::string> &names, const OpenOptions &options)
+{
+    return std::make_shared<Timeline>(names,
+                                      [options](const std::string &path) { return openRecording(path, options); });
+}
+
+} // namespace faintline

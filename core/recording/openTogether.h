@@ -1,0 +1,13 @@
+#pragma once
+
+#include "recording/openRecording.h"
+
+#include <string>
+#include <vector>
+
+namespace faintline {
+
+/// Opens what is named, files, folders and lists, as one recording (Timeline). Throws Error.
+RecordingPointer openTogether(const std::vector<std::string> &names, const OpenOptions &options = {});
+
+} // namespace faintline
