@@ -122,7 +122,7 @@ AnalysisSettings AnalysisOptions::settings() const
     else if (session.empty() && openPings(file))
         settings = faintline::preset("sonar").settings;
     if (channel >= 0)
-        settings.selection.channel = channel;
+        setSetting(settings, "selection.channel", std::to_string(channel));
     std::vector<std::string> all = part.assignments();
     all.insert(all.end(), assignments.begin(), assignments.end());
     for (const std::string &assignment : all) {

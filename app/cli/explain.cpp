@@ -128,22 +128,30 @@ namespace {
     Json toJson(const std::vector<FamilyTooth> &teeth)
     {
         Json members = Json::array();
-        for (const FamilyTooth &tooth : teeth)
+        for (const FamilyTooth &tooth : teeth) {
             members.push_back({{"member", tooth.member},
                                {"frequency", tooth.hz},
                                {"frames", tooth.frames},
                                {"power_db", tooth.meanPower > 0.0 ? Json(dbFromRatio(tooth.meanPower)) : Json()},
                                {"evidence", tooth.frames > 0 ? Json(tooth.evidence) : Json()}});
+            if (tooth.channel >= 0)
+                members.back()["channel"] = tooth.channel;
+        }
         return members;
     }
 
     void print(const std::vector<FamilyTooth> &teeth, const FamilySettings &family)
     {
         const bool areHarmonics = family.relation == FamilySettings::Relation::Harmonics;
-        std::printf("members along the path: mean power over noise, and the evidence that would be lost without it\n");
-        std::printf("%12s %14s %10s %10s\n", areHarmonics ? "multiple" : "offset (Hz)", "f", "dB", "nat");
+        std::printf("%s along the path: mean power over noise, and the evidence that would be lost without it\n",
+                    family.isNone() ? "channels" : "members");
+        const bool haveChannels = teeth.front().channel >= 0;
+        std::printf("%12s %14s %s%10s %10s\n", areHarmonics ? "multiple" : "offset (Hz)", "f",
+                    haveChannels ? " channel " : "", "dB", "nat");
         for (const FamilyTooth &tooth : teeth) {
             std::printf("%12.6g %14.8g", tooth.member, tooth.hz);
+            if (haveChannels)
+                std::printf(" %7d ", tooth.channel);
             if (tooth.frames == 0)
                 std::printf(" %10s %10s  outside the band\n", "-", "-");
             else

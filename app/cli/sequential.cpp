@@ -2,12 +2,12 @@
 
 #include "analysis/analyse.h"
 #include "analysis/lineSequentialModel.h"
+#include "analysis/plan.h"
 #include "base/AtomicFile.h"
 #include "base/json.h"
 #include "detect/Sprt.h"
 #include "detect/averagedStages.h"
 #include "exchange/ModelFile.h"
-#include "spectrum/normalise.h"
 
 #include <CLI/CLI.hpp>
 
@@ -55,8 +55,10 @@ namespace {
         const AnalysisSettings settings = options.analysis.settings();
         const auto spectrogram =
             std::make_shared<const Spectrogram>(options.analysis.recording(), settings.spectrogram, settings.selection);
-        const NormalisedFramesPointer frames =
-            familyFrames(normalise(spectrogram, settings.noise, context), settings.family);
+        AnalysisPlan plan;
+        plan.settings = settings;
+        normalisePlan(plan, spectrogram, context);
+        const NormalisedFramesPointer frames = plan.frames;
         const Index bins = frames->grid().size();
         Stages stages;
         if (options.model.empty()) {

@@ -26,6 +26,7 @@ namespace {
         int event = 0;
         double smooth = 0.0;
         std::optional<double> target;
+        std::string method;
         std::string out;
         std::string curve;
         std::string rest;
@@ -78,8 +79,11 @@ namespace {
         const RecordingPointer recording = options.analysis.recording();
         const auto analysis = analyseInChosenWindow(recording, options.analysis.settings(), context.part(0.0, 0.6));
         const Event event = chosenEvent(*analysis, options.event);
-        const Straightened straight = straightened(*analysis, event, options.smooth, options.target);
-        const FrequencyCurve &curve = straight.recording->curve();
+        StraightenChoice choice{options.smooth, options.target, {}};
+        if (!options.method.empty())
+            choice.kind = straighteningOf(options.method);
+        const Straightened straight = straightened(*analysis, event, choice);
+        const FrequencyCurve &curve = straight.curve;
         const std::string told = heights(*recording, straight, context.part(0.6, 0.8));
         CommitTogether files;
         writeProvenance(common, options.analysis.inputs(), {options.out, options.curve, options.rest});
@@ -92,9 +96,9 @@ namespace {
             writeTextFile(options.curve, toCsv(curve));
         files.commit();
         const auto [least, most] = std::minmax_element(curve.hz().begin(), curve.hz().end());
-        std::printf("event %d of %zu, %.6g … %.6g s, %.8g … %.8g Hz: now at %.8g Hz\n%s\n", event.id,
+        std::printf("event %d of %zu, %.6g … %.6g s, %.8g … %.8g Hz: %snow at %.8g Hz\n%s\n", event.id,
                     analysis->tracks.size(), event.onsetSeconds, event.endSeconds, *least, *most,
-                    straight.recording->targetHz(), told.c_str());
+                    straight.kind == Straightening::Resample ? "resampled, " : "", straight.targetHz, told.c_str());
     }
 
 } // namespace
@@ -102,8 +106,8 @@ namespace {
 void addStraighten(CLI::App &app, Common &common)
 {
     const auto options = std::make_shared<StraightenOptions>();
-    CLI::App *command =
-        app.add_subcommand("straighten", "Shift a recording so that a detected line stays at one frequency");
+    CLI::App *command = app.add_subcommand(
+        "straighten", "Shift or resample a recording so that a detected line stays at one frequency");
     options->analysis.addTo(*command, common);
     command
         ->add_option("--event", options->event,
@@ -115,6 +119,11 @@ void addStraighten(CLI::App &app, Common &common)
         ->check(CLI::Range(1e-9, 1e9));
     command->add_option("--target", options->target,
                         "Frequency of the straightened line, Hz; by default the track's mean");
+    command
+        ->add_option("--method", options->method,
+                     "Shift the band with the line, or resample along it, which makes all its multiples constant; by "
+                     "default resample for family.relation=harmonics, else shift")
+        ->check(CLI::IsMember({"shift", "resample"}));
     command->add_option("--type", options->type, "Sample type")
         ->check(CLI::IsMember({"float32", "int16"}))
         ->capture_default_str();

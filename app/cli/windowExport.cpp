@@ -132,11 +132,13 @@ namespace {
     {
         const Json &made = table.provenance["straighten"];
         const auto analysis = analysed(table, context.part(0.0, 0.8));
-        std::optional<double> targetHz;
+        StraightenChoice choice{made.value("smoothSeconds", 0.0), {}, {}};
         if (made.contains("targetHz"))
-            targetHz = made["targetHz"].get<double>();
-        const Straightened straight = straightened(*analysis, chosenEvent(*analysis, made.at("event").get<int>()),
-                                                   made.value("smoothSeconds", 0.0), targetHz);
+            choice.targetHz = made["targetHz"].get<double>();
+        if (made.contains("method"))
+            choice.kind = straighteningOf(made["method"].get<std::string>());
+        const Straightened straight =
+            straightened(*analysis, chosenEvent(*analysis, made.at("event").get<int>()), choice);
         const bool isInteger = made.at("type").get<std::string>() == "int16";
         writeRecording(*straight.recording, out, isInteger ? WrittenType::Int16 : WrittenType::Float32,
                        context.part(0.8, 1.0));

@@ -104,7 +104,7 @@ void BoxAnalysis::analyseBox()
 void BoxAnalysis::analyseAll()
 {
     AnalysisSettings after = m_document.settings();
-    after.selection = {.channel = after.selection.channel};
+    after.selection = {.channel = after.selection.channel, .channels = after.selection.channels};
     m_controller.setSettings(after, tr("Analyse the whole recording"));
 }
 
@@ -112,7 +112,8 @@ void BoxAnalysis::enable()
 {
     const SelectionSettings &selection = m_document.settings().selection;
     m_box->setEnabled(m_document.recording() && m_document.analysis() && m_document.viewport().selection());
-    m_all->setEnabled(m_document.recording() && selection != SelectionSettings{.channel = selection.channel});
+    const SelectionSettings all{.channel = selection.channel, .channels = selection.channels};
+    m_all->setEnabled(m_document.recording() && selection != all);
 }
 
 } // namespace faintline

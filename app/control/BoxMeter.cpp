@@ -11,12 +11,12 @@ namespace {
 
     constexpr int pauseMs = 40;
 
-    QString noteOf(const BoxLevels &levels, bool saysMean)
+    QString noteOf(const BoxLevels &levels, bool saysMean, bool isRest)
     {
         const QString mean = saysMean ? BoxMeter::tr("mean %1 dB · ").arg(numberText(levels.meanDb, 1)) : QString();
-        if (!levels.snrDb)
-            return mean + BoxMeter::tr("not above the noise beside it");
-        return mean + BoxMeter::tr("area SNR %1 dB").arg(numberText(*levels.snrDb, 1));
+        const QString area = levels.snrDb ? BoxMeter::tr("area SNR %1 dB").arg(numberText(*levels.snrDb, 1))
+                                          : BoxMeter::tr("not above the noise beside it");
+        return mean + area + (isRest ? BoxMeter::tr(" · strong lines subtracted") : QString());
     }
 
 } // namespace
@@ -47,7 +47,8 @@ void BoxMeter::measure()
     const FrameBox box{beginFrame, endFrame, beginCell, endCell};
     const bool saysMean = analysis->input->framesPerRow(0) > 1; // else the picture itself does
     m_runner.start([this, analysis, box, saysMean](const RunContext &context) -> JobRunner::Delivery {
-        const QString note = noteOf(boxLevels(*analysis, box, context), saysMean);
+        const bool isRest = analysis->unsubtracted != nullptr;
+        const QString note = noteOf(boxLevels(*analysis, box, context), saysMean, isRest);
         return [this, note] { emit measured(note); };
     });
 }

@@ -21,8 +21,8 @@ namespace {
     constexpr std::size_t mostPoints = 3000;
 
     /// In dB, the largest of each group where there are more than can be drawn.
-    Curve curveOf(const char *name, const std::vector<double> &hz, const std::vector<double> &values, const Span &band,
-                  double addedDb)
+    Curve curveOf(const std::string &name, const std::vector<double> &hz, const std::vector<double> &values,
+                  const Span &band, double addedDb)
     {
         const auto first = std::lower_bound(hz.begin(), hz.end(), band.low) - hz.begin();
         const auto end = std::upper_bound(hz.begin(), hz.end(), band.high) - hz.begin();
@@ -119,8 +119,10 @@ void SpectrumPanel::show()
                 false,
                 false,
                 {}};
-    chart.curves.push_back(curveOf("at the cursor", m_spectra.position, m_spectra.frame, band, added));
-    chart.curves.push_back(curveOf("mean of what is visible", m_spectra.position, m_spectra.mean, band, added));
+    const auto analysis = m_document.lineAnalysis();
+    const std::string rest = analysis && analysis->unsubtracted ? ", strong lines subtracted" : "";
+    chart.curves.push_back(curveOf("at the cursor" + rest, m_spectra.position, m_spectra.frame, band, added));
+    chart.curves.push_back(curveOf("mean of what is visible" + rest, m_spectra.position, m_spectra.mean, band, added));
     m_plot->setChart(chart);
     markTeeth();
 }

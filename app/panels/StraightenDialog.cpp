@@ -20,6 +20,7 @@
 #include <QPointer>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QSignalBlocker>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -83,8 +84,9 @@ namespace {
 StraightenDialog::StraightenDialog(const Document &document, const Event &event, Provenance &provenance,
                                    QWidget *parent)
     : QDialog(parent), m_analysis(document.analysis()), m_event(event), m_path(document.source().path),
-      m_provenance(provenance), m_type(new QComboBox), m_sentence(plainLabel()), m_before(new ChartPlot),
-      m_after(new ChartPlot), m_progress(new QProgressBar), m_write(new QPushButton(tr("&Write recording…")))
+      m_provenance(provenance), m_method(new QComboBox), m_type(new QComboBox), m_sentence(plainLabel()),
+      m_before(new ChartPlot), m_after(new ChartPlot), m_progress(new QProgressBar),
+      m_write(new QPushButton(tr("&Write recording…")))
 {
     setWindowTitle(tr("Straighten the recording along event %1").arg(event.id));
     buildInputs();
@@ -97,14 +99,18 @@ void StraightenDialog::buildInputs()
 {
     const RecordingInfo &info = m_analysis->recording->info();
     const double frame = m_analysis->time().step;
-    const Straightened straight = straightened(*m_analysis, m_event);
     const double half = 0.5 * info.sampleRateHz;
-    m_target = number(info.isComplex ? -half : 0.0, half, straight.recording->targetHz(), 3, tr(" Hz"));
+    m_target = number(info.isComplex ? -half : 0.0, half, 0.0, 3, tr(" Hz"));
     m_target->setToolTip(tr("Frequency of the straightened line; default: mean frequency of the track"));
+    m_target->setEnabled(false); // until the track's mean is known
+    m_method->addItem(tr("Shift the band with the line"));
+    m_method->addItem(tr("Resample along the line"));
+    m_method->setToolTip(tr("A shift keeps one line constant and the noise as it was; resampling keeps all multiples "
+                            "of the line constant and changes the duration. Default: resample for harmonics"));
+    m_method->setCurrentIndex(int(usualStraightening(*m_analysis)));
     m_smoothing =
         number(fewestFrames * frame, mostFrames * frame, usualFrames * frame, decimalsFor(0.1 * frame), tr(" s"));
     m_smoothing->setToolTip(tr("Smoothing halves frequency variations of this period; default: 32 frames"));
-    m_usualTarget = m_target->value();
     m_usualSmoothing = m_smoothing->value();
     m_type->addItem(tr("32-bit float"), int(WrittenType::Float32));
     m_type->addItem(tr("16-bit integer"), int(WrittenType::Int16));
@@ -123,6 +129,7 @@ void StraightenDialog::buildLayout()
     auto *form = new QFormLayout;
     form->addRow(tr("&Line at"), m_target);
     form->addRow(tr("S&moothing"), m_smoothing);
+    form->addRow(tr("M&ethod"), m_method);
     form->addRow(tr("Sam&ples"), m_type);
     auto *charts = new QHBoxLayout;
     charts->addWidget(m_before);
@@ -143,6 +150,7 @@ void StraightenDialog::connectInputs()
 {
     for (QDoubleSpinBox *box : {m_target, m_smoothing})
         connect(box, &QDoubleSpinBox::valueChanged, this, &StraightenDialog::follow);
+    connect(m_method, &QComboBox::currentIndexChanged, this, &StraightenDialog::follow);
     connect(m_write, &QPushButton::clicked, this, [this] { m_writer.isRunning() ? m_writer.cancel() : ask(); });
     connect(&m_preview, &JobRunner::finished, this, &StraightenDialog::settled);
     connect(&m_preview, &JobRunner::failed, this, [this](const Error &error) {
@@ -165,13 +173,15 @@ void StraightenDialog::connectInputs()
     });
 }
 
-StraightenDialog::Choice StraightenDialog::choice() const
+StraightenChoice StraightenDialog::choice() const
 {
-    Choice choice;
+    StraightenChoice choice;
     if (m_smoothing->value() != m_usualSmoothing)
         choice.smoothingSeconds = m_smoothing->value();
-    if (m_target->value() != m_usualTarget)
+    if (m_usualTarget && m_target->value() != *m_usualTarget)
         choice.targetHz = m_target->value();
+    if (const auto kind = Straightening(m_method->currentIndex()); kind != usualStraightening(*m_analysis))
+        choice.kind = kind;
     return choice;
 }
 
@@ -184,8 +194,9 @@ void StraightenDialog::showWriting(bool isWriting)
 {
     m_progress->setVisible(isWriting);
     m_write->setText(isWriting ? tr("&Stop") : tr("&Write recording…"));
-    for (QWidget *input : std::initializer_list<QWidget *>{m_target, m_smoothing, m_type})
+    for (QWidget *input : std::initializer_list<QWidget *>{m_smoothing, m_method, m_type})
         input->setEnabled(!isWriting);
+    m_target->setEnabled(!isWriting && m_usualTarget);
 }
 
 void StraightenDialog::say(const Error &error)
@@ -198,7 +209,7 @@ void StraightenDialog::follow()
 {
     m_preview.start([this, analysis = m_analysis, event = m_event,
                      chosen = choice()](const RunContext &context) -> JobRunner::Delivery {
-        Spectra spectra{straightened(*analysis, event, chosen.smoothingSeconds, chosen.targetHz), {}, {}};
+        Spectra spectra{straightened(*analysis, event, chosen), {}, {}};
         const Straightened &straight = spectra.straightened;
         spectra.before = lineSpectrum(*analysis->recording, straight.before, context.part(0.0, 0.4));
         spectra.after = lineSpectrum(*straight.recording, straight.after, context.part(0.4, 1.0));
@@ -206,9 +217,21 @@ void StraightenDialog::follow()
     });
 }
 
+/// What the target is where nobody has set it.
+void StraightenDialog::showTarget(double hz)
+{
+    if (m_usualTarget)
+        return;
+    const QSignalBlocker blocker(m_target);
+    m_target->setValue(hz);
+    m_target->setEnabled(true);
+    m_usualTarget = m_target->value();
+}
+
 void StraightenDialog::show(const Spectra &spectra)
 {
-    const std::vector<double> &hz = spectra.straightened.recording->curve().hz();
+    showTarget(spectra.straightened.targetHz);
+    const std::vector<double> &hz = spectra.straightened.curve.hz();
     const auto [least, most] = std::minmax_element(hz.begin(), hz.end());
     const Stretch &stretch = spectra.straightened.before;
     const double was = highestOf(spectra.before), is = highestOf(spectra.after);
@@ -216,7 +239,7 @@ void StraightenDialog::show(const Spectra &spectra)
         tr("Event %1: %2 … %3, %4 … %5, straightened at %6. ")
             .arg(m_event.id)
             .arg(secondsText(m_event.onsetSeconds, 0.1), secondsText(m_event.endSeconds, 0.1), hertzText(*least, 0.01),
-                 hertzText(*most, 0.01), hertzText(spectra.straightened.recording->targetHz(), 0.01));
+                 hertzText(*most, 0.01), hertzText(spectra.straightened.targetHz, 0.01));
     words +=
         std::isfinite(was) && std::isfinite(is)
             ? tr("In one spectrum of its %1 the line stands %2 dB over its surroundings before, %3 dB after.")
@@ -252,7 +275,7 @@ void StraightenDialog::writeTo(const QString &path)
     const auto type = WrittenType(m_type->currentData().toInt());
     m_writer.start([this, path, analysis = m_analysis, event = m_event, chosen = choice(),
                     type](const RunContext &context) -> JobRunner::Delivery {
-        const Straightened straight = straightened(*analysis, event, chosen.smoothingSeconds, chosen.targetHz);
+        const Straightened straight = straightened(*analysis, event, chosen);
         writeRecording(*straight.recording, pathBytes(path), type, context);
         return [this, path] { finish(path); };
     });
@@ -261,12 +284,14 @@ void StraightenDialog::writeTo(const QString &path)
 /// Says beside the file what it was made from.
 void StraightenDialog::finish(const QString &path)
 {
-    const Choice chosen = choice();
+    const StraightenChoice chosen = choice();
     Json made = {{"event", m_event.id}, {"type", m_type->currentIndex() == 0 ? "float32" : "int16"}};
     if (chosen.smoothingSeconds != 0.0)
         made["smoothSeconds"] = chosen.smoothingSeconds;
     if (chosen.targetHz)
         made["targetHz"] = *chosen.targetHz;
+    if (chosen.kind)
+        made["method"] = straighteningNames[std::size_t(*chosen.kind)];
     m_provenance.with([self = QPointer(this), path, made](const std::string &provenance) {
         try {
             Json json = parseJson(provenance, "provenance");

@@ -26,13 +26,14 @@ class StraightenDialog : public QDialog
     Q_OBJECT
 
 public:
-    /// Of an event of the document's analysis. Throws Error where that cannot be straightened.
+    /// Of an event of the document's analysis. Precondition: that is of a recording.
     StraightenDialog(const Document &document, const Event &event, Provenance &provenance, QWidget *parent = nullptr);
 
     bool isBusy() const { return m_preview.isRunning() || m_writer.isRunning(); }
     QString sentence() const;
     QDoubleSpinBox *target() const { return m_target; }
     QDoubleSpinBox *smoothing() const { return m_smoothing; }
+    QComboBox *method() const { return m_method; }
     QComboBox *sampleType() const { return m_type; }
     ChartPlot &before() { return *m_before; }
     ChartPlot &after() { return *m_after; }
@@ -45,22 +46,19 @@ signals:
     void written(const QString &path);
 
 private:
-    /// As `straightened` takes it: what was not changed is left to it, so that the file is the command line's.
-    struct Choice {
-        double smoothingSeconds = 0.0;
-        std::optional<double> targetHz;
-    };
     struct Spectra {
         Straightened straightened;
         LineSpectrum before, after;
     };
 
-    Choice choice() const;
+    /// What was not changed is left out, so that the file is the command line's.
+    StraightenChoice choice() const;
     void buildInputs();
     void buildLayout();
     void connectInputs();
     void follow();
     void show(const Spectra &spectra);
+    void showTarget(double hz);
     void ask();
     void finish(const QString &path);
     void say(const Error &error);
@@ -72,8 +70,9 @@ private:
     Provenance &m_provenance;
     QDoubleSpinBox *m_target;
     QDoubleSpinBox *m_smoothing;
-    double m_usualTarget = 0.0; ///< what the boxes held at first
+    std::optional<double> m_usualTarget; ///< what the boxes held at first; the target after the first preview
     double m_usualSmoothing = 0.0;
+    QComboBox *m_method;
     QComboBox *m_type;
     QLabel *m_sentence;
     ChartPlot *m_before;

@@ -164,10 +164,14 @@ QString teethSentence(const std::vector<FamilyTooth> &teeth, const FamilySetting
     QStringList unseen;
     for (const FamilyTooth &tooth : teeth)
         if (!tooth.isSeen())
-            unseen << memberText(family, tooth.member);
+            unseen << toothText(family, tooth);
+    const bool areChannels = family.isNone();
     if (unseen.isEmpty())
-        return QObject::tr("Each of the %1 members raises the evidence.").arg(teeth.size());
-    return QObject::tr("%1 of %2 members raise the evidence; it is no smaller without %3.")
+        return (areChannels ? QObject::tr("Each of the %1 channels raises the evidence.")
+                            : QObject::tr("Each of the %1 members raises the evidence."))
+            .arg(teeth.size());
+    return (areChannels ? QObject::tr("%1 of %2 channels raise the evidence; it is no smaller without %3.")
+                        : QObject::tr("%1 of %2 members raise the evidence; it is no smaller without %3."))
         .arg(std::ssize(teeth) - unseen.size())
         .arg(teeth.size())
         .arg(unseen.join(QStringLiteral(", ")));
@@ -317,7 +321,7 @@ void WhyPanel::showTeeth(const std::vector<FamilyTooth> &teeth, const FamilySett
         const FamilyTooth &tooth = teeth[std::size_t(row)];
         const QString dash = QStringLiteral("–");
         fillRow(*m_teeth, row,
-                {memberText(family, tooth.member), numberText(tooth.hz, 2),
+                {toothText(family, tooth), numberText(tooth.hz, 2),
                  tooth.meanPower > 0.0 ? numberText(dbFromRatio(tooth.meanPower), 1) : dash,
                  tooth.frames > 0 ? signedText(tooth.evidence) : dash});
         for (int column = 0; column < m_teeth->columnCount(); ++column)

@@ -43,7 +43,8 @@ namespace {
     {
         if (!options.preset.empty())
             settings = preset(options.preset).settings;
-        settings.selection.channel = options.channel.value_or(settings.selection.channel);
+        if (options.channel)
+            setSetting(settings, "selection.channel", std::to_string(*options.channel));
         std::vector<std::string> all = options.part.assignments();
         all.insert(all.end(), options.settings.begin(), options.settings.end());
         for (const std::string &assignment : all) {

@@ -40,14 +40,10 @@ void MainWindow::straighten()
     const std::vector<Event> events = chosenEvents(m_document, *m_events);
     if (!m_document.lineAnalysis() || !m_document.recording() || events.empty())
         return showError(Error(tr("Straighten").toStdString(), "requires a recording with an event to follow"));
-    try {
-        auto *dialog = new StraightenDialog(m_document, events.front(), m_reviews->provenance(), this);
-        dialog->setAttribute(Qt::WA_DeleteOnClose);
-        connect(dialog, &StraightenDialog::written, this, &MainWindow::showWritten);
-        dialog->open();
-    } catch (const Error &error) { // of a band or a track that cannot be straightened
-        showError(error);
-    }
+    auto *dialog = new StraightenDialog(m_document, events.front(), m_reviews->provenance(), this);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    connect(dialog, &StraightenDialog::written, this, &MainWindow::showWritten);
+    dialog->open();
 }
 
 } // namespace faintline

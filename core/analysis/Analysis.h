@@ -28,9 +28,11 @@ struct BankMember {
 /// What a chain is made from: frames, models with their calibrations, and the threshold.
 struct AnalysisPlan {
     AnalysisSettings settings;
-    RecordingPointer recording;                        ///< null for ready-made frames
-    NormalisedFramesPointer frames;                    ///< random access, recomputed on demand
-    std::shared_ptr<const NoiseBackground> background; ///< null for ready-made frames
+    RecordingPointer recording;     ///< null for ready-made frames
+    NormalisedFramesPointer frames; ///< random access, recomputed on demand
+    /// Of single lines, one a channel that is analysed: what the frames are made from. Empty for ready-made frames.
+    std::vector<NormalisedFramesPointer> lines;
+    std::shared_ptr<const NoiseBackground> background; ///< of the first of these channels; null for ready-made frames
     MarkovModel model;
     std::vector<BankMember> bank; ///< several models in parallel, `model` the first; empty: `model` alone
     std::shared_ptr<const Calibration> calibration;

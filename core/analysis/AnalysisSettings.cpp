@@ -138,6 +138,8 @@ namespace {
                                             "noise.causal=false, detector.kind=smd, and not model.likelihood=linear");
         if (!settings.family.isNone())
             checkSubtractsNothing(settings, "is not possible with a family; use family.relation=none");
+        if (!settings.selection.channels.empty())
+            checkSubtractsNothing(settings, "is not possible with several channels; use selection.channels=");
     }
 
     SonarMotion turning(const ModelSettings &settings)
@@ -284,6 +286,7 @@ void checkSettings(const AnalysisSettings &settings)
     for (const auto &f : AnalysisSettings::fields())
         if (const auto value = f.get(settings))
             checkFieldValue(f, *value);
+    checkChannels(settings.selection);
     checkFamily(settings.family);
     if (settings.noise.causal) // tracks that a stronger family explains are known at the end
         checkHasNoFamily(settings, "is not possible with noise.causal=true");
@@ -305,6 +308,12 @@ void checkHasNoFamily(const AnalysisSettings &settings, std::string why)
         throw fieldError("family.relation",
                          std::string(FamilySettings::relationNames[std::size_t(settings.family.relation)]),
                          std::move(why));
+}
+
+void checkHasOneChannel(const AnalysisSettings &settings, std::string why)
+{
+    if (!settings.selection.channels.empty())
+        throw fieldError("selection.channels", formatFieldValue(settings.selection.channels), std::move(why));
 }
 
 void checkSubtractsNothing(const AnalysisSettings &settings, std::string why)

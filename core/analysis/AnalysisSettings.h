@@ -123,6 +123,10 @@ void checkSettings(const AnalysisSettings &settings);
 /// possible.
 void checkHasNoFamily(const AnalysisSettings &settings, std::string why);
 
+/// For what knows one channel only. Throws Error naming selection.channels where several are added, and `why` it is not
+/// possible.
+void checkHasOneChannel(const AnalysisSettings &settings, std::string why);
+
 /// For what knows the recording as it is only. Throws Error naming subtract.lines where lines are subtracted, and `why`
 /// it is not possible.
 void checkSubtractsNothing(const AnalysisSettings &settings, std::string why);

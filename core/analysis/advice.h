@@ -11,9 +11,9 @@ namespace faintline {
 
 /// What one should know of an analysis before taking its numbers at their word, and the settings that would help.
 struct Advice {
-    std::string name;            ///< "slopeLimit", "closeLines", "constantCells": the same whatever it says
-    std::string sentence;        ///< without a full stop
-    std::string remedy;          ///< "use a window of 0.25 s"; empty where no setting helps
+    std::string name;     ///< "slopeLimit", "closeLines", "constantCells", "commonNoise": the same whatever it says
+    std::string sentence; ///< without a full stop
+    std::string remedy;   ///< "use a window of 0.25 s"; empty where no setting helps
     AnalysisSettings settings{}; ///< with the remedy
 };
 
@@ -35,6 +35,11 @@ std::optional<Advice> adviceOnCloseLines(const Analysis &analysis);
 /// cells where it is less than a twentieth of that are constant. Advised where nine cells of ten are.
 /// Cost: some 200 frames are read. Throws Cancelled.
 std::optional<Advice> adviceOnConstantCells(const Analysis &analysis, const RunContext &context = {});
+
+/// Channels that are added, but share their noise: two channels of coherence |γ|² carry the evidence of 2/(1 + |γ|²)
+/// independent ones, and noise exceeds a threshold more often than calibrated. Over the cells without steady lines
+/// |γ|² = 4c/(3 + c), c the correlation of e^(-y) in two channels, which is uniform in each of them. Advised where a tenth of the channels is lost. Cost: some 200 frames of each are read. Throws Cancelled.
+std::optional<Advice> adviceOnChannels(const Analysis &analysis, const RunContext &context = {});
 
 /// All that applies, the gravest first.
 std::vector<Advice> advise(const Analysis &analysis, const RunContext &context = {});

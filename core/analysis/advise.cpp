@@ -17,8 +17,8 @@ void setWindow(Advice &advice, double seconds)
 std::vector<Advice> advise(const Analysis &analysis, const RunContext &context)
 {
     std::vector<Advice> all;
-    for (std::optional<Advice> one :
-         {adviceOnConstantCells(analysis, context), adviceOnSlopes(analysis), adviceOnCloseLines(analysis)})
+    for (std::optional<Advice> one : {adviceOnConstantCells(analysis, context), adviceOnChannels(analysis, context),
+                                      adviceOnSlopes(analysis), adviceOnCloseLines(analysis)})
         if (one)
             all.push_back(std::move(*one));
     return all;

@@ -219,6 +219,7 @@ namespace {
         const Stage stale = previous ? firstStale(previous->settings, settings) : Stage::Spectrogram;
         ProgressPublisher publisher; // of what is computed anew: nobody takes away a picture for a part of the next one
         if (stale >= Stage::Detector) {
+            analysis->lines = previous->lines;
             analysis->frames = previous->frames;
             analysis->background = previous->background;
             analysis->input = previous->input;
@@ -288,6 +289,7 @@ namespace {
     {
         checkSettings(settings);
         checkHasNoFamily(settings, "requires a recording; these are ready-made frames");
+        checkHasOneChannel(settings, "requires a recording; these are ready-made frames");
         checkSubtractsNothing(settings, "requires a recording; these are ready-made frames");
         auto analysis = std::make_shared<Analysis>();
         analysis->settings = settings;

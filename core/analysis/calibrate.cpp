@@ -15,14 +15,15 @@ namespace {
     NormalisedFramesPointer noiseSegment(const AnalysisSettings &bare, int number)
     {
         LineScene scene;
-        scene.sampleRateHz = std::ceil(ringBands(bare.family));
+        const int channels = channelCount(bare.selection);
+        scene.sampleRateHz = std::ceil(ringBands(bare.family, channels));
         scene.durationSeconds = double(segmentWindows) * calibrationWindowSamples;
         scene.isComplex = true;
         scene.noise.deviation = 1.0;
         scene.seed = 1000 + number;
         const auto spectrogram =
             std::make_shared<Spectrogram>(std::make_shared<SimulatedRecording>(scene), bare.spectrogram);
-        return familyFrames(normalise(spectrogram, bare.noise), bare.family, FamilyFrames::Band::Closed);
+        return familyFramesOnRing(normalise(spectrogram, bare.noise), bare.family, channels);
     }
 
 } // namespace

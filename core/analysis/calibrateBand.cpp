@@ -79,6 +79,8 @@ double cellFramesInAnHour(const FamilySettings &family, const Spectrogram &spect
 std::shared_ptr<const Calibration> calibrateBand(AnalysisSettings settings, const Spectrogram &spectrogram,
                                                  const RunContext &context, CalibrationDepth depth)
 {
+    const std::vector<int> channels = channelsOf(spectrogram.selection(), spectrogram.recording().info());
+    settings.selection.channels.assign(channels.begin(), channels.end());
     settings.spectrogram.windowSeconds = spectrogram.windowSeconds();
     return calibrateBand(settings, familyAxis(settings.family, spectrogram.frequency()).count, context, depth);
 }

@@ -1,6 +1,5 @@
 #include "analysis/familyTeeth.h"
 
-#include "analysis/plan.h"
 #include "base/Error.h"
 #include "spectrum/Spectrogram.h"
 #include "spectrum/familyMembers.h"
@@ -28,36 +27,55 @@ namespace {
     {
     public:
         explicit MemberReader(const Analysis &analysis)
-            : m_family(analysis.settings.family), m_axis(analysis.grid().axes.back()), m_lines(framesOfLines(analysis)),
-              m_innerOnly(m_lines->spectrogram()->hasRealEnds()), m_frame(std::size_t(m_lines->grid().size()))
+            : m_family(familyOrLine(analysis.settings.family)), m_axis(analysis.grid().axes.back()),
+              m_channels(analysis.lines),
+              m_innerOnly(!analysis.settings.family.isNone() && analysis.frames->spectrogram()->hasRealEnds())
         {
         }
 
-        /// y of each member; NaN where it was not observed.
+        std::size_t channelCount() const { return m_channels.size(); }
+        std::vector<double> hzAt(Index cell) const { return memberFrequencies(m_family, m_axis.value(double(cell))); }
+        const FamilySettings &family() const { return m_family; }
+
+        /// y of each member, channel by channel; NaN where it was not observed.
         std::vector<float> at(const PathCell &place)
         {
-            m_lines->read(place.frame, 1, m_frame);
-            std::vector<float> members;
-            for (const Index bin :
-                 memberBins(m_family, m_axis.value(double(place.cell)), m_lines->grid().axes.back(), m_innerOnly))
-                members.push_back(bin < 0 ? notObserved : m_frame[std::size_t(bin)]);
+            const Axis &band = m_channels.front()->grid().axes.back();
+            const std::vector<Index> bins = memberBins(m_family, m_axis.value(double(place.cell)), band, m_innerOnly);
+            std::vector<float> members(bins.size() * channelCount());
+            m_frame.resize(std::size_t(band.count));
+            for (std::size_t c = 0; c < channelCount(); ++c) {
+                m_channels[c]->read(place.frame, 1, m_frame);
+                for (std::size_t k = 0; k < bins.size(); ++k)
+                    members[k * channelCount() + c] = bins[k] < 0 ? notObserved : m_frame[std::size_t(bins[k])];
+            }
             return members;
         }
 
     private:
-        const FamilySettings &m_family;
+        FamilySettings m_family;
         const Axis &m_axis; ///< the family's
-        NormalisedFramesPointer m_lines;
+        const std::vector<NormalisedFramesPointer> &m_channels;
         bool m_innerOnly;
         std::vector<float> m_frame;
     };
 
+    std::vector<FamilyTooth> emptyTeeth(const MemberReader &reader, Index cell, const std::vector<int> &channels)
+    {
+        const std::vector<double> hz = reader.hzAt(cell);
+        std::vector<FamilyTooth> teeth;
+        for (std::size_t k = 0; k < hz.size(); ++k)
+            for (const int channel : channels)
+                teeth.push_back({reader.family().members[k], hz[k], channels.size() > 1 ? channel : -1});
+        return teeth;
+    }
+
     /// Adds one frame to all members, whose power in it is `y`.
-    void addFrame(std::vector<FamilyTooth> &teeth, std::vector<float> y, FamilySettings::Present present,
+    void addFrame(std::vector<FamilyTooth> &teeth, std::vector<float> y, const MemberReader &reader,
                   const Likelihood &likelihood)
     {
         const auto evidence = [&] {
-            const float together = familyPower(present, y);
+            const float together = familyPower(reader.family().present, y, reader.channelCount());
             return std::isnan(together) ? 0.0 : likelihood.at(double(together));
         };
         const double all = evidence();
@@ -77,21 +95,18 @@ namespace {
 std::vector<FamilyTooth> familyTeeth(const Analysis &analysis, std::span<const PathCell> path, std::size_t model,
                                      const RunContext &context)
 {
-    const FamilySettings &family = analysis.settings.family;
-    if (family.isNone() || path.empty())
+    const bool isSum = !analysis.settings.family.isNone() || analysis.lines.size() > 1;
+    if (!isSum || path.empty())
         return {};
     for (const PathCell &at : path)
         checkInside(analysis, at);
-    const std::vector<double> hz =
-        memberFrequencies(family, analysis.grid().axes.back().value(double(path.back().cell)));
-    std::vector<FamilyTooth> teeth;
-    for (std::size_t k = 0; k < hz.size(); ++k)
-        teeth.push_back({family.members[k], hz[k]});
     MemberReader reader(analysis);
+    std::vector<FamilyTooth> teeth =
+        emptyTeeth(reader, path.back().cell, channelsOf(analysis.settings.selection, analysis.recording->info()));
     for (std::size_t i = 0; i < path.size(); ++i) {
         if (i % 64 == 0)
             context.checkpoint(double(i) / double(path.size()), "evaluating the members");
-        addFrame(teeth, reader.at(path[i]), family.present, analysis.modelAt(model).likelihood);
+        addFrame(teeth, reader.at(path[i]), reader, analysis.modelAt(model).likelihood);
     }
     for (FamilyTooth &tooth : teeth)
         if (tooth.frames > 0)

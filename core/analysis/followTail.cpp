@@ -1,5 +1,6 @@
 #include "analysis/followTail.h"
 
+#include "analysis/keptCalibration.h"
 #include "base/Random.h"
 #include "spectrum/NoiseNormaliser.h"
 
@@ -60,15 +61,16 @@ namespace {
     std::unique_ptr<NoiseStream> noiseOf(const AnalysisSettings &settings, int windowSamples)
     {
         const FamilySettings &family = settings.family;
-        if (family.isNone())
+        const int channels = channelCount(settings.selection);
+        if (family.isNone() && channels == 1)
             return spectralNoise(settings.spectrogram, windowSamples);
-        const int room = int(std::ceil(ringBands(family)));
+        const int room = int(std::ceil(ringBands(family, channels)));
         auto lines = spectralNoise(settings.spectrogram, room * windowSamples);
         const Index bins = lines->cells();
         return std::make_unique<FamilyNoise>(
             std::move(lines),
             FamilyMap::onRing(family, bins,
-                              settings.spectrogram.windowSeconds * double(settings.spectrogram.binsPerCell)));
+                              settings.spectrogram.windowSeconds * double(settings.spectrogram.binsPerCell), channels));
     }
 
 } // namespace

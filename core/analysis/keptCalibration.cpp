@@ -5,9 +5,11 @@
 #include "analysis/knownCalibration.h"
 #include "base/Field.h"
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <mutex>
+#include <numeric>
 #include <optional>
 #include <string_view>
 #include <thread>
@@ -24,9 +26,32 @@ DecideSettings withoutThreshold(DecideSettings decide)
     return decide;
 }
 
+int channelCount(const SelectionSettings &selection)
+{
+    if (!selection.channels.empty() && selection.channels.front() < 0.0)
+        throw fieldError("selection.channels", "all", "requires a recording; give the channels, such as 0, 1");
+    return std::max(1, int(selection.channels.size()));
+}
+
+namespace {
+
+    SelectionSettings onlyCounted(const SelectionSettings &selection)
+    {
+        SelectionSettings counted;
+        if (const std::vector<double> &channels = selection.channels; channels.size() > 1) {
+            counted.channels.resize(channels.size());
+            std::iota(counted.channels.begin(), counted.channels.end(), 0.0);
+        } else if (channels == std::vector{-1.0}) {
+            counted.channels = channels;
+        }
+        return counted;
+    }
+
+} // namespace
+
 AnalysisSettings dimensionless(AnalysisSettings settings)
 {
-    settings.selection = {};
+    settings.selection = onlyCounted(settings.selection);
     settings.decide = withoutThreshold(settings.decide);
     settings.conventional = {};
     settings.track.bothWays = TrackSettings{}.bothWays; // works on what was found

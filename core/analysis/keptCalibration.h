@@ -16,8 +16,11 @@ inline constexpr int calibrationWindowSamples = 256; ///< of the simulated recor
 /// How the chain decides, independent of the threshold.
 DecideSettings withoutThreshold(DecideSettings decide);
 
-/// The settings that the answer to noise depends on.
+/// The settings that the answer to noise depends on; of channels, how many there are.
 AnalysisSettings dimensionless(AnalysisSettings settings);
+
+/// How many are added. Throws Error where that depends on the recording.
+int channelCount(const SelectionSettings &selection);
 
 std::string calibrationKey(const AnalysisSettings &bare, CalibrationDepth depth);
 

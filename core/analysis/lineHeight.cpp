@@ -10,6 +10,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <span>
 
 namespace faintline {
 
@@ -18,6 +19,7 @@ namespace {
     constexpr double oversampling = 4.0; ///< of the band, so that the average's own response is flat over it
     constexpr Index fewest = 16;
     constexpr Index most = Index(1) << 22;
+    constexpr Index runSamples = Index(1) << 18; ///< read at a time
 
     std::complex<double> turned(double cycles)
     {
@@ -43,11 +45,7 @@ namespace {
         constexpr Index exactEvery = 64; // samples; between them the mixer is turned by one step after the other
         const auto floats = std::size_t(recording.info().floatsPerSample());
         const std::complex<double> step = turned(-cyclesPerSample);
-        std::vector<std::complex<double>> result;
-        std::vector<float> samples(std::size_t(averaged) * floats);
-        for (Index at = 0; at + averaged <= range.count; at += averaged) {
-            context.checkpoint(double(at) / double(range.count), "measuring the line");
-            recording.read(range.channel, range.first + at, averaged, samples);
+        const auto mixed = [&](std::span<const float> samples, Index at) {
             std::complex<double> sum = 0.0;
             std::complex<double> mixer;
             for (Index n = 0; n < averaged; ++n, mixer *= step) {
@@ -56,7 +54,20 @@ namespace {
                 const auto i = std::size_t(n) * floats;
                 sum += mixer * std::complex<double>(double(samples[i]), floats > 1 ? double(samples[i + 1]) : 0.0);
             }
-            result.push_back(sum / double(averaged));
+            return sum / double(averaged);
+        };
+        // Read in long runs: of a straightened recording every read begins with blocks of its own.
+        const Index run = averaged * std::max<Index>(1, runSamples / averaged);
+        const Index end = range.count / averaged * averaged;
+        std::vector<std::complex<double>> result;
+        std::vector<float> samples;
+        for (Index begin = 0; begin < end; begin += run) {
+            context.checkpoint(double(begin) / double(range.count), "measuring the line");
+            const Index count = std::min(run, end - begin);
+            samples.resize(std::size_t(count) * floats);
+            recording.read(range.channel, range.first + begin, count, samples);
+            for (Index at = begin; at < begin + count; at += averaged)
+                result.push_back(mixed(std::span(samples).subspan(std::size_t(at - begin) * floats), at));
         }
         return result;
     }

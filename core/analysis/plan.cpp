@@ -7,20 +7,55 @@
 
 namespace faintline {
 
+namespace {
+
+    struct NormalisedChannel {
+        NormalisedFramesPointer frames;
+        std::shared_ptr<const NoiseBackground> background;
+    };
+
+    NormalisedChannel normalisedChannel(const std::shared_ptr<const Spectrogram> &spectrogram,
+                                        const NormaliserSettings &settings, const RunContext &context)
+    {
+        NormalisedChannel channel;
+        if (settings.causal) {
+            const auto frames = std::make_shared<CausalSpectrogram>(spectrogram, settings);
+            channel = {frames, frames->firstBackground()};
+        } else {
+            channel.background = estimateBackground(*spectrogram, settings, context);
+            channel.frames = std::make_shared<NormalisedSpectrogram>(spectrogram, channel.background, settings);
+        }
+        if (spectrogram->recording().info().sampleCount < endlessSamples) // whose samples can be looked at
+            checkUsable(*spectrogram, *channel.background, context.part(1.0, 1.0));
+        return channel;
+    }
+
+    /// The same of another channel.
+    std::shared_ptr<const Spectrogram> ofChannel(const std::shared_ptr<const Spectrogram> &spectrogram, int channel)
+    {
+        SelectionSettings selection = spectrogram->selection();
+        if (channel == selection.channel)
+            return spectrogram;
+        selection.channel = channel;
+        return std::make_shared<Spectrogram>(spectrogram->recordingPointer(), spectrogram->settings(), selection);
+    }
+
+} // namespace
+
 void normalisePlan(AnalysisPlan &plan, std::shared_ptr<const Spectrogram> spectrogram, const RunContext &context)
 {
-    const NormaliserSettings &settings = plan.settings.noise;
-    if (settings.causal) {
-        const auto frames = std::make_shared<CausalSpectrogram>(spectrogram, settings);
-        plan.background = frames->firstBackground();
-        plan.frames = frames;
-    } else {
-        plan.background = estimateBackground(*spectrogram, settings, context);
-        plan.frames = std::make_shared<NormalisedSpectrogram>(spectrogram, plan.background, settings);
+    const std::vector<int> channels = channelsOf(plan.settings.selection, spectrogram->recording().info());
+    const auto count = double(channels.size());
+    plan.lines.clear();
+    for (const int channel : channels) {
+        const auto done = double(plan.lines.size());
+        const NormalisedChannel one = normalisedChannel(ofChannel(spectrogram, channel), plan.settings.noise,
+                                                        context.part(done / count, (done + 1.0) / count));
+        if (plan.lines.empty())
+            plan.background = one.background;
+        plan.lines.push_back(one.frames);
     }
-    plan.frames = familyFrames(plan.frames, plan.settings.family);
-    if (spectrogram->recording().info().sampleCount < endlessSamples) // whose samples can be looked at
-        checkUsable(*spectrogram, *plan.background, context.part(1.0, 1.0));
+    plan.frames = familyFrames(plan.lines, plan.settings.family);
 }
 
 void calibratePlan(AnalysisPlan &plan, const RunContext &context, CalibrationDepth depth)
@@ -33,10 +68,7 @@ void calibratePlan(AnalysisPlan &plan, const RunContext &context, CalibrationDep
 
 NormalisedFramesPointer framesOfLines(const AnalysisPlan &plan)
 {
-    if (plan.settings.family.isNone())
-        return plan.frames;
-    const std::shared_ptr<const Spectrogram> spectrogram(plan.frames, plan.frames->spectrogram());
-    return std::make_shared<NormalisedSpectrogram>(spectrogram, plan.background, plan.settings.noise);
+    return plan.settings.family.isNone() ? plan.frames : familyFrames(plan.lines, {});
 }
 
 } // namespace faintline

@@ -13,8 +13,8 @@ void normalisePlan(AnalysisPlan &plan, std::shared_ptr<const Spectrogram> spectr
 void calibratePlan(AnalysisPlan &plan, const RunContext &context = {},
                    CalibrationDepth depth = CalibrationDepth::Refined);
 
-/// The frames of single lines that a family is looked for in; the plan's own where there is no family. Precondition: of
-/// a family, frames of a spectrogram.
+/// The frames of single lines that a family is looked for in, of all channels together; the plan's own where there is
+/// no family. Precondition: of a family, frames of a spectrogram.
 NormalisedFramesPointer framesOfLines(const AnalysisPlan &plan);
 
 } // namespace faintline

@@ -23,6 +23,7 @@ SurrogateCount countOnSurrogates(RecordingPointer recording, const AnalysisSetti
     if (runs < 1)
         throw Error("surrogates", "must be at least 1");
     checkSettings(settings);
+    checkHasOneChannel(settings, "is not possible with surrogates, which have one channel");
     const Spectrogram spectrogram(recording, settings.spectrogram, settings.selection);
     const auto background = estimateBackground(spectrogram, settings.noise, context.part(0.0, 0.05));
     const auto calibration = calibrateBand(settings, spectrogram, context.part(0.05, 0.2));

@@ -110,9 +110,26 @@ std::string formatFieldValue(const FieldValue &value)
     return std::visit(Formatter{}, value);
 }
 
+namespace {
+
+    bool isAll(const FieldInfo &info, const FieldValue &value)
+    {
+        return !info.wordForAll.empty() && value == FieldValue(std::vector{-1.0});
+    }
+
+} // namespace
+
+std::string formatFieldValue(const FieldInfo &info, const FieldValue &value)
+{
+    return isAll(info, value) ? info.wordForAll : formatFieldValue(value);
+}
+
 void checkFieldValue(const FieldInfo &info, const FieldValue &value)
 {
+    if (isAll(info, value))
+        return;
     const std::string text = formatFieldValue(value);
+    const std::string orAll = info.wordForAll.empty() ? "" : ", or \"" + info.wordForAll + "\"";
     const auto inRange = [&](double number) { return number >= info.minimum && number <= info.maximum; };
     switch (info.kind) {
     case FieldKind::Flag:
@@ -129,10 +146,10 @@ void checkFieldValue(const FieldInfo &info, const FieldValue &value)
         break;
     case FieldKind::Numbers:
         if (!std::holds_alternative<std::vector<double>>(value))
-            refuse(info, text, "must be a list of numbers");
+            refuse(info, text, "must be a list of numbers" + orAll);
         for (double number : std::get<std::vector<double>>(value))
             if (!inRange(number))
-                refuse(info, text, "each number " + rangeText(info));
+                refuse(info, text, "each number " + rangeText(info) + orAll);
         break;
     case FieldKind::Choice: {
         bool known = false;
@@ -169,7 +186,9 @@ FieldValue parseFieldValue(const FieldInfo &info, std::string_view text)
             value = *number;
         break;
     case FieldKind::Numbers:
-        if (auto numbers = parseNumbers(text))
+        if (!info.wordForAll.empty() && text == info.wordForAll)
+            value = std::vector{-1.0};
+        else if (auto numbers = parseNumbers(text))
             value = std::move(*numbers);
         break;
     case FieldKind::Choice:

@@ -25,6 +25,7 @@ struct FieldInfo {
     double maximum = 0.0;
     std::string sentence;
     std::vector<std::string> choices; ///< names of an enumeration's values
+    std::string wordForAll;           ///< of Numbers: what stands for -1 alone, such as "all"; "" where nothing does
     FieldKind kind = FieldKind::Number;
 };
 
@@ -47,6 +48,9 @@ Error fieldError(const std::string &name, const std::string &value, std::string 
 
 /// Shortest text that reads back as the same value, in the C locale.
 std::string formatFieldValue(const FieldValue &value);
+
+/// The same with the field's own word, if it has one for that value.
+std::string formatFieldValue(const FieldInfo &info, const FieldValue &value);
 
 /// Shortest decimal form of a number that reads back the same.
 std::string formatNumber(double value);

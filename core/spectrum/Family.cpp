@@ -1,5 +1,6 @@
 #include "spectrum/Family.h"
 
+#include "spectrum/NormalisedPower.h"
 #include "spectrum/Spectrogram.h"
 #include "spectrum/familyLaw.h"
 
@@ -23,15 +24,6 @@ namespace {
         for (std::size_t i = 1; i < members.size(); ++i)
             least = std::min(least, members[i] - members[i - 1]);
         return least;
-    }
-
-    FamilyMap mapOf(const FamilySettings &settings, const NormalisedFrames &lines, FamilyFrames::Band band)
-    {
-        const Spectrogram *spectrogram = lines.spectrogram();
-        const Axis &frequency = lines.grid().axes.back();
-        if (band == FamilyFrames::Band::Closed)
-            return FamilyMap::onRing(settings, frequency.count, 1.0 / frequency.step);
-        return {settings, frequency, spectrogram && spectrogram->hasRealEnds()};
     }
 
 } // namespace
@@ -110,13 +102,17 @@ Axis familyAxis(const FamilySettings &settings, const Axis &band)
     return axis;
 }
 
-double ringBands(const FamilySettings &settings)
+FamilySettings familyOrLine(const FamilySettings &settings)
 {
-    if (settings.isNone())
-        return 1.0;
-    if (settings.relation == FamilySettings::Relation::Offsets)
-        return double(settings.members.size());
-    return std::accumulate(settings.members.begin(), settings.members.end(), 0.0) / familyCellsPerBin(settings);
+    return settings.isNone() ? FamilySettings{FamilySettings::Relation::Offsets, {0.0}} : settings;
+}
+
+double ringBands(const FamilySettings &settings, int channels)
+{
+    if (settings.relation != FamilySettings::Relation::Harmonics)
+        return double(familyOrLine(settings).members.size()) * channels;
+    return std::accumulate(settings.members.begin(), settings.members.end(), 0.0) / familyCellsPerBin(settings)
+           * channels;
 }
 
 std::vector<double> memberFrequencies(const FamilySettings &settings, double hz)
@@ -127,45 +123,53 @@ std::vector<double> memberFrequencies(const FamilySettings &settings, double hz)
     return result;
 }
 
-FamilyMap::FamilyMap(const FamilySettings &settings, const Axis &frequency, bool innerOnly)
-    : m_settings(settings), m_frequency(familyAxis(settings, frequency)), m_bins(frequency.count)
+FamilyMap::FamilyMap(const FamilySettings &settings, const Axis &frequency, bool innerOnly, int channels)
+    : m_settings(familyOrLine(settings)), m_frequency(familyAxis(m_settings, frequency)), m_channels(channels)
 {
     const Index first = innerOnly ? 1 : 0;
-    const Index last = m_bins - 1 - first;
+    const Index last = frequency.count - 1 - first;
+    const std::size_t members = m_settings.members.size();
     const auto cells = std::size_t(m_frequency.count);
-    m_places.resize(cells * settings.members.size());
+    m_places.resize(cells * members * std::size_t(channels));
     for (std::size_t cell = 0; cell < cells; ++cell) {
-        const std::vector<double> members = memberFrequencies(settings, m_frequency.value(double(cell)));
-        for (std::size_t k = 0; k < members.size(); ++k) {
-            const Index bin = std::lround(frequency.position(members[k]));
-            m_places[k * cells + cell] = bin >= first && bin <= last ? std::int32_t(bin) : -1;
+        const std::vector<double> hz = memberFrequencies(m_settings, m_frequency.value(double(cell)));
+        for (std::size_t k = 0; k < members; ++k) {
+            const Index bin = std::lround(frequency.position(hz[k]));
+            const bool isInside = bin >= first && bin <= last;
+            for (int c = 0; c < channels; ++c)
+                m_places[(k * std::size_t(channels) + std::size_t(c)) * cells + cell] =
+                    isInside ? std::int32_t(c * frequency.count + bin) : -1;
         }
     }
     if (std::all_of(m_places.begin(), m_places.end(), [](std::int32_t place) { return place < 0; }))
-        throw fieldError("family.members", formatFieldValue(settings.members),
+        throw fieldError("family.members", formatFieldValue(m_settings.members),
                          "must have at least one member in the band");
 }
 
-FamilyMap FamilyMap::onRing(const FamilySettings &settings, Index bins, double binsPerHz)
+FamilyMap FamilyMap::onRing(const FamilySettings &settings, Index bins, double binsPerHz, int channels)
 {
-    checkFamily(settings);
-    const std::vector<double> &members = settings.members;
+    FamilyMap map;
+    map.m_settings = familyOrLine(settings);
+    map.m_channels = channels;
+    checkFamily(map.m_settings);
+    const std::vector<double> &members = map.m_settings.members;
     const bool isHarmonic = settings.relation == FamilySettings::Relation::Harmonics;
     const auto [least, most] = std::minmax_element(members.begin(), members.end());
-    const bool fits = !isHarmonic && 2.0 * (*most - *least) * binsPerHz < double(bins);
-    // Otherwise each member has a stretch to itself, or noise would be added to itself where two of them meet.
-    const auto cells = fits ? bins : Index(double(bins) / ringBands(settings));
-    FamilyMap map;
-    map.m_settings = settings;
-    map.m_bins = bins;
+    const Index own = bins / channels;
+    const bool fits = !isHarmonic && 2.0 * (*most - *least) * binsPerHz < double(own);
+    // Otherwise each member has a stretch to itself, or noise would be added to itself where two of them meet. Channels
+    // lie in a row: a member beyond the end of one goes on in the next, so that all of them together close.
+    const auto cells = fits ? own : Index(double(own) / ringBands(map.m_settings));
     map.m_frequency = {"frequency", "Hz", 0.0, 1.0, cells, true};
     const Axis ring{"frequency", "Hz", 0.0, 1.0, bins, true};
     double stretch = 0.0;
     for (const double member : members) {
         const double step = isHarmonic ? member / familyCellsPerBin(settings) : 1.0;
         const double base = fits ? member * binsPerHz : stretch;
-        for (Index cell = 0; cell < cells; ++cell)
-            map.m_places.push_back(std::int32_t(ring.wrapped(std::lround(std::floor(base + step * double(cell))))));
+        for (int c = 0; c < channels; ++c)
+            for (Index cell = 0; cell < cells; ++cell)
+                map.m_places.push_back(
+                    std::int32_t(ring.wrapped(c * own + std::lround(std::floor(base + step * double(cell))))));
         stretch += step * double(cells);
     }
     return map;
@@ -173,62 +177,138 @@ FamilyMap FamilyMap::onRing(const FamilySettings &settings, Index bins, double b
 
 namespace {
 
-    /// Takes the members of every cell together with `combine`, then brings what K of them gave to the law of one cell.
-    template <class Combine, class Law>
-    void gather(std::span<const float> y, std::span<const std::int32_t> places, std::span<float> out, Combine combine,
-                Law law)
+    /// powerOfSum, whose law is looked up once for neighbours of as many members.
+    class PowerOfSum
     {
-        const std::size_t cells = out.size();
-        std::vector<std::uint8_t> counts(cells, 0);
-        std::fill(out.begin(), out.end(), 0.0f);
-        for (; !places.empty(); places = places.subspan(cells))
-            for (std::size_t cell = 0; cell < cells; ++cell) {
-                if (places[cell] < 0)
-                    continue;
-                const float value = y[std::size_t(places[cell])];
-                if (std::isnan(value))
-                    continue;
-                out[cell] = combine(out[cell], value);
-                ++counts[cell];
-            }
-        for (std::size_t cell = 0; cell < cells; ++cell)
-            if (counts[cell] == 0)
-                out[cell] = std::numeric_limits<float>::quiet_NaN();
-            else if (counts[cell] > 1)
-                out[cell] = law(out[cell], std::size_t(counts[cell]));
-    }
+    public:
+        float operator()(float sum, std::size_t members)
+        {
+            if (members != m_members)
+                m_law = &lawOfSum(m_members = members);
+            return (*m_law)(sum / float(members));
+        }
+
+    private:
+        std::size_t m_members = 0;
+        const LooksLaw *m_law = nullptr;
+    };
+
+    /// Values of every cell that are being put together, and how many of them were observed.
+    struct Gathered {
+        std::span<float> values;
+        std::vector<std::uint16_t> counts;
+
+        explicit Gathered(std::span<float> out) : values(out), counts(out.size(), 0)
+        {
+            std::fill(out.begin(), out.end(), 0.0f);
+        }
+
+        template <class Combine>
+        void add(std::size_t cell, float value, Combine combine)
+        {
+            if (std::isnan(value))
+                return;
+            values[cell] = combine(values[cell], value);
+            ++counts[cell];
+        }
+
+        template <class Combine>
+        void add(std::span<const float> y, std::span<const std::int32_t> places, Combine combine)
+        {
+            for (; !places.empty(); places = places.subspan(values.size()))
+                for (std::size_t cell = 0; cell < values.size(); ++cell)
+                    if (places[cell] >= 0)
+                        add(cell, y[std::size_t(places[cell])], combine);
+        }
+
+        /// Brings what so many of them gave to the law of one cell.
+        template <class Law>
+        void finish(Law law)
+        {
+            for (std::size_t cell = 0; cell < values.size(); ++cell)
+                if (counts[cell] == 0)
+                    values[cell] = std::numeric_limits<float>::quiet_NaN();
+                else if (counts[cell] > 1)
+                    values[cell] = law(values[cell], std::size_t(counts[cell]));
+        }
+    };
 
 } // namespace
 
 void FamilyMap::apply(std::span<const float> y, std::span<float> out) const
 {
-    const auto larger = [](float a, float b) { return std::max(a, b); };
-    if (m_settings.present == FamilySettings::Present::Together)
-        gather(y, m_places, out, std::plus<float>(), powerOfSum);
-    else
-        gather(y, m_places, out, larger, powerOfLargest);
+    if (m_settings.present == FamilySettings::Present::InTurn)
+        return applyInTurn(y, out);
+    Gathered all(out);
+    all.add(y, m_places, std::plus<float>());
+    all.finish(PowerOfSum());
 }
 
-FamilyFrames::FamilyFrames(NormalisedFramesPointer lines, const FamilySettings &settings, Band band)
-    : NormalisedFrames(lines->time(), lines->grid()), m_lines(std::move(lines)), m_map(mapOf(settings, *m_lines, band))
+/// Of every member what all channels have of it together, and of these the largest.
+void FamilyMap::applyInTurn(std::span<const float> y, std::span<float> out) const
+{
+    const auto larger = [](float a, float b) { return std::max(a, b); };
+    const std::size_t ofMember = std::size_t(m_channels) * out.size();
+    Gathered all(out);
+    std::vector<float> member(out.size());
+    for (std::span<const std::int32_t> places = m_places; !places.empty(); places = places.subspan(ofMember)) {
+        if (m_channels == 1) {
+            all.add(y, places.first(ofMember), larger);
+            continue;
+        }
+        Gathered channels(member);
+        channels.add(y, places.first(ofMember), std::plus<float>());
+        channels.finish(PowerOfSum());
+        for (std::size_t cell = 0; cell < out.size(); ++cell)
+            all.add(cell, member[cell], larger);
+    }
+    all.finish(powerOfLargest);
+}
+
+FamilyFrames::FamilyFrames(std::vector<NormalisedFramesPointer> lines, FamilyMap map)
+    : NormalisedFrames(lines.front()->time(), lines.front()->grid()), m_lines(std::move(lines)), m_map(std::move(map))
 {
     m_grid.axes = {m_map.frequency()};
 }
 
 void FamilyFrames::read(Index first, Index count, std::span<float> out) const
 {
-    const auto bins = std::size_t(m_lines->grid().size());
+    const auto bins = std::size_t(m_lines.front()->grid().size());
     const auto cells = std::size_t(m_grid.size());
-    std::vector<float> lines(std::size_t(count) * bins);
-    m_lines->read(first, count, lines);
-    for (std::size_t row = 0; row < std::size_t(count); ++row)
-        m_map.apply(std::span(lines).subspan(row * bins, bins), out.subspan(row * cells, cells));
+    const auto rows = std::size_t(count);
+    std::vector<float> lines(m_lines.size() * rows * bins); // channel by channel
+    for (std::size_t c = 0; c < m_lines.size(); ++c)
+        m_lines[c]->read(first, count, std::span(lines).subspan(c * rows * bins, rows * bins));
+    std::vector<float> frame(m_lines.size() * bins);
+    for (std::size_t row = 0; row < rows; ++row) {
+        for (std::size_t c = 0; c < m_lines.size(); ++c)
+            std::copy_n(lines.begin() + std::ptrdiff_t((c * rows + row) * bins), bins,
+                        frame.begin() + std::ptrdiff_t(c * bins));
+        m_map.apply(frame, out.subspan(row * cells, cells));
+    }
 }
 
-NormalisedFramesPointer familyFrames(NormalisedFramesPointer lines, const FamilySettings &settings,
-                                     FamilyFrames::Band band)
+NormalisedFramesPointer familyFrames(const std::vector<NormalisedFramesPointer> &channels,
+                                     const FamilySettings &settings)
 {
-    return settings.isNone() ? lines : std::make_shared<FamilyFrames>(std::move(lines), settings, band);
+    const NormalisedFramesPointer &first = channels.front();
+    if (settings.isNone() && channels.size() == 1)
+        return first;
+    const Spectrogram *spectrogram = first->spectrogram();
+    // Where no members are looked for elsewhere, the ends of the band are the detector's to exclude.
+    const bool innerOnly = !settings.isNone() && spectrogram && spectrogram->hasRealEnds();
+    return std::make_shared<FamilyFrames>(
+        channels, FamilyMap(settings, first->grid().axes.back(), innerOnly, int(channels.size())));
+}
+
+NormalisedFramesPointer familyFramesOnRing(const NormalisedFramesPointer &ring, const FamilySettings &settings,
+                                           int channels)
+{
+    if (settings.isNone() && channels == 1)
+        return ring;
+    const Axis &frequency = ring->grid().axes.back();
+    return std::make_shared<FamilyFrames>(std::vector{ring},
+                                          FamilyMap::onRing(settings, frequency.count, 1.0 / frequency.step, channels));
 }
 
 } // namespace faintline

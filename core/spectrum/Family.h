@@ -51,21 +51,25 @@ FamilySettings scaledFamily(FamilySettings settings, double factor);
 /// How many cells of the family's axis a bin of the frames is: the largest multiple of harmonics, 1 of others.
 double familyCellsPerBin(const FamilySettings &settings);
 
-/// How many bands of a width, one beside the other, the members go through while the family goes through one; 1 of
-/// none.
-double ringBands(const FamilySettings &settings);
+/// The same; where there is none, the line itself: one member at distance 0.
+FamilySettings familyOrLine(const FamilySettings &settings);
+
+/// How many bands of a width, one beside the other, the members go through while the family goes through one, in all
+/// channels; of none, one a channel.
+double ringBands(const FamilySettings &settings, int channels = 1);
 
 /// Where the members lie of a family at `hz`: multiples of it, or at their distances from it.
 std::vector<double> memberFrequencies(const FamilySettings &settings, double hz);
 
-/// From one frame of normalised power to the family's, again exponential of mean 1 on noise:
+/// From one frame of normalised power, of one or several channels, to the family's, again exponential of mean 1 on noise:
 ///
-///   together  y(f) = -ln Q(K, Σ_k y(f_k))            Q: regularised upper incomplete gamma function
-///   inTurn    y(f) = -ln(1 - (1 - e^(-max_k y(f_k)))^K)
+///   together  y(f) = -ln Q(K, Σ_ck y_c(f_k))         Q: regularised upper incomplete gamma function
+///   inTurn    y(f) = -ln(1 - (1 - e^(-max_k y(f_k)))^K),   y(f_k) = -ln Q(C, Σ_c y_c(f_k))
 ///
-/// f_k = m_k·f (harmonics), read off to the nearest bin, or f + m_k (offsets); K counts the members inside the band
-/// that were observed, and without any y is NaN. The sum is sufficient for equal weak members, the maximum close to it
-/// for one member at a time. Every detector works on this y as on any other, and is calibrated on it.
+/// f_k = m_k·f (harmonics), read off to the nearest bin, or f + m_k (offsets), or f alone; c: channel. K and C count
+/// what lies inside the band and was observed, and without any y is NaN. The sum is sufficient for equal weak members,
+/// the maximum close to it for one member at a time. Noise is taken to be independent from channel to channel. Every
+/// detector works on this y as on any other, and is calibrated on it.
 ///
 /// Oracle: direct sums; Boost.Math. Thread-safe.
 class FamilyMap
@@ -73,46 +77,52 @@ class FamilyMap
 public:
     /// On a bounded band. `innerOnly`: the first and last bins are nobody's (0 Hz and half the rate of real samples).
     /// Throws Error where the family does not fit into the band.
-    FamilyMap(const FamilySettings &settings, const Axis &frequency, bool innerOnly);
+    FamilyMap(const FamilySettings &settings, const Axis &frequency, bool innerOnly, int channels = 1);
 
     /// On a band of `bins` that closes on itself, all cells alike: for calibrations. `binsPerHz` converts distances.
-    /// Offsets that the band has room for are kept; other members have a stretch of it each, and the family has
-    /// bins/ringBands cells.
-    static FamilyMap onRing(const FamilySettings &settings, Index bins, double binsPerHz);
+    /// Every channel has a part of the band. Offsets that there is room for are kept; other members have a stretch of
+    /// it each, and the family has bins/ringBands cells.
+    static FamilyMap onRing(const FamilySettings &settings, Index bins, double binsPerHz, int channels = 1);
 
     const Axis &frequency() const { return m_frequency; } ///< as familyAxis has it
 
-    /// One frame: y of all bins of the band → y of frequency().count cells.
+    /// One frame: y of all bins of the band, channel after channel, or of the ring → y of frequency().count cells.
     void apply(std::span<const float> y, std::span<float> out) const;
 
 private:
     FamilyMap() = default;
+    void applyInTurn(std::span<const float> y, std::span<float> out) const;
+
     FamilySettings m_settings;
     Axis m_frequency;
-    Index m_bins = 0;
-    std::vector<std::int32_t> m_places; ///< member by member, the bin of each cell; -1: outside the band
+    int m_channels = 1;
+    /// Member by member, and of each channel by channel, where in y each cell lies; -1: outside the band.
+    std::vector<std::int32_t> m_places;
 };
 
 /// The frames of a family, over those of single lines.
 class FamilyFrames final : public NormalisedFrames
 {
 public:
-    /// Whether the band has two ends, or closes on itself as white complex noise does (calibrations).
-    enum class Band { Open, Closed };
-
-    FamilyFrames(NormalisedFramesPointer lines, const FamilySettings &settings, Band band = Band::Open);
+    /// `lines`: of each channel, or of a ring that holds them all.
+    FamilyFrames(std::vector<NormalisedFramesPointer> lines, FamilyMap map);
 
     void read(Index first, Index count, std::span<float> out) const override;
 
-    const Spectrogram *spectrogram() const override { return m_lines->spectrogram(); }
+    const Spectrogram *spectrogram() const override { return m_lines.front()->spectrogram(); }
 
 private:
-    NormalisedFramesPointer m_lines;
+    std::vector<NormalisedFramesPointer> m_lines;
     FamilyMap m_map;
 };
 
-/// The frames of a family over `lines`; the lines themselves where there is none.
-NormalisedFramesPointer familyFrames(NormalisedFramesPointer lines, const FamilySettings &settings,
-                                     FamilyFrames::Band band = FamilyFrames::Band::Open);
+/// The frames of a family over the lines of one or several channels; of none, the lines of all channels together, and
+/// those of a single one as they are.
+NormalisedFramesPointer familyFrames(const std::vector<NormalisedFramesPointer> &channels,
+                                     const FamilySettings &settings);
+
+/// The same over noise whose band closes on itself, as that of white complex noise does, and holds all channels.
+NormalisedFramesPointer familyFramesOnRing(const NormalisedFramesPointer &ring, const FamilySettings &settings,
+                                           int channels);
 
 } // namespace faintline

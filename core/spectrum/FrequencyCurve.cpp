@@ -40,4 +40,16 @@ double FrequencyCurve::cyclesAt(double seconds) const
     return m_cycles[knot] + 0.5 * (m_hz[knot] + at(seconds)) * after;
 }
 
+double FrequencyCurve::secondsAt(double cycles) const
+{
+    const auto above = std::upper_bound(m_cycles.begin(), m_cycles.end(), cycles) - m_cycles.begin();
+    const auto knot = std::size_t(std::max<std::ptrdiff_t>(0, above - 1));
+    const double after = cycles - m_cycles[knot];
+    const bool isBetween = above > 0 && knot + 1 < m_hz.size();
+    const double slope = isBetween ? (m_hz[knot + 1] - m_hz[knot]) / m_time.step : 0.0;
+    // The root of ½·slope·τ² + f·τ = after, in the form that does not cancel.
+    const double root = std::sqrt(std::max(0.0, m_hz[knot] * m_hz[knot] + 2.0 * slope * after));
+    return m_time.value(double(knot)) + 2.0 * after / (m_hz[knot] + root);
+}
+
 } // namespace faintline

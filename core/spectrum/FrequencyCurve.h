@@ -20,6 +20,8 @@ public:
     double at(double seconds) const;
     /// ∫ f dt from the first knot on: whole turns and their fraction, negative before it. Exact for this curve.
     double cyclesAt(double seconds) const;
+    /// When so many turns have passed: the inverse of cyclesAt. Precondition: all frequencies lie above 0.
+    double secondsAt(double cycles) const;
 
 private:
     Axis m_time;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace faintline {
 
@@ -47,6 +48,30 @@ namespace {
         return formatNumber(value) + " s";
     }
 
+    /// A channel that is chosen is alone …
+    Field<SelectionSettings> alone(Field<SelectionSettings> field)
+    {
+        field.set = [inner = field.set](SelectionSettings &selection, const FieldValue &value) {
+            inner(selection, value);
+            selection.channels.clear();
+        };
+        return field;
+    }
+
+    /// … and of several the first is the channel of all that takes one.
+    Field<SelectionSettings> together(Field<SelectionSettings> field)
+    {
+        field.wordForAll = "all";
+        field.set = [inner = field.set](SelectionSettings &selection, const FieldValue &value) {
+            inner(selection, value);
+            if (!selection.channels.empty())
+                selection.channel = std::max(0, int(selection.channels.front()));
+        };
+        return field;
+    }
+
+    constexpr std::size_t mostChannels = 64; ///< summed
+
     int hopOf(int windowSamples, const SpectrogramSettings &settings)
     {
         return std::max(1, int(std::lround(double(windowSamples) / settings.stepsPerWindow)));
@@ -74,7 +99,10 @@ const std::vector<Field<SelectionSettings>> &SelectionSettings::fields()
 {
     using S = SelectionSettings;
     static const std::vector<Field<S>> table{
-        field(&S::channel, "channel", "", 0.0, 1023.0, "Channel, counted from 0."),
+        alone(field(&S::channel, "channel", "", 0.0, 1023.0, "Channel, counted from 0.")),
+        together(field(&S::channels, "channels", "", 0.0, 1023.0,
+                       "Channels whose evidence is added, counted from 0, or \"all\": one signal in all of them, over "
+                       "noise that is independent from channel to channel. Empty: selection.channel alone.")),
         field(&S::fromSeconds, "fromSeconds", "s", 0.0, 1e12, "Start of the part analysed, from the first sample."),
         field(&S::toSeconds, "toSeconds", "s", 0.0, 1e12, "End of the part analysed; 0 is the end of the recording."),
         field(&S::lowHz, "lowHz", "Hz", -1e12, 1e12,
@@ -83,6 +111,44 @@ const std::vector<Field<SelectionSettings>> &SelectionSettings::fields()
         field(&S::highHz, "highHz", "Hz", -1e12, 1e12, "Upper edge of the band."),
     };
     return table;
+}
+
+void checkChannels(const SelectionSettings &selection)
+{
+    const std::vector<double> &channels = selection.channels;
+    const auto refuse = [&](const char *why) {
+        throw fieldError("selection.channels", formatFieldValue(channels), why);
+    };
+    if (channels.size() > mostChannels)
+        refuse("at most 64 channels can be added");
+    std::vector<double> sorted = channels;
+    std::sort(sorted.begin(), sorted.end());
+    if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+        refuse("must not name a channel twice");
+    if (std::any_of(channels.begin(), channels.end(), [](double channel) { return channel != std::floor(channel); }))
+        refuse("must be whole numbers");
+}
+
+std::vector<int> channelsOf(const SelectionSettings &selection, const RecordingInfo &info)
+{
+    if (selection.channels.empty())
+        return {selection.channel};
+    std::vector<int> channels(selection.channels.begin(), selection.channels.end());
+    if (channels.front() < 0) {
+        channels.resize(std::size_t(info.channelCount));
+        std::iota(channels.begin(), channels.end(), 0);
+    }
+    const auto refuse = [&](const std::string &value) {
+        throw fieldError("selection.channels", value,
+                         "the recording has " + std::to_string(info.channelCount) + " channel(s), counted from 0");
+    };
+    if (channels.size() > mostChannels)
+        throw fieldError("selection.channels", "all",
+                         "at most 64 channels can be added; the recording has " + std::to_string(info.channelCount));
+    for (const int channel : channels)
+        if (channel >= info.channelCount)
+            refuse(formatFieldValue(selection.channels));
+    return channels;
 }
 
 double Spectrogram::automaticWindowSeconds(const RecordingInfo &info)

@@ -27,7 +27,8 @@ struct SpectrogramSettings {
 
 /// Which part of a recording is looked at.
 struct SelectionSettings {
-    int channel = 0;
+    int channel = 0;              ///< the only one, or the first of `channels`
+    std::vector<double> channels; ///< whose evidence is added; -1 alone: all; empty: `channel` alone
     double fromSeconds = 0.0;
     double toSeconds = 0.0; ///< 0: to the end
     double lowHz = 0.0;     ///< band, as an offset from the centre frequency for I/Q
@@ -36,6 +37,12 @@ struct SelectionSettings {
     static const std::vector<Field<SelectionSettings>> &fields();
     bool operator==(const SelectionSettings &) const = default;
 };
+
+/// Checks what no single field can. Throws Error naming the field.
+void checkChannels(const SelectionSettings &selection);
+
+/// The channels that are analysed together, `channel` the first. Throws Error where the recording has no such channel.
+std::vector<int> channelsOf(const SelectionSettings &selection, const RecordingInfo &info);
 
 /// The sliding spectrum of a recording, computed on demand:
 ///

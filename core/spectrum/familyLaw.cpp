@@ -4,8 +4,10 @@
 
 #include <boost/math/special_functions/gamma.hpp>
 
+#include <array>
 #include <cmath>
-#include <vector>
+#include <mutex>
+#include <optional>
 
 namespace faintline {
 
@@ -19,22 +21,23 @@ namespace {
         return {looks, boost::math::gamma_p_inv(looks, 0.5) / looks};
     }
 
-    const LooksLaw &sumLawOf(std::size_t members)
-    {
-        static const std::vector<LooksLaw> laws = [] {
-            std::vector<LooksLaw> all;
-            for (std::size_t i = 1; i <= mostMembers; ++i)
-                all.push_back(sumLaw(i));
-            return all;
-        }();
-        return laws[members - 1];
-    }
-
 } // namespace
+
+const LooksLaw &lawOfSum(std::size_t members)
+{
+    struct Law {
+        std::once_flag isMade;
+        std::optional<LooksLaw> law; // a table, made where it is first needed
+    };
+    static std::array<Law, mostSummed> laws;
+    Law &law = laws[members - 1];
+    std::call_once(law.isMade, [&] { law.law = sumLaw(members); });
+    return *law.law;
+}
 
 float powerOfSum(float sum, std::size_t members)
 {
-    return sumLawOf(members)(sum / float(members));
+    return lawOfSum(members)(sum / float(members));
 }
 
 float powerOfLargest(float maximum, std::size_t members)

@@ -20,24 +20,38 @@ std::vector<Index> memberBins(const FamilySettings &settings, double hz, const A
     return bins;
 }
 
-float familyPower(FamilySettings::Present present, std::span<const float> members)
+namespace {
+
+    float powerTogether(std::span<const float> values)
+    {
+        float sum = 0.0f;
+        std::size_t count = 0;
+        for (const float y : values)
+            if (!std::isnan(y)) {
+                sum += y;
+                ++count;
+            }
+        if (count == 0)
+            return std::numeric_limits<float>::quiet_NaN();
+        return count == 1 ? sum : powerOfSum(sum, count);
+    }
+
+} // namespace
+
+float familyPower(FamilySettings::Present present, std::span<const float> members, std::size_t channels)
 {
-    float sum = 0.0f;
+    if (present == FamilySettings::Present::Together)
+        return powerTogether(members);
     float largest = 0.0f;
     std::size_t count = 0;
-    for (const float y : members) {
-        if (std::isnan(y))
-            continue;
-        sum += y;
-        largest = std::max(largest, y);
-        ++count;
-    }
+    for (; !members.empty(); members = members.subspan(channels))
+        if (const float y = powerTogether(members.first(channels)); !std::isnan(y)) {
+            largest = std::max(largest, y);
+            ++count;
+        }
     if (count == 0)
         return std::numeric_limits<float>::quiet_NaN();
-    const bool isSum = present == FamilySettings::Present::Together;
-    if (count == 1)
-        return isSum ? sum : largest;
-    return isSum ? powerOfSum(sum, count) : powerOfLargest(largest, count);
+    return count == 1 ? largest : powerOfLargest(largest, count);
 }
 
 std::string memberName(const FamilySettings &settings, double member)

@@ -14,8 +14,9 @@ namespace faintline {
 /// `innerOnly` as FamilyMap has it.
 std::vector<Index> memberBins(const FamilySettings &settings, double hz, const Axis &band, bool innerOnly);
 
-/// y of the family from y of its members, as FamilyMap has it. NaN: not observed, so not a member. Thread-safe.
-float familyPower(FamilySettings::Present present, std::span<const float> members);
+/// y of the family from y of its members, each in all channels, as FamilyMap has it. NaN: not observed, so not a
+/// member. Thread-safe.
+float familyPower(FamilySettings::Present present, std::span<const float> members, std::size_t channels = 1);
 
 /// "3×", or "+50 Hz" of offsets.
 std::string memberName(const FamilySettings &settings, double member);

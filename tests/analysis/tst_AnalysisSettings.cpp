@@ -70,7 +70,10 @@ void tst_AnalysisSettings::roundTripOfRandomSettings()
             settings.family.relation = FamilySettings::Relation::Harmonics;
             settings.noise.causal = false; // which a family refuses
         }
+        if (!settings.selection.channels.empty()) // whole numbers, the first of them the channel
+            settings.selection.channels = {double(settings.selection.channel), double(settings.selection.channel + 1)};
         settings.subtract.lines = !settings.noise.causal && settings.track.bothWays && settings.family.isNone()
+                                  && settings.selection.channels.empty()
                                   && std::holds_alternative<SmdSettings>(settings.detector)
                                   && settings.model.likelihood != LikelihoodKind::Linear; // others refuse it
         const double slope = 1.0 / settings.model.slopesPerBin;

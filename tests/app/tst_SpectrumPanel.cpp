@@ -57,6 +57,29 @@ private slots:
         QVERIFY(std::abs(peakOf(panel, 1).y - uncalibrated - 160.0) < 1e-9);
     }
 
+    /// Of what is left the curves say so, and the strong line is not in them.
+    void saysWhatWasSubtracted()
+    {
+        QTemporaryDir folder;
+        const auto window = newWindow();
+        QVERIFY(openAndSettle(*window,
+                              writeFile(folder, "strong.json",
+                                        R"({"sampleRateHz": 500, "durationSeconds": 60, "noise": {"deviation": 0.1},
+            "lines": [{"snrDb": 40, "referenceSeconds": 0.5, "frequencyHz": 120}]})"),
+                              [](AnalysisSettings &settings) {
+                                  settings.spectrogram.windowSeconds = 0.5;
+                                  settings.subtract.lines = true;
+                              }));
+        SpectrumPanel &panel = window->spectrum();
+        window->document().viewport().setCursor({45.0, 120.0});
+        QTest::keyClick(window.get(), Qt::Key_S, Qt::ShiftModifier);
+        QVERIFY(settle(panel));
+        QCOMPARE(panel.plot().chart().curves.size(), std::size_t(2));
+        for (const Curve &curve : panel.plot().chart().curves)
+            QVERIFY2(curve.name.find("strong lines subtracted") != std::string::npos, curve.name.c_str());
+        QVERIFY(peakOf(panel, 1).y < 10.0);
+    }
+
 private:
     static Curve::Point peakOf(SpectrumPanel &panel, std::size_t curve)
     {

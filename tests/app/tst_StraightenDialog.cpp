@@ -31,6 +31,7 @@ private slots:
     void showsTheLineBeforeAndAfter();
     void writesTheCommandLinesFile();
     void theTargetMovesTheLine();
+    void resamplesInstead();
     void saysWhatCannotBeDone();
     void withoutAnEventThereIsNoDialog();
 
@@ -67,7 +68,10 @@ void tst_StraightenDialog::showsTheLineBeforeAndAfter()
     QTest::keyClick(m_window.get(), Qt::Key_T);
     QVERIFY(dialog());
     QVERIFY(dialog()->isVisible());
+    QVERIFY(!dialog()->target()->isEnabled()); // the track's mean frequency comes with the spectra
     QVERIFY(settle(*dialog()));
+    QVERIFY(dialog()->target()->isEnabled());
+    QVERIFY(std::abs(dialog()->target()->value() - 105.0) < 0.5);
     const auto peakOf = [](ChartPlot &chart) {
         const auto &points = chart.chart().curves.at(0).points;
         return *std::max_element(points.begin(), points.end(), [](const auto &a, const auto &b) { return a.y < b.y; });
@@ -104,6 +108,32 @@ void tst_StraightenDialog::theTargetMovesTheLine()
     const auto peak =
         std::max_element(points.begin(), points.end(), [](const auto &a, const auto &b) { return a.y < b.y; });
     QVERIFY2(std::abs(peak->x - 50.0) < 0.1, qPrintable(QString::number(peak->x)));
+}
+
+/// The same file as the library's; the line stands out as with a shift.
+void tst_StraightenDialog::resamplesInstead()
+{
+    QCOMPARE(dialog()->method()->currentIndex(), int(Straightening::Shift));
+    dialog()->target()->setValue(106.0);
+    dialog()->method()->setCurrentIndex(int(Straightening::Resample));
+    QVERIFY(settle(*dialog()));
+    const auto &points = dialog()->after().chart().curves.at(0).points;
+    const auto peak =
+        std::max_element(points.begin(), points.end(), [](const auto &a, const auto &b) { return a.y < b.y; });
+    QVERIFY2(std::abs(peak->x - 106.0) < 0.1, qPrintable(QString::number(peak->x)));
+    const QString path = m_folder.filePath("resampled.wav");
+    QSignalSpy written(dialog(), &StraightenDialog::written);
+    dialog()->writeTo(path);
+    QVERIFY(!written.isEmpty() || written.wait(patience));
+    const Analysis &analysis = *m_window->document().analysis();
+    const std::string expected = m_folder.filePath("expected2.wav").toStdString();
+    writeRecording(*straightened(analysis, chosenEvent(analysis, 0), {0.0, 106.0, Straightening::Resample}).recording,
+                   expected);
+    QVERIFY(readBytes(path.toStdString()) == readBytes(expected));
+    const Json provenance = parseJson(readBytes(path.toStdString() + ".provenance.json").toStdString(), "provenance");
+    QCOMPARE(provenance["straighten"]["method"].get<std::string>(), std::string("resample"));
+    dialog()->method()->setCurrentIndex(int(Straightening::Shift));
+    QVERIFY(settle(*dialog()));
 }
 
 void tst_StraightenDialog::saysWhatCannotBeDone()

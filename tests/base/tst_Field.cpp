@@ -26,6 +26,7 @@ private slots:
     void refuses_data();
     void refuses();
     void refusalsNameTheirField();
+    void oneWordStandsForAll();
     void everythingPrintedReadsBack();
     void shortestForm_data();
     void shortestForm();
@@ -243,6 +244,25 @@ void tst_Field::refusalsNameTheirField()
         QCOMPARE(farther.field(), std::string("model.snr"));
     }
     QCOMPARE(Error("x.wav", "is empty").field(), std::string());
+}
+
+void tst_Field::oneWordStandsForAll()
+{
+    FieldInfo info;
+    info.name = "selection.channels";
+    info.kind = FieldKind::Numbers;
+    info.maximum = 9.0;
+    info.wordForAll = "all";
+    const FieldValue all = parseFieldValue(info, "all");
+    QVERIFY(all == FieldValue(std::vector{-1.0}));
+    QCOMPARE(formatFieldValue(info, all), std::string("all"));
+    QVERIFY(parseFieldValue(info, formatFieldValue(all)) == all);
+    QCOMPARE(formatFieldValue(info, std::vector{0.0, 2.0}), std::string("0, 2"));
+    for (const char *wrong : {"0, -1", "every", "10"})
+        QVERIFY_EXCEPTION_THROWN(parseFieldValue(info, wrong), Error);
+    info.wordForAll.clear();
+    QVERIFY_EXCEPTION_THROWN(parseFieldValue(info, "all"), Error);
+    QVERIFY_EXCEPTION_THROWN(parseFieldValue(info, "-1"), Error);
 }
 
 void tst_Field::everythingPrintedReadsBack()

@@ -37,6 +37,14 @@ QString memberText(const FamilySettings &family, double member)
     return QString::fromStdString(memberName(family, member)).replace(QLatin1Char('-'), QChar(0x2212));
 }
 
+QString toothText(const FamilySettings &family, const FamilyTooth &tooth)
+{
+    const QString channel = QCoreApplication::translate("familyWords", "channel %1").arg(tooth.channel);
+    if (tooth.channel < 0)
+        return memberText(family, tooth.member);
+    return family.isNone() ? channel : memberText(family, tooth.member) + QStringLiteral(", ") + channel;
+}
+
 QString membersText(const AnalysisPlan &plan, double hz)
 {
     const FamilySettings &family = plan.settings.family;

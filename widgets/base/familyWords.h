@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/Analysis.h"
+#include "analysis/familyTeeth.h"
 
 #include <QString>
 
@@ -13,6 +13,9 @@ QString frequencyName(const FamilySettings &family);
 
 /// "3×", "+50 Hz".
 QString memberText(const FamilySettings &family, double member);
+
+/// The same of a tooth, with its channel where several are added: "3×, channel 1", or "channel 1" without a family.
+QString toothText(const FamilySettings &family, const FamilyTooth &tooth);
 
 /// A line for each member of an analysis's family at `hz`, in columns: "3×   171.9 Hz". Of many, the first ones and the
 /// last one; none without a family.

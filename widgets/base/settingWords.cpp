@@ -27,6 +27,7 @@ QString settingLabel(const QString &name)
 {
     static const QHash<QString, QString> labels{
         {"selection.channel", "Channel"},
+        {"selection.channels", "Channels added"},
         {"selection.fromSeconds", "From"},
         {"selection.toSeconds", "To"},
         {"selection.lowHz", "Lower edge"},
@@ -169,6 +170,7 @@ bool isSeldomUsed(const QString &name)
                                      "model.bearingRateChange",
                                      "noise.blockWindows",
                                      "noise.followLevel",
+                                     "selection.channels",
                                      "family.members",
                                      "family.present",
                                      "model.slopeChange",

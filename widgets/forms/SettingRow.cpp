@@ -255,7 +255,8 @@ void SettingRow::setValue(const FieldValue &value)
     else if (auto *arrows = qobject_cast<QAbstractSpinBox *>(m_editor))
         static_cast<ArrowBox *>(arrows)->line()->setText(shownText(value));
     else if (auto *edit = qobject_cast<QLineEdit *>(m_editor)) {
-        edit->setText(shownText(value));
+        const QString word = QString::fromStdString(formatFieldValue(m_info, value));
+        edit->setText(word == QString::fromStdString(m_info.wordForAll) ? word : shownText(value));
         edit->setCursorPosition(0);
     }
     m_reset->setVisible(value != m_default);

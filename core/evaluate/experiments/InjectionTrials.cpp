@@ -150,6 +150,7 @@ InjectionTrials::InjectionTrials(const InjectionExperiment &experiment, Recordin
         throw fieldError("noise.causal", "true",
                          "is not possible in this experiment, which estimates the noise once for all trials");
     checkHasNoFamily(experiment.settings, "is not possible in this experiment");
+    checkHasOneChannel(experiment.settings, "is not possible in this experiment");
     checkSubtractsNothing(experiment.settings, "is not possible in this experiment");
     for (const DetectorUnderTest &detector : experiment.detectors) {
         checkHasNoFamily(detector.settings, "is not possible in this experiment");

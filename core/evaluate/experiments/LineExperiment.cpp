@@ -57,6 +57,7 @@ void checkExperiment(const LineExperiment &experiment)
     for (const DetectorUnderTest &detectorUnderTest : experiment.detectors) {
         checkSettings(detectorUnderTest.settings);
         checkHasNoFamily(detectorUnderTest.settings, "is not possible in this experiment");
+        checkHasOneChannel(detectorUnderTest.settings, "is not possible in this experiment");
         checkSubtractsNothing(detectorUnderTest.settings, "is not possible in this experiment");
     }
 }

@@ -91,15 +91,15 @@ namespace {
         const std::string name = jsonName(where, "values");
         if (found == json.end())
             throw Error(name, "must be a list of values, or {\"from\": …, \"to\": …, \"steps\": …}");
-        FieldInfo list{name, "", -1e300, 1e300, "", {}, FieldKind::Numbers};
+        FieldInfo list{name, "", -1e300, 1e300, "", {}, {}, FieldKind::Numbers};
         if (found->is_array())
             return std::get<std::vector<double>>(fieldValueFromJson(*found, list));
         checkKeys(*found, name, {"from", "to", "steps", "scale"});
         const auto number = [&](const char *key) {
             if (!found->contains(key))
                 throw Error(jsonName(name, key), "is missing");
-            return std::get<double>(
-                fieldValueFromJson((*found)[key], {jsonName(name, key), "", -1e300, 1e300, "", {}, FieldKind::Number}));
+            return std::get<double>(fieldValueFromJson(
+                (*found)[key], {jsonName(name, key), "", -1e300, 1e300, "", {}, {}, FieldKind::Number}));
         };
         const std::string scale = found->value("scale", std::string("linear"));
         if (scale != "linear" && scale != "log")
@@ -167,6 +167,7 @@ AnalysisSettings settingsAt(const SweepExperiment &experiment, std::size_t value
     if (!field.get(settings))
         throw fieldError("parameter", experiment.parameter, "belongs to a different detector than the one selected");
     checkSettings(settings);
+    checkHasOneChannel(settings, "is not possible in this experiment");
     return settings;
 }
 

@@ -6,7 +6,9 @@
 
 #include <QtTest>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 using namespace faintline;
@@ -21,6 +23,7 @@ private slots:
     void initTestCase() { simulateLine(); }
 
     void keepsADriftingLineAtOneFrequency();
+    void resamplesAFamily();
     void leavesTheRest();
     void saysWhatCannotBeStraightened();
     void decodesADriftingMessage();
@@ -51,6 +54,47 @@ void tst_cliStraighten::keepsADriftingLineAtOneFrequency()
     const QList<QByteArray> values = rows[1].split(',');
     QVERIFY(std::abs(values[names.indexOf("f")].toDouble() - 211.5) < 1.5);
     QVERIFY(std::abs(values[names.indexOf("drift_hz_per_s")].toDouble()) < 0.1);
+}
+
+/// Three multiples of a fundamental that drifts: all of them stay, of a shift only the fundamental does.
+void tst_cliStraighten::resamplesAFamily()
+{
+    writeBytes(pathOf("family.json"),
+               R"({"kind": "lines", "sampleRateHz": 500, "durationSeconds": 60, "seed": 3, "lines": [
+        {"frequencyHz": 50, "driftHzPerSecond": 0.1, "snrDb": 10}, {"frequencyHz": 100, "driftHzPerSecond": 0.2, "snrDb": 10},
+        {"frequencyHz": 150, "driftHzPerSecond": 0.3, "snrDb": 10}]})");
+    QCOMPARE(run({"simulate", "family.json", "--out", "family.wav"}).code, 0);
+    const QStringList window{"--set", "spectrogram.windowSeconds=1"};
+    const QStringList straighten =
+        QStringList{"straighten", "family.wav",           "--set",    "family.relation=harmonics",
+                    "--set",      "family.members=1,2,3", "--target", "52"}
+        + window;
+    const auto drifts = [&](const QString &name) {
+        const Outcome found = run(QStringList{"detect", name, "--events", "events.csv"} + window);
+        const QList<QByteArray> rows = content("events.csv").trimmed().split('\n');
+        const QList<QByteArray> names = rows[0].split(',');
+        std::map<int, double> drift;
+        for (const QByteArray &row : rows.mid(1)) {
+            const QList<QByteArray> values = row.split(',');
+            if (values[names.indexOf("t_end")].toDouble() - values[names.indexOf("t_onset")].toDouble() > 40.0)
+                drift[qRound(values[names.indexOf("f")].toDouble())] =
+                    values[names.indexOf("drift_hz_per_s")].toDouble();
+        }
+        return drift;
+    };
+    const Outcome resampled = run(straighten + QStringList{"--out", "resampled.wav"});
+    QCOMPARE(resampled.err, QByteArray());
+    QVERIFY2(resampled.out.contains("resampled, now at 52 Hz"), resampled.out.data());
+    const std::map<int, double> still = drifts("resampled.wav");
+    for (const int hz : {52, 104, 156})
+        QVERIFY2(still.contains(hz) && std::abs(still.at(hz)) < 0.005, qPrintable(QString::number(hz)));
+    QCOMPARE(run(straighten + QStringList{"--method", "shift", "--out", "shifted.wav"}).code, 0);
+    const std::map<int, double> moving = drifts("shifted.wav");
+    QVERIFY(moving.contains(52) && std::abs(moving.at(52)) < 0.005);
+    QVERIFY(std::none_of(moving.begin(), moving.end(),
+                         [](const auto &line) { return line.first > 60 && std::abs(line.second) < 0.05; }));
+    const Outcome low = run(straighten + QStringList{"--target", "2", "--out", "none.wav"});
+    QVERIFY2(low.err.contains("by a factor of 8 at most"), low.err.data());
 }
 
 void tst_cliStraighten::leavesTheRest()
