@@ -1,6 +1,7 @@
 #include "live/SoundStream.h"
 
 #include "base/Error.h"
+#include "live/rtAudio.h"
 
 #include <algorithm>
 #include <chrono>
@@ -58,7 +59,7 @@ namespace {
     /// Its number now; devices come and go.
     unsigned indexOf(RtAudio &audio, const SoundDevice &device, SoundDirection direction, const std::string &where)
     {
-        const unsigned count = audio.getDeviceCount();
+        const unsigned count = mayAskRtAudio(device.system) ? audio.getDeviceCount() : 0;
         for (unsigned i = 0; i < count; ++i) {
             const RtAudio::DeviceInfo info = audio.getDeviceInfo(i);
             if (info.name == device.name
@@ -146,6 +147,7 @@ SoundStream::SoundStream(const SoundDevice &device, SoundDirection direction, co
     running.audio.showWarnings(false);
     running.frameBytes = std::size_t(format.frameBytes());
     running.blockSamples = unsigned(std::max(16.0, format.sampleRateHz / blocksPerSecond));
+    const std::lock_guard lock(rtAudioMutex());
     RtAudio::StreamParameters parameters;
     parameters.deviceId = indexOf(running.audio, device, direction, where);
     parameters.nChannels = unsigned(format.channelCount);

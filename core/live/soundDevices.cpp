@@ -1,11 +1,11 @@
 #include "live/soundDevices.h"
 
 #include "base/Error.h"
+#include "live/rtAudio.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <filesystem>
 #include <iterator>
 
 #include <rtaudio/RtAudio.h>
@@ -24,19 +24,9 @@ namespace {
                                                   {SoundDevice::System::Jack, RtAudio::UNIX_JACK, "JACK"},
                                                   {SoundDevice::System::Alsa, RtAudio::LINUX_ALSA, "ALSA"}}};
 
-    /// Without a card ALSA writes to standard error what it misses.
-    bool hasCard()
-    {
-        std::error_code none;
-        const std::filesystem::directory_iterator entries("/dev/snd", none);
-        return std::any_of(begin(entries), end(entries), [](const std::filesystem::directory_entry &entry) {
-            return entry.path().filename().string().starts_with("controlC");
-        });
-    }
-
     void addDevices(const NamedSystem &asked, std::vector<SoundDevice> &devices)
     {
-        if (asked.system == SoundDevice::System::Alsa && !hasCard())
+        if (!mayAskRtAudio(asked.system))
             return;
         try {
             RtAudio audio(asked.api);
@@ -76,6 +66,7 @@ std::string soundSystemName(SoundDevice::System system)
 
 std::vector<SoundDevice> soundDevices()
 {
+    const std::lock_guard lock(rtAudioMutex());
     std::vector<SoundDevice> devices;
     for (const NamedSystem &each : systems)
         addDevices(each, devices);
@@ -96,7 +87,7 @@ SoundDevice findSoundDevice(const std::vector<SoundDevice> &devices, const std::
     if (able.empty())
         throw Error(where,
                     std::string("this machine has no sound ") + (direction == SoundDirection::In ? "input" : "output")
-                        + ": no sound server answers and there is no sound card",
+                        + ": no sound server with a device answers, and there is no sound card",
                     Error::Kind::Failure);
     const auto find = [&](const auto &fits) { return std::find_if(able.begin(), able.end(), fits); };
     if (name == "default") {

@@ -4,10 +4,9 @@
 #include <QFile>
 #include <QProcess>
 #include <QStandardPaths>
+#include <QStringList>
 #include <QTemporaryDir>
 #include <QThread>
-
-#include <initializer_list>
 
 namespace faintline::test {
 
@@ -39,13 +38,11 @@ public:
         m_server.setProcessEnvironment(own);
         m_server.start(QStringLiteral("pulseaudio"),
                        {"-n", "--daemonize=no", "--exit-idle-time=-1", "--disable-shm=yes", "--use-pid-file=no", "-L",
-                        "module-native-protocol-unix auth-anonymous=1 socket=" + m_socket, "-L",
-                        "module-null-sink sink_name=null format=float32le rate=48000 channels=1 channel_map=mono "
-                        "sink_properties=device.description=Nothing"});
+                        "module-native-protocol-unix auth-anonymous=1 socket=" + m_socket});
         QElapsedTimer timer;
         timer.start();
         while (timer.elapsed() < 10'000 && m_server.state() != QProcess::NotRunning)
-            if (answers())
+            if (plug())
                 return;
         m_whyNot = "pulseaudio does not start: " + QString::fromLocal8Bit(m_server.readAllStandardError()).simplified();
     }
@@ -57,11 +54,19 @@ public:
         QFile::remove(m_socket);
     }
 
+    /// The null sink comes and goes, as a device that is plugged in and out.
+    bool plug()
+    {
+        return ask({"load-module", "module-null-sink", "sink_name=null", "format=float32le", "rate=48000", "channels=1",
+                    "channel_map=mono", "sink_properties=device.description=Nothing"});
+    }
+    void unplug() { ask({"unload-module", "module-null-sink"}); }
+
 private:
-    static bool answers()
+    static bool ask(const QStringList &words)
     {
         QProcess asking;
-        asking.start(QStringLiteral("pactl"), {"info"});
+        asking.start(QStringLiteral("pactl"), words);
         return asking.waitForFinished() && asking.exitCode() == 0;
     }
 
