@@ -10,7 +10,7 @@ packages="g++ cmake ninja-build pkgconf dpkg-dev file
     qt6-base-dev qt6-svg-dev
     libfftw3-dev libeigen3-dev libsndfile1-dev nlohmann-json3-dev nettle-dev
     libboost-dev librandom123-dev libcli11-dev libbenchmark-dev
-    libhdf5-dev liblz4-dev libsqlite3-dev python3-dev pybind11-dev python3-numpy
+    libhdf5-dev liblz4-dev libsqlite3-dev librtaudio-dev libpulse-dev python3-dev pybind11-dev python3-numpy
     vamp-plugin-sdk vamp-examples"
 
 mkdir -p build

@@ -6,6 +6,7 @@
 #include "live/EventCommand.h"
 #include "live/PipeSource.h"
 #include "live/RtlTcpSource.h"
+#include "live/SoundSource.h"
 #include "live/UdpSource.h"
 #include "live/eventLines.h"
 #include "live/listen.h"
@@ -34,6 +35,9 @@ namespace {
         std::string rtlTcp;
         ReceiverSettings receiver;
         std::optional<double> gainDb;
+        std::string device;
+        const CLI::Option *rawChannels = nullptr;
+        bool listsDevices = false;
     };
 
     /// Where lines of JSON go: standard output or the end of a file, each at once.
@@ -78,12 +82,38 @@ namespace {
         bool m_isSound = true;
     };
 
+    SoundSettings soundSettings(const ListenOptions &options)
+    {
+        const OpenOptions &open = options.analysis.open;
+        SoundSettings sound;
+        sound.device = options.device;
+        if (!open.rawType.empty())
+            sound.type = parseSampleType(open.rawType, "--raw-type");
+        sound.sampleRateHz = open.rawRateHz;
+        sound.channelCount = options.rawChannels->count() > 0 ? open.rawChannels : 0;
+        return sound;
+    }
+
+    void listDevices()
+    {
+        const std::vector<SoundDevice> devices = soundDevices();
+        (void)findSoundDevice(devices, "default", SoundDirection::In, "--list-devices");
+        for (const SoundDevice &device : devices)
+            if (device.inputChannels > 0)
+                std::printf("%s\t%s\t%d channel(s), %.0f Hz%s\n", soundSystemName(device.system).c_str(),
+                            device.name.c_str(), device.inputChannels, device.sampleRateHz,
+                            device.isDefaultInput ? ", default" : "");
+    }
+
     std::unique_ptr<SampleSource> sourceOf(const ListenOptions &options, const std::stop_token &stop)
     {
         const OpenOptions &open = options.analysis.open;
-        const int given = !options.analysis.file.empty() + !options.udp.empty() + !options.rtlTcp.empty();
+        const int given =
+            !options.analysis.file.empty() + !options.udp.empty() + !options.rtlTcp.empty() + !options.device.empty();
         if (given != 1)
-            throw Error("listen", "requires one source: FILE (- is standard input), --udp or --rtl-tcp");
+            throw Error("listen", "requires one source: FILE (- is standard input), --device, --udp or --rtl-tcp");
+        if (!options.device.empty())
+            return std::make_unique<SoundSource>(soundSettings(options));
         if (!options.rtlTcp.empty()) {
             ReceiverSettings receiver = options.receiver;
             receiver.sampleRateHz = open.rawRateHz;
@@ -200,6 +230,8 @@ namespace {
 
     void listen(const ListenOptions &options, const Common &common)
     {
+        if (options.listsDevices)
+            return listDevices();
         if (common.read || common.written)
             throw Error("listen", "what was heard cannot be replayed; detect in its recording");
         if (!options.events.empty() && !options.events.ends_with(".csv") && !options.events.ends_with(".json"))
@@ -251,6 +283,12 @@ void addListen(CLI::App &app, Common &common)
                      "Program, with arguments, to run at each change of an event; the line of JSON becomes its last "
                      "argument; no shell is used")
         ->expected(1, 64);
+    options->rawChannels = command->get_option("--raw-channels");
+    command->add_option(
+        "--device", options->device,
+        "Listen to a sound device: its name or a part of it, or default; its own sample rate, floats and up "
+        "to two channels unless --raw-rate, --raw-type or --raw-channels say otherwise");
+    command->add_flag("--list-devices", options->listsDevices, "List the sound devices that can be listened to");
     command->add_option("--udp", options->udp, "Listen to UDP datagrams of raw samples: PORT or ADDRESS:PORT");
     command->add_option("--udp-sequence", options->udpSequence,
                         "Number at the beginning of each datagram: u16le, u16be, u32le, u32be, u64le or u64be");

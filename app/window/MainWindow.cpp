@@ -3,6 +3,7 @@
 #include "app/base/MessageBar.h"
 #include "app/base/distinctLabels.h"
 #include "app/base/filePath.h"
+#include "app/control/Playback.h"
 #include "app/control/hint.h"
 #include "app/document/SessionSaver.h"
 #include "app/document/statisticUnit.h"
@@ -324,6 +325,16 @@ void MainWindow::showSpectrum()
 void MainWindow::showDoppler()
 {
     m_panels->show(m_doppler);
+}
+
+/// As sound; without it the cursor moves all the same.
+void MainWindow::setPlaying(bool isPlaying)
+{
+    if (!isPlaying)
+        m_playback->stop();
+    else if (&bench() == m_workbench && (m_playback->isPlaying() || m_playback->start()))
+        return;
+    bench().setPlaying(isPlaying);
 }
 
 void MainWindow::showCompare()

@@ -28,6 +28,7 @@ struct Lesson;
 class OverviewStrip;
 class OwnPresets;
 class Panels;
+class Playback;
 class ReportWriter;
 class ScenarioCard;
 class SessionSaver;
@@ -67,6 +68,7 @@ public:
     void learnMotion();
     void showSpectrum();
     void showDoppler();
+    void setPlaying(bool isPlaying);
     void straighten(); ///< along the selected event's track, or the strongest's
     void showCompare();
     void showSweep();
@@ -152,6 +154,7 @@ private:
     LessonGuide *m_lessons = nullptr;
     LessonList *m_lessonList = nullptr;
     BoxAnalysis *m_boxAnalysis = nullptr;
+    Playback *m_playback = nullptr;
     ChartMenus *m_chartMenus = nullptr;
     OwnPresets *m_ownPresets = nullptr;
     OverviewStrip *m_overview = nullptr;

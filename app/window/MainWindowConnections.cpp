@@ -8,6 +8,7 @@
 #include "app/control/AdviceMessages.h"
 #include "app/control/EventReviews.h"
 #include "app/control/OutputLayers.h"
+#include "app/control/Playback.h"
 #include "app/control/thresholdWords.h"
 #include "app/document/Recovery.h"
 #include "app/document/SessionSaver.h"
@@ -134,6 +135,10 @@ void MainWindow::connectController()
     connect(m_report, &ReportWriter::busyChanged, m_activity, &ActivityBar::setBusy);
     connect(m_report, &ReportWriter::progressed, m_activity, &ActivityBar::setProgress);
     connect(m_activity, &ActivityBar::cancelRequested, m_report, &ReportWriter::cancel);
+    connect(m_playback, &Playback::failed, this, [this](const Error &error) {
+        m_messages->showMessage(MessageBar::Kind::Notice, QString::fromStdString(error.where()),
+                                tr("%1; the cursor moves without sound").arg(QString::fromStdString(error.why())));
+    });
     connect(m_report, &ReportWriter::failed, this, &MainWindow::showError);
     connect(m_report, &ReportWriter::written, this, &MainWindow::showWritten);
     connect(m_saver, &SessionSaver::failed, this, &MainWindow::showError);

@@ -5,6 +5,7 @@
 #include "app/control/BoxAnalysis.h"
 #include "app/control/EventReviews.h"
 #include "app/control/OutputLayers.h"
+#include "app/control/Playback.h"
 #include "app/document/SessionSaver.h"
 #include "app/document/scanScenario.h"
 #include "app/document/scenarios.h"
@@ -261,13 +262,15 @@ void MainWindow::buildDetectMenu()
     menu->addSeparator();
     m_playAction = addViewAction(*menu, tr("P&lay"), Qt::Key_Space, {});
     m_playAction->setCheckable(true);
-    connect(m_playAction, &QAction::toggled, this, [this](bool isPlaying) { bench().setPlaying(isPlaying); });
+    connect(m_playAction, &QAction::toggled, this, &MainWindow::setPlaying);
+    connect(m_playback, &Playback::playingChanged, m_playAction, &QAction::setChecked);
     for (Bench *one : std::initializer_list<Bench *>{m_workbench, m_pings})
         connect(one, &Bench::playingChanged, m_playAction, &QAction::setChecked);
     // Space also presses the button that has the focus: only over the pictures does it play.
     m_playAction->setShortcutContext(Qt::WidgetWithChildrenShortcut);
     m_workbench->addAction(m_playAction);
     m_pings->addAction(m_playAction);
+    m_playback->addActionsTo(*menu->addMenu(tr("Play &what")));
     addViewAction(*menu, tr("Frame &back"), Qt::Key_J, [this] { bench().stepFrames(-1); });
     addViewAction(*menu, tr("Frame &forward"), Qt::Key_L, [this] { bench().stepFrames(1); });
     menu->addSeparator();

@@ -5,6 +5,7 @@
 #include "app/base/MessageBar.h"
 #include "app/control/BoxAnalysis.h"
 #include "app/control/EventReviews.h"
+#include "app/control/Playback.h"
 #include "app/control/ThresholdCurves.h"
 #include "app/document/OwnPresets.h"
 #include "app/lessons/LessonList.h"
@@ -25,6 +26,7 @@
 #include "app/panels/SweepPanel.h"
 #include "app/panels/ThresholdPanel.h"
 #include "app/panels/WhyPanel.h"
+#include "app/panels/chosenEvents.h"
 #include "app/welcome/WelcomePage.h"
 #include "app/window/ActivityBar.h"
 #include "app/window/Panels.h"
@@ -91,6 +93,13 @@ void MainWindow::buildDocks()
     m_reviews->setClassNames(m_memory.classNames());
     m_reviews->addMaps({m_pings->input(), m_pings->output()});
     m_boxAnalysis = new BoxAnalysis(m_document, m_controller, {m_workbench->input(), m_workbench->output()}, this);
+    m_playback = new Playback(
+        m_document,
+        [this]() -> std::optional<Event> {
+            const std::vector<Event> events = chosenEvents(m_document, *m_events);
+            return events.empty() ? std::nullopt : std::optional(events.front());
+        },
+        this);
     m_why = new WhyPanel(m_document, m_pings->viewports());
     m_info = new InfoPanel(m_document, m_controller, m_check);
     m_noiseFit = new NoiseFitPanel(m_document);

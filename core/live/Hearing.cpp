@@ -23,7 +23,7 @@ namespace {
 Hearing::Hearing(SampleSource &source, StreamBuffer &buffer, const ListenSettings &settings, std::stop_token stop,
                  Tell tell)
     : m_source(source), m_buffer(buffer), m_settings(settings), m_stop(std::move(stop)), m_tell(std::move(tell)),
-      m_thread([this](const std::stop_token &own) { run(own); })
+      m_clock(buffer.format().sampleRateHz), m_thread([this](const std::stop_token &own) { run(own); })
 {
 }
 
@@ -69,8 +69,10 @@ void Hearing::take(Heard heard)
         m_missing += heard.lostSamples; // before the first sample there is no time yet
     if (heard.incident == Heard::Incident::Gone)
         tell(Kind::Gone, 0, heard.words);
-    if (heard.incident == Heard::Incident::Back)
+    if (heard.incident == Heard::Incident::Back) {
         tell(Kind::Back, m_missing, heard.words);
+        m_clock.restart(); // by which the gap was measured
+    }
     if (heard.incident == Heard::Incident::Lost)
         tell(Kind::Lost, heard.lostSamples, heard.words);
     const Index samples = std::ssize(heard.bytes) / m_buffer.format().frameBytes();
@@ -78,6 +80,7 @@ void Hearing::take(Heard heard)
         return;
     if (m_position == 0)
         begin(samples);
+    watchClock(samples);
     if (!makeRoom(heard.bytes.size())) {
         m_missing += samples;
         m_overflown += samples;
@@ -133,6 +136,16 @@ void Hearing::record(std::span<const std::byte> bytes)
         m_isRecordedWhole = false;
         tell(ListenNotice::Kind::RecordingFailed, 0, std::string("The recording ends here: ") + error.what());
     }
+}
+
+/// With samples that have just come. A source that waits has no clock of its own.
+void Hearing::watchClock(Index samples)
+{
+    if (m_source.isPatient())
+        return;
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    if (const auto departure = m_clock.note(m_position + m_missing + samples, seconds))
+        tell(ListenNotice::Kind::Drift, departure->samples, departure->words);
 }
 
 void Hearing::watchDisk()

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "live/ListenSettings.h"
+#include "live/SourceClock.h"
 #include "live/StreamBuffer.h"
 
 #include <atomic>
@@ -44,6 +45,7 @@ private:
     void begin(Index samples);
     void record(std::span<const std::byte> bytes);
     void watchDisk();
+    void watchClock(Index samples);
     void tell(ListenNotice::Kind kind, Index samples, std::string words);
 
     SampleSource &m_source;
@@ -59,6 +61,7 @@ private:
     Index m_missing = 0;   ///< samples lost since the last ones that were heard
     Index m_overflown = 0; ///< of them, for want of room
     std::atomic<Index> m_lostCount = 0;
+    SourceClock m_clock;
     bool m_isRecordedWhole = true;
     bool m_hasWarned = false;
     std::chrono::steady_clock::time_point m_diskWatched{};

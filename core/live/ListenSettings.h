@@ -21,11 +21,11 @@ struct ListenSettings {
 
 /// Something that happened to the samples, not in them.
 struct ListenNotice {
-    enum class Kind { Started, Lost, Overflow, Gone, Back, DiskSpace, RecordingFailed, Stopped };
+    enum class Kind { Started, Lost, Overflow, Gone, Back, Drift, DiskSpace, RecordingFailed, Stopped };
 
     Kind kind = Kind::Started;
     Index sample = 0;      ///< where in time, from the first sample on, gaps included
-    Index sampleCount = 0; ///< how many it is about: those that were lost
+    Index sampleCount = 0; ///< how many it is about: those that were lost, by which clocks differ
     std::string words;     ///< one sentence
 };
 

@@ -24,6 +24,7 @@ private slots:
     void isTheSameAsItsRecording_data();
     void isTheSameAsItsRecording();
     void changesOfAnEvent();
+    void isToldSoonAfterTheCrossing();
     void gapsArePlacedToTheSample();
     void overflowIsAGap();
     void doesNotOverwrite();
@@ -269,6 +270,36 @@ void tst_listen::changesOfAnEvent()
     QCOMPARE(ownEvents, live.events.size());
     QVERIFY(hasJoined);
     QVERIFY(contains(eventLine(changes.begin()->second.front(), live.plan.grid(), 0.0), R"("state":"provisional")"));
+}
+
+// A line at 6 dB, for which a stream suffices that ends two windows after the crossing.
+void tst_listen::isToldSoonAfterTheCrossing()
+{
+    LineScene lines;
+    lines.sampleRateHz = rate;
+    lines.durationSeconds = 60.0;
+    lines.noise.deviation = 0.1;
+    lines.seed = 5;
+    lines.lines = {
+        {.snrDb = 6.0, .referenceSeconds = 0.25, .startSeconds = 30.0, .durationSeconds = 25.0, .frequencyHz = 210.0}};
+    const std::vector<float> samples = readAll(SimulatedRecording(lines));
+    const auto told = [&](double seconds) {
+        const auto count = std::size_t(seconds * rate);
+        GivenSource source(format(), piecesOf({samples.begin(), samples.begin() + std::ptrdiff_t(count)}, {}, 8));
+        std::vector<double> crossings;
+        ListenSinks sinks;
+        sinks.event = [&](const EventChange &change, const AnalysisPlan &) {
+            if (change.state == EventChange::State::Provisional
+                && std::abs(change.event.position.front() - 210.0) < 10.0)
+                crossings.push_back(change.event.detectSeconds);
+        };
+        listen(source, settings({}), sinks);
+        return crossings;
+    };
+    const std::vector<double> crossings = told(60.0);
+    QVERIFY(!crossings.empty() && crossings.front() > 30.0 && crossings.front() < 35.0);
+    QCOMPARE(told(crossings.front() + 2.0 * 0.25), std::vector{crossings.front()});
+    QVERIFY(told(crossings.front() - 0.25).empty()); // the line itself, not the stream's end
 }
 
 // A thousand, each of which has to be where it was: the oracle are the samples themselves.

@@ -1,0 +1,179 @@
+#include "app/control/Playback.h"
+
+#include "analysis/straighten.h"
+#include "app/document/Document.h"
+#include "spectrum/BandRecording.h"
+
+#include <QActionGroup>
+#include <QMenu>
+
+#include <algorithm>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int interval = 33; // ms
+    constexpr double toneHz = 700.0;
+    constexpr double speeds[]{0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0};
+
+    QAction *addChoice(QMenu &menu, QActionGroup &group, const QString &text, bool isChecked)
+    {
+        QAction *action = menu.addAction(text);
+        action->setCheckable(true);
+        action->setChecked(isChecked);
+        group.addAction(action);
+        return action;
+    }
+
+} // namespace
+
+Playback::Playback(Document &document, ChooseEvent chooseEvent, QObject *parent)
+    : QObject(parent), m_document(document), m_chooseEvent(std::move(chooseEvent))
+{
+    m_timer.setInterval(interval);
+    connect(&m_timer, &QTimer::timeout, this, &Playback::follow);
+    connect(&document, &Document::opened, this, &Playback::stop);
+}
+
+void Playback::addActionsTo(QMenu &menu)
+{
+    auto *whats = new QActionGroup(this);
+    const auto addWhat = [&](const QString &text, What what) {
+        connect(addChoice(menu, *whats, text, what == m_what), &QAction::triggered, this,
+                [this, what] { setWhat(what); });
+    };
+    addWhat(tr("&Recording"), What::Recording);
+    addWhat(tr("&Band of the box, or what is visible"), What::Band);
+    addWhat(tr("&Line of the event, or at the cursor, at 700 Hz"), What::Line);
+    menu.addSeparator();
+    auto *rates = new QActionGroup(this);
+    for (const double speed : speeds)
+        connect(addChoice(menu, *rates, tr("%1 × speed").arg(speed), speed == m_speed), &QAction::triggered, this,
+                [this, speed] { setSpeed(speed); });
+    menu.addSeparator();
+    QAction *loop = menu.addAction(tr("L&oop"));
+    loop->setCheckable(true);
+    connect(loop, &QAction::toggled, this, &Playback::setLooping);
+}
+
+void Playback::setWhat(What what)
+{
+    m_what = what;
+    playOn();
+}
+
+void Playback::setSpeed(double speed)
+{
+    m_speed = speed;
+    playOn();
+}
+
+void Playback::setLooping(bool isLooping)
+{
+    m_isLooping = isLooping;
+    playOn();
+}
+
+void Playback::playOn()
+{
+    if (isPlaying() && !start())
+        stop();
+}
+
+/// The box; without one from the cursor, unless that is at its end, to the end of what is visible.
+PlaySettings Playback::stretch() const
+{
+    const Viewport &viewport = m_document.viewport();
+    const std::optional<Viewport::Box> box = m_document.box();
+    const Span time = box ? box->time : viewport.time();
+    PlaySettings settings;
+    settings.fromSeconds = std::max(0.0, time.low);
+    settings.toSeconds = std::min(m_document.recording()->info().durationSeconds(), time.high);
+    settings.speed = m_speed;
+    settings.loops = m_isLooping;
+    settings.toneHz = m_what == What::Line ? toneHz : 0.0;
+    const double nearEnd = settings.toSeconds - 0.01 * (settings.toSeconds - settings.fromSeconds);
+    if (!m_isLooping && viewport.cursor() && viewport.cursor()->seconds > settings.fromSeconds
+        && viewport.cursor()->seconds < nearEnd)
+        settings.fromSeconds = viewport.cursor()->seconds;
+    return settings;
+}
+
+FrequencyCurve Playback::line() const
+{
+    if (const std::optional<Event> event = m_chooseEvent(); event && m_document.lineAnalysis())
+        return straightened(*m_document.lineAnalysis(), *event).recording->curve();
+    if (!m_document.viewport().cursor())
+        throw Error(tr("Play").toStdString(), "requires an event to follow, or a cursor on the line");
+    return FrequencyCurve({"time", "s", 0.0, 1.0, 1}, {m_document.viewport().cursor()->hz});
+}
+
+std::unique_ptr<Player> Playback::makePlayer() const
+{
+    const RecordingPointer &recording = m_document.recording();
+    const int channel = m_document.settings().selection.channel;
+    const auto play = [&](RecordingPointer what, int ofChannel) {
+        return std::make_unique<Player>(std::move(what), ofChannel, stretch(), "default", tr("Play").toStdString());
+    };
+    if (m_what == What::Line)
+        return play(lineToPlay(recording, channel, line()), 0);
+    if (m_what == What::Recording)
+        return play(recording, channel);
+    const Span band = m_document.box() ? m_document.box()->frequency : m_document.viewport().frequency();
+    return play(std::make_shared<BandRecording>(recording, channel, band.low, band.high), 0);
+}
+
+bool Playback::start()
+{
+    if (!m_document.recording() || m_document.viewport().isEmpty() || !(stretch().fromSeconds < stretch().toSeconds))
+        return false;
+    const bool wasPlaying = isPlaying();
+    try {
+        m_player.reset();
+        m_player = makePlayer();
+    } catch (const Error &error) {
+        emit failed(error);
+        if (wasPlaying)
+            stop();
+        return false;
+    }
+    showPosition();
+    m_timer.start();
+    if (!wasPlaying)
+        emit playingChanged(true);
+    return true;
+}
+
+void Playback::stop()
+{
+    m_player.reset();
+    if (!m_timer.isActive())
+        return;
+    m_timer.stop();
+    emit playingChanged(false);
+}
+
+void Playback::follow()
+{
+    if (const auto failure = m_player->failure()) {
+        emit failed(Error(tr("Play").toStdString(), *failure, Error::Kind::Failure));
+        return stop();
+    }
+    if (m_player->isOver())
+        return stop();
+    const Viewport &viewport = m_document.viewport();
+    viewport.cursor() && viewport.cursor()->seconds != m_shownSeconds ? playOn() : showPosition();
+}
+
+void Playback::showPosition()
+{
+    Viewport &viewport = m_document.viewport();
+    const double hz = viewport.cursor() ? viewport.cursor()->hz : viewport.frequency().middle();
+    const double seconds = m_player->positionSeconds();
+    viewport.setCursor({seconds, hz});
+    viewport.reveal({{seconds, seconds}, {hz, hz}});
+    m_shownSeconds = viewport.cursor()->seconds;
+}
+
+} // namespace faintline

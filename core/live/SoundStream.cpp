@@ -1,0 +1,201 @@
+#include "live/SoundStream.h"
+
+#include "base/Error.h"
+#include "live/rtAudio.h"
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include <rtaudio/RtAudio.h>
+
+namespace faintline {
+
+namespace {
+
+    using Clock = std::chrono::steady_clock;
+
+    constexpr double blocksPerSecond = 50.0;
+    constexpr unsigned outputBlocks = 5; ///< that wait at the device
+    constexpr int mostFailures = 8;      ///< in a row, until the device counts as gone
+    constexpr std::chrono::milliseconds stillness{500};
+
+    RtAudio::Api apiOf(SoundDevice::System system)
+    {
+        switch (system) {
+        case SoundDevice::System::Jack:
+            return RtAudio::UNIX_JACK;
+        case SoundDevice::System::Alsa:
+            return RtAudio::LINUX_ALSA;
+        case SoundDevice::System::PulseAudio:
+            break;
+        }
+        return RtAudio::LINUX_PULSE;
+    }
+
+    RtAudioFormat formatOf(const SampleType &type, const std::string &where)
+    {
+        const std::string name = type.name();
+        if (name == "ri16_le")
+            return RTAUDIO_SINT16;
+        if (name == "ri32_le")
+            return RTAUDIO_SINT32;
+        if (name == "rf32_le")
+            return RTAUDIO_FLOAT32;
+        throw Error(where, name + " is no sample type of a sound device; expected ri16_le, ri32_le or rf32_le");
+    }
+
+    /// "RtApiPulse::callbackEvent: audio read error, Connection terminated.." as a user may read it.
+    std::string withoutPlace(std::string words)
+    {
+        if (words.starts_with("RtApi"))
+            words.erase(0, std::min(words.size(), words.find(": ") + 2));
+        words.erase(words.find_last_not_of(".\n ") + 1);
+        return words;
+    }
+
+    /// Its number now; devices come and go.
+    unsigned indexOf(RtAudio &audio, const SoundDevice &device, SoundDirection direction, const std::string &where)
+    {
+        const unsigned count = mayAskRtAudio(device.system) ? audio.getDeviceCount() : 0;
+        for (unsigned i = 0; i < count; ++i) {
+            const RtAudio::DeviceInfo info = audio.getDeviceInfo(i);
+            if (info.name == device.name
+                && (direction == SoundDirection::In ? info.inputChannels : info.outputChannels) > 0)
+                return i;
+        }
+        throw Error(where, "the sound device " + device.name + " is not there", Error::Kind::Failure);
+    }
+
+} // namespace
+
+/// All that the device's thread uses; it outlives the stream where the device hangs.
+struct SoundStream::Running {
+    Running(RtAudio::Api api, Exchange given) : audio(api), exchange(std::move(given)) {}
+
+    static int call(void *out, void *in, unsigned samples, double time, RtAudioStreamStatus status, void *user);
+    static void noteFailure(RtAudioError::Type type, const std::string &words);
+    bool isSound();
+
+    RtAudio audio;
+    std::mutex mutex; ///< of what follows
+    Exchange exchange;
+    std::string failure;
+    int failuresInARow = 0;
+    bool hasFailed = false; ///< since the last call
+    bool isFirst = true;
+    bool isAfterLoss = false;
+    Clock::time_point lastCall = Clock::now();
+
+    std::size_t frameBytes = 0;
+    unsigned blockSamples = 0;
+};
+
+namespace {
+
+    /// RtAudio tells of failures in the thread they happen in, but not of which stream.
+    thread_local void *streamOfThread = nullptr;
+
+} // namespace
+
+void SoundStream::Running::noteFailure(RtAudioError::Type /*type*/, const std::string &words)
+{
+    if (!streamOfThread)
+        return;
+    auto &running = *static_cast<Running *>(streamOfThread);
+    const std::lock_guard lock(running.mutex);
+    running.hasFailed = true;
+    running.failure = withoutPlace(words);
+}
+
+/// Whether what the device gave, or took, since the last call was sound.
+bool SoundStream::Running::isSound()
+{
+    failuresInARow = std::exchange(hasFailed, false) ? failuresInARow + 1 : 0;
+    return failuresInARow == 0;
+}
+
+int SoundStream::Running::call(void *out, void *in, unsigned samples, double /*time*/, RtAudioStreamStatus status,
+                               void *user)
+{
+    auto &running = *static_cast<Running *>(user);
+    streamOfThread = user;
+    const std::lock_guard lock(running.mutex);
+    running.lastCall = Clock::now();
+    const std::span block(static_cast<std::byte *>(out ? out : in), samples * running.frameBytes);
+    running.isAfterLoss = running.isAfterLoss || status != 0;
+    const bool isSound = running.isSound();
+    if (running.failuresInARow >= mostFailures || !running.exchange)
+        return 2;
+    // RtAudio calls before it reads: the first block in was never filled, and one after a failure holds the last one's.
+    if (in && (std::exchange(running.isFirst, false) || !isSound)) {
+        running.isAfterLoss = running.isAfterLoss || !isSound;
+        return 0;
+    }
+    running.exchange(block, std::exchange(running.isAfterLoss, false));
+    return 0;
+}
+
+SoundStream::SoundStream(const SoundDevice &device, SoundDirection direction, const StreamFormat &format,
+                         Exchange exchange, const std::string &where)
+{
+    const RtAudioFormat samples = formatOf(format.type, where);
+    m_running = std::make_shared<Running>(apiOf(device.system), std::move(exchange));
+    Running &running = *m_running;
+    running.audio.showWarnings(false);
+    running.frameBytes = std::size_t(format.frameBytes());
+    running.blockSamples = unsigned(std::max(16.0, format.sampleRateHz / blocksPerSecond));
+    const std::lock_guard lock(rtAudioMutex());
+    RtAudio::StreamParameters parameters;
+    parameters.deviceId = indexOf(running.audio, device, direction, where);
+    parameters.nChannels = unsigned(format.channelCount);
+    RtAudio::StreamOptions options;
+    options.numberOfBuffers = outputBlocks;
+    options.streamName = "Faintline";
+    const bool isIn = direction == SoundDirection::In;
+    try {
+        running.audio.openStream(isIn ? nullptr : &parameters, isIn ? &parameters : nullptr, samples,
+                                 unsigned(format.sampleRateHz), &running.blockSamples, &Running::call, &running,
+                                 &options, &Running::noteFailure);
+        running.audio.startStream();
+    } catch (const RtAudioError &error) {
+        throw Error(where, "the sound device " + device.name + " cannot be opened: " + withoutPlace(error.what()),
+                    Error::Kind::Failure);
+    }
+}
+
+SoundStream::~SoundStream()
+{
+    Clock::time_point lastCall;
+    {
+        const std::lock_guard lock(m_running->mutex);
+        m_running->exchange = {};
+        lastCall = m_running->lastCall;
+    }
+    const auto close = [running = std::move(m_running)] {
+        if (running->audio.isStreamOpen())
+            running->audio.closeStream();
+    };
+    // Closing waits for the device, and one that hangs would be waited for without end.
+    if (Clock::now() - lastCall > stillness)
+        std::thread(close).detach();
+    else
+        close();
+}
+
+std::optional<std::string> SoundStream::failure() const
+{
+    const std::lock_guard lock(m_running->mutex);
+    if (m_running->failuresInARow < mostFailures)
+        return {};
+    return m_running->failure;
+}
+
+double SoundStream::outputDelaySeconds() const
+{
+    return outputBlocks / blocksPerSecond;
+}
+
+} // namespace faintline

@@ -1,0 +1,69 @@
+#include "live/rtAudio.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include <pulse/pulseaudio.h>
+
+namespace faintline {
+
+namespace {
+
+    bool hasCard()
+    {
+        std::error_code none;
+        const std::filesystem::directory_iterator entries("/dev/snd", none);
+        return std::any_of(begin(entries), end(entries), [](const std::filesystem::directory_entry &entry) {
+            return entry.path().filename().string().starts_with("controlC");
+        });
+    }
+
+    /// A PulseAudio server that says what its default devices are.
+    bool hasPulseDefaults()
+    {
+        const std::unique_ptr<pa_mainloop, decltype(&pa_mainloop_free)> loop(pa_mainloop_new(), &pa_mainloop_free);
+        const std::unique_ptr<pa_context, decltype(&pa_context_unref)> context(
+            pa_context_new(pa_mainloop_get_api(loop.get()), "Faintline"), &pa_context_unref);
+        if (pa_context_connect(context.get(), nullptr, PA_CONTEXT_NOAUTOSPAWN, nullptr) < 0)
+            return false;
+        const auto goOn = [&] { return pa_mainloop_iterate(loop.get(), 1, nullptr) >= 0; };
+        const auto state = [&] { return pa_context_get_state(context.get()); };
+        while (PA_CONTEXT_IS_GOOD(state()) && state() != PA_CONTEXT_READY && goOn()) {
+        }
+        if (state() != PA_CONTEXT_READY)
+            return false;
+        bool hasBoth = false;
+        const auto look = [](pa_context *, const pa_server_info *info, void *found) {
+            *static_cast<bool *>(found) = info && info->default_sink_name && info->default_source_name;
+        };
+        pa_operation *asking = pa_context_get_server_info(context.get(), look, &hasBoth);
+        while (pa_operation_get_state(asking) == PA_OPERATION_RUNNING && goOn()) {
+        }
+        pa_operation_unref(asking);
+        pa_context_disconnect(context.get());
+        return hasBoth;
+    }
+
+} // namespace
+
+std::mutex &rtAudioMutex()
+{
+    static std::mutex mutex;
+    return mutex;
+}
+
+bool mayAskRtAudio(SoundDevice::System system)
+{
+    switch (system) {
+    case SoundDevice::System::PulseAudio:
+        return hasPulseDefaults();
+    case SoundDevice::System::Alsa:
+        return hasCard();
+    case SoundDevice::System::Jack:
+        break;
+    }
+    return true;
+}
+
+} // namespace faintline

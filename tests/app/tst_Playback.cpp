@@ -1,0 +1,185 @@
+#include "app/base/MessageBar.h"
+#include "app/control/Playback.h"
+#include "app/openWindow.h"
+#include "app/workspace/Workbench.h"
+#include "live/SoundSource.h"
+#include "recording/SimulatedRecording.h"
+#include "recording/writeRecording.h"
+#include "support/PulseServer.h"
+#include "support/recordings.h"
+
+#include <QAction>
+#include <QElapsedTimer>
+#include <QMenuBar>
+
+#include <cstring>
+
+using namespace faintline;
+using namespace faintline::test;
+
+/// Play, in the window: what is heard is what was chosen, and the cursor is where the sound is.
+class tst_Playback : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void initTestCase();
+    void cleanupTestCase() { m_window.reset(); }
+
+    void withoutDeviceTheCursorMoves();
+    void theCursorFollowsTheSound();
+    void theLineIsHeardAt700Hz();
+    void startsAgainWhereTheCursorIsPut();
+
+private:
+    Viewport &viewport() const { return m_window->document().viewport(); }
+    double cursor() const { return viewport().cursor()->seconds; }
+    void pressSpace() { QTest::keyClick(m_window->workbench().output(), Qt::Key_Space); }
+    Playback &playback() const { return *m_window->findChild<Playback *>(); }
+    void choose(const QString &text) const;
+    bool hasServer();
+
+    QTemporaryDir m_folder;
+    std::unique_ptr<PulseServer> m_server;
+    std::unique_ptr<MainWindow> m_window;
+};
+
+void tst_Playback::initTestCase()
+{
+    qputenv("PULSE_SERVER", "unix:/nonexistent");
+    LineScene scene;
+    scene.sampleRateHz = 8000.0;
+    scene.durationSeconds = 60.0;
+    scene.lines = {{.snrDb = 25.0,
+                    .referenceSeconds = 0.25,
+                    .startSeconds = 5.0,
+                    .durationSeconds = 50.0,
+                    .frequencyHz = 2000.0,
+                    .driftHzPerSecond = 1.0}};
+    const QString path = m_folder.filePath("line.wav");
+    writeRecording(SimulatedRecording(scene), path.toStdString());
+    m_window = newWindow();
+    QVERIFY(
+        openAndSettle(*m_window, path, [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.25; }));
+    QVERIFY(!m_window->document().shownEvents().empty());
+}
+
+/// An action of a submenu, by its text.
+void tst_Playback::choose(const QString &text) const
+{
+    for (QAction *action : m_window->findChildren<QAction *>())
+        if (action->text().remove('&') == text)
+            return action->trigger();
+    qFatal("there is no such action");
+}
+
+bool tst_Playback::hasServer()
+{
+    if (!m_server)
+        m_server = std::make_unique<PulseServer>();
+    return m_server->whyNot().isEmpty();
+}
+
+void tst_Playback::withoutDeviceTheCursorMoves()
+{
+    if (!soundDevices().empty())
+        QSKIP("this machine has a sound card");
+    viewport().setCursor({10.0, 2000.0});
+    pressSpace();
+    QTRY_VERIFY(cursor() > 10.5);
+    const QString words = m_window->findChild<MessageBar *>()->text();
+    QVERIFY2(words.contains("this machine has no sound output") && words.contains("the cursor moves without sound"),
+             qPrintable(words));
+    pressSpace();
+    const double seconds = cursor();
+    QTest::qWait(200);
+    QCOMPARE(cursor(), seconds);
+}
+
+void tst_Playback::theCursorFollowsTheSound()
+{
+    if (!hasServer())
+        QSKIP(qPrintable(m_server->whyNot()));
+    viewport().setCursor({10.0, 2000.0});
+    pressSpace();
+    QVERIFY(playback().isPlaying());
+    QTRY_VERIFY(cursor() > 10.1); // the device has begun
+    const double begin = cursor();
+    QElapsedTimer timer;
+    timer.start();
+    QTest::qWait(2000);
+    QVERIFY2(std::abs(cursor() - begin - double(timer.elapsed()) / 1000.0) < 0.4,
+             qPrintable(QString::number(cursor())));
+    choose(tr("%1 × speed").arg(4.0));
+    const double faster = cursor();
+    QTRY_VERIFY(cursor() > faster + 0.5);
+    const double from = cursor();
+    timer.start();
+    QTest::qWait(1500);
+    const double rate = (cursor() - from) / (double(timer.elapsed()) / 1000.0);
+    QVERIFY2(rate > 3.0 && rate < 5.0, qPrintable(QString::number(rate)));
+    pressSpace();
+    QVERIFY(!playback().isPlaying());
+    choose(tr("%1 × speed").arg(1.0));
+}
+
+// Heard at the sound server's other end.
+void tst_Playback::theLineIsHeardAt700Hz()
+{
+    if (!hasServer())
+        QSKIP(qPrintable(m_server->whyNot()));
+    SoundSource ear({"default", {}, 0.0, 0});
+    std::vector<float> heard;
+    const auto hear = [&](Index samples) {
+        for (heard.clear(); std::ssize(heard) < samples; QCoreApplication::processEvents()) {
+            const Heard some = ear.hear(std::chrono::milliseconds(20));
+            const std::size_t before = heard.size();
+            heard.resize(before + some.bytes.size() / sizeof(float));
+            std::memcpy(heard.data() + before, some.bytes.data(), some.bytes.size());
+        }
+    };
+    const auto amplitude = [&](double hz) { // in the last second
+        return 2.0 * std::abs(fourier(heard.data() + heard.size() - 48'000, 48'000, false, hz / 48'000.0)) / 48'000.0;
+    };
+    hear(1);
+    viewport().setCursor({20.0, 2000.0});
+    choose("Line of the event, or at the cursor, at 700 Hz");
+    pressSpace();
+    hear(3 * 48'000);
+    QVERIFY2(amplitude(700.0) > 0.08, qPrintable(QString::number(amplitude(700.0))));
+    QVERIFY(amplitude(2017.0) < 0.01);
+    pressSpace();
+    choose("Recording");
+    viewport().setCursor({20.0, 2000.0});
+    pressSpace();
+    hear(3 * 48'000);
+    QVERIFY(amplitude(700.0) < 0.02);
+    pressSpace();
+}
+
+void tst_Playback::startsAgainWhereTheCursorIsPut()
+{
+    if (!hasServer())
+        QSKIP(qPrintable(m_server->whyNot()));
+    viewport().setCursor({20.0, 2000.0});
+    pressSpace();
+    QTRY_VERIFY(cursor() > 20.1);
+    viewport().setCursor({40.0, 1500.0});
+    QTRY_VERIFY(cursor() > 40.1);
+    QCOMPARE(viewport().cursor()->hz, 1500.0);
+    QVERIFY(cursor() < 45.0);
+    viewport().setCursor({59.0, 1500.0}); // to the end
+    QTRY_VERIFY(!playback().isPlaying());
+    viewport().setSelection({{30.0, 30.5}, {1000.0, 3000.0}});
+    choose("Loop");
+    pressSpace();
+    QTRY_VERIFY(cursor() > 30.2 && cursor() <= 30.5);
+    QTRY_VERIFY(cursor() < 30.2);
+    QVERIFY(playback().isPlaying());
+    m_server->stop();
+    QTRY_VERIFY(!playback().isPlaying());
+    QVERIFY(m_window->findChild<MessageBar *>()->text().contains("Connection terminated"));
+}
+
+QTEST_MAIN(tst_Playback)
+#include "tst_Playback.moc"

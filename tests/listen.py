@@ -1,0 +1,227 @@
+#!/usr/bin/env python3
+"""What faintline-cli listen promises, tried on its sources:
+    python3 tests/listen.py CLI pipe [HOURS]            as fast as it goes (24): memory, processor
+    python3 tests/listen.py CLI sound|udp|rtl_tcp [MINUTES]   in real time (10); sound needs pulseaudio
+    python3 tests/listen.py CLI kill [COUNT]            SIGKILL at random moments (50)
+The first two compare the events with those of detect in the recording, byte for byte. Needs numpy. Exit code 1 where a promise is not kept."""
+import collections
+import json
+import os
+import random
+import signal
+import socket
+import struct
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+import numpy
+
+RATE = 48000
+BLOCK = RATE // 20  # samples
+SETTINGS = ["--set", "spectrogram.windowSeconds=1", "--set", "decide.falseAlarmsPerHour=1"]
+MB = 1e6
+
+
+def fail(words):
+    sys.exit("error: tests/listen.py: " + words)
+
+
+class Scene:
+    """Noise, and lines that come and go at other frequencies: 16-bit, or I/Q of 8 bits."""
+
+    def __init__(self, isIq=False):
+        self.isIq = isIq
+        self.random = numpy.random.Generator(numpy.random.SFC64(1))
+        self.position = 0
+
+    def block(self, samples=BLOCK):
+        t = (self.position + numpy.arange(samples)) / RATE
+        self.position += samples
+        minute = int(t[0] / 60)
+        phase = 2 * numpy.pi * ((300 + 731 * minute % 20000) * t + 0.15 * (t - 60 * minute) ** 2)
+        amplitude = 0.004 if t[0] % 60 < 40 else 0.0
+        if self.isIq:
+            noise = self.random.standard_normal((samples, 2), numpy.float32) * 30
+            noise[:, 0] += 30 * 10 * amplitude * numpy.cos(phase)
+            noise[:, 1] += 30 * 10 * amplitude * numpy.sin(phase)
+            return numpy.clip(127.5 + noise, 0, 255).astype(numpy.uint8).tobytes()
+        noise = self.random.standard_normal(samples, numpy.float32) * 0.1
+        return (32767 * numpy.clip(noise + amplitude * numpy.cos(phase), -1, 1)).astype("<i2").tobytes()
+
+
+def cpuSeconds(pid):
+    words = open(f"/proc/{pid}/stat").read().rsplit(")", 1)[1].split()
+    return (int(words[11]) + int(words[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def memory(pid):
+    return int(open(f"/proc/{pid}/statm").read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+def listen(cli, folder, source, **more):
+    return subprocess.Popen(
+        [cli, "listen", *source, *SETTINGS, "--record", f"{folder}/heard.sigmf-meta", "--events", f"{folder}/live.csv",
+         "--out", f"{folder}/lines.jsonl"], **more)
+
+
+def compare(cli, folder):
+    """Of the recording, with the same settings and a causal background."""
+    subprocess.run([cli, "detect", f"{folder}/heard.sigmf-meta", *SETTINGS, "--set", "noise.causal=true", "--events",
+                    f"{folder}/file.csv", "--progress", "none"], check=True)
+    live, file = (open(f"{folder}/{name}.csv", "rb").read() for name in ("live", "file"))
+    if live != file:
+        fail(f"the events of the recording are others: {folder}")
+    notices = [json.loads(line) for line in open(f"{folder}/lines.jsonl")]
+    told = collections.Counter(n["notice"] for n in notices if n.get("notice") not in (None, "started", "stopped"))
+    words = ", ".join(f"{count} of {kind}" for kind, count in told.items()) or "none"
+    print(f"{live.count(10) - 1} events, byte for byte those of the recording; notices: {words}", flush=True)
+
+
+def pipe(cli, folder, hours):
+    scene, hourly = Scene(), []
+    with open(f"{folder}/hour", "wb") as file:  # the same every hour
+        for _ in range(3600):
+            file.write(scene.block(RATE))
+    process = listen(cli, folder, ["-", "--raw-type", "ri16_le", "--raw-rate", str(RATE)], stdin=subprocess.PIPE)
+    for hour in range(hours):
+        resident = []
+        with open(f"{folder}/hour", "rb") as file:
+            while second := file.read(2 * RATE):
+                process.stdin.write(second)
+                resident.append(memory(process.pid))
+        hourly.append((min(resident), max(resident), sum(resident) / len(resident), cpuSeconds(process.pid)))
+        least, most, mean, cpu = hourly[-1]
+        print(f"hour {hour + 1}: {least / MB:.1f} … {most / MB:.1f} MB, mean {mean / MB:.2f}; {cpu:.0f} s of a processor", flush=True)
+    process.stdin.close()
+    if process.wait() != 0:
+        fail("listen failed")
+    share = hourly[-1][3] / (3600 * hours)
+    print(f"{100 * share:.2f} % of a core; largest in the last hour {100 * (hourly[-1][1] / hourly[0][1] - 1):+.2f} % of the first's")
+    if share > 0.03 or hourly[-1][1] > 1.01 * hourly[0][1]:
+        fail("too much memory or time")
+    compare(cli, folder)
+
+
+def paced(seconds, isIq, send):
+    """Calls send(block) in real time."""
+    scene, begin = Scene(isIq), time.monotonic()
+    for i in range(int(seconds * RATE / BLOCK)):
+        time.sleep(max(0.0, begin + (i + 1) * BLOCK / RATE - time.monotonic()))
+        send(scene.block())
+
+
+def finish(process, begin):
+    cpu, seconds = cpuSeconds(process.pid), time.monotonic() - begin
+    time.sleep(1.0)
+    process.send_signal(signal.SIGINT)
+    if process.wait() != 0:
+        fail("listen failed")
+    print(f"{100 * cpu / seconds:.2f} % of a core over {seconds:.0f} s, the calibration included", flush=True)
+
+
+def udp(cli, folder, minutes):
+    sender = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    sender.bind(("127.0.0.1", 0))
+    port = sender.getsockname()[1] ^ 1
+    process = listen(cli, folder, ["--udp", f"127.0.0.1:{port}", "--udp-sequence", "u32be", "--raw-type", "ri16_le", "--raw-rate", str(RATE)])
+    begin, number = time.monotonic(), 0
+
+    def send(block):
+        nonlocal number
+        for at in range(0, len(block), 960):
+            if number % 997 != 5:  # some are lost on the way
+                sender.sendto(struct.pack(">I", number) + block[at : at + 960], ("127.0.0.1", port))
+            number += 1
+
+    time.sleep(1.0)
+    paced(60 * minutes, False, send)
+    finish(process, begin)
+    compare(cli, folder)
+
+
+def rtl_tcp(cli, folder, minutes):
+    server = socket.create_server(("127.0.0.1", 0))
+    process = listen(cli, folder, ["--rtl-tcp", "127.0.0.1:%d" % server.getsockname()[1], "--frequency", "100e6", "--raw-rate", str(RATE)])
+    begin, client = time.monotonic(), server.accept()[0]
+    client.sendall(b"RTL0" + struct.pack(">II", 5, 29))
+    paced(60 * minutes, True, client.sendall)
+    finish(process, begin)
+    compare(cli, folder)
+
+
+def sound(cli, folder, minutes):
+    os.environ.update(PULSE_SERVER=f"unix:{folder}/native", PULSE_COOKIE=f"{folder}/cookie")
+    own = {**os.environ, "HOME": folder, "XDG_RUNTIME_DIR": folder, "XDG_CONFIG_HOME": folder}
+    server = subprocess.Popen(
+        ["pulseaudio", "-n", "--daemonize=no", "--exit-idle-time=-1", "--disable-shm=yes", "--use-pid-file=no",
+         "-L", f"module-native-protocol-unix auth-anonymous=1 socket={folder}/native",
+         "-L", f"module-null-sink sink_name=null rate={RATE} channels=1 channel_map=mono"], env=own, stderr=subprocess.DEVNULL)
+    try:
+        time.sleep(2.0)
+        process = listen(cli, folder, ["--device", "default", "--raw-type", "ri16_le"])
+        player = subprocess.Popen(["pacat", "--playback", "--raw", "--format=s16le", f"--rate={RATE}", "--channels=1"], stdin=subprocess.PIPE)
+        begin = time.monotonic()
+        paced(60 * minutes, False, player.stdin.write)
+        finish(process, begin)
+        player.kill()
+    finally:
+        server.kill()
+        server.wait()
+    compare(cli, folder)
+
+
+def killOnce(cli, folder, results):
+    """Seconds that were delivered a moment before the kill and are not in the recording."""
+    process = listen(cli, folder, ["-", "--raw-type", "ri16_le", "--raw-rate", str(RATE)], stdin=subprocess.PIPE)
+    moment, begin, sent = random.uniform(0.5, 8.0), time.monotonic(), b""
+    scene = Scene()
+    while time.monotonic() - begin < moment:
+        block = scene.block()
+        process.stdin.write(block)
+        process.stdin.flush()
+        sent += block
+        time.sleep(max(0.0, begin + min(moment, len(sent) / 2 / RATE) - time.monotonic()))
+    process.kill()
+    process.wait()
+    process.stdin.close()
+    kept = open(f"{folder}/heard.sigmf-data", "rb").read() if os.path.exists(f"{folder}/heard.sigmf-data") else b""
+    if not sent.startswith(kept):
+        return results.append("the recording holds what was never sent")
+    if kept and subprocess.run([cli, "info", f"{folder}/heard.sigmf-meta"], stdout=subprocess.DEVNULL).returncode != 0:
+        return results.append("the recording cannot be opened")
+    results.append((len(sent) - len(kept)) / 2 / RATE)
+
+
+def kill(cli, folder, count):
+    results = []
+    while len(results) < count:
+        threads = []
+        for i in range(min(5, count - len(results))):
+            own = f"{folder}/{len(results)}-{i}"
+            os.mkdir(own)
+            threads.append(threading.Thread(target=killOnce, args=(cli, own, results)))
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+    for words in results:
+        if isinstance(words, str):
+            fail(words)
+    print(f"killed {count} times: {sum(results) / count:.3f} s lost in the mean, {max(results):.3f} s at most")
+    if max(results) > 1.0:
+        fail("more than a second was lost")
+
+
+def main():
+    jobs = {"pipe": (pipe, 24), "sound": (sound, 10), "udp": (udp, 10), "rtl_tcp": (rtl_tcp, 10), "kill": (kill, 50)}
+    if len(sys.argv) not in (3, 4) or sys.argv[2] not in jobs:
+        sys.exit(__doc__)
+    job, amount = jobs[sys.argv[2]]
+    with tempfile.TemporaryDirectory() as folder:
+        job(os.path.abspath(sys.argv[1]), folder, int(sys.argv[3]) if len(sys.argv) == 4 else amount)
+
+
+main()
