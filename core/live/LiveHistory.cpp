@@ -36,6 +36,14 @@ namespace {
         points.resize(kept);
     }
 
+    /// A track is followed beyond its end, which is known only then.
+    std::shared_ptr<Track> endingAt(Track track, Index frame)
+    {
+        while (track.points.size() > 1 && track.points.back().frame > frame)
+            track.points.pop_back();
+        return std::make_shared<Track>(std::move(track));
+    }
+
 } // namespace
 
 LiveHistory::Picture::Picture(const Axis &axis, Index cells, ByteScale::Kind kind)
@@ -82,7 +90,8 @@ void LiveHistory::markChange(const AnalysisPlan &plan, double seconds)
 {
     AnalysisSettings after = plan.settings;
     after.selection.fromSeconds = m_plan->settings.selection.fromSeconds; // where it began anew, nobody set
-    m_changes.push_back({seconds, changedFields(m_plan->settings, after), plan.threshold});
+    if (std::vector<std::string> fields = changedFields(m_plan->settings, after); !fields.empty())
+        m_changes.push_back({seconds, std::move(fields), plan.threshold});
 }
 
 void LiveHistory::take(const ListenFrame &frame)
@@ -124,6 +133,8 @@ void LiveHistory::take(const EventChange &change)
     Event &event = m_events[id] = change.event;
     if (event.isOpen)
         event.confirmSeconds = change.state == State::Confirmed ? event.endSeconds : confirmed;
+    else if (m_tracks.contains(id))
+        m_tracks[id] = endingAt(*m_tracks[id], m_plan->time().nearest(event.endSeconds));
 }
 
 LiveView LiveHistory::view() const

@@ -93,7 +93,12 @@ std::chrono::steady_clock::time_point StreamBuffer::heardAt(Index position) cons
     const std::lock_guard lock(m_mutex);
     const auto piece = std::partition_point(m_pieces.begin(), m_pieces.end(),
                                             [=](const Piece &each) { return each.first + each.count < position; });
-    return piece == m_pieces.end() ? std::chrono::steady_clock::now() : piece->heardAt;
+    if (piece == m_pieces.end())
+        return std::chrono::steady_clock::now();
+    // Those of a piece came one after the other.
+    const double later = double(std::max<Index>(0, piece->first + piece->count - position)) / m_format.sampleRateHz;
+    return piece->heardAt
+           - std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(later));
 }
 
 void StreamBuffer::release(Index position)
