@@ -76,7 +76,7 @@ namespace {
                                       {"K", "cursor to the nearest peak"},
                                       {"H", "harmonics of the cursor's frequency"},
                                       {"I", "sidebands: drag one, or Alt + Left, Right"},
-                                      {"Space", "play"},
+                                      {"Space   End", "play; live: hold the picture, go to the newest frames"},
                                       {"J  L", "one frame, ping or stage back, forward"},
                                       {"Ctrl + R", "run again"},
                                       {"Escape", "stop, or clear the marks"}}};
