@@ -4,6 +4,7 @@
 #include "base/json.h"
 #include "exchange/writeEvents.h"
 #include "live/EventCommand.h"
+#include "live/IqSource.h"
 #include "live/PipeSource.h"
 #include "live/RtlTcpSource.h"
 #include "live/SoundSource.h"
@@ -135,36 +136,6 @@ namespace {
         }
         return std::make_unique<PipeSource>(options.analysis.file, raw, stop);
     }
-
-    /// Its channels taken as I and Q, if asked for.
-    StreamFormat withIq(StreamFormat format)
-    {
-        if (format.type.isComplex)
-            return format;
-        if (format.channelCount % 2 != 0)
-            throw Error(format.origin,
-                        "has " + std::to_string(format.channelCount) + " channel(s); I/Q needs an even number");
-        format.type.isComplex = true;
-        format.channelCount /= 2;
-        return format;
-    }
-
-    /// A source whose channels are pairs.
-    class IqSource final : public SampleSource
-    {
-    public:
-        explicit IqSource(std::unique_ptr<SampleSource> source)
-            : m_source(std::move(source)), m_format(withIq(m_source->format()))
-        {
-        }
-        const StreamFormat &format() const override { return m_format; }
-        Heard hear(std::chrono::milliseconds patience) override { return m_source->hear(patience); }
-        bool isPatient() const override { return m_source->isPatient(); }
-
-    private:
-        std::unique_ptr<SampleSource> m_source;
-        StreamFormat m_format;
-    };
 
     /// The line of JSON at the beginning: what is listened to, and how.
     std::string startedLine(const StreamFormat &format, const AnalysisSettings &settings)

@@ -22,7 +22,7 @@ namespace {
     }
 
     /// The settings that put the threshold there.
-    DecideSettings decideAt(DecideSettings decide, DecideSettings::By by, double nats, const Analysis &analysis)
+    DecideSettings decideAt(DecideSettings decide, DecideSettings::By by, double nats, const AnalysisPlan &analysis)
     {
         decide.by = by;
         switch (by) {
@@ -41,7 +41,7 @@ namespace {
     }
 
     /// Whether noise exceeds a threshold so seldom that the rate cannot be set.
-    bool isBeyondRates(DecideSettings::By by, double nats, const Analysis &analysis)
+    bool isBeyondRates(DecideSettings::By by, double nats, const AnalysisPlan &analysis)
     {
         if (by == DecideSettings::By::FalseAlarmsPerHour)
             return analysis.calibration->eventRateAt(nats) * analysis.cellFramesPerHour
@@ -132,7 +132,7 @@ void AnalysisController::setSettings(const AnalysisSettings &settings, const QSt
 
 void AnalysisController::inject(const LineSettings &line)
 {
-    if (!m_document.recording() || m_isOpening)
+    if (!m_document.recording() || m_isOpening || m_document.isLive())
         return;
     const OpenedSource opened = m_document.openedSource();
     m_runner.start(
@@ -146,16 +146,16 @@ void AnalysisController::inject(const LineSettings &line)
 
 void AnalysisController::setThresholdUnit(DecideSettings::By by)
 {
-    if (!m_document.analysis() || m_document.settings().decide.by == by)
+    if (!m_document.plan() || m_document.settings().decide.by == by)
         return;
     AnalysisSettings after = m_document.settings();
-    after.decide = decideAt(after.decide, by, m_document.shownThreshold(), *m_document.analysis());
+    after.decide = decideAt(after.decide, by, m_document.shownThreshold(), *m_document.plan());
     m_document.edit(after, tr("Change the unit of the threshold"));
 }
 
 void AnalysisController::run()
 {
-    if (!m_document.isEmpty() && !m_isOpening)
+    if (!m_document.isEmpty() && !m_isOpening && !m_document.isLive()) // what is live runs by itself
         startAnalysis();
 }
 
@@ -246,14 +246,14 @@ void AnalysisController::previewThreshold(double nats)
 
 void AnalysisController::commitThreshold(double nats)
 {
-    if (!m_document.analysis())
+    if (!m_document.plan())
         return;
     AnalysisSettings after = m_document.settings();
-    const Analysis &analysis = *m_document.analysis();
+    const AnalysisPlan &analysis = *m_document.plan();
     const auto by = isBeyondRates(after.decide.by, nats, analysis) ? DecideSettings::By::Nats : after.decide.by;
     after.decide = decideAt(after.decide, by, nats, analysis);
     const bool isMoved = after != m_document.settings();
-    m_document.setShownThreshold(isMoved ? nats : m_document.analysis()->threshold);
+    m_document.setShownThreshold(isMoved ? nats : analysis.threshold);
     m_document.edit(after, tr("Move the threshold"), QStringLiteral("threshold"));
 }
 

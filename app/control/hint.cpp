@@ -12,6 +12,9 @@ QString hint(const Document &document, bool isBusy, const QString &usual)
     const auto tr = [](const char *text) { return QCoreApplication::translate("hint", text); };
     if (document.isEmpty())
         return tr("Click a picture, or drop a recording anywhere on the window.");
+    if (document.isLive())
+        return tr("Scroll back at any time; End returns to the newest frames. The threshold and all settings may be "
+                  "changed.");
     if (!document.analysis() && !isBusy)
         return tr("Stopped before a result was available. Press Run to start again; From and To select a part of the "
                   "recording.");

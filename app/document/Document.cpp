@@ -63,6 +63,8 @@ void Document::setOpened(OpenedSource opened, const AnalysisSettings &settings, 
     m_sessionPath = sessionPath;
     m_analysis.reset();
     m_provisional.reset();
+    m_live = {};
+    m_isLive = false;
     m_events.clear();
     m_viewport.setExtents({}, {});
     m_undoStack.clear();
@@ -116,6 +118,32 @@ void Document::setAnalysis(std::shared_ptr<const Analysis> analysis, std::vector
     emit shownEventsChanged();
 }
 
+void Document::setLive(LiveView view)
+{
+    const bool isPlanNew = view.plan != m_live.plan;
+    const bool areEventsNew = view.events != m_live.events;
+    m_live = std::move(view);
+    m_isLive = true;
+    if (isPlanNew) {
+        m_shownThreshold = m_live.plan->threshold;
+        emit livePlanChanged();
+        emit shownThresholdChanged();
+    }
+    emit liveChanged();
+    if (areEventsNew)
+        emit shownEventsChanged();
+}
+
+void Document::endLive()
+{
+    m_isLive = false;
+}
+
+const AnalysisPlan *Document::plan() const
+{
+    return m_analysis ? m_analysis.get() : m_live.plan.get();
+}
+
 Span Document::lookedAt() const
 {
     const auto &cursor = m_viewport.cursor();
@@ -153,7 +181,7 @@ bool Document::isCurrent() const
 
 void Document::setShownThreshold(double nats)
 {
-    if (!m_analysis || nats == m_shownThreshold)
+    if (!plan() || nats == m_shownThreshold)
         return;
     const std::ptrdiff_t before = shownCount();
     m_shownThreshold = nats;
@@ -164,6 +192,8 @@ void Document::setShownThreshold(double nats)
 
 std::vector<Event> Document::shownEvents() const
 {
+    if (m_live.events)
+        return *m_live.events; // each as its threshold decided
     std::vector<Event> result;
     std::copy_if(m_events.begin(), m_events.end(), std::back_inserter(result),
                  [this](const Event &event) { return isShown(event); });

@@ -3,6 +3,7 @@
 #include "analysis/Review.h"
 #include "analysis/analyse.h"
 #include "app/document/Source.h"
+#include "live/LiveHistory.h"
 #include "widgets/base/Viewport.h"
 
 #include <QObject>
@@ -86,6 +87,15 @@ public:
     std::shared_ptr<const Analysis> lineAnalysis() const { return frameKind().takesBoxes ? m_analysis : nullptr; }
     bool isCurrent() const;
 
+    /// What a live run of what is open has so far, instead of an analysis. Its recording is being written.
+    void setLive(LiveView view);
+    /// It is over; what it had stays until something is opened.
+    void endLive();
+    bool isLive() const { return m_isLive; }
+    const LiveView &live() const { return m_live; }
+    /// The analysis's, or the live run's; null: there is neither.
+    const AnalysisPlan *plan() const;
+
     /// What the changed settings make of the visible frames, until their analysis is there; null where there is no such
     /// thing.
     void setProvisional(std::shared_ptr<const PeakPyramid> statistic);
@@ -106,6 +116,8 @@ signals:
     void annotationsChanged();
     void analysisChanged();
     void provisionalChanged();
+    void liveChanged();
+    void livePlanChanged(); ///< other settings are in force
     void shownThresholdChanged();
     void shownEventsChanged(); ///< the threshold passed one, or they are new
     void sessionChanged();     ///< its path, or whether there is something to save
@@ -131,6 +143,8 @@ private:
     Viewport m_viewport;
     std::shared_ptr<const Analysis> m_analysis;
     std::shared_ptr<const PeakPyramid> m_provisional;
+    LiveView m_live;
+    bool m_isLive = false;
     std::vector<Event> m_events;
     double m_shownThreshold = 0.0;
     QUndoStack m_undoStack;

@@ -77,6 +77,7 @@ namespace {
                                       {"H", "harmonics of the cursor's frequency"},
                                       {"I", "sidebands: drag one, or Alt + Left, Right"},
                                       {"Space", "play as sound; Detect > Play what"},
+                                      {"Space   End", "live: hold the picture, go to the newest frames"},
                                       {"J  L", "one frame, ping or stage back, forward"},
                                       {"Ctrl + R", "run again"},
                                       {"Escape", "stop, or clear the marks"}}};

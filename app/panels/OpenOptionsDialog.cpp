@@ -1,6 +1,7 @@
 #include "app/panels/OpenOptionsDialog.h"
 
 #include "app/base/filePath.h"
+#include "app/panels/sampleTypeBox.h"
 #include "base/Error.h"
 #include "recording/RawRecording.h"
 #include "recording/SampleType.h"
@@ -29,17 +30,12 @@ namespace {
 } // namespace
 
 OpenOptionsDialog::OpenOptionsDialog(const QString &path, QWidget *parent)
-    : QDialog(parent), m_fileBytes(fileSize(path)), m_type(new QComboBox), m_rate(new QDoubleSpinBox),
+    : QDialog(parent), m_fileBytes(fileSize(path)), m_type(sampleTypeBox()), m_rate(new QDoubleSpinBox),
       m_channels(new QSpinBox), m_header(new QSpinBox), m_iq(new QCheckBox(tr("Take channels in pairs as I and Q"))),
       m_length(plainLabel())
 {
     setWindowTitle(tr("Raw samples"));
-    for (const char *type : {"ci16_le", "ci8", "cu8", "cf32_le", "cf64_le", "ci16_be", "cf32_be", "ri16_le", "ri8",
-                             "ru8", "rf32_le", "rf64_le", "ri16_be", "rf32_be"})
-        m_type->addItem(QString::fromLatin1(type));
-    m_type->setEditable(true);
     m_type->setCurrentText(suggestedType(path));
-    m_type->setToolTip(tr("c or r (I/Q or real), f, i or u (float, signed, unsigned), bits, _le or _be"));
     m_rate->setRange(1e-6, 1e12);
     m_rate->setDecimals(3);
     m_rate->setValue(48000.0);

@@ -72,6 +72,7 @@ MainWindow::MainWindow(std::unique_ptr<QSettings> memory, const QString &recover
 {
     setObjectName(QStringLiteral("MainWindow"));
     setAnimated(false);
+    m_live = new LiveRun(this);
     m_panels = new Panels(*this);
     m_views = new WindowViews(*this, this);
     buildCentre();
@@ -86,6 +87,7 @@ MainWindow::MainWindow(std::unique_ptr<QSettings> memory, const QString &recover
     connectViews();
     connectSurvey();
     connectEvaluation();
+    connectLive();
     m_keys = new KeysOverlay(this);
     m_equation = new EquationSheet(this);
     m_palette = new CommandPalette(this);
@@ -99,6 +101,7 @@ MainWindow::MainWindow(std::unique_ptr<QSettings> memory, const QString &recover
 
 MainWindow::~MainWindow()
 {
+    m_live->disconnect(this);
     m_controller.disconnect(this); // what is still running ends after the widgets are gone
     m_document.disconnect(this);
     m_comparer.disconnect();
@@ -112,6 +115,8 @@ MainWindow::~MainWindow()
 
 void MainWindow::showWelcome()
 {
+    if (m_live->isRunning())
+        return void(mayLeave(tr("going to the welcome page"), [] {}));
     m_lessons->leave();
     saveLayout();
     m_presentAction->setChecked(false);
@@ -147,6 +152,14 @@ void MainWindow::showWorkbench()
 void MainWindow::showAnalysis()
 {
     const Analysis &analysis = *m_document.analysis();
+    showPlan(analysis);
+    m_threshold->setHistogram(analysis.statisticCounts);
+    m_overview->setPicture(analysis.inputAlong.front(), analysis.grid().axes.front());
+    showWorkbench();
+}
+
+void MainWindow::showPlan(const AnalysisPlan &analysis)
+{
     const Axis &frequency = analysis.grid().axes.front(); // of pings: the range
     m_readOut->setResolution(analysis.time().step, frequency.step);
     m_readOut->setFrequencyName(frequencyName(analysis.settings.family));
@@ -155,13 +168,10 @@ void MainWindow::showAnalysis()
     m_readOut->setStatisticUnit(unit);
     m_events->setStatisticUnit(unit);
     m_threshold->setCalibration(analysis.calibration, analysis.cellFramesPerHour);
-    m_threshold->setHistogram(analysis.statisticCounts);
     m_threshold->setUnit(unitOf(analysis.settings.decide.by));
     m_events->setAxes(analysis.grid().axes);
     const RecordingInfo info = m_document.recording() ? m_document.recording()->info() : RecordingInfo();
     m_events->setOrigin(info.startUnixSeconds, info.centreHz);
-    m_overview->setPicture(analysis.inputAlong.front(), frequency);
-    showWorkbench();
 }
 
 void MainWindow::showEvents()
@@ -208,6 +218,17 @@ void MainWindow::showFailure(const Error &error)
 
 void MainWindow::closeEvent(QCloseEvent *event)
 {
+    if (m_live->isRunning()) { // what was heard is written and analysed first
+        event->ignore();
+        const bool isSure = m_isLeaving || !m_isAsking
+                            || QMessageBox::question(this, tr("Listening"), tr("Stop listening and close the window?"))
+                                   == QMessageBox::Yes;
+        if (isSure && m_live->isRunning()) {
+            m_isLeaving = true;
+            m_live->stop();
+        }
+        return;
+    }
     if (!m_saver->mayLose(tr("closing"), [this] { close(); }))
         return event->ignore();
     m_lessons->leave();

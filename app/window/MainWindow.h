@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/control/LiveRun.h"
 #include "app/document/recordingFiles.h"
 #include "app/views/WindowParts.h"
 #include "app/window/WindowMemory.h"
@@ -22,6 +23,8 @@ class ChartMenus;
 class CommandPalette;
 class EquationSheet;
 class KeysOverlay;
+class ListenDialog;
+class LiveBar;
 class LessonGuide;
 class LessonList;
 struct Lesson;
@@ -59,6 +62,13 @@ public:
     ChartMenus &chartMenus() { return *m_chartMenus; }
 
     void openScans(const ScanTest &test) override;
+
+    /// Listens to a source, recording into a folder, with these settings or those of what is open, which makes room. In
+    /// the end the recording is open.
+    void listenTo(LiveRun::OpenSource source, const QString &folder,
+                  const std::optional<AnalysisSettings> &settings = {});
+    LiveRun &live() { return *m_live; }
+    LiveBar &liveBar() { return *m_liveBar; }
 
     void showNoiseFit();
     void showWhy();
@@ -105,12 +115,20 @@ private:
     void connectController();
     void connectViews();
     void connectSurvey();
+    void connectLive();
     void connectEvaluation();
     /// An action that makes sense only while a recording is shown.
     QAction *addViewAction(QMenu &menu, const QString &text, const QKeySequence &key, std::function<void()> action);
 
     void showWorkbench();
     void showAnalysis();
+    void showPlan(const AnalysisPlan &plan);
+    void showLive(const LiveView &view);
+    void tellNotice(const ListenNotice &notice);
+    void endLive();
+    void listen(); ///< asks to what
+    /// Whether what is open may be left: nothing is listened to, and unsaved work may be lost (SessionSaver::mayLose).
+    bool mayLeave(const QString &what, const std::function<void()> &next);
     void showEvents();
     void showHint();
     void showTitle();
@@ -147,6 +165,12 @@ private:
 
     Panels *m_panels = nullptr;
     SessionSaver *m_saver = nullptr;
+    LiveRun *m_live = nullptr;
+    LiveBar *m_liveBar = nullptr;
+    ListenDialog *m_listenDialog = nullptr; ///< remembers what was filled in
+    Index m_overviewFrames = 0;             ///< live, that the overview shows
+    std::optional<Error> m_liveTrouble;     ///< the last one, of the run
+    bool m_isLeaving = false;               ///< closed once listening has ended
     QString m_recoveryFolder;
     QStackedWidget *m_pages = nullptr;
     ReportWriter *m_report = nullptr;

@@ -74,7 +74,8 @@ void MainWindow::connectDocument()
     connect(gestures, &GestureWatcher::began, &m_document, &Document::beginGesture);
     connect(gestures, &GestureWatcher::ended, &m_document, &Document::endGesture);
     connect(&m_document, &Document::opened, this, [this] {
-        m_messages->dismiss();
+        if (!m_live->isRunning()) // what was said of the run holds
+            m_messages->dismiss();
         if (m_document.recording())
             m_readOut->setStartUnixSeconds(m_document.recording()->info().startUnixSeconds);
         m_overview->setPicture(nullptr, {});
@@ -89,7 +90,7 @@ void MainWindow::connectDocument()
         m_workbench->setPlaying(false);
         m_pings->setPlaying(false);
         const QString path = m_document.sessionPath().isEmpty() ? m_document.source().path : m_document.sessionPath();
-        if (!path.startsWith(QLatin1Char(':')))
+        if (!path.isEmpty() && !path.startsWith(QLatin1Char(':')))
             m_memory.addRecent(path);
         offerIq();
         showHint();
@@ -224,7 +225,7 @@ void MainWindow::connectSurvey()
     connect(m_survey, &SurveyPanel::openRequested, this,
             [this](const QString &path, const OpenOptions &options, const AnalysisController::Adjust &adjust) {
                 const auto next = [this, path, options, adjust] { openNow(path, options, adjust); };
-                if (m_saver->mayLose(tr("opening something else"), next))
+                if (mayLeave(tr("opening something else"), next))
                     next();
             });
 }

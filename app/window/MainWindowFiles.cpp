@@ -44,14 +44,14 @@ void MainWindow::open(const QString &path, const OpenOptions &options, const Ana
         }
     }
     const auto next = [this, path, options, adjust] { openNow(path, options, adjust); };
-    if (m_saver->mayLose(tr("opening something else"), next))
+    if (mayLeave(tr("opening something else"), next))
         next();
 }
 
 void MainWindow::startLesson(const Lesson &lesson)
 {
     const auto next = [this, lesson] { m_lessons->start(lesson); };
-    if (m_saver->mayLose(tr("starting the lesson"), next))
+    if (mayLeave(tr("starting the lesson"), next))
         next();
 }
 
@@ -99,7 +99,7 @@ void MainWindow::openScenario(ScenarioCard *card)
         m_welcome->stop();
         m_controller.adopt(card->opened(), card->analysis());
     };
-    if (m_saver->mayLose(tr("opening something else"), next))
+    if (mayLeave(tr("opening something else"), next))
         next();
 }
 
@@ -202,7 +202,7 @@ void MainWindow::goToFile(int by)
         openNow(path, m_document.source().options, [settings](AnalysisSettings &opened) { opened = settings; });
     };
     // The settings go along: only what was said about events could be lost.
-    if (m_document.annotations().isEmpty() || m_saver->mayLose(tr("opening something else"), next))
+    if (m_document.annotations().isEmpty() || mayLeave(tr("opening something else"), next))
         next();
 }
 
@@ -215,7 +215,7 @@ void MainWindow::showWritten(const QString &path)
 void MainWindow::offerIq()
 {
     const OpenOptions options = m_document.source().options;
-    if (!m_document.recording())
+    if (!m_document.recording() || m_live->isRunning())
         return m_iqAction->setVisible(false);
     const RecordingInfo &info = m_document.recording()->info();
     const bool isPossible = !m_document.source().scene && !info.isComplex && info.channelCount % 2 == 0;

@@ -74,6 +74,8 @@ void MainWindow::buildFileMenu()
     menu->addAction(tr("Open &folder as one recording…"), this, &MainWindow::chooseFolder)
         ->setToolTip(tr("Put the recordings of a folder on one timeline by their time stamps"));
     menu->addAction(tr("Open as &raw samples…"), this, &MainWindow::chooseRawFile);
+    menu->addAction(tr("&Listen…"), QKeySequence(Qt::CTRL | Qt::Key_L), this, &MainWindow::listen)
+        ->setToolTip(tr("Detect in samples while they come in, and record them"));
     m_recentMenu = menu->addMenu(tr("Open re&cent"));
     connect(m_recentMenu, &QMenu::aboutToShow, this, &MainWindow::fillRecentMenu);
     addViewAction(*menu, tr("&Next file of the folder"), QKeySequence(Qt::CTRL | Qt::Key_PageDown), [this] {
@@ -127,6 +129,10 @@ void MainWindow::buildViewMenu()
     Viewport *viewport = &m_document.viewport();
     addViewAction(*menu, tr("Show &all"), Qt::Key_0, [viewport] { viewport->showAll(); });
     addViewAction(*menu, tr("Zoom &back"), Qt::Key_Backspace, [viewport] { viewport->zoomBack(); });
+    addViewAction(*menu, tr("To the &newest frames"), Qt::Key_End, [this, viewport] {
+        if (m_document.isLive())
+            viewport->setFollowing(true);
+    })->setToolTip(tr("While listening: back to what is heard now"));
     menu->addSeparator();
     addViewAction(*menu, tr("Next &orientation"), Qt::Key_O, [this] { bench().cycleOrientation(); });
     addViewAction(*menu, tr("Next &colour map"), Qt::Key_C, [this] { bench().cycleColourMap(); });

@@ -30,6 +30,7 @@
 #include "app/welcome/WelcomePage.h"
 #include "app/window/ActivityBar.h"
 #include "app/window/Panels.h"
+#include "app/workspace/LiveBar.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
 #include "widgets/base/ReadOut.h"
@@ -72,7 +73,10 @@ void MainWindow::buildCentre()
     layout->setSizeConstraint(QLayout::SetMaximumSize); // while the pages are hidden, a panel gets their room
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
+    m_liveBar = new LiveBar(m_document, *m_live);
+    m_liveBar->hide();
     layout->addWidget(m_messages);
+    layout->addWidget(m_liveBar);
     layout->addWidget(m_pages, 1);
     setCentralWidget(centre);
 }

@@ -6,11 +6,14 @@
 #include "app/control/trackBox.h"
 #include "app/document/statisticUnit.h"
 #include "widgets/base/familyWords.h"
+#include "widgets/base/quantities.h"
+#include "widgets/base/settingWords.h"
 #include "widgets/plot/StripPlot.h"
 #include "widgets/waterfall/ColourBar.h"
 
 #include <QByteArray>
 #include <QDataStream>
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QIODevice>
 #include <QMetaEnum>
@@ -18,6 +21,7 @@
 #include <QVBoxLayout>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -27,6 +31,9 @@ namespace {
 
     constexpr int playerInterval = 33; // ms
     constexpr int playerSteps = 600;   // to play what is visible
+
+    constexpr Index framesInSight = 600;     // of a live picture at first: about a pixel each
+    constexpr Index longestColouring = 8192; // frames by which a live picture's colours are chosen
 
     QString orientationName(WaterfallView::Orientation orientation)
     {
@@ -105,7 +112,22 @@ Workbench::Workbench(Document &document, QWidget *parent)
     m_output->setObjectName(QStringLiteral("output"));
     linkViews();
 
-    connect(&document, &Document::opened, this, [this] { m_isFirstAnalysis = m_isFirstPicture = true; });
+    connect(&document, &Document::opened, this, [this] {
+        m_isFirstAnalysis = m_isFirstPicture = true;
+        m_livePlan.reset();
+        for (WaterfallView *view : {m_input, m_output}) {
+            view->setStartUnixSeconds({});
+            view->setTimes({});
+        }
+        emit playingChanged(false);
+        showStrips();
+    });
+    connect(&document, &Document::liveChanged, this, &Workbench::showLive);
+    connect(&document.viewport(), &Viewport::followingChanged, this, [this](bool isFollowing) {
+        if (m_document.isLive())
+            emit playingChanged(isFollowing);
+    });
+    m_output->canvas()->installEventFilter(this);
     connect(&document, &Document::picturesGrew, this, &Workbench::showPictures);
     m_closeup = new Closeup(document, *m_input, *m_output, this); // follows what these follow, after them
     whenInUse(m_closeup, &Closeup::settled, &Workbench::readCursor);
@@ -205,15 +227,109 @@ void Workbench::showPictures(const PicturesSoFar &pictures)
         m_output->setEmptySentence(tr("The statistic appears here after the noise has been estimated."));
 }
 
+/// The newest frames of what is heard. Colours are chosen again whenever there is twice as much to choose them by.
+void Workbench::showLive()
+{
+    const LiveView &live = m_document.live();
+    const Axis &frequency = live.plan->grid().axes.back();
+    const bool isFirst = !m_livePlan || m_livePlan->frames != live.plan->frames;
+    const bool isChanged = m_livePlan != live.plan;
+    m_livePlan = live.plan;
+    if (isFirst || (live.time.count >= 2 * m_colouredFrames && live.time.count <= longestColouring)) {
+        m_colouredFrames = live.time.count;
+        m_input->setPicture(live.input, frequency);
+        m_output->setPicture(live.statistic, frequency);
+    }
+    m_input->setGrownPicture(live.input, live.newInput);
+    m_output->setGrownPicture(live.statistic, live.newStatistic);
+    growExtents(live);
+    showLiveTracks();
+    if (isChanged) {
+        for (WaterfallView *view : {m_input, m_output})
+            view->setStartUnixSeconds(live.plan->recording->info().startUnixSeconds);
+        markChanges();
+        showHeading();
+        showStrips();
+    }
+    m_isToBePainted = true;
+}
+
+/// Those in sight, of what may be a day's.
+void Workbench::showLiveTracks()
+{
+    const LiveView &live = m_document.live();
+    const Axis &time = live.plan->time();
+    const Span &visible = m_document.viewport().time();
+    const auto isInSight = [&](double from, double to) { return to >= visible.low && from <= visible.high; };
+    std::vector<Event> events;
+    std::ranges::copy_if(*live.events, std::back_inserter(events), [&](const Event &event) {
+        return isInSight(event.onsetSeconds, event.isOpen ? time.value(double(live.time.count)) : event.endSeconds);
+    });
+    std::vector<std::shared_ptr<const Track>> tracks;
+    std::ranges::copy_if(live.tracks, std::back_inserter(tracks), [&](const auto &track) {
+        return isInSight(time.value(double(track->points.front().frame)),
+                         time.value(double(track->points.back().frame)));
+    });
+    for (WaterfallView *view : {m_input, m_output})
+        view->setLiveTracks(events, tracks, time);
+}
+
+/// At first there is room for some frames, which fill it.
+void Workbench::growExtents(const LiveView &live)
+{
+    const Viewport::Box full = WaterfallView::extents(live.time, live.plan->grid().axes.back());
+    const Index frames = std::min(framesInSight, LiveHistory::singleFrames(live.input->cells()));
+    const double width = double(frames) * live.time.step;
+    const Span time{full.time.low, std::max(full.time.high, full.time.low + width)};
+    Viewport &viewport = m_document.viewport();
+    if (!m_isFirstPicture && full.frequency == viewport.full().frequency)
+        return viewport.grow(time);
+    m_isFirstPicture = false;
+    constexpr double fewestCells = 8.0;
+    viewport.setExtents(time, full.frequency, fewestCells * live.time.step,
+                        fewestCells * live.plan->grid().axes.back().step);
+    viewport.stretch({time.high - width, time.high}, full.frequency);
+    viewport.setFollowing(true);
+}
+
+void Workbench::markChanges()
+{
+    std::vector<OverlayTime> times;
+    for (const SettingsChange &change : m_document.live().changes) {
+        QStringList names;
+        bool isThreshold = !change.fields.empty();
+        for (const std::string &field : change.fields) {
+            names << settingLabel(QString::fromStdString(field));
+            isThreshold = isThreshold
+                          && (field == "decide.falseAlarmsPerHour" || field == "decide.pfaPerCell"
+                              || field == "decide.thresholdNats" || field == "decide.by");
+        }
+        const QString unit = statisticUnit(m_document.live().plan->settings);
+        times.push_back({change.seconds, isThreshold ? tr("threshold %1 %2").arg(numberText(change.threshold, 1), unit)
+                                                     : tr("changed: %1").arg(names.join(QStringLiteral(", ")))});
+    }
+    for (WaterfallView *view : {m_input, m_output})
+        view->setTimes(times);
+}
+
+bool Workbench::eventFilter(QObject *watched, QEvent *event)
+{
+    if (event->type() == QEvent::Paint && std::exchange(m_isToBePainted, false))
+        QTimer::singleShot(0, this, [this, heardAt = m_document.live().heardAt] { // after both are painted
+            emit livePainted(std::chrono::duration<double>(std::chrono::steady_clock::now() - heardAt).count());
+        });
+    return Bench::eventFilter(watched, event);
+}
+
 /// Above the output; its colour bar is the statistic's, a layer in its place has a key of its own.
 void Workbench::showHeading()
 {
     const bool isStatistic = m_layers->layer() == OutputLayer::Statistic || m_layers->isOverlay();
     m_outputPane->findChild<ColourBar *>()->setVisible(isStatistic);
-    if (!m_document.analysis() || !isInUse())
+    if (!m_document.plan() || !isInUse())
         return;
     const bool isProvisional = m_document.provisional() != nullptr;
-    const QString unit = statisticUnit(isProvisional ? m_document.settings() : m_document.analysis()->settings);
+    const QString unit = statisticUnit(isProvisional ? m_document.settings() : m_document.plan()->settings);
     const QString statistic =
         isProvisional ? tr("Statistic D (%1), provisional").arg(unit) : tr("Statistic D (%1)").arg(unit);
     m_output->setStatisticUnit(unit, isStatistic ? statistic : m_layers->heading());
@@ -240,6 +356,8 @@ void Workbench::showThreshold()
 
 void Workbench::showEvents()
 {
+    if (!m_document.analysis())
+        return; // live ones come with their pictures
     const std::vector<Event> events = m_document.shownEvents();
     const std::vector<Track> tracks = m_document.shownTracks();
     for (WaterfallView *view : {m_input, m_output}) {
@@ -347,6 +465,8 @@ void Workbench::stepFrames(int frames)
 
 void Workbench::setPlaying(bool isPlaying)
 {
+    if (m_document.isLive())
+        return m_document.viewport().setFollowing(isPlaying);
     if (isPlaying == m_player.isActive())
         return;
     isPlaying ? m_player.start() : m_player.stop();
@@ -364,11 +484,16 @@ void Workbench::play()
 
 void Workbench::resizeEvent(QResizeEvent *event)
 {
+    showStrips();
+    QWidget::resizeEvent(event);
+}
+
+void Workbench::showStrips()
+{
     constexpr int enoughForOne = 340;
     constexpr int enoughForBoth = 520;
-    m_statistic->setVisible(height() >= enoughForOne);
-    m_regulation->setVisible(height() >= enoughForBoth);
-    QWidget::resizeEvent(event);
+    m_statistic->setVisible(height() >= enoughForOne && !m_document.isLive());
+    m_regulation->setVisible(height() >= enoughForBoth && !m_document.isLive());
 }
 
 ViewState Workbench::viewState() const

@@ -30,6 +30,7 @@ public:
     QWidget *firstView() const override { return m_output; }
     QString firstViewName() const override { return QStringLiteral("output"); }
     bool hasReadOut() const override { return false; }
+    bool eventFilter(QObject *watched, QEvent *event) override; ///< when a live picture is painted
     QString hint() const override;
 
     Place place() const override;
@@ -65,11 +66,18 @@ protected:
 
 signals:
     void readingChanged(const faintline::ReadOut::Reading &reading);
+    /// A live picture is on the screen, so long after the last sample of its newest frame was heard.
+    void livePainted(double secondsLater);
 
 private:
     void linkViews();
     void showPictures(const PicturesSoFar &pictures);
     void followExtents(const Axis &time, const Axis &frequency);
+    void showLive();
+    void showLiveTracks();
+    void growExtents(const LiveView &live);
+    void markChanges();
+    void showStrips();
     void placeCursor();
     void read(const Viewport::Point &point);
     void play();
@@ -88,6 +96,9 @@ private:
     QTimer m_player;
     bool m_isFirstAnalysis = true; ///< of what is open
     bool m_isFirstPicture = true;
+    std::shared_ptr<const AnalysisPlan> m_livePlan; ///< of the live picture shown
+    Index m_colouredFrames = 0;                     ///< it had when its colours were chosen
+    bool m_isToBePainted = false;
 };
 
 } // namespace faintline

@@ -21,7 +21,7 @@ struct ListenSettings {
 
 /// Something that happened to the samples, not in them.
 struct ListenNotice {
-    enum class Kind { Started, Lost, Overflow, Gone, Back, Drift, DiskSpace, RecordingFailed, Stopped };
+    enum class Kind { Started, Lost, Overflow, Gone, Back, Drift, DiskSpace, RecordingFailed, Refused, Stopped };
 
     Kind kind = Kind::Started;
     Index sample = 0;      ///< where in time, from the first sample on, gaps included

@@ -23,6 +23,7 @@ void StreamBuffer::push(std::vector<std::byte> bytes)
     const Index count = std::ssize(bytes) / m_format.frameBytes();
     if (count == 0)
         return;
+    const auto now = std::chrono::steady_clock::now();
     {
         const std::lock_guard lock(m_mutex);
         m_heldBytes += bytes.size();
@@ -32,8 +33,9 @@ void StreamBuffer::push(std::vector<std::byte> bytes)
             Piece &last = m_pieces.back();
             last.bytes.insert(last.bytes.end(), bytes.begin(), bytes.end());
             last.count += count;
+            last.heardAt = now;
         } else {
-            m_pieces.push_back({m_length, count, std::move(bytes)});
+            m_pieces.push_back({m_length, count, std::move(bytes), now});
         }
         m_length += count;
     }
@@ -58,6 +60,15 @@ void StreamBuffer::end()
     m_changed.notify_all();
 }
 
+void StreamBuffer::widen(std::size_t capacity)
+{
+    {
+        const std::lock_guard lock(m_mutex);
+        m_capacity = std::max(m_capacity, capacity);
+    }
+    m_changed.notify_all();
+}
+
 bool StreamBuffer::waitFor(Index position, const std::stop_token &stop) const
 {
     std::unique_lock lock(m_mutex);
@@ -75,6 +86,19 @@ bool StreamBuffer::isEnded() const
 {
     const std::lock_guard lock(m_mutex);
     return m_isEnded;
+}
+
+std::chrono::steady_clock::time_point StreamBuffer::heardAt(Index position) const
+{
+    const std::lock_guard lock(m_mutex);
+    const auto piece = std::partition_point(m_pieces.begin(), m_pieces.end(),
+                                            [=](const Piece &each) { return each.first + each.count < position; });
+    if (piece == m_pieces.end())
+        return std::chrono::steady_clock::now();
+    // Those of a piece came one after the other.
+    const double later = double(std::max<Index>(0, piece->first + piece->count - position)) / m_format.sampleRateHz;
+    return piece->heardAt
+           - std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(later));
 }
 
 void StreamBuffer::release(Index position)

@@ -3,6 +3,7 @@
 #include "base/Axis.h"
 #include "live/SampleSource.h"
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -33,6 +34,8 @@ public:
     void pushGap(Index samples);
     /// Nothing comes any more.
     void end();
+    /// Holds at least so much from now on.
+    void widen(std::size_t capacity);
 
     // Of the thread that analyses:
 
@@ -41,6 +44,9 @@ public:
     /// The samples in time so far, and whether that is all.
     Index length() const;
     bool isEnded() const;
+    /// When the sample before a position came, or those around the gap that it lies in; of one that is held or yet to
+    /// come.
+    std::chrono::steady_clock::time_point heardAt(Index position) const;
     /// Samples before a position will not be asked for any more.
     void release(Index position);
     /// One channel's samples as floats; 0 in gaps.
@@ -55,6 +61,7 @@ private:
         Index first;
         Index count;
         std::vector<std::byte> bytes;
+        std::chrono::steady_clock::time_point heardAt; ///< of its last sample
     };
 
     StreamFormat m_format;

@@ -12,8 +12,8 @@ namespace faintline {
 namespace {
 
     constexpr std::array<std::string_view, 4> stateNames{"provisional", "confirmed", "updated", "final"};
-    constexpr std::array<std::string_view, 9> noticeNames{"started", "lost",      "overflow",        "gone",   "back",
-                                                          "drift",   "diskSpace", "recordingFailed", "stopped"};
+    constexpr std::array<std::string_view, 10> noticeNames{
+        "started", "lost", "overflow", "gone", "back", "drift", "diskSpace", "recordingFailed", "refused", "stopped"};
 
 } // namespace
 

@@ -1,6 +1,7 @@
 #include "live/listen.h"
 
 #include "analysis/chain.h"
+#include "analysis/events.h"
 #include "analysis/plan.h"
 #include "analysis/slopeUnit.h"
 #include "base/Error.h"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <future>
 
 namespace faintline {
 
@@ -45,9 +47,14 @@ namespace {
         {
         }
 
+        ~Listening() { m_preparing.request_stop(); }
+        Listening(const Listening &) = delete;
+        Listening &operator=(const Listening &) = delete;
+
         ListenResult run()
         {
             m_result.plan.settings = m_settings.analysis;
+            m_framesOf = m_settings.analysis.selection;
             try {
                 if (makePlan())
                     analyse();
@@ -68,12 +75,18 @@ namespace {
     private:
         std::size_t bufferBytes() const
         {
-            constexpr std::size_t blocks = 3;                    // the first is needed as a whole
             constexpr std::size_t enough = std::size_t(4) << 20; // of a source that waits
-            const double samples = m_settings.analysis.spectrogram.windowSeconds * m_format.sampleRateHz
-                                   * m_settings.analysis.noise.blockWindows;
             return std::max(m_source.isPatient() ? std::min(enough, m_settings.bufferBytes) : m_settings.bufferBytes,
-                            blocks * std::size_t(samples) * std::size_t(m_format.frameBytes()));
+                            bytesFor(m_settings.analysis));
+        }
+
+        /// What settings need: the first block as a whole.
+        std::size_t bytesFor(const AnalysisSettings &settings) const
+        {
+            constexpr std::size_t blocks = 3;
+            const double samples =
+                settings.spectrogram.windowSeconds * m_format.sampleRateHz * settings.noise.blockWindows;
+            return blocks * std::size_t(samples) * std::size_t(m_format.frameBytes());
         }
 
         void tell(const ListenNotice &notice)
@@ -109,19 +122,11 @@ namespace {
 
         void analyse()
         {
-            const AnalysisPlan &plan = m_result.plan;
-            const NormalisedFrames &frames = *plan.frames;
-            const Spectrogram &spectrogram = *frames.spectrogram();
-            const auto chain = makeChain(plan);
-            const Index updateFrames = std::llround(m_settings.updateSeconds / frames.time().step);
-            EventFollower follower(plan, *chain, updateFrames, [this](const EventChange &change) {
-                const std::lock_guard lock(m_mutex);
-                if (m_sinks.event)
-                    m_sinks.event(change, m_result.plan);
-            });
-            std::vector<float> y(std::size_t(frames.grid().size()));
-            std::vector<float> statistic(y.size());
-            for (Index frame = 0; frame < frames.time().count; ++frame) {
+            begin();
+            for (Index frame = 0; frame < m_result.plan.time().count; ++frame) {
+                if (m_sinks.wish)
+                    frame = followWish(frame);
+                const Spectrogram &spectrogram = *m_result.plan.frames->spectrogram();
                 const Index first = spectrogram.firstSample() + frame * spectrogram.hopSamples();
                 if (!m_buffer->waitFor(first + spectrogram.windowSamples()))
                     break;
@@ -129,14 +134,152 @@ namespace {
                     m_result.isAnalysedToTheEnd = false;
                     break;
                 }
-                frames.read(frame, 1, y);
-                chain->update(frame, y, statistic);
-                follower.take(frame);
+                take(frame, first + spectrogram.windowSamples());
                 m_buffer->release(first + spectrogram.hopSamples());
             }
-            chain->finish();
-            follower.finish();
-            m_result.events = follower.finalEvents();
+            end();
+            sortEvents(m_result.events);
+        }
+
+        /// The chain of the plan, from the next frame on.
+        void begin()
+        {
+            const AnalysisPlan &plan = m_result.plan;
+            m_chain = makeChain(plan);
+            const Index updateFrames = std::llround(m_settings.updateSeconds / plan.time().step);
+            m_follower.emplace(plan, *m_chain, updateFrames, [this](EventChange change) {
+                m_lastId = std::max(m_lastId, m_idsBefore + change.event.id);
+                change.event.id += m_idsBefore;
+                if (change.partOf)
+                    *change.partOf += m_idsBefore;
+                const std::lock_guard lock(m_mutex);
+                if (m_sinks.event)
+                    m_sinks.event(change, m_result.plan);
+            });
+            tellPlan();
+        }
+
+        void end()
+        {
+            m_chain->finish();
+            m_follower->finish();
+            for (Event event : m_follower->finalEvents()) {
+                event.id += m_idsBefore;
+                m_result.events.push_back(std::move(event));
+            }
+            m_idsBefore = m_lastId;
+        }
+
+        void tellPlan()
+        {
+            const std::lock_guard lock(m_mutex);
+            if (m_sinks.plan)
+                m_sinks.plan(m_result.plan);
+        }
+
+        void take(Index frame, Index end)
+        {
+            const NormalisedFrames &frames = *m_result.plan.frames;
+            m_y.resize(std::size_t(frames.grid().size()));
+            m_statistic.resize(m_y.size());
+            frames.read(frame, 1, m_y);
+            m_chain->update(frame, m_y, m_statistic);
+            m_follower->take(frame);
+            const std::lock_guard lock(m_mutex);
+            if (m_sinks.frame)
+                m_sinks.frame(
+                    {frame, m_y, m_statistic, *m_chain, m_buffer->heardAt(end), m_hearing.lostCount(), m_idsBefore});
+        }
+
+        /// Takes up settings that were asked for and are calibrated by now. Answers which frame comes next.
+        Index followWish(Index frame)
+        {
+            if (const auto wish = m_sinks.wish()) {
+                try {
+                    prepare(settingsForListening(*wish, m_format));
+                } catch (const Error &error) {
+                    refuse(error);
+                }
+            }
+            if (!m_prepared.valid() || m_prepared.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+                return frame;
+            try {
+                return goOnWith(m_prepared.get(), frame);
+            } catch (const Error &error) {
+                refuse(error);
+                return frame;
+            }
+        }
+
+        void refuse(const Error &error)
+        {
+            tell({ListenNotice::Kind::Refused, m_buffer->length(), 0,
+                  std::string("Listening goes on with the settings before: ") + error.what()});
+        }
+
+        /// Calibrates for other settings beside the run, which takes seconds the first time. The newest wish wins.
+        void prepare(const AnalysisSettings &settings)
+        {
+            const auto endless = std::make_shared<StreamRecording>(m_buffer, std::nullopt);
+            auto geometry = std::make_shared<Spectrogram>(endless, settings.spectrogram, settings.selection);
+            m_preparing.request_stop();
+            m_preparing = {};
+            RunContext context = m_context;
+            context.stop = m_preparing.get_token();
+            m_prepared = std::async(std::launch::async, [settings, geometry, context] {
+                (void)calibrateBand(settings, *geometry, context);
+                return settings;
+            });
+        }
+
+        Index goOnWith(const AnalysisSettings &settings, Index frame)
+        {
+            AnalysisPlan next = m_result.plan;
+            AnalysisSettings sameFrames = settings;
+            sameFrames.selection = next.settings.selection;
+            if (m_framesOf == settings.selection && firstStale(next.settings, sameFrames) >= Stage::Detector) {
+                next.settings = sameFrames;
+                calibratePlan(next, m_context);
+                changeChain(std::move(next));
+                return frame;
+            }
+            const Spectrogram &before = *next.frames->spectrogram();
+            next.settings = settings;
+            // Frames from the next sample on.
+            next.settings.selection.fromSeconds =
+                double(before.firstSample() + frame * before.hopSamples()) / m_format.sampleRateHz;
+            const auto spectrogram =
+                std::make_shared<Spectrogram>(next.recording, settings.spectrogram, next.settings.selection);
+            m_buffer->widen(bytesFor(next.settings));
+            m_buffer->waitFor(spectrogram->firstSample()
+                              + CausalSpectrogram::samplesOfFirstBlock(*spectrogram, settings.noise));
+            if (m_buffer->length() < spectrogram->firstSample() + spectrogram->windowSamples())
+                return frame; // it ended meanwhile
+            normalisePlan(next, spectrogram, m_context);
+            calibratePlan(next, m_context);
+            end();
+            m_framesOf = settings.selection;
+            m_result.plan = std::move(next);
+            begin();
+            return 0;
+        }
+
+        /// Another threshold on the same chain lets the tracks go on; all else begins anew.
+        void changeChain(AnalysisPlan next)
+        {
+            AnalysisSettings sameThreshold = next.settings;
+            sameThreshold.decide = m_result.plan.settings.decide;
+            const auto state = sameThreshold == m_result.plan.settings ? m_chain->state() : nullptr;
+            if (!state) {
+                end();
+                m_result.plan = std::move(next);
+                return begin();
+            }
+            m_result.plan = std::move(next);
+            const auto chain = makeChain(m_result.plan);
+            chain->setState(*state);
+            *m_chain = std::move(*chain); // which the follower knows
+            tellPlan();
         }
 
         /// Whether a stop was asked for some time ago.
@@ -157,8 +300,17 @@ namespace {
         ListenResult m_result;
         std::mutex m_mutex; ///< of the sinks
         std::optional<Clock::time_point> m_stopped;
+        SelectionSettings m_framesOf; ///< as asked for, of the plan's frames
+        std::unique_ptr<DetectionChain> m_chain;
+        std::optional<EventFollower> m_follower;
+        int m_lastId = 0;
+        int m_idsBefore = 0; ///< numbers that events of former chains have
+        std::vector<float> m_y;
+        std::vector<float> m_statistic;
         std::shared_ptr<StreamBuffer> m_buffer;
-        Hearing m_hearing; ///< last: it begins at once
+        Hearing m_hearing; ///< it begins at once
+        std::stop_source m_preparing;
+        std::future<AnalysisSettings> m_prepared; ///< last: it ends first
     };
 
 } // namespace

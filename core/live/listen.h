@@ -6,18 +6,36 @@
 #include "live/ListenSettings.h"
 #include "live/SampleSource.h"
 
+#include <chrono>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace faintline {
 
-/// What a listener is told while it happens; called from two threads, never at the same time.
+/// A frame that the chain has taken.
+struct ListenFrame {
+    Index number = 0; ///< in the plan's frames
+    std::span<const float> y;
+    std::span<const float> statistic;
+    const DetectionChain &chain;
+    std::chrono::steady_clock::time_point heardAt; ///< when the last of its samples came
+    Index lostCount = 0;                           ///< samples so far
+    int idsBefore = 0;                             ///< an event's number is its track's and this
+};
+
+/// What a listener is told while it happens, and may ask for. Called from two threads, never at the same time.
 struct ListenSinks {
     /// `plan` is that of the run.
     std::function<void(const EventChange &change, const AnalysisPlan &plan)> event;
     std::function<void(const ListenNotice &notice, const StreamFormat &format)> notice;
+    /// Before the first frame, and again where changed settings are in force: what all that follows is made with.
+    std::function<void(const AnalysisPlan &plan)> plan{};
+    std::function<void(const ListenFrame &frame)> frame{};
+    /// Asked for before each frame: settings to go on with as soon as they are calibrated; none: as before.
+    std::function<std::optional<AnalysisSettings>()> wish{};
 };
 
 /// What is known at the end.
@@ -40,6 +58,10 @@ struct ListenResult {
 /// the events are those of that recording with the same settings. Memory: the buffer, a block of noise, and what the
 /// chain holds; it does not grow with time. Throws Error where the source or the settings cannot be used, or a pipe
 /// fails.
+///
+/// Settings that change on the way hold from a frame on. Another threshold lets tracks go on; another detector or model
+/// begins anew with the next frame, and other frames with the next sample, whose background needs a first block again.
+/// Events keep their numbers, and none has that of another. The result's plan is the last one.
 ListenResult listen(SampleSource &source, const ListenSettings &settings, const ListenSinks &sinks,
                     const RunContext &context = {});
 

@@ -22,6 +22,7 @@ private slots:
     void cursorIsClamped();
     void signalsOnlyChanges();
     void emptyIsHarmless();
+    void followsWhatGrows();
 
 private:
     Viewport m_view;
@@ -135,6 +136,35 @@ void tst_Viewport::emptyIsHarmless()
     view.showAll();
     view.zoomBack();
     QVERIFY(!view.cursor());
+}
+
+// As a waterfall of what is heard: it runs along with the end, until one looks elsewhere.
+void tst_Viewport::followsWhatGrows()
+{
+    m_view.zoomTo({60.0, 100.0}, {1200.0, 1500.0});
+    QSignalSpy following(&m_view, &Viewport::followingChanged);
+    m_view.setFollowing(true);
+    m_view.grow({0.0, 110.0});
+    QCOMPARE(m_view.time(), (Span{70.0, 110.0}));
+    QCOMPARE(m_view.frequency(), (Span{1200.0, 1500.0}));
+    m_view.pan(-5.0, 0.0);
+    QVERIFY(!m_view.isFollowing());
+    m_view.grow({0.0, 120.0});
+    QCOMPARE(m_view.time(), (Span{65.0, 105.0}));
+    m_view.pan(1000.0, 0.0); // to the end
+    QVERIFY(m_view.isFollowing());
+    m_view.grow({0.0, 125.0});
+    QCOMPARE(m_view.time(), (Span{85.0, 125.0}));
+    m_view.setFollowing(false); // held
+    m_view.grow({0.0, 130.0});
+    QCOMPARE(m_view.time(), (Span{85.0, 125.0}));
+    m_view.setFollowing(true);
+    QCOMPARE(m_view.time(), (Span{90.0, 130.0}));
+    QCOMPARE(following.count(), 5);
+    m_view.setExtents({0.0, 10.0}, {0.0, 1.0}); // something else, which does not grow
+    QVERIFY(!m_view.isFollowing());
+    m_view.showAll();
+    QVERIFY(!m_view.isFollowing());
 }
 
 QTEST_MAIN(tst_Viewport)

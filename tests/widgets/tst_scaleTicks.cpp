@@ -25,6 +25,7 @@ private slots:
     void decadesAreThinnedOut();
     void digitsBetweenTheDecades();
     void secondsOrClock();
+    void timesOfDay();
     void numbersInTheirUnit();
     void powersOfTen();
 
@@ -116,6 +117,21 @@ void tst_scaleTicks::secondsOrClock()
     QVERIFY(draw.label(3600.0).text().contains(':'));
     // As wide as any: a 1 is narrower than other figures.
     QVERIFY(!draw.widestLabel({0.0, 7211.0}).contains('1'));
+}
+
+// Ticks are round in UTC, wherever the recording began; past midnight it is 0 o'clock.
+void tst_scaleTicks::timesOfDay()
+{
+    constexpr double start = 1'700'000'000.25; // 2023-11-14T22:13:20.25Z
+    const QwtScaleDiv div = timeScaleDiv({0.0, 60.0}, 6, start);
+    QCOMPARE(major(div).size(), 6);
+    TimeScaleDraw draw;
+    draw.setStartUnixSeconds(start);
+    draw.setScaleDiv(div);
+    QCOMPARE(draw.label(major(div).front()).text(), QStringLiteral("22:13:30"));
+    QCOMPARE(draw.label(major(div).back()).text(), QStringLiteral("22:14:20"));
+    QCOMPARE(draw.label(6399.75).text(), QStringLiteral("0:00:00"));
+    QCOMPARE(draw.widestLabel({0.0, 60.0}).size(), 8);
 }
 
 void tst_scaleTicks::numbersInTheirUnit()

@@ -45,7 +45,7 @@ void Viewport::setExtents(const Span &time, const Span &frequency, double smalle
     m_full = m_visible = {time, frequency};
     m_smallest = {{0.0, std::min(smallestSeconds, time.width())}, {0.0, std::min(smallestHz, frequency.width())}};
     m_history.clear();
-    m_isZoomRun = false;
+    m_isZoomRun = m_isGrowing = m_isFollowing = false;
     emit extentsChanged();
     emit spanChanged();
     clearCursor();
@@ -70,7 +70,35 @@ void Viewport::show(const Box &box)
     if (isEmpty() || m_visible == box)
         return;
     m_visible = box;
+    if (m_isGrowing && m_isFollowing != isAtEnd()) {
+        m_isFollowing = isAtEnd();
+        emit followingChanged(m_isFollowing);
+    }
     emit spanChanged();
+}
+
+bool Viewport::isAtEnd() const
+{
+    return m_visible.time.high >= m_full.time.high - 1e-3 * m_visible.time.width();
+}
+
+void Viewport::grow(const Span &time)
+{
+    m_isGrowing = true;
+    m_full.time = time;
+    if (m_isFollowing)
+        show({shifted(m_visible.time, time.high - m_visible.time.high), m_visible.frequency});
+}
+
+void Viewport::setFollowing(bool isFollowing)
+{
+    if (isFollowing == m_isFollowing)
+        return;
+    m_isFollowing = isFollowing;
+    m_isGrowing = true;
+    if (isFollowing)
+        show({shifted(m_visible.time, m_full.time.high - m_visible.time.high), m_visible.frequency});
+    emit followingChanged(isFollowing);
 }
 
 void Viewport::zoomTo(const Span &time, const Span &frequency)

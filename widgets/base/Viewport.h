@@ -48,6 +48,11 @@ public:
 
     bool canZoomBack() const { return !m_history.empty(); }
 
+    /// More time has come: the extents become these. While following, what is visible moves along with the end;
+    /// else it stays.
+    void grow(const Span &time);
+    bool isFollowing() const { return m_isFollowing; }
+
 public slots:
     /// Shows these spans and remembers those before for `zoomBack`.
     void zoomTo(const faintline::Span &time, const faintline::Span &frequency);
@@ -62,6 +67,9 @@ public slots:
     void showAll();
     void zoomBack();
 
+    /// Whether growth is followed. Who looks elsewhere ends it, who scrolls to the end begins it again. On: goes there.
+    void setFollowing(bool isFollowing);
+
     void setCursor(const faintline::Viewport::Point &point);
     void clearCursor();
     void setSelection(const faintline::Viewport::Box &box);
@@ -72,17 +80,21 @@ signals:
     void spanChanged();
     void cursorChanged();
     void selectionChanged();
+    void followingChanged(bool isFollowing);
 
 private:
     Box clamped(const Box &box) const;
     void remember();
     void show(const Box &box);
+    bool isAtEnd() const;
 
     Box m_full;
     Box m_visible;
     Box m_smallest; ///< widths only
     std::vector<Box> m_history;
     bool m_isZoomRun = false; ///< in a run of zoomAt or stretch, already remembered
+    bool m_isGrowing = false; ///< since the extents were set
+    bool m_isFollowing = false;
     std::optional<Point> m_cursor;
     std::optional<Box> m_selection;
 };

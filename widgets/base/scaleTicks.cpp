@@ -38,7 +38,7 @@ double majorStep(const QwtScaleDiv &div)
     return ticks.size() > 1 ? std::abs(ticks[1] - ticks[0]) : std::max(std::abs(div.range()), 1e-12);
 }
 
-QwtScaleDiv timeScaleDiv(const Span &span, int majorTicks)
+QwtScaleDiv timeScaleDiv(const Span &span, int majorTicks, double origin)
 {
     if (span.isEmpty())
         return QwtScaleDiv(span.low, span.low + 1.0);
@@ -46,9 +46,11 @@ QwtScaleDiv timeScaleDiv(const Span &span, int majorTicks)
     QList<double> ticks[QwtScaleDiv::NTickTypes];
     const double minor = step.major / step.minors;
     const double slack = 1e-9 * step.major;
-    for (double i = std::ceil((span.low - slack) / minor); i * minor <= span.high + slack; ++i) {
+    constexpr double day = 86400.0;
+    const double offset = std::fmod(origin, day);
+    for (double i = std::ceil((span.low + offset - slack) / minor); i * minor - offset <= span.high + slack; ++i) {
         const bool isMajor = std::fmod(std::abs(i), step.minors) < 0.5;
-        ticks[isMajor ? QwtScaleDiv::MajorTick : QwtScaleDiv::MinorTick] << i * minor;
+        ticks[isMajor ? QwtScaleDiv::MajorTick : QwtScaleDiv::MinorTick] << i * minor - offset;
     }
     return QwtScaleDiv(span.low, span.high, ticks);
 }

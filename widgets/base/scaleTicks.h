@@ -6,8 +6,9 @@
 
 namespace faintline {
 
-/// Ticks at round times: 1, 2, 5 · 10ⁿ s, then 10, 15, 30 s, 1, 2, 5, 10, 15, 30 min, 1, 2, 3, 6, 12 h, days.
-QwtScaleDiv timeScaleDiv(const Span &span, int majorTicks);
+/// Ticks at round times: 1, 2, 5 · 10ⁿ s, then 10, 15, 30 s, 1, 2, 5, 10, 15, 30 min, 1, 2, 3, 6, 12 h, days. Round are
+/// seconds from the scale's 0, or, where that is a time itself, `origin` and these.
+QwtScaleDiv timeScaleDiv(const Span &span, int majorTicks, double origin = 0.0);
 
 /// Ticks at 1, 2, 5 · 10ⁿ.
 QwtScaleDiv linearScaleDiv(const Span &span, int majorTicks);

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace faintline {
 
@@ -70,6 +71,31 @@ void MarkedWaterfall::setTracks(const std::vector<Track> &tracks, const Axis &ti
 {
     m_overlay->tracks = overlayLines(tracks, time, frequencyAxis());
     updateMarks();
+}
+
+void MarkedWaterfall::setLiveTracks(const std::vector<Event> &events,
+                                    const std::vector<std::shared_ptr<const Track>> &tracks, const Axis &time)
+{
+    std::map<int, TrackStage> stages;
+    for (const Event &event : events)
+        stages[event.id] = stageOf(event);
+    std::vector<Track> known;
+    for (const auto &track : tracks)
+        if (stages.contains(track->id))
+            known.push_back(*track);
+    m_events = events;
+    m_overlay->tracks = overlayLines(known, time, frequencyAxis());
+    for (OverlayLine &line : m_overlay->tracks)
+        line.stage = stages[line.id];
+    updateMarks();
+    for (OverlayMark &mark : m_overlay->marks)
+        mark.stage = stages[mark.id];
+}
+
+void MarkedWaterfall::setTimes(const std::vector<OverlayTime> &times)
+{
+    m_overlay->times = times;
+    replot();
 }
 
 void MarkedWaterfall::setAreas(const std::vector<AreaEvent> &areas)

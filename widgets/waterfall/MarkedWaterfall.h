@@ -5,6 +5,7 @@
 #include "track/Track.h"
 #include "widgets/waterfall/Sidebands.h"
 #include "widgets/waterfall/WaterfallPicture.h"
+#include "widgets/waterfall/overlayMarks.h"
 
 class QwtPlotGrid;
 
@@ -54,6 +55,10 @@ public slots:
     void setEvents(const std::vector<faintline::Event> &events);
     /// `time`: of the frames the tracks were made from.
     void setTracks(const std::vector<faintline::Track> &tracks, const faintline::Axis &time);
+    /// Events and tracks that are followed live, drawn by how far they have come.
+    void setLiveTracks(const std::vector<faintline::Event> &events,
+                       const std::vector<std::shared_ptr<const faintline::Track>> &tracks, const faintline::Axis &time);
+    void setTimes(const std::vector<faintline::OverlayTime> &times);
     void setAreas(const std::vector<faintline::AreaEvent> &areas); ///< shown with the events
     void setTruth(const std::vector<faintline::TruthLine> &lines);
     void setSelectedEvent(int id);                    ///< 0: none

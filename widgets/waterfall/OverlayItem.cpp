@@ -25,6 +25,16 @@ namespace {
         return pen;
     }
 
+    /// Of a track: dashes where it may be nothing, thick while it is followed.
+    QPen penOf(TrackStage stage, QPen pen)
+    {
+        if (stage == TrackStage::Provisional)
+            return linePen(pen.color(), 1.6, Qt::DashLine);
+        if (stage == TrackStage::Confirmed)
+            pen.setWidthF(2.2);
+        return pen;
+    }
+
     /// Four corners of a frame, which hide less of the picture than its sides.
     QList<QLineF> corners(const QRectF &rect)
     {
@@ -137,6 +147,7 @@ void OverlayItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScal
         drawSelectedBand(canvas);
         drawLines(canvas, tracks, linePen(colours.track, 1.0));
     }
+    drawTimes(canvas);
     if (hasEvents)
         drawBoxes(canvas, areas, linePen(colours.track, 1.0, Qt::DotLine), Labels::WhereTheyFit);
     drawBoxes(canvas, boxes, linePen(colours.cursor, 1.0), Labels::All);
@@ -150,10 +161,22 @@ void OverlayItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScal
     painter->restore();
 }
 
-void OverlayItem::drawLines(const Canvas &canvas, const std::vector<OverlayLine> &lines, const QPen &pen) const
+void OverlayItem::drawTimes(const Canvas &canvas) const
+{
+    for (const OverlayTime &time : times) {
+        const QLineF line = canvas.across(time.seconds);
+        if (!canvas.rect.contains(line.center()))
+            continue;
+        canvas.stroke({line}, linePen(colours.cursor, 1.0, Qt::DashLine));
+        canvas.label(line.p1() + QPointF(4.0, 3.0), time.text, colours.cursor);
+    }
+}
+
+void OverlayItem::drawLines(const Canvas &canvas, const std::vector<OverlayLine> &lines, const QPen &usual) const
 {
     const Span visible = canvas.visibleTime();
     for (const OverlayLine &line : lines) {
+        const QPen pen = penOf(line.stage, usual);
         canvas.painter.setOpacity(isFaint(line.id) ? faintOpacity : 1.0);
         // The visible part with one point more at either end; a point a pixel is enough.
         const auto isBefore = [](const QPointF &point, double seconds) { return point.x() < seconds; };
@@ -248,10 +271,12 @@ void OverlayItem::drawEvents(const Canvas &canvas) const
         if (!areLabelled && !isSelected)
             return;
         const QPointF corner(rect.right() + 3.0, std::max(rect.top() - 1.0, canvas.rect.top() + 2.0));
+        const QString number =
+            mark.stage == TrackStage::Provisional ? QStringLiteral("%1?").arg(mark.id) : QString::number(mark.id);
         if (isSelected)
-            canvas.label(corner, QString::number(mark.id), QColor(0x10141a), colours.selectedEvent);
+            canvas.label(corner, number, QColor(0x10141a), colours.selectedEvent);
         else
-            canvas.label(corner, QString::number(mark.id), colour);
+            canvas.label(corner, number, colour);
     };
     for (const OverlayMark &mark : marks)
         if (mark.id != selectedEvent)

@@ -26,6 +26,7 @@ public:
     std::vector<OverlayLine> tracks;
     std::vector<OverlayLine> truth;
     std::vector<OverlayBox> boxes;
+    std::vector<OverlayTime> times;
     std::vector<OverlayBox> areas; ///< of raised level, without a line
     std::vector<int> faintEvents;  ///< rejected ones: there, but not in the way
     bool hasEvents = true, hasTracks = true, hasTruth = true;
@@ -52,6 +53,7 @@ private:
     struct Canvas;
 
     void drawLines(const Canvas &canvas, const std::vector<OverlayLine> &lines, const QPen &pen) const;
+    void drawTimes(const Canvas &canvas) const;
     void drawSelectedBand(const Canvas &canvas) const;
     void drawEvents(const Canvas &canvas) const;
     enum class Labels { All, WhereTheyFit };

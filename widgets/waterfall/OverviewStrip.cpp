@@ -117,7 +117,9 @@ void OverviewStrip::render()
     if (m_picture && m_picture->frameCount() > 0 && rect.width() > 1.0 && rect.height() > 1.0) {
         const double ratio = devicePixelRatioF();
         const QSize size(int(std::lround(rect.width() * ratio)), int(std::lround(rect.height() * ratio)));
-        const Viewport::Box box = WaterfallView::extents(m_picture->time(), m_frequency);
+        Viewport::Box box = WaterfallView::extents(m_picture->time(), m_frequency);
+        if (m_viewport && m_viewport->full().time.high < box.time.high)
+            box.time = m_viewport->full().time; // nobody knows when it ends
         const double frames = double(m_picture->frameCount()) / size.width();
         const double cells = double(m_frequency.count) / size.height();
         RasterItem raster;

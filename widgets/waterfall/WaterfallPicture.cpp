@@ -93,6 +93,24 @@ void WaterfallPicture::setNextPicture(std::shared_ptr<const PeakPyramid> picture
     updateContent();
 }
 
+void WaterfallPicture::setGrownPicture(std::shared_ptr<const PeakPyramid> picture,
+                                       std::shared_ptr<const PeakPyramid> closeup)
+{
+    m_picture = std::move(picture);
+    m_closeup = std::move(closeup);
+    constexpr bool isOther = false;
+    choosePicture(isOther);
+    updateContent();
+}
+
+void WaterfallPicture::setStartUnixSeconds(std::optional<double> start)
+{
+    if (start == m_startUnixSeconds)
+        return;
+    m_startUnixSeconds = start;
+    restyle();
+}
+
 void WaterfallPicture::setCloseup(std::shared_ptr<const PeakPyramid> closeup)
 {
     m_closeup = std::move(closeup);
@@ -107,7 +125,7 @@ double WaterfallPicture::framesPerPixel() const
                      : 1.0;
 }
 
-void WaterfallPicture::choosePicture()
+void WaterfallPicture::choosePicture(bool isOther)
 {
     const auto shows = [this](const PeakPyramid &closeup) {
         const Span time = extents(closeup.time(), m_frequency).time;
@@ -120,7 +138,8 @@ void WaterfallPicture::choosePicture()
         return;
     m_shown = shown;
     m_raster->setPicture(m_shown, m_frequency, m_picture ? m_picture->time() : Axis());
-    m_levels.countAgain();
+    if (isOther)
+        m_levels.countAgain();
     emit shownPictureChanged();
 }
 
@@ -243,9 +262,12 @@ void WaterfallPicture::restyle()
     m_numberDraw = nullptr;
     if (hasTime()) {
         m_timeDraw = new TimeScaleDraw;
-        m_timeDraw->setClock(isLong);
+        m_timeDraw->setClock(isLong || m_startUnixSeconds);
+        m_timeDraw->setStartUnixSeconds(m_startUnixSeconds);
         setAxisScaleDraw(timeAxis(), m_timeDraw);
-        setAxisTitle(timeAxis(), isLong ? tr("Time (h:min:s)") : tr("Time (s)"));
+        setAxisTitle(timeAxis(), m_startUnixSeconds ? tr("Time (UTC)")
+                                 : isLong           ? tr("Time (h:min:s)")
+                                                    : tr("Time (s)"));
     } else {
         m_numberDraw = new NumberScaleDraw;
         setAxisScaleDraw(timeAxis(), m_numberDraw);
@@ -283,7 +305,8 @@ void WaterfallPicture::followSpan()
 
     const int timeSpacing = isTimeVertical() ? 42 : m_timeDraw && m_timeDraw->isClock() ? 90 : 60;
     const int timeTicks = std::clamp(along / timeSpacing, 1, 12);
-    const QwtScaleDiv timeDiv = m_timeDraw ? timeScaleDiv(time, timeTicks) : linearScaleDiv(time, timeTicks);
+    const QwtScaleDiv timeDiv =
+        m_timeDraw ? timeScaleDiv(time, timeTicks, m_startUnixSeconds.value_or(0.0)) : linearScaleDiv(time, timeTicks);
     setAxisScaleDiv(timeAxis(), m_orientation == Orientation::OldestOnTop ? timeDiv.inverted() : timeDiv);
     setAxisScaleDiv(hzAxis(), linearScaleDiv(hz, std::clamp(across / (isTimeVertical() ? 60 : 42), 1, 12)));
 

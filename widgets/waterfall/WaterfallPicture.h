@@ -45,6 +45,8 @@ public:
     virtual void setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency);
     /// The next one of a film, on the same axes: colours keep their range, so that what moves is the signal.
     virtual void setNextPicture(std::shared_ptr<const PeakPyramid> picture);
+    /// The same picture, which more has come to, and its close-up: colours keep their range. Cheap.
+    void setGrownPicture(std::shared_ptr<const PeakPyramid> picture, std::shared_ptr<const PeakPyramid> closeup);
     const std::shared_ptr<const PeakPyramid> &picture() const { return m_picture; }
     const Axis &frequencyAxis() const { return m_frequency; }
 
@@ -59,6 +61,9 @@ public:
 
     /// The box all cells of a picture fill: half a cell beyond the outermost frames and bins.
     static Viewport::Box extents(const Axis &time, const Axis &frequency);
+
+    /// UTC of second 0, from 1970 on: the axis then shows times of day; none: seconds.
+    void setStartUnixSeconds(std::optional<double> start);
 
     /// What stands on the canvas while there is no picture.
     void setEmptySentence(const QString &sentence);
@@ -127,7 +132,7 @@ private:
     Viewport::Box full() const;
     Viewport::Box visible() const;
     void followSpan();
-    void choosePicture();
+    void choosePicture(bool isOther = true);
     void countHistogram();
     void applyRange(const Span &range);
     double levelStep() const;
@@ -139,6 +144,7 @@ private:
     std::shared_ptr<const PeakPyramid> m_closeup;
     std::shared_ptr<const PeakPyramid> m_shown; ///< one of them
     Axis m_frequency;
+    std::optional<double> m_startUnixSeconds;
     RasterItem *m_raster;
     CanvasSentence *m_sentence;
     TimeScaleDraw *m_timeDraw = nullptr;     ///< the plot's; null where the picture's own axis is not time,

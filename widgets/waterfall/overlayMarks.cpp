@@ -56,6 +56,13 @@ std::vector<OverlayLine> overlayLines(const std::vector<TruthLine> &known)
     return lines;
 }
 
+TrackStage stageOf(const Event &event)
+{
+    if (!event.isOpen)
+        return TrackStage::Ended;
+    return event.isConfirmed ? TrackStage::Confirmed : TrackStage::Provisional;
+}
+
 std::vector<OverlayMark> overlayMarks(const std::vector<Event> &events, const std::vector<OverlayLine> &lines,
                                       double frameSeconds, double binHz)
 {

@@ -1,0 +1,115 @@
+#include "app/control/LiveRun.h"
+
+#include "app/base/filePath.h"
+
+namespace faintline {
+
+namespace {
+
+    constexpr int pullMs = 33;
+
+} // namespace
+
+LiveRun::LiveRun(QObject *parent) : QObject(parent)
+{
+    m_pull.setInterval(pullMs);
+    m_pull.setTimerType(Qt::PreciseTimer);
+    connect(&m_pull, &QTimer::timeout, this, &LiveRun::deliver);
+    connect(&m_runner, &JobRunner::finished, this, &LiveRun::end);
+    connect(&m_runner, &JobRunner::cancelled, this, &LiveRun::end);
+    connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
+        emit failed(error);
+        end();
+    });
+}
+
+LiveRun::~LiveRun()
+{
+    m_stop.request_stop();
+}
+
+void LiveRun::start(OpenSource open, const ListenSettings &settings)
+{
+    m_state = {};
+    m_state.recording = pathText(settings.recordPath);
+    m_stop = {};
+    m_shared = std::make_shared<Shared>();
+    m_pull.start();
+    m_runner.start(
+        [this, open = std::move(open), settings, shared = m_shared, stop = m_stop.get_token()](RunContext context) {
+            context.stop = stop; // stopping is no reason to drop the result
+            context.progress = {};
+            return listenNow(open, settings, *shared, context);
+        });
+}
+
+JobRunner::Delivery LiveRun::listenNow(const OpenSource &open, const ListenSettings &settings, Shared &shared,
+                                       const RunContext &context)
+{
+    const std::unique_ptr<SampleSource> source = open(context.stop);
+    const AnalysisSettings used = settingsForListening(settings.analysis, source->format());
+    m_runner.deliver([this, format = source->format(), used] {
+        m_state.format = format;
+        m_state.blockSeconds = used.noise.blockWindows * used.spectrogram.windowSeconds;
+        emit begun();
+    });
+    const auto tell = [&shared](const auto &what) {
+        const std::lock_guard lock(shared.mutex);
+        shared.history.take(what);
+        shared.hasGrown = true;
+    };
+    ListenSinks sinks;
+    sinks.event = [&](const EventChange &change, const AnalysisPlan &) { tell(change); };
+    sinks.plan = [&](const AnalysisPlan &plan) { tell(plan); };
+    sinks.frame = [&](const ListenFrame &frame) { tell(frame); };
+    sinks.notice = [this](const ListenNotice &notice, const StreamFormat &) {
+        m_runner.deliver([this, notice] {
+            m_state.lostCount += notice.kind == ListenNotice::Kind::DiskSpace ? 0 : notice.sampleCount;
+            m_state.gapCount += notice.kind != ListenNotice::Kind::DiskSpace && notice.sampleCount > 0;
+            emit noticed(notice);
+        });
+    };
+    sinks.wish = [&shared] {
+        const std::lock_guard lock(shared.mutex);
+        return std::exchange(shared.wish, {});
+    };
+    listen(*source, settings, sinks, context);
+    return [] {};
+}
+
+void LiveRun::stop()
+{
+    m_state.isStopping = isRunning();
+    m_stop.request_stop();
+}
+
+void LiveRun::change(const AnalysisSettings &settings)
+{
+    if (!m_shared)
+        return;
+    const std::lock_guard lock(m_shared->mutex);
+    m_shared->wish = settings;
+}
+
+/// Of what came meanwhile only the newest is shown, however slow the window is.
+void LiveRun::deliver()
+{
+    LiveView view;
+    {
+        const std::lock_guard lock(m_shared->mutex);
+        if (!std::exchange(m_shared->hasGrown, false))
+            return;
+        view = m_shared->history.view();
+    }
+    if (!view.isEmpty() && view.time.count > 0)
+        emit grew(view);
+}
+
+void LiveRun::end()
+{
+    m_pull.stop();
+    deliver();
+    emit ended();
+}
+
+} // namespace faintline

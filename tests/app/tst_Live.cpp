@@ -1,0 +1,339 @@
+// Listening in the window: a pipe is fed, and what is to be seen then.
+
+#include "analysis/slopeUnit.h"
+#include "app/base/MessageBar.h"
+#include "app/openWindow.h"
+#include "app/workspace/LiveBar.h"
+#include "app/workspace/Workbench.h"
+#include "exchange/writeEvents.h"
+#include "live/PipeSource.h"
+#include "recording/SimulatedRecording.h"
+#include "support/recordings.h"
+#include "widgets/events/EventTable.h"
+
+#include <QDir>
+
+#include <atomic>
+#include <cmath>
+#include <csignal>
+#include <thread>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+using namespace faintline;
+using namespace faintline::test;
+
+namespace {
+
+constexpr double rate = 1000.0;
+
+std::vector<float> scene(double seconds)
+{
+    LineScene lines;
+    lines.sampleRateHz = rate;
+    lines.durationSeconds = seconds;
+    lines.noise.deviation = 0.1;
+    for (int i = 0; i < 4; ++i) {
+        LineSettings line;
+        line.frequencyHz = 90.0 + 100.0 * i;
+        line.snrDb = 6.0 + i;
+        line.startSeconds = 20.0 + 10.0 * i;
+        line.durationSeconds = 60.0;
+        lines.lines.push_back(line);
+    }
+    return readAll(SimulatedRecording(lines));
+}
+
+StreamFormat format()
+{
+    return {parseSampleType("rf32_le", "test"), rate, 1, 0.0, "FIFO"};
+}
+
+/// A FIFO that a thread writes samples to, as many as it is allowed to.
+class Feeder
+{
+public:
+    Feeder(const QTemporaryDir &folder, std::vector<float> samples)
+        : m_path(folder.filePath("fifo").toStdString()), m_samples(std::move(samples))
+    {
+        if (mkfifo(m_path.c_str(), 0600) != 0)
+            qFatal("cannot make a FIFO");
+        m_thread = std::jthread([this](const std::stop_token &stop) { feed(stop); });
+    }
+
+    void allow(double seconds) { m_allowed = std::size_t(seconds * rate); }
+    void allowAll() { m_allowed = m_samples.size(); }
+    LiveRun::OpenSource source() const
+    {
+        return [path = m_path](const std::stop_token &stop) -> std::unique_ptr<SampleSource> {
+            return std::make_unique<PipeSource>(path, format(), stop);
+        };
+    }
+
+private:
+    void feed(const std::stop_token &stop)
+    {
+        const int fifo = open(m_path.c_str(), O_WRONLY | O_CLOEXEC);
+        for (std::size_t at = 0; at < m_samples.size() && !stop.stop_requested();) {
+            const std::size_t count = std::min<std::size_t>(100, m_samples.size() - at);
+            if (at + count > m_allowed) {
+                std::this_thread::sleep_for(std::chrono::milliseconds(2));
+                continue;
+            }
+            if (write(fifo, m_samples.data() + at, count * sizeof(float)) < 0)
+                break;
+            at += count;
+        }
+        close(fifo);
+    }
+
+    std::string m_path;
+    std::vector<float> m_samples;
+    std::atomic<std::size_t> m_allowed = 0;
+    std::jthread m_thread;
+};
+
+} // namespace
+
+class tst_Live : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void initTestCase();
+    void showsAndRecords();
+    void holdsAndScrollsBack();
+    void changesTheThreshold();
+    void stopsWhenTheWindowCloses();
+    void tellsOfASourceThatCannotBe();
+    void tellsWhatIsLost();
+
+private:
+    AnalysisSettings m_settings;
+};
+
+void tst_Live::initTestCase()
+{
+    std::signal(SIGPIPE, SIG_IGN);
+    m_settings.spectrogram.windowSeconds = 0.25;
+    m_settings.decide.falseAlarmsPerHour = 60.0;
+}
+
+/// A window that listens with the settings of the test.
+static std::unique_ptr<MainWindow> listeningWindow(const QTemporaryDir &folder, Feeder &feeder,
+                                                   const AnalysisSettings &settings)
+{
+    auto window = newWindow();
+    window->listenTo(feeder.source(), folder.path(), settings);
+    return window;
+}
+
+// The events of the table, and those of the recording that is open in the end, are those of `listen`.
+void tst_Live::showsAndRecords()
+{
+    const QTemporaryDir folder;
+    const std::vector<float> samples = scene(150.0);
+    Feeder feeder(folder, samples);
+    const auto window = listeningWindow(folder, feeder, m_settings);
+    Document &document = window->document();
+    QVERIFY(window->liveBar().isVisible());
+    feeder.allow(140.0);
+    QTRY_VERIFY_WITH_TIMEOUT(document.isLive() && document.live().time.last() > 138.0, patience);
+    const Workbench &bench = window->workbench();
+    QCOMPARE(bench.input()->picture()->frameCount(), document.live().time.count);
+    QCOMPARE(bench.output()->picture()->frameCount(), document.live().time.count);
+    const Axis &frequency = bench.input()->frequencyAxis();
+    QVERIFY(frequency == document.live().plan->grid().axes.back());
+    QVERIFY(*bench.input()->valueAt(60.0, 390.0) > *bench.input()->valueAt(60.0, 340.0)); // a line, and none
+    QVERIFY(document.viewport().isFollowing());
+    QVERIFY(std::abs(document.viewport().time().high - document.live().time.last()) < 1.0);
+    QVERIFY(document.shownEvents().size() >= 4);
+    QVERIFY(window->liveBar().text().contains(QStringLiteral("UTC")) || window->liveBar().text().contains('Z'));
+    QVERIFY(window->liveBar().text().contains(QStringLiteral("no sample lost")));
+
+    QSignalSpy ended(&window->live(), &LiveRun::ended);
+    feeder.allowAll();
+    QVERIFY(ended.wait(patience));
+    const QString recording = window->live().state().recording;
+    QTRY_VERIFY_WITH_TIMEOUT(document.isCurrent() && !window->controller().isBusy(), patience);
+    QVERIFY(!document.isLive());
+    QVERIFY(window->liveBar().isHidden());
+    QCOMPARE(document.source().path, recording);
+    QVERIFY(document.settings().noise.causal);
+
+    ListenSettings same;
+    same.analysis = m_settings;
+    class Given final : public SampleSource
+    {
+    public:
+        explicit Given(const std::vector<float> &all) : m_all(all) {}
+        const StreamFormat &format() const override { return m_format; }
+        bool isPatient() const override { return true; }
+        Heard hear(std::chrono::milliseconds) override
+        {
+            Heard heard;
+            const auto bytes = std::as_bytes(std::span(m_all));
+            if (!m_isDone)
+                heard.bytes.assign(bytes.begin(), bytes.end());
+            heard.isOver = std::exchange(m_isDone, true);
+            return heard;
+        }
+
+    private:
+        const std::vector<float> &m_all;
+        StreamFormat m_format = ::format();
+        bool m_isDone = false;
+    } given(samples);
+    const ListenResult heard = listen(given, same, {});
+    QVERIFY(heard.events.size() >= 4);
+    QCOMPARE(QByteArray::fromStdString(eventsCsv(*document.analysis(), document.shownEvents())),
+             QByteArray::fromStdString(eventsCsv(heard.plan, heard.events)));
+}
+
+// Held, the picture stays while frames come in; what was heard can be scrolled back to; End goes to the newest.
+void tst_Live::holdsAndScrollsBack()
+{
+    const QTemporaryDir folder;
+    Feeder feeder(folder, scene(300.0));
+    const auto window = listeningWindow(folder, feeder, m_settings);
+    Document &document = window->document();
+    Viewport &viewport = document.viewport();
+    feeder.allow(150.0);
+    QTRY_VERIFY_WITH_TIMEOUT(document.isLive() && document.live().time.last() > 148.0, patience);
+    QVERIFY(viewport.isFollowing());
+    const double width = viewport.time().width();
+    viewport.pan(-30.0, 0.0);
+    QVERIFY(!viewport.isFollowing());
+    const Span held = viewport.time();
+    feeder.allow(200.0);
+    QTRY_VERIFY_WITH_TIMEOUT(document.live().time.last() > 198.0, patience);
+    QVERIFY(viewport.time() == held);
+    QVERIFY(viewport.full().time.high > 198.0);
+    viewport.pan(-1e6, 0.0); // to the beginning
+    QVERIFY(viewport.time().low <= document.live().time.first);
+    QTest::keyClick(&window->workbench(), Qt::Key_End);
+    QVERIFY(viewport.isFollowing());
+    QVERIFY(std::abs(viewport.time().high - viewport.full().time.high) < 1e-9);
+    QVERIFY(std::abs(viewport.time().width() - width) < 1e-6);
+    window->workbench().setPlaying(false); // Space
+    const Span stopped = viewport.time();
+    feeder.allow(250.0);
+    QTRY_VERIFY_WITH_TIMEOUT(document.live().time.last() > 248.0, patience);
+    QVERIFY(viewport.time() == stopped);
+    window->workbench().setPlaying(true);
+    feeder.allow(280.0);
+    QTRY_VERIFY_WITH_TIMEOUT(viewport.time().high > 278.0, patience);
+    window->live().stop();
+    QTRY_VERIFY_WITH_TIMEOUT(!window->live().isRunning(), patience);
+}
+
+void tst_Live::changesTheThreshold()
+{
+    const QTemporaryDir folder;
+    Feeder feeder(folder, scene(300.0));
+    const auto window = listeningWindow(folder, feeder, m_settings);
+    Document &document = window->document();
+    feeder.allow(60.0);
+    QTRY_VERIFY_WITH_TIMEOUT(document.isLive() && document.live().time.last() > 58.0, patience);
+    const double before = document.live().plan->threshold;
+    window->controller().stepThreshold(8);
+    feeder.allow(62.0);
+    QTRY_VERIFY_WITH_TIMEOUT(
+        (feeder.allow(std::min(document.live().time.last() + 4.0, 250.0)), !document.live().changes.empty()), patience);
+    const SettingsChange &change = document.live().changes.front();
+    QVERIFY(change.seconds > 58.0);
+    QVERIFY(document.live().plan->threshold > before + 1.0);
+    QCOMPARE(document.shownThreshold(), document.live().plan->threshold);
+    QCOMPARE(*window->workbench().output()->threshold(), document.live().plan->threshold);
+    window->live().stop();
+    QTRY_VERIFY_WITH_TIMEOUT(!window->live().isRunning(), patience);
+}
+
+void tst_Live::stopsWhenTheWindowCloses()
+{
+    const QTemporaryDir folder;
+    Feeder feeder(folder, scene(120.0));
+    const auto window = listeningWindow(folder, feeder, m_settings);
+    feeder.allow(60.0);
+    QTRY_VERIFY_WITH_TIMEOUT(window->document().isLive() && window->document().live().time.last() > 50.0, patience);
+    window->close();
+    QTRY_VERIFY_WITH_TIMEOUT(window->isHidden(), patience);
+    QVERIFY(!window->live().isRunning());
+    const auto kept = openRecording(window->live().state().recording.toStdString());
+    QVERIFY(kept->info().durationSeconds() > 50.0);
+}
+
+void tst_Live::tellsOfASourceThatCannotBe()
+{
+    const QTemporaryDir folder;
+    const auto window = newWindow();
+    window->listenTo(
+        [](const std::stop_token &stop) -> std::unique_ptr<SampleSource> {
+            return std::make_unique<PipeSource>("/nowhere/fifo", format(), stop);
+        },
+        folder.path());
+    QTRY_VERIFY_WITH_TIMEOUT(!window->live().isRunning(), patience);
+    QVERIFY(window->messages().text().contains(QStringLiteral("/nowhere/fifo")));
+    QVERIFY(window->liveBar().isHidden());
+    QVERIFY(QDir(folder.path()).entryList({QStringLiteral("*.sigmf-*")}).isEmpty());
+}
+
+// A receiver that goes away and comes back: a sentence, a gap of known length, and the run goes on.
+void tst_Live::tellsWhatIsLost()
+{
+    class Receiver final : public SampleSource
+    {
+    public:
+        explicit Receiver(std::vector<float> all) : m_all(std::move(all)) {}
+        const StreamFormat &format() const override { return m_format; }
+        bool isPatient() const override { return true; }
+        Heard hear(std::chrono::milliseconds patience) override
+        {
+            Heard heard;
+            if (m_at >= m_all.size()) {
+                std::this_thread::sleep_for(patience);
+                return heard;
+            }
+            if (m_at == 30'000 && !std::exchange(m_isGone, true)) {
+                heard.incident = Heard::Incident::Gone;
+                heard.words = "The receiver has gone.";
+                return heard;
+            }
+            if (m_at == 30'000) {
+                heard.incident = Heard::Incident::Back;
+                heard.lostSamples = 1500;
+                heard.words = "The receiver is back.";
+            }
+            const auto bytes = std::as_bytes(std::span(m_all).subspan(m_at, 1000));
+            heard.bytes.assign(bytes.begin(), bytes.end());
+            m_at += 1000;
+            return heard;
+        }
+
+    private:
+        std::vector<float> m_all;
+        StreamFormat m_format = ::format();
+        std::size_t m_at = 0;
+        bool m_isGone = false;
+    };
+    const QTemporaryDir folder;
+    const auto window = newWindow();
+    QSignalSpy notices(&window->live(), &LiveRun::noticed);
+    window->listenTo([](const std::stop_token &) { return std::make_unique<Receiver>(scene(120.0)); }, folder.path(),
+                     m_settings);
+    QTRY_VERIFY_WITH_TIMEOUT(window->document().isLive() && window->document().live().time.last() > 119.0, patience);
+    QTRY_COMPARE_WITH_TIMEOUT(notices.count(), 2, patience);
+    QVERIFY(window->messages().text().contains(QStringLiteral("The receiver is back.")));
+    QTRY_VERIFY2(window->liveBar().text().contains(QStringLiteral("1.500 s of samples lost in 1 gap")),
+                 qPrintable(window->liveBar().text()));
+    QCOMPARE(window->document().live().lostCount, Index(1500));
+    window->live().stop();
+    QTRY_VERIFY_WITH_TIMEOUT(!window->live().isRunning(), patience);
+    const auto kept = openRecording(window->live().state().recording.toStdString());
+    QCOMPARE(kept->info().sampleCount, Index(121'500));
+}
+
+QTEST_MAIN(tst_Live)
+#include "tst_Live.moc"
