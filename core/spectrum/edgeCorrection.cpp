@@ -3,6 +3,7 @@
 #include "spectrum/FrameNormaliser.h"
 #include "spectrum/levels.h"
 #include "spectrum/medians.h"
+#include "spectrum/observed.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,10 +46,12 @@ std::vector<float> edgeCorrection(const Spectrogram &spectrogram, const NoiseBac
     const Index stride = spectrogram.time().count / framesRead;
     if (stride < spectrogram.settings().stepsPerWindow || bins * framesRead > mostValues)
         return {};
-    std::vector<Index> observed; // the frames that are no digital silence
+    std::vector<Index> observed; // the frames that are neither in a gap nor digital silence
     std::vector<Index> counts(std::size_t(cells), 0);
     std::vector<float> ln(static_cast<std::size_t>(cells));
     for (Index frame = 0; frame < spectrogram.time().count; frame += stride) {
+        if (!isObserved(spectrogram, frame))
+            continue;
         background.readLnPower(spectrogram.time().value(double(frame)), ln);
         if (*std::max_element(ln.begin(), ln.end()) <= NoiseBackground::silence)
             continue;
