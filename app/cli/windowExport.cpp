@@ -11,6 +11,7 @@
 #include "exchange/CampaignFile.h"
 #include "exchange/openFrames.h"
 #include "exchange/writeDoppler.h"
+#include "exchange/writeEvents.h"
 #include "exchange/writeReviewed.h"
 #include "recording/InjectedRecording.h"
 #include "recording/SimulatedRecording.h"
@@ -103,8 +104,12 @@ namespace {
 
     void remakeEvents(const WindowExport &table, const std::string &out, const RunContext &context)
     {
-        checkReviewedPath(out);
         const Json &provenance = table.provenance;
+        const bool isOfTracks = provenance.value("tracks", false);
+        if (isOfTracks)
+            checkTracksPath(out);
+        else
+            checkReviewedPath(out);
         const auto analysis = analysed(table, context);
         const Annotations annotations = provenance.contains("annotations")
                                             ? annotationsFromJson(provenance["annotations"], "annotations")
@@ -114,6 +119,8 @@ namespace {
             std::erase_if(shown, [least = provenance["shownThreshold"].get<double>()](const Event &event) {
                 return event.statistic < least;
             });
+        if (isOfTracks)
+            return writeTracks(*analysis, shown, out);
         writeReviewed(*analysis, shown, annotations, out);
     }
 

@@ -20,7 +20,7 @@ struct WindowExport {
     std::function<void(const std::string &path)> mayRead;
 };
 
-/// Makes it again as `out`, whose extension says of what kind: events with what was said about them, the curve of an
+/// Makes it again as `out`, whose extension says of what kind: events with what was said about them, their tracks, the curve of an
 /// experiment, a Doppler fit, or a straightened recording. Throws Error, in one line, for what only the window can
 /// make.
 void remake(const WindowExport &table, const std::string &out, const RunContext &context);

@@ -5,6 +5,7 @@
 #include "app/control/thresholdWords.h"
 #include "base/oneLine.h"
 #include "exchange/readAnnotations.h"
+#include "exchange/writeEvents.h"
 #include "exchange/writeReviewed.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
@@ -74,6 +75,8 @@ EventReviews::EventReviews(Document &document, EventTable &table, std::vector<Wa
         &EventReviews::askForImport);
     add(tr("E&xport events and annotations…"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_E),
         tr("CSV, JSON, Raven, Audacity, SigMF"), &EventReviews::askForExport);
+    add(tr("Export &tracks…"), {}, tr("Frequency, band, presence and SNR of each track frame by frame: CSV, JSON"),
+        &EventReviews::askForTracks);
 
     for (QAction *action : m_eventActions)
         m_table.table()->addAction(action);
@@ -319,19 +322,37 @@ void EventReviews::exportTo(const QString &path)
     if (m_document.analysis()->calibration->isFirstEstimate)
         return emit failed(firstEstimateError());
     writeReviewed(*m_document.analysis(), m_document.shownEvents(), m_document.annotations(), pathBytes(path));
+    writeProvenance(path, false);
+}
+
+void EventReviews::exportTracksTo(const QString &path)
+{
+    if (!m_document.analysis())
+        return;
+    if (m_document.analysis()->calibration->isFirstEstimate)
+        return emit failed(firstEstimateError());
+    writeTracks(*m_document.analysis(), m_document.shownEvents(), pathBytes(path));
+    writeProvenance(path, true);
+}
+
+void EventReviews::writeProvenance(const QString &path, bool isOfTracks)
+{
     // Only a threshold that is being dragged is not that of the settings.
     const bool isDragged = m_document.shownThreshold() != m_document.analysis()->threshold;
-    m_provenance.with([this, path, isDragged, threshold = m_document.shownThreshold()](const std::string &provenance) {
-        try {
-            Json json = parseJson(provenance, "provenance");
-            if (isDragged)
-                json["shownThreshold"] = threshold;
-            writeProvenanceBeside(path, json.dump(2) + "\n");
-            emit written(path);
-        } catch (const Error &error) {
-            emit failed(error);
-        }
-    });
+    m_provenance.with(
+        [this, path, isOfTracks, isDragged, threshold = m_document.shownThreshold()](const std::string &provenance) {
+            try {
+                Json json = parseJson(provenance, "provenance");
+                if (isDragged)
+                    json["shownThreshold"] = threshold;
+                if (isOfTracks)
+                    json["tracks"] = true;
+                writeProvenanceBeside(path, json.dump(2) + "\n");
+                emit written(path);
+            } catch (const Error &error) {
+                emit failed(error);
+            }
+        });
 }
 
 void EventReviews::askForImport()
@@ -359,6 +380,20 @@ void EventReviews::askForExport()
         return;
     try {
         exportTo(path);
+    } catch (const Error &error) {
+        emit failed(error);
+    }
+}
+
+void EventReviews::askForTracks()
+{
+    const QString path = QFileDialog::getSaveFileName(
+        m_window, tr("Export tracks"), nameBeside(m_document.source().path, QStringLiteral("-tracks.csv")),
+        tr("Table (*.csv);;JSON (*.json)"));
+    if (path.isEmpty())
+        return;
+    try {
+        exportTracksTo(path);
     } catch (const Error &error) {
         emit failed(error);
     }
@@ -418,7 +453,7 @@ void EventReviews::enable()
         action->setEnabled(!ids.empty());
     m_merge->setEnabled(ids.size() > 1);
     m_addBox->setEnabled(m_document.box().has_value() && !m_document.isEmpty());
-    for (qsizetype i = m_actions.size() - 2; i < m_actions.size(); ++i) // import and export
+    for (qsizetype i = m_actions.size() - 3; i < m_actions.size(); ++i) // import and exports
         m_actions[i]->setEnabled(m_document.analysis() != nullptr);
 }
 

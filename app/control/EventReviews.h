@@ -51,6 +51,8 @@ public:
     /// Throws Error.
     void importFrom(const QString &path);
     void exportTo(const QString &path);
+    /// The tracks of the events shown, frame by frame: .csv or .json.
+    void exportTracksTo(const QString &path);
 
     Provenance &provenance() { return m_provenance; }
 
@@ -71,6 +73,8 @@ private:
     void askForLabel();
     void askForImport();
     void askForExport();
+    void askForTracks();
+    void writeProvenance(const QString &path, bool isOfTracks);
     void fillContextMenu(QMenu &menu, double seconds, double hz);
     void fillContextMenu(QMenu &menu, int track);
     void show();

@@ -134,13 +134,13 @@ namespace {
         return json.dump(2) + "\n";
     }
 
-    std::string tracksCsv(const Analysis &analysis)
+    std::string tracksCsv(const Analysis &analysis, const std::vector<Track> &tracks)
     {
         const bool isSeenTwice = looksTwice(analysis);
         std::string text =
             joined(std::vector<std::string>{"track", "t", joined(positionNames(analysis.grid())), "statistic"})
             + (isSeenTwice ? "," + joined(smoothedColumns) : "") + "\n";
-        for (const Track &track : analysis.tracks)
+        for (const Track &track : tracks)
             for (std::size_t i = 0; i < track.points.size(); ++i) {
                 const TrackPoint &point = track.points[i];
                 text += std::to_string(track.id) + "," + formatNumber(analysis.time().value(double(point.frame))) + ","
@@ -152,11 +152,11 @@ namespace {
         return text;
     }
 
-    std::string tracksJson(const Analysis &analysis)
+    std::string tracksJson(const Analysis &analysis, const std::vector<Track> &tracks)
     {
         Json json = Json::array();
         const std::vector<std::string> names = positionNames(analysis.grid());
-        for (const Track &track : analysis.tracks) {
+        for (const Track &track : tracks) {
             Json one;
             one["track"] = track.id;
             one["t"] = Json::array();
@@ -186,6 +186,12 @@ namespace {
         if (std::none_of(extensions.begin(), extensions.end(),
                          [&](std::string_view extension) { return path.ends_with(extension); }))
             throw Error(path, "the file name must end in one of " + known);
+    }
+
+    void writeTracks(const Analysis &analysis, const std::vector<Track> &tracks, const std::string &path)
+    {
+        checkTracksPath(path);
+        writeTextFile(path, path.ends_with(".csv") ? tracksCsv(analysis, tracks) : tracksJson(analysis, tracks));
     }
 
 } // namespace
@@ -290,8 +296,16 @@ void writeEvents(const Analysis &analysis, const std::string &path)
 
 void writeTracks(const Analysis &analysis, const std::string &path)
 {
-    checkTracksPath(path);
-    writeTextFile(path, path.ends_with(".csv") ? tracksCsv(analysis) : tracksJson(analysis));
+    writeTracks(analysis, analysis.tracks, path);
+}
+
+void writeTracks(const Analysis &analysis, const std::vector<Event> &events, const std::string &path)
+{
+    std::vector<Track> tracks;
+    for (const Track &track : analysis.tracks)
+        if (std::any_of(events.begin(), events.end(), [&](const Event &event) { return event.id == track.id; }))
+            tracks.push_back(track);
+    writeTracks(analysis, tracks, path);
 }
 
 } // namespace faintline

@@ -36,5 +36,7 @@ void checkTracksPath(const std::string &path);
 /// statistic is the score of the track's path, in nats for every detector: if it has no paths, that of the sequential
 /// Markov detector that guides it.
 void writeTracks(const Analysis &analysis, const std::string &path);
+/// The same of the tracks of these events alone.
+void writeTracks(const Analysis &analysis, const std::vector<Event> &events, const std::string &path);
 
 } // namespace faintline

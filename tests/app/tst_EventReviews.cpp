@@ -6,6 +6,7 @@
 #include "app/openWindow.h"
 #include "app/workspace/Workbench.h"
 #include "exchange/readAnnotations.h"
+#include "exchange/writeEvents.h"
 #include "support/recordings.h"
 #include "widgets/events/EventModel.h"
 #include "widgets/events/EventTable.h"
@@ -248,6 +249,14 @@ private slots:
             m_window->reviews().exportTo(m_folder.filePath(name));
             QCOMPARE(replay(name), name.toUtf8() + ": the same bytes\n");
         }
+        m_window->reviews().exportTracksTo(m_folder.filePath("tracks.csv"));
+        QCOMPARE(replay("tracks.csv"), QByteArray("tracks.csv: the same bytes\n"));
+        writeTracks(*document().analysis(), pathBytes(m_folder.filePath("all.csv")));
+        const auto bytesOf = [&](const char *name) {
+            QFile table(m_folder.filePath(name));
+            return table.open(QIODevice::ReadOnly) ? table.readAll() : QByteArray("not there");
+        };
+        QCOMPARE(bytesOf("tracks.csv"), bytesOf("all.csv"));
         // One digit of another makes a difference.
         QFile file(m_folder.filePath("r.csv"));
         QVERIFY(file.open(QIODevice::Append));
