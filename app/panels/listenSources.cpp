@@ -6,7 +6,9 @@
 #include "live/IqSource.h"
 #include "live/PipeSource.h"
 #include "live/RtlTcpSource.h"
+#include "live/SoundSource.h"
 #include "live/UdpSource.h"
+#include "live/soundDevices.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -205,11 +207,52 @@ namespace {
         QSpinBox *m_ppm = new QSpinBox;
     };
 
+    class SoundForm final : public ListenSourceForm
+    {
+    public:
+        SoundForm()
+        {
+            m_device->addItem(tr("Default"), QStringLiteral("default"));
+            for (const SoundDevice &device : soundDevices())
+                if (device.inputChannels > 0)
+                    m_device->addItem(QString::fromStdString(device.name), QString::fromStdString(device.name));
+            m_device->setObjectName(QStringLiteral("soundDevice"));
+            m_rate->setSpecialValueText(tr("the device's own"));
+            m_channels->setRange(0, 64);
+            m_channels->setSpecialValueText(tr("the device's, at most 2"));
+            auto *form = new QFormLayout(this);
+            form->addRow(tr("&Device"), m_device);
+            form->addRow(tr("Sample &rate"), m_rate);
+            form->addRow(tr("&Channels"), m_channels);
+            form->addRow(QString(), m_iq);
+        }
+
+        LiveRun::OpenSource source() const override
+        {
+            SoundSettings sound;
+            sound.device = m_device->currentData().toString().toStdString();
+            sound.sampleRateHz = m_rate->value();
+            sound.channelCount = m_channels->value();
+            return withIq(
+                [sound](const std::stop_token &) -> std::unique_ptr<SampleSource> {
+                    return std::make_unique<SoundSource>(sound);
+                },
+                m_iq->isChecked());
+        }
+
+    private:
+        QComboBox *m_device = new QComboBox;
+        QDoubleSpinBox *m_rate = hertzBox(0.0, 0.0, 1e6);
+        QSpinBox *m_channels = new QSpinBox;
+        QCheckBox *m_iq = new QCheckBox(tr("Take channels in pairs as I and Q"));
+    };
+
 } // namespace
 
 const std::vector<ListenSourceKind> &listenSourceKinds()
 {
     static const std::vector<ListenSourceKind> kinds{
+        {tr("Sound device"), [] { return new SoundForm; }},
         {tr("Pipe or file"), [] { return new PipeForm; }},
         {tr("UDP"), [] { return new UdpForm; }},
         {tr("Receiver (rtl_tcp)"), [] { return new RtlTcpForm; }},
