@@ -46,7 +46,7 @@ void tst_openRecording::refusals()
 {
     QVERIFY(contains(refusal(path("none.wav")), "no such file"));
     QVERIFY(contains(refusal(path("none.wav") + "/x"), "no such file"));
-    QVERIFY(contains(refusal(m_folder.path().toStdString()), "is a folder; expected a recording file"));
+    QVERIFY(contains(refusal(m_folder.path().toStdString()), "holds no recordings"));
     QVERIFY(contains(refusal("/dev/null"), "is a device or a pipe"));
     QCOMPARE(::mkfifo(path("pipe.wav").c_str(), 0600), 0);
     QVERIFY(contains(refusal(path("pipe.wav")), "is a device or a pipe"));

@@ -44,7 +44,7 @@ void tst_cliMistakes::mistakes_data()
         "command line: Could not convert: --from = soon");
     row("no threads", {"--threads", "0", "describe"}, "command line: --threads");
     row("no such file", {"info", "none.wav"}, "none.wav: no such file");
-    row("a folder", {"info", "."}, ".: is a folder");
+    row("a folder", {"info", "."}, "./line.wav: has no time stamp");
     row("a text", {"info", "truth.json"}, "");
     row("unknown setting", {"describe", "smd.k"}, "smd.k: unknown setting; did you mean smd.lnK");
     row("misspelt setting", {"detect", "line.wav", "--summary", "--set", "smd.thresold=3"},
