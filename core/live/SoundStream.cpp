@@ -9,8 +9,6 @@
 #include <thread>
 #include <utility>
 
-#include <rtaudio/RtAudio.h>
-
 namespace faintline {
 
 namespace {
@@ -59,7 +57,7 @@ namespace {
     /// Its number now; devices come and go.
     unsigned indexOf(RtAudio &audio, const SoundDevice &device, SoundDirection direction, const std::string &where)
     {
-        const unsigned count = mayAskRtAudio(device.system) ? audio.getDeviceCount() : 0;
+        const unsigned count = mayAskRtAudio(apiOf(device.system)) ? audio.getDeviceCount() : 0;
         for (unsigned i = 0; i < count; ++i) {
             const RtAudio::DeviceInfo info = audio.getDeviceInfo(i);
             if (info.name == device.name

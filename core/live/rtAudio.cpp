@@ -53,17 +53,16 @@ std::mutex &rtAudioMutex()
     return mutex;
 }
 
-bool mayAskRtAudio(SoundDevice::System system)
+bool mayAskRtAudio(RtAudio::Api api)
 {
-    switch (system) {
-    case SoundDevice::System::PulseAudio:
+    switch (api) {
+    case RtAudio::LINUX_PULSE:
         return hasPulseDefaults();
-    case SoundDevice::System::Alsa:
+    case RtAudio::LINUX_ALSA:
         return hasCard();
-    case SoundDevice::System::Jack:
-        break;
+    default:
+        return true;
     }
-    return true;
 }
 
 } // namespace faintline

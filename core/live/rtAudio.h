@@ -1,8 +1,8 @@
 #pragma once
 
-#include "live/soundDevices.h"
-
 #include <mutex>
+
+#include <rtaudio/RtAudio.h>
 
 namespace faintline {
 
@@ -12,6 +12,6 @@ std::mutex &rtAudioMutex();
 /// Whether RtAudio may be asked for the devices of a sound system. It keeps the old ones of a PulseAudio server that has
 /// gone, reads through a null pointer where one has no default device, and lets ALSA write to standard error where there
 /// is no card.
-bool mayAskRtAudio(SoundDevice::System system);
+bool mayAskRtAudio(RtAudio::Api api);
 
 } // namespace faintline

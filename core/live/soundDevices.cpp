@@ -8,8 +8,6 @@
 #include <cctype>
 #include <iterator>
 
-#include <rtaudio/RtAudio.h>
-
 namespace faintline {
 
 namespace {
@@ -26,7 +24,7 @@ namespace {
 
     void addDevices(const NamedSystem &asked, std::vector<SoundDevice> &devices)
     {
-        if (!mayAskRtAudio(asked.system))
+        if (!mayAskRtAudio(asked.api))
             return;
         try {
             RtAudio audio(asked.api);
