@@ -103,7 +103,7 @@ PlaySettings Playback::stretch() const
 FrequencyCurve Playback::line() const
 {
     if (const std::optional<Event> event = m_chooseEvent(); event && m_document.lineAnalysis())
-        return straightened(*m_document.lineAnalysis(), *event).recording->curve();
+        return straightened(*m_document.lineAnalysis(), *event).curve;
     if (!m_document.viewport().cursor())
         throw Error(tr("Play").toStdString(), "requires an event to follow, or a cursor on the line");
     return FrequencyCurve({"time", "s", 0.0, 1.0, 1}, {m_document.viewport().cursor()->hz});
