@@ -21,7 +21,7 @@ NormalisedFramesPointer noise(int seed)
     scene.seed = seed;
     SpectrogramSettings cut;
     cut.windowSeconds = 0.5;
-    const SelectionSettings band{0, 0.0, 0.0, 20.0, 180.0};
+    const SelectionSettings band{0, {}, 0.0, 0.0, 20.0, 180.0};
     const auto spectrogram = std::make_shared<Spectrogram>(std::make_shared<SimulatedRecording>(scene), cut, band);
     const NormaliserSettings settings;
     return std::make_shared<NormalisedSpectrogram>(spectrogram, estimateBackground(*spectrogram, settings), settings);
