@@ -120,7 +120,7 @@ namespace {
                 return event.statistic < least;
             });
         if (isOfTracks)
-            return writeTracks(*analysis, shown, out);
+            return writeTracksOf(shown, *analysis, out);
         writeReviewed(*analysis, shown, annotations, out);
     }
 

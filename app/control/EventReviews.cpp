@@ -331,7 +331,7 @@ void EventReviews::exportTracksTo(const QString &path)
         return;
     if (m_document.analysis()->calibration->isFirstEstimate)
         return emit failed(firstEstimateError());
-    writeTracks(*m_document.analysis(), m_document.shownEvents(), pathBytes(path));
+    writeTracksOf(m_document.shownEvents(), *m_document.analysis(), pathBytes(path));
     writeProvenance(path, true);
 }
 

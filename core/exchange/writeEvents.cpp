@@ -299,7 +299,7 @@ void writeTracks(const Analysis &analysis, const std::string &path)
     writeTracks(analysis, analysis.tracks, path);
 }
 
-void writeTracks(const Analysis &analysis, const std::vector<Event> &events, const std::string &path)
+void writeTracksOf(const std::vector<Event> &events, const Analysis &analysis, const std::string &path)
 {
     std::vector<Track> tracks;
     for (const Track &track : analysis.tracks)

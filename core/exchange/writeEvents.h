@@ -37,6 +37,6 @@ void checkTracksPath(const std::string &path);
 /// Markov detector that guides it.
 void writeTracks(const Analysis &analysis, const std::string &path);
 /// The same of the tracks of these events alone.
-void writeTracks(const Analysis &analysis, const std::vector<Event> &events, const std::string &path);
+void writeTracksOf(const std::vector<Event> &events, const Analysis &analysis, const std::string &path);
 
 } // namespace faintline

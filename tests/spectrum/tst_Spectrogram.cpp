@@ -427,7 +427,7 @@ void tst_Spectrogram::refusals()
     QFETCH(int, channel);
     QFETCH(QString, message);
     const std::string said = errorOf([&] {
-        Spectrogram(noise(1000, false), {windowSeconds, 2, 1}, {channel, from, to, low, high});
+        Spectrogram(noise(1000, false), {windowSeconds, 2, 1}, {channel, {}, from, to, low, high});
     });
     QVERIFY2(contains(said, message.toStdString()), said.c_str());
 }
