@@ -2,6 +2,7 @@
 
 #include "app/control/EventReviews.h"
 
+#include "app/base/filePath.h"
 #include "app/document/Session.h"
 #include "app/openWindow.h"
 #include "app/workspace/Workbench.h"
