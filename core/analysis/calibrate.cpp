@@ -1,6 +1,7 @@
 #include "analysis/calibrateOn.h"
 #include "analysis/keptCalibration.h"
 #include "recording/SimulatedRecording.h"
+#include "spectrum/channelCount.h"
 #include "spectrum/normalise.h"
 
 #include <algorithm>

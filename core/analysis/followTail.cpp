@@ -1,8 +1,8 @@
 #include "analysis/followTail.h"
 
-#include "analysis/keptCalibration.h"
 #include "base/Random.h"
 #include "spectrum/NoiseNormaliser.h"
+#include "spectrum/channelCount.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,6 @@
 #include "analysis/knownCalibration.h"
 #include "base/Field.h"
 
-#include <algorithm>
 #include <chrono>
 #include <map>
 #include <mutex>
@@ -24,13 +23,6 @@ DecideSettings withoutThreshold(DecideSettings decide)
     decide.thresholdNats = defaults.thresholdNats;
     decide.by = defaults.by;
     return decide;
-}
-
-int channelCount(const SelectionSettings &selection)
-{
-    if (!selection.channels.empty() && selection.channels.front() < 0.0)
-        throw fieldError("selection.channels", "all", "requires a recording; give the channels, such as 0, 1");
-    return std::max(1, int(selection.channels.size()));
 }
 
 namespace {

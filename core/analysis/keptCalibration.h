@@ -19,9 +19,6 @@ DecideSettings withoutThreshold(DecideSettings decide);
 /// The settings that the answer to noise depends on; of channels, how many there are.
 AnalysisSettings dimensionless(AnalysisSettings settings);
 
-/// How many are added. Throws Error where that depends on the recording.
-int channelCount(const SelectionSettings &selection);
-
 std::string calibrationKey(const AnalysisSettings &bare, CalibrationDepth depth);
 
 /// The calibration kept under a key, or else the result of `make`, which is kept. If several threads and programs need
