@@ -175,7 +175,8 @@ namespace {
         return result;
     }
 
-    /// Cells near which a colour falls or rises steeply: smoothing would move such an edge, and flatten what leaks over it.
+    /// Cells near which a colour falls or rises steeply: smoothing would move such an edge, and flatten what leaks over
+    /// it.
     void markEdges(const std::vector<float> &ln, std::vector<char> &isEdge)
     {
         constexpr float steep = 1.4f; // 6 dB from one neighbour to the other
