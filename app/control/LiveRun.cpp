@@ -8,6 +8,13 @@ namespace {
 
     constexpr int pullMs = 33;
 
+    /// Others have samples that are none: a clock's departure, seconds left on a disk.
+    bool isLoss(ListenNotice::Kind kind)
+    {
+        using Kind = ListenNotice::Kind;
+        return kind == Kind::Lost || kind == Kind::Overflow || kind == Kind::Back;
+    }
+
 } // namespace
 
 LiveRun::LiveRun(QObject *parent) : QObject(parent)
@@ -64,8 +71,10 @@ JobRunner::Delivery LiveRun::listenNow(const OpenSource &open, const ListenSetti
     sinks.frame = [&](const ListenFrame &frame) { tell(frame); };
     sinks.notice = [this](const ListenNotice &notice, const StreamFormat &) {
         m_runner.deliver([this, notice] {
-            m_state.lostCount += notice.kind == ListenNotice::Kind::DiskSpace ? 0 : notice.sampleCount;
-            m_state.gapCount += notice.kind != ListenNotice::Kind::DiskSpace && notice.sampleCount > 0;
+            if (isLoss(notice.kind) && notice.sampleCount > 0) {
+                m_state.lostCount += notice.sampleCount;
+                ++m_state.gapCount;
+            }
             emit noticed(notice);
         });
     };

@@ -348,12 +348,12 @@ void MainWindow::showDoppler()
     m_panels->show(m_doppler);
 }
 
-/// As sound; without it the cursor moves all the same.
+/// As sound; without it the cursor moves all the same. Live, the picture goes on.
 void MainWindow::setPlaying(bool isPlaying)
 {
     if (!isPlaying)
         m_playback->stop();
-    else if (&bench() == m_workbench && (m_playback->isPlaying() || m_playback->start()))
+    else if (&bench() == m_workbench && !m_document.isLive() && (m_playback->isPlaying() || m_playback->start()))
         return;
     bench().setPlaying(isPlaying);
 }

@@ -325,7 +325,8 @@ void tst_Live::tellsWhatIsLost()
                      m_settings);
     QTRY_VERIFY_WITH_TIMEOUT(window->document().isLive() && window->document().live().time.last() > 119.0, patience);
     QTRY_COMPARE_WITH_TIMEOUT(notices.count(), 2, patience);
-    QVERIFY(window->messages().text().contains(QStringLiteral("The receiver is back.")));
+    QVERIFY2(window->messages().text().contains(QStringLiteral("The receiver is back.")),
+             qPrintable(window->messages().text()));
     QTRY_VERIFY2(window->liveBar().text().contains(QStringLiteral("1.500 s of samples lost in 1 gap")),
                  qPrintable(window->liveBar().text()));
     QCOMPARE(window->document().live().lostCount, Index(1500));
