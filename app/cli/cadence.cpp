@@ -21,6 +21,8 @@ namespace {
     void findIn(const CadenceOptions &options)
     {
         checkOutputs({options.events});
+        if (!(options.slackHz >= 0.0)) // NaN lies in every range
+            throw Error("--slack", "must be a number");
         std::vector<TopHits> observations;
         for (const std::string &table : options.tables)
             observations.push_back(readTopHits(table));

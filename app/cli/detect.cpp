@@ -195,6 +195,8 @@ namespace {
             checkEventsPath(options.conventional);
         if (!options.hits.empty() && !options.hits.ends_with(".dat"))
             throw Error(options.hits, "the file name must end in .dat");
+        if (!(options.leastSnr >= 0.0)) // NaN lies in every range
+            throw Error("--least-snr", "must be a number");
         if (options.leastSnr > 0.0 && options.hits.empty())
             throw Error("--least-snr", "requires --hits");
         checkOutputs(outputsOf(options));

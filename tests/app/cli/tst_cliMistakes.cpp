@@ -91,6 +91,9 @@ void tst_cliMistakes::mistakes_data()
         "selection.fromSeconds = -1: must lie in 0");
     row("band upside down", {"detect", "line.wav", "--summary", "--low", "50", "--high", "20"},
         "selection.lowHz = 50: must not lie above");
+    row("least SNR that is no number", {"detect", "line.wav", "--hits", "h.dat", "--least-snr", "nan"},
+        "--least-snr: must be a number");
+    row("slack that is no number", {"cadence", "on.dat", "off.dat", "--slack", "nan"}, "--slack: must be a number");
     row("band that is no number", {"detect", "line.wav", "--summary", "--low", "nan"},
         "selection.lowHz = nan: must lie in");
     row("longer than the recording", {"detect", "line.wav", "--summary", "--set", "spectrogram.windowSeconds=31"},
