@@ -9,6 +9,7 @@
 #include <QtTest>
 
 #include <set>
+#include <thread>
 
 using namespace faintline;
 using namespace faintline::test;
@@ -97,7 +98,8 @@ struct Run {
     std::vector<EventChange> changes;
 };
 
-/// Listens, and wishes for other settings once so much of the time has passed.
+/// Listens, and wishes for other settings once so much of the time has passed. Until they are in force or refused, whose
+/// calibration takes seconds, frames come in their own time: else the source would be over before.
 std::unique_ptr<Run> run(std::vector<float> samples, const ListenSettings &used, double wishSeconds = 0.0,
                          const std::optional<AnalysisSettings> &wish = {})
 {
@@ -106,6 +108,7 @@ std::unique_ptr<Run> run(std::vector<float> samples, const ListenSettings &used,
     double now = 0.0;
     double step = 0.0;
     bool hasWished = false;
+    bool isWaiting = false;
     ListenSinks sinks;
     sinks.event = [&](const EventChange &change, const AnalysisPlan &) {
         run->history.take(change);
@@ -114,19 +117,24 @@ std::unique_ptr<Run> run(std::vector<float> samples, const ListenSettings &used,
     sinks.plan = [&](const AnalysisPlan &plan) {
         run->history.take(plan);
         step = plan.time().step;
+        isWaiting = false;
     };
     sinks.frame = [&](const ListenFrame &frame) {
         run->history.take(frame);
         now = step * double(frame.number);
+        if (isWaiting)
+            std::this_thread::sleep_for(std::chrono::duration<double>(step));
     };
     sinks.notice = [&](const ListenNotice &notice, const StreamFormat &) {
-        if (notice.kind == ListenNotice::Kind::Refused)
-            run->refusals.push_back(notice.words);
+        if (notice.kind != ListenNotice::Kind::Refused)
+            return;
+        run->refusals.push_back(notice.words);
+        isWaiting = false;
     };
     sinks.wish = [&]() -> std::optional<AnalysisSettings> {
         if (!wish || hasWished || now < wishSeconds)
             return {};
-        hasWished = true;
+        hasWished = isWaiting = true;
         return wish;
     };
     run->result = listen(source, used, sinks);
