@@ -34,7 +34,7 @@ struct CausalGeometry {
 /// (CausalLevels) are added. Frames of the first block use that block's colour, so that every background is estimated
 /// from at least one block. Nothing is output until `blockWindows` windows have arrived; afterwards each frame has its
 /// background immediately (delay 0).
-/// background at once, delay 0.
+///
 /// A background estimated from few windows has an error: an excess ε of y that lasts as long as a path raises the rate
 /// of false alarms by e^(Bε). If ε is normal with variance σ², their mean rises by e^(½B²σ²), and the background is
 /// raised by ½Bσ² to compensate: σ² = likeness/(ln²2 · windows · cells), for n blocks 1/n of it, with B = 30
