@@ -23,9 +23,9 @@ struct DopplerReport {
 /// the recording does not give it.
 std::optional<double> centreOfFrames(const AnalysisPlan &plan);
 
-/// The fit to events of an analysis, the pieces of one pass. `centreHz`: what 0 Hz of its frames stands for, Hz
-/// (centreOfFrames); `propagation`: speed of the waves, m/s, > 0. Throws Error where the events are no such pieces or their
-/// tracks too short (dopplerTrack.h, dopplerFit.h).
+/// Fits events of an analysis, the pieces of one pass. `centreHz`: frequency, in Hz, that corresponds to 0 Hz of its
+/// frames (centreOfFrames); `propagation`: speed of the waves, m/s, > 0. Throws Error if the events are not such pieces
+/// or their tracks are too short (dopplerTrack.h, dopplerFit.h).
 DopplerReport dopplerReport(const Analysis &analysis, std::vector<Event> events, double centreHz, double propagation);
 
 /// One parameter as displayed in tables.

@@ -36,8 +36,7 @@ std::vector<DetectorUnderTest> detectorsOf(const Experiment &experiment);
 /// An experiment with the runs done so far: a part of a campaign, or all of it.
 struct Campaign {
     Experiment experiment;
-    std::vector<double> thresholds;   ///< for each detector; empty if the maximum of each noise block serves as
-                                      ///< threshold
+    std::vector<double> thresholds;   ///< for each detector; empty: each noise block's maximum serves as one
     std::vector<RunOutcome> outcomes; ///< in ascending order of runs
 };
 

@@ -18,8 +18,7 @@ struct ReproducedCell {
     std::string column;
     std::optional<double> paper;     ///< as printed; nothing if the publication leaves the cell empty
     double paperError = 0.0;         ///< standard error of the published number, if known
-    std::optional<double> reference; ///< from an independent program or a closed form; the value that ours is checked
-                                     ///< against
+    std::optional<double> reference; ///< from an independent program or a closed form; the basis of the check
     double tolerance = 0.0;          ///< largest |ours - reference|
     double ours = 0.0;
     Interval interval; ///< 95 %, of ours; empty (low = high) for exact values

@@ -20,8 +20,7 @@ struct ScanTest {
     SprtSettings sprt{1e-3, 1e-3, 20};
     double designSnrDb = 12.0; ///< of the target that the likelihood ratio assumes
     int averagedCells = 0;     ///< N of averagedStages; 0: known noise power
-    ScanScene scene; ///< snrDb: the true SNR; `stages` and `hasTarget` are not used, `seed` determines all random
-                     ///< numbers
+    ScanScene scene; ///< snrDb: the true SNR; `seed` sets all random numbers; `stages` and `hasTarget` are unused
     bool designFollows = false; ///< curves against SNR: each point is designed for its own SNR
     int walks = 100;            ///< tests of each hypothesis that are displayed individually
     int trials = 500;           ///< tests per point of a curve
