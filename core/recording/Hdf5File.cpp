@@ -21,12 +21,12 @@ namespace faintline {
 namespace {
 
     constexpr std::size_t largestChunk = std::size_t(64) << 20;
-    constexpr std::size_t cacheBytes = std::size_t(128) << 20; // a chunk that does not fit is unpacked for every read
+    constexpr std::size_t cacheBytes = std::size_t(128) << 20; // a chunk that does not fit is unpacked at each read
     constexpr std::size_t cacheSlots = 1009;
     constexpr H5Z_filter_t bitshuffle = 32008;
     constexpr unsigned bitshuffleLz4 = 2;
 
-    /// A handle that closes itself.
+    /// A handle that is closed by its destructor.
     class Handle
     {
     public:
@@ -71,8 +71,8 @@ namespace {
         return decoded.size();
     }
 
-    /// The library while one of us uses it: for one thread, without plug-ins, and in silence, for what goes wrong is
-    /// said once, by Error. Others of the same process, such as h5py, find it as they left it.
+    /// Scope of library use: one thread, no plug-ins, and no printed messages, because Error reports failures once.
+    /// Restores the state for other users in the process, such as h5py.
     class LibraryUse
     {
     public:
@@ -133,7 +133,7 @@ namespace {
         }
     }
 
-    /// The sizes of a dataset's chunks; empty where it has none.
+    /// Chunk sizes of a dataset; empty if it is not chunked.
     std::vector<Index> checkStorage(hid_t dataset, std::size_t elementBytes, const std::string &where)
     {
         std::vector<Index> chunk;
@@ -163,7 +163,7 @@ namespace {
         return chunk;
     }
 
-    /// Lengths may lie: what was never written is no part of the file, and no filter packs numbers better than this.
+    /// Lengths may be false: unwritten parts are not in the file, and no filter compresses numbers better than this.
     void checkLength(hid_t dataset, std::span<const hsize_t> sizes, std::size_t elementBytes, const std::string &where)
     {
         constexpr double bestPacking = 4096.0;
@@ -197,7 +197,7 @@ namespace {
         throw Error(where, "holds no numbers of up to 64 bits");
     }
 
-    /// What a value is read as: a float, or two of them.
+    /// The memory type of a value: a float, or two of them.
     hid_t floatType(bool isComplex)
     {
         if (!isComplex)
@@ -208,7 +208,7 @@ namespace {
         return pair;
     }
 
-    /// Whether a name leads on within the file.
+    /// Whether a name leads to an object within the file.
     bool follows(hid_t file, const std::string &name, const std::string &path)
     {
         H5L_info_t info;
@@ -236,7 +236,7 @@ bool Hdf5File::recognises(const std::string &path)
 
 Hdf5File::Hdf5File(const std::string &path) : m_path(path)
 {
-    const FileBytes check(path); // says what is wrong with a name
+    const FileBytes check(path); // reports an invalid name
     const LibraryUse use;
     const Handle driver(registerHdf5Driver(), H5FDunregister);
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -302,7 +302,7 @@ Hdf5Dataset::~Hdf5Dataset()
 
 namespace {
 
-    /// An attribute of one value; null handles where there is none. To be called with the lock.
+    /// An attribute with a single value; null handles if it is missing. Call with the lock held.
     struct Attribute {
         Handle handle;
         Handle type;
@@ -349,10 +349,10 @@ std::optional<std::string> Hdf5Dataset::text(const std::string &name) const
     return std::string(value.c_str());
 }
 
-/// Where a small part lies in more chunks than are kept, all of them would be unpacked again for the next one.
+/// If a small part lies in more chunks than the cache holds, every read would unpack all of them again.
 void Hdf5Dataset::checkChunks(const std::vector<Index> &first, const std::vector<Index> &count) const
 {
-    constexpr double mostUnpacked = 16.0; // times what is read
+    constexpr double mostUnpacked = 16.0; // relative to the part that is read
     double wanted = (m_isComplex ? 0.25 : 0.125) * m_bits;
     double unpacked = wanted;
     for (std::size_t axis = 0; axis < m_chunk.size(); ++axis) {

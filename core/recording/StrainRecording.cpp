@@ -35,7 +35,7 @@ StrainRecording::StrainRecording(const std::string &path)
     m_info.sampleRateHz = 1.0 / spacing;
     if (std::abs(m_info.sampleRateHz - std::round(m_info.sampleRateHz)) < 1e-6 * m_info.sampleRateHz
         && m_info.sampleRateHz >= 1.0)
-        m_info.sampleRateHz = std::round(m_info.sampleRateHz); // its inverse had been rounded
+        m_info.sampleRateHz = std::round(m_info.sampleRateHz); // the interval in the file is rounded
     m_info.sampleCount = m_strain->shape().front();
     m_info.channelCount = 1;
     if (const auto start = m_strain->number("Xstart"); start && *start > 0.0 && *start < 1e10)

@@ -16,9 +16,9 @@ namespace {
     constexpr double clockError = 200e-6; ///< of a crystal, relative
     constexpr double leastResolution = 0.01;
     constexpr double exactness = 1e-4;    ///< of stamps that count samples, s
-    constexpr double leastScatter = 1e-3; ///< of stamps that a program took
+    constexpr double leastScatter = 1e-3; ///< of stamps set by a program
 
-    /// Files that follow on one another.
+    /// Files that follow one another without a gap.
     struct Run {
         std::vector<std::size_t> files;
         std::vector<double> before; ///< samples of the run before each
@@ -101,7 +101,7 @@ namespace {
             }
         }
 
-        /// Stamp of a run's file less the samples before it.
+        /// Stamp of a run's file minus the duration of the samples before it.
         double startBy(const Run &run, std::size_t i, double rateHz) const
         {
             return file(run.files[i]).startUnixSeconds - m_epoch - run.before[i] / rateHz;
@@ -115,10 +115,10 @@ namespace {
             return sum / double(run.files.size());
         }
 
-        /// The seconds that a sample lasts longer than the nominal rate says, and the standard error.
+        /// Fits the deviation of the sample interval from its nominal value, s, and its standard error.
         void fitClock()
         {
-            m_epoch = file(m_order.front()).startUnixSeconds; // seconds since 1970 leave a microsecond
+            m_epoch = file(m_order.front()).startUnixSeconds; // doubles resolve seconds since 1970 to a microsecond
             double squares = 0.0;
             double products = 0.0;
             for (const Run &run : m_runs) {

@@ -23,7 +23,7 @@ namespace {
         return std::make_shared<RawRecording>(path, options.iq ? withIqPairs(path, layout) : layout);
     }
 
-    /// A file whose name says raw samples and whose content does not contradict.
+    /// Opens a file as raw samples if its name says so and its content does not contradict.
     RecordingPointer openByRawExtension(const std::string &path, const std::string &typeName,
                                         const OpenOptions &options)
     {
