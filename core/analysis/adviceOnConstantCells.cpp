@@ -8,7 +8,7 @@ namespace {
 
     constexpr Index readFrames = 200;
     constexpr Index leastFrames = 16;
-    constexpr double constantVariance = 0.05; ///< in that of noise
+    constexpr double constantVariance = 0.05; ///< relative to that of noise
     constexpr double mostCells = 0.9;
 
 } // namespace

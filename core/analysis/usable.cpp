@@ -12,7 +12,7 @@ void checkUsable(const Spectrogram &spectrogram, const NoiseBackground &backgrou
     const auto isSilent = [](float ln) { return ln <= 0.5f * NoiseBackground::silence; };
     if (!std::all_of(background.lnPower.begin(), background.lnPower.end(), isSilent))
         return;
-    // The background looks at a long recording here and there only.
+    // The background only samples a long recording.
     constexpr Index blockSamples = 1 << 16;
     const Recording &recording = spectrogram.recording();
     const int channel = spectrogram.selection().channel;
