@@ -134,7 +134,7 @@ namespace {
     {
         if (!settings.track.bothWays || settings.noise.causal || !std::holds_alternative<SmdSettings>(settings.detector)
             || settings.model.likelihood == LikelihoodKind::Linear)
-            checkSubtractsNothing(settings, "requires tracks that are looked at from both ends: track.bothWays=true, "
+            checkSubtractsNothing(settings, "requires two-sided tracks: track.bothWays=true, "
                                             "noise.causal=false, detector.kind=smd, and not model.likelihood=linear");
         if (!settings.family.isNone())
             checkSubtractsNothing(settings, "is not possible with a family; use family.relation=none");

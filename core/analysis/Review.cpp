@@ -36,7 +36,7 @@ namespace {
         const auto found =
             std::find_if(events.begin(), events.end(), [id](const Event &event) { return event.id == id; });
         if (found == events.end())
-            throw Error("event " + std::to_string(id), "is not there");
+            throw Error("event " + std::to_string(id), "does not exist");
         return *found;
     }
 

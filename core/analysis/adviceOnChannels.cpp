@@ -106,8 +106,8 @@ std::optional<Advice> adviceOnChannels(const Analysis &analysis, const RunContex
         return {};
     char sentence[200];
     std::snprintf(sentence, sizeof sentence,
-                  "the %zu channels share their noise (coherence %.2f): they tell as much as %.1f, and there are more "
-                  "false alarms than ordered",
+                  "the %zu channels share their noise (coherence %.2f): they carry the evidence of %.1f, and false "
+                  "alarms are more frequent than specified",
                   analysis.lines.size(), coherence, left);
     Advice advice{"commonNoise", sentence, "analyse one channel", analysis.settings};
     advice.settings.selection.channels.clear();

@@ -71,7 +71,7 @@ void holdAgainstOwnNoise(Analysis &analysis, const RunContext &context)
     std::transform(tracks.begin(), tracks.end(), strips.begin(), stripOf);
     std::vector<PathStrip *> wanted(strips.size());
     std::transform(strips.begin(), strips.end(), wanted.begin(), [](PathStrip &strip) { return &strip; });
-    readStrips(analysis, std::move(wanted), context.part(0.5, 1.0), "holding tracks against the noise");
+    readStrips(analysis, std::move(wanted), context.part(0.5, 1.0), "testing tracks against the noise");
     for (std::size_t i = 0; i < tracks.size(); ++i) {
         const bool isKept =
             tracks[i].isSubtracted || tracks[i].peakStatistic * shareLeft(strips[i], law) >= analysis.threshold;

@@ -16,7 +16,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr std::string_view following = "following tracks both ways";
+    constexpr std::string_view following = "refining tracks in both directions";
     constexpr Index extraFrames = 16;         ///< before and after a path, in which presence is evaluated
     constexpr Index slopeFrames = 24;         ///< at either end, for extrapolating it
     constexpr Index largestGapFrames = 24;    ///< between stretches of one signal

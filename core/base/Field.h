@@ -76,7 +76,7 @@ Field<S> field(T S::*member, std::string name, std::string unit, double minimum,
     else if constexpr (std::is_same_v<T, std::vector<double>>)
         result.kind = FieldKind::Numbers;
     else
-        static_assert(!sizeof(T), "this kind of member needs a maker of its own");
+        static_assert(!sizeof(T), "no field() overload for members of this type");
     result.get = [member](const S &s) -> std::optional<FieldValue> { return s.*member; };
     result.set = [member](S &s, const FieldValue &value) { s.*member = std::get<T>(value); };
     return result;

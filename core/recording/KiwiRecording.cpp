@@ -193,7 +193,7 @@ KiwiRecording::KiwiRecording(const std::string &path) : m_file(path)
     const std::optional<Chunk> format = chunkAt(m_file, headerBytes);
     std::array<std::byte, 16> fields;
     if (!isWave(m_file) || !format || !format->is("fmt ") || m_file.readAt(format->offset, fields) < fields.size())
-        throw Error(path, "is no WAV file of a KiwiSDR");
+        throw Error(path, "is not a KiwiSDR WAV file");
     const auto channels = numberAt<std::uint16_t>(fields, 2);
     const double nominalHz = numberAt<std::uint32_t>(fields, 4);
     const auto bits = numberAt<std::uint16_t>(fields, 14);
@@ -213,10 +213,10 @@ KiwiRecording::KiwiRecording(const std::string &path) : m_file(path)
         clock.add(stored(), std::exchange(stamp, std::nullopt));
         add(chunk->offset, there / m_bytesPerSample);
         if (there < chunk->size)
-            m_info.notes.push_back("The file ends within a chunk of samples; what is there is read.");
+            m_info.notes.push_back("The file ends within a chunk of samples; the existing part is read.");
     }
     if (stored() == 0)
-        throw Error(path, "is a WAV file of a KiwiSDR without samples");
+        throw Error(path, "is a KiwiSDR WAV file without samples");
     m_info.path = path;
     m_info.container = "KiwiSDR WAV";
     m_info.sampleType = "int16";
@@ -232,9 +232,9 @@ KiwiRecording::KiwiRecording(const std::string &path) : m_file(path)
     m_info.sampleCount = m_stretches.end();
     if (m_stretches.hasGaps())
         m_info.notes.push_back(
-            "The time stamps tell of " + std::to_string(m_stretches.gaps()) + " gap(s), "
+            "The time stamps show " + std::to_string(m_stretches.gaps()) + " gap(s), "
             + formatNumber(std::round(1e3 * double(m_stretches.missing()) / m_info.sampleRateHz) / 1e3)
-            + " s altogether, which are not observed.");
+            + " s in total, which were not observed.");
 }
 
 Index KiwiRecording::stored() const
@@ -273,7 +273,7 @@ void KiwiRecording::readWithin(const Run &run, Index sample, std::span<float> ou
         bytes.resize(std::size_t(count * m_bytesPerSample));
         const Index at = run.offset + sample / run.samples * run.stride + within * m_bytesPerSample;
         if (m_file.readAt(at, bytes) < bytes.size())
-            throw Error(m_info.path, "became shorter while it was open", Error::Kind::Failure);
+            throw Error(m_info.path, "was truncated while open", Error::Kind::Failure);
         for (std::size_t i = 0; i < std::size_t(count * floats); ++i)
             out[i] = float(numberAt<std::int16_t>(bytes, 2 * i)) / fullScale;
         out = out.subspan(std::size_t(count * floats));

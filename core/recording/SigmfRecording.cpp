@@ -244,7 +244,7 @@ void SigmfRecording::placeInTime(const Meta &meta)
         return;
     m_info.sampleCount = m_stretches.end();
     m_info.notes.push_back(std::to_string(m_stretches.gaps()) + " gap(s), in all "
-                           + std::to_string(m_stretches.missing()) + " samples, are not observed.");
+                           + std::to_string(m_stretches.missing()) + " samples, which were not observed.");
 }
 
 void SigmfRecording::read(int channel, Index first, Index count, std::span<float> out) const

@@ -68,7 +68,7 @@ namespace {
             if (line.empty() || line.starts_with('#'))
                 continue;
             if (line.size() > longestLine || line.find('\0') != std::string::npos || files.size() >= mostFiles)
-                throw Error(path, "is no list of at most a million file names, one a line");
+                throw Error(path, "is not a list of at most a million file names, one per line");
             const std::string name = (fs::path(path).parent_path() / line).lexically_normal().string();
             if (Timeline::isNamedSo(name))
                 throw Error(path, "names " + name + ", which is a folder or a list itself; name files");
@@ -136,8 +136,8 @@ TimedFile Timeline::addPart(const std::string &path)
     const RecordingInfo &info = recording->info();
     const std::optional<double> start = info.startUnixSeconds ? info.startUnixSeconds : timeInName(path);
     if (!start)
-        throw Error(path, "has no time stamp, neither in it nor in its name (such as 20260123_235959); a timeline "
-                          "needs one");
+        throw Error(path,
+                    "has no time stamp in its header or its name (such as 20260123_235959); a timeline requires one");
     if (m_parts.empty())
         m_info = info;
     else

@@ -67,8 +67,8 @@ namespace {
             const TimedFile &first = file(m_order.front());
             for (const TimedFile &other : m_files)
                 if (!(std::abs(other.rateHz / first.rateHz - 1.0) <= clockError))
-                    throw Error(other.path, "has " + formatNumber(other.rateHz) + " samples a second, but " + first.path
-                                                + " has " + formatNumber(first.rateHz)
+                    throw Error(other.path, "has " + formatNumber(other.rateHz) + " samples per second, but "
+                                                + first.path + " has " + formatNumber(first.rateHz)
                                                 + "; files of one timeline must have the same rate");
             std::vector<double> rates;
             for (const TimedFile &each : m_files)
@@ -94,8 +94,8 @@ namespace {
                     if (late > Stretches::longestSeconds)
                         throw Error(now.path, "begins " + formatNumber(std::round(late / 86400.0)) + " days after "
                                                   + last.path
-                                                  + " ends, more than the 400 that a timeline bridges; was a clock set "
-                                                    "wrongly?");
+                                                  + " ends, more than the 400 days that a timeline can bridge; check "
+                                                    "the recorder's clock");
                 }
                 m_runs.push_back({{next}, {0.0}, 0.0});
             }
@@ -203,16 +203,15 @@ namespace {
                 notes.push_back(std::to_string(m_gaps) + " gap(s) between files, "
                                 + milliseconds(double(m_missing) / rate) + " altogether, are not observed.");
             if (m_overlaps > 0)
-                notes.push_back(std::to_string(m_overlaps) + " file(s) begin before the one before ends; "
+                notes.push_back(std::to_string(m_overlaps) + " file(s) begin before the previous one ends; "
                                 + milliseconds(double(m_twice) / rate)
-                                + " that are there twice are taken from the earlier one.");
+                                + " of duplicate samples are taken from the earlier one.");
             if (rate != m_nominalHz)
                 notes.push_back("The sample rate is that of the time stamps, " + formatNumber(rate)
                                 + " Hz: the clock of the files, " + formatNumber(m_nominalHz) + " Hz, is off by "
                                 + formatNumber(std::round(1e7 * (rate / m_nominalHz - 1.0)) / 10.0) + " ppm.");
             if (const double worst = farthest(); worst > leastResolution)
-                notes.push_back("Files that follow on one another lie within " + milliseconds(worst)
-                                + " of their time stamps.");
+                notes.push_back("Consecutive files lie within " + milliseconds(worst) + " of their time stamps.");
         }
 
         const std::vector<TimedFile> &m_files;

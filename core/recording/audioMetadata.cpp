@@ -160,9 +160,9 @@ namespace {
         }
         stretches.add(stretches.end(), stored, info.sampleCount - stored);
         if (stretches.hasGaps())
-            info.notes.push_back("The harp chunk tells of " + std::to_string(stretches.gaps()) + " gap(s), "
+            info.notes.push_back("The harp chunk shows " + std::to_string(stretches.gaps()) + " gap(s), "
                                  + std::to_string(std::llround(double(stretches.missing()) / info.sampleRateHz))
-                                 + " s altogether, which are not observed.");
+                                 + " s in total, which were not observed.");
         return stretches;
     }
 

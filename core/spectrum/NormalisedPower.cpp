@@ -157,7 +157,7 @@ NormalisedPower::NormalisedPower(std::shared_ptr<const PowerFrames> power, const
     if (part.cells > mostCells)
         throw Error(path,
                     "has " + std::to_string(part.cells)
-                        + " channels, more than can be looked at together; choose a band (--set selection.lowHz=..., "
+                        + " channels, more than can be analysed together; choose a band (--set selection.lowHz=..., "
                           "selection.highHz=...)");
     m_background = estimate(time(), frequency, settings, context, [this](Index frame) { return readPower(frame, 1); });
 
@@ -246,7 +246,7 @@ PowerPart partOf(const PowerInfo &info, const SelectionSettings &selection)
         const Index first = std::max<Index>(0, Index(std::ceil(place(from))));
         const Index last = std::min<Index>(axis.count - 1, Index(std::floor(place(to))));
         if (last < first)
-            throw Error(name, "leaves nothing of " + info.path + ", which goes from " + formatNumber(axis.first)
+            throw Error(name, "selects nothing of " + info.path + ", which extends from " + formatNumber(axis.first)
                                   + " to " + formatNumber(axis.last()) + " " + axis.unit);
         return std::pair(first, last - first + 1);
     };
