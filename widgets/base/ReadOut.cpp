@@ -20,7 +20,7 @@ namespace {
 
     const QString dash = QStringLiteral("–");
 
-    /// "2024-07-26 00:00:12.5", to the frame's digits.
+    /// "2024-07-26 00:00:12.5", with the frame's precision.
     QString utcText(double unixSeconds, int decimals)
     {
         const double scale = std::pow(10.0, decimals);
@@ -36,7 +36,8 @@ ReadOut::ReadOut(QWidget *parent) : QWidget(parent)
     auto *layout = new QHBoxLayout(this);
     layout->setContentsMargins(8, 2, 8, 2);
     layout->setSpacing(16);
-    layout->setSizeConstraint(QLayout::SetNoConstraint); // in a narrow window its end gives way, the window must not
+    layout->setSizeConstraint(QLayout::SetNoConstraint); // in a narrow window the line is clipped, so that it does not
+                                                         // widen the window
     setMinimumWidth(600);
     m_time = addItem(tr("Time"), QStringLiteral("00:00:00.00"));
     m_utc = addItem(tr("UTC"), QStringLiteral("0000-00-00 00:00:00.00"));

@@ -18,7 +18,7 @@ namespace {
         return {span.low + by, span.high + by};
     }
 
-    /// `span` moved, or widened, just so far that it holds `wanted`.
+    /// `span` moved or widened by as little as possible to contain `wanted`.
     Span holding(const Span &span, const Span &wanted)
     {
         if (wanted.width() > span.width())

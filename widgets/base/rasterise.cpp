@@ -24,7 +24,7 @@ namespace {
         std::vector<Range> ranges(std::size_t(pixels.count));
         const double step = pixels.step / size;
         const auto perPixel = Index(std::ceil(step - 1e-6));
-        // On a grid that starts with the axis a pixel's cells depend on nothing but its number on the grid.
+        // On a grid that starts with the axis, a pixel's cells depend only on its number in the grid.
         double number = pixels.first / pixels.step;
         if (std::abs(number - std::round(number)) < 1e-6)
             number = std::round(number);
@@ -60,8 +60,8 @@ namespace {
         return high;
     }
 
-    /// The highest of each pixel's cells, of which all have as many: maxima over 2, 4, 8 … cells of the whole line,
-    /// then of the largest such stretches at either end of the pixel.
+    /// The maximum of each pixel's cells, all of which have the same number: from maxima over 2, 4, 8 … cells of the
+    /// whole line, it combines the largest ones at either end of the pixel.
     class LineMaxima
     {
     public:
@@ -101,7 +101,7 @@ namespace {
         return scale.value(255);
     }
 
-    /// Black and white level of differences: as far from zero on either side, to where all but the strongest lie.
+    /// Black and white level of differences: symmetric about zero, excluding only the strongest.
     Span rangeOfDifferences(const ByteScale &scale, const std::vector<double> &counts)
     {
         constexpr double smallest = 6.0, largest = 40.0;
@@ -120,7 +120,7 @@ namespace {
 
 int levelToRead(const PeakPyramid &picture, const PixelRow &time, const PixelRow &cells)
 {
-    // Reading twice as many rows draws a sharper picture, but takes its time on a hundred thousand cells.
+    // Reading twice as many rows gives a sharper picture, but takes too long for a hundred thousand cells.
     constexpr double affordableBytes = 48e6;
     const bool isAffordable = 8.0 * time.count * cells.step * cells.count < affordableBytes;
     return picture.levelFor(std::max(isAffordable ? 0.5 * time.step : time.step, 1.0));
@@ -139,7 +139,7 @@ void rasterise(const PeakPyramid &picture, int level, const PixelRow &time, cons
         std::fill(out.begin(), out.end(), std::uint8_t(0));
         return;
     }
-    // Of a picture that is still being made, rows to come are empty.
+    // Future rows of a picture in progress are empty.
     const Index perRow = picture.framesPerRow(level);
     const Index firstRow = frames.first / perRow;
     const Index wholeCount =
@@ -253,7 +253,7 @@ Span automaticRange(const ByteScale &scale, const std::vector<double> &counts, s
     if (!threshold || *threshold <= 0.0)
         return {middle, middle + height};
     constexpr double mostThresholds =
-        5.0; // above the black level: what just exceeds the threshold has a fifth of the colours below it
+        5.0; // above the black level: values just above the threshold then have a fifth of the colours below them
     const double low = std::min(middle, 0.5 * *threshold);
     return {low, std::max(std::min(middle + height, low + mostThresholds * (*threshold - low)), low + 10.0)};
 }

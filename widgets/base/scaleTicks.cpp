@@ -57,8 +57,7 @@ QwtScaleDiv timeScaleDiv(const Span &span, int majorTicks, double origin)
 
 QwtScaleDiv linearScaleDiv(const Span &span, int majorTicks)
 {
-    // One number alone says nothing about a scale: where there is room for two but steps are too wide, they are made
-    // smaller.
+    // A single number does not define a scale: if there is room for two but steps are too wide, they are reduced.
     const auto divided = [&](int most) { return QwtLinearScaleEngine().divideScale(span.low, span.high, most, 5); };
     QwtScaleDiv div = divided(std::max(majorTicks, 1));
     if (majorTicks >= 2 && div.ticks(QwtScaleDiv::MajorTick).size() < 2)

@@ -29,7 +29,7 @@ namespace {
         return std::round(10.0 * seconds) / 10.0;
     }
 
-    /// Seconds without their unit, which every row would repeat.
+    /// Seconds without a unit, which each row would repeat.
     QString timeText(double seconds, int decimals)
     {
         constexpr double asClockFrom = 600.0;
@@ -146,7 +146,7 @@ int EventModel::columnCount(const QModelIndex &parent) const
 QString EventModel::text(const Event &event, int column) const
 {
     switch (column) {
-    case Id: { // in sight however narrow the panel, unlike the review's own column
+    case Id: { // visible in a narrow panel, unlike the review column
         const Verdict verdict = review(event).verdict;
         const QString mark = verdict == Verdict::Accepted   ? QStringLiteral("✓ ")
                              : verdict == Verdict::Rejected ? QStringLiteral("× ")

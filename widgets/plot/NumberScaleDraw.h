@@ -6,7 +6,7 @@
 
 namespace faintline {
 
-/// Labels of a quantity divided by `unit`, with as many decimals as the ticks need and a true minus.
+/// Labels of a quantity divided by `unit`, with as many decimals as the ticks need and a true minus sign.
 class NumberScaleDraw : public QwtScaleDraw
 {
 public:
