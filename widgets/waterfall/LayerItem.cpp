@@ -75,9 +75,9 @@ QRgb LayerItem::colourOf(std::size_t pixel) const
     if (m_layer == OutputLayer::Inhibited)
         return value > 0.0 ? clear(inhibitedColour, m_isOverlay ? 0.55 : 1.0)
                            : clear(qRgb(0, 0, 0), m_isOverlay ? 0.0 : 1.0);
-    if (isRate(m_layer) && m_picture->resetFraction[pixel] >= 1.0f) // all states begin anew here: none has won
+    if (isRate(m_layer) && m_picture->resetFraction[pixel] >= 1.0f) // all states were reset here: no rate has won
         return clear(noSlope, m_isOverlay ? 0.0 : 1.0);
-    // Where all rates looked for are 0, that is the middle of the colours, as in any other range.
+    // If all possible rates are 0, use the middle of the colours, as in any other range.
     const QRgb colour = mapOf(m_layer).at(m_range.isEmpty() ? 0.5 : (value - m_range.low) / m_range.width());
     if (!m_isOverlay)
         return clear(colour, 1.0);
@@ -141,7 +141,7 @@ std::unique_ptr<QwtPlotItem> LayerItem::makeKey() const
     return std::make_unique<Key>(*this);
 }
 
-/// A strip of the colours with the values at its ends, above them what they are.
+/// Draws a strip of the colours with the values at its ends and its title above.
 void LayerItem::drawKey(QPainter *painter, const QRectF &canvas) const
 {
     painter->save();

@@ -20,7 +20,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr double longSeconds = 600.0; ///< recordings from here on are labelled h:min:s
+    constexpr double longSeconds = 600.0; ///< longer recordings are labelled h:min:s
     constexpr double peakReach = 12.0;    ///< pixels
 
     bool measuresTime(const Axis &axis)
@@ -194,7 +194,7 @@ std::optional<double> WaterfallPicture::valueAt(double seconds, double hz) const
     const PeakPyramid &picture = finestPicture({seconds, seconds});
     const double frame = std::floor(picture.time().position(seconds) + 0.5);
     if (frame > double(picture.frameCount()))
-        return {}; // still to come
+        return {}; // not recorded yet
     const Index row = std::clamp<Index>(Index(frame) / picture.framesPerRow(0), 0, picture.rowCount(0) - 1);
     return picture.scale().value(picture.row(0, row)[std::size_t(m_frequency.nearest(hz))]);
 }

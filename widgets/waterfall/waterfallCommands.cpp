@@ -16,7 +16,7 @@ namespace faintline {
 
 namespace {
 
-    /// Moves by whole cells and takes what is visible along.
+    /// Moves by whole cells and scrolls if necessary.
     void moveCursor(MarkedWaterfall &view, int right, int up, int cells)
     {
         Viewport &viewport = *view.viewport();
@@ -25,7 +25,7 @@ namespace {
         const bool isNewestOnTop = view.orientation() == MarkedWaterfall::Orientation::NewestOnTop;
         const int timeSteps = view.isTimeVertical() ? (isNewestOnTop ? up : -up) : right;
         const int hzSteps = view.isTimeVertical() ? right : up;
-        // From cell centre to cell centre, so that every key press reads another cell.
+        // From cell centre to cell centre, so that every key press selects another cell.
         const auto moved = [](const Axis &axis, Index count, double value, Index by) {
             const auto index = Index(std::lround(axis.position(value)));
             return axis.value(double(std::clamp<Index>(index + by, 0, count - 1)));
@@ -106,7 +106,7 @@ bool pressKey(MarkedWaterfall &view, const QKeyEvent &event)
 
 namespace {
 
-    /// Adds entries that act on a view.
+    /// Adds actions for a view.
     class Commands
     {
     public:
@@ -115,7 +115,7 @@ namespace {
         template <class Action>
         QAction *add(QMenu &menu, const QString &text, const QString &key, Action action) const
         {
-            // The key is text only: as a shortcut it would take the key from the view that has the focus.
+            // The key is text only: as a shortcut it would take the key from the focused view.
             QAction *added = menu.addAction(key.isEmpty() ? text : text + QLatin1Char('\t') + key);
             QObject::connect(added, &QAction::triggered, m_view, action);
             return added;
