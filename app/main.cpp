@@ -1,4 +1,4 @@
-// The window, and its twin that draws pictures without a screen.
+// The window, and its subcommands that draw pictures without a screen.
 
 #include "app/render/comparePictures.h"
 #include "app/render/renderCommand.h"
@@ -29,7 +29,7 @@ namespace faintline {
 
 namespace {
 
-    /// One line, whatever a library or somebody's file had to say.
+    /// Prints an error on one line, whatever its source.
     int fail(const std::string &where, const std::string &why, int exitCode)
     {
         std::fprintf(stderr, "error: %s\n", oneLine(where + ": " + why, longestMessage).c_str());
@@ -159,7 +159,7 @@ namespace {
         double scale = 1.0;
     };
 
-    /// A screen for programs without one; the default of 800 × 800 would cut off windows.
+    /// A virtual screen for programs without one; the default of 800 × 800 would clip windows.
     std::unique_ptr<QTemporaryFile> use(const Screen &screen)
     {
         if (screen.scale != 1.0)
@@ -181,15 +181,14 @@ namespace {
         return file;
     }
 
-    /// What Qt has to say about the machine is no result and no error of ours. Where it gives up, so do we, but in one
-    /// line.
+    /// Suppresses Qt's messages about the machine. If Qt fails fatally, the program ends with one line.
     void keepQuiet(QtMsgType type, const QMessageLogContext &, const QString &message)
     {
         if (type == QtFatalMsg)
             std::_Exit(fail("Qt", message.toStdString(), 1));
     }
 
-    /// While the window's screen is looked for.
+    /// Message handler while looking for a display.
     void missScreen(QtMsgType type, const QMessageLogContext &, const QString &)
     {
         const auto value = [](const char *name) {
@@ -205,7 +204,7 @@ namespace {
                             1));
     }
 
-    /// What "nan" and "inf" are read as, which no range refuses.
+    /// Rejects "nan" and "inf", which no range check catches.
     void checkNumbers(const RenderOptions &options)
     {
         const std::pair<const char *, std::optional<double>> numbers[] = {{"--scale", options.scale},
@@ -218,7 +217,7 @@ namespace {
                 throw Error(name, "must be a finite number");
     }
 
-    /// Draws in a window nobody sees.
+    /// Draws in a window that is not shown.
     template <class Options>
     int runRender(int argc, char *argv[], const Screen &wanted, const Options &options, void (*draw)(const Options &))
     {
@@ -230,7 +229,7 @@ namespace {
         return 0;
     }
 
-    /// A picture is made again on a screen as when it was made.
+    /// Redraws a picture on the same virtual screen as when it was made.
     int runReplay(int argc, char *argv[], const ReplayOptions &options)
     {
         if (isChart(options))
