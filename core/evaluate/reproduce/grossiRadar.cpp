@@ -11,7 +11,7 @@ namespace faintline {
 namespace {
 
     struct RadarReference {
-        std::optional<double> snrDb; ///< nothing: noise only
+        std::optional<double> snrDb; ///< empty: noise only
         PublishedAsn stages;
         double variation;
         double acceptH1;
@@ -41,7 +41,7 @@ namespace {
         return scanModel(scene, 12.0);
     }
 
-    /// The figure under way.
+    /// Figure under construction.
     class RadarFigure
     {
     public:
@@ -96,7 +96,7 @@ namespace {
             m_acceptance.points.push_back({*reference.snrDb, m_made.cells.back().ours, m_made.cells.back().interval});
         }
 
-        /// The noise power estimated from neighbours.
+        /// With the noise power estimated from neighbouring cells.
         void addAveraged()
         {
             m_study.actualSnr.reset();

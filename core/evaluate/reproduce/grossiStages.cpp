@@ -78,7 +78,7 @@ namespace {
         return {name, Curve::Kind::Theory, {{0.0, level, {}}, {1.0, level, {}}}};
     }
 
-    /// The figure under way: H0 first, then H1.
+    /// Figure under construction: H0 first, then H1.
     class StagesFigure
     {
     public:
@@ -147,7 +147,7 @@ namespace {
             const auto trials = double(m_study.trials);
             ReproducedCell counted = frequencyCell(row, isTarget ? "β counted" : "α counted", {wrong, m_study.trials},
                                                    {isTarget ? 8.63e-4 : 6.08e-4, 400000.0, 1e-6});
-            // Few are counted: the tolerance goes by the expected number, not by what happened to come.
+            // The counts are small: the tolerance follows from the expected number, not from the observed one.
             counted.tolerance = toleranceOf(frequencyError(*counted.reference, 400000.0),
                                             frequencyError(*counted.reference, trials), 1.0 / trials);
             m_made.cells.push_back(std::move(counted));
