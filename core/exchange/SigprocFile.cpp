@@ -23,7 +23,7 @@ namespace {
     constexpr double largestCount = 1 << 26;
     constexpr std::string_view start = "HEADER_START";
 
-    /// What follows a keyword.
+    /// Type of the value after a keyword.
     enum class Kind { Whole, Real, Text, Byte, Nothing };
 
     const std::map<std::string_view, Kind> keywords{
@@ -37,7 +37,7 @@ namespace {
         {"nbeams", Kind::Whole},        {"ibeam", Kind::Whole},      {"signed", Kind::Byte},
         {"npuls", Kind::Whole},         {"nbins", Kind::Whole},      {"FREQUENCY_START", Kind::Nothing}};
 
-    /// Goes through a header from its beginning.
+    /// Reads a header from its beginning.
     class HeaderReader
     {
     public:
@@ -216,7 +216,7 @@ namespace {
         }
     }
 
-    /// Values of a few bits, from one within the first byte on, the lowest bits first.
+    /// Unpacks values of a few bits, from one in the first byte on, the lowest bits first.
     void unpack(std::span<const std::byte> bytes, int bits, Index firstBit, std::span<float> out)
     {
         const unsigned mask = (1u << bits) - 1u;
@@ -228,7 +228,7 @@ namespace {
 
 } // namespace
 
-/// Channels of one spectrum of one IF, in the file's order. Row: frame × IFs + IF.
+/// Reads channels of one spectrum of one IF in the file's order. Row: frame × IFs + IF.
 void SigprocFile::readRow(Index row, Index firstChannel, std::span<float> out) const
 {
     const Index firstBit = (row * m_info.frequency.count + firstChannel) * m_bits;

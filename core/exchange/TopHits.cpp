@@ -79,7 +79,7 @@ namespace {
         return frames > 0.0 ? sum / std::sqrt(frames) : 0.0;
     }
 
-    /// Whatever stands behind "NAME:" in a comment of the table.
+    /// The number after "NAME:" in a comment of the table.
     std::optional<double> numberBehind(const std::string &line, const std::string &name)
     {
         const std::size_t at = line.find(name + ":");
