@@ -17,6 +17,7 @@ struct ViewState {
     std::optional<Viewport::Point> cursor;
     QString orientation; ///< "newestOnTop", "oldestOnTop", "leftToRight"; empty: as it is
     QString colourMap;
+    bool isLogarithmic = false; ///< the frequency axis
 
     // Of a sonar's pings, where the frequency above is the range.
     std::optional<Span> bearing{}; ///< visible

@@ -51,6 +51,7 @@ namespace {
                                       {"Backspace", "zoom back"},
                                       {"Arrows", "move the cursor by a cell, with Ctrl by ten"},
                                       {"O", "next orientation"},
+                                      {"Shift + L", "logarithmic or linear frequency"},
                                       {"C", "next colour map"},
                                       {"[  ]", "black level down, up"},
                                       {"{  }", "white level down, up"},

@@ -249,6 +249,7 @@ void MainWindow::saveLayout()
     layout.panels = saveState();
     layout.colourMap = view.colourMap;
     layout.orientation = view.orientation;
+    layout.isLogarithmic = view.isLogarithmic;
     m_memory.setLayout(layout);
 }
 
@@ -260,7 +261,7 @@ void MainWindow::restoreLayout()
         m_workbench->restoreSplitters(layout.splitters);
     if (!layout.pingSplitters.isEmpty())
         m_pings->restoreSplitters(layout.pingSplitters);
-    m_workbench->restore({{}, {}, layout.orientation, layout.colourMap});
+    m_workbench->restore({{}, {}, layout.orientation, layout.colourMap, layout.isLogarithmic});
 }
 
 void MainWindow::setAsking(bool isAsking)

@@ -135,6 +135,16 @@ void MainWindow::buildViewMenu()
     })->setToolTip(tr("While listening: back to what is heard now"));
     menu->addSeparator();
     addViewAction(*menu, tr("Next &orientation"), Qt::Key_O, [this] { bench().cycleOrientation(); });
+    QAction *logarithmic = addViewAction(*menu, tr("&Logarithmic frequency"), QKeySequence(Qt::SHIFT | Qt::Key_L), {});
+    logarithmic->setCheckable(true);
+    logarithmic->setToolTip(
+        tr("Show frequencies on a logarithmic scale; not for I/Q, whose frequencies may be negative"));
+    const auto showScale = [viewport, logarithmic] { logarithmic->setChecked(viewport->isLogarithmic()); };
+    connect(viewport, &Viewport::scaleChanged, logarithmic, showScale);
+    connect(logarithmic, &QAction::triggered, viewport, [viewport, showScale](bool isOn) {
+        viewport->setLogarithmic(isOn);
+        showScale();
+    });
     addViewAction(*menu, tr("Next &colour map"), Qt::Key_C, [this] { bench().cycleColourMap(); });
     addViewAction(*menu, tr("A&utomatic range"), Qt::Key_A, [this] { bench().setAutomaticRange(); });
     menu->addSeparator();

@@ -21,6 +21,7 @@ public:
         QByteArray pingSplitters; ///< of the bench of pings
         QString colourMap;
         QString orientation;
+        bool isLogarithmic = false; ///< the frequency axis
     };
 
     explicit WindowMemory(std::unique_ptr<QSettings> store = {}) : m_store(std::move(store)) {}

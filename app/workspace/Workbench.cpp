@@ -282,7 +282,7 @@ void Workbench::growExtents(const LiveView &live)
     const double width = double(frames) * live.time.step;
     const Span time{full.time.low, std::max(full.time.high, full.time.low + width)};
     Viewport &viewport = m_document.viewport();
-    if (!m_isFirstPicture && full.frequency == viewport.full().frequency)
+    if (!m_isFirstPicture && full.frequency == viewport.extents().frequency)
         return viewport.grow(time);
     m_isFirstPicture = false;
     constexpr double fewestCells = 8.0;
@@ -371,7 +371,7 @@ void Workbench::followExtents(const Axis &time, const Axis &frequency)
     const Viewport::Box full = WaterfallView::extents(time, frequency);
     Viewport &viewport = m_document.viewport();
     const bool isFirst = std::exchange(m_isFirstPicture, false);
-    if (!isFirst && full == viewport.full())
+    if (!isFirst && full == viewport.extents())
         return;
     const bool showedAll = isFirst || viewport.showsAll();
     const Viewport::Box visible = viewport.visible();
@@ -505,12 +505,14 @@ ViewState Workbench::viewState() const
     view.cursor = viewport.cursor();
     view.orientation = orientationName(m_output->orientation());
     view.colourMap = m_output->colourMap().name();
+    view.isLogarithmic = viewport.isLogarithmic();
     return view;
 }
 
 void Workbench::restore(const ViewState &view)
 {
     Viewport &viewport = m_document.viewport();
+    viewport.setLogarithmic(view.isLogarithmic);
     if (view.visible)
         viewport.zoomTo(view.visible->time, view.visible->frequency);
     if (view.cursor)

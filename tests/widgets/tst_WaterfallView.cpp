@@ -42,6 +42,7 @@ private slots:
     void valueAtEveryCell();
     void emptyAndBack();
     void everyOrientationShowsTheSameCell();
+    void logarithmicFrequency();
     void contextMenuOffersAndAsks();
     void samePixelsTwice();
     void theSelectedTrackShowsItsBand();
@@ -437,6 +438,35 @@ void tst_WaterfallView::everyOrientationShowsTheSameCell()
         QCOMPARE(qGreen(image.pixel(pixel(42.5, 200.0))), 9);
         QCOMPARE(qGreen(image.pixel(pixel(40.5, 204.0))), 9);
     }
+}
+
+void tst_WaterfallView::logarithmicFrequency()
+{
+    constexpr double hotHz = 200.0;
+    m_viewport.setLogarithmic(true);
+    for (const auto orientation : {WaterfallView::Orientation::NewestOnTop, WaterfallView::Orientation::LeftToRight}) {
+        m_view->setOrientation(orientation);
+        const Span visible = m_viewport.frequency();
+        const QPointF low = m_view->positionOf({50.0, visible.low}), high = m_view->positionOf({50.0, visible.high}),
+                      middle = m_view->positionOf({50.0, std::sqrt(visible.low * visible.high)});
+        QVERIFY((middle - 0.5 * (low + high)).manhattanLength() < 1.0);
+        QTest::mouseClick(m_view->canvas(), Qt::LeftButton, {}, pixel(40.5, hotHz));
+        QVERIFY(m_viewport.cursor());
+        const double pixelHz = hotHz * (std::pow(visible.high / visible.low, 1.0 / 300.0) - 1.0);
+        QVERIFY(std::abs(m_viewport.cursor()->hz - hotHz) < 2.0 * pixelHz);
+        QCOMPARE(m_view->valueAt(m_viewport.cursor()->seconds, m_viewport.cursor()->hz), std::optional(30.0));
+        const QImage shown = m_view->canvas()->grab().toImage(); // the hot cell lies in the cursor's gap
+        int brightest = 0;
+        for (int dx = -1; dx <= 1; ++dx)
+            for (int dy = -1; dy <= 1; ++dy)
+                brightest = std::max(brightest, qGray(shown.pixel(pixel(40.5, hotHz) + QPoint(dx, dy))));
+        QVERIFY(brightest > qGray(shown.pixel(pixel(40.5, hotHz) + QPoint(40, 40))) + 60);
+    }
+    m_viewport.zoomTo(m_viewport.full().time, {120.0, 480.0});
+    const QPoint from = pixel(50.0, 200.0), to = pixel(50.0, 220.0);
+    drag(from, to);
+    QVERIFY(std::abs(m_viewport.frequency().high / m_viewport.frequency().low - 4.0) < 1e-6); // ratios are kept
+    QVERIFY(std::abs(m_view->pointAt(to).hz - 200.0) < 4.0);
 }
 
 void tst_WaterfallView::contextMenuOffersAndAsks()

@@ -13,6 +13,9 @@ namespace faintline {
 ///
 /// Views change it directly, for it is the state of the looking, not of the document. Everything is clamped to the
 /// extents. Seconds count from the recording's first sample.
+///
+/// Frequency lies on a linear or a logarithmic scale; zooming and scrolling keep differences on the first and ratios on
+/// the second, whose extents begin above the cell at 0 Hz, at a thousandth of the highest frequency or higher.
 class Viewport : public QObject
 {
     Q_OBJECT
@@ -36,8 +39,14 @@ public:
     /// in.
     void setExtents(const Span &time, const Span &frequency, double smallestSeconds = 0.0, double smallestHz = 0.0);
 
+    /// Ignored where the extents reach below 0 Hz, as those of I/Q recordings do. Holds for later extents, too.
+    void setLogarithmic(bool isLogarithmic);
+    bool isLogarithmic() const { return m_isLogarithmic; }
+    bool canBeLogarithmic() const;
+
     bool isEmpty() const { return m_full.time.isEmpty() || m_full.frequency.isEmpty(); }
     const Box &full() const { return m_full; }
+    Box extents() const { return {m_full.time, m_frequencies}; } ///< `full` on the linear scale
     const Box &visible() const { return m_visible; }
     const Span &time() const { return m_visible.time; }
     const Span &frequency() const { return m_visible.frequency; }
@@ -58,8 +67,13 @@ public slots:
     void zoomTo(const faintline::Span &time, const faintline::Span &frequency);
     /// Factor above 1 magnifies, about the point, which keeps its place. A run of these is one step of the history.
     void zoomAt(double factor, const faintline::Viewport::Point &point, faintline::Viewport::Axes axes = Axes::Both);
-    /// Scrolls; not remembered.
+    /// Scrolls; not remembered. The lowest visible frequency moves by `hz`.
     void pan(double seconds, double hz);
+    /// Scrolls by shares of what is visible.
+    void scroll(double timeShare, double frequencyShare);
+    /// Scrolls from `start` so that `from` comes to where `to` was.
+    void move(const faintline::Viewport::Box &start, const faintline::Viewport::Point &from,
+              const faintline::Viewport::Point &to);
     /// Shows these spans; one step of the history together with the zooming before and after it.
     void stretch(const faintline::Span &time, const faintline::Span &frequency);
     /// Scrolls just so far that the box can be seen, with some room around it; zooms out if it must.
@@ -77,18 +91,27 @@ public slots:
 
 signals:
     void extentsChanged();
+    void scaleChanged(); ///< linear or logarithmic
     void spanChanged();
     void cursorChanged();
     void selectionChanged();
     void followingChanged(bool isFollowing);
 
 private:
+    double onScale(double hz) const;
+    Span onScale(const Span &hz) const;
+    Span fromScale(const Span &span) const;
+    double smallestOnScale(const Span &span) const;
+    void applyScale();
     Box clamped(const Box &box) const;
     void remember();
     void show(const Box &box);
     bool isAtEnd() const;
 
     Box m_full;
+    Span m_frequencies; ///< extents on the linear scale
+    bool m_wantsLogarithmic = false;
+    bool m_isLogarithmic = false;
     Box m_visible;
     Box m_smallest; ///< widths only
     std::vector<Box> m_history;

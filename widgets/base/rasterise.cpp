@@ -18,23 +18,34 @@ namespace {
         Index end = 0;
     };
 
+    /// The items of a pixel.
+    Range itemsOf(double low, double width, Index itemCount)
+    {
+        const auto count = Index(std::ceil(width - 1e-6));
+        const double first = width > 1.0 ? std::ceil(low - 0.5 - 1e-6) : std::floor(low + 0.5 * width);
+        const Index begin = std::clamp<Index>(Index(first), 0, std::max<Index>(itemCount - count, 0));
+        return {begin, std::min(begin + count, itemCount)};
+    }
+
     /// The items (cells, or rows of `size` frames) of each pixel.
     std::vector<Range> itemsOfPixels(const PixelRow &pixels, double size, Index itemCount)
     {
         std::vector<Range> ranges(std::size_t(pixels.count));
+        if (pixels.zero) {
+            for (int p = 0; p < pixels.count; ++p) {
+                const double low = std::exp(pixels.first + p * pixels.step);
+                const double width = low * std::expm1(pixels.step);
+                ranges[std::size_t(p)] = itemsOf((*pixels.zero + low) / size, width / size, itemCount);
+            }
+            return ranges;
+        }
         const double step = pixels.step / size;
-        const auto perPixel = Index(std::ceil(step - 1e-6));
         // On a grid that starts with the axis a pixel's cells depend on nothing but its number on the grid.
         double number = pixels.first / pixels.step;
         if (std::abs(number - std::round(number)) < 1e-6)
             number = std::round(number);
-        for (int p = 0; p < pixels.count; ++p) {
-            const double low = (number + p) * step;
-            const double begin = step > 1.0 ? std::ceil(low - 0.5 - 1e-6) : std::floor(low + 0.5 * step);
-            Range &range = ranges[std::size_t(p)];
-            range.begin = std::clamp<Index>(Index(begin), 0, std::max<Index>(itemCount - perPixel, 0));
-            range.end = std::min(range.begin + perPixel, itemCount);
-        }
+        for (int p = 0; p < pixels.count; ++p)
+            ranges[std::size_t(p)] = itemsOf((number + p) * step, step, itemCount);
         return ranges;
     }
 
@@ -88,6 +99,15 @@ namespace {
         std::vector<std::uint8_t> m_other;
     };
 
+    /// The same where pixels have different numbers of cells.
+    void drawEach(const std::uint8_t *values, std::size_t lowest, const std::vector<Range> &cellsOfPixel,
+                  std::uint8_t *line)
+    {
+        for (std::size_t i = 0; i < cellsOfPixel.size(); ++i)
+            line[i] = highest(values + std::size_t(cellsOfPixel[i].begin) - lowest,
+                              cellsOfPixel[i].end - cellsOfPixel[i].begin);
+    }
+
     double quantile(const ByteScale &scale, const std::vector<double> &counts, double share)
     {
         // The lowest byte is silence or "never reached", not noise.
@@ -122,7 +142,7 @@ int levelToRead(const PeakPyramid &picture, const PixelRow &time, const PixelRow
 {
     // Reading twice as many rows draws a sharper picture, but takes its time on a hundred thousand cells.
     constexpr double affordableBytes = 48e6;
-    const bool isAffordable = 8.0 * time.count * cells.step * cells.count < affordableBytes;
+    const bool isAffordable = 8.0 * time.count * cells.cellCount() < affordableBytes;
     return picture.levelFor(std::max(isAffordable ? 0.5 * time.step : time.step, 1.0));
 }
 
@@ -174,7 +194,10 @@ void rasterise(const PeakPyramid &picture, int level, const PixelRow &time, cons
                     raise(merged.data(), picture.row(level, r).data() + lowest, width);
                 values = merged.data();
             }
-            maxima.draw(values, lowest, cellsOfPixel, line);
+            if (!cells.zero)
+                maxima.draw(values, lowest, cellsOfPixel, line);
+            else
+                drawEach(values, lowest, cellsOfPixel, line);
         }
     };
 

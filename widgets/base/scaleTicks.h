@@ -13,6 +13,10 @@ QwtScaleDiv timeScaleDiv(const Span &span, int majorTicks, double origin = 0.0);
 /// Ticks at 1, 2, 5 · 10ⁿ.
 QwtScaleDiv linearScaleDiv(const Span &span, int majorTicks);
 
+/// On a logarithmic scale: ticks at 1, 2, 5 · 10ⁿ, or 1, 3 · 10ⁿ, or 10ⁿ where these are more than `majorTicks`; those
+/// of a linear scale where fewer than three lie in the span.
+QwtScaleDiv logarithmicScaleDiv(const Span &span, int majorTicks);
+
 /// Of exponents of 10: ticks at whole ones, or every second, third … of them where there are more than `most`.
 QwtScaleDiv decadeScaleDiv(const Span &exponents, int most);
 

@@ -10,6 +10,7 @@
 #include "widgets/waterfall/RasterItem.h"
 #include "widgets/waterfall/peakNear.h"
 
+#include <qwt_scale_engine.h>
 #include <qwt_scale_map.h>
 #include <qwt_text.h>
 
@@ -52,6 +53,7 @@ void WaterfallPicture::setViewport(Viewport *viewport)
     if (viewport) {
         connect(viewport, &Viewport::spanChanged, this, &WaterfallPicture::followSpan);
         connect(viewport, &Viewport::extentsChanged, this, &WaterfallPicture::restyle);
+        connect(viewport, &Viewport::scaleChanged, this, &WaterfallPicture::restyle);
     }
     restyle();
 }
@@ -275,6 +277,10 @@ void WaterfallPicture::restyle()
     }
     auto *hzDraw = new NumberScaleDraw;
     hzDraw->setUnit(shownUnit(m_frequency).hz);
+    hzDraw->setLogarithmic(isLogarithmic());
+    setAxisScaleEngine(timeAxis(), new QwtLinearScaleEngine);
+    setAxisScaleEngine(hzAxis(), isLogarithmic() ? static_cast<QwtScaleEngine *>(new QwtLogScaleEngine)
+                                                 : new QwtLinearScaleEngine);
     setAxisScaleDraw(hzAxis(), hzDraw);
     setAxisTitle(hzAxis(), titleOf(m_frequency));
     for (const QwtAxisId axis : {timeAxis(), hzAxis()})
@@ -287,6 +293,7 @@ void WaterfallPicture::restyle()
     setTitle(title);
     Theme::style(*this);
     m_raster->setTimeVertical(isTimeVertical());
+    m_raster->setLogarithmic(isLogarithmic());
     m_sentence->colour = Theme::colours(*this).faintText;
     updateLayout(); // titles and scales of another size
     followSpan();
@@ -308,7 +315,8 @@ void WaterfallPicture::followSpan()
     const QwtScaleDiv timeDiv =
         m_timeDraw ? timeScaleDiv(time, timeTicks, m_startUnixSeconds.value_or(0.0)) : linearScaleDiv(time, timeTicks);
     setAxisScaleDiv(timeAxis(), m_orientation == Orientation::OldestOnTop ? timeDiv.inverted() : timeDiv);
-    setAxisScaleDiv(hzAxis(), linearScaleDiv(hz, std::clamp(across / (isTimeVertical() ? 60 : 42), 1, 12)));
+    const int hzTicks = std::clamp(across / (isTimeVertical() ? 60 : 42), 1, 12);
+    setAxisScaleDiv(hzAxis(), isLogarithmic() ? logarithmicScaleDiv(hz, hzTicks) : linearScaleDiv(hz, hzTicks));
 
     const QString timeLabel =
         m_timeDraw ? m_timeDraw->widestLabel(full().time) : m_numberDraw->widestLabel(full().time);

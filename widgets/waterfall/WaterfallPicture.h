@@ -92,6 +92,7 @@ public:
     /// Pixel on the canvas ↔ time and frequency.
     Viewport::Point pointAt(const QPointF &canvasPosition) const;
     QPointF positionOf(const Viewport::Point &point) const;
+    bool isLogarithmic() const { return m_viewport && m_viewport->isLogarithmic(); } ///< the frequency axis
     bool isTimeVertical() const { return m_orientation != Orientation::LeftToRight; }
     QwtAxisId timeAxis() const { return isTimeVertical() ? QwtAxis::YLeft : QwtAxis::XBottom; }
     QwtAxisId hzAxis() const { return isTimeVertical() ? QwtAxis::XBottom : QwtAxis::YLeft; }
