@@ -107,8 +107,8 @@ namespace {
     ViewState viewFromJson(const Json &json)
     {
         checkKeys(json, "view",
-                  {"seconds", "hz", "cursor", "orientation", "colourMap", "logarithmic", "bearing", "cursorBearing",
-                   "polar"});
+                  {"seconds", "hz", "cursor", "orientation", "colourMap", "logarithmic", "radio", "bearing",
+                   "cursorBearing", "polar"});
         ViewState view;
         if (json.contains("seconds") && json.contains("hz"))
             view.visible = {spanFromJson(json["seconds"]), spanFromJson(json["hz"])};
@@ -122,6 +122,7 @@ namespace {
         view.orientation = QString::fromStdString(json.value("orientation", std::string()));
         view.colourMap = QString::fromStdString(json.value("colourMap", std::string()));
         view.isLogarithmic = json.value("logarithmic", false);
+        view.isRadioAxis = json.value("radio", false);
         return view;
     }
 
@@ -171,6 +172,8 @@ Json toJson(const ViewState &view)
     json["colourMap"] = view.colourMap.toStdString();
     if (view.isLogarithmic)
         json["logarithmic"] = true;
+    if (view.isRadioAxis)
+        json["radio"] = true;
     return json;
 }
 

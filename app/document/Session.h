@@ -18,6 +18,7 @@ struct ViewState {
     QString orientation; ///< "newestOnTop", "oldestOnTop", "leftToRight"; empty: as it is
     QString colourMap;
     bool isLogarithmic = false; ///< the frequency axis
+    bool isRadioAxis = false;   ///< frequencies are labelled with the centre frequency added
 
     // Of a sonar's pings, where the frequency above is the range.
     std::optional<Span> bearing{}; ///< visible

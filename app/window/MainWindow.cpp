@@ -250,6 +250,7 @@ void MainWindow::saveLayout()
     layout.colourMap = view.colourMap;
     layout.orientation = view.orientation;
     layout.isLogarithmic = view.isLogarithmic;
+    layout.isRadioAxis = view.isRadioAxis;
     m_memory.setLayout(layout);
 }
 
@@ -261,7 +262,7 @@ void MainWindow::restoreLayout()
         m_workbench->restoreSplitters(layout.splitters);
     if (!layout.pingSplitters.isEmpty())
         m_pings->restoreSplitters(layout.pingSplitters);
-    m_workbench->restore({{}, {}, layout.orientation, layout.colourMap, layout.isLogarithmic});
+    m_workbench->restore({{}, {}, layout.orientation, layout.colourMap, layout.isLogarithmic, layout.isRadioAxis});
 }
 
 void MainWindow::setAsking(bool isAsking)

@@ -145,6 +145,11 @@ void MainWindow::buildViewMenu()
         viewport->setLogarithmic(isOn);
         showScale();
     });
+    QAction *radio = addViewAction(*menu, tr("&Radio frequency"), QKeySequence(Qt::SHIFT | Qt::Key_R), {});
+    radio->setCheckable(true);
+    radio->setToolTip(tr("Label the frequency axis with the recording's centre frequency added, where it is known"));
+    connect(radio, &QAction::triggered, m_workbench, &Workbench::setRadioAxis);
+    connect(menu, &QMenu::aboutToShow, radio, [this, radio] { radio->setChecked(m_workbench->isRadioAxis()); });
     addViewAction(*menu, tr("Next &colour map"), Qt::Key_C, [this] { bench().cycleColourMap(); });
     addViewAction(*menu, tr("A&utomatic range"), Qt::Key_A, [this] { bench().setAutomaticRange(); });
     menu->addSeparator();

@@ -22,6 +22,7 @@ public:
         QString colourMap;
         QString orientation;
         bool isLogarithmic = false; ///< the frequency axis
+        bool isRadioAxis = false;
     };
 
     explicit WindowMemory(std::unique_ptr<QSettings> store = {}) : m_store(std::move(store)) {}

@@ -121,6 +121,7 @@ Workbench::Workbench(Document &document, QWidget *parent)
         }
         emit playingChanged(false);
         showStrips();
+        showOrigin();
     });
     connect(&document, &Document::liveChanged, this, &Workbench::showLive);
     connect(&document.viewport(), &Viewport::followingChanged, this, [this](bool isFollowing) {
@@ -250,6 +251,7 @@ void Workbench::showLive()
         markChanges();
         showHeading();
         showStrips();
+        showOrigin();
     }
     m_isToBePainted = true;
 }
@@ -496,6 +498,18 @@ void Workbench::showStrips()
     m_regulation->setVisible(height() >= enoughForBoth && !m_document.isLive());
 }
 
+void Workbench::setRadioAxis(bool isOn)
+{
+    m_isRadioAxis = isOn;
+    showOrigin();
+}
+
+void Workbench::showOrigin()
+{
+    const auto recording = m_livePlan ? m_livePlan->recording : m_document.recording();
+    m_document.viewport().setOriginHz(m_isRadioAxis && recording ? recording->info().centreHz : 0.0);
+}
+
 ViewState Workbench::viewState() const
 {
     const Viewport &viewport = m_document.viewport();
@@ -506,6 +520,7 @@ ViewState Workbench::viewState() const
     view.orientation = orientationName(m_output->orientation());
     view.colourMap = m_output->colourMap().name();
     view.isLogarithmic = viewport.isLogarithmic();
+    view.isRadioAxis = m_isRadioAxis;
     return view;
 }
 
@@ -513,6 +528,7 @@ void Workbench::restore(const ViewState &view)
 {
     Viewport &viewport = m_document.viewport();
     viewport.setLogarithmic(view.isLogarithmic);
+    setRadioAxis(view.isRadioAxis);
     if (view.visible)
         viewport.zoomTo(view.visible->time, view.visible->frequency);
     if (view.cursor)

@@ -4,6 +4,9 @@
 #include "pixels.h"
 #include "widgets/base/Theme.h"
 
+#include <qwt_scale_draw.h>
+#include <qwt_text.h>
+
 #include <QMenu>
 #include <QSignalSpy>
 #include <QtTest>
@@ -43,6 +46,7 @@ private slots:
     void emptyAndBack();
     void everyOrientationShowsTheSameCell();
     void logarithmicFrequency();
+    void radioFrequency();
     void contextMenuOffersAndAsks();
     void samePixelsTwice();
     void theSelectedTrackShowsItsBand();
@@ -71,6 +75,7 @@ void tst_WaterfallView::init()
 void tst_WaterfallView::cleanup()
 {
     m_view.reset();
+    m_viewport.setLogarithmic(false);
 }
 
 void tst_WaterfallView::wheel(const QPointF &position, int notches, Qt::KeyboardModifiers modifiers)
@@ -467,6 +472,16 @@ void tst_WaterfallView::logarithmicFrequency()
     drag(from, to);
     QVERIFY(std::abs(m_viewport.frequency().high / m_viewport.frequency().low - 4.0) < 1e-6); // ratios are kept
     QVERIFY(std::abs(m_view->pointAt(to).hz - 200.0) < 4.0);
+}
+
+void tst_WaterfallView::radioFrequency()
+{
+    const QString offset = m_view->axisTitle(m_view->hzAxis()).text();
+    m_viewport.setOriginHz(7.03e6);
+    QCOMPARE(m_view->axisTitle(m_view->hzAxis()).text(), QString("Radio frequency (kHz)"));
+    QVERIFY(m_view->axisScaleDraw(m_view->hzAxis())->label(200.0).text().startsWith("7030.2"));
+    m_viewport.setOriginHz(0.0);
+    QCOMPARE(m_view->axisTitle(m_view->hzAxis()).text(), offset);
 }
 
 void tst_WaterfallView::contextMenuOffersAndAsks()

@@ -25,6 +25,7 @@ private slots:
     void decadesAreThinnedOut();
     void digitsBetweenTheDecades();
     void logarithmicTicks();
+    void ticksOfAnOrigin();
     void secondsOrClock();
     void timesOfDay();
     void numbersInTheirUnit();
@@ -120,6 +121,20 @@ void tst_scaleTicks::logarithmicTicks()
     draw.setScaleDiv(logarithmicScaleDiv({20.0, 30000.0}, 12));
     QCOMPARE(draw.label(20.0).text(), QString("0.02"));
     QCOMPARE(draw.label(20000.0).text(), QString("20"));
+}
+
+void tst_scaleTicks::ticksOfAnOrigin()
+{
+    const double origin = 145.8e6;
+    const QwtScaleDiv div = linearScaleDiv({-1300.0, 1300.0}, 4, origin);
+    NumberScaleDraw draw;
+    draw.setUnit(1e6);
+    draw.setOrigin(origin);
+    draw.setScaleDiv(div);
+    QCOMPARE(div.lowerBound(), -1300.0);
+    QCOMPARE(major(div).size(), qsizetype(3));
+    QCOMPARE(draw.label(major(div)[0]).text(), QString("145.799"));
+    QCOMPARE(draw.label(major(div)[2]).text(), QString("145.801"));
 }
 
 void tst_scaleTicks::secondsOrClock()

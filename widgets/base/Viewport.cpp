@@ -77,6 +77,14 @@ void Viewport::setLogarithmic(bool isLogarithmic)
     emit spanChanged();
 }
 
+void Viewport::setOriginHz(double hz)
+{
+    if (hz == m_originHz)
+        return;
+    m_originHz = hz;
+    emit scaleChanged();
+}
+
 /// What is visible stays, as far as the scale has it.
 void Viewport::applyScale()
 {

@@ -44,6 +44,10 @@ public:
     bool isLogarithmic() const { return m_isLogarithmic; }
     bool canBeLogarithmic() const;
 
+    /// Added to frequencies where an axis is labelled: the centre frequency of an I/Q recording.
+    void setOriginHz(double hz);
+    double originHz() const { return m_originHz; }
+
     bool isEmpty() const { return m_full.time.isEmpty() || m_full.frequency.isEmpty(); }
     const Box &full() const { return m_full; }
     Box extents() const { return {m_full.time, m_frequencies}; } ///< `full` on the linear scale
@@ -91,7 +95,7 @@ public slots:
 
 signals:
     void extentsChanged();
-    void scaleChanged(); ///< linear or logarithmic
+    void scaleChanged(); ///< linear or logarithmic, or its origin
     void spanChanged();
     void cursorChanged();
     void selectionChanged();
@@ -112,6 +116,7 @@ private:
     Span m_frequencies; ///< extents on the linear scale
     bool m_wantsLogarithmic = false;
     bool m_isLogarithmic = false;
+    double m_originHz = 0.0;
     Box m_visible;
     Box m_smallest; ///< widths only
     std::vector<Box> m_history;

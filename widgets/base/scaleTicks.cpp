@@ -56,8 +56,16 @@ QwtScaleDiv timeScaleDiv(const Span &span, int majorTicks, double origin)
     return QwtScaleDiv(span.low, span.high, ticks);
 }
 
-QwtScaleDiv linearScaleDiv(const Span &span, int majorTicks)
+QwtScaleDiv linearScaleDiv(const Span &span, int majorTicks, double origin)
 {
+    if (origin != 0.0) {
+        const QwtScaleDiv there = linearScaleDiv({span.low + origin, span.high + origin}, majorTicks);
+        QList<double> ticks[QwtScaleDiv::NTickTypes];
+        for (int type = 0; type < QwtScaleDiv::NTickTypes; ++type)
+            for (const double tick : there.ticks(type))
+                ticks[type] << tick - origin;
+        return QwtScaleDiv(span.low, span.high, ticks);
+    }
     // One number alone says nothing about a scale: where there is room for two but steps are too wide, they are made
     // smaller.
     const auto divided = [&](int most) { return QwtLinearScaleEngine().divideScale(span.low, span.high, most, 5); };

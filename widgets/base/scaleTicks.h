@@ -10,8 +10,8 @@ namespace faintline {
 /// seconds from the scale's 0, or, where that is a time itself, `origin` and these.
 QwtScaleDiv timeScaleDiv(const Span &span, int majorTicks, double origin = 0.0);
 
-/// Ticks at 1, 2, 5 · 10ⁿ.
-QwtScaleDiv linearScaleDiv(const Span &span, int majorTicks);
+/// Ticks at 1, 2, 5 · 10ⁿ, counted from `origin` below the scale's 0.
+QwtScaleDiv linearScaleDiv(const Span &span, int majorTicks, double origin = 0.0);
 
 /// On a logarithmic scale: ticks at 1, 2, 5 · 10ⁿ, or 1, 3 · 10ⁿ, or 10ⁿ where these are more than `majorTicks`; those
 /// of a linear scale where fewer than three lie in the span.

@@ -10,7 +10,7 @@ namespace faintline {
 QwtText NumberScaleDraw::label(double value) const
 {
     const int decimals = decimalsFor(majorStep(scaleDiv()) / m_unit);
-    QString text = numberText(value / m_unit, decimals);
+    QString text = numberText((value + m_origin) / m_unit, decimals);
     while (m_isLogarithmic && text.contains(QLatin1Char('.'))
            && (text.endsWith(QLatin1Char('0')) || text.endsWith(QLatin1Char('.'))))
         text.chop(1);

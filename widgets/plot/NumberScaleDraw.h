@@ -6,18 +6,20 @@
 
 namespace faintline {
 
-/// Labels of a quantity divided by `unit`, with as many decimals as the ticks need and a true minus. On a logarithmic
+/// Labels of a quantity and its origin, divided by `unit`, with as many decimals as the ticks need and a true minus. On a logarithmic
 /// scale each has as many as it needs itself.
 class NumberScaleDraw : public QwtScaleDraw
 {
 public:
     void setUnit(double unit) { m_unit = unit; }
+    void setOrigin(double origin) { m_origin = origin; }
     void setLogarithmic(bool isLogarithmic) { m_isLogarithmic = isLogarithmic; }
     QwtText label(double value) const override;
     QString widestLabel(const Span &full) const;
 
 private:
     double m_unit = 1.0;
+    double m_origin = 0.0;
     bool m_isLogarithmic = false;
 };
 

@@ -214,6 +214,11 @@ std::optional<Viewport::Point> WaterfallPicture::peakAround(const Viewport::Poin
         {around(a.seconds, b.seconds, point.seconds, row), around(a.hz, b.hz, point.hz, m_frequency.step)});
 }
 
+double WaterfallPicture::originHz() const
+{
+    return m_viewport && m_frequency.unit == "Hz" && !isLogarithmic() ? m_viewport->originHz() : 0.0;
+}
+
 Viewport::Box WaterfallPicture::full() const
 {
     if (m_viewport && !m_viewport->isEmpty())
@@ -276,13 +281,17 @@ void WaterfallPicture::restyle()
         setAxisTitle(timeAxis(), titleOf(m_picture->time()));
     }
     auto *hzDraw = new NumberScaleDraw;
-    hzDraw->setUnit(shownUnit(m_frequency).hz);
+    const double largestHz = std::max(std::abs(m_frequency.first), std::abs(m_frequency.last()));
+    const FrequencyUnit unit =
+        originHz() != 0.0 ? frequencyUnit(std::abs(originHz()) + largestHz) : shownUnit(m_frequency);
+    hzDraw->setUnit(unit.hz);
+    hzDraw->setOrigin(originHz());
     hzDraw->setLogarithmic(isLogarithmic());
     setAxisScaleEngine(timeAxis(), new QwtLinearScaleEngine);
     setAxisScaleEngine(hzAxis(), isLogarithmic() ? static_cast<QwtScaleEngine *>(new QwtLogScaleEngine)
                                                  : new QwtLinearScaleEngine);
     setAxisScaleDraw(hzAxis(), hzDraw);
-    setAxisTitle(hzAxis(), titleOf(m_frequency));
+    setAxisTitle(hzAxis(), originHz() != 0.0 ? tr("Radio frequency (%1)").arg(unit.name) : titleOf(m_frequency));
     for (const QwtAxisId axis : {timeAxis(), hzAxis()})
         setAxisVisible(axis, !isEmpty);
 
@@ -315,8 +324,10 @@ void WaterfallPicture::followSpan()
     const QwtScaleDiv timeDiv =
         m_timeDraw ? timeScaleDiv(time, timeTicks, m_startUnixSeconds.value_or(0.0)) : linearScaleDiv(time, timeTicks);
     setAxisScaleDiv(timeAxis(), m_orientation == Orientation::OldestOnTop ? timeDiv.inverted() : timeDiv);
-    const int hzTicks = std::clamp(across / (isTimeVertical() ? 60 : 42), 1, 12);
-    setAxisScaleDiv(hzAxis(), isLogarithmic() ? logarithmicScaleDiv(hz, hzTicks) : linearScaleDiv(hz, hzTicks));
+    const int hzSpacing = !isTimeVertical() ? 42 : originHz() != 0.0 ? 110 : 60;
+    const int hzTicks = std::clamp(across / hzSpacing, 1, 12);
+    setAxisScaleDiv(hzAxis(),
+                    isLogarithmic() ? logarithmicScaleDiv(hz, hzTicks) : linearScaleDiv(hz, hzTicks, originHz()));
 
     const QString timeLabel =
         m_timeDraw ? m_timeDraw->widestLabel(full().time) : m_numberDraw->widestLabel(full().time);

@@ -130,6 +130,7 @@ protected:
     RasterItem &raster() { return *m_raster; }
 
 private:
+    double originHz() const; ///< of the frequency axis's labels
     Viewport::Box full() const;
     Viewport::Box visible() const;
     void followSpan();
