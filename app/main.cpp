@@ -103,7 +103,7 @@ namespace {
             ->allow_extra_args(false);
         command->add_option("--channel", options.channel, "Channel, counted from 0");
         options.part.addTo(*command);
-        command->add_option("--step", options.step, "Step shown of a lesson (.json with steps), counted from 1");
+        command->add_option("--step", options.step, "Step of a lesson (.json with steps) to show, counted from 1");
         addOpening(*command, options.opening);
         return command;
     }

@@ -51,8 +51,8 @@ SpectrumPanel::SpectrumPanel(Document &document, QWidget *parent)
     m_calibration->setSuffix(tr(" dB"));
     m_calibration->setAccessibleName(tr("Calibration of the level"));
     m_calibration->setToolTip(
-        tr("Added to the level: the unit of the sensor that a full-scale sample stands for, in dB"));
-    m_plot->setEmptySentence(tr("The spectrum at the cursor and the mean of what is visible appear here."));
+        tr("Level that a full-scale sample represents, in dB re the sensor's unit; added to the spectrum"));
+    m_plot->setEmptySentence(tr("The spectrum at the cursor and the mean of the visible part appear here."));
     auto *top = new QHBoxLayout;
     top->setContentsMargins(8, 4, 8, 2);
     top->addWidget(m_level);
@@ -123,7 +123,7 @@ void SpectrumPanel::show()
     const auto analysis = m_document.lineAnalysis();
     const std::string rest = analysis && analysis->unsubtracted ? ", strong lines subtracted" : "";
     chart.curves.push_back(curveOf("at the cursor" + rest, m_spectra.position, m_spectra.frame, band, added));
-    chart.curves.push_back(curveOf("mean of what is visible" + rest, m_spectra.position, m_spectra.mean, band, added));
+    chart.curves.push_back(curveOf("mean of the visible part" + rest, m_spectra.position, m_spectra.mean, band, added));
     m_plot->setChart(chart);
     markTeeth();
 }

@@ -73,7 +73,7 @@ std::string sigmfText(const std::vector<ReviewedRow> &rows, double rate, double 
     json["global"] = {
         {"core:version", "1.0.0"},
         {"core:sample_rate", rate},
-        {"core:description", "Events found by Faintline, and what was said about them"},
+        {"core:description", "Events found by Faintline, with their reviews"},
         {"core:extensions", Json::array({{{"name", "faintline"}, {"version", "1.0.0"}, {"optional", true}}})}};
     json["captures"] = Json::array({{{"core:sample_start", 0}, {"core:frequency", centre}}});
     json["annotations"] = Json::array();

@@ -165,7 +165,7 @@ std::vector<std::string> dopplerNotes(const DopplerReport &report)
         notes.push_back("Points left out where the path is as steep as the model allows: "
                         + std::to_string(report.track.steepCount) + "; it falls at most by "
                         + rounded(report.track.steepestHzPerSecond, 0.0)
-                        + " Hz/s, and the line may fall faster. A shorter window or steeper slopes follow it.");
+                        + " Hz/s, and the line may fall faster. A shorter window or steeper slopes can follow it.");
     notes.insert(notes.end(), report.fit.sentences.begin(), report.fit.sentences.end());
     return notes;
 }

@@ -126,7 +126,7 @@ namespace {
                  {"core:freq_lower_edge", centre + area.low},
                  {"core:freq_upper_edge", centre + area.high},
                  {"core:label", "area"},
-                 {"core:comment", "no line: level raised by at least " + roundedDb(area.levelDb) + " dB"}});
+                 {"core:comment", "not a line: level raised by at least " + roundedDb(area.levelDb) + " dB"}});
         // The specification wants them in order of their start.
         std::stable_sort(json["annotations"].begin(), json["annotations"].end(), [](const Json &a, const Json &b) {
             return a["core:sample_start"].get<long long>() < b["core:sample_start"].get<long long>();

@@ -186,7 +186,7 @@ namespace {
         const double halfWidth = calibration.thresholdUncertainty(eventRate);
         const std::string unit = " " + std::string(statisticUnit(analysis.settings.detector));
         std::string text = "<table class=\"facts\">\n";
-        text += fact("Threshold", fixed(analysis.threshold, 2) + unit + "; simulation knows it to \u00b1"
+        text += fact("Threshold", fixed(analysis.threshold, 2) + unit + "; accuracy of its simulation \u00b1"
                                       + fixed(halfWidth, 2) + unit + " (95 %)");
         const double factor = std::exp(calibration.tailSlope * halfWidth);
         text += fact("False alarms on noise", rough(perHour) + " per hour; 95 % interval " + rough(perHour / factor)

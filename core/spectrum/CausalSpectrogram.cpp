@@ -14,7 +14,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index checkpointFrames = 64; ///< between two, at first
+    constexpr Index checkpointFrames = 64; ///< initial interval
     constexpr Index mostBlockWindows = 512;
 
     Index blockWindowsOf(const NormaliserSettings &settings)

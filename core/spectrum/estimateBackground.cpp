@@ -17,16 +17,15 @@ namespace faintline {
 
 namespace {
 
-    constexpr int framesPerBlock = 512;              // longer blocks are looked at here and there
-    constexpr Index valuesPerBlock = Index(1) << 22; // so are those of many cells
+    constexpr int framesPerBlock = 512;              // longer blocks are subsampled
+    constexpr Index valuesPerBlock = Index(1) << 22; // as are blocks of many cells
     constexpr Index fewestFramesPerBlock = 64;
     constexpr int sketchFrames = 64;
     constexpr Index largestBlockCount = 1024;
-    /// Nine hours at 48 kHz; beyond that blocks are longer.
+    /// Nine hours at 48 kHz; beyond that, blocks are longer.
     constexpr Index largestValueCount = memoryShares::background / sizeof(float);
 
-    /// The frames between two windows that the detector looks at besides, up to three: spectra of windows that begin a
-    /// hop later each.
+    /// The detector's frames between two windows, up to three: spectra of windows that each begin a hop later.
     std::vector<Spectrogram> betweenWindows(const Spectrogram &detector, const Spectrogram &windows)
     {
         constexpr Index most = 4;
@@ -43,7 +42,7 @@ namespace {
         return result;
     }
 
-    /// The frames that a background is estimated from, in blocks.
+    /// Frames for estimating a background, in blocks.
     struct BlockedFrames {
         const Spectrogram &frames;
         const std::vector<Spectrogram> &shifted;
@@ -56,7 +55,7 @@ namespace {
         }
     };
 
-    /// Where blocks change their colour, a dozen at a time: noise that is a sum of sources.
+    /// Decomposes stretches of a dozen blocks whose colour changes into sources.
     void addStretches(NoiseBackground &background, const BlockedFrames &blocked, const std::vector<Unevenness> &changes,
                       Index half, double likeness, std::vector<float> &levels)
     {
@@ -107,14 +106,14 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
     background->frequency = frames.frequency();
     background->lnUnit = 2.0 * std::numbers::ln2 * frames.scaleExponent();
 
-    // Frames looked at lie on one even raster over all blocks, every frame where there are not too many of them.
+    // Selected frames lie on one even raster over all blocks; every frame is used if there are not too many.
     const auto mostUsed = double(
         isSketch ? sketchFrames
                  : std::clamp<Index>(valuesPerBlock / std::max<Index>(1, cells), fewestFramesPerBlock, framesPerBlock));
     const Index stride = Index(std::ceil(blockFrames / mostUsed));
     background->bandCount = settings.followLevel && !isSketch ? NoiseBackground::subBandCount(double(cells)) : 0;
-    // Levels are those of the detector's own frames, which overlap: in between a sudden change would have to be
-    // guessed.
+    // Levels are computed for the detector's own, overlapping frames, because a sudden change between windows could
+    // only be guessed.
     const std::vector<Spectrogram> shifted =
         stride == 1 && background->bandCount > 0 ? betweenWindows(spectrogram, frames) : std::vector<Spectrogram>{};
     const Index steps = std::ssize(shifted) + 1;

@@ -293,7 +293,7 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
         tr("Confirmed: time at which the track was confirmed"),
         tr("Largest statistic"),
         tr("Mean signal-to-noise power ratio in one window and bin"),
-        tr("Length of the window that found it: the one shown, or a longer one for lines that stand still"),
+        tr("Length of the window that found the event: the displayed one, or a longer one for steady lines"),
         tr("Date and time of the onset"),
         tr("Radio frequency at detection: centre frequency plus offset"),
         tr("Last frame with evidence"),

@@ -65,8 +65,8 @@ void EventTable::setUpUnmatched()
     m_unmatchedTitle->setBuddy(m_unmatched);
     m_unmatched->setMaximumHeight(mostHeight);
     m_unmatched->setAccessibleName(tr("Reviews without an event"));
-    m_unmatched->setToolTip(tr("What was said of signals that are not detected with these settings. It is kept, and "
-                               "belongs to the events again as soon as they are there; click to go to the place"));
+    m_unmatched->setToolTip(tr("Reviews of signals that are not detected with these settings. They are kept and apply "
+                               "again when the signals are detected; click one to go to its place"));
     connect(m_unmatched, &QListWidget::itemClicked, this,
             [this](QListWidgetItem *item) { emit unmatchedActivated(m_unmatched->row(item)); });
     connect(m_unmatched, &QListWidget::itemActivated, this,

@@ -167,7 +167,7 @@ namespace {
             m_made.notes.push_back(
                 "σ, in cells, is the walk's discretised Gaussian step, rows renormalised on the line; the start is the "
                 "row of the middle cell. "
-                "α ≤ 1/γ1 and β ≤ γ0 hold for any law; the wanted 1e-3 is not used up because of the overshoot.");
+                "α ≤ 1/γ1 and β ≤ γ0 hold for any law; the specified 1e-3 is not reached because of the overshoot.");
         }
 
         const ReproduceOptions &m_options;
