@@ -76,6 +76,7 @@ MainWindow::MainWindow(std::unique_ptr<QSettings> memory, const QString &recover
     m_panels = new Panels(*this);
     m_views = new WindowViews(*this, this);
     buildCentre();
+    buildPanels();
     buildDocks();
     buildBottom();
     buildStatusBar();

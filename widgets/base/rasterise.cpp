@@ -71,16 +71,21 @@ namespace {
         return high;
     }
 
-    /// The highest of each pixel's cells, of which all have as many: maxima over 2, 4, 8 … cells of the whole line,
-    /// then of the largest such stretches at either end of the pixel.
+    /// The highest of each pixel's cells. If all have as many: maxima over 2, 4, 8 … cells of the whole line, then of
+    /// the largest such stretches at either end of the pixel.
     class LineMaxima
     {
     public:
-        explicit LineMaxima(std::size_t width) : m_one(width), m_other(width) {}
+        LineMaxima(std::size_t width, bool areAlike) : m_areAlike(areAlike), m_one(width), m_other(width) {}
 
         void draw(const std::uint8_t *values, std::size_t lowest, const std::vector<Range> &cellsOfPixel,
                   std::uint8_t *line)
         {
+            if (!m_areAlike) {
+                for (const Range &range : cellsOfPixel)
+                    *line++ = highest(values + std::size_t(range.begin) - lowest, range.end - range.begin);
+                return;
+            }
             const auto cells = std::size_t(cellsOfPixel.front().end - cellsOfPixel.front().begin);
             std::size_t stretch = 1;
             for (; 2 * stretch <= cells; stretch *= 2) {
@@ -95,18 +100,10 @@ namespace {
         }
 
     private:
+        bool m_areAlike;
         std::vector<std::uint8_t> m_one;
         std::vector<std::uint8_t> m_other;
     };
-
-    /// The same where pixels have different numbers of cells.
-    void drawEach(const std::uint8_t *values, std::size_t lowest, const std::vector<Range> &cellsOfPixel,
-                  std::uint8_t *line)
-    {
-        for (std::size_t i = 0; i < cellsOfPixel.size(); ++i)
-            line[i] = highest(values + std::size_t(cellsOfPixel[i].begin) - lowest,
-                              cellsOfPixel[i].end - cellsOfPixel[i].begin);
-    }
 
     double quantile(const ByteScale &scale, const std::vector<double> &counts, double share)
     {
@@ -173,7 +170,7 @@ void rasterise(const PeakPyramid &picture, int level, const PixelRow &time, cons
 
     const auto drawLines = [&](Index begin, Index end) {
         std::vector<std::uint8_t> merged(width);
-        LineMaxima maxima(width);
+        LineMaxima maxima(width, !cells.zero);
         Range done;
         for (Index p = begin; p < end; ++p) {
             std::uint8_t *line = out.data() + std::size_t(p) * cellsOfPixel.size();
@@ -194,10 +191,7 @@ void rasterise(const PeakPyramid &picture, int level, const PixelRow &time, cons
                     raise(merged.data(), picture.row(level, r).data() + lowest, width);
                 values = merged.data();
             }
-            if (!cells.zero)
-                maxima.draw(values, lowest, cellsOfPixel, line);
-            else
-                drawEach(values, lowest, cellsOfPixel, line);
+            maxima.draw(values, lowest, cellsOfPixel, line);
         }
     };
 
