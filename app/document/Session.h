@@ -17,6 +17,8 @@ struct ViewState {
     std::optional<Viewport::Point> cursor;
     QString orientation; ///< "newestOnTop", "oldestOnTop", "leftToRight"; empty: unchanged
     QString colourMap;
+    bool isLogarithmic = false; ///< the frequency axis
+    bool isRadioAxis = false;   ///< frequencies are labelled with the centre frequency added
 
     // For sonar pings, where the frequency above is the range.
     std::optional<Span> bearing{}; ///< visible

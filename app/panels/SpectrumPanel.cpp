@@ -74,6 +74,7 @@ SpectrumPanel::SpectrumPanel(Document &document, QWidget *parent)
     });
     connect(&document.viewport(), &Viewport::cursorChanged, this, &SpectrumPanel::follow);
     connect(&document.viewport(), &Viewport::spanChanged, this, &SpectrumPanel::follow);
+    connect(&document.viewport(), &Viewport::scaleChanged, this, &SpectrumPanel::show);
     connect(&m_runner, &JobRunner::finished, this, &SpectrumPanel::settled);
     connect(&m_runner, &JobRunner::cancelled, this, &SpectrumPanel::settled);
     connect(&m_runner, &JobRunner::failed, this, &SpectrumPanel::settled);
@@ -116,7 +117,7 @@ void SpectrumPanel::show()
                 "Frequency (Hz)",
                 isDensity ? (added == 0.0 ? "Level (dB re full scale²/Hz)" : "Level (dB, calibrated, in 1 Hz)")
                           : "Level (dB over noise)",
-                false,
+                m_document.viewport().isLogarithmic(),
                 false,
                 {}};
     const auto analysis = m_document.lineAnalysis();

@@ -76,6 +76,7 @@ MainWindow::MainWindow(std::unique_ptr<QSettings> memory, const QString &recover
     m_panels = new Panels(*this);
     m_views = new WindowViews(*this, this);
     buildCentre();
+    buildPanels();
     buildDocks();
     buildBottom();
     buildStatusBar();
@@ -249,6 +250,8 @@ void MainWindow::saveLayout()
     layout.panels = saveState();
     layout.colourMap = view.colourMap;
     layout.orientation = view.orientation;
+    layout.isLogarithmic = view.isLogarithmic;
+    layout.isRadioAxis = view.isRadioAxis;
     m_memory.setLayout(layout);
 }
 
@@ -260,7 +263,7 @@ void MainWindow::restoreLayout()
         m_workbench->restoreSplitters(layout.splitters);
     if (!layout.pingSplitters.isEmpty())
         m_pings->restoreSplitters(layout.pingSplitters);
-    m_workbench->restore({{}, {}, layout.orientation, layout.colourMap});
+    m_workbench->restore({{}, {}, layout.orientation, layout.colourMap, layout.isLogarithmic, layout.isRadioAxis});
 }
 
 void MainWindow::setAsking(bool isAsking)

@@ -94,6 +94,7 @@ protected:
 
 private:
     void buildCentre();
+    void buildPanels();
     void buildDocks();
     void buildBottom();
     void buildStatusBar();
@@ -102,6 +103,7 @@ private:
     void nameWhatHolds();
     void buildEditMenu();
     void buildViewMenu();
+    void addFrequencyActions(QMenu &menu);
     void addLayerMenu(QMenu &menu);
     void addPresentation(QMenu &menu);
     void addThemeMenu(QMenu &menu);

@@ -76,8 +76,10 @@ void MainWindow::connectDocument()
     connect(&m_document, &Document::opened, this, [this] {
         if (!m_live->isRunning()) // what was said of the run holds
             m_messages->dismiss();
-        if (m_document.recording())
+        if (m_document.recording()) {
             m_readOut->setStartUnixSeconds(m_document.recording()->info().startUnixSeconds);
+            m_readOut->setCentreHz(m_document.recording()->info().centreHz);
+        }
         m_overview->setPicture(nullptr, {});
         // Nothing of what was open before stays under the new name.
         m_events->setEvents({});

@@ -121,6 +121,26 @@ void MainWindow::buildEditMenu()
     addViewAction(*menu, tr("&Delete preset…"), {}, [this] { m_pipeline->removePreset(); });
 }
 
+void MainWindow::addFrequencyActions(QMenu &menu)
+{
+    Viewport *viewport = &m_document.viewport();
+    QAction *logarithmic = addViewAction(menu, tr("&Logarithmic frequency"), QKeySequence(Qt::SHIFT | Qt::Key_L), {});
+    logarithmic->setCheckable(true);
+    logarithmic->setToolTip(
+        tr("Show frequencies on a logarithmic scale; not for I/Q, whose frequencies may be negative"));
+    const auto showScale = [viewport, logarithmic] { logarithmic->setChecked(viewport->isLogarithmic()); };
+    connect(viewport, &Viewport::scaleChanged, logarithmic, showScale);
+    connect(logarithmic, &QAction::triggered, viewport, [viewport, showScale](bool isOn) {
+        viewport->setLogarithmic(isOn);
+        showScale();
+    });
+    QAction *radio = addViewAction(menu, tr("&Radio frequency"), QKeySequence(Qt::SHIFT | Qt::Key_R), {});
+    radio->setCheckable(true);
+    radio->setToolTip(tr("Label the frequency axis with the recording's centre frequency added, where it is known"));
+    connect(radio, &QAction::triggered, m_workbench, &Workbench::setRadioAxis);
+    connect(&menu, &QMenu::aboutToShow, radio, [this, radio] { radio->setChecked(m_workbench->isRadioAxis()); });
+}
+
 void MainWindow::buildViewMenu()
 {
     QMenu *menu = menuBar()->addMenu(tr("&View"));
@@ -135,6 +155,7 @@ void MainWindow::buildViewMenu()
     })->setToolTip(tr("While listening, go to the newest frames"));
     menu->addSeparator();
     addViewAction(*menu, tr("Next &orientation"), Qt::Key_O, [this] { bench().cycleOrientation(); });
+    addFrequencyActions(*menu);
     addViewAction(*menu, tr("Next &colour map"), Qt::Key_C, [this] { bench().cycleColourMap(); });
     addViewAction(*menu, tr("A&utomatic range"), Qt::Key_A, [this] { bench().setAutomaticRange(); });
     menu->addSeparator();

@@ -21,6 +21,8 @@ public:
         QByteArray pingSplitters; ///< of the bench of pings
         QString colourMap;
         QString orientation;
+        bool isLogarithmic = false; ///< the frequency axis
+        bool isRadioAxis = false;
     };
 
     explicit WindowMemory(std::unique_ptr<QSettings> store = {}) : m_store(std::move(store)) {}

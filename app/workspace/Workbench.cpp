@@ -121,6 +121,7 @@ Workbench::Workbench(Document &document, QWidget *parent)
         }
         emit playingChanged(false);
         showStrips();
+        showOrigin();
     });
     connect(&document, &Document::liveChanged, this, &Workbench::showLive);
     connect(&document.viewport(), &Viewport::followingChanged, this, [this](bool isFollowing) {
@@ -250,6 +251,7 @@ void Workbench::showLive()
         markChanges();
         showHeading();
         showStrips();
+        showOrigin();
     }
     m_isToBePainted = true;
 }
@@ -282,7 +284,7 @@ void Workbench::growExtents(const LiveView &live)
     const double width = double(frames) * live.time.step;
     const Span time{full.time.low, std::max(full.time.high, full.time.low + width)};
     Viewport &viewport = m_document.viewport();
-    if (!m_isFirstPicture && full.frequency == viewport.full().frequency)
+    if (!m_isFirstPicture && full.frequency == viewport.extents().frequency)
         return viewport.grow(time);
     m_isFirstPicture = false;
     constexpr double fewestCells = 8.0;
@@ -371,7 +373,7 @@ void Workbench::followExtents(const Axis &time, const Axis &frequency)
     const Viewport::Box full = WaterfallView::extents(time, frequency);
     Viewport &viewport = m_document.viewport();
     const bool isFirst = std::exchange(m_isFirstPicture, false);
-    if (!isFirst && full == viewport.full())
+    if (!isFirst && full == viewport.extents())
         return;
     const bool showedAll = isFirst || viewport.showsAll();
     const Viewport::Box visible = viewport.visible();
@@ -496,6 +498,18 @@ void Workbench::showStrips()
     m_regulation->setVisible(height() >= enoughForBoth && !m_document.isLive());
 }
 
+void Workbench::setRadioAxis(bool isOn)
+{
+    m_isRadioAxis = isOn;
+    showOrigin();
+}
+
+void Workbench::showOrigin()
+{
+    const auto recording = m_livePlan ? m_livePlan->recording : m_document.recording();
+    m_document.viewport().setOriginHz(m_isRadioAxis && recording ? recording->info().centreHz : 0.0);
+}
+
 ViewState Workbench::viewState() const
 {
     const Viewport &viewport = m_document.viewport();
@@ -505,12 +519,16 @@ ViewState Workbench::viewState() const
     view.cursor = viewport.cursor();
     view.orientation = orientationName(m_output->orientation());
     view.colourMap = m_output->colourMap().name();
+    view.isLogarithmic = viewport.isLogarithmic();
+    view.isRadioAxis = m_isRadioAxis;
     return view;
 }
 
 void Workbench::restore(const ViewState &view)
 {
     Viewport &viewport = m_document.viewport();
+    viewport.setLogarithmic(view.isLogarithmic);
+    setRadioAxis(view.isRadioAxis);
     if (view.visible)
         viewport.zoomTo(view.visible->time, view.visible->frequency);
     if (view.cursor)

@@ -46,6 +46,9 @@ public:
     void cycleOrientation() override { m_output->cycleOrientation(); }
     void cycleColourMap() override { m_output->cycleColourMap(); }
     void setAutomaticRange() override;
+    /// Labels frequencies as radio frequencies where the recording has a centre frequency.
+    void setRadioAxis(bool isOn);
+    bool isRadioAxis() const { return m_isRadioAxis; }
 
 public slots:
     void selectEvent(int id) override;
@@ -71,6 +74,7 @@ signals:
 
 private:
     void linkViews();
+    void showOrigin();
     void showPictures(const PicturesSoFar &pictures);
     void followExtents(const Axis &time, const Axis &frequency);
     void showLive();
@@ -99,6 +103,7 @@ private:
     std::shared_ptr<const AnalysisPlan> m_livePlan; ///< of the live picture shown
     Index m_colouredFrames = 0;                     ///< it had when its colours were chosen
     bool m_isToBePainted = false;
+    bool m_isRadioAxis = false;
 };
 
 } // namespace faintline

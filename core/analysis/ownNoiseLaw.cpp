@@ -8,7 +8,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index fewestFrames = 128;
+    constexpr Index fewestFrames = 64;
     constexpr Index mostParts = 16;
     constexpr Index fewestCells = 40;         ///< of a part
     constexpr std::size_t fewestValues = 500; ///< of a part

@@ -20,7 +20,7 @@ namespace faintline {
 /// Both are measured in up to 16 parts of the band. P: at the values that 1/2, 1/4, 1/8 … of the cells exceed, down to
 /// 60 cells; beyond, P continues with the slope of its last three octaves. V: from powers up to 5, over 2, 4 … 32
 /// frames. A part whose quantiles lie within 3 %, or V within 5 %, and three standard deviations of the assumption
-/// keeps g(y) = y, or V = 1. So do recordings under 128 frames, which are too few to recognise a keyed line.
+/// keeps g(y) = y, or V = 1. So do recordings of under 64 frames, two of the longest runs.
 class OwnNoiseLaw
 {
 public:

@@ -34,6 +34,8 @@ public:
 
     /// UTC of the first sample; without it only relative time is shown.
     void setStartUnixSeconds(std::optional<double> unixSeconds);
+    /// Radio frequency of 0 Hz; 0: unknown, only offsets are shown.
+    void setCentreHz(double hz);
     /// Sets the resolution, which determines the number of digits: neighbouring cells must differ.
     void setResolution(double frameSeconds, double binHz);
     void setReading(const Reading &reading);
@@ -53,8 +55,9 @@ private:
     };
     Item addItem(const QString &name, const QString &widest);
 
-    Item m_time, m_utc, m_frequency, m_level, m_statistic, m_slope, m_age;
+    Item m_time, m_utc, m_frequency, m_radio, m_level, m_statistic, m_slope, m_age;
     std::optional<double> m_startUnixSeconds;
+    double m_centreHz = 0.0;
     double m_frameSeconds = 0.01;
     double m_binHz = 0.1;
     Reading m_reading;

@@ -3,6 +3,7 @@
 #include "spectrum/PeakPyramid.h"
 #include "widgets/base/Span.h"
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -11,17 +12,20 @@
 namespace faintline {
 
 /// A row of pixels over a row of cells: pixel p covers first + p·step … first + (p+1)·step, and cell i covers i … i+1.
+/// On a logarithmic scale pixel p covers zero + e^(first + p·step) … zero + e^(first + (p+1)·step).
 struct PixelRow {
     double first = 0.0;
     double step = 1.0;
     int count = 0;
+    std::optional<double> zero{}; ///< of a logarithmic scale: where 0 Hz lies among the cells
 
+    double cellCount() const { return zero ? std::exp(first + step * count) - std::exp(first) : step * count; }
     bool operator==(const PixelRow &) const = default;
 };
 
 /// The picture as bytes of its scale, time-major: `out` holds time.count × cells.count values.
 ///
-///     pixel = max over n cells from the first one whose centre it covers, n = ⌈step⌉
+///     pixel = max over n cells from the first one whose centre it covers, n = ⌈width of the pixel⌉
 ///
 /// so that every pixel is the maximum of the same number of cells, which gives noise an even grain, and no maximum is
 /// lost, although one near a pixel's edge may appear in two. When zoomed in, every cell is a plain rectangle. In time

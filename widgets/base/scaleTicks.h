@@ -10,8 +10,12 @@ namespace faintline {
 /// refers to seconds from 0 of the scale, or to `origin` plus these if 0 is itself a time.
 QwtScaleDiv timeScaleDiv(const Span &span, int majorTicks, double origin = 0.0);
 
-/// Ticks at 1, 2, 5 · 10ⁿ.
-QwtScaleDiv linearScaleDiv(const Span &span, int majorTicks);
+/// Ticks at 1, 2, 5 · 10ⁿ, counted from `origin` below the scale's 0.
+QwtScaleDiv linearScaleDiv(const Span &span, int majorTicks, double origin = 0.0);
+
+/// On a logarithmic scale: ticks at 1, 2, 5 · 10ⁿ, or 1, 3 · 10ⁿ, or 10ⁿ where these are more than `majorTicks`; those
+/// of a linear scale where fewer than three lie in the span.
+QwtScaleDiv logarithmicScaleDiv(const Span &span, int majorTicks);
 
 /// For exponents of 10: ticks at integers, or every second, third … if there are more than `most`.
 QwtScaleDiv decadeScaleDiv(const Span &exponents, int most);

@@ -59,6 +59,7 @@ public:
 private:
     class Key;
     QRgb colourOf(std::size_t pixel) const;
+    QImage imageAlong(const QwtScaleMap &hz, const Span &pixels) const;
     void drawKey(QPainter *painter, const QRectF &canvas) const;
 
     std::shared_ptr<const LayerPicture> m_picture;

@@ -33,10 +33,18 @@ namespace {
         return {std::round(first / step) * step, step, count};
     }
 
+    /// The same on a logarithmic scale.
+    PixelRow logarithmicRow(const Span &span, int count, const Axis &axis)
+    {
+        const double step = steadied(std::log(span.high / span.low) / count);
+        const double first = std::log(span.low / axis.step);
+        return {std::round(first / step) * step, step, count, axis.position(0.0) + 0.5};
+    }
+
     /// Number of pixels by which a row has moved; nothing if it is a different row.
     std::optional<int> shiftOf(const PixelRow &from, const PixelRow &to)
     {
-        if (from.step != to.step || from.count != to.count)
+        if (from.step != to.step || from.count != to.count || from.zero != to.zero)
             return {};
         const double shift = std::round(to.first / to.step) - std::round(from.first / from.step);
         return std::abs(shift) < to.count ? std::optional(int(shift)) : std::nullopt;
@@ -45,7 +53,7 @@ namespace {
     /// `count` pixels of a row, starting with its pixel `begin`.
     PixelRow part(const PixelRow &row, int begin, int count)
     {
-        return {(std::round(row.first / row.step) + begin) * row.step, row.step, count};
+        return {(std::round(row.first / row.step) + begin) * row.step, row.step, count, row.zero};
     }
 
     /// Transposes rows and columns, by blocks that fit into the cache.
@@ -210,7 +218,8 @@ QImage RasterItem::image(const Span &x, const Span &y, bool isUpward, const QSiz
     const Span &time = m_isTimeVertical ? y : x;
     const Span &frequency = m_isTimeVertical ? x : y;
     updateBytes(pixelRow(time, m_isTimeVertical ? size.height() : size.width(), m_time),
-                pixelRow(frequency, m_isTimeVertical ? size.width() : size.height(), m_frequency));
+                (m_isLogarithmic ? logarithmicRow
+                                 : pixelRow)(frequency, m_isTimeVertical ? size.width() : size.height(), m_frequency));
     const int contourByte = m_contour ? m_picture->scale().byte(*m_contour) : 256;
     paint({isUpward, m_isTimeVertical, m_map, m_range, contourByte, m_contourColour}, size);
     return m_image;

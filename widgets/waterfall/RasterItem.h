@@ -32,6 +32,7 @@ public:
     /// Shows a part of the frames of that time axis, on the same pixels as a picture of all of them.
     void setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency, const Axis &time);
     void setTimeVertical(bool isVertical) { m_isTimeVertical = isVertical; }
+    void setLogarithmic(bool isLogarithmic) { m_isLogarithmic = isLogarithmic; } ///< the frequency axis
     void setColours(const ColourMap &map, const Span &range);
     /// Pixels adjacent to values at or above this one are drawn in the contour's colour.
     void setContour(std::optional<double> value, QRgb colour);
@@ -69,6 +70,7 @@ private:
     Axis m_frequency;
     Axis m_time;
     bool m_isTimeVertical = true;
+    bool m_isLogarithmic = false;
     const ColourMap *m_map;
     Span m_range{-6.0, 14.0};
     std::optional<double> m_contour;

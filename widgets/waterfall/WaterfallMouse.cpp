@@ -137,10 +137,7 @@ void WaterfallMouse::hover(const QPointF &position)
 /// Keeps the point at which the drag began under the pointer.
 void WaterfallMouse::pan(const QPointF &position)
 {
-    const Viewport::Point from = m_view.pointAt(m_start), to = m_view.pointAt(position);
-    Viewport &viewport = *m_view.viewport();
-    viewport.pan(m_visible.time.low - (to.seconds - from.seconds) - viewport.time().low,
-                 m_visible.frequency.low - (to.hz - from.hz) - viewport.frequency().low);
+    m_view.viewport()->move(m_visible, m_view.pointAt(m_start), m_view.pointAt(position));
 }
 
 void WaterfallMouse::dragSideband(const QMouseEvent &event)
@@ -180,15 +177,13 @@ Viewport::Box WaterfallMouse::draggedBox(const Viewport::Point &to) const
 
 void WaterfallMouse::scroll(Qt::Orientation direction, double notches)
 {
-    Viewport &viewport = *m_view.viewport();
     const bool isTime = (direction == Qt::Vertical) == m_view.isTimeVertical();
-    const Span span = isTime ? viewport.time() : viewport.frequency();
     // Turning the wheel away from the user moves up or left; up is later with the newest on top, and higher in
     // frequency.
     const bool isNewestOnTop = m_view.orientation() == MarkedWaterfall::Orientation::NewestOnTop;
     const bool isUpward = direction == Qt::Vertical && (!isTime || isNewestOnTop);
-    const double shift = notches * scrollShare * span.width() * (isUpward ? 1.0 : -1.0);
-    viewport.pan(isTime ? shift : 0.0, isTime ? 0.0 : shift);
+    const double share = notches * scrollShare * (isUpward ? 1.0 : -1.0);
+    m_view.viewport()->scroll(isTime ? share : 0.0, isTime ? 0.0 : share);
 }
 
 void WaterfallMouse::turnWheel(const QWheelEvent &event)

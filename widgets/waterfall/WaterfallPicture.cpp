@@ -10,6 +10,7 @@
 #include "widgets/waterfall/RasterItem.h"
 #include "widgets/waterfall/peakNear.h"
 
+#include <qwt_scale_engine.h>
 #include <qwt_scale_map.h>
 #include <qwt_text.h>
 
@@ -52,6 +53,7 @@ void WaterfallPicture::setViewport(Viewport *viewport)
     if (viewport) {
         connect(viewport, &Viewport::spanChanged, this, &WaterfallPicture::followSpan);
         connect(viewport, &Viewport::extentsChanged, this, &WaterfallPicture::restyle);
+        connect(viewport, &Viewport::scaleChanged, this, &WaterfallPicture::restyle);
     }
     restyle();
 }
@@ -212,6 +214,11 @@ std::optional<Viewport::Point> WaterfallPicture::peakAround(const Viewport::Poin
         {around(a.seconds, b.seconds, point.seconds, row), around(a.hz, b.hz, point.hz, m_frequency.step)});
 }
 
+double WaterfallPicture::originHz() const
+{
+    return m_viewport && m_frequency.unit == "Hz" && !isLogarithmic() ? m_viewport->originHz() : 0.0;
+}
+
 Viewport::Box WaterfallPicture::full() const
 {
     if (m_viewport && !m_viewport->isEmpty())
@@ -274,9 +281,17 @@ void WaterfallPicture::restyle()
         setAxisTitle(timeAxis(), titleOf(m_picture->time()));
     }
     auto *hzDraw = new NumberScaleDraw;
-    hzDraw->setUnit(shownUnit(m_frequency).hz);
+    const double largestHz = std::max(std::abs(m_frequency.first), std::abs(m_frequency.last()));
+    const FrequencyUnit unit =
+        originHz() != 0.0 ? frequencyUnit(std::abs(originHz()) + largestHz) : shownUnit(m_frequency);
+    hzDraw->setUnit(unit.hz);
+    hzDraw->setOrigin(originHz());
+    hzDraw->setLogarithmic(isLogarithmic());
+    setAxisScaleEngine(timeAxis(), new QwtLinearScaleEngine);
+    setAxisScaleEngine(hzAxis(), isLogarithmic() ? static_cast<QwtScaleEngine *>(new QwtLogScaleEngine)
+                                                 : new QwtLinearScaleEngine);
     setAxisScaleDraw(hzAxis(), hzDraw);
-    setAxisTitle(hzAxis(), titleOf(m_frequency));
+    setAxisTitle(hzAxis(), originHz() != 0.0 ? tr("Radio frequency (%1)").arg(unit.name) : titleOf(m_frequency));
     for (const QwtAxisId axis : {timeAxis(), hzAxis()})
         setAxisVisible(axis, !isEmpty);
 
@@ -287,6 +302,7 @@ void WaterfallPicture::restyle()
     setTitle(title);
     Theme::style(*this);
     m_raster->setTimeVertical(isTimeVertical());
+    m_raster->setLogarithmic(isLogarithmic());
     m_sentence->colour = Theme::colours(*this).faintText;
     updateLayout(); // titles and scales of another size
     followSpan();
@@ -308,7 +324,10 @@ void WaterfallPicture::followSpan()
     const QwtScaleDiv timeDiv =
         m_timeDraw ? timeScaleDiv(time, timeTicks, m_startUnixSeconds.value_or(0.0)) : linearScaleDiv(time, timeTicks);
     setAxisScaleDiv(timeAxis(), m_orientation == Orientation::OldestOnTop ? timeDiv.inverted() : timeDiv);
-    setAxisScaleDiv(hzAxis(), linearScaleDiv(hz, std::clamp(across / (isTimeVertical() ? 60 : 42), 1, 12)));
+    const int hzSpacing = !isTimeVertical() ? 42 : originHz() != 0.0 ? 110 : 60;
+    const int hzTicks = std::clamp(across / hzSpacing, 1, 12);
+    setAxisScaleDiv(hzAxis(),
+                    isLogarithmic() ? logarithmicScaleDiv(hz, hzTicks) : linearScaleDiv(hz, hzTicks, originHz()));
 
     const QString timeLabel =
         m_timeDraw ? m_timeDraw->widestLabel(full().time) : m_numberDraw->widestLabel(full().time);

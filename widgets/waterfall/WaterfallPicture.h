@@ -93,6 +93,7 @@ public:
     /// Pixel on the canvas ↔ time and frequency.
     Viewport::Point pointAt(const QPointF &canvasPosition) const;
     QPointF positionOf(const Viewport::Point &point) const;
+    bool isLogarithmic() const { return m_viewport && m_viewport->isLogarithmic(); } ///< the frequency axis
     bool isTimeVertical() const { return m_orientation != Orientation::LeftToRight; }
     QwtAxisId timeAxis() const { return isTimeVertical() ? QwtAxis::YLeft : QwtAxis::XBottom; }
     QwtAxisId hzAxis() const { return isTimeVertical() ? QwtAxis::XBottom : QwtAxis::YLeft; }
@@ -130,6 +131,7 @@ protected:
     RasterItem &raster() { return *m_raster; }
 
 private:
+    double originHz() const; ///< of the frequency axis's labels
     Viewport::Box full() const;
     Viewport::Box visible() const;
     void followSpan();

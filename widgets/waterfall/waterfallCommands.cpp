@@ -35,10 +35,9 @@ namespace {
         point.hz = moved(frequency, frequency.count, point.hz, hzSteps * cells);
         viewport.setCursor(point);
 
-        const auto beyond = [](const Span &span, double value) {
-            return value < span.low ? value - span.low : value > span.high ? value - span.high : 0.0;
-        };
-        viewport.pan(beyond(viewport.time(), point.seconds), beyond(viewport.frequency(), point.hz));
+        const auto within = [](const Span &span, double value) { return std::clamp(value, span.low, span.high); };
+        viewport.move(viewport.visible(), point,
+                      {within(viewport.time(), point.seconds), within(viewport.frequency(), point.hz)});
     }
 
     void clearMarks(MarkedWaterfall &view)
@@ -149,6 +148,16 @@ namespace {
             ->setEnabled(viewport && viewport->canZoomBack());
     }
 
+    void addScale(QMenu &menu, MarkedWaterfall *view)
+    {
+        if (view->frequencyAxis().unit != "Hz" || !view->viewport())
+            return;
+        Commands(*view)
+            .check(menu, tr("Logarithmic frequency"), tr("Shift+L"), view->viewport()->isLogarithmic(),
+                   [view](bool isOn) { view->viewport()->setLogarithmic(isOn); })
+            ->setEnabled(view->viewport()->canBeLogarithmic());
+    }
+
     void addOrientations(QMenu &menu, MarkedWaterfall *view)
     {
         auto *group = new QActionGroup(&menu);
@@ -203,6 +212,7 @@ void addCommands(QMenu &menu, MarkedWaterfall &shown)
     MarkedWaterfall *const view = &shown;
     addZooming(menu, view);
     menu.addSeparator();
+    addScale(menu, view);
     addOrientations(*menu.addMenu(tr("Orientation")), view);
     addColours(*menu.addMenu(tr("Colours")), view);
     Commands(shown).check(menu, tr("Automatic range"), QStringLiteral("A"), view->isRangeAutomatic(),
