@@ -41,6 +41,9 @@ struct SelectionSettings {
 /// Checks what no single field can. Throws Error naming the field.
 void checkChannels(const SelectionSettings &selection);
 
+/// Throws Error naming the field that chose the channel where `what` has only `count` of them.
+void checkChannel(const SelectionSettings &selection, const std::string &what, int count);
+
 /// The channels that are analysed together, `channel` the first. Throws Error where the recording has no such channel.
 std::vector<int> channelsOf(const SelectionSettings &selection, const RecordingInfo &info);
 
