@@ -1,4 +1,5 @@
 #include "app/cli/commands.h"
+#include "app/cli/inRange.h"
 
 #include "base/AtomicFile.h"
 #include "exchange/findCadence.h"
@@ -21,8 +22,6 @@ namespace {
     void findIn(const CadenceOptions &options)
     {
         checkOutputs({options.events});
-        if (!(options.slackHz >= 0.0)) // NaN lies in every range
-            throw Error("--slack", "must be a number");
         std::vector<TopHits> observations;
         for (const std::string &table : options.tables)
             observations.push_back(readTopHits(table));
@@ -47,7 +46,7 @@ void addCadence(CLI::App &app, Common &common)
         ->expected(2, 1000);
     addOutput(*command, common, "--events", options->events, "Write the events: .csv; default: print them");
     command->add_option("--slack", options->slackHz, "Hz by which a signal may be off its straight line in addition")
-        ->check(CLI::Range(0.0, 1e9))
+        ->check(inRange(0.0, 1e9))
         ->capture_default_str();
     command->callback([options] { findIn(*options); });
 }
