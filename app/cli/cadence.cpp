@@ -19,13 +19,13 @@ namespace {
         double slackHz = 0.0;
     };
 
-    void findIn(const CadenceOptions &options)
+    void findIn(const CadenceOptions &options, const Common &common)
     {
         checkOutputs({options.events});
         std::vector<TopHits> observations;
         for (const std::string &table : options.tables)
             observations.push_back(readTopHits(table));
-        const std::vector<CadenceEvent> events = findCadence(observations, options.slackHz);
+        const std::vector<CadenceEvent> events = findCadence(observations, options.slackHz, common.context());
         if (!options.events.empty())
             writeTextFile(options.events, cadenceCsv(events));
         else
@@ -48,7 +48,7 @@ void addCadence(CLI::App &app, Common &common)
     command->add_option("--slack", options->slackHz, "Hz by which a signal may be off its straight line in addition")
         ->check(inRange(0.0, 1e9))
         ->capture_default_str();
-    command->callback([options] { findIn(*options); });
+    command->callback([options, &common] { findIn(*options, common); });
 }
 
 } // namespace faintline::cli

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/RunContext.h"
 #include "exchange/TopHits.h"
 
 #include <vector>
@@ -18,8 +19,9 @@ struct CadenceEvent {
 /// drift steps. Of several the strongest counts. An event is a hit of the first observation with one of the same signal
 /// in all others on target and in none off it. `slackHz` more is allowed.
 ///
-/// Throws Error where there are fewer than two observations, or one has no start time.
-std::vector<CadenceEvent> findCadence(const std::vector<TopHits> &observations, double slackHz = 0.0);
+/// Throws Error where there are fewer than two observations, or one has no start time; Cancelled.
+std::vector<CadenceEvent> findCadence(const std::vector<TopHits> &observations, double slackHz = 0.0,
+                                      const RunContext &context = {});
 
 /// CSV: a line an event, drift, frequency and SNR of each observation on target.
 std::string cadenceCsv(const std::vector<CadenceEvent> &events);
