@@ -7,7 +7,8 @@
 namespace faintline {
 
 /// A file's name as valid UTF-8, and back. Names are bytes; JSON and labels hold text. A byte that is no part of a
-/// character stands for itself as U+10FE00 + byte, from a private-use area that names do not use (KDE's convention).
+/// character stands for itself as U+10FE00 + byte (KDE's convention); so does every byte of a character of that
+/// private-use area.
 std::string textFromFileName(std::string_view name);
 std::string fileNameFromText(std::string_view text);
 
