@@ -1,5 +1,6 @@
 // The window, and its subcommands that draw pictures without a screen.
 
+#include "app/cli/inRange.h"
 #include "app/render/comparePictures.h"
 #include "app/render/renderCommand.h"
 #include "app/render/replayPicture.h"
@@ -53,8 +54,8 @@ namespace {
     {
         command.add_flag("--iq", options.iq, "Treat two channels as I and Q");
         command.add_option("--raw-type", options.rawType, "Type of raw samples: ci16_le, cf32, cu8 …");
-        command.add_option("--raw-rate", options.rawRateHz, "Sample rate of raw samples, Hz");
-        command.add_option("--raw-channels", options.rawChannels, "Channels of raw samples");
+        command.add_option("--raw-rate", options.rawRateHz, "Sample rate of raw samples, Hz")->check(isRawRate());
+        command.add_option("--raw-channels", options.rawChannels, "Channels of raw samples")->check(isRawChannels());
         command.add_option("--raw-header", options.rawHeaderBytes, "Bytes before the first raw sample");
     }
 
@@ -79,7 +80,7 @@ namespace {
             ->add_option("--scale", options.scale,
                          "Device pixels per pixel, as on a high-resolution screen, such as 1.25 or 2; the picture is "
                          "drawn at that resolution")
-            ->check(CLI::Range(1.0, 4.0))
+            ->check(inRange(1.0, 4.0))
             ->capture_default_str();
         command->add_option("--time", options.seconds, "Time of the cursor, s");
         command->add_option("--frequency", options.hz, "Frequency of the cursor, Hz");

@@ -1,4 +1,5 @@
 #include "app/cli/commands.h"
+#include "app/cli/inRange.h"
 
 #include "app/cli/speed/measureSpeed.h"
 
@@ -25,7 +26,7 @@ void addBench(CLI::App &app, Common &common)
                      "several names")
         ->required();
     command->add_option("--rounds", options->speed.rounds, "Number of rounds, over which medians are taken")
-        ->check(CLI::Range(1, 1000))
+        ->check(inRange(1, 1000))
         ->capture_default_str();
     command->add_flag("--json", options->json, "JSON instead of a table");
     command->callback([options, &common] {

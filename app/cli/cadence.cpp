@@ -1,4 +1,5 @@
 #include "app/cli/commands.h"
+#include "app/cli/inRange.h"
 
 #include "base/AtomicFile.h"
 #include "exchange/findCadence.h"
@@ -18,15 +19,13 @@ namespace {
         double slackHz = 0.0;
     };
 
-    void findIn(const CadenceOptions &options)
+    void findIn(const CadenceOptions &options, const Common &common)
     {
         checkOutputs({options.events});
-        if (!(options.slackHz >= 0.0)) // NaN lies in every range
-            throw Error("--slack", "must be a number");
         std::vector<TopHits> observations;
         for (const std::string &table : options.tables)
             observations.push_back(readTopHits(table));
-        const std::vector<CadenceEvent> events = findCadence(observations, options.slackHz);
+        const std::vector<CadenceEvent> events = findCadence(observations, options.slackHz, common.context());
         if (!options.events.empty())
             writeTextFile(options.events, cadenceCsv(events));
         else
@@ -48,9 +47,9 @@ void addCadence(CLI::App &app, Common &common)
         ->expected(2, 1000);
     addOutput(*command, common, "--events", options->events, "Write the events: .csv; default: print them");
     command->add_option("--slack", options->slackHz, "Additional tolerance about a signal's straight line, Hz")
-        ->check(CLI::Range(0.0, 1e9))
+        ->check(inRange(0.0, 1e9))
         ->capture_default_str();
-    command->callback([options] { findIn(*options); });
+    command->callback([options, &common] { findIn(*options, common); });
 }
 
 } // namespace faintline::cli

@@ -1,4 +1,5 @@
 #include "app/cli/commands.h"
+#include "app/cli/inRange.h"
 
 #include "analysis/Calibration.h"
 #include "analysis/chooseWindow.h"
@@ -155,7 +156,7 @@ void addCalibrate(CLI::App &app, Common &common)
         ->add_option("--surrogates", options->surrogates,
                      "Number of noise recordings on which to count false alarms, with FILE's length, band, gaps, "
                      "quantisation and background")
-        ->check(CLI::Range(1, 10000));
+        ->check(inRange(1, 10000));
     command->add_flag("--json", options->json, "Print as JSON");
     command->callback([options, &common] { calibrateFor(*options, common); });
 }

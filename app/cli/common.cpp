@@ -1,4 +1,5 @@
 #include "app/cli/commands.h"
+#include "app/cli/inRange.h"
 
 #include "analysis/slopeUnit.h"
 #include "base/AtomicFile.h"
@@ -101,12 +102,12 @@ void AnalysisOptions::addSettingsTo(CLI::App &command, Common &common)
     command.add_option("--set", assignments, "A setting, name=value; may be repeated")
         ->take_all()
         ->allow_extra_args(false);
-    command.add_option("--channel", channel, "Channel, counted from 0")->check(CLI::Range(0, 1023));
+    command.add_option("--channel", channel, "Channel, counted from 0")->check(inRange(0, 1023));
     part.addTo(command);
     command.add_flag("--iq", open.iq, "Treat two channels as I and Q");
     command.add_option("--raw-type", open.rawType, "Sample type of a raw file, as in SigMF: ci16_le, rf32_le …");
-    command.add_option("--raw-rate", open.rawRateHz, "Sample rate of a raw file, Hz");
-    command.add_option("--raw-channels", open.rawChannels, "Channels of a raw file");
+    command.add_option("--raw-rate", open.rawRateHz, "Sample rate of a raw file, Hz")->check(isRawRate());
+    command.add_option("--raw-channels", open.rawChannels, "Channels of a raw file")->check(isRawChannels());
     command.add_option("--raw-header", open.rawHeaderBytes, "Bytes before the first sample of a raw file");
 }
 

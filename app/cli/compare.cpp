@@ -1,4 +1,5 @@
 #include "app/cli/commands.h"
+#include "app/cli/inRange.h"
 #include "app/cli/provenance.h"
 
 #include "analysis/analyse.h"
@@ -15,7 +16,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -92,10 +92,6 @@ namespace {
         if (!options.events.empty())
             checkComparisonPath(options.events);
         checkOutputs({options.events, options.difference});
-        for (const auto &[name, value] :
-             {std::pair{"--cells", options.tolerance.cells}, std::pair{"--frames", options.tolerance.frames}})
-            if (std::isnan(value)) // which lies in every range
-                throw Error(name, "must be a number");
         AnalysisSettings settingsA = settingsOf(options.common, options.presetA, options.setA);
         AnalysisSettings settingsB = settingsOf(options.common, options.presetB, options.setB);
         const RunContext context = common.context();
@@ -153,11 +149,11 @@ void addCompare(CLI::App &app, Common &common)
         ->add_option("--cells", options->tolerance.cells,
                      "Largest distance between two paths of one signal, in "
                      "steps of the coarser grid")
-        ->check(CLI::Range(0.0, 1e6))
+        ->check(inRange(0.0, 1e6))
         ->capture_default_str();
     command
         ->add_option("--frames", options->tolerance.frames, "Largest distance in time, in frames of the coarser grid")
-        ->check(CLI::Range(0.0, 1e6))
+        ->check(inRange(0.0, 1e6))
         ->capture_default_str();
     addOutput(*command, common, "--events", options->events,
               "Write the events of both, .csv: column 'in' is A, B or both");

@@ -1,4 +1,5 @@
 #include "app/cli/commands.h"
+#include "app/cli/inRange.h"
 #include "app/cli/printSummary.h"
 #include "app/cli/provenance.h"
 
@@ -130,8 +131,6 @@ namespace {
             checkEventsPath(options.conventional);
         if (!options.hits.empty() && !options.hits.ends_with(".dat"))
             throw Error(options.hits, "the file name must end in .dat");
-        if (!(options.leastSnr >= 0.0)) // NaN lies in every range
-            throw Error("--least-snr", "must be a number");
         if (options.leastSnr > 0.0 && options.hits.empty())
             throw Error("--least-snr", "requires --hits");
         checkOutputs(outputsOf(options));
@@ -330,7 +329,7 @@ void addDetect(CLI::App &app, Common &common)
     addOutput(*command, common, "--hits", options->hits,
               "Write a table of drifting signals in turboSETI's columns: .dat");
     command->add_option("--least-snr", options->leastSnr, "The smallest SNR of such a table")
-        ->check(CLI::Range(0.0, 1e12));
+        ->check(inRange(0.0, 1e12));
     command->add_flag("--summary", options->summary, "Print a summary of the result; default if no output is written");
     command->callback([options, &common] { detect(*options, common); });
 }

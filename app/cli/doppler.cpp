@@ -1,4 +1,5 @@
 #include "app/cli/commands.h"
+#include "app/cli/inRange.h"
 #include "app/cli/provenance.h"
 
 #include "analysis/chooseWindow.h"
@@ -123,18 +124,18 @@ void addDoppler(CLI::App &app, Common &common)
             "the strongest")
         ->take_all()
         ->allow_extra_args(false)
-        ->check(CLI::Range(1, 1000000000));
+        ->check(inRange(1, 1000000000));
     CLI::Option *medium =
         command->add_option("--medium", options->medium, "Speed of propagation: air (343 m/s), water (1500), light")
             ->check(CLI::IsMember({"air", "water", "light"}))
             ->capture_default_str();
     command->add_option("--speed-of-sound", options->propagation, "Speed of propagation, m/s")
-        ->check(CLI::Range(1e-3, 1e12))
+        ->check(inRange(1e-3, 1e12))
         ->excludes(medium);
     command
         ->add_option("--centre", options->centreHz,
                      "Frequency that corresponds to 0 Hz, Hz; by default that of the file, which I/Q requires")
-        ->check(CLI::Range(0.0, 1e15));
+        ->check(inRange(0.0, 1e15));
     addOutput(*command, common, "--out", options->out, "Write the fit: .json, or .csv for the points and residuals");
     addOutput(*command, common, "--chart", options->chart,
               "Chart of the track, the fit and the residuals to write, .svg");

@@ -1,4 +1,5 @@
 #include "app/cli/commands.h"
+#include "app/cli/inRange.h"
 
 #include "base/AtomicFile.h"
 #include "base/Error.h"
@@ -192,7 +193,7 @@ void addEvaluate(CLI::App &app, Common &common)
     command->add_option("--roc-snr", options->rocSnrDb,
                         "SNR of the ROC, dB, one of the experiment's; default: the middle one");
     command->add_option("--shard", options->shard, "Compute only part I of N, for 'merge'");
-    command->add_option("--seed", options->seed, "Seed in place of the experiment's")->check(CLI::Range(0, 2147483647));
+    command->add_option("--seed", options->seed, "Seed in place of the experiment's")->check(inRange(0, 2147483647));
     command->add_flag("--cost", options->cost, "For a sweep: print the cost of each value, in seconds on this machine");
     command->callback([options, &common] { evaluate(*options, common); });
 }

@@ -1,4 +1,5 @@
 #include "app/cli/commands.h"
+#include "app/cli/inRange.h"
 
 #include "base/fileName.h"
 #include "base/json.h"
@@ -142,7 +143,7 @@ void addInfo(CLI::App &app, Common &)
     command->add_flag("--json", options->json, "Print as JSON");
     command->add_flag("--iq", options->open.iq, "Treat two channels as I and Q");
     command->add_option("--raw-type", options->open.rawType, "Sample type of a raw file, as in SigMF");
-    command->add_option("--raw-rate", options->open.rawRateHz, "Sample rate of a raw file, Hz");
+    command->add_option("--raw-rate", options->open.rawRateHz, "Sample rate of a raw file, Hz")->check(isRawRate());
     command->callback([options] {
         if (const auto pings = openPings(options->file)) {
             if (options->json)

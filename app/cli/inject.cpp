@@ -1,4 +1,5 @@
 #include "app/cli/commands.h"
+#include "app/cli/inRange.h"
 #include "app/cli/provenance.h"
 
 #include "analysis/scaledInjection.h"
@@ -72,7 +73,7 @@ void addInject(CLI::App &app, Common &common)
     command->add_option("--fading-time", line.fadingSeconds, "Correlation time of the fading, s")
         ->capture_default_str();
     command->add_option("--seed", options->seed, "Seed of phase, wander and fading")
-        ->check(CLI::Range(0, 2147483647))
+        ->check(inRange(0, 2147483647))
         ->capture_default_str();
     command->add_option("--type", options->type, "Sample type")
         ->check(CLI::IsMember({"float32", "int16"}))

@@ -1,4 +1,5 @@
 #include "app/cli/commands.h"
+#include "app/cli/inRange.h"
 
 #include "base/AtomicFile.h"
 #include "base/json.h"
@@ -119,8 +120,9 @@ namespace {
             ReceiverSettings receiver = options.receiver;
             receiver.sampleRateHz = open.rawRateHz;
             receiver.gainDb = options.gainDb;
-            if (!(receiver.frequencyHz > 0.0) || !(receiver.sampleRateHz > 0.0))
-                throw Error("--rtl-tcp", "requires --frequency and --raw-rate, both in Hz");
+            constexpr double most = 4294967295.0; // in the four bytes of a command
+            if (!(receiver.frequencyHz > 0.0) || !(receiver.sampleRateHz > 0.0 && receiver.sampleRateHz <= most))
+                throw Error("--rtl-tcp", "requires --frequency and --raw-rate, both in Hz and below 2^32");
             return std::make_unique<RtlTcpSource>(options.rtlTcp, receiver);
         }
         std::optional<StreamFormat> raw;
@@ -243,11 +245,11 @@ void addListen(CLI::App &app, Common &common)
     addOutput(*command, common, "--record", options->record,
               "Record all that is heard, with its gaps: .sigmf-meta; an existing file is not overwritten");
     command->add_option("--rotate-megabytes", options->rotateMegabytes, "Begin another recording after so many MB")
-        ->check(CLI::Range(0.0, 1e9));
+        ->check(inRange(0.0, 1e9));
     command->add_option("--rotate-minutes", options->rotateMinutes, "Begin another recording after so many minutes")
-        ->check(CLI::Range(0.0, 1e6));
+        ->check(inRange(0.0, 1e6));
     command->add_option("--update", options->updateSeconds, "Time between two reports of an event in progress, s")
-        ->check(CLI::Range(0.1, 1e6))
+        ->check(inRange(0.1, 1e6))
         ->capture_default_str();
     command
         ->add_option("--on-event", options->onEvent,
@@ -265,11 +267,11 @@ void addListen(CLI::App &app, Common &common)
                         "Number at the beginning of each datagram: u16le, u16be, u32le, u32be, u64le or u64be");
     command->add_option("--rtl-tcp", options->rtlTcp, "Listen to the receiver of an rtl_tcp server: HOST or HOST:PORT");
     command->add_option("--frequency", options->receiver.frequencyHz, "Frequency of the receiver, Hz")
-        ->check(CLI::Range(0.0, 4294967295.0));
+        ->check(inRange(0.0, 4294967295.0));
     command->add_option("--gain", options->gainDb, "Gain of the receiver, dB; automatic without it")
-        ->check(CLI::Range(-100.0, 100.0));
+        ->check(inRange(-100.0, 100.0));
     command->add_option("--ppm", options->receiver.correctionPpm, "Correction of the receiver's frequency, ppm")
-        ->check(CLI::Range(-1000, 1000));
+        ->check(inRange(-1000, 1000));
     command->callback([options, &common] { listen(*options, common); });
 }
 

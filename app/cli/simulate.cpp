@@ -1,4 +1,5 @@
 #include "app/cli/commands.h"
+#include "app/cli/inRange.h"
 #include "app/cli/provenance.h"
 
 #include "base/AtomicFile.h"
@@ -109,7 +110,7 @@ void addSimulate(CLI::App &app, Common &common)
               "sonar pings or radar scans")
         ->required();
     addOutput(*command, common, "--truth", options->truth, "Write the truth, .json");
-    command->add_option("--seed", options->seed, "Seed in place of the scene's")->check(CLI::Range(0, 2147483647));
+    command->add_option("--seed", options->seed, "Seed in place of the scene's")->check(inRange(0, 2147483647));
     command->add_option("--type", options->type, "Sample type")
         ->check(CLI::IsMember({"float32", "int16"}))
         ->capture_default_str();

@@ -1,4 +1,5 @@
 #include "app/cli/commands.h"
+#include "app/cli/inRange.h"
 #include "app/cli/provenance.h"
 
 #include "analysis/chooseWindow.h"
@@ -112,11 +113,11 @@ void addStraighten(CLI::App &app, Common &common)
     command
         ->add_option("--event", options->event,
                      "Number of the event to straighten along; by default the one with the largest statistic")
-        ->check(CLI::Range(1, 2147483647));
+        ->check(inRange(1, 2147483647));
     command
         ->add_option("--smooth", options->smooth,
                      "Period, s, of a wander of the track that is halved by smoothing; by default 32 frames")
-        ->check(CLI::Range(1e-9, 1e9));
+        ->check(inRange(1e-9, 1e9));
     command->add_option("--target", options->target,
                         "Frequency of the straightened line, Hz; by default the track's mean");
     command

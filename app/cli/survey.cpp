@@ -1,4 +1,5 @@
 #include "app/cli/commands.h"
+#include "app/cli/inRange.h"
 
 #include "base/Error.h"
 #include "base/fileName.h"
@@ -138,9 +139,9 @@ namespace {
         addOutput(*command, common, "--camtrap", options->camtrap,
                   "Write a Camera Trap Data Package: a folder; requires --latitude and --longitude");
         command->add_option("--latitude", options->latitude, "Latitude of the recordings, degrees north")
-            ->check(CLI::Range(-90.0, 90.0));
+            ->check(inRange(-90.0, 90.0));
         command->add_option("--longitude", options->longitude, "Longitude of the recordings, degrees east")
-            ->check(CLI::Range(-180.0, 180.0));
+            ->check(inRange(-180.0, 180.0));
         command->add_option("--start", options->start,
                             "Start time (UTC) of recordings without one, such as 2024-07-26T00:00:00Z");
         command->fallthrough(false);
@@ -167,7 +168,7 @@ void addSurvey(CLI::App &app, Common &common)
     addOutput(*command, common, "--out", options->out, "Survey to write, .sqlite");
     command->add_option("--shard", options->shard, "Analyse only part I of N, for 'survey merge'");
     command->add_option("--jobs", options->jobs, "Recordings analysed at the same time; by default one per thread")
-        ->check(CLI::Range(1, 1024));
+        ->check(inRange(1, 1024));
     addMergeTo(*command, common);
     addExportTo(*command, common);
     command->callback([options, command, &common] {

@@ -41,7 +41,8 @@ namespace {
     std::vector<std::complex<double>> mixedDown(const Recording &recording, const SampleRange &range,
                                                 const DownConversion &conversion, const RunContext &context)
     {
-        const auto [cyclesPerSample, averaged] = conversion;
+        const double cyclesPerSample = conversion.cyclesPerSample; // clang 14 captures no structured binding
+        const Index averaged = conversion.averaged;
         constexpr Index exactEvery = 64; // samples; between them the mixer is advanced step by step
         const auto floats = std::size_t(recording.info().floatsPerSample());
         const std::complex<double> step = turned(-cyclesPerSample);

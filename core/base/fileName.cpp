@@ -7,14 +7,25 @@
 
 namespace faintline {
 
+namespace {
+
+    /// Whether a character stands for a byte: U+10FE80 … U+10FEFF.
+    bool isByte(std::string_view character)
+    {
+        return character.size() == 4 && character.starts_with("\xf4\x8f")
+               && (static_cast<unsigned char>(character[2]) & 0xfe) == 0xba;
+    }
+
+} // namespace
+
 std::string textFromFileName(std::string_view name)
 {
     std::string text;
     for (std::size_t i = 0; i < name.size();) {
-        const std::size_t length = characterLength(name, i);
-        if (length > 0) {
-            text += name.substr(i, length);
-            i += length;
+        const std::string_view character = name.substr(i, characterLength(name, i));
+        if (!character.empty() && !isByte(character)) {
+            text += character;
+            i += character.size();
             continue;
         }
         const auto byte = static_cast<unsigned char>(name[i++]); // from 0x80 on
@@ -28,10 +39,7 @@ std::string fileNameFromText(std::string_view text)
     std::string name;
     for (std::size_t i = 0; i < text.size();) {
         const std::string_view character = text.substr(i, std::max<std::size_t>(characterLength(text, i), 1));
-        const bool isByte = character.size() == 4 && character.starts_with("\xf4\x8f")
-                            && (static_cast<unsigned char>(character[2]) & 0xfc) == 0xb8
-                            && (static_cast<unsigned char>(character[2]) & 2) != 0;
-        if (isByte)
+        if (isByte(character))
             name += static_cast<char>((static_cast<unsigned char>(character[2]) & 3) << 6
                                       | (static_cast<unsigned char>(character[3]) & 0x3f));
         else

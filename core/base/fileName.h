@@ -7,7 +7,8 @@
 namespace faintline {
 
 /// Converts a file name to valid UTF-8 and back. Names are bytes; JSON and labels hold text. A byte that is not part of
-/// a character maps to U+10FE00 + byte, in a private-use area that file names do not use (KDE's convention).
+/// a character maps to U+10FE00 + byte, in a private-use area (KDE's convention); so does every byte of a character of
+/// that area.
 std::string textFromFileName(std::string_view name);
 std::string fileNameFromText(std::string_view text);
 

@@ -29,7 +29,8 @@ namespace {
 
 } // namespace
 
-std::vector<CadenceEvent> findCadence(const std::vector<TopHits> &observations, double slackHz)
+std::vector<CadenceEvent> findCadence(const std::vector<TopHits> &observations, double slackHz,
+                                      const RunContext &context)
 {
     if (observations.size() < 2)
         throw Error("a cadence", "needs at least two observations, alternately on and off target");
@@ -39,6 +40,7 @@ std::vector<CadenceEvent> findCadence(const std::vector<TopHits> &observations, 
     const TopHits &first = observations.front();
     std::vector<CadenceEvent> events;
     for (const TopHit &hit : first.hits) {
+        context.checkpoint(double(&hit - first.hits.data()) / double(first.hits.size()), "comparing observations");
         CadenceEvent event{{hit}};
         bool isOnTargetOnly = true;
         for (std::size_t i = 1; i < observations.size() && isOnTargetOnly; ++i) {
@@ -51,6 +53,7 @@ std::vector<CadenceEvent> findCadence(const std::vector<TopHits> &observations, 
         if (isOnTargetOnly)
             events.push_back(std::move(event));
     }
+    context.checkpoint(1.0, "comparing observations");
     return events;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/RunContext.h"
 #include "exchange/TopHits.h"
 
 #include <vector>
@@ -18,8 +19,9 @@ struct CadenceEvent {
 /// steps. Of several matches the strongest counts. An event is a hit of the first observation with a match in all
 /// others on target and in none off it. `slackHz` widens the tolerance.
 ///
-/// Throws Error if there are fewer than two observations, or one has no start time.
-std::vector<CadenceEvent> findCadence(const std::vector<TopHits> &observations, double slackHz = 0.0);
+/// Throws Error if there are fewer than two observations, or one has no start time; Cancelled.
+std::vector<CadenceEvent> findCadence(const std::vector<TopHits> &observations, double slackHz = 0.0,
+                                      const RunContext &context = {});
 
 /// CSV with one line per event: drift, frequency and SNR of each observation on target.
 std::string cadenceCsv(const std::vector<CadenceEvent> &events);

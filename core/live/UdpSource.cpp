@@ -23,6 +23,7 @@ namespace {
     constexpr std::chrono::seconds silence{1};
     constexpr double clockSeconds = 0.25; ///< by which clock and numbers may differ
     constexpr std::uint64_t mostLate = 64;
+    constexpr double longestLossSeconds = 3600.0; ///< without a silence
 
     double secondsSince(std::chrono::steady_clock::time_point time)
     {
@@ -66,7 +67,9 @@ Index UdpSource::lostBefore(std::uint64_t number, Index samples)
     const double elapsed = m_isGone && m_last ? secondsSince(*m_last) * m_format.sampleRateHz : 0.0;
     if (ahead <= mask / 2) {
         const double byNumbers = double(ahead) * double(samples);
-        if (!m_isGone || std::abs(byNumbers + double(samples) - elapsed) < clockSeconds * m_format.sampleRateHz)
+        const double error = std::abs(byNumbers + double(samples) - elapsed);
+        const double rate = m_format.sampleRateHz;
+        if (m_isGone ? error < clockSeconds * rate : byNumbers <= longestLossSeconds * rate)
             return Index(byNumbers);
     } else if (!m_isGone && mask - ahead < mostLate) {
         m_isLate = true;

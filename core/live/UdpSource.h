@@ -22,9 +22,10 @@ SequenceNumbers parseSequenceNumbers(std::string_view name);
 /// Bare samples in UDP datagrams, whole ones in each.
 ///
 /// Where datagrams are numbered, the samples of those that are missing are lost at their place; a datagram that comes
-/// later than its successor stays lost. Otherwise only what this machine drops is known, by the datagram. After a
-/// second of silence the sender is gone; when it is back, the gap is as long as its numbers say, if the clock agrees
-/// within a quarter of a second, else as the clock says.
+/// later than its successor stays lost, and one that is more than an hour ahead is of a sender that began anew.
+/// Otherwise only what this machine drops is known, by the datagram. After a second of silence the sender is gone; when
+/// it is back, the gap is as long as its numbers say, if the clock agrees within a quarter of a second, else as the
+/// clock says.
 class UdpSource final : public SampleSource
 {
 public:

@@ -3,6 +3,7 @@
 #include "base/Error.h"
 #include "base/Field.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace faintline {
@@ -60,7 +61,7 @@ void DigitalRfRecording::readIndex()
         throw Error(where, "must hold a first sample and a row for each stretch, as whole numbers");
     const std::vector<std::int64_t> numbers = index->readIntegers();
     const Index rows = m_data->shape().front();
-    const double longest = Stretches::longestSeconds * m_info.sampleRateHz;
+    const double longest = std::min(1e18, Stretches::longestSeconds * m_info.sampleRateHz); // far from an overflow
     for (std::size_t i = 0; i < numbers.size(); i += 2) {
         const bool isLast = i + 2 == numbers.size();
         const Index row = numbers[i + 1];

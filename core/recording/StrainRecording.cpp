@@ -51,13 +51,12 @@ void StrainRecording::readMask()
     if (!mask || mask->isFloat() || mask->isComplex() || mask->shape() != std::vector<Index>{seconds}
         || double(seconds) > Stretches::longestSeconds)
         return;
-    std::vector<float> bits(static_cast<std::size_t>(seconds));
-    mask->read({0}, {seconds}, bits);
+    const std::vector<std::int64_t> bits = mask->readIntegers();
     const auto sampleOf = [&](Index second) {
         return std::min(m_info.sampleCount, Index(std::llround(double(second) * m_info.sampleRateHz)));
     };
     for (Index second = 0; second < seconds; ++second)
-        if (const Index first = sampleOf(second); Index(bits[std::size_t(second)]) & dataBit)
+        if (const Index first = sampleOf(second); bits[std::size_t(second)] & dataBit)
             m_taken.add(first, first, sampleOf(second + 1) - first);
     m_hasMask = true;
     if (const Index missing = m_info.sampleCount - m_taken.samples(); missing > 0)

@@ -238,9 +238,7 @@ void NormalisedPower::read(Index first, Index count, std::span<float> out) const
 
 PowerPart partOf(const PowerInfo &info, const SelectionSettings &selection)
 {
-    if (selection.channel >= info.channelCount)
-        throw fieldError("selection.channel", std::to_string(selection.channel),
-                         info.path + " has " + std::to_string(info.channelCount) + " channel(s), counted from 0");
+    checkChannel(selection, info.path, info.channelCount);
     const auto between = [&](const Axis &axis, double from, double to, const std::string &name) {
         const auto place = [&](double value) { return std::clamp(axis.position(value), -1.0, double(axis.count)); };
         const Index first = std::max<Index>(0, Index(std::ceil(place(from))));

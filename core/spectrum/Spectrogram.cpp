@@ -129,6 +129,15 @@ void checkChannels(const SelectionSettings &selection)
         refuse("must be whole numbers");
 }
 
+void checkChannel(const SelectionSettings &selection, const std::string &what, int count)
+{
+    const std::vector<double> &several = selection.channels;
+    if (selection.channel >= count)
+        throw fieldError(several.empty() ? "selection.channel" : "selection.channels",
+                         several.empty() ? std::to_string(selection.channel) : formatFieldValue(several),
+                         what + " has " + std::to_string(count) + " channel(s), counted from 0");
+}
+
 std::vector<int> channelsOf(const SelectionSettings &selection, const RecordingInfo &info)
 {
     if (selection.channels.empty())
@@ -201,9 +210,7 @@ Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &
 Spectrogram::Samples Spectrogram::selectedSamples() const
 {
     const RecordingInfo &info = m_recording->info();
-    if (m_selection.channel >= info.channelCount)
-        throw fieldError("selection.channel", std::to_string(m_selection.channel),
-                         "the recording has " + std::to_string(info.channelCount) + " channel(s), counted from 0");
+    checkChannel(m_selection, "the recording", info.channelCount);
     const double to =
         m_selection.toSeconds > 0.0 ? std::min(m_selection.toSeconds, info.durationSeconds()) : info.durationSeconds();
     if (m_selection.fromSeconds >= to)

@@ -41,6 +41,9 @@ struct SelectionSettings {
 /// Checks conditions across fields. Throws Error naming the field.
 void checkChannels(const SelectionSettings &selection);
 
+/// Throws Error naming the field that chose the channel if `what` has only `count` channels.
+void checkChannel(const SelectionSettings &selection, const std::string &what, int count);
+
 /// The channels analysed together, starting with `channel`. Throws Error if the recording lacks one of them.
 std::vector<int> channelsOf(const SelectionSettings &selection, const RecordingInfo &info);
 

@@ -244,6 +244,7 @@ void tst_channels::areRefused_data()
     QTest::addColumn<std::vector<double>>("added");
     QTest::addColumn<QString>("why");
     QTest::newRow("not there") << std::vector{0.0, 2.0} << "the recording has 2 channel(s), counted from 0";
+    QTest::newRow("one, not there") << std::vector{5.0} << "selection.channels = 5: the recording has 2 channel(s)";
     QTest::newRow("twice") << std::vector{1.0, 1.0} << "must not name a channel twice";
     QTest::newRow("a fraction") << std::vector{0.5} << "must be whole numbers";
     QTest::newRow("below 0") << std::vector{0.0, -1.0} << "or \"all\"";

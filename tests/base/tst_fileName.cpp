@@ -22,6 +22,8 @@ void tst_fileName::thereAndBack()
     QCOMPARE(textFromFileName("½ plain"), std::string("½ plain"));
     QCOMPARE(textFromFileName("\xff"), std::string("\xf4\x8f\xbb\xbf"));             // U+10FEFF
     QCOMPARE(fileNameFromText("\xf4\x8f\xb7\xbf"), std::string("\xf4\x8f\xb7\xbf")); // U+10FDFF is another's
+    const std::string itself = "a\xf4\x8f\xbb\xb0"; // U+10FEF0 in a name is four bytes, not one
+    QVERIFY(fileNameFromText(textFromFileName(itself)) == itself);
     for (int first = 0; first < 256; ++first)
         for (int second = 0; second < 256; ++second) {
             const std::string name{'a', static_cast<char>(first), static_cast<char>(second)};

@@ -267,6 +267,11 @@ void tst_TopHits::cadence()
     QCOMPARE(events[0].hits[0].startHz, 1.1e9);
     QCOMPARE(events[0].hits[1].snr, 55.0);
     QCOMPARE(findCadence(all, 500.0).size(), std::size_t(2));
+    std::stop_source stop;
+    stop.request_stop();
+    RunContext stopped;
+    stopped.stop = stop.get_token();
+    QVERIFY_EXCEPTION_THROWN(findCadence(all, 0.0, stopped), Cancelled);
     QVERIFY(
         cadenceCsv(events).starts_with("event,observation,frequency_hz,drift_hz_per_s,snr\n1,1,1.1e+09,-0.2,30\n1,3,"));
 }

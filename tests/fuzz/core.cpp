@@ -12,15 +12,19 @@
 #include "base/fileName.h"
 #include "base/json.h"
 #include "base/oneLine.h"
+#include "base/utc.h"
 #include "evaluate/sequential/ScanTest.h"
 #include "exchange/CampaignFile.h"
 #include "exchange/ModelFile.h"
 #include "exchange/NumPy.h"
 #include "exchange/TopHits.h"
+#include "exchange/findCadence.h"
 #include "exchange/openFrames.h"
 #include "exchange/readAnnotations.h"
 #include "exchange/survey/exportSurvey.h"
-#include "live/wavHeader.h"
+#include "live/PipeSource.h"
+#include "live/UdpSource.h"
+#include "live/sockets.h"
 #include "recording/KiwiRecording.h"
 #include "recording/PingTruth.h"
 #include "recording/ScanScene.h"
@@ -34,15 +38,20 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stop_token>
 #include <string>
 #include <vector>
+
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 using namespace faintline;
 using faintline::fuzz::Input;
@@ -244,18 +253,80 @@ void readSurvey(const Input &input)
         survey.areas(one.id), pathBelow(one.file.path, input.path);
 }
 
-void readStream(const Input &input)
+/// A table as the first and the last observation of a cadence, with nothing between them.
+void readCadence(const Input &input)
 {
-    std::size_t at = 0;
-    readWavHeader(
-        [&](std::span<std::byte> bytes) {
-            if (input.text.size() - at < bytes.size())
-                return false;
-            std::memcpy(bytes.data(), input.text.data() + at, bytes.size());
-            at += bytes.size();
-            return true;
-        },
-        "stream");
+    TopHits on = readTopHits(input.path);
+    TopHits off = on;
+    off.hits.clear();
+    cadenceCsv(findCadence({on, off, on}, double(input.text.size() % 5)));
+}
+
+void hearAll(SampleSource &source)
+{
+    const Index frameBytes = source.format().frameBytes();
+    for (int calls = 0; calls < 1000; ++calls) {
+        const Heard heard = source.hear(std::chrono::milliseconds(0));
+        if (std::ssize(heard.bytes) % frameBytes != 0 || heard.lostSamples < 0)
+            std::abort();
+        if (heard.isOver)
+            return;
+        if (heard.bytes.empty() && !source.isPatient())
+            return;
+    }
+}
+
+void hearPipe(const Input &input)
+{
+    PipeSource source(input.path, std::nullopt);
+    hearAll(source);
+}
+
+/// The first byte chooses how datagrams are numbered; then each has its length in a byte of its own.
+void hearDatagrams(const Input &input)
+{
+    constexpr std::array<const char *, 7> numbers{"", "u16le", "u16be", "u32le", "u32be", "u64le", "u64be"};
+    constexpr std::size_t mostDatagrams = 200; // that wait to be heard
+    static const int port = 20000 + ::getpid() % 10000;
+    const unsigned choice = input.text.empty() ? 0 : static_cast<unsigned char>(input.text.front());
+    UdpSource source("127.0.0.1:" + std::to_string(port), {parseSampleType("ci16_le", "fuzz"), 8000.0, 1, 0.0, {}},
+                     parseSequenceNumbers(numbers[choice % numbers.size()]));
+    const int sender = ::socket(AF_INET, SOCK_DGRAM, 0);
+    sockaddr_in to = {};
+    to.sin_family = AF_INET;
+    to.sin_port = htons(std::uint16_t(port));
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    std::size_t at = 1;
+    for (std::size_t sent = 0; sent < mostDatagrams && at < input.text.size(); ++sent) {
+        const std::string datagram = fromTo(input.text, at + 1, at + 1 + static_cast<unsigned char>(input.text[at]));
+        at += 1 + datagram.size();
+        (void)!::sendto(sender, datagram.data(), datagram.size(), 0, reinterpret_cast<const sockaddr *>(&to),
+                        sizeof to);
+    }
+    ::close(sender);
+    hearAll(source);
+}
+
+/// What command lines say of sources and of times. Each refuses most of it.
+void readWords(const Input &input)
+{
+    const auto tryTo = [](const auto &read) {
+        try {
+            read();
+        } catch (const Error &) {
+        }
+    };
+    tryTo([&] { parseHostAndPort(input.text, ""); });
+    tryTo([&] { parseHostAndPort(input.text, "1234"); });
+    tryTo([&] { parseSequenceNumbers(input.text); });
+    tryTo([&] { parseSampleType(input.text, "words"); });
+    constexpr double yearOne = -62135596800.0;
+    constexpr double mostSeconds = 2e11; // that formatUtc writes
+    constexpr double tolerance = 1e-4;   // of a double at the most
+    const double seconds = parseUtc(input.text).value_or(0.0);
+    if (seconds >= yearOne && seconds < mostSeconds
+        && !(std::abs(parseUtc(formatUtc(seconds)).value_or(1e99) - seconds) <= tolerance))
+        std::abort();
 }
 
 void readNames(const Input &input)
@@ -283,6 +354,7 @@ const std::vector<Parser> &faintline::fuzz::parsers()
         {"filterbankHdf5", ".h5", readFrameFile},
         {"bitshuffle", ".bin", unpackBitshuffle},
         {"strain", ".hdf5", [](const Input &input) { readSome(openRecording(input.path)); }},
+        {"digitalRf", ".h5", [](const Input &input) { readSome(openRecording(input.path)); }},
         {"numpyDoubles", ".npy", [](const Input &input) { readDoubleFrames(input.path); }},
         {"grid", ".json",
          [](const Input &input) {
@@ -310,10 +382,13 @@ const std::vector<Parser> &faintline::fuzz::parsers()
         {"survey", ".sqlite", readSurvey},
         {"json", ".json", [](const Input &input) { parseJson(input.text, "json"); }},
         {"hits", ".dat", [](const Input &input) { topHitsText(readTopHits(input.path)); }},
+        {"cadence", ".dat", readCadence},
         {"timeline", ".timeline", [](const Input &input) { Timeline::filesOf({input.path}); }},
         {"timeInName", ".txt", [](const Input &input) { timeInName(input.text.substr(0, 255)); }},
         {"names", ".txt", readNames},
-        {"wavStream", ".wav", readStream},
+        {"pipe", ".wav", hearPipe},
+        {"datagrams", ".bin", hearDatagrams},
+        {"words", ".txt", readWords},
         {"provenance", ".json", [](const Input &input) { cli::readProvenance(input.path); }},
         {"windowExport", ".json", readWindowExport},
     };

@@ -241,7 +241,9 @@ void tst_listen::changesOfAnEvent()
     using State = EventChange::State;
     std::size_t ownEvents = 0;
     bool hasJoined = false;
-    for (const auto &[id, own] : changes) {
+    for (const auto &each : changes) {
+        const auto id = each.first; // clang 14 captures no structured binding
+        const auto &own = each.second;
         QVERIFY(own.size() >= 2);
         QCOMPARE(own.front().state, State::Provisional);
         QCOMPARE(own.back().state, State::Final);

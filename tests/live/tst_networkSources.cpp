@@ -27,6 +27,7 @@ private slots:
     void numberedDatagrams();
     void datagramsWithoutNumbers();
     void aSenderThatIsSilentForAWhile();
+    void aSenderThatBeginsAnew();
     void receiverIsSetAndHeard();
     void receiverThatComesBack();
     void mistakes();
@@ -201,6 +202,20 @@ void tst_networkSources::aSenderThatIsSilentForAWhile()
     QCOMPARE(back.bytes.size(), std::size_t(80));
     const double seconds = double(back.lostSamples) / rate;
     QVERIFY2(std::abs(seconds - double(elapsed) / 1000.0) < 0.3, qPrintable(QString::number(seconds)));
+}
+
+// Without a silence: no gap of a million years.
+void tst_networkSources::aSenderThatBeginsAnew()
+{
+    const int port = freePort();
+    UdpSource source("127.0.0.1:" + std::to_string(port), bytesFormat(), parseSequenceNumbers("u64be"));
+    const Sender sender(port);
+    constexpr std::uint64_t anew = std::uint64_t(1) << 62;
+    for (const std::uint64_t number : {std::uint64_t(1), std::uint64_t(3), anew, anew + 2})
+        sender.send(numbered(number, 8, true, 'a', 80));
+    const std::vector<int> heard = hearAll(source, 4);
+    QCOMPARE(heard.size(), std::size_t(6 * 80));
+    QCOMPARE(std::count(heard.begin(), heard.end(), -1), 2 * 80);
 }
 
 void tst_networkSources::receiverIsSetAndHeard()

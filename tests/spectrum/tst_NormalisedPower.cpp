@@ -307,6 +307,8 @@ void tst_NormalisedPower::refusals()
     SelectionSettings selection;
     selection.channel = 1;
     QCOMPARE(refusal(selection), std::string("selection.channel = 1: memory has 1 channel(s), counted from 0"));
+    selection.channels = {1.0};
+    QCOMPARE(refusal(selection), std::string("selection.channels = 1: memory has 1 channel(s), counted from 0"));
     selection = {};
     selection.fromSeconds = 900.0;
     QCOMPARE(refusal(selection), std::string("selection.fromSeconds, selection.toSeconds: selects nothing of memory, "

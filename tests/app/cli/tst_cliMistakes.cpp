@@ -92,8 +92,26 @@ void tst_cliMistakes::mistakes_data()
     row("band upside down", {"detect", "line.wav", "--summary", "--low", "50", "--high", "20"},
         "selection.lowHz = 50: must not lie above");
     row("least SNR that is no number", {"detect", "line.wav", "--hits", "h.dat", "--least-snr", "nan"},
-        "--least-snr: must be a number");
-    row("slack that is no number", {"cadence", "on.dat", "off.dat", "--slack", "nan"}, "--slack: must be a number");
+        "--least-snr: must be a number from 0 to 1e+12");
+    row("slack that is no number", {"cadence", "on.dat", "off.dat", "--slack", "nan"},
+        "--slack: must be a number from 0 to 1e+09");
+    row("time between reports that is no number", {"listen", "line.wav", "--update", "nan"},
+        "--update: must be a number from 0.1 to 1e+06");
+    row("tolerance that is no number", {"compare", "line.wav", "--frames", "nan"},
+        "--frames: must be a number from 0 to 1e+06");
+    row("latitude beyond the pole", {"survey", "export", "s.sqlite", "--latitude", "91"},
+        "--latitude: must be a number from -90 to 90");
+    row("rate of raw samples without an end", {"listen", "line.wav", "--raw-type", "cu8", "--raw-rate", "inf"},
+        "--raw-rate: must be a number from 1e-09 to 1e+15");
+    row("rate that no receiver has", {"listen", "--rtl-tcp", "localhost", "--frequency", "1e8", "--raw-rate", "5e9"},
+        "both in Hz and below 2^32");
+    row("event that is a word", {"doppler", "line.wav", "--event", "last"},
+        "--event: must be a number from 1 to 1e+09");
+    row("channel below 0", {"detect", "line.wav", "--summary", "--channel", "-1"},
+        "--channel: must be a number from 0 to 1023");
+    row("one of several channels that is not there",
+        {"detect", "line.wav", "--summary", "--set", "selection.channels=5"},
+        "selection.channels = 5: the recording has 1 channel(s), counted from 0");
     row("band that is no number", {"detect", "line.wav", "--summary", "--low", "nan"},
         "selection.lowHz = nan: must lie in");
     row("longer than the recording", {"detect", "line.wav", "--summary", "--set", "spectrogram.windowSeconds=31"},
