@@ -30,6 +30,9 @@ struct BothWays {
 /// Half-width of a strip that this look needs, in bins.
 Index bothWaysHalfWidth(double binsPerCell);
 
+/// Of the corridor alone, in bins.
+Index corridorHalfWidth(double binsPerCell);
+
 /// Takes the posterior of presence and place in a corridor of ±3 resolution cells around the strip's path, twice, the
 /// second time around the first one's mean.
 ///
