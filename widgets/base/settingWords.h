@@ -16,6 +16,9 @@ QString stageLabel(const QString &prefix);
 /// "halfDown" → "half rounds down".
 QString choiceLabel(const QString &choice);
 
+/// What may be typed, where nothing is: "all, or 0, 1" channels. Empty for most settings.
+QString settingExample(const QString &name);
+
 /// Whether a setting is folded away under "More".
 bool isSeldomUsed(const QString &name);
 

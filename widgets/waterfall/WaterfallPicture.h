@@ -81,6 +81,7 @@ public:
     bool hasTime() const;      ///< as the picture's own axis
     /// What a statistic is measured in, "nat" unless said otherwise, and the heading that says so.
     void setStatisticUnit(const QString &unit, const QString &heading);
+    void setHeading(const QString &heading);
 
     /// The value of the cell there, at the finest level kept; nothing outside the picture.
     std::optional<double> valueAt(double seconds, double hz) const;
