@@ -47,7 +47,7 @@ namespace {
             const auto length = Index(track.points.size());
             const Index count = std::min(length, longest);
             const auto from = std::size_t((length - count) / 2);
-            around.strip.firstFrame = track.points[from].frame;
+            around.strip.firstFrame = count > 0 ? track.points[from].frame : track.onsetFrame;
             around.strip.halfWidth = corridorHalfWidth(m_model.binsPerCell);
             for (std::size_t i = from; i < from + std::size_t(count); ++i)
                 around.strip.centres.push_back(track.points[i].cell);
@@ -55,7 +55,7 @@ namespace {
             return around;
         }
 
-        /// Fills in y of all all: one pass over their frames.
+        /// Fills in y of all: one pass over their frames.
         void read(std::span<Neighbourhood> all, const RunContext &context) const
         {
             const Index end = m_analysis.time().count;

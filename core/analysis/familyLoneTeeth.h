@@ -7,8 +7,8 @@
 
 namespace faintline {
 
-/// Without the tracks of a family that one of its members explains: a strong line alone, which is a member of families at
-/// f/k, or at its distances from f, of which nothing else is there.
+/// Without the tracks of a family that one of its members explains: a strong line alone, which is a member of families
+/// at f/k, or at its distances from f, of which nothing else is there.
 ///
 /// In a corridor of ±3 resolution cells around each track, with the detector's own law, scores are taken of
 ///
