@@ -34,6 +34,10 @@ Playback::Playback(Document &document, ChooseEvent chooseEvent, QObject *parent)
     m_timer.setInterval(interval);
     connect(&m_timer, &QTimer::timeout, this, &Playback::follow);
     connect(&document, &Document::opened, this, &Playback::stop);
+    connect(&m_line, &JobRunner::failed, this, [this](const Error &error) {
+        emit failed(error);
+        goOnSoundless();
+    });
 }
 
 void Playback::addActionsTo(QMenu &menu)
@@ -100,58 +104,99 @@ PlaySettings Playback::stretch() const
     return settings;
 }
 
-FrequencyCurve Playback::line() const
+FrequencyCurve Playback::lineAtCursor() const
 {
-    if (const std::optional<Event> event = m_chooseEvent(); event && m_document.lineAnalysis())
-        return straightened(*m_document.lineAnalysis(), *event).curve;
     if (!m_document.viewport().cursor())
         throw Error(tr("Play").toStdString(), "requires an event to follow, or a cursor on the line");
     return FrequencyCurve({"time", "s", 0.0, 1.0, 1}, {m_document.viewport().cursor()->hz});
 }
 
+std::unique_ptr<Player> Playback::player(RecordingPointer what, int ofChannel) const
+{
+    return std::make_unique<Player>(std::move(what), ofChannel, stretch(), "default", tr("Play").toStdString());
+}
+
+std::unique_ptr<Player> Playback::playerOfLine(const FrequencyCurve &curve) const
+{
+    return player(lineToPlay(m_document.recording(), m_document.settings().selection.channel, curve), 0);
+}
+
 std::unique_ptr<Player> Playback::makePlayer() const
 {
+    if (m_what == What::Line)
+        return playerOfLine(lineAtCursor());
     const RecordingPointer &recording = m_document.recording();
     const int channel = m_document.settings().selection.channel;
-    const auto play = [&](RecordingPointer what, int ofChannel) {
-        return std::make_unique<Player>(std::move(what), ofChannel, stretch(), "default", tr("Play").toStdString());
-    };
-    if (m_what == What::Line)
-        return play(lineToPlay(recording, channel, line()), 0);
     if (m_what == What::Recording)
-        return play(recording, channel);
+        return player(recording, channel);
     const Span band = m_document.box() ? m_document.box()->frequency : m_document.viewport().frequency();
-    return play(std::make_shared<BandRecording>(recording, channel, band.low, band.high), 0);
+    return player(std::make_shared<BandRecording>(recording, channel, band.low, band.high), 0);
+}
+
+void Playback::setPlaying(bool isPlaying)
+{
+    if (m_isPlaying == isPlaying)
+        return;
+    m_isPlaying = isPlaying;
+    emit playingChanged(isPlaying);
 }
 
 bool Playback::start()
 {
     if (!m_document.recording() || m_document.viewport().isEmpty() || !(stretch().fromSeconds < stretch().toSeconds))
         return false;
-    const bool wasPlaying = isPlaying();
+    m_timer.stop();
+    m_player.reset();
+    m_line.cancel();
+    const std::optional<Event> event = m_what == What::Line ? m_chooseEvent() : std::nullopt;
+    if (event && m_document.lineAnalysis()) {
+        startAlong(m_document.lineAnalysis(), *event);
+        return true;
+    }
+    if (begin([this] { return makePlayer(); }))
+        return true;
+    stop();
+    return false;
+}
+
+void Playback::startAlong(std::shared_ptr<const Analysis> analysis, const Event &event)
+{
+    m_line.start([this, analysis = std::move(analysis), event](const RunContext &) -> JobRunner::Delivery {
+        return [this, curve = straightened(*analysis, event).curve] {
+            if (!begin([&] { return playerOfLine(curve); }))
+                goOnSoundless();
+        };
+    });
+    setPlaying(true);
+}
+
+bool Playback::begin(const MakePlayer &make)
+{
     try {
-        m_player.reset();
-        m_player = makePlayer();
+        m_player = make();
     } catch (const Error &error) {
         emit failed(error);
-        if (wasPlaying)
-            stop();
         return false;
     }
     showPosition();
     m_timer.start();
-    if (!wasPlaying)
-        emit playingChanged(true);
+    setPlaying(true);
     return true;
+}
+
+/// Nobody is told that it ended: what shows that it plays goes on to.
+void Playback::goOnSoundless()
+{
+    m_isPlaying = false;
+    emit soundless();
 }
 
 void Playback::stop()
 {
+    m_line.cancel();
     m_player.reset();
-    if (!m_timer.isActive())
-        return;
     m_timer.stop();
-    emit playingChanged(false);
+    setPlaying(false);
 }
 
 void Playback::follow()

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "analysis/Analysis.h"
 #include "analysis/events.h"
+#include "app/base/JobRunner.h"
 #include "base/Error.h"
 #include "live/Player.h"
 
@@ -39,19 +41,30 @@ public:
     void setSpeed(double speed);
     void setLooping(bool isLooping);
 
-    bool isPlaying() const { return m_player != nullptr; }
-    /// Whether sound was begun; false, with `failed`, where there is none to be had.
+    /// From `start` on, also while the curve of an event's line is being computed, which sound waits for.
+    bool isPlaying() const { return m_isPlaying; }
+    /// Whether it plays; false, with `failed`, where no sound is to be had.
     bool start();
     void stop();
 
 signals:
     void playingChanged(bool isPlaying);
     void failed(const faintline::Error &error);
+    /// After `failed`, of what `start` had said yes to: the cursor may go on alone.
+    void soundless();
 
 private:
     PlaySettings stretch() const;
+    using MakePlayer = std::function<std::unique_ptr<Player>()>;
+
+    std::unique_ptr<Player> player(RecordingPointer what, int ofChannel) const;
+    std::unique_ptr<Player> playerOfLine(const FrequencyCurve &curve) const;
     std::unique_ptr<Player> makePlayer() const;
-    FrequencyCurve line() const;
+    FrequencyCurve lineAtCursor() const;
+    void startAlong(std::shared_ptr<const Analysis> analysis, const Event &event);
+    bool begin(const MakePlayer &make);
+    void setPlaying(bool isPlaying);
+    void goOnSoundless();
     void follow();
     void showPosition();
     void playOn();
@@ -63,7 +76,9 @@ private:
     bool m_isLooping = false;
     std::unique_ptr<Player> m_player;
     double m_shownSeconds = 0.0; ///< where the cursor was put last
+    bool m_isPlaying = false;
     QTimer m_timer;
+    JobRunner m_line; ///< computes the curve of an event's line; last, so that it ends first
 };
 
 } // namespace faintline

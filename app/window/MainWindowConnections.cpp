@@ -142,6 +142,7 @@ void MainWindow::connectController()
         m_messages->showMessage(MessageBar::Kind::Notice, QString::fromStdString(error.where()),
                                 tr("%1; the cursor moves without sound").arg(QString::fromStdString(error.why())));
     });
+    connect(m_playback, &Playback::soundless, this, [this] { bench().setPlaying(true); });
     connect(m_report, &ReportWriter::failed, this, &MainWindow::showError);
     connect(m_report, &ReportWriter::written, this, &MainWindow::showWritten);
     connect(m_saver, &SessionSaver::failed, this, &MainWindow::showError);

@@ -78,10 +78,17 @@ namespace {
         return {};
     }
 
+    /// `isRest`: of what is left without the strong lines.
+    QString inputHeading(bool isRest)
+    {
+        return isRest ? Workbench::tr("Input, strong lines subtracted (dB over noise)")
+                      : Workbench::tr("Input (dB over noise)");
+    }
+
 } // namespace
 
 Workbench::Workbench(Document &document, QWidget *parent)
-    : Bench(document, lineFrames(), parent), m_input(new WaterfallView(tr("Input (dB over noise)"))),
+    : Bench(document, lineFrames(), parent), m_input(new WaterfallView(inputHeading(false))),
       m_output(new WaterfallView(tr("Statistic D (nat)"))), m_layers(new OutputLayers(document, *m_output, this)),
       m_boxMeter(new BoxMeter(document, this)), m_inputPane(ColourBar::pane(m_input)),
       m_outputPane(ColourBar::pane(m_output)), m_statistic(new StripPlot(tr("D (nat)"))),
@@ -197,6 +204,7 @@ void Workbench::showAnalysis()
 
     followExtents(analysis.time(), frequency);
     m_output->setThreshold(analysis.threshold); // before the picture: the automatic range takes it into account
+    m_input->setHeading(inputHeading(analysis.unsubtracted != nullptr));
     m_input->setPicture(analysis.input, frequency);
     showStatistic();
     for (WaterfallView *view : {m_input, m_output}) {
@@ -238,6 +246,7 @@ void Workbench::showLive()
     m_livePlan = live.plan;
     if (isFirst || (live.time.count >= 2 * m_colouredFrames && live.time.count <= longestColouring)) {
         m_colouredFrames = live.time.count;
+        m_input->setHeading(inputHeading(false));
         m_input->setPicture(live.input, frequency);
         m_output->setPicture(live.statistic, frequency);
     }

@@ -3,6 +3,7 @@
 #include "analysis/ProgressPublisher.h"
 #include "analysis/chain.h"
 #include "analysis/familyGhosts.h"
+#include "analysis/familyLoneTeeth.h"
 #include "analysis/overOwnNoise.h"
 #include "analysis/plan.h"
 #include "analysis/regulation.h"
@@ -177,13 +178,14 @@ namespace {
             analysis.tracks = std::move(seen.tracks);
             analysis.areas = std::move(seen.areas);
         }
+        analysis.tracks = withoutLoneTeeth(analysis, std::move(analysis.tracks), context.part(0.95, 0.96));
         analysis.tracks = withoutGhosts(analysis, std::move(analysis.tracks));
         if (!subtracted.empty()) {
             analysis.tracks.insert(analysis.tracks.end(), subtracted.begin(), subtracted.end());
             numberByDetection(analysis.tracks);
         }
         if (depth != AnalysisDepth::Trial)
-            holdAgainstOwnNoise(analysis, context.part(0.95, 1.0));
+            holdAgainstOwnNoise(analysis, context.part(0.96, 1.0));
     }
 
     /// An unfinished recording has no length from which to choose a window.

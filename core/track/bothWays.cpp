@@ -180,6 +180,11 @@ Index bothWaysHalfWidth(double binsPerCell)
     return 2 * inBins(corridorCells, binsPerCell) + 2;
 }
 
+Index corridorHalfWidth(double binsPerCell)
+{
+    return inBins(corridorCells, binsPerCell);
+}
+
 BothWays lookBothWays(const PathStrip &strip, const BothWaysModel &model)
 {
     return Look(strip, model).run();

@@ -30,6 +30,9 @@ struct BothWays {
 /// Half width in bins of the strip that lookBothWays needs.
 Index bothWaysHalfWidth(double binsPerCell);
 
+/// Half width in bins of the corridor alone.
+Index corridorHalfWidth(double binsPerCell);
+
 /// Computes the posterior of presence and position in a corridor of ±3 resolution cells around the strip's path, twice,
 /// the second time around the mean of the first.
 ///

@@ -26,6 +26,7 @@ private slots:
     void initTestCase();
     void cleanupTestCase() { m_window.reset(); }
 
+    void withoutDeviceTheCursorMoves_data();
     void withoutDeviceTheCursorMoves();
     void theCursorFollowsTheSound();
     void theLineIsHeardAt700Hz();
@@ -80,10 +81,20 @@ bool tst_Playback::hasServer()
     return m_server->whyNot().isEmpty();
 }
 
+void tst_Playback::withoutDeviceTheCursorMoves_data()
+{
+    QTest::addColumn<QString>("what");
+    QTest::newRow("line") << "Line of the event, or at the cursor, at 700 Hz";
+    QTest::newRow("recording") << "Recording";
+}
+
 void tst_Playback::withoutDeviceTheCursorMoves()
 {
+    QFETCH(QString, what);
     if (!soundDevices().empty())
         QSKIP("this machine has a sound card");
+    m_window->findChild<MessageBar *>()->hide();
+    choose(what);
     viewport().setCursor({10.0, 2000.0});
     pressSpace();
     QTRY_VERIFY(cursor() > 10.5);

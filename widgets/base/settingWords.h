@@ -16,6 +16,9 @@ QString stageLabel(const QString &prefix);
 /// "halfDown" → "half rounds down".
 QString choiceLabel(const QString &choice);
 
+/// An example of what to type into an empty field, e.g. "all, or 0, 1" for channels. Empty for most settings.
+QString settingExample(const QString &name);
+
 /// Whether a setting is folded under "More".
 bool isSeldomUsed(const QString &name);
 

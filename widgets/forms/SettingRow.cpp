@@ -192,6 +192,7 @@ void SettingRow::makeEditor()
             break;
         }
         auto *edit = new QLineEdit;
+        edit->setPlaceholderText(settingExample(QString::fromStdString(m_info.name)));
         connect(edit, &QLineEdit::editingFinished, this, [this, edit] {
             if (edit->isModified())
                 acceptText(edit->text());

@@ -178,9 +178,14 @@ QString WaterfallPicture::valueUnit() const
 
 void WaterfallPicture::setStatisticUnit(const QString &unit, const QString &heading)
 {
-    if (unit == m_statisticUnit && heading == m_heading)
-        return;
     m_statisticUnit = unit;
+    setHeading(heading);
+}
+
+void WaterfallPicture::setHeading(const QString &heading)
+{
+    if (heading == m_heading)
+        return;
     m_heading = heading;
     setAccessibleName(tr("%1 waterfall").arg(heading));
     restyle();

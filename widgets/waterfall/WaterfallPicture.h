@@ -82,6 +82,7 @@ public:
     bool hasTime() const;      ///< as the picture's own axis
     /// Unit of the statistic, by default "nat", and a heading that contains it.
     void setStatisticUnit(const QString &unit, const QString &heading);
+    void setHeading(const QString &heading);
 
     /// Value of the cell, at the finest level stored; nothing outside the picture.
     std::optional<double> valueAt(double seconds, double hz) const;
