@@ -8,6 +8,7 @@ import collections
 import json
 import os
 import random
+import re
 import signal
 import socket
 import struct
@@ -23,6 +24,7 @@ RATE = 48000
 BLOCK = RATE // 20  # samples
 SETTINGS = ["--set", "spectrogram.windowSeconds=1", "--set", "decide.falseAlarmsPerHour=1"]
 MB = 1e6
+BEGINNING = 600  # s of each hour that its memory is not measured in: the first has the calibration in them
 
 
 def fail(words):
@@ -57,8 +59,13 @@ def cpuSeconds(pid):
     return (int(words[11]) + int(words[12])) / os.sysconf("SC_CLK_TCK")
 
 
-def memory(pid):
-    return int(open(f"/proc/{pid}/statm").read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+def memory(pid, kind):
+    """Bytes that are resident: VmRSS now, VmHWM the most since that was forgotten."""
+    return 1024 * int(re.search(kind + r":\s+(\d+) kB", open(f"/proc/{pid}/status").read())[1])
+
+
+def forgetMost(pid):
+    open(f"/proc/{pid}/clear_refs", "w").write("5")
 
 
 def listen(cli, folder, source, **more):
@@ -91,8 +98,11 @@ def pipe(cli, folder, hours):
         with open(f"{folder}/hour", "rb") as file:
             while second := file.read(2 * RATE):
                 process.stdin.write(second)
-                resident.append(memory(process.pid))
-        hourly.append((min(resident), max(resident), sum(resident) / len(resident), cpuSeconds(process.pid)))
+                resident.append(memory(process.pid, "VmRSS"))
+                if len(resident) == BEGINNING:
+                    forgetMost(process.pid)
+        settled = resident[BEGINNING:]
+        hourly.append((min(settled), memory(process.pid, "VmHWM"), sum(settled) / len(settled), cpuSeconds(process.pid)))
         least, most, mean, cpu = hourly[-1]
         print(f"hour {hour + 1}: {least / MB:.1f} … {most / MB:.1f} MB, mean {mean / MB:.2f}; {cpu:.0f} s of a processor", flush=True)
     process.stdin.close()

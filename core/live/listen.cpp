@@ -137,6 +137,8 @@ namespace {
                 take(frame, first + spectrogram.windowSamples());
                 m_buffer->release(first + spectrogram.hopSamples());
             }
+            if (m_prepared.valid() || (m_sinks.wish && m_sinks.wish()))
+                tellTooLate();
             end();
             sortEvents(m_result.events);
         }
@@ -217,6 +219,13 @@ namespace {
                   std::string("Listening goes on with the settings before: ") + error.what()});
         }
 
+        void tellTooLate()
+        {
+            tell({ListenNotice::Kind::Refused, m_buffer->length(), 0,
+                  "Listening ended before the changed settings were in force: its events are those of the settings "
+                  "before."});
+        }
+
         /// Calibrates for other settings beside the run, which takes seconds the first time. The newest wish wins.
         void prepare(const AnalysisSettings &settings)
         {
@@ -253,8 +262,10 @@ namespace {
             m_buffer->widen(bytesFor(next.settings));
             m_buffer->waitFor(spectrogram->firstSample()
                               + CausalSpectrogram::samplesOfFirstBlock(*spectrogram, settings.noise));
-            if (m_buffer->length() < spectrogram->firstSample() + spectrogram->windowSamples())
-                return frame; // it ended meanwhile
+            if (m_buffer->length() < spectrogram->firstSample() + spectrogram->windowSamples()) {
+                tellTooLate(); // it ended meanwhile
+                return frame;
+            }
             normalisePlan(next, spectrogram, m_context);
             calibratePlan(next, m_context);
             end();

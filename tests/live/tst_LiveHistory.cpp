@@ -27,6 +27,7 @@ private slots:
     void anotherDetectorBeginsAnew();
     void otherFramesBeginAnew();
     void refusesWhatCannotBe();
+    void tellsOfSettingsThatCameTooLate();
 
 private:
     QTemporaryDir m_folder;
@@ -269,6 +270,19 @@ void tst_LiveHistory::refusesWhatCannotBe()
     QVERIFY(live->refusals[0].find("selection.lowHz") != std::string::npos);
     QVERIFY(live->history.view().changes.empty());
     QVERIFY(live->result.isAnalysedToTheEnd);
+}
+
+// Asked for behind the last frame, which begins at 59.75 s.
+void tst_LiveHistory::tellsOfSettingsThatCameTooLate()
+{
+    AnalysisSettings other = settings().analysis;
+    other.decide.falseAlarmsPerHour = 5.0;
+    const auto live = run(scene(60.0), settings(), 59.74, other);
+    QCOMPARE(live->refusals.size(), std::size_t(1));
+    QVERIFY2(live->refusals[0].starts_with("Listening ended before the changed settings were in force"),
+             live->refusals[0].c_str());
+    QVERIFY(live->history.view().changes.empty());
+    QCOMPARE(live->result.plan.settings.decide.falseAlarmsPerHour, 60.0);
 }
 
 QTEST_APPLESS_MAIN(tst_LiveHistory)
