@@ -69,6 +69,7 @@ namespace {
             m_result.lostCount = m_hearing.lostCount();
             m_result.isRecordedWhole = m_hearing.isRecordedWhole();
             m_result.files = m_hearing.files();
+            m_result.recording = m_hearing.whole();
             return std::move(m_result);
         }
 
@@ -117,7 +118,16 @@ namespace {
                 std::make_shared<Spectrogram>(plan.recording, settings.spectrogram, settings.selection);
             normalisePlan(plan, spectrogram, m_context);
             calibratePlan(plan, m_context);
+            tellRecording();
             return true;
+        }
+
+        void tellRecording()
+        {
+            const auto written = m_hearing.written();
+            const std::lock_guard lock(m_mutex);
+            if (written && m_sinks.recording)
+                m_sinks.recording(written);
         }
 
         void analyse()

@@ -7,7 +7,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index blockSamples = 8192;
+    constexpr Index blockSamples = BandRecording::reachSamples;
 
     /// Of every bin of a block, whose transform is not divided by its length.
     std::vector<float> gainsOf(const RecordingInfo &info, double lowHz, double highHz)

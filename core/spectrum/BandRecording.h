@@ -12,6 +12,9 @@ namespace faintline {
 class BandRecording final : public Recording
 {
 public:
+    /// A sample is made from so many behind it, at most.
+    static constexpr Index reachSamples = 8192;
+
     /// What of the band lies outside the recording's is left out; of a band upside down nothing is left.
     BandRecording(RecordingPointer base, int channel, double lowHz, double highHz);
 
