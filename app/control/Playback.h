@@ -3,6 +3,7 @@
 #include "analysis/events.h"
 #include "base/Error.h"
 #include "live/Player.h"
+#include "widgets/base/Span.h"
 
 #include <QObject>
 #include <QTimer>
@@ -19,6 +20,9 @@ class Document;
 
 /// Plays what is looked at as sound, and has the cursor follow it: the measured box, or from the cursor to the end of what
 /// is visible. Where the cursor is put meanwhile, it plays on from there.
+///
+/// Or plays what is listened to, as it comes: all of it, a band or a line, from the recording that is being written. The
+/// cursor stays then, and how far the sound is behind is told.
 class Playback : public QObject
 {
     Q_OBJECT
@@ -42,13 +46,29 @@ public:
     bool isPlaying() const { return m_player != nullptr; }
     /// Whether sound was begun; false, with `failed`, where there is none to be had.
     bool start();
+    /// The same of what is listened to.
+    bool startLive();
     void stop();
 
 signals:
     void playingChanged(bool isPlaying);
+    void hearingChanged(bool isHearing); ///< what is listened to
+    void delayChanged(double seconds);   ///< of it
     void failed(const faintline::Error &error);
 
 private:
+    /// What is played of a live run: a change of it begins anew.
+    struct LiveChoice {
+        What what = What::Recording;
+        Span band; ///< of the box, or what is visible; of a line its frequency
+        bool operator==(const LiveChoice &) const = default;
+    };
+
+    LiveChoice liveChoice() const;
+    std::unique_ptr<Player> makeLivePlayer() const;
+    void followLive();
+    bool begin(bool isLive);
+    Span band() const;
     PlaySettings stretch() const;
     std::unique_ptr<Player> makePlayer() const;
     FrequencyCurve line() const;
@@ -62,6 +82,8 @@ private:
     double m_speed = 1.0;
     bool m_isLooping = false;
     std::unique_ptr<Player> m_player;
+    std::optional<LiveChoice> m_liveChoice; ///< none: what is played is no live run
+    LiveChoice m_wanted;
     double m_shownSeconds = 0.0; ///< where the cursor was put last
     QTimer m_timer;
 };
