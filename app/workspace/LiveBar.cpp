@@ -32,7 +32,6 @@ LiveBar::LiveBar(Document &document, LiveRun &run, QWidget *parent)
     m_label->setTextFormat(Qt::RichText);
     m_label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     m_label->setAccessibleName(tr("Live"));
-    m_hear->setText(tr("Hear"));
     m_hear->setObjectName(QStringLiteral("hear"));
     m_hear->setCheckable(true);
     m_hear->setToolTip(tr("Play what comes in: all of it, the band of the box, or a line (Detect > Play what)"));
@@ -118,6 +117,7 @@ void LiveBar::refresh()
     const double now = double(QDateTime::currentMSecsSinceEpoch()) * 1e-3;
     const bool isFollowing = m_document.viewport().isFollowing();
     m_hold->setText(isFollowing ? tr("Hold") : tr("To the newest"));
+    m_hear->setText(m_hear->isChecked() ? tr("Mute") : tr("Hear"));
     m_hold->setVisible(m_document.isLive());
     m_hear->setVisible(m_document.isLive());
     m_stop->setEnabled(m_run.isRunning() && !state.isStopping);
