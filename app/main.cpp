@@ -6,6 +6,7 @@
 #include "app/render/replayPicture.h"
 #include "app/window/MainWindow.h"
 #include "app/window/programWindows.h"
+#include "base/keepNoHoles.h"
 #include "base/oneLine.h"
 #include "base/standardStreams.h"
 #include "widgets/base/icon.h"
@@ -21,10 +22,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
-
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 namespace faintline {
 
@@ -240,18 +237,9 @@ namespace {
         return runRender(argc, argv, {picture.size(), scaleOf(picture)}, options, replay);
     }
 
-    /// Arrays of a MiB and more go back to the system as they are let go. By itself the C library raises that limit to
-    /// 32 MiB, and what tuning makes and drops leaves holes of some hundred MiB.
-    void keepNoHoles()
-    {
-#ifdef __GLIBC__
-        mallopt(M_MMAP_THRESHOLD, 1 << 20);
-#endif
-    }
-
     int runWindow(int argc, char *argv[], const std::vector<std::string> &files, const OpenOptions &options)
     {
-        keepNoHoles();
+        keepNoHoles(1 << 20); // of what tuning makes and drops
         Theme::prepareEnvironment();
         const QtMessageHandler before = qInstallMessageHandler(missScreen);
         QApplication application(argc, argv);

@@ -75,6 +75,7 @@ SpectrumPanel::SpectrumPanel(Document &document, QWidget *parent)
     connect(&document.viewport(), &Viewport::cursorChanged, this, &SpectrumPanel::follow);
     connect(&document.viewport(), &Viewport::spanChanged, this, &SpectrumPanel::follow);
     connect(&document.viewport(), &Viewport::scaleChanged, this, &SpectrumPanel::show);
+    connect(&document.viewport(), &Viewport::followingChanged, this, &SpectrumPanel::follow);
     connect(&m_runner, &JobRunner::finished, this, &SpectrumPanel::settled);
     connect(&m_runner, &JobRunner::cancelled, this, &SpectrumPanel::settled);
     connect(&m_runner, &JobRunner::failed, this, &SpectrumPanel::settled);
@@ -90,10 +91,12 @@ void SpectrumPanel::follow()
 {
     m_level->setEnabled(!m_document.isEmpty() && m_document.recording());
     m_calibration->setVisible(chosenLevel() == SpectrumLevel::Density);
-    const auto analysis = m_document.lineAnalysis();
-    if (!analysis || !m_sight->isOn())
-        return;
+    if (!m_sight->isOn() || (m_document.isLive() && m_document.viewport().isFollowing()))
+        return; // a picture that moves is read when it is held
     const Span visible = m_document.viewport().time();
+    const auto analysis = m_document.inspectedUntil(visible.high);
+    if (!analysis)
+        return;
     const auto &cursor = m_document.viewport().cursor();
     const double seconds = cursor ? cursor->seconds : visible.middle();
     const SpectrumLevel level = m_document.recording() ? chosenLevel() : SpectrumLevel::OverNoise;

@@ -272,12 +272,12 @@ void WhyPanel::say(const QString &sentence)
 
 void WhyPanel::explainCursor()
 {
-    const auto &analysis = m_document.analysis();
-    if (!analysis)
-        return emit settled();
     const auto at = cursorOf(m_document, m_viewports);
     if (!at)
         return emit settled();
+    const auto analysis = m_document.isLive() ? m_document.inspectedUntil(at->seconds) : m_document.analysis();
+    if (!analysis)
+        return m_document.isLive() ? say(tr("Other settings were in force there.")) : emit settled();
     if (!std::holds_alternative<SmdSettings>(analysis->settings.detector))
         return say(tr("Only the sequential Markov detector decides along a path; choose it to see why."));
     m_began.start();

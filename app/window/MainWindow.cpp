@@ -354,9 +354,10 @@ void MainWindow::showDoppler()
 /// As sound; without it the cursor moves all the same. Live, the picture goes on.
 void MainWindow::setPlaying(bool isPlaying)
 {
-    if (!isPlaying)
+    const bool isLive = m_document.isLive();
+    if (!isPlaying && !isLive)
         m_playback->stop();
-    else if (&bench() == m_workbench && !m_document.isLive() && (m_playback->isPlaying() || m_playback->start()))
+    else if (isPlaying && &bench() == m_workbench && !isLive && (m_playback->isPlaying() || m_playback->start()))
         return;
     bench().setPlaying(isPlaying);
 }

@@ -139,8 +139,9 @@ void MainWindow::connectController()
     connect(m_report, &ReportWriter::progressed, m_activity, &ActivityBar::setProgress);
     connect(m_activity, &ActivityBar::cancelRequested, m_report, &ReportWriter::cancel);
     connect(m_playback, &Playback::failed, this, [this](const Error &error) {
+        const QString why = QString::fromStdString(error.why());
         m_messages->showMessage(MessageBar::Kind::Notice, QString::fromStdString(error.where()),
-                                tr("%1; the cursor moves without sound").arg(QString::fromStdString(error.why())));
+                                m_document.isLive() ? why : tr("%1; the cursor moves without sound").arg(why));
     });
     connect(m_playback, &Playback::soundless, this, [this] { bench().setPlaying(true); });
     connect(m_report, &ReportWriter::failed, this, &MainWindow::showError);

@@ -163,7 +163,9 @@ void Workbench::linkViews()
         whenInUse(view, &WaterfallView::hoverEnded, &Workbench::readCursor);
     }
     connect(m_output, &WaterfallView::shownPictureChanged, this, [this] {
-        if (m_document.analysis() && isInUse())
+        if (!isInUse() || (m_document.isLive() && !isStripDue()))
+            return;
+        if (m_document.analysis() || m_document.isLive())
             m_statistic->setProfile(tr("D at the cursor"), m_output->shownPicture(), m_output->frequencyAxis());
     });
     whenInUse(viewport, &Viewport::cursorChanged, &Workbench::readCursor);
@@ -249,9 +251,12 @@ void Workbench::showLive()
         m_input->setHeading(inputHeading(false));
         m_input->setPicture(live.input, frequency);
         m_output->setPicture(live.statistic, frequency);
+        m_statistic->setEmptySentence(tr("Click a picture to plot D at that frequency over time."));
     }
-    m_input->setGrownPicture(live.input, live.newInput);
-    m_output->setGrownPicture(live.statistic, live.newStatistic);
+    const auto lookedBack = m_closeup->lookedBackAt(*m_input);
+    m_input->setGrownPicture(live.input, lookedBack ? lookedBack : live.newInput);
+    const auto lookedBackOut = m_closeup->lookedBackAt(*m_output);
+    m_output->setGrownPicture(live.statistic, lookedBackOut ? lookedBackOut : live.newStatistic);
     growExtents(live);
     showLiveTracks();
     if (isChanged) {
@@ -263,6 +268,16 @@ void Workbench::showLive()
         showOrigin();
     }
     m_isToBePainted = true;
+}
+
+/// It is read anew a few times a second, for as long as there is a cursor to read it at.
+bool Workbench::isStripDue()
+{
+    constexpr qint64 stripMs = 200;
+    if (!m_document.viewport().cursor() || (m_stripAge.isValid() && m_stripAge.elapsed() < stripMs))
+        return false;
+    m_stripAge.start();
+    return true;
 }
 
 /// Those in sight, of what may be a day's.
@@ -503,7 +518,7 @@ void Workbench::showStrips()
 {
     constexpr int enoughForOne = 340;
     constexpr int enoughForBoth = 520;
-    m_statistic->setVisible(height() >= enoughForOne && !m_document.isLive());
+    m_statistic->setVisible(height() >= enoughForOne);
     m_regulation->setVisible(height() >= enoughForBoth && !m_document.isLive());
 }
 

@@ -4,6 +4,7 @@
 #include "widgets/base/ReadOut.h"
 #include "widgets/waterfall/WaterfallView.h"
 
+#include <QElapsedTimer>
 #include <QTimer>
 
 class QSplitter;
@@ -80,6 +81,7 @@ private:
     void showLive();
     void showLiveTracks();
     void growExtents(const LiveView &live);
+    bool isStripDue();
     void markChanges();
     void showStrips();
     void placeCursor();
@@ -100,6 +102,7 @@ private:
     QTimer m_player;
     bool m_isFirstAnalysis = true; ///< of what is open
     bool m_isFirstPicture = true;
+    QElapsedTimer m_stripAge;                       ///< of a live run's
     std::shared_ptr<const AnalysisPlan> m_livePlan; ///< of the live picture shown
     Index m_colouredFrames = 0;                     ///< it had when its colours were chosen
     bool m_isToBePainted = false;

@@ -7,7 +7,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index blockSamples = 8192;
+    constexpr Index blockSamples = BandRecording::reachSamples;
 
     /// Gains of each bin of a block; the transform is not divided by its length.
     std::vector<float> gainsOf(const RecordingInfo &info, double lowHz, double highHz)

@@ -13,6 +13,9 @@ namespace faintline {
 class BandRecording final : public Recording
 {
 public:
+    /// Largest number of samples that a sample of the band depends on.
+    static constexpr Index reachSamples = 8192;
+
     /// The band is clipped to the recording's; with lowHz > highHz nothing passes.
     BandRecording(RecordingPointer base, int channel, double lowHz, double highHz);
 

@@ -36,10 +36,17 @@ public:
     /// Number of samples that the first frame needs, counted from the first selected one.
     static Index samplesOfFirstBlock(const Spectrogram &spectrogram, const NormaliserSettings &settings);
 
+    /// Of samples that pass by, whose background is carried on once, states are kept from now on, for `over`.
+    void keepStates() const;
+    /// The same frames of a recording with the same samples, from the states that were kept of these. Reads nothing.
+    std::shared_ptr<const CausalSpectrogram> over(std::shared_ptr<const Spectrogram> spectrogram) const;
+
     /// Background of the first block, valid at any time.
     std::shared_ptr<const NoiseBackground> firstBackground() const { return m_firstBackground; }
 
 private:
+    CausalSpectrogram(std::shared_ptr<const Spectrogram> spectrogram, const CausalSpectrogram &like);
+
     CausalBackground begin() const;
     void goTo(Index frame) const;
     const NoiseBackground &step() const;
@@ -54,6 +61,7 @@ private:
     mutable std::optional<CausalBackground> m_background;
     mutable Index m_next = 0; ///< next frame for m_background
     mutable Checkpoints<CausalBackground> m_kept;
+    mutable bool m_keepsStates;
     mutable std::vector<float> m_power;
 };
 
