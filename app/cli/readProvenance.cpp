@@ -11,7 +11,7 @@ namespace faintline::cli {
 
 namespace {
 
-    // Names are bytes, and need not be the text that JSON holds.
+    // Names are bytes and need not be valid text for JSON.
     std::string nameFrom(const Json &text)
     {
         return fileNameFromText(text.get<std::string>());
@@ -48,7 +48,7 @@ Provenance readProvenance(const std::string &path)
                               namesFrom(json.at("outputs"))};
         for (const Json &input : json.at("inputs"))
             provenance.inputs.emplace_back(nameFrom(input.at("file")), input.at("hash"));
-        // What was not written by one of these might do anything, or call itself.
+        // Other commands are rejected: they might do anything, or run replay again.
         constexpr std::string_view commands[]{"detect", "compare", "simulate", "inject", "straighten", "doppler"};
         provenance.arguments = fromCommandOn(provenance.arguments);
         const bool isKnown =

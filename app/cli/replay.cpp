@@ -39,7 +39,7 @@ namespace {
         return texts;
     }
 
-    /// A folder that goes with everything in it.
+    /// A folder that is removed with its contents.
     class TemporaryFolder
     {
     public:
@@ -67,8 +67,8 @@ namespace {
         fs::path m_path;
     };
 
-    /// Where replay may read: in the folder in which the result lies, and in those that the user allows besides.
-    /// Whoever wrote the provenance may name any file of this machine.
+    /// Folders that replay may read: the result's folder and those that the user allows. The author of a provenance
+    /// record may name any file of this machine.
     class ReadableFolders
     {
     public:
@@ -84,7 +84,7 @@ namespace {
             }
         }
 
-        /// Throws where a path, through all links, leads out of them.
+        /// Throws if a path, with all links resolved, leads out of them.
         void check(const std::string &path) const
         {
             const fs::path real = fs::weakly_canonical(path);
@@ -112,7 +112,7 @@ namespace {
         try {
             samples = SigmfRecording::dataPath(file);
         } catch (const Error &) {
-            return; // nothing that could be opened as a recording
+            return; // cannot be opened as a recording
         }
         readable.check(samples);
     }
@@ -126,7 +126,7 @@ namespace {
         return std::equal(std::istreambuf_iterator<char>(first), {}, std::istreambuf_iterator<char>(second), {});
     }
 
-    /// Whether it is; says so.
+    /// Prints and returns whether the files are identical.
     bool compare(const fs::path &kept, const fs::path &remade)
     {
         const bool isSame = sameBytes(kept, remade);

@@ -21,7 +21,7 @@ namespace {
         return std::clamp(QString::number(value, 'g', 3).toDouble(), info.minimum, info.maximum);
     }
 
-    /// The settings that put the threshold there.
+    /// The settings that place the threshold at this value.
     DecideSettings decideAt(DecideSettings decide, DecideSettings::By by, double nats, const AnalysisPlan &analysis)
     {
         decide.by = by;
@@ -40,7 +40,7 @@ namespace {
         return decide;
     }
 
-    /// Whether noise exceeds a threshold so seldom that the rate cannot be set.
+    /// Whether noise exceeds a threshold too rarely for the rate to be set.
     bool isBeyondRates(DecideSettings::By by, double nats, const AnalysisPlan &analysis)
     {
         if (by == DecideSettings::By::FalseAlarmsPerHour)
@@ -155,7 +155,7 @@ void AnalysisController::setThresholdUnit(DecideSettings::By by)
 
 void AnalysisController::run()
 {
-    if (!m_document.isEmpty() && !m_isOpening && !m_document.isLive()) // what is live runs by itself
+    if (!m_document.isEmpty() && !m_isOpening && !m_document.isLive()) // a live document analyses itself
         startAnalysis();
 }
 
@@ -186,7 +186,7 @@ void AnalysisController::startAnalysis()
                 m_runner.deliver([this, settings, preview, frames] { showPreview(settings, preview, frames); });
             }
         }
-        // What is seen already is not taken away for a part of what comes.
+        // What is displayed is not replaced by a part of the new result.
         PictureSink pictures;
         if (!previous)
             pictures = [this](const PicturesSoFar &sofar) {
@@ -222,7 +222,7 @@ void AnalysisController::showPreview(const AnalysisSettings &settings, const Sta
     dropPartialPreview();
 }
 
-/// Who looks farther than the preview reaches sees the analysis there is.
+/// Outside the preview's range, the existing analysis is shown.
 void AnalysisController::dropPartialPreview()
 {
     const auto &shown = m_document.provisional();
@@ -302,10 +302,10 @@ void AnalysisController::deliver(const Opening &opening)
 
 void AnalysisController::end()
 {
-    // An opening that failed or was cancelled had displaced the analysis of what is still open.
+    // A failed or cancelled opening had removed the analysis of the document that is still open.
     if (std::exchange(m_isOpening, false) && !m_document.isEmpty() && !m_document.isCurrent())
         return startAnalysis();
-    m_document.setProvisional(nullptr); // of settings that could not be analysed
+    m_document.setProvisional(nullptr); // its settings could not be analysed
     emit busyChanged(false);
     restoreView();
     if (const auto first = std::exchange(m_firstEstimate, {});

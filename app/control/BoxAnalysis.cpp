@@ -55,7 +55,7 @@ AnalysisSettings inBox(AnalysisSettings settings, const Viewport::Box &box, doub
     SelectionSettings &selection = settings.selection;
     selection.fromSeconds = std::max(0.0, down(box.time.low, frameSeconds));
     selection.toSeconds = up(box.time.high, frameSeconds);
-    // The box of a family is one of its own axis; the band has to hold its members.
+    // The box of a family lies on the family's own axis; the band must contain its members.
     const auto [lowest, highest] = membersOf(settings.family, box.frequency.low, box.frequency.high);
     selection.lowHz = down(lowest, binHz);
     selection.highHz = up(highest, binHz);

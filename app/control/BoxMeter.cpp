@@ -45,7 +45,7 @@ void BoxMeter::measure()
     const auto [beginFrame, endFrame] = cellsOf(analysis->time(), selected->time);
     const auto [beginCell, endCell] = cellsOf(analysis->grid().axes.front(), selected->frequency);
     const FrameBox box{beginFrame, endFrame, beginCell, endCell};
-    const bool saysMean = analysis->input->framesPerRow(0) > 1; // else the picture itself does
+    const bool saysMean = analysis->input->framesPerRow(0) > 1; // otherwise the picture shows it
     m_runner.start([this, analysis, box, saysMean](const RunContext &context) -> JobRunner::Delivery {
         const bool isRest = analysis->unsubtracted != nullptr;
         const QString note = noteOf(boxLevels(*analysis, box, context), saysMean, isRest);

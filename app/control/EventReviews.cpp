@@ -27,8 +27,8 @@ namespace faintline {
 
 namespace {
 
-    constexpr int longestClass = 40; ///< letters shown
-    constexpr int keys = 9;          ///< that give a class
+    constexpr int longestClass = 40; ///< characters shown
+    constexpr int keys = 9;          ///< that assign a class
 
     /// "accepted, 12.3 … 45.6 s at 71.20: a note"
     QString lineOf(const Review &review)
@@ -126,7 +126,7 @@ void EventReviews::addClasses()
     QAction *none = menu->addAction(tr("&None"), this, [this] { classify({}); });
     none->setShortcut(QKeySequence(Qt::SHIFT | Qt::Key_U));
     for (QAction *action : menu->actions()) {
-        m_window->addAction(action); // a hidden menu's keys do nothing
+        m_window->addAction(action); // keys of a hidden menu have no effect
         m_classes << action;
     }
     m_table.table()->addAction(menu->menuAction());
@@ -337,7 +337,7 @@ void EventReviews::exportTracksTo(const QString &path)
 
 void EventReviews::writeProvenance(const QString &path, bool isOfTracks)
 {
-    // Only a threshold that is being dragged is not that of the settings.
+    // Only a threshold that is being dragged differs from the settings'.
     const bool isDragged = m_document.shownThreshold() != m_document.analysis()->threshold;
     m_provenance.with(
         [this, path, isOfTracks, isDragged, threshold = m_document.shownThreshold()](const std::string &provenance) {

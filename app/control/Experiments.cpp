@@ -186,7 +186,7 @@ void Experiments::startReproduction(const Entry &entry)
     });
 }
 
-/// In order of the runs, so that what is shown half-way does not depend on which thread was faster.
+/// In order of the runs, so that intermediate results do not depend on the threads' speed.
 void Experiments::addOutcome(int id, RunOutcome outcome)
 {
     Entry *entry = find(id);

@@ -75,7 +75,7 @@ LayerWindow PingLayerPlane::window(const Analysis &analysis) const
     const auto [ranges, bearings] = axes(analysis);
     const Viewport &viewport = m_viewports.map();
     const auto [firstRange, endRange] = cellsOf(ranges, viewport.time());
-    // On a cyclic axis the ends of a view all round are neighbours.
+    // On a cyclic axis, the ends of a full view are neighbours.
     const bool isAllRound = viewport.frequency().width() > bearings.step * double(bearings.count - 1);
     const auto [firstBeam, endBeam] =
         isAllRound ? std::pair(Index(0), bearings.count) : cellsOf(bearings, viewport.frequency());

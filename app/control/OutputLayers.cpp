@@ -156,7 +156,7 @@ void OutputLayers::followCursor(const LayerPlane &of)
 {
     if (&of.kind() != &m_document.frameKind() || !isWanted())
         return;
-    if (of.kind().isSeenSingly) // what is known of another frame is taken away at once
+    if (of.kind().isSeenSingly) // results for another frame are removed at once
         show();
     follow();
 }
@@ -179,7 +179,7 @@ std::optional<OutputLayers::Place> OutputLayers::cursor() const
     return at ? std::optional(placeOf(*at)) : std::nullopt;
 }
 
-/// The frame of which a picture is made, where it is made of one.
+/// The frame that a picture shows, if it shows a single one.
 std::optional<Index> OutputLayers::singleFrame(const std::optional<Place> &cursor) const
 {
     return m_document.frameKind().isSeenSingly && cursor ? std::optional(cursor->frame) : std::nullopt;

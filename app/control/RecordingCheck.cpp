@@ -10,10 +10,10 @@ namespace faintline {
 
 namespace {
 
-    constexpr double wantedHours = 2.0; ///< of noise, in all
+    constexpr double wantedHours = 2.0; ///< of noise, in total
     constexpr int mostRuns = 40;
 
-    /// As many as make up two hours, four at least.
+    /// Number of runs that make up `wantedHours`, from 4 to `mostRuns`.
     int runsFor(const Analysis &analysis)
     {
         const double hours = double(analysis.time().count) * analysis.time().step / 3600.0;
@@ -36,7 +36,7 @@ RecordingCheck::RecordingCheck(const Document &document, QObject *parent) : QObj
     connect(&document, &Document::analysisChanged, this, &RecordingCheck::look);
 }
 
-/// What was found with other settings no longer holds.
+/// Results for other settings are no longer valid.
 void RecordingCheck::forget()
 {
     stopCount();

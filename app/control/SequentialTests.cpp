@@ -119,7 +119,7 @@ void SequentialTests::start(const Selection &selection, const SprtSettings &sprt
 void SequentialTests::cancel()
 {
     m_runner.cancel();
-    ++m_generation; // nothing trickles in
+    ++m_generation; // discards results that still arrive
 }
 
 template <class Change>

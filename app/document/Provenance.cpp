@@ -33,7 +33,7 @@ Provenance::Provenance(const Document &document, QObject *parent) : QObject(pare
 
 void Provenance::with(std::function<void(const std::string &json)> use)
 {
-    const auto &analysis = m_document.analysis(); // what is seen is the analysis's, which may lag behind
+    const auto &analysis = m_document.analysis(); // the display shows the analysis, which may lag behind
     m_requests.push_back({m_document.source(), analysis ? analysis->settings : m_document.settings(),
                           m_document.annotations(), std::move(use)});
     if (!m_runner.isRunning())

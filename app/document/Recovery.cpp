@@ -50,7 +50,7 @@ QStringList Recovery::leftBehind(const QString &folder)
     const QFileInfoList files = QDir(folder).entryInfoList({QStringLiteral("*.faintline")}, QDir::Files, QDir::Time);
     for (const QFileInfo &file : files) {
         QLockFile lock(lockOf(file.filePath()));
-        lock.setStaleLockTime(0); // how old it is says nothing: only whether its process still lives
+        lock.setStaleLockTime(0); // age is irrelevant: only whether its process is still running counts
         if (lock.tryLock())
             result.append(file.filePath());
     }

@@ -34,11 +34,11 @@ namespace {
     NormalisedFramesPointer readStack(const QString &path)
     {
         auto frames = openFrames(pathBytes(path));
-        frameKindOf(frames->grid(), pathBytes(path)); // throws where they cannot be shown
+        frameKindOf(frames->grid(), pathBytes(path)); // throws if they cannot be displayed
         return frames;
     }
 
-    /// Without the lines that were added.
+    /// Without the added lines.
     OpenedSource openBase(Source source)
     {
         source.injections.clear();

@@ -27,7 +27,7 @@ namespace {
                                    [&](const std::string &ending) { return hasEnding(name, "." + ending); });
     }
 
-    /// Numbers with as many digits as any: 2 before 10.
+    /// Pads numbers with zeros: 2 sorts before 10.
     QString sortKey(const QString &path)
     {
         constexpr qsizetype digits = 20;

@@ -38,7 +38,7 @@ namespace {
         generator.setOutputDevice(&buffer);
         generator.setSize(view.size());
         generator.setViewBox(view.rect());
-        generator.setTitle(view.accessibleName().toHtmlEscaped()); // the generator leaves that to us
+        generator.setTitle(view.accessibleName().toHtmlEscaped()); // the generator does not escape it
         generator.setDescription(provenance.toHtmlEscaped());
         generator.setResolution(96); // a pixel stays a pixel
         QPainter painter(&generator);

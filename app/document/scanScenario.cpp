@@ -31,7 +31,7 @@ bool isScanScenario(const QString &path)
         const auto kind = json.is_object() ? json.find("kind") : json.end();
         return kind != json.end() && *kind == "scans";
     } catch (const Error &) {
-        return false; // whoever opens it says why
+        return false; // reported when it is opened
     }
 }
 

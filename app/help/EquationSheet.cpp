@@ -96,7 +96,7 @@ void EquationSheet::close()
 bool EquationSheet::event(QEvent *event)
 {
     if (event->type() == QEvent::ShortcutOverride && static_cast<QKeyEvent *>(event)->key() == Qt::Key_Escape)
-        event->accept(); // it closes the sheet, not the run
+        event->accept(); // closes the sheet rather than cancelling the run
     return QFrame::event(event);
 }
 

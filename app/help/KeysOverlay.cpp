@@ -20,7 +20,7 @@ namespace {
     constexpr int keyWidth = 165;
     constexpr int columnWidth = 440;
     constexpr int margin = 28;
-    constexpr int gap = 14; ///< between the view's own and the rest
+    constexpr int gap = 14; ///< between the view's keys and the others
 
     int heightOf(const std::vector<KeySection> &sections)
     {
@@ -83,14 +83,14 @@ void KeysOverlay::close()
 bool KeysOverlay::event(QEvent *event)
 {
     if (event->type() == QEvent::ShortcutOverride)
-        event->accept(); // while the sheet is up, keys are for the sheet
+        event->accept(); // keys apply to the sheet while it is open
     return QWidget::event(event);
 }
 
 void KeysOverlay::paintEvent(QPaintEvent *)
 {
     const Theme::Colours &colours = Theme::colours(*this);
-    // What the view has for itself stands above, in two halves; what holds everywhere below.
+    // The keys of the view are above, in two halves; those valid everywhere are below.
     const KeySection own = keysOfView(m_view);
     const auto rows = std::ptrdiff_t(own.entries.size() + 1) / 2;
     const KeySection halves[2]{{own.title, {own.entries.begin(), own.entries.begin() + rows}},

@@ -257,7 +257,7 @@ bool isLesson(const QString &path)
         const Json json = parseJson(textOf(path), pathBytes(path));
         return json.is_object() && json.contains("steps");
     } catch (const Error &) {
-        return false; // whoever opens it says why
+        return false; // reported when it is opened
     }
 }
 

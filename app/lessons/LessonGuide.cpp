@@ -50,7 +50,7 @@ LessonGuide::LessonGuide(QMainWindow &window, WindowParts &parts)
     m_dock->setObjectName(QStringLiteral("lessonDock"));
     m_dock->setWidget(m_panel);
     m_dock->setFeatures(QDockWidget::DockWidgetMovable
-                        | QDockWidget::DockWidgetFloatable); // one leaves a lesson by its button
+                        | QDockWidget::DockWidgetFloatable); // a lesson is left with its button
     m_dock->hide();
     // Layouts are restored from when a lesson was running.
     connect(m_dock, &QDockWidget::visibilityChanged, this, [this](bool isVisible) {
@@ -80,7 +80,7 @@ void LessonGuide::goTo(int step)
         leave();
         return emit finished();
     }
-    m_watch.stop(); // until there is something to watch
+    m_watch.stop(); // until a condition has to be watched
     m_step = step;
     m_isReady = m_isRevealed = false;
     m_frame->pointAt(nullptr);
@@ -104,7 +104,7 @@ std::vector<LessonStep> LessonGuide::stepsNow() const
     return {m_lesson.steps.begin() + openingStep(), m_lesson.steps.begin() + m_step + 1};
 }
 
-/// Opens and sets what the step needs; `check` notices when the window has settled.
+/// Opens the source and applies the settings that the step needs; `check` notices when the window has settled.
 void LessonGuide::set()
 {
     const QString path = m_lesson.steps[std::size_t(openingStep())].open;
@@ -116,18 +116,18 @@ void LessonGuide::set()
         m_parts.openNow(
             path, {}, [steps = stepsNow()](AnalysisSettings &settings) { settings = settingsAfter(steps, settings); });
         m_opened = path;
-        if (!m_parts.controller().isBusy()) // the user would rather keep what is open, or it cannot be opened
+        if (!m_parts.controller().isBusy()) // the user keeps the open document, or the source cannot be opened
             leave();
     } else {
         const bool wasSaved = !document.isModified();
         document.edit(settingsAfter(stepsNow(), firstSettings(document.openedSource())),
                       tr("Lesson: %1").arg(now().title));
         if (wasSaved)
-            document.undoStack().setClean(); // what a lesson changes is nothing to save
+            document.undoStack().setClean(); // changes made by a lesson need not be saved
     }
 }
 
-/// Runs the tests of a radar's scenario, unless it is just these that are there.
+/// Runs the tests of a radar's scenario, unless the same tests are open already.
 void LessonGuide::setScans(const QString &path)
 {
     try {
@@ -150,7 +150,7 @@ void LessonGuide::check()
         return;
     const bool isOfScans = isScanScenario(m_opened);
     if (!isOfScans && m_parts.document().source().path != m_opened)
-        return leave(); // something else is open now
+        return leave(); // another document is open now
     showPanel();
     if (!m_isReady && !std::exchange(m_isRevealed, true))
         return reveal(widgetNamed(now().point));
@@ -165,7 +165,7 @@ void LessonGuide::check()
         m_panel->setDone(true);
 }
 
-/// Brings into view what the step is about.
+/// Scrolls the step's subject into view.
 void LessonGuide::arrange()
 {
     const LessonStep &step = now();
@@ -184,7 +184,7 @@ void LessonGuide::arrange()
     m_frame->pointAt(target);
 }
 
-/// To the front of the tabs it is among.
+/// Raises it among its tabs.
 void LessonGuide::reveal(QWidget *widget)
 {
     for (QWidget *each = widget; each; each = each->parentWidget()) {
@@ -239,7 +239,7 @@ void LessonGuide::showPanel()
     m_window.resizeDocks({m_dock}, {m_window.width() * panelPercent / 100}, Qt::Horizontal);
 }
 
-/// In a presentation the words are larger, and of the panels only what the step needs is there.
+/// In a presentation the text is larger, and only the panels that the step needs are visible.
 void LessonGuide::present(bool isPresenting)
 {
     m_panel->setLarge(isPresenting);

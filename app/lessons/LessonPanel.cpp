@@ -24,9 +24,9 @@ namespace faintline {
 namespace {
 
     constexpr int plainSize = 14;
-    constexpr int largeSize = 26; ///< read from the last row
+    constexpr int largeSize = 26; ///< readable from the last row
 
-    /// A choice whose words wrap: a radio button would not wrap its own.
+    /// A choice with wrapped text; QRadioButton does not wrap.
     QWidget *choiceRow(QRadioButton *button, QLabel *words)
     {
         auto *row = new QWidget;
@@ -100,7 +100,7 @@ void LessonPanel::setStep(const Lesson &lesson, int step)
 
 void LessonPanel::setLarge(bool isLarge)
 {
-    constexpr int largeWidth = 500; // some thirty letters a line
+    constexpr int largeWidth = 500; // about thirty characters per line
     setMinimumWidth(isLarge ? largeWidth : 0);
     if (std::exchange(m_isLarge, isLarge) == isLarge || m_step < 0)
         return;

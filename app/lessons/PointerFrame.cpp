@@ -11,7 +11,7 @@ namespace faintline {
 namespace {
 
     constexpr int lineWidth = 3;
-    constexpr int room = 4; ///< between what is framed and the frame's outer edge
+    constexpr int room = 4; ///< between the framed widget and the frame's outer edge
 
 } // namespace
 
@@ -68,7 +68,8 @@ bool PointerFrame::eventFilter(QObject *watched, QEvent *event)
     case QEvent::Hide:
     case QEvent::ParentChange:
     case QEvent::LayoutRequest:
-        QMetaObject::invokeMethod(this, &PointerFrame::follow, Qt::QueuedConnection); // once it is where it goes
+        QMetaObject::invokeMethod(this, &PointerFrame::follow, Qt::QueuedConnection); // after the layout has been
+                                                                                      // applied
         break;
     default:
         break;

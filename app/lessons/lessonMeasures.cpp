@@ -22,7 +22,7 @@ namespace {
     using Value = std::optional<FieldValue>;
     using Measure = std::function<Value(WindowParts &)>;
 
-    /// A measure of what was analysed.
+    /// A measure of the analysis.
     template <class F>
     Measure ofAnalysis(F f)
     {
@@ -84,11 +84,11 @@ namespace {
 
     // ---- truth and tracks -------------------------------------------------------------------------------------------
 
-    /// The cell that the truth's line or target fills in a frame; nothing where it is not there.
+    /// The cell of the truth's line or target in a frame; empty if it is absent there.
     std::optional<Index> truthCell(const Document &document, std::size_t line, Index frame)
     {
         const Analysis &analysis = *document.analysis();
-        const auto &targets = document.pingTruth().targets; // a truth has either these or lines
+        const auto &targets = document.pingTruth().targets; // a truth has either targets or lines
         if (line < targets.size()) {
             const Index cell = targets[line].cellAt(frame);
             return cell < 0 ? std::nullopt : std::optional(cell);
@@ -199,7 +199,7 @@ namespace {
         return double(wrong);
     }
 
-    /// Mean over the steps of the path that the ladder shows.
+    /// Mean over the steps of the displayed path.
     Value lnTransitionOfPath(WindowParts &window)
     {
         const auto &explanation = window.why().explanation();

@@ -30,7 +30,7 @@ namespace {
 
     enum Column { InColumn, Onset, Place, DetectedA, DetectedB, StatisticA, StatisticB, ColumnCount };
 
-    /// A cell that shows one thing and sorts by another; cells without a number come last.
+    /// A cell that displays one value and is sorted by another; cells without a number come last.
     class Cell : public QTableWidgetItem
     {
     public:

@@ -169,7 +169,7 @@ void EvaluatePanel::showPd(const Experiments::Entry &entry)
     showOperatingPoint(entry);
 }
 
-/// Follows the threshold under the user's finger, on curves that are there.
+/// Follows the threshold while it is dragged, on existing curves.
 void EvaluatePanel::showOperatingPoint(const Experiments::Entry &entry)
 {
     const auto shown = [](Chart chart, const std::optional<Curve> &extra) {
@@ -193,7 +193,7 @@ std::size_t EvaluatePanel::shownSnr() const
     return std::size_t(std::max(m_snr->currentIndex(), 0));
 }
 
-/// Only while it is looked at: it costs more than Pd.
+/// Only while visible: it costs more than Pd.
 void EvaluatePanel::showRoc(const Experiments::Entry &entry)
 {
     if (m_tabs->currentIndex() != 1)

@@ -37,7 +37,7 @@ namespace {
         lines.frames = needed * 3 + needed / 2;
     }
 
-    /// Inputs beside each other, with a word between them.
+    /// Inputs side by side with a word between them.
     QHBoxLayout *row(QWidget *first, std::initializer_list<std::pair<QString, QWidget *>> others)
     {
         auto *layout = new QHBoxLayout;
@@ -100,7 +100,7 @@ ExperimentForm::ExperimentForm(QWidget *parent)
     showMeaning();
 }
 
-/// The current one, then the peers, in two columns.
+/// The current detector, then the peers, in two columns.
 QLayout *ExperimentForm::buildDetectors()
 {
     auto *detectors = new QGridLayout;
@@ -141,7 +141,7 @@ void ExperimentForm::setCurrent(const AnalysisSettings &settings, double windowS
     emit changed();
 }
 
-/// In a recording a line has to fit, with noise on either side.
+/// In a recording, a line must fit with noise on either side.
 void ExperimentForm::fitDuration()
 {
     if (isInRecording() && m_duration->value() * m_windowSeconds > 0.5 * m_recordingSeconds)

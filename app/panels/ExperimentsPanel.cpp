@@ -148,7 +148,7 @@ int ExperimentsPanel::importFile(const QString &path)
                                 : m_experiments.add(name, readCurve(file));
 }
 
-/// The curve, and beside it the experiment that `evaluate` makes it from again.
+/// Saves the curve together with the experiment from which `evaluate` can reproduce it.
 static void writeWithOrigin(const Campaign &campaign, const QString &path)
 {
     writeCurve(campaign, pathBytes(path));

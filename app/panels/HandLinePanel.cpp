@@ -24,7 +24,7 @@ namespace faintline {
 
 namespace {
 
-    /// Hides what is under it until one has made up one's mind.
+    /// Hides what is below it until the user has decided.
     class Cover : public QWidget
     {
     public:
@@ -166,7 +166,7 @@ HandLinePanel::Comparison HandLinePanel::compare(const Analysis &analysis, const
                 sum += std::abs(double(a[i].cell - b[i].cell));
             return a.empty() ? 0.0 : sum / double(a.size());
         };
-        // Of tracks side by side the nearer one; a long one beats a scrap.
+        // Of parallel tracks the nearer one; a long track takes precedence over a fragment.
         const bool isBetter = mine.size() > 2 * ownThere.size()
                               || (2 * mine.size() > ownThere.size() && apart(mine, theirs) < apart(ownThere, detector));
         if (mine.empty() || !isBetter)
@@ -265,7 +265,7 @@ void HandLinePanel::setCovered(bool isCovered)
     showSentence();
 }
 
-/// Out of sight it takes no clicks and hides nothing.
+/// While hidden it neither takes clicks nor covers anything.
 void HandLinePanel::hideEvent(QHideEvent *event)
 {
     QWidget::hideEvent(event);

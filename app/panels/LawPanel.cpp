@@ -119,12 +119,12 @@ void LawPanel::show()
             m_plots->addWidget(law.plot, 1);
             connect(law.plot, &LawPlot::lawDragged, this, [this] {
                 m_sentence->setFixedHeight(
-                    m_sentence->height()); // other words must not move the bar from under the pointer
+                    m_sentence->height()); // a change of text must not move the bar away from the pointer
                 sayWhatItMeans();
             });
             connect(law.plot, &LawPlot::lawRequested, this, [this, i](const std::vector<double> &values) {
                 emit lawRequested(m_laws[i].field, values);
-                show(); // where nothing came of it, as it was
+                show(); // if there is no result, the previous state
             });
         }
         law.plot->setTitles(law.title, tr("h"));
@@ -194,7 +194,7 @@ QString LawPanel::snrWords(const Analysis &analysis) const
         .arg(numberText(lnK, 2), words(kept), m_document.frameKind().signal, words(changing));
 }
 
-/// Takes tens of milliseconds: of a panel in sight only.
+/// Takes tens of milliseconds, so only while the panel is visible.
 void LawPanel::sayWhatItMeans()
 {
     m_isSaid = m_sight->isOn();

@@ -27,7 +27,7 @@ namespace {
         return label;
     }
 
-    /// What begins with a small letter and ends without a full stop.
+    /// Makes a sentence of a clause: capital first letter, full stop.
     QString sentence(const std::string &clause)
     {
         return capitalised(QString::fromStdString(clause)) + QLatin1Char('.');

@@ -22,9 +22,9 @@ namespace faintline {
 namespace {
 
     constexpr int bandCount = 6;
-    constexpr double rarest = 1e-4; ///< beyond it a ratio would rest on a handful of cells
+    constexpr double rarest = 1e-4; ///< beyond it a ratio would be based on a handful of cells
     constexpr std::int64_t mostCells = 20'000'000;
-    constexpr double fewest = 10.0; ///< values beyond a quantile that is drawn
+    constexpr double fewest = 10.0; ///< least number of values beyond a plotted quantile
 
     QString bandText(const FittedBand &band, const Axis &axis)
     {
@@ -67,7 +67,7 @@ namespace {
         return chart;
     }
 
-    constexpr double notable = 3.0; ///< times a Pfa
+    constexpr double notable = 3.0; ///< multiple of a Pfa
 
     /// Noise a little too strong adds up faster than resets take away; a ratio would only tell how small the Pfa was.
     bool growsWithoutEnd(const MisfitPfa &pfa)

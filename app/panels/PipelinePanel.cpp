@@ -125,7 +125,7 @@ void PipelinePanel::showSettings()
     showWindows();
 }
 
-/// Those of the program, then one's own.
+/// The program's presets, then the user's.
 void PipelinePanel::listPresets()
 {
     m_preset->clear();

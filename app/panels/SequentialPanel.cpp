@@ -54,7 +54,7 @@ namespace {
         return splitter;
     }
 
-    /// Views above one another, close together.
+    /// Views stacked with little space between them.
     QWidget *column(std::initializer_list<QWidget *> widgets)
     {
         auto *page = new QWidget;
@@ -78,7 +78,7 @@ SequentialPanel::SequentialPanel(Document &document, SequentialTests &tests, QWi
       m_stageText(new QLabel), m_slider(new QSlider(Qt::Horizontal))
 {
     m_tabs->setDocumentMode(true);
-    m_tabs->setMinimumWidth(280); // the window must not grow for charts that are not looked at
+    m_tabs->setMinimumWidth(280); // charts that are not visible must not widen the window
     m_tabs->addTab(buildWalks(), tr("Walks"));
     addView(&m_trajectory->posterior(), tr("Posterior and trajectory"),
             [this] { return m_trajectory->posteriorNumbers(); });
@@ -340,7 +340,7 @@ void SequentialPanel::showStopping()
     for (const auto &[run, result] : m_tests.walks())
         longest = std::max(longest, result.stages);
     if (!m_tests.isOfScans())
-        longest = 0; // one test alone is no histogram
+        longest = 0; // a single test has no histogram
     for (BarPlot::Series &one : series)
         one.values.assign(std::size_t(longest), 0.0);
     if (longest > 0)
@@ -422,7 +422,7 @@ void SequentialPanel::showSectors()
 
 // ---- keys and files -------------------------------------------------------------------------------------------------
 
-/// Within the panel J and L step stages, not the recording's frames.
+/// Within the panel, J and L step through stages rather than the recording's frames.
 bool SequentialPanel::event(QEvent *event)
 {
     if (event->type() == QEvent::ShortcutOverride) {

@@ -20,7 +20,7 @@ namespace {
         return QCoreApplication::translate("StateCut", text);
     }
 
-    /// A single rate by its kind's word; drifts in a unit that suits them.
+    /// A single rate by the word for its kind; drifts in a suitable unit.
     std::vector<Axis> readableAxes(const Analysis &analysis, std::size_t model)
     {
         std::vector<Axis> axes = stateAxes(analysis, model);

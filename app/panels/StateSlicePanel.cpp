@@ -24,8 +24,8 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index longAxis = 200;       ///< cells from which on only the cursor's surroundings are shown at first
-    constexpr double surroundings = 60.0; ///< cells either way
+    constexpr Index longAxis = 200;       ///< cells above which only the cursor's neighbourhood is shown at first
+    constexpr double surroundings = 60.0; ///< cells in each direction
 
     Span whole(const Axis &axis)
     {
@@ -114,7 +114,7 @@ void StateSlicePanel::buildView()
     m_view->setViewport(&m_viewport);
     m_view->setObjectName(QStringLiteral("slice"));
     m_view->setEmptySentence(tr("The states of the frame under the cursor appear here."));
-    m_view->setMinimumSize(130, 120); // a panel in a dock must not widen the window
+    m_view->setMinimumSize(130, 120); // a docked panel must not widen the window
     auto *bar = new ColourBar;
     bar->attach(m_view);
     auto *pane = new QHBoxLayout(m_pane);
@@ -133,7 +133,7 @@ void StateSlicePanel::connectChoices()
     connect(m_sight, &VisibilityWatcher::came, this, &StateSlicePanel::update);
     connect(&m_viewport, &Viewport::cursorChanged, this, &StateSlicePanel::followCursor);
     connect(&m_viewport, &Viewport::spanChanged, this, &StateSlicePanel::giveFrequencies);
-    // Whether the view gets its size before its picture or after must make no difference.
+    // The order in which the view gets its size and its picture must not matter.
     connect(m_view, &WaterfallView::histogramChanged, this, [this] {
         if (m_cut && !m_isShowing && m_view->range() == m_givenRange)
             chooseRange();
@@ -196,7 +196,7 @@ void StateSlicePanel::setAxes(int rows, int columns)
     update();
 }
 
-/// Two different ones: who takes the other's gives his own in exchange.
+/// Keeps the two axes different: an axis that takes the other's gives its own in exchange.
 void StateSlicePanel::chooseAxes(QComboBox &changed, QComboBox &other)
 {
     const int before = int(&changed == m_rows ? m_shownAxes.first : m_shownAxes.second);
@@ -231,7 +231,7 @@ void StateSlicePanel::fillAxes()
                 box->addItem(capitalised(labelText(axis.name, mostUnitLetters)));
         }
         m_rows->setCurrentIndex(0);
-        m_columns->setCurrentIndex(2); // range × range rate: where a target's motion shows
+        m_columns->setCurrentIndex(2); // range × range rate, which shows a target's motion
     }
     update();
 }
@@ -257,7 +257,7 @@ void StateSlicePanel::layOut()
     m_sentence->setVisible(hasSlice);
 }
 
-/// The slice to be shown; nothing where there is none.
+/// The slice to be shown; empty if there is none.
 std::optional<StateCut::Wanted> StateSlicePanel::wanted() const
 {
     const auto &analysis = m_document.analysis();
@@ -285,7 +285,7 @@ void StateSlicePanel::update()
                 m_replay = std::make_shared<StateReplay>(
                     analysis, memoryShares::orSome(memoryShares::stateReplay, 8 * bytesOfStates(*analysis)));
             return [this, analysis, result = cutThrough(*m_replay, cut, context)] {
-                if (m_document.analysis() == analysis) // something else may be open by now
+                if (m_document.analysis() == analysis) // another document may be open by now
                     show(result);
             };
         });
@@ -312,7 +312,7 @@ void StateSlicePanel::followCursor()
     m_viewports.setPlace(place);
 }
 
-/// Of a slice along other axes than before.
+/// For a slice along other axes than before.
 void StateSlicePanel::showSpans(const StateCut &cut, const Viewport::Point &cursor)
 {
     constexpr double fewestCells = 3.0;
@@ -339,7 +339,7 @@ void StateSlicePanel::show(const StateCut &cut)
     m_view->setThreshold(m_document.shownThreshold());
     const bool isOurRange = m_view->isRangeAutomatic() || m_view->range() == m_givenRange;
     m_view->setPicture(cut.picture, cut.columns());
-    m_view->updateLayout(); // its axes may have come just now
+    m_view->updateLayout(); // its axes may be new
     if (isOurRange)
         chooseRange();
 
@@ -375,7 +375,7 @@ void StateSlicePanel::placeMarks()
     m_marks->set(m_cut->bestIn(m_viewport.visible()), m_cut->pathsOf(m_document.shownTracks(), *m_document.analysis()));
 }
 
-/// The frequencies that the waterfalls show …
+/// Follows the frequencies shown in the waterfalls …
 void StateSlicePanel::takeFrequencies()
 {
     if (!isOfLines() || m_shownAxes != std::pair<std::size_t, std::size_t>{1, 0} || m_isShowing)

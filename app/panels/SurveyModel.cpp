@@ -17,7 +17,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr std::chrono::milliseconds patience(1000); ///< the window waits meanwhile
+    constexpr std::chrono::milliseconds patience(1000); ///< the window is blocked meanwhile
 
     QString verdictText(Verdict verdict)
     {
@@ -32,7 +32,7 @@ namespace {
         return {};
     }
 
-    /// What a column is sorted by, but for the notes.
+    /// Sort key of a column, except for the notes.
     double sortKey(const SurveyModel::Row &row, int column)
     {
         const Event &event = row.event.event;
@@ -104,7 +104,7 @@ void SurveyModel::sort(int column, Qt::SortOrder order)
     std::vector<int> places(m_order.size());
     for (std::size_t i = 0; i < m_order.size(); ++i)
         places[m_order[i]] = int(i);
-    QModelIndexList moved; // what is selected stays so
+    QModelIndexList moved; // keeps the selection
     for (const QModelIndex &one : persistentIndexList())
         moved << index(places[before[std::size_t(one.row())]], one.column());
     changePersistentIndexList(persistentIndexList(), moved);

@@ -70,7 +70,7 @@ void SurveyPanel::addVerdict(QBoxLayout &layout, const QString &text, const QStr
     m_keys.insert(key, verdict);
 }
 
-/// In this table the keys of reviews are for the survey's events, not for those of the recording that is open.
+/// In this table, the review keys apply to the survey's events, not to those of the open recording.
 bool SurveyPanel::eventFilter(QObject *watched, QEvent *event)
 {
     if (event->type() != QEvent::ShortcutOverride && event->type() != QEvent::KeyPress)
@@ -79,7 +79,7 @@ bool SurveyPanel::eventFilter(QObject *watched, QEvent *event)
     const auto verdict = m_keys.constFind(pressed->key());
     const bool isClass = (pressed->key() >= Qt::Key_1 && pressed->key() <= Qt::Key_9)
                          || (pressed->key() == Qt::Key_U && pressed->modifiers() == Qt::ShiftModifier);
-    if (isClass) { // which a survey does not keep
+    if (isClass) { // not stored in a survey
         event->accept();
         return true;
     }

@@ -23,7 +23,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr double windowsOfALine = 60.0; ///< that a line lasts, at first
+    constexpr double windowsOfALine = 60.0; ///< initial duration of a line
     constexpr double windowsOfMargin = 30.0;
 
     QHBoxLayout *row(std::initializer_list<QWidget *> widgets)
@@ -139,7 +139,7 @@ void SweepForm::setCurrent(const AnalysisSettings &settings, const QString &reco
     emit changed();
 }
 
-/// The numbers that the chosen detector has.
+/// Numeric settings of the chosen detector.
 void SweepForm::fillParameters()
 {
     const QString before = m_parameter->currentData().toString();

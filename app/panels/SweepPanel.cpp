@@ -132,7 +132,7 @@ void SweepPanel::choose(const ChartPlot &chart, std::size_t point)
         return;
     const auto &sweep = std::get<SweepExperiment>(entry->campaign->experiment);
     if (&chart == m_latency) {
-        // Values that never detected anything have no latency.
+        // Values without any detection have no latency.
         emit valueChosen(QString::fromStdString(sweep.parameter), m_latency->chart().curves.front().points[point].x);
     } else if (&chart == m_cost) {
         emit valueChosen(QString::fromStdString(sweep.parameter), sweep.values[point]);

@@ -63,7 +63,7 @@ void ThresholdPanel::say(const QString &sentence, const QString &cure)
     m_row->show();
 }
 
-/// What the button says at the moment.
+/// Present text of the button.
 void ThresholdPanel::cure()
 {
     if (m_check.isCounting())

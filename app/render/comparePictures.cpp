@@ -30,7 +30,7 @@ namespace {
         return colour | 0xff000000u;
     }
 
-    /// Pairs of colours that are neighbours in a colour map, the smaller one first.
+    /// Pairs of neighbouring colours of a colour map, the smaller one first.
     const std::set<std::pair<QRgb, QRgb>> &neighbours()
     {
         static const std::set<std::pair<QRgb, QRgb>> all = [] {
@@ -71,7 +71,7 @@ namespace {
         return changes;
     }
 
-    /// Boxes round pixels that lie together: blocks that hold some are joined with those that touch them.
+    /// Boxes around groups of changed pixels: blocks that contain changed pixels are joined with touching blocks.
     std::vector<QRect> placesOf(const std::vector<QPoint> &pixels)
     {
         QMap<std::pair<int, int>, QRect> blocks;
@@ -136,7 +136,7 @@ namespace {
         writeTextFile(to.toStdString(), file.readAll().toStdString());
     }
 
-    /// Name → path of the pictures of a folder, or of the one picture.
+    /// Name → path of the pictures in a folder, or of the one picture.
     QMap<QString, QString> picturesIn(const QString &where, bool isFolder)
     {
         if (!isFolder)
@@ -338,7 +338,7 @@ std::vector<CheckedPicture> checkPictures(const CheckOptions &options)
         CheckedPicture one = check(name, wanted.value(name), made.value(name), options.toleratesRasters);
         if (!out.isEmpty() && one.state != CheckedPicture::State::Same)
             keep(one, wanted.value(name), made.value(name), QDir(out));
-        one.difference.picture = {}; // one at a time is enough in memory
+        one.difference.picture = {}; // limits memory to one picture
         pictures.push_back(std::move(one));
     }
     if (!out.isEmpty())

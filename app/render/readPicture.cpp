@@ -16,7 +16,7 @@ namespace faintline {
 
 namespace {
 
-    /// For as long as it lives, standard error leads nowhere.
+    /// Discards standard error during its lifetime.
     class Silence
     {
     public:

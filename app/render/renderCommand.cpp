@@ -56,7 +56,7 @@ namespace {
         checkSettings(settings);
     }
 
-    /// What A is made with: the same, and A's own.
+    /// Settings of A: the common ones and A's own.
     RenderOptions optionsOfA(RenderOptions options)
     {
         if (!options.presetA.empty())
@@ -105,7 +105,7 @@ namespace {
         testAndSettle(window, [&] { window.sequentialTests().setStage(Index(before) + 1); });
     }
 
-    /// The window as a lesson's step sets it up.
+    /// The window in the state of a lesson's step.
     void goThroughLesson(MainWindow &window, const RenderOptions &options)
     {
         const Lesson lesson = readLesson(pathText(options.source));
@@ -186,7 +186,7 @@ namespace {
             throw *failure;
     }
 
-    /// What was opened with A's settings becomes A; the settings then become B's.
+    /// The source opened with A's settings becomes A; then the settings change to B's.
     void compareWithA(MainWindow &window, const AnalysisSettings &settings)
     {
         window.comparer().setMeasuringCost(false);
@@ -299,7 +299,7 @@ namespace {
         return view.grab().toImage().convertToFormat(QImage::Format_RGB32);
     }
 
-    /// A window that nobody sits in front of: it asks nothing, and shows no first estimates.
+    /// A window without a user: it asks nothing and shows no provisional estimates.
     void showUnattended(MainWindow &window, QSize size)
     {
         window.setAsking(false);

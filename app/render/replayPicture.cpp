@@ -45,7 +45,7 @@ double scaleOf(const QImage &picture)
 
 namespace {
 
-    /// A chart's numbers of a test on a radar's scans.
+    /// The numbers of a chart of a test on a radar's scans.
     void replayChart(const ReplayOptions &options)
     {
         const Json provenance = readJsonFile(options.picture + ".provenance.json");
@@ -104,7 +104,7 @@ PictureOrigin originOf(const QImage &picture, const ReplayOptions &options, cons
             const QDir place = QFileInfo(absolutePath(pathText(options.picture))).dir();
             const QString named = QString::fromStdString(source["path"].get<std::string>());
             const QString beside =
-                place.filePath(QFileInfo(named).fileName()); // wherever else it says, nobody asked to read there
+                place.filePath(QFileInfo(named).fileName()); // a path elsewhere must not be read without permission
             const QString recording = absolutePath(options.recording.empty() ? beside : pathText(options.recording));
             if (!fileExists(recording))
                 throw Error(pathBytes(recording),

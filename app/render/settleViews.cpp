@@ -26,7 +26,7 @@ namespace faintline {
 
 namespace {
 
-    /// Until a part that is busy now says that it has settled.
+    /// Waits until a busy part emits that it has settled.
     template <class Part>
     void waitFor(Part &part)
     {
@@ -129,7 +129,7 @@ void cutStates(MainWindow &window)
 {
     window.showStates();
     waitFor(window.states());
-    settleLayers(window); // the read-out tells of the state, too
+    settleLayers(window); // the read-out shows the state, too
 }
 
 void measureLatency(MainWindow &window)

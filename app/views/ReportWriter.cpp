@@ -18,8 +18,8 @@ namespace faintline {
 
 namespace {
 
-    /// The cell whose statistic was largest in the frame of detection, close to where the tracker then took the signal
-    /// to be.
+    /// The cell with the largest statistic in the frame of detection, near the position that the tracker then
+    /// estimated.
     std::vector<double> strongestNear(const Analysis &analysis, const Event &event)
     {
         constexpr Index reach = 3;

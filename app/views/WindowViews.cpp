@@ -128,7 +128,8 @@ void WindowViews::saveTo(const QString &name, const QString &path)
     });
 }
 
-/// With what `faintline render` needs to make the picture again, where it can: of one view, on a screen as its own.
+/// Adds the data that `faintline render` needs to reproduce the picture, if it shows one view at one device pixel per
+/// pixel.
 std::string WindowViews::withView(const QString &name, const std::string &provenance) const
 {
     const QWidget &shown = *named(name);

@@ -12,10 +12,10 @@ namespace faintline {
 
 namespace {
 
-    constexpr int pictureHeight = 112; // with their captions as high as the other cards'
-    constexpr int walksShown = 12;     // of each hypothesis
+    constexpr int pictureHeight = 112; // with captions as high as the other cards' pictures
+    constexpr int walksShown = 12;     // per hypothesis
 
-    /// Range and Doppler of the target in the scan that is shown.
+    /// Range and Doppler of the target in the displayed scan.
     std::vector<QPointF> truthOn(const ScanCard::Result &result)
     {
         const ScanCell cell = truthOf(result.test, result.run)[std::size_t(result.stage - 1)];
@@ -88,7 +88,7 @@ void ScanCard::setResult(const Result &result)
     m_walks->setWalks(std::move(walks));
     m_walks->setMarks({});
     const ScanScene &scene = result.test.scene;
-    // As wide as the card: range to the right.
+    // As wide as the card; range increases to the right.
     m_scan->setPicture({"range", "cell", 0.0, 1.0, scene.rangeCells, false},
                        {"Doppler", "cell", 0.0, 1.0, scene.dopplerCells, false}, result.db, {0.0, scene.snrDb + 6.0},
                        tr("dB"));

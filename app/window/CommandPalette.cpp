@@ -131,7 +131,7 @@ bool CommandPalette::eventFilter(QObject *watched, QEvent *event)
     if (event->type() == QEvent::FocusOut)
         hide();
     if (event->type() == QEvent::ShortcutOverride)
-        event->accept(); // letters are for the line, not for the window's single keys
+        event->accept(); // letters belong to the input line, not to the window's single-key shortcuts
     if (event->type() != QEvent::KeyPress)
         return QFrame::eventFilter(watched, event);
     const int key = static_cast<QKeyEvent *>(event)->key();

@@ -11,7 +11,7 @@ namespace faintline {
 
 namespace {
 
-    /// The dragged files; none where something else is dragged.
+    /// The dragged files; empty if anything else is dragged.
     QStringList filesOf(const QMimeData &data)
     {
         QStringList files;

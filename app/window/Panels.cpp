@@ -17,7 +17,7 @@ namespace faintline {
 
 namespace {
 
-    /// Pixels; in a narrower window all panels share a column, so that the pictures have the room.
+    /// Pixels; in a narrower window all panels share one column, which leaves room for the pictures.
     constexpr int twoColumnsFrom = 1500;
     constexpr int narrowestColumn = 268;
 
@@ -37,7 +37,7 @@ namespace {
 
     struct Layout {
         const char *name;
-        QStringList docks; ///< what is there, the foremost of tabs last; none: as at first
+        QStringList docks; ///< visible docks, the front tab last; empty: default
     };
 
     const std::vector<Layout> &layouts()
@@ -95,7 +95,7 @@ void Panels::rememberDefault()
 
 void Panels::takeDefault()
 {
-    std::vector<QToolBar *> hidden; // what is open decides about them, not the layout
+    std::vector<QToolBar *> hidden; // their visibility depends on the open document, not on the layout
     for (QToolBar *bar : m_window.findChildren<QToolBar *>())
         if (bar->isHidden())
             hidden.push_back(bar);
@@ -121,12 +121,12 @@ void Panels::show(QWidget *panel)
     const bool wasHidden = dock->isHidden();
     dock->show();
     dock->raise();
-    m_window.layout()->activate(); // in its place from now on, not later
+    m_window.layout()->activate(); // so that it has its place at once
     if (wasHidden && m_window.dockWidgetArea(dock) == Qt::BottomDockWidgetArea)
         raiseFromBottom(dock, 36);
 }
 
-/// Its share of the window's height, once the window knows that it is there.
+/// Gives a dock at the bottom `percent` of the window's height.
 void Panels::raiseFromBottom(QDockWidget *dock, int percent)
 {
     m_window.layout()->activate();

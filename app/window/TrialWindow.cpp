@@ -56,7 +56,7 @@ void TrialWindow::show(const ShownTrial &trial, const QString &title, const QStr
     m_readOut->setStatisticUnit(statisticUnit(analysis.settings));
     m_readOut->setResolution(analysis.time().step, analysis.grid().axes.back().step);
     m_document.setAnalysis(trial.analysis, events(analysis));
-    if (analysis.recording) { // the line's surroundings, of a whole recording
+    if (analysis.recording) { // the line's neighbourhood in a whole recording
         const TruthLine &line = trial.truth.lines.front();
         const double seconds = 0.5 * (line.endSeconds - line.startSeconds);
         const auto [low, high] = std::minmax_element(line.frequencyHz.begin(), line.frequencyHz.end());

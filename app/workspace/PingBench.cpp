@@ -23,7 +23,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr int playerInterval = 200; // ms a ping
+    constexpr int playerInterval = 200; // ms per ping
 
     QString unitText(const Axis &axis)
     {
@@ -214,7 +214,7 @@ void PingBench::showAnalysis()
     showHeading();
     if (isFirst)
         followExtents();
-    // Only on the map: maxima over an axis exceed it nearly everywhere.
+    // Only on the map: maxima over an axis exceed the threshold nearly everywhere.
     m_output->plane()->setThreshold(analysis.threshold);
     m_rangeHistory->setPicture(analysis.statisticAlong[0], grid.axes[0]);
     m_bearingHistory->setPicture(analysis.statisticAlong[1], grid.axes[1]);
@@ -228,7 +228,7 @@ void PingBench::showAnalysis()
     followPlace();
 }
 
-/// Above the output; its colour bar is the statistic's, a layer in its place has a key of its own.
+/// Heading above the output. The colour bar belongs to the statistic; a layer shown in its place has its own key.
 void PingBench::showHeading()
 {
     const bool isStatistic = m_layers.layer() == OutputLayer::Statistic || m_layers.isOverlay();
@@ -298,7 +298,7 @@ void PingBench::placeCursor()
     const auto strongest = std::max_element(events.begin(), events.end(),
                                             [](const Event &a, const Event &b) { return a.statistic < b.statistic; });
     const Viewport::Box &map = m_viewports.map().full();
-    // In the middle of the strongest track's life, where there is most to see.
+    // In the middle of the strongest track, where most is visible.
     const Track *track = strongest == events.end() ? nullptr : m_document.track(strongest->id);
     const Analysis &analysis = *m_document.analysis();
     if (track && !track->points.empty()) {
@@ -368,7 +368,7 @@ void PingBench::followPlace()
     readCursor();
 }
 
-/// What changed settings make of the ping shown, until their analysis is there; null where there is no such thing.
+/// The ping shown, computed with changed settings until their analysis is available; null if that is not possible.
 const PeakPyramid *PingBench::provisional() const
 {
     const auto &statistic = m_document.provisional();
