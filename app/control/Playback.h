@@ -20,11 +20,11 @@ namespace faintline {
 
 class Document;
 
-/// Plays what is looked at as sound, and has the cursor follow it: the measured box, or from the cursor to the end of what
-/// is visible. Where the cursor is put meanwhile, it plays on from there.
+/// Plays what is looked at as sound, and has the cursor follow it: the measured box, or from the cursor to the end of
+/// what is visible. Where the cursor is put meanwhile, it plays on from there.
 ///
-/// Or plays what is listened to, as it comes: all of it, a band or a line, from the recording that is being written. The
-/// cursor stays then, and how far the sound is behind is told.
+/// Or plays what is listened to, as it comes: all of it, a band or a line, from the recording that is being written.
+/// The cursor stays then, and how far the sound is behind is told.
 class Playback : public QObject
 {
     Q_OBJECT

@@ -63,8 +63,8 @@ public:
 
     void openScans(const ScanTest &test) override;
 
-    /// Listens to a source, recording into a folder, in files of limited length, with these settings or those of what is
-    /// open, which makes room. In the end the recording is open.
+    /// Listens to a source, recording into a folder, in files of limited length, with these settings or those of what
+    /// is open, which makes room. In the end the recording is open.
     void listenTo(LiveRun::OpenSource source, const QString &folder,
                   const std::optional<AnalysisSettings> &settings = {}, const RotationSettings &rotation = {});
     LiveRun &live() { return *m_live; }

@@ -36,9 +36,9 @@ struct LiveView {
     bool isEmpty() const { return !plan; }
 };
 
-/// A live run so far as an analysis, from its recording: what it has of pictures, and what it takes to read frames and to go
-/// through the chain again, from where the plan holds. Tracks, counts and what there is for each frame it has not. Null
-/// where nothing is recorded. Reads nothing; its frames are read, as any, on a worker.
+/// A live run so far as an analysis, from its recording: what it has of pictures, and what it takes to read frames and
+/// to go through the chain again, from where the plan holds. Tracks, counts and what there is for each frame it has
+/// not. Null where nothing is recorded. Reads nothing; its frames are read, as any, on a worker.
 std::shared_ptr<const Analysis> analysisSoFar(const LiveView &view);
 
 /// Collects what a live run tells, for `view`. Used by one thread.

@@ -13,9 +13,9 @@
 
 namespace faintline {
 
-/// Plays a stretch of a recording on a sound device, from its making to its end. Of a recording that is being made, it waits
-/// in silence for what is not there yet, and is that much later from then on; where it is two seconds behind, because the
-/// device's clock is slower than the source's, it leaves some out.
+/// Plays a stretch of a recording on a sound device, from its making to its end. Of a recording that is being made, it
+/// waits in silence for what is not there yet, and is that much later from then on; where it is two seconds behind,
+/// because the device's clock is slower than the source's, it leaves some out.
 class Player
 {
 public:

@@ -23,8 +23,8 @@ struct RotationSettings {
 /// The samples go to NAME.sigmf-data as they came, at once. NAME.sigmf-meta is there from the beginning and complete at
 /// any time: its captures say where samples are missing, one entry for each stretch that was heard without a gap, with
 /// core:sample_start (in the file), core:global_index (in time, gaps included) and core:datetime. Rotation begins
-/// NAME-2, NAME-3 … at the next gap or delivery, and NAME.timeline lists them all. Reading it again, SigmfRecording puts the
-/// gaps back where they were.
+/// NAME-2, NAME-3 … at the next gap or delivery, and NAME.timeline lists them all. Reading it again, SigmfRecording
+/// puts the gaps back where they were.
 class SigmfRecorder
 {
 public:

@@ -1,17 +1,13 @@
 // Listening in the window: a pipe is fed, and what is to be seen then.
 
 #include "analysis/slopeUnit.h"
+#include "app/Feeder.h"
 #include "app/base/MessageBar.h"
 #include "app/base/diskRoom.h"
-#include "app/openWindow.h"
 #include "app/panels/ListenDialog.h"
-#include "app/panels/WhyPanel.h"
 #include "app/workspace/LiveBar.h"
 #include "app/workspace/Workbench.h"
 #include "exchange/writeEvents.h"
-#include "live/PipeSource.h"
-#include "recording/SimulatedRecording.h"
-#include "support/recordings.h"
 #include "widgets/events/EventTable.h"
 
 #include <QComboBox>
@@ -20,89 +16,12 @@
 #include <QLineEdit>
 #include <QRegularExpression>
 
-#include <atomic>
 #include <cmath>
 #include <csignal>
 #include <thread>
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 using namespace faintline;
 using namespace faintline::test;
-
-namespace {
-
-constexpr double rate = 1000.0;
-
-std::vector<float> scene(double seconds)
-{
-    LineScene lines;
-    lines.sampleRateHz = rate;
-    lines.durationSeconds = seconds;
-    lines.noise.deviation = 0.1;
-    for (int i = 0; i < 4; ++i) {
-        LineSettings line;
-        line.frequencyHz = 90.0 + 100.0 * i;
-        line.snrDb = 6.0 + i;
-        line.startSeconds = 20.0 + 10.0 * i;
-        line.durationSeconds = 60.0;
-        lines.lines.push_back(line);
-    }
-    return readAll(SimulatedRecording(lines));
-}
-
-StreamFormat format()
-{
-    return {parseSampleType("rf32_le", "test"), rate, 1, 0.0, "FIFO"};
-}
-
-/// A FIFO that a thread writes samples to, as many as it is allowed to.
-class Feeder
-{
-public:
-    Feeder(const QTemporaryDir &folder, std::vector<float> samples)
-        : m_path(folder.filePath("fifo").toStdString()), m_samples(std::move(samples))
-    {
-        if (mkfifo(m_path.c_str(), 0600) != 0)
-            qFatal("cannot make a FIFO");
-        m_thread = std::jthread([this](const std::stop_token &stop) { feed(stop); });
-    }
-
-    void allow(double seconds) { m_allowed = std::size_t(seconds * rate); }
-    void allowAll() { m_allowed = m_samples.size(); }
-    LiveRun::OpenSource source() const
-    {
-        return [path = m_path](const std::stop_token &stop) -> std::unique_ptr<SampleSource> {
-            return std::make_unique<PipeSource>(path, format(), stop);
-        };
-    }
-
-private:
-    void feed(const std::stop_token &stop)
-    {
-        const int fifo = open(m_path.c_str(), O_WRONLY | O_CLOEXEC);
-        for (std::size_t at = 0; at < m_samples.size() && !stop.stop_requested();) {
-            const std::size_t count = std::min<std::size_t>(100, m_samples.size() - at);
-            if (at + count > m_allowed) {
-                std::this_thread::sleep_for(std::chrono::milliseconds(2));
-                continue;
-            }
-            if (write(fifo, m_samples.data() + at, count * sizeof(float)) < 0)
-                break;
-            at += count;
-        }
-        close(fifo);
-    }
-
-    std::string m_path;
-    std::vector<float> m_samples;
-    std::atomic<std::size_t> m_allowed = 0;
-    std::jthread m_thread;
-};
-
-} // namespace
 
 class tst_Live : public QObject
 {
@@ -112,8 +31,6 @@ private slots:
     void initTestCase();
     void showsAndRecords();
     void holdsAndScrollsBack();
-    void looksBackInDetail();
-    void saysWhyMeanwhile();
     void recordsInSeveralFiles();
     void asksWhenAnotherFileBegins();
     void changesTheThreshold();
@@ -122,23 +39,12 @@ private slots:
     void tellsWhatIsLost();
 
 private:
-    AnalysisSettings m_settings;
+    const AnalysisSettings m_settings = liveSettings();
 };
 
 void tst_Live::initTestCase()
 {
     std::signal(SIGPIPE, SIG_IGN);
-    m_settings.spectrogram.windowSeconds = 0.25;
-    m_settings.decide.falseAlarmsPerHour = 60.0;
-}
-
-/// A window that listens with the settings of the test.
-static std::unique_ptr<MainWindow> listeningWindow(const QTemporaryDir &folder, Feeder &feeder,
-                                                   const AnalysisSettings &settings)
-{
-    auto window = newWindow();
-    window->listenTo(feeder.source(), folder.path(), settings);
-    return window;
 }
 
 // The events of the table, and those of the recording that is open in the end, are those of `listen`.
@@ -194,7 +100,7 @@ void tst_Live::showsAndRecords()
 
     private:
         const std::vector<float> &m_all;
-        StreamFormat m_format = ::format();
+        StreamFormat m_format = test::format();
         bool m_isDone = false;
     } given(samples);
     const ListenResult heard = listen(given, same, {});
@@ -236,77 +142,6 @@ void tst_Live::holdsAndScrollsBack()
     window->workbench().setPlaying(true);
     feeder.allow(280.0);
     QTRY_VERIFY_WITH_TIMEOUT(viewport.time().high > 278.0, patience);
-    window->live().stop();
-    QTRY_VERIFY_WITH_TIMEOUT(!window->live().isRunning(), patience);
-}
-
-// 6800 frames of 8192 cells, of which the picture merges four: zoomed in on old ones they are single, as those of the
-// recording are in the end.
-void tst_Live::looksBackInDetail()
-{
-    const QTemporaryDir folder;
-    Feeder feeder(folder, someNoise(7'000'000));
-    AnalysisSettings settings = m_settings;
-    settings.spectrogram.windowSeconds = 8.192;
-    settings.spectrogram.stepsPerWindow = 8;
-    settings.noise.blockWindows = 4.0;
-    setSetting(settings, "detector.kind", "energy");
-    setSetting(settings, "decide.thresholdNats", "1000");
-    const auto window = listeningWindow(folder, feeder, settings);
-    Document &document = window->document();
-    const WaterfallView &input = *window->workbench().input();
-    const WaterfallView &output = *window->workbench().output();
-    feeder.allow(6900.0);
-    QTRY_VERIFY_WITH_TIMEOUT(document.isLive() && document.live().time.last() > 6800.0, 5 * patience);
-    QCOMPARE(input.picture()->framesPerRow(0), Index(4));
-    const Span old{1000.0, 1080.0};
-    const Span band = document.viewport().full().frequency;
-    document.viewport().zoomTo(old, band);
-    QVERIFY(!document.viewport().isFollowing());
-    const auto areSingle = [&] {
-        return input.shownPicture()->framesPerRow(0) == 1 && output.shownPicture()->framesPerRow(0) == 1;
-    };
-    QTRY_VERIFY_WITH_TIMEOUT(areSingle(), patience);
-    feeder.allow(6950.0); // it stays while more comes in
-    QTRY_VERIFY_WITH_TIMEOUT(document.live().time.last() > 6930.0, patience);
-    QVERIFY(areSingle());
-    const auto liveInput = input.shownPicture();
-    const auto liveOutput = output.shownPicture();
-
-    feeder.allowAll();
-    QTRY_VERIFY_WITH_TIMEOUT(!document.isLive() && document.isCurrent() && settle(*window), 5 * patience);
-    document.viewport().zoomTo(old, band);
-    QTRY_VERIFY_WITH_TIMEOUT(areSingle(), patience);
-    const auto haveSame = [&](const PeakPyramid &live, const PeakPyramid &file) {
-        const Index shift = std::llround((old.low - live.time().first) / live.time().step);
-        const Index fileShift = std::llround((old.low - file.time().first) / file.time().step);
-        for (Index row = 0; row < 60; ++row)
-            if (!std::ranges::equal(live.row(0, shift + row), file.row(0, fileShift + row)))
-                return false;
-        return true;
-    };
-    QVERIFY(haveSame(*liveInput, *input.shownPicture()));
-    QVERIFY(haveSame(*liveOutput, *output.shownPicture()));
-}
-
-// The terms add up to what the picture shows, while it goes on.
-void tst_Live::saysWhyMeanwhile()
-{
-    const QTemporaryDir folder;
-    Feeder feeder(folder, scene(150.0));
-    const auto window = listeningWindow(folder, feeder, m_settings);
-    Document &document = window->document();
-    feeder.allow(80.0);
-    QTRY_VERIFY_WITH_TIMEOUT(document.isLive() && document.live().time.last() > 78.0, patience);
-    window->showWhy();
-    const auto *why = window->findChild<WhyPanel *>();
-    document.viewport().setCursor({70.0, 290.0});
-    QTRY_VERIFY_WITH_TIMEOUT(why->sentence().contains(QStringLiteral("add up to")), patience);
-    QVERIFY2(why->sentence().startsWith(QStringLiteral("Followed by a track")), qPrintable(why->sentence()));
-    feeder.allow(90.0);
-    QTRY_VERIFY_WITH_TIMEOUT(document.live().time.last() > 88.0, patience);
-    document.viewport().setCursor({86.0, 340.0}); // noise, and newer than what was looked at before
-    QTRY_VERIFY_WITH_TIMEOUT(why->sentence().startsWith(QStringLiteral("Not detected")), patience);
     window->live().stop();
     QTRY_VERIFY_WITH_TIMEOUT(!window->live().isRunning(), patience);
 }
@@ -437,7 +272,7 @@ void tst_Live::tellsWhatIsLost()
 
     private:
         std::vector<float> m_all;
-        StreamFormat m_format = ::format();
+        StreamFormat m_format = test::format();
         std::size_t m_at = 0;
         bool m_isGone = false;
     };
