@@ -191,7 +191,11 @@ namespace {
             && H5Tget_member_index(type, "i") == 1) {
             Handle real(H5Tget_member_type(type, 0), H5Tclose);
             const Handle imaginary(H5Tget_member_type(type, 1), H5Tclose);
-            if (isNumber(real) && H5Tequal(real, imaginary) > 0)
+            const std::size_t bytes = H5Tget_size(real);
+            const std::size_t last = std::max(H5Tget_member_offset(type, 0), H5Tget_member_offset(type, 1));
+            const bool isWithin =
+                bytes <= H5Tget_size(type) && last <= H5Tget_size(type) - bytes; // else it is read beyond
+            if (isNumber(real) && H5Tequal(real, imaginary) > 0 && isWithin)
                 return real.release();
         }
         throw Error(where, "holds no numbers of up to 64 bits");
