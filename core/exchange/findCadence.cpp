@@ -2,6 +2,7 @@
 
 #include "base/Error.h"
 #include "base/Field.h"
+#include "base/oneLine.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +37,7 @@ std::vector<CadenceEvent> findCadence(const std::vector<TopHits> &observations, 
         throw Error("a cadence", "needs at least two observations, on and off target in turn");
     for (const TopHits &each : observations)
         if (!each.startUnixSeconds)
-            throw Error(each.source, "does not tell when it begins (MJD), which a cadence needs");
+            throw Error(oneLine(each.source), "does not tell when it begins (MJD), which a cadence needs");
     const TopHits &first = observations.front();
     std::vector<CadenceEvent> events;
     for (const TopHit &hit : first.hits) {
