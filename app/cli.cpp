@@ -41,7 +41,7 @@ void addCommands(CLI::App &app, faintline::cli::Common &common)
         add(app, common);
 }
 
-/// The word that stands where a command should, if it is none.
+/// The first unknown word in place of a command.
 std::string unknownCommand(const CLI::App &app, const std::vector<std::string> &arguments)
 {
     const std::vector<std::string> rest = faintline::cli::fromCommandOn(arguments);
@@ -66,7 +66,7 @@ void faintline::cli::runCommandLine(const std::vector<std::string> &arguments, C
     common.arguments = arguments;
     CLI::App app{description, programName};
     addCommands(app, common);
-    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend())); // it takes them from the back
+    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend())); // parse() takes them in reverse order
 }
 
 int main(int argc, char **argv)

@@ -1,4 +1,4 @@
-// The window, and its twin that draws pictures without a screen.
+// The window, and its subcommands that draw pictures without a screen.
 
 #include "app/cli/inRange.h"
 #include "app/render/comparePictures.h"
@@ -6,6 +6,7 @@
 #include "app/render/replayPicture.h"
 #include "app/window/MainWindow.h"
 #include "app/window/programWindows.h"
+#include "base/keepNoHoles.h"
 #include "base/oneLine.h"
 #include "base/standardStreams.h"
 #include "widgets/base/icon.h"
@@ -22,15 +23,11 @@
 #include <cstdlib>
 #include <memory>
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
 namespace faintline {
 
 namespace {
 
-    /// One line, whatever a library or somebody's file had to say.
+    /// Prints an error on one line, whatever its source.
     int fail(const std::string &where, const std::string &why, int exitCode)
     {
         std::fprintf(stderr, "error: %s\n", oneLine(where + ": " + why, longestMessage).c_str());
@@ -104,7 +101,7 @@ namespace {
             ->allow_extra_args(false);
         command->add_option("--channel", options.channel, "Channel, counted from 0");
         options.part.addTo(*command);
-        command->add_option("--step", options.step, "Step shown of a lesson (.json with steps), counted from 1");
+        command->add_option("--step", options.step, "Step of a lesson (.json with steps) to show, counted from 1");
         addOpening(*command, options.opening);
         return command;
     }
@@ -160,7 +157,7 @@ namespace {
         double scale = 1.0;
     };
 
-    /// A screen for programs without one; the default of 800 × 800 would cut off windows.
+    /// A virtual screen for programs without one; the default of 800 × 800 would clip windows.
     std::unique_ptr<QTemporaryFile> use(const Screen &screen)
     {
         if (screen.scale != 1.0)
@@ -182,15 +179,14 @@ namespace {
         return file;
     }
 
-    /// What Qt has to say about the machine is no result and no error of ours. Where it gives up, so do we, but in one
-    /// line.
+    /// Suppresses Qt's messages about the machine. If Qt fails fatally, the program ends with one line.
     void keepQuiet(QtMsgType type, const QMessageLogContext &, const QString &message)
     {
         if (type == QtFatalMsg)
             std::_Exit(fail("Qt", message.toStdString(), 1));
     }
 
-    /// While the window's screen is looked for.
+    /// Message handler while looking for a display.
     void missScreen(QtMsgType type, const QMessageLogContext &, const QString &)
     {
         const auto value = [](const char *name) {
@@ -206,7 +202,7 @@ namespace {
                             1));
     }
 
-    /// What "nan" and "inf" are read as, which no range refuses.
+    /// Rejects "nan" and "inf", which no range check catches.
     void checkNumbers(const RenderOptions &options)
     {
         const std::pair<const char *, std::optional<double>> numbers[] = {{"--scale", options.scale},
@@ -219,7 +215,7 @@ namespace {
                 throw Error(name, "must be a finite number");
     }
 
-    /// Draws in a window nobody sees.
+    /// Draws in a window that is not shown.
     template <class Options>
     int runRender(int argc, char *argv[], const Screen &wanted, const Options &options, void (*draw)(const Options &))
     {
@@ -231,7 +227,7 @@ namespace {
         return 0;
     }
 
-    /// A picture is made again on a screen as when it was made.
+    /// Redraws a picture on the same virtual screen as when it was made.
     int runReplay(int argc, char *argv[], const ReplayOptions &options)
     {
         if (isChart(options))
@@ -241,18 +237,9 @@ namespace {
         return runRender(argc, argv, {picture.size(), scaleOf(picture)}, options, replay);
     }
 
-    /// Arrays of a MiB and more go back to the system as they are let go. By itself the C library raises that limit to
-    /// 32 MiB, and what tuning makes and drops leaves holes of some hundred MiB.
-    void keepNoHoles()
-    {
-#ifdef __GLIBC__
-        mallopt(M_MMAP_THRESHOLD, 1 << 20);
-#endif
-    }
-
     int runWindow(int argc, char *argv[], const std::vector<std::string> &files, const OpenOptions &options)
     {
-        keepNoHoles();
+        keepNoHoles(1 << 20); // of what tuning makes and drops
         Theme::prepareEnvironment();
         const QtMessageHandler before = qInstallMessageHandler(missScreen);
         QApplication application(argc, argv);

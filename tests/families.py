@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""What a family gains over a line, and channels over a channel: SNR of half of the detections at one false alarm an hour, path unknown:
-    python3 tests/families.py CLI [LINES] [WHAT ...]
-WHAT: 1, 4, 8, 16 teeth; 8-1: eight of which one is missing, another for every line; 2c: one line in two channels; 4c. Needs numpy. LINES lines of
-50 s, one after the other in white noise, anywhere in 1000 Hz, slowly drifting. Ghosts are events at another multiple of the fundamental. The last column is
-the time of a processor for a second of recording."""
+"""What a family gains over a line, and channels over a channel: SNR of half of the detections at one measured false alarm an hour, path unknown:
+    python3 tests/families.py CLI [LINES] [HOURS] [WHAT ...]
+WHAT: 1, 4, 8, 16 teeth; 8-1: eight of which one is missing, another for every line; 2c: one line in two channels; 4c. The threshold is the one that HOURS
+hours of white noise exceed once an hour. LINES lines of 50 s for each SNR, one after the other in other noise, anywhere in 1000 Hz, slowly drifting. In
+brackets 90 % of bootstrap samples of the lines. 8-1 has the noise and the lines of 8, less a tooth. Ghosts are events at another multiple of the
+fundamental, others at none. Last is the time of a processor for a second of recording. Needs numpy."""
 import csv
 import os
 import subprocess
@@ -19,15 +20,24 @@ LENGTH = 50.0
 APART = 100.0
 DRIFT = 0.05  # Hz/s at most, of the highest member
 KINDS = {  # multiples, missing teeth, channels, SNRs to try (dB)
-    "1": (1, False, 1, [-1, 0, 1, 2, 3]),
-    "2c": (1, False, 2, [-3, -2, -1, 0, 1]),
-    "4c": (1, False, 4, [-5, -4, -3, -2, -1]),
-    "4": (4, False, 1, [-5, -4, -3, -2, -1]),
-    "8": (8, False, 1, [-7, -6, -5, -4, -3]),
-    "8-1": (8, True, 1, [-7, -6, -5, -4, -3]),
-    "16": (16, False, 1, [-8, -7, -6, -5, -4]),
+    "1": (1, False, 1, [0, 1, 2]),
+    "2c": (1, False, 2, [-2, -1, 0]),
+    "4c": (1, False, 4, [-4, -3, -2]),
+    "4": (4, False, 1, [-4, -3, -2]),
+    "8": (8, False, 1, [-6, -5, -4, -3]),
+    "8-1": (8, True, 1, [-6, -5, -4, -3]),
+    "16": (16, False, 1, [-7.5, -6.5, -5.5]),
 }
+SOME = "decide.falseAlarmsPerHour=4"
 GHOSTS = [1 / 2, 1 / 3, 2 / 3, 3 / 2, 2, 3]
+
+
+def write(path, samples):
+    with wave.open(path, "wb") as file:
+        file.setnchannels(samples.shape[1])
+        file.setsampwidth(2)
+        file.setframerate(RATE)
+        file.writeframes(numpy.clip(numpy.round(3000 * samples), -32768, 32767).astype("<i2").tobytes())
 
 
 def recording(path, teeth, missing, channels, decibels, lines, seed):
@@ -41,26 +51,20 @@ def recording(path, teeth, missing, channels, decibels, lines, seed):
         start = APART * line + random.uniform(20, 45)
         hz, drift = random.uniform(100, 900) / teeth if teeth == 1 else random.uniform(20, 950 / teeth), random.uniform(-DRIFT, DRIFT) / teeth
         first = int(RATE * start)
-        left_out = 2 + random.integers(teeth - 1) if missing else 0
+        left_out = 2 + random.integers(teeth - 1) if teeth > 1 else 0
         for tooth in range(1, teeth + 1):
-            if tooth == left_out:
-                continue
             for channel in range(channels):
                 phase = 2 * numpy.pi * (tooth * (hz * t + drift * t**2 / 2) + random.uniform())
-                samples[first : first + t.size, channel] += amplitude * numpy.sin(phase)
+                if not missing or tooth != left_out:
+                    samples[first : first + t.size, channel] += amplitude * numpy.sin(phase)
         truth.append((start, hz, drift))
-    with wave.open(path, "wb") as file:
-        file.setnchannels(channels)
-        file.setsampwidth(2)
-        file.setframerate(RATE)
-        file.writeframes(numpy.clip(numpy.round(3000 * samples), -32768, 32767).astype("<i2").tobytes())
+    write(path, samples)
     return truth
 
 
-def detect(cli, path, teeth, channels, order):
+def detect(cli, path, teeth, channels, threshold):
     """Events of a recording, and the processor's time it took."""
-    command = [cli, "detect", path, "--events", path + ".csv", "--set", f"spectrogram.windowSeconds={WINDOW}"]
-    command += ["--set", f"decide.falseAlarmsPerHour={order}"]
+    command = [cli, "detect", path, "--events", path + ".csv", "--set", f"spectrogram.windowSeconds={WINDOW}", "--set", threshold]
     if teeth > 1:
         command += ["--set", "family.relation=harmonics", "--set", "family.members=" + ",".join(str(k) for k in range(1, teeth + 1))]
     if channels > 1:
@@ -73,53 +77,88 @@ def detect(cli, path, teeth, channels, order):
     return rows, after.children_user + after.children_system - before.children_user - before.children_system
 
 
+def noise(cli, path, teeth, channels, hours):
+    """The statistics of all events in noise, some of them an hour, and the processor's time for a second."""
+    statistics, spent = [], 0.0
+    for hour in range(hours):
+        random = numpy.random.default_rng([1000 + hour, teeth, channels])
+        write(path, random.standard_normal((3600 * RATE, channels)))
+        if hour == 0:
+            detect(cli, path, teeth, channels, SOME)  # the calibration is kept
+        events, cpu = detect(cli, path, teeth, channels, SOME)
+        statistics += [event["statistic"] for event in events]
+        spent += cpu
+    return sorted(statistics, reverse=True), spent / (3600 * hours)
+
+
 def outcome(events, truth, teeth):
-    """How many lines were found, how many came with or as a ghost, and how many events are neither."""
-    found = ghosts = 0
+    """Whether each line was found, how many came with or as a ghost, and how many events are neither."""
+    found, ghosts = [], 0
     explained = set()
     for start, hz, drift in truth:
         here = [(i, e) for i, e in enumerate(events) if e["t_onset"] < start + LENGTH and e["t_end"] > start]
         at = lambda e: hz + drift * (min(max(e["t_detect"], start), start + LENGTH) - start)
         hits = [i for i, e in here if abs(e["f"] - at(e)) < 2.5 / WINDOW / teeth]
         wrong = [i for i, e in here if any(abs(e["f"] - r * at(e)) < 2.5 / WINDOW / teeth for r in GHOSTS)] if teeth > 1 else []
-        found += bool(hits)
+        found.append(bool(hits))
         ghosts += bool(wrong)
         explained.update(hits + wrong)
     return found, ghosts, len(events) - len(explained)
 
 
-def half(points):
-    """SNR at which half are found, between the tried ones."""
-    for (low, below), (high, above) in zip(points, points[1:]):
-        if below < 0.5 <= above:
-            return low + (0.5 - below) / (above - below) * (high - low)
-    return float("nan")
+def half(decibels, found):
+    """SNR at which half are found: the most likely logistic curve through the shares found."""
+    at, per = numpy.meshgrid(numpy.linspace(decibels[0] - 1, decibels[-1] + 1, 201), numpy.linspace(0.3, 1.5, 25))
+    likelihood = 0.0
+    for db, share in zip(decibels, found):
+        p = 1 / (1 + numpy.exp(-(db - at) / per))
+        likelihood = likelihood + share * numpy.log(p + 1e-12) + (1 - share) * numpy.log(1 - p + 1e-12)
+    return at.flat[numpy.argmax(likelihood)]
+
+
+def spread(decibels, found):
+    """The same of 300 bootstrap samples of the lines, the same lines for all that have as many."""
+    random = numpy.random.default_rng(1)
+    return numpy.array([half(decibels, [f[random.integers(len(f), size=len(f))].mean() for f in found]) for _ in range(300)])
+
+
+def interval(values):
+    return "{:5.2f} … {:5.2f}".format(*numpy.quantile(values, [0.05, 0.95]))
+
+
+def measure(cli, kind, lines, hours, folder):
+    """Prints a kind's row but for its gain; returns its SNR and how that spreads."""
+    teeth, missing, channels, tried = KINDS[kind]
+    path = os.path.join(folder, "lines.wav")
+    statistics, cpu = noise(cli, path, teeth, channels, hours)
+    threshold = (statistics[hours - 1] + statistics[hours]) / 2
+    found, ghosts, others = [], 0, 0
+    for number, decibels in enumerate(tried):
+        truth = recording(path, teeth, missing, channels, decibels, lines, number + 1)
+        events, _ = detect(cli, path, teeth, channels, f"decide.thresholdNats={threshold}")
+        hits, wrong, rest = outcome(events, truth, teeth)
+        found.append(numpy.array(hits))
+        ghosts, others = ghosts + wrong, others + rest
+    told = "  ".join(f"{db:+.1f}: {hits.sum():3d}" for db, hits in zip(tried, found))
+    elsewhere = others / (len(tried) * (APART * lines + LENGTH)) * 3600
+    at, sample = half(tried, [f.mean() for f in found]), spread(tried, found)
+    print(f"{kind:4} {threshold:6.2f} nat, ordered 4: {len(statistics) / hours:4.1f}/h  {told}  {at:6.2f} ({interval(sample)})", end="  ")
+    print(f"{ghosts:3} ghosts of {sum(f.sum() for f in found):4}, {elsewhere:4.1f} others/h  {cpu:.5f} s/s", end="  ")
+    return at, sample
 
 
 def main():
     cli = sys.argv[1]
     lines = int(sys.argv[2]) if len(sys.argv) > 2 else 40
-    reference = None
-    print("teeth    found of", lines, "at dB" + " " * 36 + "half at   gain   ghosts of found  others/h ordered 1/h  CPU s/s")
+    hours = int(sys.argv[3]) if len(sys.argv) > 3 else 20
+    results = {}
     with tempfile.TemporaryDirectory() as folder:
-        for kind in sys.argv[3:] or KINDS:
-            teeth, missing, channels, tried = KINDS[kind]
-            path = os.path.join(folder, "lines.wav")
-            recording(path, teeth, False, channels, -60, 1, 0)
-            detect(cli, path, teeth, channels, 1)  # the calibration is kept
-            points, ghosts, others, spent, hits = [], 0, 0, 0.0, 0
-            for number, decibels in enumerate(tried):
-                truth = recording(path, teeth, missing, channels, decibels, lines, number + 1)
-                events, cpu = detect(cli, path, teeth, channels, 1)
-                found, wrong, rest = outcome(events, truth, teeth)
-                points.append((decibels, found / lines))
-                hits, ghosts, others, spent = hits + found, ghosts + wrong, others + rest, spent + cpu
-            seconds = len(tried) * (APART * lines + LENGTH)
-            at = half(points)
-            reference = at if kind == "1" else reference
-            gain = f"{reference - at:5.2f}" if reference is not None else "     "
-            told = "  ".join(f"{db:+d}: {round(lines * share):3d}" for db, share in points)
-            print(f"{kind:4}  {told}  {at:7.2f}  {gain}  {ghosts:4} of {hits:4}  {others / seconds * 3600:10.2f}  {spent / seconds:18.5f}", flush=True)
+        for kind in sys.argv[4:] or KINDS:
+            results[kind] = at, sample = measure(cli, kind, lines, hours, folder)
+            over = "8" if kind == "8-1" else "1"
+            if over in results and over != kind:
+                print(f"{results[over][0] - at:+.2f} dB ({interval(results[over][1] - sample)}) over {over}", end="")
+            print(flush=True)
 
 
 if __name__ == "__main__":

@@ -3,11 +3,13 @@
     python3 tests/listen.py CLI pipe [HOURS]            as fast as it goes (24): memory, processor
     python3 tests/listen.py CLI sound|udp|rtl_tcp [MINUTES]   in real time (10); sound needs pulseaudio
     python3 tests/listen.py CLI kill [COUNT]            SIGKILL at random moments (50)
-The first two compare the events with those of detect in the recording, byte for byte. Needs numpy. Exit code 1 where a promise is not kept."""
+    python3 tests/listen.py CLI drift [PPM]             a sender whose clock is slow by so much (100), which takes 17 minutes
+All but kill compare the events with those of detect in the recording, byte for byte. Needs numpy. Exit code 1 where a promise is not kept."""
 import collections
 import json
 import os
 import random
+import re
 import signal
 import socket
 import struct
@@ -23,6 +25,7 @@ RATE = 48000
 BLOCK = RATE // 20  # samples
 SETTINGS = ["--set", "spectrogram.windowSeconds=1", "--set", "decide.falseAlarmsPerHour=1"]
 MB = 1e6
+BEGINNING = 600  # s of each hour that its memory is not measured in: the first has the calibration in them
 
 
 def fail(words):
@@ -57,8 +60,13 @@ def cpuSeconds(pid):
     return (int(words[11]) + int(words[12])) / os.sysconf("SC_CLK_TCK")
 
 
-def memory(pid):
-    return int(open(f"/proc/{pid}/statm").read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+def memory(pid, kind):
+    """Bytes that are resident: VmRSS now, VmHWM the most since that was forgotten."""
+    return 1024 * int(re.search(kind + r":\s+(\d+) kB", open(f"/proc/{pid}/status").read())[1])
+
+
+def forgetMost(pid):
+    open(f"/proc/{pid}/clear_refs", "w").write("5")
 
 
 def listen(cli, folder, source, **more):
@@ -91,8 +99,11 @@ def pipe(cli, folder, hours):
         with open(f"{folder}/hour", "rb") as file:
             while second := file.read(2 * RATE):
                 process.stdin.write(second)
-                resident.append(memory(process.pid))
-        hourly.append((min(resident), max(resident), sum(resident) / len(resident), cpuSeconds(process.pid)))
+                resident.append(memory(process.pid, "VmRSS"))
+                if len(resident) == BEGINNING:
+                    forgetMost(process.pid)
+        settled = resident[BEGINNING:]
+        hourly.append((min(settled), memory(process.pid, "VmHWM"), sum(settled) / len(settled), cpuSeconds(process.pid)))
         least, most, mean, cpu = hourly[-1]
         print(f"hour {hour + 1}: {least / MB:.1f} … {most / MB:.1f} MB, mean {mean / MB:.2f}; {cpu:.0f} s of a processor", flush=True)
     process.stdin.close()
@@ -174,25 +185,33 @@ def sound(cli, folder, minutes):
 
 
 def killOnce(cli, folder, results):
-    """Seconds that were delivered a moment before the kill and are not in the recording."""
+    """Seconds that were in the pipe before the kill, which comes at any moment while more flows in, and are not in the recording."""
     process = listen(cli, folder, ["-", "--raw-type", "ri16_le", "--raw-rate", str(RATE)], stdin=subprocess.PIPE)
-    moment, begin, sent = random.uniform(0.5, 8.0), time.monotonic(), b""
-    scene = Scene()
-    while time.monotonic() - begin < moment:
-        block = scene.block()
-        process.stdin.write(block)
-        process.stdin.flush()
-        sent += block
-        time.sleep(max(0.0, begin + min(moment, len(sent) / 2 / RATE) - time.monotonic()))
+    sent, scene, begin = bytearray(), Scene(), time.monotonic()
+
+    def send():
+        try:
+            while True:
+                block = scene.block(RATE // 100)
+                os.write(process.stdin.fileno(), block)
+                sent.extend(block)
+                time.sleep(max(0.0, begin + len(sent) / 2 / RATE - time.monotonic()))
+        except BrokenPipeError:
+            pass
+
+    sender = threading.Thread(target=send)
+    sender.start()
+    time.sleep(random.uniform(0.5, 8.0))
+    delivered = len(sent)
     process.kill()
     process.wait()
-    process.stdin.close()
+    sender.join()
     kept = open(f"{folder}/heard.sigmf-data", "rb").read() if os.path.exists(f"{folder}/heard.sigmf-data") else b""
-    if not sent.startswith(kept):
+    if not bytes(sent).startswith(kept[: len(sent)]):
         return results.append("the recording holds what was never sent")
     if kept and subprocess.run([cli, "info", f"{folder}/heard.sigmf-meta"], stdout=subprocess.DEVNULL).returncode != 0:
         return results.append("the recording cannot be opened")
-    results.append((len(sent) - len(kept)) / 2 / RATE)
+    results.append(max(0, delivered - len(kept)) / 2 / RATE)
 
 
 def kill(cli, folder, count):
@@ -215,8 +234,34 @@ def kill(cli, folder, count):
         fail("more than a second was lost")
 
 
+def drift(cli, folder, ppm):
+    """A sender whose clock is slow, until that is told of: at 0.1 s."""
+    sender = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    sender.bind(("127.0.0.1", 0))
+    port = sender.getsockname()[1] ^ 1
+    process = listen(cli, folder, ["--udp", f"127.0.0.1:{port}", "--udp-sequence", "u32be", "--raw-type", "ri16_le", "--raw-rate", str(RATE)])
+    time.sleep(1.0)
+    scene, begin, number, told = Scene(), time.monotonic(), 0, []
+    while not told and time.monotonic() - begin < 2 * 0.1 / (ppm * 1e-6) + 60:
+        sender.sendto(struct.pack(">I", number) + scene.block(RATE // 100), ("127.0.0.1", port))
+        number += 1
+        time.sleep(max(0.0, begin + number * 0.01 * (1 + ppm * 1e-6) - time.monotonic()))
+        if number % 100 == 0:
+            told = [json.loads(line) for line in open(f"{folder}/lines.jsonl") if '"notice":"drift"' in line]
+    if not told:
+        fail("the drift was not told of")
+    print(f"{time.monotonic() - begin:.0f} s: {told[0]['message']}", flush=True)
+    finish(process, begin)
+    seconds = (told[0]["sample"] + told[0]["samples"]) / RATE
+    if abs(told[0]["samples"] / RATE / seconds / ppm * 1e6 - 1) > 0.2:
+        fail("it is not that drift")
+    if os.path.getsize(f"{folder}/heard.sigmf-data") != number * RATE // 100 * 2:
+        fail("samples were added or left out")
+    compare(cli, folder)
+
+
 def main():
-    jobs = {"pipe": (pipe, 24), "sound": (sound, 10), "udp": (udp, 10), "rtl_tcp": (rtl_tcp, 10), "kill": (kill, 50)}
+    jobs = {"pipe": (pipe, 24), "sound": (sound, 10), "udp": (udp, 10), "rtl_tcp": (rtl_tcp, 10), "kill": (kill, 50), "drift": (drift, 100)}
     if len(sys.argv) not in (3, 4) or sys.argv[2] not in jobs:
         sys.exit(__doc__)
     job, amount = jobs[sys.argv[2]]

@@ -4,9 +4,9 @@
 
 namespace faintline {
 
-/// What the user does in one go: from the press of a key or a mouse button to its release, however often the key
-/// repeats and whatever modifiers are pressed meanwhile; the notches of a wheel up to the next press. Ends, too, when
-/// the application is left. Watches the events of the application.
+/// Detects gestures of the user: from the press of a key or mouse button to its release, regardless of key repetition
+/// and modifiers; or wheel notches up to the next press. A gesture also ends when the application loses the focus.
+/// Watches the events of the application.
 class GestureWatcher : public QObject
 {
     Q_OBJECT
@@ -28,7 +28,7 @@ private:
     void endLater();
 
     int m_number = 0;
-    int m_down = 0; ///< the key or button that was pressed last, until its release; 0: none
+    int m_down = 0; ///< key or button pressed last, until its release; 0: none
     bool m_isWheel = false;
 };
 

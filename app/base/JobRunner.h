@@ -14,11 +14,11 @@
 
 namespace faintline {
 
-/// Runs jobs on one worker thread; the newest job wins.
+/// Runs jobs on one worker thread; a new job replaces the previous one.
 ///
-/// Starting a job asks the one before to stop and drops its result. A job computes on the worker and returns its
-/// delivery: a function that hands the result over on the thread this object lives on, called only if no newer job was
-/// started and nobody cancelled. What a job throws becomes a signal. The destructor stops and waits.
+/// Starting a job asks the previous one to stop and discards its result. A job computes on the worker and returns its
+/// delivery: a function that passes the result on in this object's thread, called only if no newer job was started and
+/// none was cancelled. Exceptions of a job become a signal. The destructor stops the job and waits.
 class JobRunner : public QObject
 {
     Q_OBJECT
@@ -33,7 +33,7 @@ public:
     void start(Job job);
     void cancel();
 
-    /// Called by a job, on the worker, to hand over what it has so far: like a delivery, but the job goes on.
+    /// Called by a job on the worker to deliver a partial result; the job continues.
     void deliver(std::function<void()> part);
 
     /// From `start` until the newest job's end has been signalled.
@@ -43,7 +43,7 @@ signals:
     void started();
     void progressed(double fraction, const QString &what);
 
-    // Each started job that no newer one replaces ends in exactly one of these.
+    // Each started job that is not replaced by a newer one ends in exactly one of these.
     void finished();
     void cancelled();
     void failed(const faintline::Error &error);
@@ -57,7 +57,7 @@ private:
 
     void work(const std::stop_token &quit);
     void run(const Request &request);
-    /// Has `action` called on this object's thread, unless a newer job was started by then.
+    /// Calls `action` in this object's thread, unless a newer job was started by then.
     void post(std::uint64_t number, std::function<void()> action);
 
     std::uint64_t m_newest = 0;  ///< of this object's thread
@@ -66,7 +66,7 @@ private:
 
     std::mutex m_mutex;
     std::condition_variable_any m_wake;
-    Request m_request;     ///< guarded by m_mutex: the newest; its job is empty when it was taken
+    Request m_request;     ///< guarded by m_mutex: the newest; its job is empty once taken
     std::jthread m_thread; ///< last, so that it ends first
 };
 

@@ -9,7 +9,7 @@ class QToolButton;
 
 namespace faintline {
 
-/// One sentence above the pictures that stays until it is dismissed or something else is to be said. Never in the way.
+/// One sentence above the pictures that stays until it is dismissed or replaced.
 class MessageBar : public QFrame
 {
     Q_OBJECT
@@ -19,7 +19,7 @@ public:
 
     explicit MessageBar(QWidget *parent = nullptr);
 
-    /// `action`: what a button with that text does; no text, no button.
+    /// `action`: called by a button with that text; no text, no button.
     void showMessage(Kind kind, const QString &where, const QString &why, const QString &actionText = {},
                      std::function<void()> action = {});
     void dismiss() { hide(); }

@@ -6,10 +6,10 @@ class QWidget;
 
 namespace faintline {
 
-/// Whether a panel can be seen, and when it comes into sight.
+/// Whether a panel is visible, with a signal when it becomes visible.
 ///
-/// Qt calls a panel behind another tab visible and keeps it somewhere outside of the window; what it would show is not
-/// to be worked out.
+/// Qt regards a panel behind another tab as visible and keeps it outside the window; its contents should not be
+/// computed.
 class VisibilityWatcher : public QObject
 {
     Q_OBJECT
@@ -30,7 +30,7 @@ private:
     void look();
 
     QWidget &m_panel;
-    QList<QWidget *> m_watched; ///< the panel and all it lies in
+    QList<QWidget *> m_watched; ///< the panel and all its ancestors
     bool m_wasOn = false;
 };
 

@@ -9,29 +9,28 @@ class QUrl;
 
 namespace faintline {
 
-/// The window's paths are text, a file's name is bytes. A byte that is no part of a character has a letter of its own
-/// in the text (base/fileName.h), so that any file can be opened, remembered and opened again. QFile and QFileInfo know
-/// nothing of these letters; whoever asks for a file itself asks here.
+/// The window's paths are text, but file names are bytes. Bytes that are not part of a character map to special
+/// characters in the text (base/fileName.h), so that any file can be opened, stored and reopened. QFile and QFileInfo
+/// do not know these characters; use these functions to access files.
 
 QString pathText(const std::string &bytes);
 std::string pathBytes(const QString &path);
 
-/// Where a dragged or chosen file lies; empty for what is no file of this machine.
+/// Path of a dragged or selected file; empty if it is not a local file.
 QString pathOf(const QUrl &url);
 
 bool fileExists(const QString &path);
 bool isRegularFile(const QString &path);
-qint64 fileSize(const QString &path); ///< bytes, 0 where there is none
+qint64 fileSize(const QString &path); ///< bytes, 0 if it does not exist
 QString absolutePath(const QString &path);
 
-/// At most so many bytes from the file's beginning, of a resource (":/…") as well. Throws Error.
+/// At most `mostBytes` from the file's beginning, also for resources (":/…"). Throws Error.
 QByteArray readBeginning(const QString &path, qint64 mostBytes);
 
-/// The file's name as a label shows it: one line, not too long.
+/// Label for a file name: one line of limited length.
 QString fileLabel(const QString &path);
 
-/// What to call a file that goes with another, "name-events.csv": in the same folder, with a name that any dialog can
-/// show and type.
+/// Name of a companion file, "name-events.csv": in the same folder, with a name that any dialog can show and accept.
 QString nameBeside(const QString &path, const QString &ending);
 
 } // namespace faintline

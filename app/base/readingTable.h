@@ -7,10 +7,10 @@ class QTableWidget;
 
 namespace faintline {
 
-/// A table of numbers to read, row by row: nothing in it can be edited.
+/// Makes a table read-only, selectable by rows.
 void makeReadingTable(QTableView &table, int rowHeight);
 
-/// Texts of a row, to the right but for the first `leftColumns`.
+/// Sets the texts of a row, right-aligned except for the first `leftColumns`.
 void fillRow(QTableWidget &table, int row, const QStringList &texts, int leftColumns = 0);
 
 } // namespace faintline

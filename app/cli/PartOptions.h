@@ -10,8 +10,8 @@
 
 namespace faintline {
 
-/// The part of a recording that is looked at, as both programs' options name it: --from, --to, --low and --high. What
-/// is left out is where the recording begins or ends.
+/// The analysed part of a recording, as options of both programs: --from, --to, --low and --high. By default it extends
+/// to the limits of the recording.
 struct PartOptions {
     std::optional<double> from; ///< s
     std::optional<double> to;   ///< s
@@ -29,7 +29,7 @@ struct PartOptions {
     /// As settings, name=value.
     std::vector<std::string> assignments() const
     {
-        constexpr double beyondHz = 1e12; // what any band ends before
+        constexpr double beyondHz = 1e12; // beyond any band
         std::vector<std::string> result;
         if (from)
             result.push_back("selection.fromSeconds=" + formatNumber(*from));

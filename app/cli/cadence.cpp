@@ -37,15 +37,16 @@ namespace {
 void addCadence(CLI::App &app, Common &common)
 {
     const auto options = std::make_shared<CadenceOptions>();
-    CLI::App *command = app.add_subcommand("cadence", "Find drifting signals that are there in all observations on "
-                                                      "target, and in none off it");
+    CLI::App *command = app.add_subcommand(
+        "cadence", "Find drifting signals that are present in all observations on target and in none off target");
     command
-        ->add_option("TABLES", options->tables,
-                     "Tables of hits (.dat) of observations on and off target in turn, as detect --hits writes them")
+        ->add_option(
+            "TABLES", options->tables,
+            "Tables of hits (.dat) of observations alternately on and off target, as detect --hits writes them")
         ->required()
         ->expected(2, 1000);
     addOutput(*command, common, "--events", options->events, "Write the events: .csv; default: print them");
-    command->add_option("--slack", options->slackHz, "Hz by which a signal may be off its straight line in addition")
+    command->add_option("--slack", options->slackHz, "Additional tolerance about a signal's straight line, Hz")
         ->check(inRange(0.0, 1e9))
         ->capture_default_str();
     command->callback([options, &common] { findIn(*options, common); });

@@ -22,22 +22,21 @@ class Option;
 
 namespace faintline::cli {
 
-/// What every subcommand is given.
+/// Shared by all subcommands.
 struct Common {
     std::stop_token stop;
     int threads = 2;
     std::string progress = "auto";
-    std::vector<std::string> arguments; ///< of this run, for the provenance of what it writes
+    std::vector<std::string> arguments; ///< of this run, for provenance files
     bool keepsProvenance = true;
-    /// What every path of a file to be read, and of one to be written, goes through before it is used; as they are
-    /// where empty.
+    /// Applied to each path of a file to read or write before its use; paths are unchanged if empty.
     std::function<std::string(const std::string &path)> read, written;
 
-    /// Shows progress on standard error as asked for.
+    /// Shows progress on standard error as requested.
     RunContext context() const;
 };
 
-/// The options that name a recording and the settings of its analysis, alike in every subcommand.
+/// Options for a recording and the settings of its analysis, the same in all subcommands.
 struct AnalysisOptions {
     std::string file;
     std::string session;
@@ -50,17 +49,17 @@ struct AnalysisOptions {
     bool asTimeline = false;
 
     void addTo(CLI::App &command, Common &common);
-    void addSettingsTo(CLI::App &command, Common &common); ///< all but the recording
+    void addSettingsTo(CLI::App &command, Common &common); ///< all except the recording
     /// Further files of the recording, with --timeline.
     void addMoreTo(CLI::App &command, Common &common);
-    void checkMore() const; ///< throws where there are some without it
+    void checkMore() const; ///< throws if there are further files without --timeline
     std::vector<std::string> names() const;
     AnalysisSettings settings() const;
     RecordingPointer recording() const;
-    /// The frames of a file that is no recording: simulated pings, a stack (FILE.npy), power over time and frequency;
-    /// null of others. Slopes in the settings become bins a frame.
+    /// The frames of a file that is not a recording: simulated pings, a stack (FILE.npy), power over time and
+    /// frequency; null for other files. Converts slopes in the settings to bins per frame.
     NormalisedFramesPointer frames(AnalysisSettings &settings, const RunContext &context) const;
-    std::vector<std::string> inputs() const; ///< the files that it all comes from; a SigMF recording is two
+    std::vector<std::string> inputs() const; ///< all input files; a SigMF recording has two
 };
 
 void addInfo(CLI::App &app, Common &common);
@@ -83,31 +82,31 @@ void addDoppler(CLI::App &app, Common &common);
 void addSurvey(CLI::App &app, Common &common);
 void addCadence(CLI::App &app, Common &common);
 
-/// Does what a command line asks for. Throws CLI::ParseError, Error, Cancelled.
+/// Executes a command line. Throws CLI::ParseError, Error, Cancelled.
 void runCommandLine(const std::vector<std::string> &arguments, Common common);
 void addBench(CLI::App &app, Common &common);
 
-/// The simulated pings of a scene file whose kind is "pings"; nothing if the file is another.
+/// The simulated pings of a scene file of kind "pings"; nothing for other files.
 std::shared_ptr<const SimulatedPings> openPings(const std::string &path);
 
 /// Opens a recording file, or simulates one from a scene's JSON file.
 RecordingPointer openAny(const std::string &path, const OpenOptions &options);
 
-/// Options that name a file to be read, and one to be written. A file that a command makes has to be named by the
-/// second: only then a replay, which runs what a stranger may have written, sends it elsewhere.
+/// Options for input and output files. Every file that a command writes must be declared with the second function,
+/// because only then does a replay, which may run untrusted commands, redirect it.
 CLI::Option *addInput(CLI::App &command, Common &common, const std::string &name, std::string &path,
                       const std::string &description);
 CLI::Option *addOutput(CLI::App &command, Common &common, const std::string &name, std::string &path,
                        const std::string &description);
 
-/// "2/8": counted from 0 or from 1, whichever suits the job scheduler; 0 and N name the same. Throws Error.
+/// Parses "2/8", counted from 0 or from 1, depending on the job scheduler; 0 and N denote the same shard. Throws Error.
 Shard shardFrom(const std::string &text);
 
-/// Throws where one of these files cannot be written, or is named twice, before anything is computed that would be
-/// lost. Empty names are none.
+/// Throws if one of these files cannot be written, or is named twice, before a computation whose result would be lost.
+/// Empty names are ignored.
 void checkOutputs(const std::vector<std::string> &paths);
 
-/// What `make` finds wrong in a file is said with the file's name before it.
+/// Calls `make` and prefixes errors with the file's name.
 template <class Make>
 auto inFile(const std::string &path, const Make &make)
 {

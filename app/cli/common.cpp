@@ -66,8 +66,8 @@ CLI::Option *addOutput(CLI::App &command, Common &common, const std::string &nam
 void AnalysisOptions::addTo(CLI::App &command, Common &common)
 {
     addInput(command, common, "FILE", file,
-             "Recording (WAV, FLAC, SigMF …), a folder or a list (.timeline) of those that make one, or a scene to "
-             "simulate (.json)")
+             "Recording (WAV, FLAC, SigMF …), a folder or a list (.timeline) of files that form one recording, or a "
+             "scene to simulate (.json)")
         ->required();
     addSettingsTo(command, common);
 }
@@ -197,8 +197,9 @@ std::shared_ptr<const SimulatedPings> openPings(const std::string &path)
 RecordingPointer openAny(const std::string &path, const OpenOptions &options)
 {
     if (options.rawType.empty() && holdsFrames(path))
-        throw Error(path, "holds frames, time and frequency already, and no samples; 'detect', 'explain', 'compare' "
-                          "and 'info' take it");
+        throw Error(
+            path,
+            "holds frames (time and frequency), not samples; use it with 'detect', 'explain', 'compare' or 'info'");
     if (path.ends_with(".json")) {
         const Json json = readJsonFile(path);
         if (isPingScene(json))

@@ -134,7 +134,7 @@ void addDoppler(CLI::App &app, Common &common)
         ->excludes(medium);
     command
         ->add_option("--centre", options->centreHz,
-                     "Frequency that 0 Hz stands for, Hz; by default the one of the file, which I/Q needs")
+                     "Frequency that corresponds to 0 Hz, Hz; by default that of the file, which I/Q requires")
         ->check(inRange(0.0, 1e15));
     addOutput(*command, common, "--out", options->out, "Write the fit: .json, or .csv for the points and residuals");
     addOutput(*command, common, "--chart", options->chart,

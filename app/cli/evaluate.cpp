@@ -187,7 +187,7 @@ void addEvaluate(CLI::App &app, Common &common)
         ->required();
     addOutput(*command, common, "--out", options->out, "Curve to write, .csv; with --shard, the runs of the shard");
     addOutput(*command, common, "--chart", options->chart,
-              "Chart of Pd against SNR to write, .svg, with the theory where there is one");
+              "Chart of Pd against SNR to write, .svg, with the theory if available");
     addOutput(*command, common, "--roc", options->roc,
               "Receiver operating characteristic to write, .svg; of a sweep, Pd against false alarms");
     command->add_option("--roc-snr", options->rocSnrDb,

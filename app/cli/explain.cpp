@@ -112,7 +112,7 @@ namespace {
                 "a sequential Markov detector guides its tracks; the path of that detector has %.4f nat here:\n",
                 explanation.statistic);
         if (explanation.isSubtracted)
-            std::printf("a line was subtracted here; the path is that of the rest\n");
+            std::printf("a line was subtracted here; the path is that of the remainder\n");
         if (explanation.isExplainedByNoise)
             std::printf("its path is not reported: cells this strong, or runs of them, are common in this "
                         "recording's noise\n");

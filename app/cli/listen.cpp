@@ -3,6 +3,7 @@
 
 #include "base/AtomicFile.h"
 #include "base/json.h"
+#include "base/keepNoHoles.h"
 #include "exchange/writeEvents.h"
 #include "live/EventCommand.h"
 #include "live/IqSource.h"
@@ -210,6 +211,7 @@ namespace {
         if (!options.events.empty() && !options.events.ends_with(".csv") && !options.events.ends_with(".json"))
             throw Error(options.events, "the file name must end in .csv or .json");
         checkOutputs({options.events});
+        keepNoHoles(128 << 10); // frames too
         AnalysisOptions analysis = options.analysis;
         analysis.file.clear(); // it can be read once
         ListenSettings settings;

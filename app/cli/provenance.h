@@ -7,9 +7,9 @@ namespace faintline::cli {
 
 struct Common;
 
-/// Writes beside each output what it was made from: OUTPUT.provenance.json with the command line, the folder it ran in,
-/// the version, and the inputs' hashes. With it `replay OUTPUT` makes the output again and compares. Empty names are
-/// none. Call it before the outputs are written, within a CommitTogether, and neither is there without the other.
+/// Writes OUTPUT.provenance.json beside each output, with the command line, its folder, the version, and hashes of the
+/// inputs, from which `replay OUTPUT` repeats and compares the output. Empty names are ignored. Call it before writing
+/// the outputs, within a CommitTogether, so that neither exists without the other.
 void writeProvenance(const Common &common, const std::vector<std::string> &inputs,
                      const std::vector<std::string> &outputs);
 

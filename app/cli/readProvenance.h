@@ -7,8 +7,7 @@
 
 namespace faintline::cli {
 
-/// What stands beside a result: the command line that wrote it, the folder it ran in, its version, what it read and
-/// wrote.
+/// Content of a provenance file: the command line, its folder and version, inputs and outputs.
 struct Provenance {
     std::string version;
     std::filesystem::path folder;
@@ -17,10 +16,11 @@ struct Provenance {
     std::vector<std::string> outputs;
 };
 
-/// Without what stands before the sub-command: threads and progress, which change no byte.
+/// Removes everything before the sub-command: threads and progress, which do not change results.
 std::vector<std::string> fromCommandOn(const std::vector<std::string> &arguments);
 
-/// Of what `detect`, `compare`, `simulate` or `inject` wrote; the sub-command is the first argument. Throws Error.
+/// Reads the provenance of an output of `detect`, `compare`, `simulate` or `inject`; the sub-command is the first
+/// argument. Throws Error.
 Provenance readProvenance(const std::string &path);
 
 } // namespace faintline::cli

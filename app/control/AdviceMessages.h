@@ -10,8 +10,8 @@ class Document;
 class MessageBar;
 class RecordingCheck;
 
-/// Says in the message bar what should be known of the recording that is open, with the remedy as a button: each advice
-/// once for each recording, never over another message, and never of what was simulated on purpose.
+/// Shows advice on the open recording in the message bar, with the remedy as a button: each advice once per recording,
+/// never over another message, and never for simulated sources.
 class AdviceMessages : public QObject
 {
     Q_OBJECT
@@ -27,7 +27,7 @@ private:
     AnalysisController &m_controller;
     const RecordingCheck &m_check;
     MessageBar &m_messages;
-    QSet<QString> m_told; ///< of what is open
+    QSet<QString> m_told; ///< advice already shown for the open source
 };
 
 } // namespace faintline

@@ -12,14 +12,13 @@
 
 namespace faintline {
 
-/// Keeps the document's analysis up with its settings: opens, runs the chain, and previews thresholds.
+/// Keeps the document's analysis up to date with its settings: opens sources, runs the chain, and previews thresholds.
 ///
-/// Whatever computes runs in the job runner, and the newest wish wins. A dragged threshold is shown at once on the
-/// results there are (`previewThreshold`); let go (`commitThreshold`), it becomes a setting and the chain runs again. A
-/// changed detector or model is seen at once as well: its statistic of the visible frames comes first, provisionally,
-/// beside the threshold there was; calibration, decisions and the rest of the recording follow. Settings that a
-/// recording was never calibrated for get a first estimate of their threshold, and the analysis again once it is
-/// refined.
+/// Computations run in the job runner, where the newest request wins. A dragged threshold is applied immediately to the
+/// existing results (`previewThreshold`); on release (`commitThreshold`) it becomes a setting and the chain runs again.
+/// A changed detector or model also has an immediate effect: first its provisional statistic of the visible frames,
+/// with the old threshold; calibration, decisions and the rest of the recording follow. Settings without a calibration
+/// get a first estimate of their threshold, and a second analysis once it is refined.
 class AnalysisController : public QObject
 {
     Q_OBJECT
@@ -29,26 +28,26 @@ public:
 
     using Adjust = std::function<void(AnalysisSettings &)>;
 
-    /// Opens a recording, a scenario or a session, by its name. `adjust` changes the settings it begins with: the
-    /// defaults, or the session's. May be called on another thread.
+    /// Opens a recording, a scenario or a session by name. `adjust` changes the initial settings: the defaults, or the
+    /// session's. It may be called on another thread.
     void open(const QString &path, const OpenOptions &options = {}, const Adjust &adjust = {});
-    /// Opens a session that a program left behind when it died: unsaved work, of no file of its own.
+    /// Opens a session left behind by a crashed program: unsaved work that belongs to no file.
     void recover(const QString &path);
-    /// What is open, read in another way.
+    /// Reopens the open source with other options.
     void reopen(const OpenOptions &options);
-    /// Shows what was opened and analysed elsewhere.
+    /// Adopts a source that was opened and analysed elsewhere.
     void adopt(const OpenedSource &opened, std::shared_ptr<const Analysis> analysis);
 
     bool isBusy() const { return m_runner.isRunning(); }
 
     /// Changes one setting as one undoable step.
     void edit(const QString &field, const FieldValue &value, const QString &text);
-    /// The same of a setting that is a number, whole or not.
+    /// The same for a numeric setting, integer or not.
     void editNumber(const QString &field, double value);
     void setSettings(const AnalysisSettings &settings, const QString &text);
-    /// Adds a line of a known SNR in the noise at its place to what is open, as one undoable step.
+    /// Adds a line with a known SNR over the local noise to the open source, as one undoable step.
     void inject(const LineSettings &line);
-    /// By what the threshold is set from now on; its place stays.
+    /// Selects the quantity that sets the threshold; its value stays.
     void setThresholdUnit(DecideSettings::By by);
 
 public slots:
@@ -58,18 +57,18 @@ public slots:
     void commitThreshold(double nats);
     void stepThreshold(int quarterNats);
 
-    /// Off: nobody waits for a first estimate of the threshold; the refined one is the first to be shown.
+    /// If off, the first displayed threshold is the refined one.
     void setShowsFirstEstimates(bool shows) { m_showsFirstEstimates = shows; }
 
 signals:
     void busyChanged(bool isBusy);
     void progressed(double fraction, const QString &what);
-    void viewRestored(const faintline::ViewState &view); ///< of a session, once there is something to see
+    void viewRestored(const faintline::ViewState &view); ///< of a session, once there is something to display
     void warned(const QString &where, const QString &why);
     void failed(const faintline::Error &error);
-    /// The analysis now has its refined threshold; it had a first estimate of it.
+    /// The analysis now has its refined threshold instead of a first estimate.
     void refined(double firstEstimate);
-    /// Nothing is left to do: the analysis belongs to the settings, or there was a failure.
+    /// Nothing is left to do: the analysis matches the settings, or it failed.
     void settled();
 
 private:
@@ -94,7 +93,7 @@ private:
 
     Document &m_document;
     std::optional<ViewState> m_pendingView;
-    std::optional<double> m_firstEstimate;    ///< threshold of the analysis that is being refined
+    std::optional<double> m_firstEstimate;    ///< threshold of the analysis being refined
     std::shared_ptr<const KeptFrames> m_kept; ///< of the last preview
     bool m_isOpening = false;
     bool m_showsFirstEstimates = true;

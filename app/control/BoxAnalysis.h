@@ -14,12 +14,12 @@ class AnalysisController;
 class Document;
 class WaterfallView;
 
-/// The settings with the analysis restricted to a box of time and frequency, rounded outwards to whole steps of a tenth
+/// The settings with the analysis restricted to a box of time and frequency, rounded outward to whole steps of a tenth
 /// of a frame and of a bin.
 AnalysisSettings inBox(AnalysisSettings settings, const Viewport::Box &box, double frameSeconds, double binHz);
 
-/// *Analyse this box*: the measured box becomes the part of the recording that is analysed, and back to the whole. In
-/// the menu, and in those of the pictures.
+/// *Analyse this box*: restricts the analysis to the measured box, and returns to the whole recording. Adds actions to
+/// the menu, and to those of the pictures.
 class BoxAnalysis : public QObject
 {
     Q_OBJECT

@@ -8,8 +8,8 @@ namespace faintline {
 
 class Document;
 
-/// Says what the measured box holds that its picture does not tell: the area SNR (core/analysis/boxLevels.h), from the
-/// frames themselves, in the background.
+/// Measures the area SNR of the measured box (core/analysis/boxLevels.h), from the frames themselves, in the
+/// background.
 class BoxMeter : public QObject
 {
     Q_OBJECT
@@ -27,7 +27,7 @@ private:
     void measure();
 
     Document &m_document;
-    QTimer m_pause; ///< while the box is dragged
+    QTimer m_pause; ///< delays while the box is dragged
     JobRunner m_runner;
 };
 

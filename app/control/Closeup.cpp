@@ -26,6 +26,7 @@ Closeup::Closeup(Document &document, WaterfallView &input, WaterfallView &output
     connect(&document, &Document::analysisChanged, this, &Closeup::follow);
     connect(&document, &Document::provisionalChanged, this, &Closeup::show);
     connect(&document.viewport(), &Viewport::spanChanged, this, &Closeup::follow);
+    connect(&document.viewport(), &Viewport::followingChanged, this, &Closeup::follow);
     connect(&m_runner, &JobRunner::failed, this, &Closeup::settled); // the merged rows stay
     connect(&m_runner, &JobRunner::finished, this, &Closeup::settled);
     connect(&m_runner, &JobRunner::cancelled, this, &Closeup::settled);
@@ -38,16 +39,37 @@ bool Closeup::eventFilter(QObject *watched, QEvent *event)
     return QObject::eventFilter(watched, event);
 }
 
+/// Of a live run, only while its picture is held.
+std::shared_ptr<const Analysis> Closeup::current() const
+{
+    const bool isMoving = m_document.isLive() && m_document.viewport().isFollowing();
+    return isMoving ? nullptr : m_document.inspectedUntil(m_document.viewport().time().high);
+}
+
+bool Closeup::showsNewest() const
+{
+    return m_document.viewport().time().low >= m_document.live().newInput->time().value(-0.5);
+}
+
+std::shared_ptr<const PeakPyramid> Closeup::lookedBackAt(const WaterfallView &view) const
+{
+    if (m_document.viewport().isFollowing() || showsNewest())
+        return nullptr;
+    return &view == &m_input ? m_inputStretch : m_statisticStretch;
+}
+
 /// Nothing where the pictures say all that can be seen.
 FrameStretch Closeup::wanted() const
 {
-    const auto analysis = m_document.lineAnalysis();
-    if (!analysis)
+    const auto analysis = current();
+    if (!analysis || (m_document.isLive() && showsNewest()))
         return {};
     const Span &visible = m_document.viewport().time();
     const Axis &time = analysis->time();
     const FrameStretch frames{time.nearest(visible.low), time.nearest(visible.high) + 1};
     const FrameStretch stretch = closeupStretch(*analysis->input, frames, m_input.framesPerPixel(), byteBudget);
+    if (m_document.isLive() && stretch.begin < m_document.live().goesBackTo)
+        return {};
     if (stretch.isEmpty() || m_analysis != analysis || !m_stretch.contains(frames))
         return stretch;
     const Index cells = analysis->grid().size();
@@ -62,7 +84,7 @@ FrameStretch Closeup::wanted() const
 void Closeup::follow()
 {
     const FrameStretch stretch = wanted();
-    if (m_analysis != m_document.analysis() || (stretch.isEmpty() && isBusy()))
+    if (m_analysis != current() || (stretch.isEmpty() && isBusy()))
         stop();
     if (stretch.isEmpty() || (m_analysis && m_stretch == stretch))
         return;
@@ -85,7 +107,7 @@ void Closeup::compute()
     m_stretch = wanted();
     if (m_stretch.isEmpty())
         return emit settled();
-    m_analysis = m_document.analysis();
+    m_analysis = current();
     m_inputStretch.reset();
     m_statisticStretch.reset();
     for (WaterfallView *view : {&m_input, &m_output})
@@ -106,7 +128,7 @@ void Closeup::compute()
 
 void Closeup::show()
 {
-    if (m_analysis != m_document.analysis())
+    if (m_analysis != current())
         return;
     if (m_inputStretch)
         m_input.setCloseup(m_inputStretch);

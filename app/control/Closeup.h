@@ -22,6 +22,9 @@ class Closeup : public QObject
 public:
     Closeup(Document &document, WaterfallView &input, WaterfallView &output, QObject *parent = nullptr);
 
+    /// A live run's picture as it is being looked back at; null where its newest frames are seen, which are single.
+    std::shared_ptr<const PeakPyramid> lookedBackAt(const WaterfallView &view) const;
+
     bool isBusy() const { return m_pause.isActive() || m_runner.isRunning(); }
 
 signals:
@@ -31,6 +34,8 @@ protected:
     bool eventFilter(QObject *watched, QEvent *event) override; ///< the view's canvas: another size, other pixels
 
 private:
+    std::shared_ptr<const Analysis> current() const;
+    bool showsNewest() const;
     FrameStretch wanted() const;
     void follow();
     void compute();

@@ -14,11 +14,10 @@
 
 namespace faintline {
 
-/// Holds an analysis A against the document's own, B: kept once, compared again whenever B changes.
+/// Compares an analysis A with the document's own, B: A is kept once and compared again whenever B changes.
 ///
-/// A stays what it was, settings and results. Where something else has been opened since, A's results are of what was
-/// open before; they are computed again only when asked for. It compares while it is told to (`setActive`): while
-/// somebody looks.
+/// A keeps its settings and results. If another source has been opened since, A's results refer to the previous one;
+/// they are recomputed only on request. Compares only while active (`setActive`), that is, while visible.
 class Comparer : public QObject
 {
     Q_OBJECT
@@ -31,7 +30,7 @@ public:
         std::shared_ptr<const PeakPyramid> difference; ///< null for pings
         std::vector<SettingDifference> settings;
     };
-    /// Processor seconds for an hour of recording.
+    /// Processor seconds per hour of recording.
     struct Cost {
         double a = 0.0;
         double b = 0.0;
@@ -39,14 +38,14 @@ public:
 
     explicit Comparer(Document &document, QObject *parent = nullptr);
 
-    /// The document's analysis becomes A.
+    /// Makes the document's analysis A.
     void keep();
     const std::shared_ptr<const Analysis> &kept() const { return m_kept; }
-    /// Whether A's results are of what is open.
+    /// Whether A's results are for the open source.
     bool isOfWhatIsOpen() const;
-    /// A's settings on what is open.
+    /// Computes A's settings on the open source.
     void computeHere();
-    /// B becomes A; the answer is what was A, for whoever makes it B.
+    /// Makes B the new A; returns the settings of the previous A, for the caller to make B.
     AnalysisSettings exchange();
 
     const std::optional<Result> &result() const { return m_result; }
@@ -54,12 +53,12 @@ public:
     bool isBusy() const { return m_runner.isRunning(); }
 
     void setActive(bool isActive);
-    /// Seconds of a machine are not the same twice; off where a picture has to be.
+    /// Costs vary between runs; turn off where a picture must be reproducible.
     void setMeasuringCost(bool isOn) { m_isMeasuringCost = isOn; }
 
 signals:
     void keptChanged();
-    void changed(); ///< the result, or that there is none
+    void changed(); ///< the result, or its absence
     void costChanged();
     void progressed(double fraction, const QString &what);
     void failed(const faintline::Error &error);

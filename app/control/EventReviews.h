@@ -17,23 +17,23 @@ class EventTable;
 class PingMap;
 class WaterfallView;
 
-/// What a person says about events, and boxes of their own: the actions, and where it is shown.
+/// A person's reviews of events, and own boxes: the actions and their display.
 ///
-/// Events are judged where they are selected, in the table, and tracks of pings by a right click on them. Nothing is
-/// ever deleted by judging: a rejected event stays in the table and is drawn faint. Each action is one undoable step of
-/// the document.
+/// Events are reviewed where they are selected: in the table, or tracks of pings by a right-click on them. Reviewing
+/// never deletes: a rejected event stays in the table and is drawn dimmed. Each action is one undoable step of the
+/// document.
 class EventReviews : public QObject
 {
     Q_OBJECT
 
 public:
-    /// `views`: the waterfalls that show events and boxes. Dialogs belong to `window`.
+    /// `views`: the waterfalls that show events and boxes. `window`: parent of dialogs.
     EventReviews(Document &document, EventTable &table, std::vector<WaterfallView *> views, QWidget *window);
 
-    /// Where tracks of pings are seen.
+    /// Adds maps on which tracks of pings are shown.
     void addMaps(std::vector<PingMap *> maps);
 
-    /// The actions for a menu: those on events first. The table's context menu has the same.
+    /// Adds the actions to a menu: those on events first. The table's context menu has the same ones.
     void addActionsTo(QMenu &menu);
 
     void judge(Verdict verdict);
@@ -42,16 +42,16 @@ public:
     void setNote(int id, const QString &note);
     /// Gives the selected events a class; an empty name clears it.
     void classify(const QString &name);
-    /// The classes that the keys 1 to 9 give; a key without a name of its own gives "class 3".
+    /// The classes for the keys 1 to 9; a key without a name gives "class 3".
     QStringList classNames() const { return m_classNames; }
     void setClassNames(const QStringList &names);
-    /// The measured box becomes an annotation.
+    /// Turns the measured box into an annotation.
     void annotateSelection(const QString &label);
 
     /// Throws Error.
     void importFrom(const QString &path);
     void exportTo(const QString &path);
-    /// The tracks of the events shown, frame by frame: .csv or .json.
+    /// Exports the tracks of the events shown, frame by frame: .csv or .json.
     void exportTracksTo(const QString &path);
 
     Provenance &provenance() { return m_provenance; }
@@ -90,12 +90,12 @@ private:
     std::vector<PingMap *> m_maps;
     QWidget *m_window;
     QList<QAction *> m_actions;      ///< null: a separator
-    QList<QAction *> m_eventActions; ///< need a selected event
+    QList<QAction *> m_eventActions; ///< enabled with a selected event
     QAction *m_merge = nullptr;
-    QList<QAction *> m_classes; ///< of the keys 1 to 9, and the one that clears them
+    QList<QAction *> m_classes; ///< for the keys 1 to 9, and the one that clears the class
     QStringList m_classNames;
     QAction *m_addBox = nullptr;
-    std::vector<std::size_t> m_unmatched; ///< reviews, in the order they are listed
+    std::vector<std::size_t> m_unmatched; ///< reviews in the order listed
     Provenance m_provenance;
 };
 

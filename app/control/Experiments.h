@@ -15,10 +15,10 @@
 
 namespace faintline {
 
-/// The experiments of this window: what waits, runs, and has been done, one at a time on a worker.
+/// The experiments of this window: waiting, running and completed ones; one at a time runs on a worker.
 ///
-/// A campaign grows while it runs: every finished run is added as it comes, and `changed` says so a few times a second.
-/// Cancelled ones keep the runs they have. Results depend on the experiment alone, as everywhere.
+/// A campaign grows while it runs: each finished run is added immediately, and `changed` reports it a few times per
+/// second. Cancelled campaigns keep their runs. Results depend only on the experiment.
 class Experiments : public QObject
 {
     Q_OBJECT
@@ -34,21 +34,21 @@ public:
         QString doing;   ///< while it runs
         QString failure; ///< why it failed
         std::optional<Campaign> campaign;
-        RecordingPointer recording;                    ///< that lines are injected into
-        std::shared_ptr<const InjectionTrials> trials; ///< of an injection, once prepared
+        RecordingPointer recording;                    ///< into which lines are injected
+        std::shared_ptr<const InjectionTrials> trials; ///< for an injection, once prepared
         std::optional<Reproducible> reproducible;
         std::shared_ptr<const Reproduction> reproduction; ///< once done
-        std::optional<std::vector<CurvePoint>> imported;  ///< a curve file's points: there are no trials behind them
+        std::optional<std::vector<CurvePoint>> imported;  ///< points of a curve file, without trials
         int runsDone() const { return campaign ? int(campaign->outcomes.size()) : 0; }
         bool isOpen() const { return state == State::Waiting || state == State::Running; }
     };
 
     explicit Experiments(QObject *parent = nullptr);
 
-    /// Puts a campaign at the end of the queue; an injection needs the recording. Returns its id.
+    /// Appends a campaign to the queue; an injection needs the recording. Returns its id.
     int start(const QString &name, const Experiment &experiment, RecordingPointer recording = {});
     int start(const Reproducible &reproducible, const ReproduceOptions &options);
-    /// Adds what was done elsewhere: runs of a campaign, or the points of a curve.
+    /// Adds results from elsewhere: runs of a campaign, or the points of a curve.
     int add(const QString &name, Campaign campaign);
     int add(const QString &name, std::vector<CurvePoint> curve);
 

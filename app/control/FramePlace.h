@@ -10,16 +10,16 @@ namespace faintline {
 
 class Document;
 
-/// A place in a frame.
+/// A position in a frame.
 struct FramePlace {
     double seconds = 0.0;
     std::vector<double> position; ///< one per axis of the grid, in its unit
 };
 
-/// Where the cursor stands; nothing where there is none.
+/// Position of the cursor; nothing if there is none.
 std::optional<FramePlace> cursorOf(const Viewport &lines);
 std::optional<FramePlace> cursorOf(const PingViewports &pings);
-/// In what is open.
+/// For the open source.
 std::optional<FramePlace> cursorOf(Document &document, const PingViewports &pings);
 
 } // namespace faintline

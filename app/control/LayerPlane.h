@@ -16,27 +16,27 @@ struct LayerWindow;
 class PingMap;
 class WaterfallView;
 
-/// The picture over which layers of one kind of frames are shown: of lines the output's waterfall, of pings the map of
-/// the one under the cursor.
+/// The picture over which layers are shown for one kind of frames: for lines the output's waterfall, for pings the map
+/// of the ping under the cursor.
 class LayerPlane : public QObject
 {
     Q_OBJECT
 
 public:
     const FrameKind &kind() const { return m_kind; }
-    LayerItem &item() const { return m_item; } ///< the view's
+    LayerItem &item() const { return m_item; } ///< owned by the view
     WaterfallView &view() const { return m_view; }
 
     virtual std::optional<FramePlace> cursor() const = 0;
-    /// What can be seen, no finer than its pixels.
+    /// The visible part, with a resolution limited to its pixels.
     virtual LayerWindow window(const Analysis &analysis) const = 0;
     /// Rows and columns of that window.
     virtual std::pair<Axis, Axis> axes(const Analysis &analysis) const = 0;
     virtual void replot() = 0;
 
 signals:
-    void spanChanged();  ///< another part can be seen
-    void shapeChanged(); ///< the same on other pixels
+    void spanChanged();  ///< the visible part has changed
+    void shapeChanged(); ///< the same part on other pixels
     void cursorChanged();
 
 protected:

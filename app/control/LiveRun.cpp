@@ -82,8 +82,12 @@ JobRunner::Delivery LiveRun::listenNow(const OpenSource &open, const ListenSetti
         const std::lock_guard lock(shared.mutex);
         return std::exchange(shared.wish, {});
     };
-    listen(*source, settings, sinks, context);
-    return [] {};
+    sinks.recording = tell;
+    const ListenResult result = listen(*source, settings, sinks, context);
+    return [this, recording = result.recording] {
+        if (!recording.empty())
+            m_state.recording = pathText(recording);
+    };
 }
 
 void LiveRun::stop()

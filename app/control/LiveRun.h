@@ -27,7 +27,7 @@ public:
     /// What is known besides the pictures.
     struct State {
         std::optional<StreamFormat> format; ///< none: the source has not answered yet
-        QString recording;                  ///< its metadata
+        QString recording;                  ///< its metadata; in the end, of several files, their list
         Index lostCount = 0;                ///< samples
         int gapCount = 0;
         double blockSeconds = 0.0; ///< that are heard before the first frame

@@ -17,37 +17,36 @@ class LayerPlane;
 class PingMap;
 class WaterfallView;
 
-/// What else the detector says of its output than the statistic: winning rate, path age, resets, inhibited cells, in
-/// the statistic's place or over it; and the best state at the cursor. Each kind of frames has a plane that they are
-/// shown on.
+/// Layers of the detector's output besides the statistic: winning rate, path age, resets, inhibited cells, instead of
+/// the statistic or over it; and the best state at the cursor. Each kind of frames has a plane on which they are shown.
 ///
-/// Computed for what can be seen, on a worker, by going through the run again (LayerReplay); the newest view wins.
-/// Nothing is computed while no layer is on and nobody watches the cursor.
+/// Computed for the visible part on a worker by repeating the run (LayerReplay); the newest view wins. Nothing is
+/// computed while no layer is shown and the cursor is not watched.
 class OutputLayers : public QObject
 {
     Q_OBJECT
 
 public:
     OutputLayers(Document &document, WaterfallView &output, QObject *parent = nullptr);
-    /// Where pings are looked at.
+    /// Adds the views of pings.
     void addPings(PingMap &map, PingViewports &viewports);
 
-    /// Whether what is open has such a layer.
+    /// Whether the open source has this layer.
     bool isOffered(OutputLayer layer) const;
     OutputLayer layer() const { return m_layer; }
-    QString heading() const; ///< of a picture that shows the layer
+    QString heading() const; ///< heading of a picture that shows the layer
     bool isOverlay() const { return m_isOverlay; }
-    const LayerItem &item() const; ///< of what is open
+    const LayerItem &item() const; ///< for the open source
     bool isBusy() const { return m_pause.isActive() || m_runner.isRunning(); }
 
-    /// What is known of that cell: exactly of the one under the cursor, elsewhere as far as a layer's picture goes.
+    /// Values of a cell: exact for the cell under the cursor, elsewhere from the layer's picture.
     std::optional<CellReading> readingAt(const FramePlace &place) const;
 
 public slots:
     void setLayer(faintline::OutputLayer layer);
     void cycleLayer();
     void setOverlay(bool isOverlay);
-    /// Whether the cursor's cell is followed even while no layer is on.
+    /// Whether the cursor's cell is evaluated even while no layer is shown.
     void setWatching(bool isWatching);
 
 signals:
@@ -57,7 +56,7 @@ signals:
     void settled();
 
 protected:
-    bool eventFilter(QObject *watched, QEvent *event) override; ///< the view's: another size, another theme
+    bool eventFilter(QObject *watched, QEvent *event) override; ///< for size and theme changes of the view
 
 private:
     struct Place {
@@ -72,11 +71,11 @@ private:
         std::shared_ptr<const LayerPicture> picture;
         std::optional<CellReading> atCursor;
         std::optional<Place> cursor;
-        std::optional<Index> frame; ///< the only one in the picture
+        std::optional<Index> frame; ///< the only frame in the picture
     };
 
     void add(LayerPlane *plane);
-    LayerPlane &plane() const; ///< of what is open
+    LayerPlane &plane() const; ///< for the open source
     bool isPossible() const;
     bool isWanted() const { return m_isWatching || m_layer != OutputLayer::Statistic; }
     void follow();
@@ -97,8 +96,8 @@ private:
     bool m_isOverlay = false;
     bool m_isWatching = false;
     Result m_result;
-    QTimer m_pause;                        ///< a view on its way is not computed
-    std::shared_ptr<LayerReplay> m_replay; ///< touched by jobs only, one at a time
+    QTimer m_pause;                        ///< delays while the view changes
+    std::shared_ptr<LayerReplay> m_replay; ///< used by jobs only, one at a time
     JobRunner m_runner;                    ///< last, so that its jobs end first
 };
 

@@ -8,6 +8,8 @@
 #include <QMenu>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace faintline {
 
@@ -15,6 +17,8 @@ namespace {
 
     constexpr int interval = 33; // ms
     constexpr double toneHz = 700.0;
+    constexpr double behindSeconds = 0.2;  // of a live run, for what comes late
+    constexpr double longestSeconds = 1e9; // it is played to its end
     constexpr double speeds[]{0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0};
 
     QAction *addChoice(QMenu &menu, QActionGroup &group, const QString &text, bool isChecked)
@@ -34,6 +38,10 @@ Playback::Playback(Document &document, ChooseEvent chooseEvent, QObject *parent)
     m_timer.setInterval(interval);
     connect(&m_timer, &QTimer::timeout, this, &Playback::follow);
     connect(&document, &Document::opened, this, &Playback::stop);
+    connect(&m_line, &JobRunner::failed, this, [this](const Error &error) {
+        emit failed(error);
+        goOnSoundless();
+    });
 }
 
 void Playback::addActionsTo(QMenu &menu)
@@ -77,7 +85,9 @@ void Playback::setLooping(bool isLooping)
 
 void Playback::playOn()
 {
-    if (isPlaying() && !start())
+    if (m_liveChoice)
+        startLive();
+    else if (m_isPlaying && !start())
         stop();
 }
 
@@ -100,58 +110,179 @@ PlaySettings Playback::stretch() const
     return settings;
 }
 
-FrequencyCurve Playback::line() const
+FrequencyCurve Playback::lineAtCursor() const
 {
-    if (const std::optional<Event> event = m_chooseEvent(); event && m_document.lineAnalysis())
-        return straightened(*m_document.lineAnalysis(), *event).curve;
     if (!m_document.viewport().cursor())
         throw Error(tr("Play").toStdString(), "requires an event to follow, or a cursor on the line");
     return FrequencyCurve({"time", "s", 0.0, 1.0, 1}, {m_document.viewport().cursor()->hz});
 }
 
+std::unique_ptr<Player> Playback::player(RecordingPointer what, int ofChannel) const
+{
+    return std::make_unique<Player>(std::move(what), ofChannel, stretch(), "default", tr("Play").toStdString());
+}
+
+std::unique_ptr<Player> Playback::playerOfLine(const FrequencyCurve &curve) const
+{
+    return player(lineToPlay(m_document.recording(), m_document.settings().selection.channel, curve), 0);
+}
+
 std::unique_ptr<Player> Playback::makePlayer() const
 {
+    if (m_what == What::Line)
+        return playerOfLine(lineAtCursor());
     const RecordingPointer &recording = m_document.recording();
     const int channel = m_document.settings().selection.channel;
-    const auto play = [&](RecordingPointer what, int ofChannel) {
-        return std::make_unique<Player>(std::move(what), ofChannel, stretch(), "default", tr("Play").toStdString());
-    };
-    if (m_what == What::Line)
-        return play(lineToPlay(recording, channel, line()), 0);
     if (m_what == What::Recording)
-        return play(recording, channel);
-    const Span band = m_document.box() ? m_document.box()->frequency : m_document.viewport().frequency();
-    return play(std::make_shared<BandRecording>(recording, channel, band.low, band.high), 0);
+        return player(recording, channel);
+    return player(std::make_shared<BandRecording>(recording, channel, band().low, band().high), 0);
+}
+
+Span Playback::band() const
+{
+    return m_document.box() ? m_document.box()->frequency : m_document.viewport().frequency();
+}
+
+/// A line is heard where the event that is chosen was last, or at the cursor; it may walk a little.
+Playback::LiveChoice Playback::liveChoice() const
+{
+    constexpr double stepHz = 20.0;
+    if (m_what == What::Recording)
+        return {};
+    if (m_what == What::Band)
+        return {m_what, band()};
+    const std::optional<Event> event = m_chooseEvent();
+    const auto &cursor = m_document.viewport().cursor();
+    if (!event && !cursor && m_liveChoice && m_liveChoice->what == m_what)
+        return *m_liveChoice;
+    if (!event && !cursor)
+        throw Error(tr("Play").toStdString(), "requires an event to follow, or a cursor on the line");
+    const double hz = event ? event->position.back() : cursor->hz;
+    const bool isNear = m_liveChoice && m_liveChoice->what == m_what && std::abs(m_liveChoice->band.low - hz) < stepHz;
+    return isNear ? *m_liveChoice : LiveChoice{m_what, {hz, hz}};
+}
+
+std::unique_ptr<Player> Playback::makeLivePlayer() const
+{
+    const auto written = m_document.live().written;
+    if (!written)
+        throw Error(tr("Play").toStdString(), "requires that what is listened to is recorded");
+    RecordingPointer recording = std::make_shared<HeardRecording>(written);
+    int channel = m_document.settings().selection.channel;
+    const double rate = recording->info().sampleRateHz;
+    double reach = 0.0;
+    if (m_liveChoice->what != What::Recording) {
+        const Span band = m_liveChoice->band;
+        recording = m_liveChoice->what == What::Band
+                        ? std::make_shared<BandRecording>(recording, channel, band.low, band.high)
+                        : lineToPlay(recording, channel, FrequencyCurve({"time", "s", 0.0, 1.0, 1}, {band.low}));
+        channel = 0;
+        reach = double(BandRecording::reachSamples) / rate;
+    }
+    PlaySettings settings;
+    settings.endSeconds = [written, rate, reach] { return double(written->end()) / rate - reach; };
+    settings.fromSeconds = std::max(0.0, settings.endSeconds() - behindSeconds);
+    settings.toSeconds = settings.fromSeconds + longestSeconds;
+    settings.toneHz = m_liveChoice->what == What::Line ? toneHz : 0.0;
+    return std::make_unique<Player>(recording, channel, settings, "default", tr("Play").toStdString());
+}
+
+void Playback::setPlaying(bool isPlaying)
+{
+    if (m_isPlaying == isPlaying)
+        return;
+    m_isPlaying = isPlaying;
+    emit playingChanged(isPlaying);
+}
+
+void Playback::silence()
+{
+    m_timer.stop();
+    m_player.reset();
+    m_line.cancel();
+}
+
+bool Playback::begin(const MakePlayer &make)
+{
+    try {
+        m_player = make();
+    } catch (const Error &error) {
+        emit failed(error);
+        return false;
+    }
+    m_timer.start();
+    return true;
 }
 
 bool Playback::start()
 {
     if (!m_document.recording() || m_document.viewport().isEmpty() || !(stretch().fromSeconds < stretch().toSeconds))
         return false;
-    const bool wasPlaying = isPlaying();
-    try {
-        m_player.reset();
-        m_player = makePlayer();
-    } catch (const Error &error) {
-        emit failed(error);
-        if (wasPlaying)
-            stop();
-        return false;
+    if (m_liveChoice)
+        stop();
+    silence();
+    const std::optional<Event> event = m_what == What::Line ? m_chooseEvent() : std::nullopt;
+    if (event && m_document.lineAnalysis()) {
+        startAlong(m_document.lineAnalysis(), *event);
+        return true;
     }
+    if (beginRecording([this] { return makePlayer(); }))
+        return true;
+    stop();
+    return false;
+}
+
+void Playback::startAlong(std::shared_ptr<const Analysis> analysis, const Event &event)
+{
+    m_line.start([this, analysis = std::move(analysis), event](const RunContext &) -> JobRunner::Delivery {
+        return [this, curve = straightened(*analysis, event).curve] {
+            if (!beginRecording([&] { return playerOfLine(curve); }))
+                goOnSoundless();
+        };
+    });
+    setPlaying(true);
+}
+
+bool Playback::beginRecording(const MakePlayer &make)
+{
+    if (!begin(make))
+        return false;
     showPosition();
-    m_timer.start();
-    if (!wasPlaying)
-        emit playingChanged(true);
+    setPlaying(true);
     return true;
+}
+
+bool Playback::startLive()
+{
+    if (!m_document.isLive())
+        return false;
+    silence();
+    setPlaying(false);
+    const bool wasHearing = m_liveChoice.has_value();
+    const bool isHearing = begin([this] {
+        m_liveChoice = liveChoice();
+        return makeLivePlayer();
+    });
+    if (!isHearing)
+        m_liveChoice.reset();
+    if (isHearing != wasHearing)
+        emit hearingChanged(isHearing);
+    return isHearing;
+}
+
+/// Nobody is told that it ended: what shows that it plays goes on to.
+void Playback::goOnSoundless()
+{
+    m_isPlaying = false;
+    emit soundless();
 }
 
 void Playback::stop()
 {
-    m_player.reset();
-    if (!m_timer.isActive())
-        return;
-    m_timer.stop();
-    emit playingChanged(false);
+    silence();
+    if (std::exchange(m_liveChoice, std::nullopt))
+        emit hearingChanged(false);
+    setPlaying(false);
 }
 
 void Playback::follow()
@@ -160,10 +291,24 @@ void Playback::follow()
         emit failed(Error(tr("Play").toStdString(), *failure, Error::Kind::Failure));
         return stop();
     }
+    if (m_liveChoice)
+        return followLive();
     if (m_player->isOver())
         return stop();
     const Viewport &viewport = m_document.viewport();
     viewport.cursor() && viewport.cursor()->seconds != m_shownSeconds ? playOn() : showPosition();
+}
+
+void Playback::followLive()
+{
+    if (!m_document.isLive())
+        return stop();
+    const LiveChoice wanted = liveChoice();
+    if (std::exchange(m_wanted, wanted) == wanted
+        && wanted != *m_liveChoice) // one that stays, not every step of a zoom
+        return playOn();
+    const auto &written = *m_document.live().written;
+    emit delayChanged(double(written.end()) / written.format().sampleRateHz - m_player->positionSeconds());
 }
 
 void Playback::showPosition()

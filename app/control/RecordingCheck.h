@@ -14,11 +14,11 @@ namespace faintline {
 
 class Document;
 
-/// Whether the recording that is open is what its analysis takes it for.
+/// Checks whether the open recording satisfies the assumptions of its analysis.
 ///
-/// After each analysis the noise outside its tracks is looked at (`checkNoiseLaw`), and what a user should know
-/// (`advise`). On request, surrogates of the recording are sent through the whole chain (`countOnSurrogates`). All of
-/// it runs on worker threads and is forgotten as soon as the settings change.
+/// After each analysis the noise outside its tracks is tested (`checkNoiseLaw`), and advice is computed (`advise`). On
+/// request, surrogates of the recording are sent through the whole chain (`countOnSurrogates`). All of this runs on
+/// worker threads and is discarded when the settings change.
 class RecordingCheck : public QObject
 {
     Q_OBJECT
@@ -29,26 +29,26 @@ public:
     const std::optional<NoiseLawCheck> &law() const { return m_law; }
     const std::vector<Advice> &advice() const { return m_advice; }
     const std::optional<SurrogateCount> &count() const { return m_count; }
-    const std::optional<Error> &failure() const { return m_failure; } ///< of the count
+    const std::optional<Error> &failure() const { return m_failure; } ///< reason why the count failed
 
     bool isBusy() const { return isCounting() || m_lookRunner.isRunning(); }
     bool isCounting() const { return m_countRunner.isRunning(); }
 
     void startCount();
     void stopCount();
-    /// What a count came to.
+    /// Sets the result of a count.
     void setCount(const SurrogateCount &count);
 
-    /// The settings with the threshold that gives the specified rate on noise like this recording's; nothing where
-    /// that was not counted, or where the threshold gives it already.
+    /// The settings with the threshold that gives the specified rate on noise like this recording's; nothing if that
+    /// was not counted, or if the threshold already gives it.
     std::optional<AnalysisSettings> corrected() const;
-    /// The settings with an advice's remedy, slopes in the unit they are given in.
+    /// The settings with an advice's remedy, and slopes in their original unit.
     AnalysisSettings remedied(const Advice &advice) const;
 
 signals:
     void changed(); ///< law, advice or count
     void countProgressed(double fraction, const QString &what);
-    /// Nothing is being counted or looked at any more.
+    /// No count or check is running any more.
     void settled();
 
 private:

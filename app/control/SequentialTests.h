@@ -19,18 +19,18 @@ namespace faintline {
 
 /// The sequential tests of this window: a radar's on simulated scans, or one on a recording's frames.
 ///
-/// Results come while the tests run, part by part, always in the same order and always the same: walks of both
+/// Results arrive in parts while the tests run, always in the same order and with the same values: walks of both
 /// hypotheses, the survey of the sectors, curves against SNR and prior, the test of fixed size. One run is selected;
-/// what it thought and the scan at the stage that is looked at are computed when asked for.
+/// its posterior, and the scan at the selected stage, are computed on request.
 class SequentialTests : public QObject
 {
     Q_OBJECT
 
 public:
-    /// A run and how it went.
+    /// A run and its result.
     using Walk = std::pair<ScanRun, SprtResult>;
 
-    /// Frames of a line recording that a test is made on.
+    /// Frames of a line recording to be tested.
     struct Selection {
         QString name; ///< of the recording
         NormalisedFramesPointer frames;
@@ -41,10 +41,10 @@ public:
         Index cellCount = 0;
     };
 
-    /// What a run thought, and what was true.
+    /// The posterior of a run, and the truth.
     struct Inspection {
         InspectedTest test;
-        std::vector<ScanCell> truth; ///< empty: no target, or not known
+        std::vector<ScanCell> truth; ///< empty: no target, or unknown
     };
 
     /// The scan of a stage: range × Doppler, dB.
@@ -56,7 +56,7 @@ public:
 
     explicit SequentialTests(QObject *parent = nullptr);
 
-    /// Both throw Error where the input makes no sense, and forget what was there otherwise.
+    /// Both throw Error for invalid input, and discard previous results otherwise.
     void start(const ScanTest &test);
     void start(const Selection &selection, const SprtSettings &sprt);
     void cancel();
@@ -65,7 +65,7 @@ public:
 
     bool isEmpty() const { return m_walks.empty(); }
     bool isOfScans() const { return !m_selection.frames; }
-    const ScanTest &test() const { return m_test; } ///< its `sprt` holds for a recording too
+    const ScanTest &test() const { return m_test; } ///< its `sprt` also applies to a recording
     const Selection &selection() const { return m_selection; }
 
     const std::vector<Walk> &walks() const { return m_walks; }
@@ -73,14 +73,14 @@ public:
     const std::vector<ScanPoint> &points() const { return m_points; }
     const std::optional<PriorCurve> &prior() const { return m_prior; }
     std::optional<Index> fixedSize() const { return m_fixedSize; }
-    bool isFixedSizeKnown() const { return m_isFixedSizeKnown; } ///< even if none suffices
+    bool isFixedSizeKnown() const { return m_isFixedSizeKnown; } ///< also if none suffices
 
     int selected() const { return m_selected; } ///< index of a walk; -1: none
     Index stage() const { return m_stage; }     ///< 1 … stages of the selected run
     const std::shared_ptr<const Inspection> &inspection() const
     {
         return m_inspection;
-    } ///< of the selected run; null until it is there
+    } ///< for the selected run; null until computed
     const std::optional<Scan> &scan() const { return m_scan; }
 
 public slots:
@@ -100,13 +100,13 @@ signals:
     void progressed(double fraction, const QString &what);
     void busyChanged(bool isBusy);
     void failed(const faintline::Error &error);
-    void settled(); ///< nothing is left to be done
+    void settled(); ///< no work is left
 
 private:
     void forget();
     void runScans(const ScanTest &test, const RunContext &context);
     void measureCurves(const ScanTest &test, const RunContext &context);
-    /// Has `change` done to the results on this object's thread, unless others were started since.
+    /// Applies `change` to the results in this object's thread, unless another run was started since.
     template <class Change>
     void deliver(Change change);
     void addWalks(std::vector<Walk> walks);
@@ -126,8 +126,8 @@ private:
     Index m_stage = 1;
     std::shared_ptr<const Inspection> m_inspection;
     std::optional<Scan> m_scan;
-    int m_generation = 0;    ///< of this object's thread; grows with every start
-    int m_jobGeneration = 0; ///< of the worker: the one it computes for
+    int m_generation = 0;    ///< of this object's thread; increases with every start
+    int m_jobGeneration = 0; ///< of the worker: the one for which it computes
 
     JobRunner m_runner; ///< last, so that their jobs end first
     JobRunner m_inspector;

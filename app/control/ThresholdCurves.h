@@ -7,8 +7,8 @@ namespace faintline {
 class Document;
 class ExceedancePlot;
 
-/// Feeds the threshold's plot with what noise does by theory, where there is one, and in the box that is measured in
-/// this recording: a stretch of noise, if whoever draws it chooses well.
+/// Supplies the threshold's plot with the closed form for noise, if there is one, and with the exceedance in the
+/// measured box of this recording, which should be a stretch of noise.
 class ThresholdCurves : public QObject
 {
     Q_OBJECT

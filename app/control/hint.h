@@ -6,8 +6,8 @@ namespace faintline {
 
 class Document;
 
-/// One sentence on what to try next, for the status bar. `isBusy`: whether something is being computed; `usual`: what
-/// is said where there are events.
+/// A sentence for the status bar on what to try next. `isBusy`: whether a computation is running; `usual`: the sentence
+/// if there are events.
 QString hint(const Document &document, bool isBusy, const QString &usual);
 
 } // namespace faintline

@@ -7,7 +7,7 @@
 
 namespace faintline {
 
-// What is said of a threshold that is not the last word yet.
+// Texts for a preliminary threshold.
 
 /// "Threshold 8.93 nat (first estimate, false alarms within a factor 1.5; being refined)".
 QString firstEstimateSentence(const Analysis &analysis, bool isBusy);
@@ -15,7 +15,7 @@ QString firstEstimateSentence(const Analysis &analysis, bool isBusy);
 /// "Threshold refined: 8.87 nat instead of 8.93. Events follow it."
 QString refinedSentence(const Analysis &analysis, double firstEstimate);
 
-/// Why nothing is exported yet: it would not be what the settings bring again.
+/// Error on export with a preliminary threshold, because the settings would not reproduce the result.
 Error firstEstimateError();
 
 } // namespace faintline

@@ -65,6 +65,8 @@ void Document::setOpened(OpenedSource opened, const AnalysisSettings &settings, 
     m_provisional.reset();
     m_live = {};
     m_isLive = false;
+    m_liveSoFar.reset();
+    m_planSoFar.reset();
     m_events.clear();
     m_viewport.setExtents({}, {});
     m_undoStack.clear();
@@ -137,6 +139,23 @@ void Document::setLive(LiveView view)
 void Document::endLive()
 {
     m_isLive = false;
+}
+
+std::shared_ptr<const Analysis> Document::inspectedUntil(double seconds)
+{
+    if (!m_isLive)
+        return lineAnalysis();
+    const double frame = m_live.time.position(seconds);
+    if (frame + 0.5 < double(m_live.goesBackTo))
+        return nullptr;
+    const bool isOld =
+        m_planSoFar != m_live.plan || !m_liveSoFar
+        || (frame + 0.5 > double(m_liveSoFar->time().count) && m_live.time.count > m_liveSoFar->time().count);
+    if (isOld) {
+        m_liveSoFar = analysisSoFar(m_live);
+        m_planSoFar = m_live.plan;
+    }
+    return m_liveSoFar;
 }
 
 const AnalysisPlan *Document::plan() const

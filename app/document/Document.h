@@ -93,6 +93,10 @@ public:
     void endLive();
     bool isLive() const { return m_isLive; }
     const LiveView &live() const { return m_live; }
+    /// The analysis of what is open, or, of a live run, all of it up to a time at least, from what has been recorded so
+    /// far: to read frames and to go through the chain again. Null where there is neither, where the live run's
+    /// settings were others then, or frames are no lines.
+    std::shared_ptr<const Analysis> inspectedUntil(double seconds);
     /// The analysis's, or the live run's; null: there is neither.
     const AnalysisPlan *plan() const;
 
@@ -145,6 +149,8 @@ private:
     std::shared_ptr<const PeakPyramid> m_provisional;
     LiveView m_live;
     bool m_isLive = false;
+    std::shared_ptr<const Analysis> m_liveSoFar; ///< as it was last inspected
+    std::shared_ptr<const AnalysisPlan> m_planSoFar;
     std::vector<Event> m_events;
     double m_shownThreshold = 0.0;
     QUndoStack m_undoStack;

@@ -9,29 +9,30 @@
 
 namespace faintline {
 
-/// What can be done with the frames of a source, and what they are called. There are two kinds: those of a recording's
-/// spectrum, whose cells lie on frequency, and a sonar's pings, whose cells lie on range and bearing.
+/// Operations and terms for the frames of a source. There are two kinds: frames of a recording's spectrum, with cells
+/// over frequency, and sonar pings, with cells over range and bearing.
 ///
-/// Whoever treats them differently reads the difference here; nobody counts axes.
+/// All differences in their treatment are defined here, instead of by counting axes.
 struct FrameKind {
     QString frame;              ///< "frame", "ping"
     QString frames;             ///< "frames", "pings"
     QString cellsPerFrame;      ///< the unit of rates: "bins/frame", "cells/ping"
     QString cellPerFrame;       ///< of fractions of it: "bin/frame", "cell/ping"
-    QString signal;             ///< what is looked for: "a line", "a target"
+    QString signal;             ///< what is detected: "a line", "a target"
     std::vector<QString> rates; ///< along each axis: "slope"; "range rate", "bearing rate"
-    std::string preset;         ///< that a source is looked at with first; empty: the defaults
+    std::string preset;         ///< initial preset for a source; empty: the defaults
 
-    /// Time × frequency is one picture, in which boxes are measured, analysed and annotated, and lines drawn by hand.
+    /// Time × frequency is one picture, in which boxes can be measured, analysed and annotated, and lines drawn by
+    /// hand.
     bool takesBoxes = true;
-    /// Each frame is a picture of its own. The one under the cursor is looked at, and its age counted in frames.
+    /// Each frame is a separate picture. The one under the cursor is shown, and ages are counted in frames.
     bool isSeenSingly = false;
     /// A conventional tracker runs beside the detector, for comparison.
     bool hasConventional = false;
 };
 
-/// Of frames on that grid, of one or two axes. There is one object a kind: their addresses can be compared. Throws
-/// Error of more axes, which says `where` the frames are from.
+/// The kind of frames on a grid of one or two axes. There is one object per kind, so their addresses can be compared.
+/// Throws Error naming `where` for more axes.
 const FrameKind &frameKindOf(const Grid &grid, const std::string &where = "frames");
 
 /// The kind of a recording's frames.

@@ -8,20 +8,19 @@
 
 namespace faintline {
 
-/// Settings that somebody gave a name, to start from in any recording: one file each, NAME.json, in a folder. The
-/// command line takes such a file as well (--session NAME.json). Which part of a recording is looked at is not among
-/// them.
+/// The user's named settings for any recording: one file each, NAME.json, in a folder. The command line accepts such a
+/// file as well (--session NAME.json). They do not include the selected part of a recording.
 class OwnPresets : public QObject
 {
     Q_OBJECT
 
 public:
-    /// What cannot be read in the folder is left out. An empty folder's name: nothing is kept.
+    /// Unreadable files in the folder are ignored. With an empty folder name nothing is stored.
     explicit OwnPresets(const QString &folder, QObject *parent = nullptr);
 
     const std::vector<Preset> &all() const { return m_presets; } ///< by name
 
-    /// Replaces one of that name. Throws Error, also for names that are no file's.
+    /// Replaces a preset of that name. Throws Error, also for names that are not valid file names.
     void save(const QString &name, AnalysisSettings settings);
     void remove(const QString &name);
 

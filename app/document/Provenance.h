@@ -9,13 +9,13 @@
 
 namespace faintline {
 
-/// What is in front of one as JSON: version, recording with its hash (a scenario is written out), settings,
-/// annotations. A session file in itself, but that the recording's folder stays out: it is told by name and hash. Reads
-/// the whole recording for the hash where none is given.
+/// The open document as JSON: version, recording with its hash (a scenario is included in full), settings, annotations.
+/// It is a session file without the recording's folder, which is identified by name and hash. Reads the whole recording
+/// for the hash if none is given.
 std::string provenanceOf(const Source &source, const AnalysisSettings &settings, const Annotations &annotations,
                          std::string hash = {});
 
-/// Hands out the provenance of a document. The hash takes a while, so it is taken on a worker, once.
+/// Provides the provenance of a document. The hash takes some time, so it is computed once, on a worker.
 class Provenance : public QObject
 {
     Q_OBJECT
@@ -23,7 +23,7 @@ class Provenance : public QObject
 public:
     explicit Provenance(const Document &document, QObject *parent = nullptr);
 
-    /// Calls `use` with the provenance of what is open now, at once where the hash is known, in the order of the
+    /// Calls `use` with the provenance of the open document, immediately if the hash is known, in the order of the
     /// requests.
     void with(std::function<void(const std::string &json)> use);
 
@@ -47,16 +47,16 @@ private:
     JobRunner m_runner; ///< last, so that its job ends first
 };
 
-/// The name of the text in a PNG that is its provenance.
+/// Key of the provenance text in a PNG.
 inline QString pictureProvenanceKey()
 {
     return QStringLiteral("provenance");
 }
 
-/// The same JSON on one line and without two spaces in a row, which do not survive there.
+/// The same JSON on one line without consecutive spaces, which PNG text does not preserve.
 QString pictureProvenance(const std::string &json);
 
-/// Writes it beside an exported file: PATH.provenance.json.
+/// Writes the provenance beside an exported file: PATH.provenance.json.
 void writeProvenanceBeside(const QString &path, const std::string &json);
 
 } // namespace faintline

@@ -13,21 +13,21 @@
 
 namespace faintline {
 
-/// Keeps unsaved work on disk while it is unsaved, so that whatever ends the program does not end the work.
+/// Stores unsaved work on disk, so that it survives any end of the program.
 ///
-/// A second after an edit the session goes into a file of its own in the folder, beside a lock that this process holds;
-/// saving, undoing back to what was saved, or a regular end removes both. A file whose lock nobody holds was left
-/// behind by a program that died.
+/// A second after an edit the session is written to a separate file in the folder, beside a lock held by this process;
+/// saving, undoing to the saved state, or a regular exit removes both. A file whose lock is not held was left behind by
+/// a crashed program.
 class Recovery : public QObject
 {
     Q_OBJECT
 
 public:
-    /// `view`: how the results are looked at now. An empty folder keeps nothing.
+    /// `view`: the current view state. With an empty folder nothing is stored.
     Recovery(Document &document, std::function<ViewState()> view, const QString &folder, QObject *parent = nullptr);
     ~Recovery() override;
 
-    /// Where the program keeps it, in the person's data folder.
+    /// The program's recovery folder, in the user's data folder.
     static QString programFolder();
 
     /// Sessions left behind in the folder, the latest first.
@@ -46,10 +46,10 @@ private:
 
     Document &m_document;
     std::function<ViewState()> m_view;
-    QString m_path; ///< empty: nothing is kept
+    QString m_path; ///< empty: nothing is stored
     std::unique_ptr<QLockFile> m_lock;
     QTimer m_pause;
-    std::string m_hash; ///< of the recording, which takes a while, so only once
+    std::string m_hash; ///< of the recording; computed only once
     QString m_hashed;   ///< its path
     JobRunner m_runner; ///< last, so that its job ends first
 };

@@ -107,7 +107,8 @@ namespace {
     ViewState viewFromJson(const Json &json)
     {
         checkKeys(json, "view",
-                  {"seconds", "hz", "cursor", "orientation", "colourMap", "bearing", "cursorBearing", "polar"});
+                  {"seconds", "hz", "cursor", "orientation", "colourMap", "logarithmic", "radio", "bearing",
+                   "cursorBearing", "polar"});
         ViewState view;
         if (json.contains("seconds") && json.contains("hz"))
             view.visible = {spanFromJson(json["seconds"]), spanFromJson(json["hz"])};
@@ -120,6 +121,8 @@ namespace {
         view.isPolar = json.value("polar", false);
         view.orientation = QString::fromStdString(json.value("orientation", std::string()));
         view.colourMap = QString::fromStdString(json.value("colourMap", std::string()));
+        view.isLogarithmic = json.value("logarithmic", false);
+        view.isRadioAxis = json.value("radio", false);
         return view;
     }
 
@@ -167,6 +170,10 @@ Json toJson(const ViewState &view)
         json["polar"] = true;
     json["orientation"] = view.orientation.toStdString();
     json["colourMap"] = view.colourMap.toStdString();
+    if (view.isLogarithmic)
+        json["logarithmic"] = true;
+    if (view.isRadioAxis)
+        json["radio"] = true;
     return json;
 }
 

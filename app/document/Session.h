@@ -11,14 +11,16 @@
 
 namespace faintline {
 
-/// How the results are looked at: saved with a session, of no influence on any number.
+/// View state: saved with a session, without influence on any result.
 struct ViewState {
-    std::optional<Viewport::Box> visible; ///< nothing: all of it
+    std::optional<Viewport::Box> visible; ///< nothing: everything
     std::optional<Viewport::Point> cursor;
-    QString orientation; ///< "newestOnTop", "oldestOnTop", "leftToRight"; empty: as it is
+    QString orientation; ///< "newestOnTop", "oldestOnTop", "leftToRight"; empty: unchanged
     QString colourMap;
+    bool isLogarithmic = false; ///< the frequency axis
+    bool isRadioAxis = false;   ///< frequencies are labelled with the centre frequency added
 
-    // Of a sonar's pings, where the frequency above is the range.
+    // For sonar pings, where the frequency above is the range.
     std::optional<Span> bearing{}; ///< visible
     std::optional<double> cursorBearing{};
     bool isPolar = false;
@@ -26,8 +28,8 @@ struct ViewState {
 
 Json toJson(const ViewState &view);
 
-/// A session file: the recipe, never the results. The recording is named relative to the session and known by its
-/// hash; a scenario is written out.
+/// A session file: settings and source, but no results. The recording is named relative to the session and identified
+/// by its hash; a scenario is included in full.
 struct Session {
     Source source;
     std::string recordingHash; ///< empty for a scenario
@@ -42,13 +44,13 @@ bool isSessionPath(const QString &path);
 /// Throws Error naming the file and the key.
 Session readSession(const QString &path);
 
-/// The session as the file holds it, with the recording's path relative to that folder.
+/// The text of a session file, with the recording's path relative to `folder`.
 std::string sessionText(const Session &session, const QString &folder);
 
-/// Takes the recording's hash where none is given, and writes, completely or not at all. Throws Error.
+/// Computes the recording's hash if none is given, and writes the file completely or not at all. Throws Error.
 void writeSession(const QString &path, Session session);
 
-/// Why the recording on disk is not the one the session was saved with; empty where it is.
+/// Why the recording on disk differs from the one of the session; empty if it does not.
 QString recordingMismatch(const Session &session);
 
 } // namespace faintline

@@ -10,23 +10,23 @@ class QWidget;
 
 namespace faintline {
 
-/// Saves the document as a session, on a worker, for the recording's hash takes a while; and asks about unsaved work.
+/// Saves the document as a session, on a worker because of the recording's hash, and asks about unsaved work.
 class SessionSaver : public QObject
 {
     Q_OBJECT
 
 public:
-    /// `view`: how the results are looked at now. Dialogs belong to `window`.
+    /// `view`: the current view state. `window`: parent of dialogs.
     SessionSaver(Document &document, std::function<ViewState()> view, QWidget *window);
 
-    /// Off: nobody is there to answer, and unsaved work is let go.
+    /// If off, unsaved work is discarded without asking.
     void setAsking(bool isAsking) { m_isAsking = isAsking; }
 
     void save();
     void saveAs();
 
-    /// Whether unsaved work may be lost to what comes next, "opening something else". Not if the person keeps it; if it
-    /// is to be saved first, `next` is called when it is.
+    /// Whether unsaved work may be discarded for the next action, such as "opening something else". False if the user
+    /// keeps it; if the user saves first, `next` is called afterwards.
     bool mayLose(const QString &what, std::function<void()> next);
 
 signals:

@@ -19,14 +19,14 @@
 
 namespace faintline {
 
-/// Where samples or frames come from: a file and how to read it, or a scene to simulate.
+/// Origin of samples or frames: a file and how to read it, or a scene to simulate.
 struct Source {
     QString path;                     ///< of the recording, the stack of frames (.npy) or the scenario
     OpenOptions options;              ///< of a recording
     std::optional<LineScene> scene;   ///< set: simulated
     std::optional<PingScene> pings{}; ///< set: a sonar's pings, simulated
 
-    /// Lines added to it, one after the other, each with a seed of its own.
+    /// Lines added to it, one after the other, each with its own seed.
     struct Injection {
         InjectedLine line;
         int channel = 0;
@@ -34,44 +34,44 @@ struct Source {
     };
     std::vector<Injection> injections{};
 
-    /// What a window title says: the file's name as a label shows it.
+    /// Name for window titles: the file's label.
     QString name() const;
     bool isSimulated() const { return scene || pings; }
     /// Whether it is a stack of ready-made frames, a NumPy file.
     bool isStack() const;
 };
 
-/// A source that has been opened: a recording, or frames that are ready for the detector.
+/// An opened source: a recording, or frames ready for the detector.
 struct OpenedSource {
     Source source;
     RecordingPointer recording;
-    Truth truth; ///< of a simulated one, and of injected lines
+    Truth truth; ///< for simulated recordings and injected lines
     NormalisedFramesPointer frames{};
-    PingTruth pingTruth{}; ///< of simulated pings
+    PingTruth pingTruth{}; ///< for simulated pings
 
     const FrameKind &kind() const { return frames ? frameKindOf(frames->grid()) : lineFrames(); }
 };
 
-/// The source a path stands for: a scenario where it names a JSON file, frames where a NumPy file, otherwise a
-/// recording. Throws Error.
+/// The source that a path denotes: a scenario for a JSON file, frames for a NumPy file, otherwise a recording. Throws
+/// Error.
 Source sourceOf(const QString &path, const OpenOptions &options = {});
 
 /// Opens or simulates. Throws Error.
 OpenedSource openSource(const Source &source);
 
-/// What one looks at a source with before having chosen anything.
+/// Initial settings for a source.
 AnalysisSettings firstSettings(const OpenedSource &opened);
 
-/// The pipeline on whatever was opened.
+/// Runs the pipeline on an opened source.
 std::shared_ptr<const Analysis> analyse(const OpenedSource &opened, const AnalysisSettings &settings,
                                         const RunContext &context = {}, const Analysis *previous = nullptr,
                                         const PictureSink &pictures = {},
                                         CalibrationDepth depth = CalibrationDepth::Refined);
 
-/// What is open with one more line in it. Throws Error.
+/// The open source with one more line. Throws Error.
 OpenedSource withInjection(const OpenedSource &opened, const Source::Injection &injection);
 
-/// Whether a file holds bare samples, so that their type and rate have to be asked for before it can be opened.
+/// Whether a file holds raw samples whose type and rate must be specified before it can be opened.
 bool needsRawOptions(const QString &path, const OpenOptions &options);
 
 } // namespace faintline

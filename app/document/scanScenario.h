@@ -6,13 +6,13 @@
 
 namespace faintline {
 
-/// The scenario of a radar's scans that comes with the program.
+/// Path of the bundled scenario of radar scans.
 QString radarScenarioPath();
 
-/// Whether a path names a scenario of kind "scans"; what cannot be read is none.
+/// Whether a path names a scenario of kind "scans"; false if it cannot be read.
 bool isScanScenario(const QString &path);
 
-/// The test that goes with such a scenario. Throws Error.
+/// The test for such a scenario. Throws Error.
 ScanTest readScanTest(const QString &path);
 
 } // namespace faintline

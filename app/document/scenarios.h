@@ -6,15 +6,15 @@
 
 namespace faintline {
 
-/// A recording that is simulated: something to look at before one has a file of one's own.
+/// A bundled simulated recording.
 struct Scenario {
     QString title;
-    QString sentence;       ///< what is to be seen
-    QString path;           ///< of its JSON among the program's resources
-    bool isWelcome = false; ///< whether the welcome page shows it at work
+    QString sentence;       ///< what it shows
+    QString path;           ///< path of its JSON in the program's resources
+    bool isWelcome = false; ///< whether the welcome page demonstrates it
 };
 
-/// The scenarios that come with the program, the most telling one first.
+/// The bundled scenarios, the most instructive one first.
 const std::vector<Scenario> &scenarios();
 
 } // namespace faintline

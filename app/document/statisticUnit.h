@@ -6,7 +6,7 @@
 
 namespace faintline {
 
-/// What the chosen detector's statistic is measured in: "nat", "× noise".
+/// Unit of the selected detector's statistic: "nat", "× noise".
 inline QString statisticUnit(const AnalysisSettings &settings)
 {
     const std::string_view unit = detectorUnits[settings.detector.index()];

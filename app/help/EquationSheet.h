@@ -9,8 +9,8 @@ class QLabel;
 
 namespace faintline {
 
-/// The equation beside the view that computes it: a small sheet over a corner of the view, with its symbols and its
-/// source. It stays while one goes on; Escape, its button or the key that brought it take it away.
+/// The equation of a view: a small sheet over a corner of the view, with symbols and source. It stays while the user
+/// continues to work; Escape, its button or the key that opened it close it.
 class EquationSheet : public QFrame
 {
     Q_OBJECT
@@ -18,7 +18,7 @@ class EquationSheet : public QFrame
 public:
     explicit EquationSheet(QWidget *window);
 
-    /// Over this view; what is shown already is taken away.
+    /// Shows the equation over a view; closes the sheet if it is open.
     void toggle(const Equation *equation, QWidget *view);
     QString text() const;
 
@@ -33,7 +33,7 @@ private:
     QLabel *m_equation;
     QLabel *m_symbols;
     QLabel *m_source;
-    QString m_view; ///< it is of
+    QString m_view; ///< name of its view
     QPointer<QWidget> m_previousFocus;
 };
 

@@ -5,7 +5,7 @@
 
 namespace faintline {
 
-/// Keys and mouse on one sheet over the window; any key or click takes it away.
+/// Overview of keys and mouse over the window; any key or click closes it.
 class KeysOverlay : public QWidget
 {
     Q_OBJECT
@@ -13,7 +13,7 @@ class KeysOverlay : public QWidget
 public:
     explicit KeysOverlay(QWidget *window);
 
-    /// `view`: what is said of it comes first (keysOfView).
+    /// `view`: its keys come first (keysOfView).
     void toggle(const QString &view = {});
 
 protected:

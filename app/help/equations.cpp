@@ -103,7 +103,7 @@ const std::vector<Equation> &equations()
              "distance: the largest gap of the two laws (Kolmogorov, Smirnov)",
              "p₀ of Billon 2005, section 4"),
         make("spectrum", "Spectrum",
-             "ȳ(f) = (1/n) Σ y(t, f)  over what is visible\n"
+             "ȳ(f) = (1/n) Σ y(t, f)  over the visible part\n"
              "density = 2·|X(f)|²/f_s,  half of that for I/Q",
              "y  power over noise background\n"
              "X  transform in a window of unit energy, f_s sample rate; full scale is 1",

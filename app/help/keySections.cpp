@@ -51,6 +51,8 @@ namespace {
                                       {"Backspace", "zoom back"},
                                       {"Arrows", "move the cursor by a cell, with Ctrl by ten"},
                                       {"O", "next orientation"},
+                                      {"Shift + L", "logarithmic or linear frequency"},
+                                      {"Shift + R", "radio frequency or offset"},
                                       {"C", "next colour map"},
                                       {"[  ]", "black level down, up"},
                                       {"{  }", "white level down, up"},

@@ -7,7 +7,7 @@
 
 namespace faintline {
 
-/// What keys and mouse do in one place.
+/// Keys and mouse in one context.
 struct KeySection {
     struct Entry {
         QString keys;
@@ -17,10 +17,10 @@ struct KeySection {
     std::vector<Entry> entries;
 };
 
-/// What they do in a view, by its name (currentView); without entries where there is nothing to say.
+/// Keys in a view, by its name (currentView); without entries if there are none.
 KeySection keysOfView(const QString &view);
 
-/// What they do everywhere, in two columns, without what the view's own section has said.
+/// Keys everywhere, in two columns, without those of the view's own section.
 std::array<std::vector<KeySection>, 2> generalKeys(const QString &view);
 
 } // namespace faintline

@@ -14,38 +14,38 @@
 
 namespace faintline {
 
-/// A question to be answered before the answer is seen: predict, then reveal.
+/// A question to answer before the explanation is shown.
 struct LessonQuestion {
     QString text;
     QStringList choices;
     int answer = 0;
-    QString why; ///< said once a choice is made
+    QString why; ///< shown once a choice is made
 };
 
-/// One page of a lesson: what the window does, what is said about it, and what the learner does then.
+/// One page of a lesson: the state of the window, the text, and the learner's task.
 struct LessonStep {
     QString title;
     QString text;
 
-    QString open; ///< scenario or recording; empty: what the step before had
+    QString open; ///< scenario or recording; empty: that of the previous step
     std::string preset;
-    /// On top of those of the steps since something was opened.
+    /// In addition to those of the steps since a source was opened.
     std::vector<std::pair<std::string, FieldValue>> settings;
     QStringList show; ///< views brought to the front
     std::optional<Span> zoomSeconds, zoomHz;
     bool showsAll = false;
     std::optional<double> cursorSeconds, cursorHz, cursorRange, cursorBearing;
-    QString point;         ///< what is framed: a view, or "setting NAME"
+    QString point;         ///< part to highlight: a view, or "setting NAME"
     LessonCondition facts; ///< hold once the window has settled
 
     std::optional<LessonQuestion> question;
-    QString task;          ///< what the learner is asked to do
-    LessonCondition until; ///< when that is done
-    QString then;          ///< said about what is to be seen then
+    QString task;          ///< what the learner should do
+    LessonCondition until; ///< completes the task
+    QString then;          ///< text shown then
     LessonCondition thenFacts;
 };
 
-/// A lesson drives the real window, step by step. Written as JSON:
+/// A lesson drives the real window, step by step. Its JSON form is:
 ///
 ///     { "title": "…", "sentence": "…", "steps": [
 ///         { "title": "…", "text": "…", "open": "scene.json", "preset": "sonar", "settings": {"detector.kind": "pOfN"},
@@ -55,11 +55,11 @@ struct LessonStep {
 ///           "do": "…", "until": {"threshold": [null, 12]}, "then": "…", "thenFacts": {"events": [2, null]} } ] }
 ///
 /// A condition names measures: a number, a pair of bounds of which one may be null, or a word. Paths are relative to
-/// the lesson's own.
+/// the lesson's file.
 struct Lesson {
     QString path;
     QString title;
-    QString sentence; ///< what one will know afterwards
+    QString sentence; ///< what the lesson teaches
     std::vector<LessonStep> steps;
 };
 
@@ -67,10 +67,10 @@ struct Lesson {
 Lesson lessonFromJson(const std::string &text, const QString &path);
 Lesson readLesson(const QString &path);
 
-/// Whether a path names a lesson: JSON that has steps. What cannot be read is none.
+/// Whether a path names a lesson: JSON with steps. False if it cannot be read.
 bool isLesson(const QString &path);
 
-/// The lessons that come with the program, in the order in which they build upon each other.
+/// The bundled lessons, in didactic order.
 const std::vector<Lesson> &lessons();
 
 } // namespace faintline

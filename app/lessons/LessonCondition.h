@@ -6,7 +6,7 @@
 
 namespace faintline {
 
-/// What must hold of the window: measures (lessonMeasures.h) within bounds, settings with a value. All of them must.
+/// A condition on the window: measures (lessonMeasures.h) within bounds, settings with a value. All parts must hold.
 struct LessonCondition {
     struct Part {
         std::string measure;

@@ -15,12 +15,11 @@ class LessonPanel;
 class WindowParts;
 class PointerFrame;
 
-/// Leads through a lesson: opens what a step needs, sets its settings as one undoable step, brings its views to the
-/// front, frames what is spoken of, and watches until the learner has done the task. It acts through what a user could
-/// do as well.
+/// Guides through a lesson: opens the source of a step, sets its settings as one undoable step, brings its views to the
+/// front, highlights the relevant part, and watches until the learner has completed the task. It uses only actions that
+/// are available to the user.
 ///
-/// Every step begins with the settings the lesson has up to it, whatever the learner tried before; so what it says is
-/// true.
+/// Each step begins with the lesson's settings up to it, regardless of the learner's changes, so that its text applies.
 class LessonGuide : public QObject
 {
     Q_OBJECT
@@ -30,21 +29,21 @@ public:
 
     void start(const Lesson &lesson, int step = 0);
     bool isRunning() const { return m_step >= 0; }
-    bool isReady() const { return m_isReady; } ///< the window shows what the step is about
+    bool isReady() const { return m_isReady; } ///< the window shows the state of the step
     int step() const { return m_step; }
     const Lesson &lesson() const { return m_lesson; }
     LessonPanel &panel() { return *m_panel; }
     QDockWidget *dock() { return m_dock; }
     PointerFrame &frame() { return *m_frame; }
 
-    /// The widget that a lesson means by a name; null if there is none.
+    /// The widget with a name used in lessons; null if there is none.
     QWidget *widgetNamed(const QString &name);
 
 public slots:
     void goTo(int step);
     void present(bool isPresenting);
     void leave();
-    void check(); ///< whether the task is done
+    void check(); ///< checks whether the task is done
 
 signals:
     void ready(); ///< the step is set up
@@ -53,7 +52,7 @@ signals:
 
 private:
     const LessonStep &now() const { return m_lesson.steps[std::size_t(m_step)]; }
-    int openingStep() const; ///< the one whose recording is looked at
+    int openingStep() const; ///< the step that opened the current recording
     std::vector<LessonStep> stepsNow() const;
     void set();
     void setScans(const QString &path);
@@ -66,9 +65,9 @@ private:
     WindowParts &m_parts;
     Lesson m_lesson;
     int m_step = -1;
-    QString m_opened; ///< by this lesson, and still open
+    QString m_opened; ///< opened by this lesson, and still open
     bool m_isReady = false;
-    bool m_isRevealed = false; ///< what is spoken of; it finds its place before it is framed
+    bool m_isRevealed = false; ///< whether the highlighted widget was revealed before it is framed
     QDockWidget *m_dock;
     LessonPanel *m_panel;
     PointerFrame *m_frame;

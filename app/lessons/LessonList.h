@@ -4,7 +4,7 @@
 
 namespace faintline {
 
-/// The lessons to choose from, by what they teach.
+/// A list of the lessons to choose from, by subject.
 class LessonList : public QWidget
 {
     Q_OBJECT

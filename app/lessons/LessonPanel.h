@@ -13,10 +13,10 @@ class QScrollArea;
 
 namespace faintline {
 
-/// A lesson's page: what it says, its question with the choices, what to do, and the way back and on. It knows nothing
-/// of the window.
+/// The page of a lesson: text, question with choices, task, and buttons for going back and on. It is independent of the
+/// window.
 ///
-/// The answer to a question, and what is said after a task, stand there only once the choice is made and the task is
+/// The explanation of a question, and the text after a task, are shown only once the choice is made and the task is
 /// done.
 class LessonPanel : public QWidget
 {
@@ -27,14 +27,14 @@ public:
 
     void setStep(const Lesson &lesson, int step);
     void setDone(bool isDone);       ///< the task
-    void setWaiting(bool isWaiting); ///< the window is not there yet
-    /// For those who sit farther away.
+    void setWaiting(bool isWaiting); ///< while the window is not ready
+    /// Large text, for presentations.
     void setLarge(bool isLarge);
 
     int step() const { return m_step; }
     int choice() const; ///< -1: none yet
     bool isDone() const { return m_isDone; }
-    QString text() const; ///< all that can be read, for tests and screen readers
+    QString text() const; ///< all visible text, for tests and screen readers
 
     QPushButton *back() const { return m_back; }
     QPushButton *next() const { return m_next; }
@@ -72,7 +72,7 @@ private:
     QPushButton *m_back;
     QPushButton *m_next;
     QPushButton *m_leave;
-    QButtonGroup *m_choices = nullptr; ///< of the step shown; null without a question
+    QButtonGroup *m_choices = nullptr; ///< for the current step; null without a question
     QLabel *m_why = nullptr;
     QLabel *m_task = nullptr;
     QLabel *m_then = nullptr;

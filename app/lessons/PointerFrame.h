@@ -5,8 +5,7 @@
 
 namespace faintline {
 
-/// A frame around a widget that is being spoken of. It lets every click through and follows the widget wherever it
-/// goes.
+/// A frame around a highlighted widget. It lets clicks through and follows the widget.
 class PointerFrame : public QWidget
 {
     Q_OBJECT
@@ -14,7 +13,7 @@ class PointerFrame : public QWidget
 public:
     explicit PointerFrame(QWidget *window);
 
-    void pointAt(QWidget *target); ///< null: at nothing
+    void pointAt(QWidget *target); ///< null: none
     QWidget *target() const { return m_target; }
 
 public slots:

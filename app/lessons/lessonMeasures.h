@@ -10,7 +10,7 @@ namespace faintline {
 
 class WindowParts;
 
-/// What a lesson can ask the window for, by name:
+/// Measures of the window for lessons, by name:
 ///
 ///     cursor.seconds, cursor.hz, cursor.range, cursor.bearing, visible.seconds, visible.hz, level, statistic
 ///     frameSeconds, binHz, windowSeconds, aboveTwice (share of cells whose power is more than twice the noise's mean)
@@ -23,16 +23,15 @@ class WindowParts;
 ///     survey.saved, walks.selected ("noise" or "target"), walks.stage, walks.stages
 ///     test.NAME: a setting of the sequential test; view.NAME: 1 while it can be seen; any setting by its own name
 ///
-/// Words for what has no number. Nothing where there is no such thing at the moment.
+/// Words for non-numeric measures. Nothing if the measure is currently unavailable.
 std::optional<FieldValue> lessonMeasure(WindowParts &window, const std::string &name);
 
-/// Throws Error where there is no measure of that name.
+/// Throws Error if there is no measure of that name.
 void checkMeasure(const std::string &name, const std::string &where);
 
 bool holds(WindowParts &window, const LessonCondition &condition);
 
-/// The first part that does not hold, and what there is instead; empty if all hold. For tests and for those who write
-/// lessons.
+/// The first part that does not hold, and the actual value; empty if all hold. For tests and authors of lessons.
 std::string failure(WindowParts &window, const LessonCondition &condition);
 
 } // namespace faintline

@@ -14,8 +14,8 @@ namespace faintline {
 
 class WaterfallView;
 
-/// A against B: the difference of their statistics on the viewport that all pictures share, what both have found and
-/// what only one has, in which settings they differ, and what each costs. A click on a line of the list goes there.
+/// A against B: the difference of their statistics on the common viewport, the events found by both or by only one, the
+/// settings in which they differ, and the cost of each. A click on a row goes to the event.
 class ComparePanel : public QWidget
 {
     Q_OBJECT
@@ -25,7 +25,7 @@ public:
 
     WaterfallView *picture() const { return m_picture; }
     QTableWidget *table() const { return m_table; }
-    QString sentence() const;    ///< what there is to see, or why nothing
+    QString sentence() const;    ///< describes the result, or why there is none
     QString differences() const; ///< of the settings
     QPushButton *swapButton() const { return m_swap; }
     QPushButton *goToButton() const { return m_goTo; }
@@ -34,12 +34,12 @@ public:
     QSize sizeHint() const override { return {900, 300}; }
 
 public slots:
-    void keep(); ///< what is seen becomes A
+    void keep(); ///< makes the current result A
     void swap();
     void goToA();
 
 signals:
-    void eventActivated(int id); ///< of the document's own
+    void eventActivated(int id); ///< event of the document's own analysis
 
 protected:
     void showEvent(QShowEvent *event) override;

@@ -16,7 +16,7 @@ class Document;
 class ExperimentForm;
 class StartColumn;
 
-/// Pd and ROC: an experiment is set up on the left and its curves grow on the right while it runs.
+/// Pd and ROC: an experiment is set up on the left; its curves grow on the right while it runs.
 class EvaluatePanel : public QWidget
 {
     Q_OBJECT
@@ -28,7 +28,7 @@ public:
     ChartPlot &pd() { return *m_pd; }
     ChartPlot &roc() { return *m_roc; }
 
-    /// The experiment whose curves are shown; 0 for none.
+    /// The experiment whose curves are shown; 0: none.
     int shown() const { return m_shown; }
     void show(int id);
 

@@ -17,10 +17,10 @@ class QSpinBox;
 
 namespace faintline {
 
-/// What an experiment is to measure: lines of which kind, at which SNRs, in which noise, by which detectors.
+/// Form of an experiment: kind of lines, SNRs, noise, and detectors.
 ///
-/// Times are given in windows T_FT and frequencies in resolution cells 1/T_FT, as in the papers; where a recording is
-/// open, what they come to there is said below.
+/// Times are in windows T_FT and frequencies in resolution cells 1/T_FT, as in the papers; their values for the open
+/// recording are shown below.
 class ExperimentForm : public QWidget
 {
     Q_OBJECT
@@ -28,8 +28,8 @@ class ExperimentForm : public QWidget
 public:
     explicit ExperimentForm(QWidget *parent = nullptr);
 
-    /// The current detector competes with these settings; `windowSeconds`: T_FT of what is open, 0 where nothing is;
-    /// `recordingSeconds`: of it as much as is analysed.
+    /// The current detector takes part with these settings; `windowSeconds`: T_FT of the open source, 0 without one;
+    /// `recordingSeconds`: analysed duration.
     void setCurrent(const AnalysisSettings &settings, double windowSeconds, double recordingSeconds);
 
     bool isInRecording() const;
@@ -38,10 +38,10 @@ public:
     InjectionExperiment injection(const QString &recording) const;
     /// "SMD 5 slopes, 3 of 4 · −5 … 3 dB · 100 T_FT".
     QString name() const;
-    /// Why it cannot be started; empty where it can.
+    /// Why it cannot be started; empty if it can.
     QString obstacle() const;
 
-    /// Small and quick: for a first look, and for tests.
+    /// Small and fast values, for a quick look and for tests.
     void setQuick(int runs, const QStringList &detectors, double lowestDb, double highestDb, double stepDb);
 
 signals:
@@ -59,7 +59,7 @@ private:
     double m_windowSeconds = 0.0;
     double m_recordingSeconds = 0.0;
     QComboBox *m_noise;
-    std::vector<QCheckBox *> m_detectors; ///< the current one, then the peers
+    std::vector<QCheckBox *> m_detectors; ///< the current one, followed by the peers
     QDoubleSpinBox *m_lowestDb;
     QDoubleSpinBox *m_highestDb;
     QDoubleSpinBox *m_stepDb;

@@ -11,8 +11,7 @@ class QTableWidget;
 
 namespace faintline {
 
-/// The list of experiments: what runs, waits and is done; look at one again, stop it, take one in from a file or write
-/// it out.
+/// The list of running, waiting and completed experiments, with actions to show, stop, import and export them.
 class ExperimentsPanel : public QWidget
 {
     Q_OBJECT
@@ -20,9 +19,9 @@ class ExperimentsPanel : public QWidget
 public:
     explicit ExperimentsPanel(Experiments &experiments, QWidget *parent = nullptr);
 
-    /// Takes in the runs of a campaign or the points of a curve; returns the experiment's id. Throws Error.
+    /// Imports the runs of a campaign or the points of a curve; returns the experiment's id. Throws Error.
     int importFile(const QString &path);
-    /// A campaign's curve or a reproduction's tables and pictures; what there is decides. Throws Error.
+    /// Exports a campaign's curve or a reproduction's tables and pictures, depending on the entry. Throws Error.
     void exportTo(int id, const QString &path) const;
 
     QSize sizeHint() const override { return {520, 200}; }

@@ -17,27 +17,26 @@ namespace faintline {
 class HandLine;
 class WaterfallView;
 
-/// Beat the detector: a line drawn by hand through the input, and what the data say about it, beside the detector's
-/// path in the same frames.
+/// A line drawn by hand through the input, its evidence, and a comparison with the detector's path in the same frames.
 ///
-/// *Predict, then reveal*: while it is covered, the statistic, tracks and truth are out of sight; the learner draws
-/// where the line is, and reveals. Numbers follow while a vertex is dragged; the newest line wins.
+/// *Predict, then reveal*: while covered, the statistic, tracks and truth are hidden; the user draws the line and
+/// reveals them. Numbers are updated while a vertex is dragged; the newest line wins.
 class HandLinePanel : public QWidget
 {
     Q_OBJECT
 
 public:
-    /// The detector's path that has most frames in common with the line, and both in these frames.
+    /// The detector's path with most frames in common with the line, and both in these frames.
     struct Comparison {
-        PathEvidence own;      ///< all of the line
+        PathEvidence own;      ///< for the whole line
         int track = 0;         ///< 0: no track in these frames
-        Index frames = 0;      ///< they have in common
-        PathEvidence ownThere; ///< the line in them
+        Index frames = 0;      ///< common frames
+        PathEvidence ownThere; ///< for the line in these frames
         PathEvidence detector;
-        double meanHz = 0.0; ///< how far apart they are on average
+        double meanHz = 0.0; ///< mean distance
     };
 
-    /// Where the line is drawn, and what is covered meanwhile.
+    /// The picture in which the line is drawn, and the widgets to cover.
     struct Pictures {
         WaterfallView &input;
         QWidget &statistic;

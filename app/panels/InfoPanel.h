@@ -11,8 +11,7 @@ class Document;
 class NoiseCheck;
 class RecordingCheck;
 
-/// In figures: what was opened, how it was cut into spectra, and how the detector answers to noise, this recording's
-/// too.
+/// Figures on the open source, its spectra, and the detector's response to noise, including this recording's.
 class InfoPanel : public QWidget
 {
     Q_OBJECT

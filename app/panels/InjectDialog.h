@@ -11,7 +11,7 @@ class QLabel;
 
 namespace faintline {
 
-/// Which line to add to the recording that is open: it begins at the cursor.
+/// Parameters of a line to add to the open recording; it begins at the cursor.
 class InjectDialog : public QDialog
 {
     Q_OBJECT

@@ -14,9 +14,8 @@ namespace faintline {
 
 class ChartPlot;
 
-/// How soon the targets of the scene that is open are found: the scene again and again with other noise
-/// (PingExperiment), the probability of detection against the pings a target has been there, and how many took how
-/// long.
+/// Latency of detecting the targets of the open scene: repeats the scene with other noise (PingExperiment) and shows
+/// the probability of detection against the pings since a target appeared, and a histogram of latencies.
 class LatencyPanel : public QWidget
 {
     Q_OBJECT
@@ -28,7 +27,7 @@ public:
     ChartPlot *pdPlot() const { return m_pd; }
     ChartPlot *histogramPlot() const { return m_histogram; }
 
-    /// Why nothing can be measured of what is open; empty where it can.
+    /// Why nothing can be measured for the open source; empty if it can.
     QString obstacle() const;
 
 public slots:

@@ -14,8 +14,7 @@ namespace faintline {
 class LawPlot;
 class VisibilityWatcher;
 
-/// The laws of the model's changes of rate, one for each that the settings hold, to be dragged; what they mean in words
-/// below.
+/// The draggable laws of the model's rate changes, one for each in the settings, with an interpretation below.
 class LawPanel : public QWidget
 {
     Q_OBJECT
@@ -28,11 +27,11 @@ public:
     QString sentence() const;
 
 signals:
-    /// A law was dragged: the setting of that name should be this.
+    /// A law was dragged: requests this value for the setting of that name.
     void lawRequested(const QString &field, const std::vector<double> &law);
 
 private:
-    /// A law of the settings, and how many axes of the model it moves.
+    /// A law of the settings, and the number of the model's axes that use it.
     struct Law {
         QString field; ///< empty: fixed
         QString title;
@@ -53,7 +52,7 @@ private:
     QVBoxLayout *m_plots;
     QLabel *m_sentence;
     VisibilityWatcher *m_sight;
-    bool m_isSaid = false; ///< what the laws as they are mean
+    bool m_isSaid = false; ///< whether the interpretation of the current laws is shown
 };
 
 } // namespace faintline

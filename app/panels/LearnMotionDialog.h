@@ -15,8 +15,8 @@ namespace faintline {
 
 class AnalysisController;
 
-/// The law of motion that an analysis' own tracks suggest (`learnMotion`), beside the present one, with what it would
-/// gain; applied only if asked.
+/// The law of motion learned from an analysis' own tracks (`learnMotion`), compared with the present one, and its gain;
+/// applied only on request.
 class LearnMotionDialog : public QDialog
 {
     Q_OBJECT
@@ -28,7 +28,7 @@ public:
     bool isBusy() const { return m_runner.isRunning(); }
 
 signals:
-    /// The law is there, or why there is none.
+    /// The law is available, or the reason why there is none.
     void settled();
 
 private:

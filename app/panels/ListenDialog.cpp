@@ -1,12 +1,15 @@
 #include "app/panels/ListenDialog.h"
 
+#include "app/base/diskRoom.h"
 #include "app/base/filePath.h"
 #include "base/Error.h"
 #include "widgets/base/labelText.h"
+#include "widgets/base/quantities.h"
 
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QDir>
+#include <QDoubleSpinBox>
 #include <QFileDialog>
 #include <QFormLayout>
 #include <QHBoxLayout>
@@ -21,9 +24,31 @@
 
 namespace faintline {
 
+namespace {
+
+    constexpr int refreshMs = 500;
+    constexpr double megabyte = 1e6;
+    constexpr double gigabyte = 1e9;
+    constexpr double littleTime = 3600.0; ///< s that a disk takes
+    constexpr double littleSpace = 1e9;   ///< bytes, of a source whose rate is not known yet
+
+    /// `none`: what 0 is called.
+    QDoubleSpinBox *limitBox(const QString &unit, double largest, const QString &none)
+    {
+        auto *box = new QDoubleSpinBox;
+        box->setRange(0.0, largest);
+        box->setDecimals(0);
+        box->setSuffix(unit);
+        box->setSpecialValueText(none);
+        return box;
+    }
+
+} // namespace
+
 ListenDialog::ListenDialog(QWidget *parent)
     : QDialog(parent), m_kind(new QComboBox), m_forms(new QStackedWidget), m_folder(new QLineEdit),
-      m_trouble(plainLabel())
+      m_largest(limitBox(tr(" MB"), 1e9, tr("any size"))), m_longest(limitBox(tr(" min"), 1e6, tr("any time"))),
+      m_disk(plainLabel()), m_trouble(plainLabel())
 {
     setWindowTitle(tr("Listen"));
     for (const ListenSourceKind &kind : listenSourceKinds()) {
@@ -32,6 +57,33 @@ ListenDialog::ListenDialog(QWidget *parent)
     }
     m_kind->setObjectName(QStringLiteral("sourceKind"));
     connect(m_kind, &QComboBox::currentIndexChanged, m_forms, &QStackedWidget::setCurrentIndex);
+    m_trouble->setWordWrap(true);
+    m_trouble->hide();
+    auto *buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel);
+    buttons->button(QDialogButtonBox::Ok)->setText(tr("&Listen"));
+    connect(buttons, &QDialogButtonBox::accepted, this, &ListenDialog::accept);
+    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+
+    auto *head = new QFormLayout;
+    head->addRow(tr("&Source"), m_kind);
+    auto *layout = new QVBoxLayout(this);
+    layout->addLayout(head);
+    layout->addWidget(m_forms);
+    layout->addLayout(recordForm());
+    layout->addWidget(m_trouble);
+    layout->addWidget(buttons);
+    setMinimumWidth(460);
+    m_refresh.setInterval(refreshMs);
+    connect(&m_refresh, &QTimer::timeout, this, [this] {
+        if (isVisible())
+            showDisk();
+    });
+    m_refresh.start();
+    showDisk();
+}
+
+QFormLayout *ListenDialog::recordForm()
+{
     m_folder->setText(QDir(QStandardPaths::writableLocation(QStandardPaths::HomeLocation))
                           .filePath(QStringLiteral("Faintline recordings")));
     m_folder->setObjectName(QStringLiteral("folder"));
@@ -46,31 +98,59 @@ ListenDialog::ListenDialog(QWidget *parent)
     auto *folderRow = new QHBoxLayout;
     folderRow->addWidget(m_folder, 1);
     folderRow->addWidget(browse);
-    m_trouble->setWordWrap(true);
-    m_trouble->hide();
-    auto *buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel);
-    buttons->button(QDialogButtonBox::Ok)->setText(tr("&Listen"));
-    connect(buttons, &QDialogButtonBox::accepted, this, &ListenDialog::accept);
-    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
-
-    auto *head = new QFormLayout;
-    head->addRow(tr("&Source"), m_kind);
-    auto *foot = new QFormLayout;
     auto *folderLabel = new QLabel(tr("Record &into"));
     folderLabel->setBuddy(m_folder);
-    foot->addRow(folderLabel, folderRow);
-    auto *layout = new QVBoxLayout(this);
-    layout->addLayout(head);
-    layout->addWidget(m_forms);
-    layout->addLayout(foot);
-    layout->addWidget(m_trouble);
-    layout->addWidget(buttons);
-    setMinimumWidth(460);
+    auto *limits = new QHBoxLayout;
+    limits->addWidget(m_longest, 1);
+    limits->addWidget(new QLabel(tr("or")));
+    limits->addWidget(m_largest, 1);
+    m_longest->setObjectName(QStringLiteral("longest"));
+    m_largest->setObjectName(QStringLiteral("largest"));
+    const QString tip =
+        tr("Another file begins after so long, or so much; a list (.timeline) opens all of them as one");
+    for (QWidget *box : {m_longest, m_largest})
+        box->setToolTip(tip);
+    auto *limitLabel = new QLabel(tr("&New file after"));
+    limitLabel->setBuddy(m_longest);
+    m_disk->setWordWrap(true);
+    m_disk->setObjectName(QStringLiteral("disk"));
+    auto *form = new QFormLayout;
+    form->addRow(folderLabel, folderRow);
+    form->addRow(limitLabel, limits);
+    form->addRow(tr("Disk"), m_disk);
+    return form;
+}
+
+const ListenSourceForm &ListenDialog::form() const
+{
+    return *static_cast<const ListenSourceForm *>(m_forms->currentWidget());
 }
 
 QString ListenDialog::folder() const
 {
     return m_folder->text().trimmed();
+}
+
+RotationSettings ListenDialog::rotation() const
+{
+    return {m_largest->value() * megabyte, m_longest->value() * 60.0};
+}
+
+QString ListenDialog::diskWords() const
+{
+    return m_disk->text();
+}
+
+void ListenDialog::showDisk()
+{
+    const std::optional<double> room = freeBytes(folder());
+    if (!room)
+        return m_disk->setText(tr("unknown"));
+    const std::optional<double> rate = form().bytesPerSecond();
+    const bool isLittle = rate ? *room < littleTime * *rate : *room < littleSpace;
+    const QString space = tr("%1 GB free").arg(numberText(*room / gigabyte, 1));
+    const QString words = rate ? tr("%1, full in %2").arg(space, roughTimeText(*room / *rate)) : space;
+    m_disk->setText(isLittle ? tr("Warning: only %1").arg(words) : words);
 }
 
 void ListenDialog::accept()
@@ -80,7 +160,7 @@ void ListenDialog::accept()
             throw Error(tr("Record into").toStdString(), tr("is empty; give a folder").toStdString());
         if (!QDir().mkpath(folder()))
             throw Error(pathBytes(folder()), tr("is no folder that can be made").toStdString());
-        m_source = static_cast<ListenSourceForm *>(m_forms->currentWidget())->source();
+        m_source = form().source();
         QDialog::accept();
     } catch (const Error &error) {
         m_trouble->setText(messageText(error.what()));

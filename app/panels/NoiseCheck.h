@@ -14,11 +14,11 @@ class AnalysisController;
 class Document;
 class RecordingCheck;
 
-/// Whether the threshold gives the specified rate of false alarms in the recording that is open.
+/// Checks whether the threshold gives the specified rate of false alarms in the open recording.
 ///
-/// A sentence stands here where the recording's noise is not what the threshold was calibrated for, and each advice on
-/// the settings. "Count on noise like this recording's" says how many false alarms came for one ordered, and moves the
-/// threshold by a click so that as many come as were ordered; the count can be stopped.
+/// Shows a sentence if the recording's noise is not the noise of the calibration, and each advice on the settings.
+/// "Count on noise like this recording's" gives the number of false alarms per specified one, and offers a button that
+/// corrects the threshold accordingly; the count can be stopped.
 class NoiseCheck : public QWidget
 {
     Q_OBJECT
@@ -29,14 +29,14 @@ public:
 
     bool isBusy() const;
 
-    /// Counts, or stops counting.
+    /// Starts or stops counting.
     void toggle();
-    /// Says what a count came to, and offers the correction.
+    /// Shows the result of a count and offers the correction.
     void show(const SurrogateCount &count);
     using QWidget::show;
 
 signals:
-    /// Nothing is being counted or looked at any more.
+    /// No count or check is running any more.
     void settled();
 
 private:

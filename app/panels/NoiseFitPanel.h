@@ -18,9 +18,9 @@ class ChartPlot;
 class Document;
 class VisibilityWatcher;
 
-/// Whether the selection's normalised noise follows the law that thresholds rest on, and what it costs where it does
-/// not: quantiles against quantiles, Kolmogorov and Smirnov's distance, and the false-alarm probability at the
-/// threshold, band by band. Measured by itself while it is seen.
+/// Tests whether the selection's normalised noise follows the law on which thresholds are based, and the effect if it
+/// does not: quantiles against quantiles, Kolmogorov-Smirnov distance, and the false-alarm probability at the
+/// threshold, band by band. Measured automatically while visible.
 class NoiseFitPanel : public QWidget
 {
     Q_OBJECT

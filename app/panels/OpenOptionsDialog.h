@@ -12,13 +12,13 @@ class QSpinBox;
 
 namespace faintline {
 
-/// Asks for what a file of bare samples does not tell: type, rate, channels, header. Shown only when a file needs it.
+/// Asks for the format of a file of raw samples: type, rate, channels, header. Shown only if a file needs it.
 class OpenOptionsDialog : public QDialog
 {
     Q_OBJECT
 
 public:
-    /// Begins with what the file's name says.
+    /// Initialised from the file's name.
     explicit OpenOptionsDialog(const QString &path, QWidget *parent = nullptr);
 
     OpenOptions options() const;

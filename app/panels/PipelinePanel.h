@@ -17,7 +17,7 @@ class Document;
 class OwnPresets;
 class SettingsForm;
 
-/// The chain from recording to tracks as one form: what is open, a starting point, and every setting.
+/// The chain from recording to tracks as one form: the open source, a preset, and all settings.
 class PipelinePanel : public QWidget
 {
     Q_OBJECT
@@ -28,9 +28,9 @@ public:
 
     SettingsForm *form() const { return m_form; }
 
-    /// The settings that are shown get a name of the user's.
+    /// Saves the displayed settings under a name of the user's choice.
     void savePreset();
-    /// Asks which one.
+    /// Asks for the preset to remove.
     void removePreset();
 
     QSize sizeHint() const override { return {270, 600}; }
@@ -48,7 +48,7 @@ private:
     void showWindows();
     void applyPreset(int index);
     void applyWindow(int index);
-    /// A preset says nothing about which part of the recording is looked at.
+    /// Keeps the selected part of the recording, which presets do not contain.
     AnalysisSettings withSelection(AnalysisSettings settings) const;
 
     Document &m_document;
@@ -59,7 +59,7 @@ private:
     QComboBox *m_window;
     QFormLayout *m_top;
     SettingsForm *m_form;
-    std::optional<WindowChoice> m_choice; ///< the last one made for what is open
+    std::optional<WindowChoice> m_choice; ///< the last one for the open source
 };
 
 } // namespace faintline

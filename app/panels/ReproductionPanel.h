@@ -14,8 +14,8 @@ namespace faintline {
 
 class ChartPlot;
 
-/// A table or figure of a publication beside ours: every cell with the paper's figure, ours, its interval, the gap and
-/// whether it lies inside its tolerance; the chart next to it; what the reader should know below.
+/// A table or figure of a publication compared with ours: each cell with the published number, ours, its interval, the
+/// difference and whether it is within its tolerance; the chart beside it; notes below.
 class ReproductionPanel : public QWidget
 {
     Q_OBJECT

@@ -12,7 +12,7 @@ namespace faintline {
 
 class SettingRow;
 
-/// A form made from ScanTest::fields(), as SettingsForm is from the analysis's.
+/// A form generated from ScanTest::fields(), like SettingsForm for the analysis's settings.
 class ScanTestForm : public QWidget
 {
     Q_OBJECT
@@ -22,7 +22,7 @@ public:
 
     const ScanTest &test() const { return m_test; }
     void setTest(const ScanTest &test); ///< emits nothing
-    /// Under the field that the error names, or under the form.
+    /// Shows the error under the field that it names, or under the form.
     void showError(const Error &error);
     QWidget *editor(const QString &name) const;
 

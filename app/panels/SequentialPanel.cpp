@@ -173,7 +173,7 @@ QWidget *SequentialPanel::buildWalks()
     m_walk->setEmptySentence(tr("Press Run to plot ln Λ of each trial until it decides."));
     m_stopping->setEmptySentence(tr("The stages at which tests stop are counted here."));
     m_stopping->setTitles(tr("stages taken"), tr("tests"));
-    m_stopping->setAccessibleName(tr("How many tests stopped after each stage"));
+    m_stopping->setAccessibleName(tr("Number of tests that stopped after each stage"));
     addView(m_walk, tr("Walks of ln Λ"), [this] { return walksCsv(m_tests.walks(), m_tests.isOfScans()); });
     addView(m_stopping, tr("Stopping times"), [this] { return walksCsv(m_tests.walks(), m_tests.isOfScans()); });
     connect(m_walk, &WalkPlot::walkActivated, &m_tests, &SequentialTests::select);

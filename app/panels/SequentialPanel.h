@@ -23,10 +23,10 @@ class ScanTestForm;
 class TrajectoryPage;
 class WalkPlot;
 
-/// Sequential tests to look into: the walks between their boundaries and when they stop, what one run thought of its
-/// target and what it received, stages against SNR and prior with their bounds, and what a survey of sectors saves.
+/// Sequential tests: the walks between their boundaries and their stopping stages, one run's posterior and received
+/// power, stages against SNR and prior with their bounds, and the savings in a survey of sectors.
 ///
-/// J and L, or the slider, go from stage to stage of the selected run; a click on a walk selects it everywhere.
+/// J and L, or the slider, step through the stages of the selected run; a click on a walk selects it in all views.
 class SequentialPanel : public QWidget
 {
     Q_OBJECT
@@ -34,9 +34,9 @@ class SequentialPanel : public QWidget
 public:
     SequentialPanel(Document &document, SequentialTests &tests, QWidget *parent = nullptr);
 
-    /// Takes over these settings and starts.
+    /// Sets these settings and starts.
     void start(const ScanTest &test);
-    void startOnSelection(); ///< of the recording: what its pictures show
+    void startOnSelection(); ///< tests the visible part of the recording
 
     ScanTestForm &form() { return *m_form; }
     WalkPlot &walk() { return *m_walk; }
@@ -46,20 +46,20 @@ public:
     ChartPlot &prior() { return *m_prior; }
     TrajectoryPage &trajectory() { return *m_trajectory; }
     BarPlot &sectors() { return *m_sectors; }
-    QWidget *curvesPage() { return m_curvesPage; } ///< with their sentence
+    QWidget *curvesPage() { return m_curvesPage; } ///< including their sentence
     QWidget *priorPage() { return m_priorPage; }
     QWidget *sectorsPage() { return m_sectorsPage; }
     QSlider &slider() { return *m_slider; }
     QTabWidget &tabs() { return *m_tabs; }
 
-    /// A view and its numbers, for files.
+    /// A view and its numbers, for export.
     struct View {
         QWidget *widget;
         QString title;
         std::function<std::string()> csv;
     };
     const std::vector<View> &views() const { return m_views; }
-    /// As it is shown; numbers (.csv) with what makes them again beside them. Throws Error.
+    /// Saves a view as displayed, or its numbers (.csv) with their provenance. Throws Error.
     void saveTo(const View &view, const QString &path) const;
 
     QSize sizeHint() const override { return {1000, 340}; }

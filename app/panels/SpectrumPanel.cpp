@@ -51,8 +51,8 @@ SpectrumPanel::SpectrumPanel(Document &document, QWidget *parent)
     m_calibration->setSuffix(tr(" dB"));
     m_calibration->setAccessibleName(tr("Calibration of the level"));
     m_calibration->setToolTip(
-        tr("Added to the level: the unit of the sensor that a full-scale sample stands for, in dB"));
-    m_plot->setEmptySentence(tr("The spectrum at the cursor and the mean of what is visible appear here."));
+        tr("Level that a full-scale sample represents, in dB re the sensor's unit; added to the spectrum"));
+    m_plot->setEmptySentence(tr("The spectrum at the cursor and the mean of the visible part appear here."));
     auto *top = new QHBoxLayout;
     top->setContentsMargins(8, 4, 8, 2);
     top->addWidget(m_level);
@@ -74,6 +74,8 @@ SpectrumPanel::SpectrumPanel(Document &document, QWidget *parent)
     });
     connect(&document.viewport(), &Viewport::cursorChanged, this, &SpectrumPanel::follow);
     connect(&document.viewport(), &Viewport::spanChanged, this, &SpectrumPanel::follow);
+    connect(&document.viewport(), &Viewport::scaleChanged, this, &SpectrumPanel::show);
+    connect(&document.viewport(), &Viewport::followingChanged, this, &SpectrumPanel::follow);
     connect(&m_runner, &JobRunner::finished, this, &SpectrumPanel::settled);
     connect(&m_runner, &JobRunner::cancelled, this, &SpectrumPanel::settled);
     connect(&m_runner, &JobRunner::failed, this, &SpectrumPanel::settled);
@@ -89,10 +91,12 @@ void SpectrumPanel::follow()
 {
     m_level->setEnabled(!m_document.isEmpty() && m_document.recording());
     m_calibration->setVisible(chosenLevel() == SpectrumLevel::Density);
-    const auto analysis = m_document.lineAnalysis();
-    if (!analysis || !m_sight->isOn())
-        return;
+    if (!m_sight->isOn() || (m_document.isLive() && m_document.viewport().isFollowing()))
+        return; // a picture that moves is read when it is held
     const Span visible = m_document.viewport().time();
+    const auto analysis = m_document.inspectedUntil(visible.high);
+    if (!analysis)
+        return;
     const auto &cursor = m_document.viewport().cursor();
     const double seconds = cursor ? cursor->seconds : visible.middle();
     const SpectrumLevel level = m_document.recording() ? chosenLevel() : SpectrumLevel::OverNoise;
@@ -116,13 +120,13 @@ void SpectrumPanel::show()
                 "Frequency (Hz)",
                 isDensity ? (added == 0.0 ? "Level (dB re full scale²/Hz)" : "Level (dB, calibrated, in 1 Hz)")
                           : "Level (dB over noise)",
-                false,
+                m_document.viewport().isLogarithmic(),
                 false,
                 {}};
     const auto analysis = m_document.lineAnalysis();
     const std::string rest = analysis && analysis->unsubtracted ? ", strong lines subtracted" : "";
     chart.curves.push_back(curveOf("at the cursor" + rest, m_spectra.position, m_spectra.frame, band, added));
-    chart.curves.push_back(curveOf("mean of what is visible" + rest, m_spectra.position, m_spectra.mean, band, added));
+    chart.curves.push_back(curveOf("mean of the visible part" + rest, m_spectra.position, m_spectra.mean, band, added));
     m_plot->setChart(chart);
     markTeeth();
 }

@@ -15,9 +15,9 @@ class ChartPlot;
 class Document;
 class VisibilityWatcher;
 
-/// The spectrum at the cursor, and the mean over the time that is visible, of the band that is visible: over the noise,
-/// or as a density in dB re full scale²/Hz, to which a calibration is added. Where a family of lines is looked for, of
-/// the band that its members reach, with marks at those of the cursor's place. Worked out while it is seen.
+/// The spectrum at the cursor, and the mean over the visible time and band: over the noise, or as a density in dB re
+/// full scale²/Hz, to which a calibration is added. For a family of lines it covers the band of its members, with marks
+/// at the members for the cursor's position. Computed while visible.
 class SpectrumPanel : public QWidget
 {
     Q_OBJECT
@@ -47,7 +47,7 @@ private:
     QDoubleSpinBox *m_calibration;
     ChartPlot *m_plot;
     VisibilityWatcher *m_sight;
-    Spectra m_spectra;  ///< shown, without the calibration
+    Spectra m_spectra;  ///< displayed, without the calibration
     JobRunner m_runner; ///< last, so that its jobs end first
 };
 

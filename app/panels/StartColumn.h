@@ -10,7 +10,7 @@ class QPushButton;
 
 namespace faintline {
 
-/// The left of a panel that runs experiments: the form, what starts and cancels it, and how far it is.
+/// The left column of a panel that runs experiments: the form, buttons to start and cancel, and progress.
 class StartColumn : public QWidget
 {
     Q_OBJECT

@@ -11,18 +11,18 @@
 
 namespace faintline {
 
-/// A slice through the states of one frame, laid through a cell, and what can be said of it.
+/// A slice through the states of one frame at a cell, and its description.
 struct StateCut {
-    /// Which one.
+    /// Selection of a slice.
     struct Wanted {
         FramePlace place;
-        StateSlice slice; ///< its axes; those that are not shown follow from the place
+        StateSlice slice; ///< its axes; the other ones are fixed at the position
         std::size_t model = 0;
-        bool isMaximised = false; ///< over the axes that are not shown; otherwise they stand at the place
+        bool isMaximised = false; ///< over the axes that are not shown; otherwise they are fixed at the position
     };
 
     StateSlice slice;
-    std::vector<Axis> axes; ///< of all states; the slope of lines in a unit that suits it
+    std::vector<Axis> axes; ///< for all states; the slope of lines is in a suitable unit
     std::shared_ptr<const PeakPyramid> picture;
     std::vector<float> scores;  ///< rows × columns, nat
     std::vector<double> values; ///< of the cell's best state, one per axis
@@ -35,17 +35,17 @@ struct StateCut {
     double score(Index row, Index column) const { return double(scores[std::size_t(row * columns().count + column)]); }
     double scoreAtCursor() const;
 
-    /// The best state that can be seen.
+    /// The best visible state.
     std::optional<SliceMarks::Best> bestIn(const Viewport::Box &visible) const;
-    /// Where the paths of these tracks lie in the slice.
+    /// Positions of these tracks' paths in the slice.
     std::vector<Viewport::Point> pathsOf(const std::vector<Track> &tracks, const Analysis &analysis) const;
-    /// Where the axes that are not shown stand.
+    /// Text for the positions of the axes that are not shown.
     QString otherWords() const;
-    /// Of lines: the best state of the cursor's cell, and what the marks stand for.
+    /// For lines: text for the best state of the cursor's cell, and the key of the marks.
     QString bestWords(const SliceMarks &marks) const;
 };
 
-/// Goes through the run again to the frame of that place. Throws Error where the detector has no states, and Cancelled.
+/// Repeats the run up to the frame of that position. Throws Error if the detector has no states, and Cancelled.
 StateCut cutThrough(StateReplay &replay, const StateCut::Wanted &wanted, const RunContext &context);
 
 } // namespace faintline

@@ -19,12 +19,11 @@ class VisibilityWatcher;
 class SliceMarks;
 class WaterfallView;
 
-/// A slice through the states of the frame under the cursor, and the law by which they follow each other beside it.
+/// A slice through the states of the frame under the cursor, and their transition law beside it.
 ///
-/// Of lines: frequency × slope, the frequencies those that the waterfalls show. Of pings: any two of range, bearing and
-/// their rates, the others at the cursor (the best rates of its cell) or the best of them all. The best state in view
-/// and those of the tracks' paths are marked. It is computed while the panel can be seen, by going through the run
-/// again.
+/// For lines: frequency × slope, with the frequencies visible in the waterfalls. For pings: any two of range, bearing
+/// and their rates; the others are at the cursor (with the best rates of its cell) or maximised. The best visible state
+/// and the states of the tracks' paths are marked. Computed while visible, by repeating the run.
 class StateSlicePanel : public QWidget
 {
     Q_OBJECT
@@ -40,22 +39,22 @@ public:
     QString sentence() const;
     bool isBusy() const { return m_runner.isRunning(); }
 
-    /// Numbers of the axes of `stateAxes`.
+    /// Indices of the axes in `stateAxes`.
     void setAxes(int rows, int columns);
     void setMaximised(bool isMaximised); ///< over the other axes
     bool isMaximised() const;
 
     QSize sizeHint() const override { return {420, 420}; }
-    /// Of picture or law, one behind the other: what stands beside what follows from the room, and must not keep it.
+    /// Size of picture or law alone: the layout depends on the available room and must not constrain it.
     QSize minimumSizeHint() const override { return {220, 200}; }
 
 signals:
-    /// The law of a rate's change was dragged to another shape.
+    /// The law of a rate's change was dragged.
     void lawRequested(const QString &field, const std::vector<double> &law);
-    void settled(); ///< the slice belongs to the cursor, or there was a failure
+    void settled(); ///< the slice matches the cursor, or it failed
 
 protected:
-    /// The law stands beside the slice where there is width, below where there is height, otherwise behind a tab.
+    /// Places the law beside the slice, below it, or behind a tab, depending on the available room.
     void resizeEvent(QResizeEvent *event) override;
 
 private:
@@ -85,7 +84,7 @@ private:
     QComboBox *m_columns;
     QComboBox *m_others;
     QComboBox *m_model;               ///< of a bank
-    std::vector<QWidget *> m_choices; ///< that only pings leave
+    std::vector<QWidget *> m_choices; ///< for pings only
     QLabel *m_sentence;
     WaterfallView *m_view;
     QTabBar *m_tabs;
@@ -94,12 +93,12 @@ private:
     VisibilityWatcher *m_sight;
     QBoxLayout *m_body;
     std::unique_ptr<SliceMarks> m_marks;
-    std::optional<StateCut> m_cut; ///< the one shown
+    std::optional<StateCut> m_cut; ///< the displayed one
     Viewport m_viewport;
     std::pair<std::size_t, std::size_t> m_shownAxes{0, 0};
-    Span m_givenRange;                     ///< of the colours, as this panel set it
-    bool m_isShowing = false;              ///< the slice's own cursor is being placed
-    std::shared_ptr<StateReplay> m_replay; ///< touched by jobs only, one at a time
+    Span m_givenRange;                     ///< colour range as set by this panel
+    bool m_isShowing = false;              ///< while the slice's own cursor is being placed
+    std::shared_ptr<StateReplay> m_replay; ///< used by jobs only, one at a time
     JobRunner m_runner;                    ///< last, so that its jobs end first
 };
 

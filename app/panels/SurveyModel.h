@@ -9,7 +9,7 @@
 
 namespace faintline {
 
-/// The events of a survey as a table: recording, time, position, statistic, review. Rows are in the order of a column.
+/// Table model of a survey's events: recording, time, position, statistic, review. Rows are sorted by a column.
 class SurveyModel : public QAbstractTableModel
 {
     Q_OBJECT
@@ -22,7 +22,7 @@ public:
         SurveyEvent event;
     };
 
-    /// All that is read of a survey.
+    /// Everything read from a survey.
     struct Content {
         QString path;
         SurveySettings settings;
@@ -35,7 +35,7 @@ public:
     /// Reads a survey, on any thread. Throws Error and Cancelled.
     static Content read(const QString &path, const RunContext &context = {});
     void show(Content content);
-    /// Writes a verdict into the file, or nothing where one of the events is not there any more. Throws Error.
+    /// Writes a verdict to the file, or nothing if one of the events no longer exists. Throws Error.
     void judge(const std::vector<int> &rows, Verdict verdict);
 
     const QString &path() const { return m_content.path; }
@@ -54,7 +54,7 @@ private:
     void arrange();
 
     Content m_content;
-    std::vector<std::size_t> m_order; ///< of the rows shown: their places in the content
+    std::vector<std::size_t> m_order; ///< indices of the displayed rows in the content
     int m_sortColumn = Recording;
     Qt::SortOrder m_sortOrder = Qt::AscendingOrder;
 };

@@ -14,8 +14,8 @@ class QTableView;
 
 namespace faintline {
 
-/// The events of a survey of many recordings (faintline-cli survey): one table for all of them, from which a double
-/// click opens the recording at the event. Reviews are written into the survey's file at once.
+/// The events of a survey of many recordings (faintline-cli survey): one table for all of them; a double-click opens
+/// the recording at the event. Reviews are written to the survey's file immediately.
 class SurveyPanel : public QWidget
 {
     Q_OBJECT
@@ -23,10 +23,10 @@ class SurveyPanel : public QWidget
 public:
     SurveyPanel(const Document &document, const AnalysisController &controller, QWidget *parent = nullptr);
 
-    /// Reads the survey in a file in the background, then shows it; ends in `opened` or `failed`.
+    /// Reads a survey file in the background, then shows it; ends with `opened` or `failed`.
     void open(const QString &path);
     void cancel() { m_runner.cancel(); }
-    /// Whether a file is opened here: by its name.
+    /// Whether a file is opened by this panel, according to its name.
     static bool isSurvey(const QString &path);
 
     QTableView *table() const { return m_table; }
@@ -39,10 +39,10 @@ signals:
     void opened();
     void busyChanged(bool isBusy);
     void progressed(double fraction, const QString &what);
-    /// A recording is to be opened with the settings of the survey.
+    /// Requests opening a recording with the settings of the survey.
     void openRequested(const QString &path, const faintline::OpenOptions &options,
                        const faintline::AnalysisController::Adjust &adjust);
-    /// The recording is open and analysed; this is the event that was asked for.
+    /// The recording is open and analysed; `id` is the requested event.
     void eventReached(int id);
     void failed(const faintline::Error &error);
 
@@ -63,7 +63,7 @@ private:
     QList<QPushButton *> m_buttons;
     QHash<int, Verdict> m_keys;
 
-    /// The event that was asked for, while its recording is being opened and analysed.
+    /// The requested event while its recording is opened and analysed.
     struct {
         QString path;
         int event = 0;

@@ -14,7 +14,7 @@ class QSpinBox;
 
 namespace faintline {
 
-/// Which setting is to take which values, and on what lines they are tried.
+/// Form of a sweep: the setting, its values, and the test lines.
 class SweepForm : public QWidget
 {
     Q_OBJECT
@@ -22,16 +22,16 @@ class SweepForm : public QWidget
 public:
     explicit SweepForm(QWidget *parent = nullptr);
 
-    /// All other settings are these. `recording`: path of what is open, empty where no recording is.
+    /// Sets all other settings. `recording`: path of the open one, empty if there is none.
     void setCurrent(const AnalysisSettings &settings, const QString &recording, double windowSeconds);
 
-    /// What is asked for. Throws Error where that cannot be.
+    /// The specified experiment. Throws Error if it is invalid.
     SweepExperiment experiment() const;
     bool isInRecording() const;
     /// "Threshold 5 … 15 nat, simulated".
     QString name() const;
 
-    /// For a first look, and for tests.
+    /// For a quick look, and for tests.
     void setParameter(const QString &parameter);
     void setRange(double from, double to, int steps, bool isLogarithmic);
     void setLines(double snrDb, double durationSeconds, int trials);

@@ -17,8 +17,8 @@ class Document;
 class StartColumn;
 class SweepForm;
 
-/// What the values of one setting are worth: Pd, false alarms, latency and cost against the setting, and the trade-off
-/// of Pd against false alarms, growing while they are measured. A click on a value takes it over.
+/// Effect of one setting's values: Pd, false alarms, latency and cost against the setting, and the trade-off of Pd
+/// against false alarms, growing while they are measured. A click on a value applies it.
 class SweepPanel : public QWidget
 {
     Q_OBJECT
@@ -31,11 +31,11 @@ public:
     ChartPlot &pd() { return *m_pd; }
     ChartPlot &cost() { return *m_cost; }
 
-    /// The sweep that is shown; 0 for none.
+    /// The displayed sweep; 0: none.
     int shown() const { return m_shown; }
     void show(int id);
 
-    /// Seconds of a machine are not the same twice; off where a picture has to be.
+    /// Costs vary between runs; turn off where a picture must be reproducible.
     void setMeasuringCost(bool isOn) { m_isMeasuringCost = isOn; }
 
     QSize sizeHint() const override { return {900, 300}; }

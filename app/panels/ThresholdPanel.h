@@ -11,9 +11,8 @@ class AnalysisController;
 class ExceedancePlot;
 class RecordingCheck;
 
-/// The threshold's plot, and below it, where the recording's noise is not what the threshold was calibrated for, a
-/// sentence with the button that helps: first to count the false alarms on noise like this, then to correct the
-/// threshold.
+/// The threshold's plot. If the recording's noise is not the noise of the calibration, a sentence below offers a
+/// button: first to count the false alarms on such noise, then to correct the threshold.
 class ThresholdPanel : public QWidget
 {
     Q_OBJECT

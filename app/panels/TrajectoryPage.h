@@ -14,8 +14,8 @@ class CellPicture;
 class SequentialTests;
 struct PosteriorPicture;
 
-/// What the selected run of a sequential test thought of its target's place, stage by stage along one axis, and the
-/// scan of the stage that is looked at, with the truth and the most probable trajectory over both.
+/// The posterior of the target's position in the selected run of a sequential test, stage by stage along one axis, and
+/// the scan of the selected stage, with the truth and the most probable trajectory over both.
 class TrajectoryPage : public QSplitter
 {
     Q_OBJECT
@@ -25,15 +25,15 @@ public:
 
     CellPicture &posterior() { return *m_posterior; }
     CellPicture &scan() { return *m_scan; }
-    /// Which axis of the posterior is shown.
+    /// Index of the displayed axis of the posterior.
     int axis() const;
     void showAxis(int axis);
 
-    /// The numbers of both pictures; empty where there are none.
+    /// The numbers of both pictures; empty if there are none.
     std::string posteriorNumbers() const;
     std::string scanNumbers() const;
 
-    /// For tests that begin anew.
+    /// Clears the page when tests restart.
     void clear();
 
 private:

@@ -137,7 +137,7 @@ QString whySentence(const Explanation &explanation, const Analysis &analysis)
                      ? QObject::tr("This cell is inhibited by a track that was dropped later. ")
                      : QObject::tr("This cell is excluded: no signal is looked for here. ");
     if (explanation.isSubtracted)
-        words += QObject::tr("A line was subtracted here; the path is that of the rest. ");
+        words += QObject::tr("A line was subtracted here; the path is that of the remainder. ");
     if (explanation.isExplainedByNoise)
         words += QObject::tr("The path through this cell is not reported: cells as strong as its own, or runs of "
                              "them, are common in this recording's noise. ");
@@ -234,7 +234,7 @@ void WhyPanel::buildTables()
     m_teeth->horizontalHeaderItem(1)->setToolTip(tr("Frequency of the member in this frame"));
     m_teeth->horizontalHeaderItem(2)->setToolTip(tr("Mean power over noise along the path; 0 dB is noise"));
     m_teeth->horizontalHeaderItem(3)->setToolTip(
-        tr("How much less evidence the path would have without this member; grey where it would have no less"));
+        tr("Evidence that the path would lose without this member; grey if none"));
     m_teeth->hide();
 }
 
@@ -272,12 +272,12 @@ void WhyPanel::say(const QString &sentence)
 
 void WhyPanel::explainCursor()
 {
-    const auto &analysis = m_document.analysis();
-    if (!analysis)
-        return emit settled();
     const auto at = cursorOf(m_document, m_viewports);
     if (!at)
         return emit settled();
+    const auto analysis = m_document.isLive() ? m_document.inspectedUntil(at->seconds) : m_document.analysis();
+    if (!analysis)
+        return m_document.isLive() ? say(tr("Other settings were in force there.")) : emit settled();
     if (!std::holds_alternative<SmdSettings>(analysis->settings.detector))
         return say(tr("Only the sequential Markov detector decides along a path; choose it to see why."));
     m_began.start();

@@ -20,10 +20,10 @@ class Document;
 class PingViewports;
 class VisibilityWatcher;
 
-/// Why the cell under the cursor, of a line's frame or of a ping, was detected or was not: the best path that ends
-/// there, step by step, with terms that add up to the statistic displayed, how narrowly each step was won, and why the
-/// path begins where it does; of a family, what each of its members brought. Goes through the chain again, on a worker,
-/// while it is seen; the newest cursor wins.
+/// Explains why the cell under the cursor, in a line's frame or a ping, was or was not detected: the best path that
+/// ends there, step by step, with terms that add up to the displayed statistic, the margin of each step, and the reason
+/// for the path's beginning; for a family, the contribution of each member. Repeats the chain on a worker while
+/// visible; the newest cursor wins.
 class WhyPanel : public QWidget
 {
     Q_OBJECT
@@ -34,17 +34,17 @@ public:
     const std::optional<Explanation> &explanation() const { return m_explanation; }
     QString sentence() const;
     QTableWidget *ladder() const { return m_ladder; }
-    /// A row for each member of a family; hidden where there is none.
+    /// One row for each member of a family; hidden without one.
     QTableWidget *teeth() const { return m_teeth; }
     ChartPlot &plot() { return *m_plot; }
 
     QSize sizeHint() const override { return {360, 420}; }
 
 signals:
-    void settled(); ///< the ladder belongs to the cursor, or the sentence says why there is none
+    void settled(); ///< the path breakdown matches the cursor, or the sentence gives the reason why there is none
 
 protected:
-    /// Where there is little height the ladder comes first.
+    /// If there is little height, the path breakdown takes precedence.
     void resizeEvent(QResizeEvent *event) override;
 
 private:
@@ -65,15 +65,15 @@ private:
     QTableWidget *m_teeth;
     QTableWidget *m_ladder;
     VisibilityWatcher *m_sight;
-    QTimer *m_pause; ///< a cursor on its way is not asked about
+    QTimer *m_pause; ///< delays while the cursor moves
     QElapsedTimer m_began;
     JobRunner m_runner; ///< last, so that its jobs end first
 };
 
-/// The explanation in words: detected or not, by how much, since when, and what the terms amount to.
+/// The explanation in words: detected or not, by what margin, since when, and the sum of the terms.
 QString whySentence(const Explanation &explanation, const Analysis &analysis);
 
-/// How many members of a family raise the evidence, and which do not.
+/// Number of family members that raise the evidence, and those that do not.
 QString teethSentence(const std::vector<FamilyTooth> &teeth, const FamilySettings &family);
 
 } // namespace faintline

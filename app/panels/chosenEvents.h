@@ -9,8 +9,8 @@ namespace faintline {
 class Document;
 class EventTable;
 
-/// The events that are asked about: those selected, or without a selection the strongest one shown. In the order of
-/// time; none where nothing is shown.
+/// The selected events or, without a selection, the strongest event shown; in order of time. Empty if no event is
+/// shown.
 std::vector<Event> chosenEvents(const Document &document, const EventTable &table);
 
 } // namespace faintline

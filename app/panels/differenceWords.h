@@ -6,7 +6,7 @@
 
 namespace faintline {
 
-/// "Design SNR 0.5 → 0.25", with words for choices and a dash where one of the two has no such setting.
+/// "Design SNR 0.5 → 0.25"; choices appear by their names, a setting that one side does not have as a dash.
 QString differenceWords(const SettingDifference &difference);
 
 } // namespace faintline

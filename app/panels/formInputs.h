@@ -7,9 +7,9 @@ class QSpinBox;
 
 namespace faintline {
 
-// Inputs of the forms of experiments; the tool tip is the accessible name as well.
+// Input widgets of the experiment forms; the tooltip is the accessible name as well.
 
-/// What a number may be, and how it is stepped and written.
+/// Range, step and format of a number.
 struct NumberRange {
     double low;
     double high;

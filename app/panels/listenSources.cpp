@@ -81,6 +81,15 @@ namespace {
                     0.0,
                     {}};
         }
+        /// None while the type is being typed.
+        std::optional<double> bytesPerSecond() const
+        {
+            try {
+                return double(format().frameBytes()) * format().sampleRateHz;
+            } catch (const Error &) {
+                return {};
+            }
+        }
     };
 
     class PipeForm final : public ListenSourceForm
@@ -125,6 +134,11 @@ namespace {
                 m_iq->isChecked());
         }
 
+        std::optional<double> bytesPerSecond() const override
+        {
+            return m_header->isChecked() ? std::nullopt : m_raw.bytesPerSecond();
+        }
+
     private:
         QLineEdit *m_path = new QLineEdit;
         QCheckBox *m_header = new QCheckBox(tr("Begins with a WAV header"));
@@ -160,6 +174,8 @@ namespace {
                 },
                 m_iq->isChecked());
         }
+
+        std::optional<double> bytesPerSecond() const override { return m_raw.bytesPerSecond(); }
 
     private:
         QLineEdit *m_address = new QLineEdit;
@@ -197,6 +213,12 @@ namespace {
                     receiver](const std::stop_token &) -> std::unique_ptr<SampleSource> {
                 return std::make_unique<RtlTcpSource>(address, receiver);
             };
+        }
+
+        std::optional<double> bytesPerSecond() const override
+        {
+            constexpr double sampleBytes = 2.0;
+            return sampleBytes * m_rate->value();
         }
 
     private:
@@ -238,6 +260,13 @@ namespace {
                     return std::make_unique<SoundSource>(sound);
                 },
                 m_iq->isChecked());
+        }
+
+        std::optional<double> bytesPerSecond() const override
+        {
+            if (m_rate->value() == 0.0 || m_channels->value() == 0)
+                return {};
+            return m_rate->value() * m_channels->value() * double(SoundSettings().type.sampleBytes());
         }
 
     private:

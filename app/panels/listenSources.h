@@ -6,6 +6,7 @@
 #include <QWidget>
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace faintline {
@@ -16,6 +17,8 @@ class ListenSourceForm : public QWidget
 public:
     /// As filled in. Throws Error of what is missing or wrong.
     virtual LiveRun::OpenSource source() const = 0;
+    /// What a second of it takes on the disk; none: its header or its device will tell.
+    virtual std::optional<double> bytesPerSecond() const = 0;
 };
 
 /// A kind of source that the window can listen to. Another one is another row of the table.

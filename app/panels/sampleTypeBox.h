@@ -4,7 +4,7 @@ class QComboBox;
 
 namespace faintline {
 
-/// The types of bare samples, by SigMF's names; others can be typed in.
+/// Lists the sample types of raw files by their SigMF names; others can be typed in.
 QComboBox *sampleTypeBox();
 
 } // namespace faintline

@@ -6,22 +6,22 @@ namespace faintline {
 
 class SequentialTests;
 
-/// What the views of sequential tests say below themselves. Nothing where there is nothing to say yet.
+/// Sentences below the views of sequential tests. Empty if there is nothing to report yet.
 
-/// How the selected run ended and how well its trajectory is known; of a recording, what was decided after how many
-/// frames.
+/// How the selected run ended and how well its trajectory is known; for a recording, the decision and the number of
+/// frames it took.
 QString runSentence(const SequentialTests &tests);
 
-/// Why there is no histogram of one test, what it can say and what it assumes.
+/// Why there is no histogram for a single test, what the test can tell and what it assumes.
 QString recordingNote(const SequentialTests &tests);
 
-/// Mean stages at the SNR the test is designed for, against Wald's bounds (8a) and (8b).
+/// Mean number of stages at the design SNR, compared with Wald's bounds (8a) and (8b).
 QString curvesSentence(const SequentialTests &tests);
 
-/// By how much the stages exceed the bounds where nothing is known of the trajectory.
+/// By how much the stages exceed the bounds if nothing is known about the trajectory.
 QString priorSentence(const SequentialTests &tests);
 
-/// What a survey of the sectors found, and what it saves against tests of fixed size.
+/// Result of a survey of the sectors, and its saving compared with fixed-size tests.
 QString sectorsSentence(const SequentialTests &tests);
 
 } // namespace faintline

@@ -12,14 +12,14 @@
 
 namespace faintline {
 
-/// What `faintline render` is asked for.
+/// Options of `faintline render`.
 struct RenderOptions {
     std::string source; ///< recording, scenario or session
-    std::string out;    ///< PNG; with several views, their names go before the extension
+    std::string out;    ///< PNG; with several views, their names are inserted before the extension
     std::vector<std::string> views{"window"};
     QSize size{1600, 1000};
-    double scale = 1.0;            ///< device pixels per pixel: the picture has so many times the size
-    std::optional<double> seconds; ///< where the cursor goes
+    double scale = 1.0;            ///< device pixels per pixel: factor of the picture's size in pixels
+    std::optional<double> seconds; ///< cursor position
     std::optional<double> hz;
     std::optional<double> range; ///< of pings
     std::optional<double> bearing;
@@ -28,19 +28,19 @@ struct RenderOptions {
     std::string theme = "light";
     std::string preset;
     std::vector<std::string> settings;  ///< "name=value"
-    std::string presetA;                ///< of "compare": what A starts from
-    std::vector<std::string> settingsA; ///< of "compare": those of A alone
+    std::string presetA;                ///< "compare" only: the preset of A
+    std::vector<std::string> settingsA; ///< "compare" only: settings of A alone
     OpenOptions opening;
     std::optional<int> channel;
     PartOptions part;
-    std::optional<int> step; ///< of a lesson, counted from 1
-    bool isFocused = true;   ///< the keys are the view's, which has a frame then
+    std::optional<int> step; ///< step of a lesson, counted from 1
+    bool isFocused = true;   ///< the view has the keyboard focus and therefore a frame
 };
 
-/// Where the picture of one view goes: its name before the extension where there is more than one.
+/// Path of the picture of one view: its name precedes the extension if there is more than one view.
 std::string pictureName(const RenderOptions &options, const std::string &view);
 
-/// What a picture was asked for, as it stands in the picture beside what it was made from, and read from there again.
+/// Options as they are stored in the picture next to the description of its source, and read back from there.
 Json toJson(const RenderOptions &options, const std::string &view);
 RenderOptions renderOptionsFromJson(const Json &json);
 

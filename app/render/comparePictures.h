@@ -9,21 +9,21 @@
 
 namespace faintline {
 
-/// How two pictures differ, pixel for pixel.
+/// Difference between two pictures, pixel by pixel.
 struct PictureDifference {
     bool isSameSize = true;
     qint64 changedPixels = 0;   ///< that count
-    qint64 toleratedPixels = 0; ///< that are one colour of a colour map away, and few enough not to count
-    std::vector<QRect> places;  ///< round changed pixels that lie together
-    QImage picture; ///< changed pixels red on a pale ground, their places framed; null where nothing changed
+    qint64 toleratedPixels = 0; ///< tolerated: one colour of a colour map away, and few enough
+    std::vector<QRect> places;  ///< around groups of neighbouring changed pixels
+    QImage picture;             ///< changed pixels red on a pale background, `places` framed; null if nothing changed
 
     bool isEqual() const { return isSameSize && changedPixels == 0; }
 };
 
-/// Compares for equality: a single changed digit has to show, and any average over the picture would swallow it.
+/// Compares for equality: a single changed digit must be found, and any average over the picture would hide it.
 ///
-/// `toleratesRasters`: where pixels of both pictures are neighbours in one of the program's colour maps, as a float
-/// that was rounded the other way makes them, 1e-5 of the picture's pixels may be so. More of them, and all of them
+/// With `toleratesRasters`, pixels that are neighbours in one of the program's colour maps, as different rounding of a
+/// float produces them, are tolerated up to a fraction of 1e-5 of the picture's pixels. If there are more, all of them
 /// count.
 PictureDifference comparePictures(const QImage &expected, const QImage &actual, bool toleratesRasters = false);
 

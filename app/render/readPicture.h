@@ -4,9 +4,9 @@
 
 namespace faintline {
 
-/// A PNG with the texts in it, or an Error that says why it is none. The library that reads it says so, too, straight
-/// on standard error, where one line of ours is to be the only one: so it is not heard, as long as no other thread
-/// writes there.
+/// Reads a PNG with its text chunks. Throws Error with the reason if it cannot be read. The PNG library also writes to
+/// standard error, where only our own line must appear; its output is suppressed, provided that no other thread writes
+/// there meanwhile.
 QImage readPicture(const QString &path);
 
 } // namespace faintline

@@ -8,34 +8,34 @@
 
 namespace faintline {
 
-/// A picture to be made again from what it tells of itself, or the numbers of a sequential test's chart from what
-/// stands beside them.
+/// A picture to be reproduced from its own metadata, or the numbers of a sequential test's chart from the description
+/// beside them.
 struct ReplayOptions {
-    std::string picture;   ///< PNG that `render` wrote, or the window with what suffices for it; or .csv
-    std::string recording; ///< where the recording is; empty: beside the picture
+    std::string picture;   ///< PNG written by `render` or saved by the window with sufficient metadata; or .csv
+    std::string recording; ///< path of the recording; empty: next to the picture
 };
 
-/// Whether it is the latter.
+/// Whether `picture` is a .csv.
 bool isChart(const ReplayOptions &options);
 
-/// The picture as it is. Throws Error.
+/// Reads the picture. Throws Error.
 QImage pictureOf(const ReplayOptions &options);
 
-/// Device pixels per pixel that a picture says it was made with, else 1: Qt wants to know before its application
-/// begins.
+/// Device pixels per pixel according to the picture's metadata, else 1. Qt needs it before the application object is
+/// constructed.
 double scaleOf(const QImage &picture);
 
-/// What a picture tells of its making.
+/// How a picture was made, according to its metadata.
 struct PictureOrigin {
-    RenderOptions options; ///< their source is a session that was written into a folder
+    RenderOptions options; ///< `source` is a session that was written into a folder
     std::string view;
 };
 
-/// Reads it, looks for the recording and checks that it is the same. Throws Error.
+/// Reads the metadata, finds the recording and checks that it is the same one. Throws Error.
 PictureOrigin originOf(const QImage &picture, const ReplayOptions &options, const QString &folder);
 
-/// Compares pixels, or bytes; prints whether they are the same. Throws Error where they are not, or where it cannot be
-/// made again.
+/// Compares pixels, or bytes, and prints whether they are identical. Throws Error if they are not or if the picture
+/// cannot be reproduced.
 void replay(const ReplayOptions &options);
 
 } // namespace faintline

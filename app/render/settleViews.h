@@ -6,30 +6,30 @@ namespace faintline {
 
 class MainWindow;
 
-/// Puts into a window's views what a picture of them shows, as a person would, and waits until nothing is left to do:
-/// the same from run to run. What cannot be had of this source throws Error.
+/// Each function fills a view of the window as a user would, and waits until all work is done; the result is the same
+/// from run to run. Throws Error if the source does not support the view.
 
-/// A small experiment on lines such as the papers', as curves.
+/// Runs a small experiment on lines like those of the papers and shows its curves.
 void measureCurves(MainWindow &window);
-/// A small sweep of the threshold.
+/// Runs a small sweep of the threshold.
 void sweepThreshold(MainWindow &window);
-/// Why there is, or is no, detection at the cursor.
+/// Explains why there is a detection at the cursor, or none.
 void explainCursor(MainWindow &window);
 void measureNoise(MainWindow &window);
-/// To the strongest event's track.
+/// Fits the track of the strongest event.
 void fitDoppler(MainWindow &window);
 void cutStates(MainWindow &window);
 void measureLatency(MainWindow &window);
 
-/// Until the noise outside tracks has been looked at.
+/// Waits until the noise outside tracks has been checked.
 void settleSpectrum(MainWindow &window);
 void settleNoiseCheck(MainWindow &window);
 
-/// What follows the size of a view that was shown: another one may have more pixels to fill, or smaller ones.
+/// Updates what depends on the size of a view after it was shown: its number of pixels or their size may have changed.
 void settleLayers(MainWindow &window);
 void settleCloseup(MainWindow &window);
 
-/// Calls what starts something in the sequential panel.
+/// Calls `start`, which starts a computation in the sequential panel, and waits for its end.
 void testAndSettle(MainWindow &window, const std::function<void()> &start);
 
 } // namespace faintline

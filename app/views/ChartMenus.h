@@ -16,17 +16,17 @@ class ExceedancePlot;
 class StripPlot;
 class WindowParts;
 
-/// The menu of every chart of a window: *Save chart…* as SVG, PDF or PNG, in light colours with a caption of the
+/// Context menu of every chart of a window: *Save chart…* as SVG, PDF or PNG, in light colours with a caption of the
 /// settings, or its numbers as CSV.
 class ChartMenus : public QObject
 {
     Q_OBJECT
 
 public:
-    /// Call when the window has all its charts; those with a menu of their own keep it.
+    /// Call after the window has created all its charts; charts with a menu of their own keep it.
     ChartMenus(WindowParts &parts, QWidget *window);
 
-    /// By the path's ending.
+    /// The extension selects the format.
     void saveTo(QWidget &chart, const QString &path);
 
 signals:

@@ -11,14 +11,14 @@ namespace faintline {
 class Document;
 class WindowViews;
 
-/// Pictures of what a window shows, for a report.
+/// Pictures of the window's views for a report.
 std::vector<ReportMaterial::Picture> reportPictures(const WindowViews &views);
 
-/// Adds the ladders and writes the page. The chain runs again for each of them. Throws Error, Cancelled.
+/// Adds the ladders, each of which runs the chain again, and writes the page. Throws Error, Cancelled.
 void writeReport(const Analysis &analysis, ReportMaterial material, const std::string &path,
                  const RunContext &context = {});
 
-/// Reports from the window: the pictures at once, the ladders and the recording's hash on a worker.
+/// Writes reports from the window: the pictures at once, the ladders and the recording's hash on a worker.
 class ReportWriter : public QObject
 {
     Q_OBJECT

@@ -37,8 +37,8 @@ class WhyPanel;
 class WindowViews;
 class Workbench;
 
-/// What a window is made of: the document, what computes, and the panels that show it. Lessons, reports, views and
-/// render know the window as this; where its parts stand, and its menus, are MainWindow's own affair, which makes them.
+/// Parts of a window: the document, the controllers and the panels. Lessons, reports, views and render use the window
+/// through this interface; MainWindow creates the parts and alone knows their layout and its menus.
 class WindowParts
 {
 public:
@@ -53,7 +53,7 @@ public:
 
     Workbench &workbench() const { return *m_workbench; }
     PingBench &pingBench() const { return *m_pings; }
-    Bench &bench() const; ///< the one for what is open
+    Bench &bench() const; ///< the bench in use for the open document
     WelcomePage &welcome() const { return *m_welcome; }
     MessageBar &messages() const { return *m_messages; }
     PipelinePanel &pipeline() const { return *m_pipeline; }
@@ -78,12 +78,12 @@ public:
     SequentialPanel &sequential() const { return *m_sequential; }
     WindowViews &views() const { return *m_views; }
 
-    /// A recording, a scenario or a session, whatever is unsaved.
+    /// Opens a recording, a scenario or a session without asking about unsaved changes.
     virtual void openNow(const QString &path, const OpenOptions &options = {},
                          const AnalysisController::Adjust &adjust = {}) = 0;
-    /// A radar's sequential test on simulated scans. Where no recording is open, nothing else is shown.
+    /// Opens a radar's sequential test on simulated scans. If no recording is open, only the test is shown.
     virtual void openScans(const ScanTest &test) = 0;
-    /// Opens the scenario of such a test, unless its test is just what there is. Throws Error.
+    /// Opens the scenario of such a test unless that test is open already. Throws Error.
     void openScansOf(const QString &path);
 
 protected:

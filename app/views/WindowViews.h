@@ -14,10 +14,9 @@ namespace faintline {
 
 class WindowParts;
 
-/// Something of the window that can be looked at by itself: in a picture, in a lesson, on the sheets of keys and
-/// equations.
+/// Part of the window that can be shown on its own: in a picture, in a lesson, on the sheets of keys and equations.
 struct WindowView {
-    /// What it shows, where something else is open there is nothing to be seen in it.
+    /// Kind of source it shows; with any other kind open it is empty.
     enum class Of { Recording, Pings, Scans, Survey };
 
     QString name;  ///< in `render`, lessons and sessions
@@ -26,10 +25,10 @@ struct WindowView {
     QWidget *(*widget)(const WindowParts &parts); ///< null: the whole window
 };
 
-/// The one table of views: menus, `render`, lessons and reports read it. A view is added by a line here.
+/// The single table of views, used by menus, `render`, lessons and reports. To add a view, add a line.
 const std::vector<WindowView> &windowViews();
 
-/// A window's views by name; and as a picture in a file that tells what it was made from.
+/// Views of a window by name, and their pictures as files that contain a description of their source.
 class WindowViews : public QObject
 {
     Q_OBJECT
@@ -37,14 +36,14 @@ class WindowViews : public QObject
 public:
     WindowViews(WindowParts &parts, QWidget *window); ///< child of the window
 
-    /// Of all views.
+    /// Names of all views.
     static const QStringList &names();
-    /// Null where there is none of that name.
+    /// Null if there is no such view.
     QWidget *named(const QString &name) const;
 
-    /// Asks where to, and saves it there.
+    /// Asks for a path and saves the view there.
     void exportPicture(const QString &name);
-    /// As it is seen now, by the path's extension.
+    /// Saves the view as it is displayed now; the extension selects the format.
     void saveTo(const QString &name, const QString &path);
 
 signals:

@@ -6,13 +6,14 @@ class QLabel;
 
 namespace faintline {
 
-/// A big button of the welcome page: a frame that lights up, with pictures and words in it that leave the mouse to it.
+/// Large button of the welcome page: a frame highlighted with the focus or under the mouse; its pictures and labels
+/// ignore mouse events.
 class Card : public QAbstractButton
 {
     Q_OBJECT
 
 public:
-    /// `sentence`: what is to be seen in it, for screen readers.
+    /// `sentence`: description for screen readers.
     Card(const QString &title, const QString &sentence, QWidget *parent = nullptr);
 
     QSize sizeHint() const override;

@@ -15,24 +15,24 @@ namespace faintline {
 class CellPicture;
 class WalkPlot;
 
-/// The radar's scenario as a big button: a scan with its target, and tests that walk until they are sure.
+/// Button of the radar scenario: a scan with its target, and sequential tests up to their decisions.
 class ScanCard : public Card
 {
     Q_OBJECT
 
 public:
-    /// What the card shows of its test.
+    /// Content of the card.
     struct Result {
         ScanTest test;
         std::vector<std::pair<ScanRun, SprtResult>> walks;
-        ScanRun run; ///< whose scan is shown
+        ScanRun run; ///< run whose scan is shown
         Index stage = 1;
         std::vector<float> db; ///< of that scan, range × Doppler
     };
 
     explicit ScanCard(QWidget *parent = nullptr);
 
-    /// A few walks of both hypotheses, and the first scan of the first target. Throws Error, Cancelled.
+    /// Computes a few walks for each hypothesis and the first scan of the first target. Throws Error, Cancelled.
     static Result compute(const RunContext &context);
     void setResult(const Result &result);
     bool hasResult() const { return m_hasResult; }

@@ -14,7 +14,7 @@ namespace faintline {
 
 class OverviewStrip;
 
-/// A scenario as a big button: its input and its detector's statistic as pictures, and what is to be seen in them.
+/// Button of a scenario: pictures of its input and of its detector's statistic, and a sentence about the result.
 class ScenarioCard : public Card
 {
     Q_OBJECT
@@ -24,14 +24,14 @@ public:
 
     const Scenario &scenario() const { return m_scenario; }
 
-    /// What was simulated and found; the card shows it.
+    /// Shows the simulated source and its analysis.
     void setResult(const OpenedSource &opened, std::shared_ptr<const Analysis> analysis);
     const OpenedSource &opened() const { return m_opened; }
     const std::shared_ptr<const Analysis> &analysis() const { return m_analysis; } ///< null until there is a result
 
 private:
     Scenario m_scenario;
-    Viewport m_viewport; ///< all of it
+    Viewport m_viewport; ///< the whole extent
     OverviewStrip *m_input;
     OverviewStrip *m_statistic;
     QLabel *m_found;

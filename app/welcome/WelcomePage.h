@@ -13,14 +13,14 @@ namespace faintline {
 class ScanCard;
 class ScenarioCard;
 
-/// What there is to see before anything is open: scenarios that are simulated and analysed while one looks, a way to
-/// open a recording, and the latest ones.
+/// Page shown while nothing is open: scenarios that are simulated and analysed in the background, a button to open a
+/// recording, and the recent recordings.
 class WelcomePage : public QWidget
 {
     Q_OBJECT
 
 public:
-    /// `lessons`: their list, which becomes a part of the page.
+    /// `lessons`: list of the lessons, which becomes part of the page.
     explicit WelcomePage(QWidget *lessons, QWidget *parent = nullptr);
 
     void setRecent(const QStringList &paths);
@@ -29,13 +29,13 @@ public:
     ScanCard *scanCard() const { return m_scanCard; }
 
 public slots:
-    void start(); ///< goes on with the cards that are not ready yet
-    void stop();  ///< leaves the machine to others
+    void start(); ///< continues with the cards that are not ready yet
+    void stop();  ///< frees the processor for other work
 
 signals:
     void openRequested();
     void pathChosen(const QString &path);
-    /// The card may have its result already.
+    /// Emitted even if the card has no result yet.
     void scenarioChosen(faintline::ScenarioCard *card);
     void scansChosen(); ///< the radar's card
     void settled();     ///< all cards are ready
@@ -49,7 +49,7 @@ private:
     std::vector<ScenarioCard *> m_cards;
     ScanCard *m_scanCard;
     QVBoxLayout *m_recent;
-    JobRunner m_runner; ///< last, so that its jobs end first
+    JobRunner m_runner; ///< destroyed first, so that its jobs end before the other members are destroyed
 };
 
 } // namespace faintline

@@ -8,7 +8,7 @@ class QProgressBar;
 
 namespace faintline {
 
-/// What is being computed, how far it is, and a button to stop it. Seen only where it takes longer than 0.2 s.
+/// Name and progress of the running computation, and a button to cancel it. Visible only if it takes longer than 0.2 s.
 class ActivityBar : public QWidget
 {
     Q_OBJECT

@@ -10,8 +10,8 @@ class QListWidget;
 
 namespace faintline {
 
-/// Every command of the window by name: type some letters of it, Enter carries it out. Letters need not stand together:
-/// "nofi" finds "Noise fit". Arrows choose, Escape leaves.
+/// Finds every command of the window by name: type some of its letters and press Enter. The letters need not be
+/// adjacent: "nofi" finds "Noise fit". Arrow keys choose, Escape closes.
 class CommandPalette : public QFrame
 {
     Q_OBJECT
@@ -19,13 +19,13 @@ class CommandPalette : public QFrame
 public:
     explicit CommandPalette(QWidget *window);
 
-    /// Shows what can be done now.
+    /// Shows the commands that are enabled now.
     void open(const QList<QAction *> &commands);
 
     QLineEdit *line() const { return m_line; }
     QListWidget *list() const { return m_list; }
 
-    /// How well a name suits what was typed: larger is better; negative if its letters are not there in this order.
+    /// How well a name matches the typed text: larger is better, negative if the letters do not occur in this order.
     static int match(const QString &name, const QString &typed);
 
 protected:
@@ -44,7 +44,7 @@ private:
     QLineEdit *m_line;
     QListWidget *m_list;
     QList<Command> m_commands;
-    QPointer<QWidget> m_previousFocus; ///< where a command is carried out
+    QPointer<QWidget> m_previousFocus; ///< has the focus when a command is carried out
 
     void giveFocusBack();
 };

@@ -7,13 +7,13 @@ class QWidget;
 
 namespace faintline {
 
-/// Takes files that are dropped anywhere on a window, also on its text fields, which would only take their names.
+/// Accepts files dropped anywhere on a window, even on text fields, which would otherwise only insert their names.
 class FileDrop : public QObject
 {
     Q_OBJECT
 
 public:
-    /// Call when the window has all its children.
+    /// Call after the window has created all its children.
     explicit FileDrop(QWidget *window);
 
 signals:

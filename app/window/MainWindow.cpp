@@ -76,6 +76,7 @@ MainWindow::MainWindow(std::unique_ptr<QSettings> memory, const QString &recover
     m_panels = new Panels(*this);
     m_views = new WindowViews(*this, this);
     buildCentre();
+    buildPanels();
     buildDocks();
     buildBottom();
     buildStatusBar();
@@ -249,6 +250,8 @@ void MainWindow::saveLayout()
     layout.panels = saveState();
     layout.colourMap = view.colourMap;
     layout.orientation = view.orientation;
+    layout.isLogarithmic = view.isLogarithmic;
+    layout.isRadioAxis = view.isRadioAxis;
     m_memory.setLayout(layout);
 }
 
@@ -260,7 +263,7 @@ void MainWindow::restoreLayout()
         m_workbench->restoreSplitters(layout.splitters);
     if (!layout.pingSplitters.isEmpty())
         m_pings->restoreSplitters(layout.pingSplitters);
-    m_workbench->restore({{}, {}, layout.orientation, layout.colourMap});
+    m_workbench->restore({{}, {}, layout.orientation, layout.colourMap, layout.isLogarithmic, layout.isRadioAxis});
 }
 
 void MainWindow::setAsking(bool isAsking)
@@ -351,9 +354,10 @@ void MainWindow::showDoppler()
 /// As sound; without it the cursor moves all the same. Live, the picture goes on.
 void MainWindow::setPlaying(bool isPlaying)
 {
-    if (!isPlaying)
+    const bool isLive = m_document.isLive();
+    if (!isPlaying && !isLive)
         m_playback->stop();
-    else if (&bench() == m_workbench && !m_document.isLive() && (m_playback->isPlaying() || m_playback->start()))
+    else if (isPlaying && &bench() == m_workbench && !isLive && (m_playback->isPlaying() || m_playback->start()))
         return;
     bench().setPlaying(isPlaying);
 }

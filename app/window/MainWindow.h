@@ -63,10 +63,10 @@ public:
 
     void openScans(const ScanTest &test) override;
 
-    /// Listens to a source, recording into a folder, with these settings or those of what is open, which makes room. In
-    /// the end the recording is open.
+    /// Listens to a source, recording into a folder, in files of limited length, with these settings or those of what is
+    /// open, which makes room. In the end the recording is open.
     void listenTo(LiveRun::OpenSource source, const QString &folder,
-                  const std::optional<AnalysisSettings> &settings = {});
+                  const std::optional<AnalysisSettings> &settings = {}, const RotationSettings &rotation = {});
     LiveRun &live() { return *m_live; }
     LiveBar &liveBar() { return *m_liveBar; }
 
@@ -94,6 +94,7 @@ protected:
 
 private:
     void buildCentre();
+    void buildPanels();
     void buildDocks();
     void buildBottom();
     void buildStatusBar();
@@ -102,6 +103,7 @@ private:
     void nameWhatHolds();
     void buildEditMenu();
     void buildViewMenu();
+    void addFrequencyActions(QMenu &menu);
     void addLayerMenu(QMenu &menu);
     void addPresentation(QMenu &menu);
     void addThemeMenu(QMenu &menu);

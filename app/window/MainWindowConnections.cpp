@@ -76,8 +76,10 @@ void MainWindow::connectDocument()
     connect(&m_document, &Document::opened, this, [this] {
         if (!m_live->isRunning()) // what was said of the run holds
             m_messages->dismiss();
-        if (m_document.recording())
+        if (m_document.recording()) {
             m_readOut->setStartUnixSeconds(m_document.recording()->info().startUnixSeconds);
+            m_readOut->setCentreHz(m_document.recording()->info().centreHz);
+        }
         m_overview->setPicture(nullptr, {});
         // Nothing of what was open before stays under the new name.
         m_events->setEvents({});
@@ -137,9 +139,11 @@ void MainWindow::connectController()
     connect(m_report, &ReportWriter::progressed, m_activity, &ActivityBar::setProgress);
     connect(m_activity, &ActivityBar::cancelRequested, m_report, &ReportWriter::cancel);
     connect(m_playback, &Playback::failed, this, [this](const Error &error) {
+        const QString why = QString::fromStdString(error.why());
         m_messages->showMessage(MessageBar::Kind::Notice, QString::fromStdString(error.where()),
-                                tr("%1; the cursor moves without sound").arg(QString::fromStdString(error.why())));
+                                m_document.isLive() ? why : tr("%1; the cursor moves without sound").arg(why));
     });
+    connect(m_playback, &Playback::soundless, this, [this] { bench().setPlaying(true); });
     connect(m_report, &ReportWriter::failed, this, &MainWindow::showError);
     connect(m_report, &ReportWriter::written, this, &MainWindow::showWritten);
     connect(m_saver, &SessionSaver::failed, this, &MainWindow::showError);

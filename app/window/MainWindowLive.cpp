@@ -4,6 +4,7 @@
 
 #include "app/base/MessageBar.h"
 #include "app/base/filePath.h"
+#include "app/control/Playback.h"
 #include "app/document/SessionSaver.h"
 #include "app/panels/ListenDialog.h"
 #include "app/welcome/WelcomePage.h"
@@ -44,6 +45,14 @@ void MainWindow::connectLive()
     });
     connect(m_live, &LiveRun::ended, this, &MainWindow::endLive);
     connect(m_workbench, &Workbench::livePainted, m_liveBar, &LiveBar::setDelay);
+    connect(m_liveBar, &LiveBar::hearingRequested, this, [this](bool isWanted) {
+        if (!isWanted)
+            m_playback->stop();
+        else if (!m_playback->startLive())
+            m_liveBar->setHearing(false);
+    });
+    connect(m_playback, &Playback::hearingChanged, m_liveBar, &LiveBar::setHearing);
+    connect(m_playback, &Playback::delayChanged, m_liveBar, &LiveBar::setSoundDelay);
     connect(&m_document, &Document::livePlanChanged, this, [this] { showPlan(*m_document.plan()); });
     connect(&m_document, &Document::settingsChanged, this, [this] {
         if (m_document.isLive())
@@ -66,14 +75,14 @@ void MainWindow::listen()
         if (!m_listenDialog)
             m_listenDialog = new ListenDialog(this);
         if (m_listenDialog->exec() == QDialog::Accepted)
-            listenTo(m_listenDialog->source(), m_listenDialog->folder());
+            listenTo(m_listenDialog->source(), m_listenDialog->folder(), {}, m_listenDialog->rotation());
     };
     if (mayLeave(tr("listening to something else"), next))
         next();
 }
 
 void MainWindow::listenTo(LiveRun::OpenSource source, const QString &folder,
-                          const std::optional<AnalysisSettings> &analysis)
+                          const std::optional<AnalysisSettings> &analysis, const RotationSettings &rotation)
 {
     const bool hasSettings = m_document.recording() != nullptr; // those of ready-made frames say nothing of samples
     ListenSettings settings = listenSettings(analysis      ? *analysis
@@ -82,6 +91,7 @@ void MainWindow::listenTo(LiveRun::OpenSource source, const QString &folder,
     const QString name = QStringLiteral("live-%1.sigmf-meta")
                              .arg(QDateTime::currentDateTimeUtc().toString(QStringLiteral("yyyyMMdd'T'hhmmss'Z'")));
     settings.recordPath = pathBytes(QDir(folder).filePath(name));
+    settings.rotation = rotation;
     m_liveTrouble.reset();
     m_controller.stop();
     m_document.setOpened({}, settings.analysis);

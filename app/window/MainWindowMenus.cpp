@@ -75,7 +75,7 @@ void MainWindow::buildFileMenu()
         ->setToolTip(tr("Put the recordings of a folder on one timeline by their time stamps"));
     menu->addAction(tr("Open as &raw samples…"), this, &MainWindow::chooseRawFile);
     menu->addAction(tr("&Listen…"), QKeySequence(Qt::CTRL | Qt::Key_L), this, &MainWindow::listen)
-        ->setToolTip(tr("Detect in samples while they come in, and record them"));
+        ->setToolTip(tr("Detect signals in live samples, and record the samples"));
     m_recentMenu = menu->addMenu(tr("Open re&cent"));
     connect(m_recentMenu, &QMenu::aboutToShow, this, &MainWindow::fillRecentMenu);
     addViewAction(*menu, tr("&Next file of the folder"), QKeySequence(Qt::CTRL | Qt::Key_PageDown), [this] {
@@ -121,6 +121,26 @@ void MainWindow::buildEditMenu()
     addViewAction(*menu, tr("&Delete preset…"), {}, [this] { m_pipeline->removePreset(); });
 }
 
+void MainWindow::addFrequencyActions(QMenu &menu)
+{
+    Viewport *viewport = &m_document.viewport();
+    QAction *logarithmic = addViewAction(menu, tr("&Logarithmic frequency"), QKeySequence(Qt::SHIFT | Qt::Key_L), {});
+    logarithmic->setCheckable(true);
+    logarithmic->setToolTip(
+        tr("Show frequencies on a logarithmic scale; not for I/Q, whose frequencies may be negative"));
+    const auto showScale = [viewport, logarithmic] { logarithmic->setChecked(viewport->isLogarithmic()); };
+    connect(viewport, &Viewport::scaleChanged, logarithmic, showScale);
+    connect(logarithmic, &QAction::triggered, viewport, [viewport, showScale](bool isOn) {
+        viewport->setLogarithmic(isOn);
+        showScale();
+    });
+    QAction *radio = addViewAction(menu, tr("&Radio frequency"), QKeySequence(Qt::SHIFT | Qt::Key_R), {});
+    radio->setCheckable(true);
+    radio->setToolTip(tr("Label the frequency axis with the recording's centre frequency added, where it is known"));
+    connect(radio, &QAction::triggered, m_workbench, &Workbench::setRadioAxis);
+    connect(&menu, &QMenu::aboutToShow, radio, [this, radio] { radio->setChecked(m_workbench->isRadioAxis()); });
+}
+
 void MainWindow::buildViewMenu()
 {
     QMenu *menu = menuBar()->addMenu(tr("&View"));
@@ -132,9 +152,10 @@ void MainWindow::buildViewMenu()
     addViewAction(*menu, tr("To the &newest frames"), Qt::Key_End, [this, viewport] {
         if (m_document.isLive())
             viewport->setFollowing(true);
-    })->setToolTip(tr("While listening: back to what is heard now"));
+    })->setToolTip(tr("While listening, go to the newest frames"));
     menu->addSeparator();
     addViewAction(*menu, tr("Next &orientation"), Qt::Key_O, [this] { bench().cycleOrientation(); });
+    addFrequencyActions(*menu);
     addViewAction(*menu, tr("Next &colour map"), Qt::Key_C, [this] { bench().cycleColourMap(); });
     addViewAction(*menu, tr("A&utomatic range"), Qt::Key_A, [this] { bench().setAutomaticRange(); });
     menu->addSeparator();
@@ -154,7 +175,7 @@ void MainWindow::buildViewMenu()
                   [input, output] { (input->hasFocus() ? input : output)->moveCursorToPeak(); });
     addViewAction(*menu, tr("S&pectrum"), QKeySequence(Qt::SHIFT | Qt::Key_S), [this] {
         showSpectrum();
-    })->setToolTip(tr("The spectrum at the cursor, and the mean of what is visible"));
+    })->setToolTip(tr("Spectrum at the cursor, and mean spectrum of the visible part"));
     menu->addSeparator();
     QMenu *picture = menu->addMenu(tr("P&icture"));
     connect(picture, &QMenu::aboutToShow, this, [picture, output] {

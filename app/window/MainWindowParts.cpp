@@ -81,7 +81,7 @@ void MainWindow::buildCentre()
     setCentralWidget(centre);
 }
 
-void MainWindow::buildDocks()
+void MainWindow::buildPanels()
 {
     m_ownPresets = new OwnPresets(m_memory.presetFolder(), this);
     m_pipeline = new PipelinePanel(m_document, m_controller, *m_ownPresets);
@@ -120,7 +120,10 @@ void MainWindow::buildDocks()
     m_reproduction = new ReproductionPanel;
     m_survey = new SurveyPanel(m_document, m_controller);
     m_sequential = new SequentialPanel(m_document, m_sequentialTests);
+}
 
+void MainWindow::buildDocks()
+{
     using Place = Panels::Place;
     m_panels->add(QStringLiteral("pipelineDock"), tr("Pipeline"), m_pipeline, Place::Left);
     // The threshold above the events it decides about: one sees both while dragging.

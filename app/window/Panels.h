@@ -14,39 +14,40 @@ class QWidget;
 
 namespace faintline {
 
-/// The docks of a window and where they stand.
+/// Docks of a window and their layout.
 class Panels : public QObject
 {
     Q_OBJECT
 
 public:
-    /// Where a panel stands at first. Panels in one place are tabs, the first one in front; those at the bottom are out
-    /// of sight until they are asked for, because the pictures need the room.
+    /// Default position of a panel. Panels in the same place are tabs, the first one in front. Those at the bottom are
+    /// hidden until they are requested, because the pictures need the space.
     enum class Place { Left, RightTop, RightBottom, Bottom };
 
     explicit Panels(QMainWindow &window);
 
     void add(const QString &name, const QString &title, QWidget *panel, Place place);
-    /// What stands now is the default layout: call it once all panels are there.
+    /// Makes the present layout the default. Call after all panels have been added.
     void rememberDefault();
 
-    void show(QWidget *panel); ///< brings it to the front
-    void hide();               ///< all of them
+    void show(QWidget *panel); ///< shows the panel and raises it
+    void hide();               ///< hides all panels
     QList<QAction *> toggleActions() const;
 
-    /// Arrangements for what one is about, by name; the first is the default.
+    /// Layouts for particular tasks, by name; the first is the default.
     static QStringList layoutNames();
     void takeLayout(const QString &name);
 
-    /// While they come and go together; what one of them does then is no wish of the user's.
+    /// True while several panels are shown or hidden together; changes of visibility are then not the user's choice.
     bool isRearranging() const { return m_isRearranging; }
 
-    /// Qt leaves bars without tabs in sight, and at times in front of others, whose clicks they take.
+    /// Hides tab bars without tabs, which Qt leaves visible and sometimes in front of other widgets, whose clicks they
+    /// take.
     bool eventFilter(QObject *watched, QEvent *event) override;
 
 public slots:
     void takeDefault();
-    /// The pictures and nothing else, over the whole screen.
+    /// Shows only the pictures, in full screen.
     void setPresenting(bool isPresenting);
 
 private:

@@ -8,7 +8,7 @@ class QToolButton;
 
 namespace faintline {
 
-/// Buttons with icons: in a narrow window only those added with `keepsText` say their name, the others by a tool tip.
+/// Buttons with icons. In a narrow window only those added with `keepsText` show their text; the others have a tooltip.
 class ToolBar : public QToolBar
 {
     Q_OBJECT
@@ -16,9 +16,9 @@ class ToolBar : public QToolBar
 public:
     explicit ToolBar(const QString &title, QWidget *parent = nullptr);
 
-    /// Gives an action its icon of resources/icons and puts it at the end.
+    /// Appends an action with an icon of resources/icons.
     void addAction(QAction *action, const QString &iconName, bool keepsText);
-    /// The same of a button, such as one with a menu.
+    /// Appends a button, such as one with a menu.
     void addButton(QToolButton *button, const QString &iconName, bool keepsText);
 
 protected:

@@ -14,7 +14,7 @@ namespace faintline {
 
 class TrialWindow;
 
-/// From a point of a curve to the trials behind it: makes one again on a worker and shows it in a window of its own.
+/// Shows the trials behind a point of a curve: computes one again on a worker and opens it in a separate window.
 class TrialViewer : public QObject
 {
     Q_OBJECT
@@ -23,10 +23,10 @@ public:
     TrialViewer(const Experiments &experiments, QWidget *window);
     ~TrialViewer() override;
 
-    /// The first trial behind that point; asked again for the same point, the next.
+    /// Opens the first trial behind that point; a repeated call for the same point opens the next.
     void open(int experiment, std::size_t detector, std::size_t snr);
     bool isBusy() const { return m_runner.isRunning(); }
-    TrialWindow *window() const { return m_window.get(); } ///< null until one was opened
+    TrialWindow *window() const { return m_window.get(); } ///< null until a trial has been opened
 
 signals:
     void progressed(double fraction, const QString &what);

@@ -13,8 +13,8 @@ namespace faintline {
 class ReadOut;
 class Workbench;
 
-/// One trial of an experiment in waterfalls of its own, so that what is open stays open: truth, detections and
-/// threshold; from here to the next trial, or to the next one that was missed.
+/// One trial of an experiment in its own waterfalls, independent of the open document: truth, detections and threshold,
+/// with buttons for the previous and the next trial and the next miss.
 class TrialWindow : public QWidget
 {
     Q_OBJECT

@@ -14,6 +14,8 @@ namespace {
     const QString themeKey = QStringLiteral("view/theme");
     const QString colourMapKey = QStringLiteral("view/colourMap");
     const QString orientationKey = QStringLiteral("view/orientation");
+    const QString logarithmicKey = QStringLiteral("view/logarithmic");
+    const QString radioKey = QStringLiteral("view/radio");
     const QString geometryKey = QStringLiteral("window/geometry");
     const QString panelsKey = QStringLiteral("window/panels");
     const QString splittersKey = QStringLiteral("window/splitters");
@@ -65,7 +67,8 @@ WindowMemory::Layout WindowMemory::layout() const
         return {};
     return {m_store->value(geometryKey).toByteArray(),  m_store->value(panelsKey).toByteArray(),
             m_store->value(splittersKey).toByteArray(), m_store->value(pingSplittersKey).toByteArray(),
-            m_store->value(colourMapKey).toString(),    m_store->value(orientationKey).toString()};
+            m_store->value(colourMapKey).toString(),    m_store->value(orientationKey).toString(),
+            m_store->value(logarithmicKey).toBool(),    m_store->value(radioKey).toBool()};
 }
 
 void WindowMemory::setLayout(const Layout &layout)
@@ -78,6 +81,8 @@ void WindowMemory::setLayout(const Layout &layout)
     m_store->setValue(pingSplittersKey, layout.pingSplitters);
     m_store->setValue(colourMapKey, layout.colourMap);
     m_store->setValue(orientationKey, layout.orientation);
+    m_store->setValue(logarithmicKey, layout.isLogarithmic);
+    m_store->setValue(radioKey, layout.isRadioAxis);
 }
 
 Theme::Kind WindowMemory::theme() const

@@ -10,7 +10,7 @@
 
 namespace faintline {
 
-/// What a window remembers from run to run: recent files, its layout, its look. Without a store it remembers nothing.
+/// State of a window that persists between runs: recent files, layout, appearance. Without a store nothing is kept.
 class WindowMemory
 {
 public:
@@ -21,20 +21,22 @@ public:
         QByteArray pingSplitters; ///< of the bench of pings
         QString colourMap;
         QString orientation;
+        bool isLogarithmic = false; ///< the frequency axis
+        bool isRadioAxis = false;
     };
 
     explicit WindowMemory(std::unique_ptr<QSettings> store = {}) : m_store(std::move(store)) {}
 
-    /// The store of the program, in the person's configuration folder.
+    /// The program's store in the user's configuration folder.
     static std::unique_ptr<QSettings> programStore();
 
-    QStringList recent() const; ///< the latest first
+    QStringList recent() const; ///< most recent first
     void addRecent(const QString &path);
 
-    /// Where presets of one's own are kept; empty without a store.
+    /// Folder of the user's presets; empty without a store.
     QString presetFolder() const;
 
-    /// The classes that the keys 1 to 9 give events.
+    /// Classes that the keys 1 to 9 assign to events.
     QStringList classNames() const;
     void setClassNames(const QStringList &names);
 

@@ -10,7 +10,7 @@ namespace faintline {
 
 class MainWindow;
 
-/// The windows that the program begins with: one for each file, at least one, with the program's memory and theme.
+/// Windows at program start: one for each file, at least one, with the program's store and theme.
 std::vector<std::unique_ptr<MainWindow>> programWindows(const std::vector<std::string> &files,
                                                         const OpenOptions &options);
 

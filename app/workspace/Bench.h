@@ -12,15 +12,14 @@ class QSplitter;
 
 namespace faintline {
 
-/// What fills the middle of the window while something is open: the pictures, and what moves about in them. There is
-/// one for each kind of frames. Each hears of the document only while the document's
-/// frames are of its kind.
+/// Central part of the window while a document is open: the pictures and the navigation in them. There is one bench for
+/// each kind of frames; it follows the document only while the document's frames are of its kind.
 class Bench : public QWidget
 {
     Q_OBJECT
 
 public:
-    /// Where the cursor is, in the units of the axes; what a kind of frames does not have is not given.
+    /// Position of the cursor in the units of the axes; a coordinate that this kind of frames lacks is empty.
     struct Place {
         std::optional<double> seconds;
         std::optional<double> hz;
@@ -33,17 +32,17 @@ public:
     bool isInUse() const; ///< the document's frames are of this kind
 
     virtual Place place() const = 0;
-    /// Moves the cursor; what is not given stays. Brings it into view.
+    /// Moves the cursor and scrolls it into view. Empty coordinates are left unchanged.
     virtual void setPlace(const Place &place) = 0;
 
     virtual QWidget *inputView() const = 0; ///< with its colour bar
     virtual QWidget *outputView() const = 0;
-    virtual QWidget *firstView() const = 0;    ///< that has the focus at first
+    virtual QWidget *firstView() const = 0;    ///< has the initial focus
     virtual QString firstViewName() const = 0; ///< as in `windowViews`
-    virtual bool hasReadOut() const = 0;       ///< of its own, and a history
-    virtual QString hint() const = 0;          ///< what can be done next, where there are events
+    virtual bool hasReadOut() const = 0;       ///< has a read-out and a history of its own
+    virtual QString hint() const = 0;          ///< suggests the next step if there are events
 
-    /// What the panes say while there is nothing to see.
+    /// Text shown in the empty panes.
     virtual void setEmptySentence(const QString &sentence) = 0;
 
     virtual ViewState viewState() const = 0;
@@ -53,12 +52,12 @@ public:
     virtual void cycleColourMap() = 0;
     virtual void setAutomaticRange() = 0;
 
-    /// How its pictures share the room.
+    /// Sizes of the panes.
     QByteArray saveSplitters() const;
     void restoreSplitters(const QByteArray &state);
 
 public slots:
-    virtual void selectEvent(int id) = 0; ///< marks it, puts the cursor on it and brings it into view
+    virtual void selectEvent(int id) = 0; ///< marks the event, moves the cursor to it and scrolls it into view
     virtual void stepFrames(int frames) = 0;
     virtual void setPlaying(bool isPlaying) = 0;
 
@@ -73,12 +72,12 @@ protected:
     // Called only while the document's frames are of this kind.
     virtual void showAnalysis() = 0;
     virtual void showHeading() = 0;
-    virtual void showStatistic() = 0; ///< the analysis's, or the provisional one
+    virtual void showStatistic() = 0; ///< of the analysis, or the provisional one
     virtual void showThreshold() = 0;
     virtual void showEvents() = 0;
     virtual void readCursor() = 0;
 
-    /// Calls a member function when a signal is emitted, if this is in use.
+    /// Connects a signal to a member function that is called only while this bench is in use.
     template <class Sender, class Signal, class B>
     void whenInUse(Sender *sender, Signal signal, void (B::*slot)())
     {

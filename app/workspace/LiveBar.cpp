@@ -1,5 +1,6 @@
 #include "app/workspace/LiveBar.h"
 
+#include "app/base/diskRoom.h"
 #include "base/utc.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
@@ -10,7 +11,6 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QRegularExpression>
-#include <QStorageInfo>
 #include <QToolButton>
 
 #include <algorithm>
@@ -23,26 +23,20 @@ namespace {
     constexpr int refreshMs = 250;
     constexpr int delayTicks = 8; ///< over which the longest delay is taken
 
-    /// "42 h", "12 min".
-    QString roughly(double seconds)
-    {
-        constexpr double minute = 60.0, hour = 3600.0, day = 86400.0;
-        if (seconds >= 3.0 * day)
-            return LiveBar::tr("%1 days").arg(std::floor(seconds / day));
-        if (seconds >= 2.0 * hour)
-            return LiveBar::tr("%1 h").arg(std::floor(seconds / hour));
-        return LiveBar::tr("%1 min").arg(std::floor(seconds / minute));
-    }
-
 } // namespace
 
 LiveBar::LiveBar(Document &document, LiveRun &run, QWidget *parent)
-    : QWidget(parent), m_document(document), m_run(run), m_label(new QLabel), m_hold(new QToolButton),
-      m_stop(new QToolButton)
+    : QWidget(parent), m_document(document), m_run(run), m_label(new QLabel), m_hear(new QToolButton),
+      m_hold(new QToolButton), m_stop(new QToolButton)
 {
     m_label->setTextFormat(Qt::RichText);
     m_label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     m_label->setAccessibleName(tr("Live"));
+    m_hear->setObjectName(QStringLiteral("hear"));
+    m_hear->setCheckable(true);
+    m_hear->setToolTip(tr("Play what comes in: all of it, the band of the box, or a line (Detect > Play what)"));
+    m_hear->setFocusPolicy(Qt::TabFocus);
+    connect(m_hear, &QToolButton::toggled, this, &LiveBar::hearingRequested);
     m_hold->setToolTip(tr("Hold the picture while listening goes on, or go back to the newest frames (Space, End)"));
     m_hold->setFocusPolicy(Qt::TabFocus);
     m_stop->setText(tr("Stop"));
@@ -57,6 +51,7 @@ LiveBar::LiveBar(Document &document, LiveRun &run, QWidget *parent)
     auto *layout = new QHBoxLayout(this);
     layout->setContentsMargins(8, 3, 8, 3);
     layout->addWidget(m_label, 1);
+    layout->addWidget(m_hear);
     layout->addWidget(m_hold);
     layout->addWidget(m_stop);
     m_refresh.setInterval(refreshMs);
@@ -74,6 +69,19 @@ LiveBar::LiveBar(Document &document, LiveRun &run, QWidget *parent)
 void LiveBar::setDelay(double seconds)
 {
     m_longestDelay = std::max(m_longestDelay, seconds);
+}
+
+void LiveBar::setHearing(bool isHearing)
+{
+    m_hear->setChecked(isHearing);
+    refresh();
+}
+
+QString LiveBar::pictureWords() const
+{
+    if (!m_document.viewport().isFollowing())
+        return tr("held; listening goes on");
+    return tr("picture %1 behind the sound").arg(secondsText(std::max(m_longestDelay, m_delayBefore), 0.01));
 }
 
 QString LiveBar::text() const
@@ -95,12 +103,11 @@ QString LiveBar::lostWords() const
 
 QString LiveBar::diskWords() const
 {
-    const QStorageInfo disk(QFileInfo(m_run.state().recording).path());
-    if (!disk.isValid() || !m_run.state().format)
+    const std::optional<double> room = freeBytes(QFileInfo(m_run.state().recording).path());
+    if (!room || !m_run.state().format)
         return tr("disk: unknown");
     const StreamFormat &format = *m_run.state().format;
-    const double seconds = double(disk.bytesAvailable()) / double(format.frameBytes()) / format.sampleRateHz;
-    return tr("disk full in %1").arg(roughly(seconds));
+    return tr("disk full in %1").arg(roughTimeText(*room / double(format.frameBytes()) / format.sampleRateHz));
 }
 
 void LiveBar::refresh()
@@ -110,7 +117,9 @@ void LiveBar::refresh()
     const double now = double(QDateTime::currentMSecsSinceEpoch()) * 1e-3;
     const bool isFollowing = m_document.viewport().isFollowing();
     m_hold->setText(isFollowing ? tr("Hold") : tr("To the newest"));
+    m_hear->setText(m_hear->isChecked() ? tr("Mute") : tr("Hear"));
     m_hold->setVisible(m_document.isLive());
+    m_hear->setVisible(m_document.isLive());
     m_stop->setEnabled(m_run.isRunning() && !state.isStopping);
     QStringList words{QString::fromStdString(formatUtc(std::floor(now)))};
     if (!state.format)
@@ -122,11 +131,10 @@ void LiveBar::refresh()
     if (state.format && live.isEmpty())
         words << tr("estimating the noise of the first %1").arg(secondsText(state.blockSeconds, 1.0));
     if (!live.isEmpty())
-        words
-            << (isFollowing
-                    ? tr("picture %1 behind the sound").arg(secondsText(std::max(m_longestDelay, m_delayBefore), 0.01))
-                    : tr("held; listening goes on"))
-            << tr("window %1").arg(secondsText(live.plan->settings.spectrogram.windowSeconds, 0.01));
+        words << pictureWords()
+              << tr("window %1").arg(secondsText(live.plan->settings.spectrogram.windowSeconds, 0.01));
+    if (m_hear->isChecked())
+        words << tr("heard %1 later").arg(secondsText(m_soundDelay, 0.01));
     if (state.format)
         words << lostWords() << diskWords();
     for (QString &word : words)

@@ -10,7 +10,7 @@ class QSlider;
 
 namespace faintline {
 
-/// Below the maps of a ping: which one it is, what is marked in it, and the read-out.
+/// Below the maps of a ping: its number, the legend of the marks and the read-out.
 class PingBar : public QWidget
 {
     Q_OBJECT

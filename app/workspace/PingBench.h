@@ -17,17 +17,17 @@ class PingBar;
 class PingMap;
 class StripPlot;
 
-/// A sonar's pings: input and statistic of one ping as maps of range × bearing, range and bearing of the tracks against
+/// Sonar pings: input and statistic of one ping as maps of range × bearing, range and bearing of the tracks against
 /// time, ln K below.
 ///
-/// The ping shown is the one the cursor stands on. All pictures have one range, one bearing, one time (PingViewports).
-/// Keys: J and L step, Space plays, Shift+Space plays backwards, P looks from above.
+/// The ping at the cursor is shown. All pictures share one range, one bearing and one time axis (PingViewports). Keys:
+/// J and L step, Space plays, Shift+Space plays backwards, P shows the map from above.
 class PingBench : public Bench
 {
     Q_OBJECT
 
 public:
-    /// `layers`: the window's, shown over the output's map as well.
+    /// `layers`: layers of the window, also drawn over the output map.
     PingBench(Document &document, OutputLayers &layers, QWidget *parent = nullptr);
 
     PingMap *input() const { return m_input; }
@@ -46,7 +46,7 @@ public:
     Place place() const override;
     void setPlace(const Place &place) override;
 
-    Index ping() const; ///< the one shown
+    Index ping() const; ///< the ping shown
     QString reading() const;
 
     void setEmptySentence(const QString &sentence) override;
@@ -65,7 +65,7 @@ public slots:
     void showPing(faintline::Index ping);
 
 protected:
-    /// Gives up what would leave the maps no room.
+    /// Hides parts that would leave too little room for the maps.
     void resizeEvent(QResizeEvent *event) override;
     std::vector<QSplitter *> splitters() const override { return {m_maps, m_histories, m_rows}; }
     void showAnalysis() override;
@@ -95,19 +95,19 @@ private:
     PingViewports m_viewports;
     PingMap *m_input;
     PingMap *m_output;
-    PingBar *m_bar; ///< below them
+    PingBar *m_bar; ///< below the maps
     WaterfallView *m_rangeHistory;
     WaterfallView *m_bearingHistory;
     StripPlot *m_regulation;
-    QLabel *m_dragged; ///< a warning where signals drag K down
+    QLabel *m_dragged; ///< warning that signals bias K low
     QSplitter *m_maps;
     QSplitter *m_histories;
     QSplitter *m_rows;
     PingMarks m_marks;
-    Index m_shownPing = -1; ///< whose pictures the maps show; -1: none
+    Index m_shownPing = -1; ///< ping shown in the maps; -1: none
     int m_playStep = 1;
     QTimer m_player;
-    bool m_isFirstAnalysis = true; ///< of what is open
+    bool m_isFirstAnalysis = true; ///< of the open document
 };
 
 } // namespace faintline

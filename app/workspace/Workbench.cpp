@@ -78,10 +78,17 @@ namespace {
         return {};
     }
 
+    /// `isRest`: of what is left without the strong lines.
+    QString inputHeading(bool isRest)
+    {
+        return isRest ? Workbench::tr("Input, strong lines subtracted (dB over noise)")
+                      : Workbench::tr("Input (dB over noise)");
+    }
+
 } // namespace
 
 Workbench::Workbench(Document &document, QWidget *parent)
-    : Bench(document, lineFrames(), parent), m_input(new WaterfallView(tr("Input (dB over noise)"))),
+    : Bench(document, lineFrames(), parent), m_input(new WaterfallView(inputHeading(false))),
       m_output(new WaterfallView(tr("Statistic D (nat)"))), m_layers(new OutputLayers(document, *m_output, this)),
       m_boxMeter(new BoxMeter(document, this)), m_inputPane(ColourBar::pane(m_input)),
       m_outputPane(ColourBar::pane(m_output)), m_statistic(new StripPlot(tr("D (nat)"))),
@@ -121,6 +128,7 @@ Workbench::Workbench(Document &document, QWidget *parent)
         }
         emit playingChanged(false);
         showStrips();
+        showOrigin();
     });
     connect(&document, &Document::liveChanged, this, &Workbench::showLive);
     connect(&document.viewport(), &Viewport::followingChanged, this, [this](bool isFollowing) {
@@ -155,7 +163,9 @@ void Workbench::linkViews()
         whenInUse(view, &WaterfallView::hoverEnded, &Workbench::readCursor);
     }
     connect(m_output, &WaterfallView::shownPictureChanged, this, [this] {
-        if (m_document.analysis() && isInUse())
+        if (!isInUse() || (m_document.isLive() && !isStripDue()))
+            return;
+        if (m_document.analysis() || m_document.isLive())
             m_statistic->setProfile(tr("D at the cursor"), m_output->shownPicture(), m_output->frequencyAxis());
     });
     whenInUse(viewport, &Viewport::cursorChanged, &Workbench::readCursor);
@@ -196,6 +206,7 @@ void Workbench::showAnalysis()
 
     followExtents(analysis.time(), frequency);
     m_output->setThreshold(analysis.threshold); // before the picture: the automatic range takes it into account
+    m_input->setHeading(inputHeading(analysis.unsubtracted != nullptr));
     m_input->setPicture(analysis.input, frequency);
     showStatistic();
     for (WaterfallView *view : {m_input, m_output}) {
@@ -237,11 +248,15 @@ void Workbench::showLive()
     m_livePlan = live.plan;
     if (isFirst || (live.time.count >= 2 * m_colouredFrames && live.time.count <= longestColouring)) {
         m_colouredFrames = live.time.count;
+        m_input->setHeading(inputHeading(false));
         m_input->setPicture(live.input, frequency);
         m_output->setPicture(live.statistic, frequency);
+        m_statistic->setEmptySentence(tr("Click a picture to plot D at that frequency over time."));
     }
-    m_input->setGrownPicture(live.input, live.newInput);
-    m_output->setGrownPicture(live.statistic, live.newStatistic);
+    const auto lookedBack = m_closeup->lookedBackAt(*m_input);
+    m_input->setGrownPicture(live.input, lookedBack ? lookedBack : live.newInput);
+    const auto lookedBackOut = m_closeup->lookedBackAt(*m_output);
+    m_output->setGrownPicture(live.statistic, lookedBackOut ? lookedBackOut : live.newStatistic);
     growExtents(live);
     showLiveTracks();
     if (isChanged) {
@@ -250,8 +265,19 @@ void Workbench::showLive()
         markChanges();
         showHeading();
         showStrips();
+        showOrigin();
     }
     m_isToBePainted = true;
+}
+
+/// It is read anew a few times a second, for as long as there is a cursor to read it at.
+bool Workbench::isStripDue()
+{
+    constexpr qint64 stripMs = 200;
+    if (!m_document.viewport().cursor() || (m_stripAge.isValid() && m_stripAge.elapsed() < stripMs))
+        return false;
+    m_stripAge.start();
+    return true;
 }
 
 /// Those in sight, of what may be a day's.
@@ -282,7 +308,7 @@ void Workbench::growExtents(const LiveView &live)
     const double width = double(frames) * live.time.step;
     const Span time{full.time.low, std::max(full.time.high, full.time.low + width)};
     Viewport &viewport = m_document.viewport();
-    if (!m_isFirstPicture && full.frequency == viewport.full().frequency)
+    if (!m_isFirstPicture && full.frequency == viewport.extents().frequency)
         return viewport.grow(time);
     m_isFirstPicture = false;
     constexpr double fewestCells = 8.0;
@@ -371,7 +397,7 @@ void Workbench::followExtents(const Axis &time, const Axis &frequency)
     const Viewport::Box full = WaterfallView::extents(time, frequency);
     Viewport &viewport = m_document.viewport();
     const bool isFirst = std::exchange(m_isFirstPicture, false);
-    if (!isFirst && full == viewport.full())
+    if (!isFirst && full == viewport.extents())
         return;
     const bool showedAll = isFirst || viewport.showsAll();
     const Viewport::Box visible = viewport.visible();
@@ -492,8 +518,20 @@ void Workbench::showStrips()
 {
     constexpr int enoughForOne = 340;
     constexpr int enoughForBoth = 520;
-    m_statistic->setVisible(height() >= enoughForOne && !m_document.isLive());
+    m_statistic->setVisible(height() >= enoughForOne);
     m_regulation->setVisible(height() >= enoughForBoth && !m_document.isLive());
+}
+
+void Workbench::setRadioAxis(bool isOn)
+{
+    m_isRadioAxis = isOn;
+    showOrigin();
+}
+
+void Workbench::showOrigin()
+{
+    const auto recording = m_livePlan ? m_livePlan->recording : m_document.recording();
+    m_document.viewport().setOriginHz(m_isRadioAxis && recording ? recording->info().centreHz : 0.0);
 }
 
 ViewState Workbench::viewState() const
@@ -505,12 +543,16 @@ ViewState Workbench::viewState() const
     view.cursor = viewport.cursor();
     view.orientation = orientationName(m_output->orientation());
     view.colourMap = m_output->colourMap().name();
+    view.isLogarithmic = viewport.isLogarithmic();
+    view.isRadioAxis = m_isRadioAxis;
     return view;
 }
 
 void Workbench::restore(const ViewState &view)
 {
     Viewport &viewport = m_document.viewport();
+    viewport.setLogarithmic(view.isLogarithmic);
+    setRadioAxis(view.isRadioAxis);
     if (view.visible)
         viewport.zoomTo(view.visible->time, view.visible->frequency);
     if (view.cursor)

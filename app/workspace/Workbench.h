@@ -4,6 +4,7 @@
 #include "widgets/base/ReadOut.h"
 #include "widgets/waterfall/WaterfallView.h"
 
+#include <QElapsedTimer>
 #include <QTimer>
 
 class QSplitter;
@@ -46,6 +47,9 @@ public:
     void cycleOrientation() override { m_output->cycleOrientation(); }
     void cycleColourMap() override { m_output->cycleColourMap(); }
     void setAutomaticRange() override;
+    /// Labels frequencies as radio frequencies where the recording has a centre frequency.
+    void setRadioAxis(bool isOn);
+    bool isRadioAxis() const { return m_isRadioAxis; }
 
 public slots:
     void selectEvent(int id) override;
@@ -71,11 +75,13 @@ signals:
 
 private:
     void linkViews();
+    void showOrigin();
     void showPictures(const PicturesSoFar &pictures);
     void followExtents(const Axis &time, const Axis &frequency);
     void showLive();
     void showLiveTracks();
     void growExtents(const LiveView &live);
+    bool isStripDue();
     void markChanges();
     void showStrips();
     void placeCursor();
@@ -96,9 +102,11 @@ private:
     QTimer m_player;
     bool m_isFirstAnalysis = true; ///< of what is open
     bool m_isFirstPicture = true;
+    QElapsedTimer m_stripAge;                       ///< of a live run's
     std::shared_ptr<const AnalysisPlan> m_livePlan; ///< of the live picture shown
     Index m_colouredFrames = 0;                     ///< it had when its colours were chosen
     bool m_isToBePainted = false;
+    bool m_isRadioAxis = false;
 };
 
 } // namespace faintline

@@ -12,7 +12,7 @@ namespace faintline {
 
 namespace {
 
-    /// Setting a value of the three thresholds also chooses it.
+    /// Setting the value of one of the three thresholds also selects it.
     Field<DecideSettings> chosenBy(Field<DecideSettings> field, DecideSettings::By by)
     {
         field.set = [inner = field.set, by](DecideSettings &settings, const FieldValue &value) {
@@ -30,7 +30,7 @@ namespace {
         table.insert(table.end(), fields.begin(), fields.end());
     }
 
-    /// Which detector; choosing another kind brings its default settings.
+    /// Selects the detector; another kind gets its default settings.
     Field<AnalysisSettings> detectorKind()
     {
         Field<AnalysisSettings> kind;
@@ -102,7 +102,7 @@ namespace {
                + 1;
     }
 
-    /// In bins a frame; what Hz/s come to is known where there is a recording.
+    /// Checks slopes in bins per frame; those in Hz/s can only be converted with a recording.
     void checkSlopes(const ModelSettings &model)
     {
         if (model.lowestSlope > model.highestSlope)
@@ -129,12 +129,12 @@ namespace {
                              "gives " + std::to_string(slopeCount(model)) + " slopes; at most 1001 are possible");
     }
 
-    /// What is subtracted are lines whose place is known to a fraction of a cell.
+    /// Lines can only be subtracted if their positions are known to a fraction of a cell.
     void checkSubtracts(const AnalysisSettings &settings)
     {
         if (!settings.track.bothWays || settings.noise.causal || !std::holds_alternative<SmdSettings>(settings.detector)
             || settings.model.likelihood == LikelihoodKind::Linear)
-            checkSubtractsNothing(settings, "requires tracks that are looked at from both ends: track.bothWays=true, "
+            checkSubtractsNothing(settings, "requires two-sided tracks: track.bothWays=true, "
                                             "noise.causal=false, detector.kind=smd, and not model.likelihood=linear");
         if (!settings.family.isNone())
             checkSubtractsNothing(settings, "is not possible with a family; use family.relation=none");
@@ -288,7 +288,7 @@ void checkSettings(const AnalysisSettings &settings)
             checkFieldValue(f, *value);
     checkChannels(settings.selection);
     checkFamily(settings.family);
-    if (settings.noise.causal) // tracks that a stronger family explains are known at the end
+    if (settings.noise.causal) // tracks that a stronger family explains are only known at the end
         checkHasNoFamily(settings, "is not possible with noise.causal=true");
     checkSubtracts(settings);
     checkSlopes(settings.model);
@@ -337,7 +337,7 @@ std::string settingsToJson(const AnalysisSettings &settings, bool onlyChanged)
     Json json = Json::object();
     for (const auto &f : AnalysisSettings::fields()) {
         const auto value = f.get(settings);
-        // decide.by always: reading back a threshold would choose it otherwise.
+        // decide.by is always written; otherwise reading a threshold would select it.
         if (value && (!onlyChanged || f.name == "decide.by" || value != f.get(defaults)))
             json[f.name] = jsonFromFieldValue(*value);
     }
@@ -350,7 +350,7 @@ AnalysisSettings settingsFromJson(const std::string &text, const std::string &wh
     if (!json.is_object())
         throw Error(where, "must be a JSON object of settings, name: value");
     AnalysisSettings settings;
-    // In the table's order, so that decide.by has the last word whatever the file's order.
+    // In the table's order, so that decide.by is applied last regardless of the file's order.
     for (const auto &[name, value] : json.items())
         settingField(name);
     for (const auto &f : AnalysisSettings::fields())

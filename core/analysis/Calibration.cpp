@@ -43,7 +43,7 @@ double Calibration::thresholdUncertainty(double eventsPerCellFrame) const
 
 double Calibration::exceedanceAt(double nats) const
 {
-    // Simulated where more than a thousand cells speak, continued by the tail's slope beyond.
+    // Simulated down to levels exceeded by more than a thousand cells, extrapolated with the tail's slope beyond.
     std::size_t last = exceedance.size() - 1;
     const double least = 1e-4;
     while (last > 0 && exceedance[last] < least)
@@ -52,7 +52,7 @@ double Calibration::exceedanceAt(double nats) const
         return exceedance.front();
     if (nats >= levels[last])
         return exceedance[last] * eventRateAt(nats)
-               / eventRateAt(levels[last]); // time above a level, an event: nearly the same
+               / eventRateAt(levels[last]); // time above a level per event is nearly constant
     const double position = (nats - levels.front()) / (levels[1] - levels[0]);
     const auto lower = std::size_t(position);
     const double fraction = position - double(lower);

@@ -5,11 +5,11 @@
 
 namespace faintline {
 
-/// What a calibration may cost.
+/// Limits on the cost of a calibration.
 struct CalibrationEffort {
-    double cellFrames = 0.0; ///< noise in which events are counted
+    double cellFrames = 0.0; ///< amount of noise in which events are counted
     SplittingSettings splitting{};
-    int pieceWindowSamples = 32; ///< of the band that splitting goes on in
+    int pieceWindowSamples = 32; ///< for the band in which splitting runs
     bool isFirstEstimate = false;
 };
 

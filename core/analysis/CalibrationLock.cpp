@@ -18,7 +18,7 @@ CalibrationLock::CalibrationLock(std::filesystem::path file) : m_file(std::move(
         struct stat status = {};
         const bool wasRemoved =
             m_descriptor >= 0 && m_isHeld && ::fstat(m_descriptor, &status) == 0 && status.st_nlink == 0;
-        if (!wasRemoved) // by who held it until just now
+        if (!wasRemoved) // by the previous holder
             return;
         ::close(m_descriptor);
         m_descriptor = -1;

@@ -4,13 +4,13 @@
 
 namespace faintline {
 
-/// Held by the one program, of those that share a folder, that makes a calibration; the others may wait for it rather
-/// than make the same. Gone with the object, or with the program however it ends. Where nothing can be locked, or the
-/// file goes again and again, it counts as held.
+/// Lock that lets one of several programs that share a folder make a calibration while others wait for it. Released
+/// with the object, or when the program ends in any way. If nothing can be locked, or the file disappears repeatedly,
+/// it counts as held.
 class CalibrationLock
 {
 public:
-    /// Tries, and does not wait. `file` is there only as long as somebody holds it.
+    /// Tries to lock without waiting. `file` exists only while a program holds it.
     explicit CalibrationLock(std::filesystem::path file);
     ~CalibrationLock();
     CalibrationLock(const CalibrationLock &) = delete;

@@ -49,7 +49,7 @@ namespace {
             {"exceedance", c.exceedance}};
     }
 
-    /// Throws where a member is missing or of another kind.
+    /// Throws if a member is missing or of another kind.
     Calibration fromJson(const Json &json)
     {
         Calibration c;
@@ -69,7 +69,7 @@ namespace {
         return c;
     }
 
-    /// What a file holds of a calibration, but for its checksum.
+    /// Content of a calibration file, without its checksum.
     Json contentOf(const std::string &key, const Calibration &calibration)
     {
         return {{"sources", sourceFingerprint()}, {"key", key}, {"calibration", toJson(calibration)}};
@@ -148,10 +148,11 @@ void CalibrationStore::save(const std::string &key, const Calibration &calibrati
     try {
         Json json = contentOf(key, calibration);
         json["checksum"] = checksum(json.dump());
-        writeTextFile(fileFor(key).string(), json.dump(), Durability::Program); // what a crash spoils is made again
+        writeTextFile(fileFor(key).string(), json.dump(), Durability::Program); // a file damaged by a crash is made
+                                                                                // again
         removeOldest();
     } catch (const Error &) {
-        // Kept for the life of the program only.
+        // Then cached for the life of the program only.
     }
 }
 

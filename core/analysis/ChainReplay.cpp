@@ -10,7 +10,7 @@ namespace {
 
     constexpr Index shortestInterval = 8;
 
-    /// Frames between two of a replay's own checkpoints, where those of the scores alone go into the budget.
+    /// Frames between a replay's own checkpoints if the budget held scores only.
     Index intervalOf(const Analysis &analysis, std::size_t byteBudget)
     {
         const auto most = Index(std::max<std::size_t>(1, byteBudget / bytesOfStates(analysis)));
@@ -52,7 +52,7 @@ std::span<const float> ChainReplay::step()
     m_chain->update(m_next, m_y, m_statistic);
     ++m_next;
     if (const Index beginning = beginningOf(m_next); beginning != m_beginning) {
-        m_checkpoints.clear(); // of another stretch
+        m_checkpoints.clear(); // belong to another stretch
         m_beginning = beginning;
     }
     if (m_checkpoints.lacks(m_next) && m_next != m_beginning)

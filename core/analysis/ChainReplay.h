@@ -11,12 +11,12 @@
 
 namespace faintline {
 
-/// An analysis's chain once more, frame by frame, and back again from checkpoints.
+/// Repeats an analysis's chain frame by frame, and returns to earlier frames through checkpoints.
 ///
-/// It begins at the run's checkpoint before the frames requested. From one such beginning to the next it keeps the
-/// chain's state every `interval()` frames, as many as go into the byte budget, so that to go back costs at most one
-/// interval. Same scores as in the run, bit for bit; tracks are not traced back. A detector that cannot tell its state
-/// (fixed-window Viterbi and the like) is begun anew. One object per thread.
+/// Starts at the run's checkpoint before the requested frames. Between such starts it stores the chain's state every
+/// `interval()` frames, within the byte budget, so that going back costs at most one interval. The scores are bit for
+/// bit those of the run; tracks are not traced back. A detector that cannot save its state (fixed-window Viterbi and
+/// similar) is restarted. Use one object per thread.
 class ChainReplay
 {
 public:
@@ -24,28 +24,25 @@ public:
 
     const std::shared_ptr<const Analysis> &analysis() const { return m_analysis; }
     const DetectionChain &chain() const { return *m_chain; }
-    Index next() const { return m_next; } ///< the frame that `step` will take
+    Index next() const { return m_next; } ///< the frame that `step` takes next
     Index interval() const { return m_checkpoints.interval(); }
-    Index beginning() const { return m_beginning; } ///< of the stretch that its own checkpoints are in
+    Index beginning() const { return m_beginning; } ///< start of the stretch that its own checkpoints cover
 
-    /// Stands where `step` takes that frame, or one before it: at the nearest checkpoint, unless it is nearer already.
+    /// Moves to this frame, or to the nearest checkpoint before it unless the current position is nearer.
     void seek(Index frame);
 
-    /// Takes the next frame; its statistic, valid until the next step.
+    /// Takes the next frame; returns its statistic, valid until the next step.
     std::span<const float> step();
-    std::span<const float> frame() const
-    {
-        return m_y;
-    } ///< y of the last one, before anything was kept from the detector
+    std::span<const float> frame() const { return m_y; } ///< y of the last frame, before inhibition
 
 private:
-    /// The frame before which the run's checkpoint before that one stands; 0 if there is no earlier one.
+    /// First frame after the run's checkpoint before `frame`; 0 if there is no earlier one.
     Index beginningOf(Index frame) const;
 
     std::shared_ptr<const Analysis> m_analysis;
     std::unique_ptr<DetectionChain> m_chain;
     Index m_next = 0;
-    Index m_beginning = 0;                 ///< of the stretch that the checkpoints belong to
+    Index m_beginning = 0;                 ///< start of the stretch that the checkpoints cover
     Checkpoints<ChainState> m_checkpoints; ///< its own
     std::vector<float> m_y;
     std::vector<float> m_statistic;

@@ -10,8 +10,7 @@
 
 namespace faintline {
 
-/// Publishes pictures of a run that takes long, or has to wait for a calibration, and not so often that the run takes
-/// longer.
+/// Publishes pictures of a run that takes long or waits for a calibration, at a rate that does not slow the run.
 class ProgressPublisher
 {
 public:
@@ -21,7 +20,7 @@ public:
 
     void publishQuickLook(std::shared_ptr<const Spectrogram> spectrogram, const NormaliserSettings &settings,
                           const RunContext &context);
-    /// What has been gone through so far.
+    /// Publishes the part processed so far.
     void publish(const std::shared_ptr<PeakPyramid> &input, const PeakPyramid &statistic);
 
 private:

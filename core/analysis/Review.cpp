@@ -18,7 +18,7 @@ namespace {
         return axis.cyclic && period > 0.0 ? std::remainder(difference, period) : difference;
     }
 
-    /// Position along an axis at a time within the path's.
+    /// Position along an axis at a time within the path.
     double at(const SignalPath &path, double seconds, std::size_t axis)
     {
         const auto after = std::upper_bound(path.seconds.begin(), path.seconds.end(), seconds);
@@ -36,11 +36,11 @@ namespace {
         const auto found =
             std::find_if(events.begin(), events.end(), [id](const Event &event) { return event.id == id; });
         if (found == events.end())
-            throw Error("event " + std::to_string(id), "is not there");
+            throw Error("event " + std::to_string(id), "does not exist");
         return *found;
     }
 
-    /// What says nothing and joins nothing is no review.
+    /// Removes reviews without content that join no events.
     void dropEmpty(std::vector<Review> &reviews)
     {
         std::erase_if(reviews, [](const Review &review) {
@@ -50,7 +50,7 @@ namespace {
         });
     }
 
-    /// The review of an event, made if there is none.
+    /// The review of an event, created if necessary.
     Review &reviewOf(std::vector<Review> &reviews, const Analysis &analysis, const Event &event)
     {
         const int index = matchReviews(analysis, {event}, reviews).front();
@@ -173,7 +173,7 @@ SignalPath pathOf(const Analysis &analysis, const Event &event)
         path.position.push_back(analysis.grid().position(point.cell));
         if (i == 0)
             continue;
-        // Across a cyclic axis's seam a path goes on where it was.
+        // Across the seam of a cyclic axis a path continues smoothly.
         for (std::size_t axis = 0; axis < axes.size(); ++axis) {
             const double before = path.position[i - 1][axis];
             double &now = path.position[i][axis];
@@ -293,7 +293,7 @@ std::vector<Review> merged(std::vector<Review> reviews, const Analysis &analysis
     for (int id : ids) {
         const Event &event = eventOf(events, id);
         if (matchReviews(analysis, {event}, {one}).front() == 0)
-            continue; // already in it
+            continue; // already included
         Review &own = reviewOf(reviews, analysis, event);
         one.paths.insert(one.paths.end(), own.paths.begin(), own.paths.end());
         if (one.verdict == Verdict::None)
@@ -302,7 +302,7 @@ std::vector<Review> merged(std::vector<Review> reviews, const Analysis &analysis
             one.label = own.label;
         if (!own.note.empty())
             one.note += (one.note.empty() ? "" : "; ") + own.note;
-        own.paths.clear(); // so that none matches it again
+        own.paths.clear(); // so that no event matches it again
         dropEmpty(reviews);
     }
     reviews.push_back(one);

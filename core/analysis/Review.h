@@ -9,37 +9,37 @@
 
 namespace faintline {
 
-/// What a person thinks of a detection.
+/// A person's judgement of a detection.
 enum class Verdict { None, Accepted, Rejected };
 
-/// "", "accepted", "rejected": as files write it. An unknown name means no verdict.
+/// "", "accepted", "rejected", as in files. An unknown name means no verdict.
 std::string nameOf(Verdict verdict);
 Verdict verdictNamed(const std::string &name);
 
-/// Where a signal ran: positions along every axis at some instants, straight in between.
+/// Path of a signal: positions along each axis at some instants, linear in between.
 struct SignalPath {
     std::vector<double> seconds;               ///< ascending, at most 17
     std::vector<std::vector<double>> position; ///< one per instant, of one value per axis (Hz; or m, degrees)
-    std::vector<double> tolerance;             ///< per axis: two cells of the run it was seen in
+    std::vector<double> tolerance;             ///< per axis: two cells of the run in which it was detected
 
     bool operator==(const SignalPath &) const = default;
 };
 
-/// What was said about one signal, whose parts may have been detected as several events.
+/// Review of one signal, whose parts may have been detected as several events.
 struct Review {
     std::vector<SignalPath> paths;
     Verdict verdict = Verdict::None;
     std::string note;
-    std::string label{}; ///< its class, as the person calls it
+    std::string label{}; ///< class assigned by the person
 
     bool operator==(const Review &) const = default;
 };
 
-/// A box somebody drew, or brought along from another program.
+/// A box drawn by a person or imported from another program.
 struct Annotation {
     double startSeconds = 0.0; ///< from the first sample
     double endSeconds = 0.0;
-    std::optional<double> lowHz; ///< of both or none: over all frequencies
+    std::optional<double> lowHz; ///< either both or neither is set; neither: all frequencies
     std::optional<double> highHz;
     std::string label;
     std::string note;
@@ -48,7 +48,7 @@ struct Annotation {
     bool operator==(const Annotation &) const = default;
 };
 
-/// All that a person added to a recording: a part of the session, of no influence on any detection.
+/// Everything a person added to a recording: part of the session, without influence on any detection.
 struct Annotations {
     std::vector<Review> reviews;
     std::vector<Annotation> boxes;
@@ -57,12 +57,12 @@ struct Annotations {
     bool operator==(const Annotations &) const = default;
 };
 
-/// What was said about an event.
+/// Review of an event.
 struct EventReview {
     int event = 0;
     Verdict verdict = Verdict::None;
     std::string note;
-    int signal = 0; ///< number of the first event of the same signal: its own where it is alone
+    int signal = 0; ///< number of the first event of the same signal, its own if it is alone
     std::string label{};
 
     bool operator==(const EventReview &) const = default;
@@ -71,26 +71,25 @@ struct EventReview {
 /// The path of an event's track.
 SignalPath pathOf(const Analysis &analysis, const Event &event);
 
-/// Whether two paths are of one signal: they have at least half of the shorter one's time in common, and are there, on
-/// average, at most two cells apart on every axis, cells of the coarser run. Events carry no name from one run to the
-/// next; this is what a review holds on to when threshold or settings change. The mean distance in tolerances, or
-/// nothing.
+/// Mean distance of two paths in tolerances, or nothing if they are not of the same signal. They are if they share at
+/// least half of the shorter one's time and are there, on average, at most two cells (of the coarser run) apart on each
+/// axis. Reviews are matched in this way when threshold or settings change, because events have no identity across
+/// runs.
 std::optional<double> distance(const SignalPath &a, const SignalPath &b, const std::vector<Axis> &axes);
 
-/// Of each event the review whose paths are nearest, -1 where none is of its signal. Cost: events × paths.
+/// For each event the index of the review with the nearest path, or -1 if none is of its signal. Cost: events × paths.
 std::vector<int> matchReviews(const Analysis &analysis, const std::vector<Event> &events,
                               const std::vector<Review> &reviews);
 
-/// What was said about each of the events, in their order.
+/// The review of each event, in the order of the events.
 std::vector<EventReview> eventReviews(const Analysis &analysis, const std::vector<Event> &events,
                                       const std::vector<Review> &reviews);
 
-/// The reviews that belong to none of the events, by their number: what was said of signals that these settings or this
-/// threshold do not find.
+/// Indices of the reviews that match no event: their signals are not detected with these settings or this threshold.
 std::vector<std::size_t> unmatchedReviews(const Analysis &analysis, const std::vector<Event> &events,
                                           const std::vector<Review> &reviews);
 
-// ---- edits: each makes other reviews of the given ones; `ids` are of `events` ---------------------------------------
+// ---- edits: each returns changed reviews; `ids` are of `events` -----------------------------------------------------
 
 std::vector<Review> withVerdict(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events,
                                 const std::vector<int> &ids, Verdict verdict);
@@ -98,10 +97,10 @@ std::vector<Review> withNote(std::vector<Review> reviews, const Analysis &analys
                              int id, const std::string &note);
 std::vector<Review> withLabel(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events,
                               const std::vector<int> &ids, const std::string &label);
-/// Several events are one signal from now on, with the first verdict and the first label among theirs, and all notes.
+/// Merges several events into one signal, with the first verdict and the first label among theirs, and all notes.
 std::vector<Review> merged(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events,
                            const std::vector<int> &ids);
-/// Undoes a merge: what was said stays with each.
+/// Undoes a merge; each part keeps the review.
 std::vector<Review> separated(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events,
                               const std::vector<int> &ids);
 

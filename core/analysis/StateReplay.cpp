@@ -74,7 +74,7 @@ std::vector<Axis> stateAxes(const Analysis &analysis, std::size_t model)
 
 std::vector<float> cutStates(const StateSpace &space, std::span<const float> scores, const StateSlice &slice)
 {
-    // Axes in the order of memory: rates first, then cells.
+    // Axes in memory order: rates first, then cells.
     const std::size_t count = space.axes().size();
     struct Along {
         Index size;

@@ -11,19 +11,19 @@
 
 namespace faintline {
 
-/// The scores of all states after one frame, as the statistic shows them: D(cell) = max over the cell's rates.
+/// The scores of all states after one frame, as shown by the statistic: D(cell) = max over the cell's rates.
 struct StateScores {
     Index frame = 0;
-    std::size_t model = 0;     ///< of a bank
+    std::size_t model = 0;     ///< index in a bank
     std::vector<float> values; ///< StateSpace order, nat; the trackers' scores where they follow something
 };
 
-/// Looks into an analysis that kept no states: goes through its chain again up to the frame that is asked for.
+/// Computes the states of an analysis, which does not store them, by repeating its chain up to the requested frame.
 ///
-/// From a frame to a later one it goes on from where it stands; the latest frames are kept, so that a few steps back
-/// cost nothing; elsewhere it goes on from the run's checkpoint before, or a nearer one of its own (ChainReplay). Same
-/// bytes as in the run. Memory: one chain, and as many frames' states and as many checkpoints as go into half of the
-/// budget each, at least one. Cost: the detector's per frame. One object per thread.
+/// A later frame continues from the current one; the latest frames are cached, so that going back a few steps costs
+/// nothing; otherwise it continues from the run's checkpoint before the frame, or a nearer one of its own
+/// (ChainReplay). The bytes are those of the run. Memory: one chain, plus states of frames and checkpoints within half
+/// of the budget each, at least one. Cost: the detector's per frame. Use one object per thread.
 class StateReplay
 {
 public:
@@ -41,27 +41,27 @@ private:
     std::deque<std::shared_ptr<const StateScores>> m_kept;
 };
 
-/// The scores of all states after the chain's last frame, as the statistic shows them.
+/// The scores of all states after the chain's last frame, as shown by the statistic.
 StateScores scoresNow(const Analysis &analysis, const DetectionChain &chain, Index frame, std::size_t model = 0);
 
-/// A score of a model of the chain as the statistic of its newest frame shows it, to the bit.
+/// A score of one of the chain's models as shown by the statistic of its newest frame, to the bit.
 float shownScore(const Analysis &analysis, const DetectionChain &chain, std::size_t model, float score);
 
-/// The axes of a state: the grid's axes, then the rate along each of them in its unit a second.
+/// Axes of a state: the grid's axes, then the rate along each of them in its unit per second.
 std::vector<Axis> stateAxes(const Analysis &analysis, std::size_t model = 0);
 
-/// A picture through the states: two of the axes of `stateAxes`; each other one at a place, or the maximum over it.
+/// A slice through the states along two axes of `stateAxes`; each other axis is fixed, or reduced by the maximum.
 struct StateSlice {
     std::size_t rows = 0;
     std::size_t columns = 1;
-    /// One per axis; nothing: the maximum over it. Of rows and columns they do not count.
+    /// One per axis; nothing: the maximum over it. Ignored for rows and columns.
     std::vector<std::optional<Index>> places;
 };
 
-/// rows × columns values; -∞ where no state can be reached.
+/// rows × columns values; -∞ if no state can be reached.
 std::vector<float> cutStates(const StateSpace &space, std::span<const float> scores, const StateSlice &slice);
 
-/// The rates, as indices, of a cell's best state; the lowest among equals.
+/// Rate indices of a cell's best state; the lowest among equals.
 std::vector<Index> bestRates(const StateSpace &space, std::span<const float> scores, Index cell);
 
 } // namespace faintline

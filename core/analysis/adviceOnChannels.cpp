@@ -12,9 +12,9 @@ namespace {
     constexpr Index fewestFrames = 16;
     constexpr double mostValues = 8e6;
     constexpr double mostLost = 0.1;    ///< of the channels
-    constexpr double steadyPower = 1.5; ///< mean of a cell that holds a line
+    constexpr double steadyPower = 1.5; ///< mean of a cell with a line
 
-    /// e^(-y) of some frames, all over the analysis, for every channel: uniform on noise.
+    /// e^(-y) of some frames, spread over the analysis, for each channel: uniform on noise.
     class Shares
     {
     public:
@@ -43,7 +43,7 @@ namespace {
             }
         }
 
-        /// Of two channels; 0 where nothing is known.
+        /// Correlation of two channels; 0 if nothing is known.
         double correlation(std::size_t a, std::size_t b) const
         {
             double n = 0.0, sumA = 0.0, sumB = 0.0, squaresA = 0.0, squaresB = 0.0, products = 0.0;
@@ -75,7 +75,7 @@ namespace {
         std::size_t m_channels;
         std::size_t m_cells;
         std::size_t m_frames = 0;
-        std::vector<bool> m_isNoise; ///< of a cell, in all channels
+        std::vector<bool> m_isNoise; ///< for each cell, in all channels
         std::vector<float> m_values;
     };
 
@@ -106,8 +106,8 @@ std::optional<Advice> adviceOnChannels(const Analysis &analysis, const RunContex
         return {};
     char sentence[200];
     std::snprintf(sentence, sizeof sentence,
-                  "the %zu channels share their noise (coherence %.2f): they tell as much as %.1f, and there are more "
-                  "false alarms than ordered",
+                  "the %zu channels share their noise (coherence %.2f): they carry the evidence of %.1f, and false "
+                  "alarms are more frequent than specified",
                   analysis.lines.size(), coherence, left);
     Advice advice{"commonNoise", sentence, "analyse one channel", analysis.settings};
     advice.settings.selection.channels.clear();

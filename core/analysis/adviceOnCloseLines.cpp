@@ -16,10 +16,10 @@ namespace {
     constexpr Index leastFrames = 8;
     constexpr double closeCells = 3.0;
     constexpr double wantedCells = 4.0;
-    constexpr double steadyCells = 0.5; ///< standard deviation of a distance that stays
+    constexpr double steadyCells = 0.5; ///< standard deviation of a constant distance
     constexpr double windowsInRecording = 16.0;
 
-    /// How far apart two tracks run, in bins, over the frames that they have in common.
+    /// Distance of two tracks, in bins, over their common frames.
     struct Distance {
         double frames = 0.0;
         double mean = 0.0;
@@ -50,11 +50,11 @@ namespace {
         return distance;
     }
 
-    /// The closest two that run side by side, and how many such pairs there are.
+    /// The closest pair of tracks side by side, and the number of such pairs.
     struct ClosePairs {
         int count = 0;
         double bins = 0.0;
-        double position = 0.0; ///< of the lower one, bins
+        double position = 0.0; ///< position of the lower one, bins
     };
 
     ClosePairs closePairs(const std::vector<const Track *> &tracks, const Axis &axis, double binsPerCell)
@@ -83,7 +83,7 @@ namespace {
     {
         std::vector<const Track *> sure;
         for (const Track &track : analysis.tracks)
-            if (track.windowSeconds == 0.0 // a longer window has told others apart
+            if (track.windowSeconds == 0.0 // others were resolved by a longer window
                 && statisticOf(track, analysis) >= sureStatistic(analysis) && std::ssize(track.points) >= leastFrames)
                 sure.push_back(&track);
         std::sort(sure.begin(), sure.end(),
@@ -91,7 +91,7 @@ namespace {
         return sure;
     }
 
-    /// The steepest mean slope of the tracks, bins a frame.
+    /// The steepest mean slope of the tracks, bins per frame.
     double steepestOf(const std::vector<const Track *> &tracks, const Axis &axis)
     {
         double steepest = 0.0;

@@ -8,7 +8,7 @@ namespace {
 
     constexpr Index readFrames = 200;
     constexpr Index leastFrames = 16;
-    constexpr double constantVariance = 0.05; ///< in that of noise
+    constexpr double constantVariance = 0.05; ///< relative to that of noise
     constexpr double mostCells = 0.9;
 
 } // namespace
@@ -24,7 +24,7 @@ std::optional<Advice> adviceOnConstantCells(const Analysis &analysis, const RunC
     std::vector<float> y(cells);
     std::vector<double> sum(cells), squares(cells), observed(cells);
     for (Index frame = first; frame < first + count; ++frame) {
-        context.checkpoint(0.0, "looking for noise");
+        context.checkpoint(0.0, "checking for noise");
         frames.read(frame, 1, y);
         for (std::size_t cell = 0; cell < cells; ++cell) {
             const auto value = double(y[cell]);
@@ -46,12 +46,11 @@ std::optional<Advice> adviceOnConstantCells(const Analysis &analysis, const RunC
     }
     if (known == 0 || double(constant) < mostCells * double(known))
         return {};
-    return Advice{
-        "constantCells",
-        "the power of nearly every cell is constant in time; this recording holds no noise, so rates of false "
-        "alarms and SNR mean nothing here",
-        {},
-        analysis.settings};
+    return Advice{"constantCells",
+                  "the power of nearly every cell is constant in time; this recording contains no noise, so "
+                  "false-alarm rates and SNR are meaningless",
+                  {},
+                  analysis.settings};
 }
 
 } // namespace faintline

@@ -23,7 +23,7 @@ namespace {
         return steepest;
     }
 
-    /// Whether its slope is that steep in more than half of its frames.
+    /// Whether a track's slope is that steep in more than half of its frames.
     bool keepsTo(const Track &track, double slope, const StateSpace &space)
     {
         const auto steep = std::count_if(track.points.begin(), track.points.end(), [&](const TrackPoint &point) {
@@ -32,7 +32,7 @@ namespace {
         return 2 * steep > std::ssize(track.points);
     }
 
-    /// How many of the sure tracks keep to that slope; none where their frames are less than a share of all tracks'.
+    /// Number of sure tracks with that slope; 0 if their frames are too small a share of all sure tracks'.
     int tracksAt(double slope, const Analysis &analysis)
     {
         int tracks = 0;

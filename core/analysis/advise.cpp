@@ -8,7 +8,7 @@ void setWindow(Advice &advice, double seconds)
 {
     const double decade = std::pow(10.0, std::floor(std::log10(seconds)) - 1.0);
     const double digits = std::round(seconds / decade);
-    // 10⁻ⁿ is no double: a whole number over 10ⁿ reads back as it was written
+    // 10⁻ⁿ has no exact double; an integer divided by 10ⁿ reads back as written
     const double rounded = decade < 1.0 ? digits / std::round(1.0 / decade) : digits * std::round(decade);
     advice.settings.spectrogram.windowSeconds = rounded;
     advice.remedy = "use a window of " + formatNumber(rounded) + " s";

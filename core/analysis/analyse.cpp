@@ -3,6 +3,7 @@
 #include "analysis/ProgressPublisher.h"
 #include "analysis/chain.h"
 #include "analysis/familyGhosts.h"
+#include "analysis/familyLoneTeeth.h"
 #include "analysis/overOwnNoise.h"
 #include "analysis/plan.h"
 #include "analysis/regulation.h"
@@ -29,7 +30,7 @@ namespace {
             counts[std::size_t(std::clamp(4.0f * (value + 4.0f), 0.0f, last))] += 1.0;
     }
 
-    /// Frames between two checkpoints, at first: where tracks are followed they are larger, and lie farther apart.
+    /// Initial number of frames between checkpoints; they are larger, and farther apart, where tracks are followed.
     Index checkpointInterval(const Analysis &analysis)
     {
         const auto most = Index(memoryShares::checkpoints / bytesOfStates(analysis));
@@ -37,7 +38,7 @@ namespace {
         return most > 0 ? std::max(shortestInterval, (frames + most - 1) / most) : std::max<Index>(frames, 1);
     }
 
-    /// Both pictures of a run, as far as they are wanted and not there yet.
+    /// Both pictures of a run, if they are wanted and do not exist yet.
     class RunPictures
     {
     public:
@@ -101,8 +102,7 @@ namespace {
         std::shared_ptr<PeakPyramid> m_statistic;
     };
 
-    /// What a sonar's engineer would compare with: each frame thresholded by itself. Of frames on one axis nothing is
-    /// kept.
+    /// Reference results for sonar: each frame thresholded separately. Nothing is kept for frames on one axis.
     class PingProducts
     {
     public:
@@ -128,8 +128,8 @@ namespace {
         ConventionalTracker m_conventional;
     };
 
-    /// Streams the frames through the chain and fills in the rest of the analysis. `subtracted`: lines that the frames
-    /// were made without.
+    /// Streams the frames through the chain and sets the rest of the analysis. `subtracted`: lines that were removed
+    /// before the frames were made.
     void run(Analysis &analysis, const RunContext &context, const StatisticSink &sink, ProgressPublisher &publisher,
              AnalysisDepth depth = AnalysisDepth::Whole, const std::vector<Track> &subtracted = {})
     {
@@ -178,16 +178,17 @@ namespace {
             analysis.tracks = std::move(seen.tracks);
             analysis.areas = std::move(seen.areas);
         }
+        analysis.tracks = withoutLoneTeeth(analysis, std::move(analysis.tracks), context.part(0.95, 0.96));
         analysis.tracks = withoutGhosts(analysis, std::move(analysis.tracks));
         if (!subtracted.empty()) {
             analysis.tracks.insert(analysis.tracks.end(), subtracted.begin(), subtracted.end());
             numberByDetection(analysis.tracks);
         }
         if (depth != AnalysisDepth::Trial)
-            holdAgainstOwnNoise(analysis, context.part(0.95, 1.0));
+            holdAgainstOwnNoise(analysis, context.part(0.96, 1.0));
     }
 
-    /// A recording that is not over has no length to choose a window by.
+    /// An unfinished recording has no length from which to choose a window.
     void checkWindow(const AnalysisSettings &settings)
     {
         if (settings.noise.causal && settings.spectrogram.windowSeconds == 0.0)
@@ -195,7 +196,7 @@ namespace {
                              "is chosen from the whole recording; with noise.causal=true, give the window in seconds");
     }
 
-    /// Of a previous analysis what this one may take over: the frames of the recording, not those of a rest.
+    /// The previous analysis if its frames of the recording (not of a remainder) can be reused.
     const Analysis *lender(const Analysis *previous, const RecordingPointer &recording)
     {
         if (!previous || previous->recording != recording)
@@ -206,7 +207,7 @@ namespace {
         return spectrogram && spectrogram->recordingPointer() == recording ? previous : nullptr;
     }
 
-    /// The frames of a recording through the chain, once.
+    /// Sends the frames of a recording through the chain, once.
     std::shared_ptr<Analysis> analyseAsItIs(RecordingPointer recording, const AnalysisSettings &settings,
                                             const RunContext &context, const Analysis *previous,
                                             const StatisticSink &sink, const PictureSink &pictures,
@@ -217,7 +218,7 @@ namespace {
         analysis->recording = recording;
 
         const Stage stale = previous ? firstStale(previous->settings, settings) : Stage::Spectrogram;
-        ProgressPublisher publisher; // of what is computed anew: nobody takes away a picture for a part of the next one
+        ProgressPublisher publisher; // for new results: a picture is never replaced by part of the next one
         if (stale >= Stage::Detector) {
             analysis->lines = previous->lines;
             analysis->frames = previous->frames;
@@ -237,7 +238,7 @@ namespace {
         return analysis;
     }
 
-    /// The same of what is left of it without the lines that a first run found to be strong.
+    /// The same for the remainder of the recording without the strong lines of a first run.
     std::shared_ptr<Analysis> analyseRest(std::shared_ptr<const Analysis> first, const std::vector<Track> &subtracted,
                                           const RunContext &context, const StatisticSink &sink,
                                           const PictureSink &pictures, AnalysisDepth depth)
@@ -250,7 +251,7 @@ namespace {
         const auto spectrogram = std::make_shared<Spectrogram>(rest, settings.spectrogram, settings.selection);
         ProgressPublisher publisher(pictures, spectrogram->time(), spectrogram->frequency(), settings);
         normalisePlan(*analysis, spectrogram, context.part(0.2, 0.4));
-        analysis->model = first->model; // of the same grid
+        analysis->model = first->model; // for the same grid
         analysis->calibration = first->calibration;
         analysis->threshold = first->threshold;
         analysis->cellFramesPerHour = first->cellFramesPerHour;
@@ -305,7 +306,7 @@ namespace {
         analysis.threshold = thresholdNats(analysis.settings.decide, *analysis.calibration, analysis.cellFramesPerHour);
     }
 
-    /// Calibrates every model and shifts their statistics so that each crosses the threshold with the first one's
+    /// Calibrates each model and shifts their statistics so that all cross the threshold with the first one's
     /// probability.
     void calibrateBank(Analysis &analysis, const std::vector<MarkovModel> &models, const RunContext &context)
     {

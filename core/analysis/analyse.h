@@ -11,31 +11,31 @@
 
 namespace faintline {
 
-/// Called with every block of frames' statistic, in order: first frame, frames × cells values.
+/// Called for each block of frames of the statistic, in order: first frame, frames × cells values.
 using StatisticSink = std::function<void(Index firstFrame, std::span<const float> statistic)>;
 
-/// What an analysis is made for: everything; its tracks, without pictures and checkpoints; or a trial of its settings,
-/// whose tracks are not held against the recording's own noise (overOwnNoise.h) either.
+/// Scope of an analysis: everything; its tracks, without pictures and checkpoints; or a trial of its settings, whose
+/// tracks are also not tested against the recording's own noise (overOwnNoise.h).
 enum class AnalysisDepth { Whole, Tracks, Trial };
 
 /// The pipeline: recording → frames → normalised frames → detector → threshold, clusters, tracks.
 ///
-/// Every caller, window, command line and library, comes through here. `previous`, if given, lends what is still valid.
-/// Streams: memory is bounded for any recording length. Throws Error, Cancelled.
-/// A first estimate of the threshold is there sooner and is not the last word; nothing else of the run differs.
+/// Used by window, command line and library alike. Parts of `previous`, if given, are reused where they are still
+/// valid. Streams: memory is bounded for any recording length. A first estimate of the calibration gives a preliminary
+/// threshold sooner; nothing else of the run differs. Throws Error, Cancelled.
 std::shared_ptr<Analysis> analyse(RecordingPointer recording, const AnalysisSettings &settings,
                                   const RunContext &context = {}, const Analysis *previous = nullptr,
                                   const StatisticSink &sink = {}, const PictureSink &pictures = {},
                                   CalibrationDepth calibrationDepth = CalibrationDepth::Refined,
                                   AnalysisDepth depth = AnalysisDepth::Whole);
 
-/// The same from ready-made frames on any grid, with the settings' own model or bank of models (`previous` lends its
-/// picture of the input and the band of ln K) …
+/// The same from ready-made frames on any grid, with the settings' own model or bank of models (reuses the input
+/// picture and the band of ln K of `previous`) …
 std::shared_ptr<const Analysis> analyse(NormalisedFramesPointer frames, const AnalysisSettings &settings,
                                         const RunContext &context = {}, const Analysis *previous = nullptr,
                                         const StatisticSink &sink = {});
 
-/// … or with a model of one's own.
+/// … or with a given model.
 std::shared_ptr<const Analysis> analyse(NormalisedFramesPointer frames, const MarkovModel &model,
                                         const AnalysisSettings &settings, const RunContext &context = {},
                                         const StatisticSink &sink = {});

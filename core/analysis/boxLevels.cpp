@@ -14,7 +14,7 @@ namespace {
 
     constexpr Index mostFrames = 4096;
     constexpr Index mostNoiseCells = 4'000'000;
-    constexpr double sideCells = 8.0; ///< resolution cells, at least, on either side
+    constexpr double sideCells = 8.0; ///< minimum width on either side, resolution cells
     constexpr double gapCells = 2.0;
 
     double decibels(double power)
@@ -52,7 +52,7 @@ namespace {
     double noiseOf(std::vector<float> &cells)
     {
         if (cells.empty())
-            return 1.0; // the band is the box: what the frames are normalised to
+            return 1.0; // the box covers the band: use the frames' nominal noise
         const double guess = medianOf(cells) / std::log(2.0);
         const double mean = guess > 0.0 ? truncatedMean(cells, float(guess)) : 0.0;
         return mean > 0.0 ? mean : 1.0;

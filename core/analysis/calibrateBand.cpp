@@ -9,7 +9,7 @@ namespace faintline {
 
 namespace {
 
-    /// Where a narrow band's rate is known, that of one in which its ends take away a `share` of that.
+    /// The calibration of a narrow band whose ends remove a `share` of its rate.
     std::shared_ptr<const Calibration> withShareOfEnds(const Calibration &wide, const Calibration &narrow, double share)
     {
         auto result = std::make_shared<Calibration>(narrow);
@@ -28,7 +28,7 @@ namespace {
         return result;
     }
 
-    /// A wide band's calibration with what a narrow one's ends take away.
+    /// A wide band's calibration reduced by the effect of a narrow band's ends.
     std::shared_ptr<const Calibration> narrowed(const Calibration &wide, const RareRates &band, const RareRates &closed)
     {
         Calibration narrow = wide;
@@ -48,7 +48,7 @@ std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &setting
                                                  const RunContext &context, CalibrationDepth depth)
 {
     constexpr Index wideEnough = 256;   // less than a twentieth of the false alarms is lost at the ends
-    constexpr Index endsDoNotMeet = 64; // from here on the ends take away as much, whatever lies between them
+    constexpr Index endsDoNotMeet = 64; // from here on the loss at the ends does not depend on the width
     const bool isMoving = settings.model.motion == Motion::Slopes
                           && (settings.model.lowestSlope != 0.0 || settings.model.highestSlope != 0.0);
     if (bins >= wideEnough || !isMoving)

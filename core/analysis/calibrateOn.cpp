@@ -18,7 +18,7 @@ namespace {
     constexpr int regulationFrames = 1500;
     constexpr int crowdedEvery = 10; ///< segments
 
-    /// Of so many segments, those that a rough look is taken at first.
+    /// Number of segments for the first rough pass.
     int roughCountOf(int segmentCount)
     {
         return std::max(2, segmentCount / 10);
@@ -75,7 +75,7 @@ std::shared_ptr<const Calibration> calibrateOn(const NoiseSegments &noise, const
                                                const AnalysisSettings &settings, const CalibrationEffort &effort,
                                                const RunContext &context)
 {
-    // Whose chain will be asked, with thresholds to be found.
+    // Plan of the chain, with thresholds still to be determined.
     AnalysisPlan trial;
     trial.settings = settings;
     trial.model = model;
@@ -104,7 +104,7 @@ std::shared_ptr<const Calibration> calibrateOn(const NoiseSegments &noise, const
     const double columns = std::max(1.0, std::floor(cells / double(noiseBlockCells)));
     const RareRates rare = followTail(trial, effort, context.part(0.2, 0.4));
     if (effort.isFirstEstimate && rare.isEmpty())
-        return nullptr; // a line through a fifth of the counts tells too little
+        return nullptr; // a line through a fifth of the counts is too inaccurate
     const std::vector<double> thresholds =
         thresholdsForEvents(std::move(rough.blockMaxima), double(noiseBlockFrames) * cells / columns,
                             rough.cellFrames / roughCount * noise.count, rare.isEmpty());

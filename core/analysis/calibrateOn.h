@@ -11,16 +11,16 @@
 
 namespace faintline {
 
-/// Noise to calibrate on, in segments that can be made independently of each other.
+/// Noise for calibration, in segments that can be generated independently.
 struct NoiseSegments {
     std::function<NormalisedFramesPointer(int segment)> segment;
     int count = 0;
 };
 
-/// The same segments, of which those of the rough look, gone through again and again, are made once.
+/// The same segments, with those of the first rough pass, which are used repeatedly, generated once.
 NoiseSegments rememberedSegments(NoiseSegments noise);
 
-/// A calibration on noise: K, then the tail, roughly and by splitting, then events.
+/// Calibrates on noise: K, then the tail, roughly and by splitting, then events.
 std::shared_ptr<const Calibration> calibrateOn(const NoiseSegments &noise, const MarkovModel &model,
                                                const AnalysisSettings &settings, const CalibrationEffort &effort,
                                                const RunContext &context);

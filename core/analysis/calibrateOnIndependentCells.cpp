@@ -10,7 +10,7 @@ namespace faintline {
 
 namespace {
 
-    /// All that a model's answer to noise depends on, as text.
+    /// Everything on which a model's response to noise depends, as text.
     std::string nameOf(const MarkovModel &model)
     {
         std::string name = "cells ";
@@ -59,8 +59,8 @@ std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel
     Grid grid;
     for (const KinematicAxis &axis : model.space.axes())
         grid.axes.push_back({axis.name, "", 0.0, 1.0, axis.cells, axis.cyclic});
-    // Sonar's hundred rates a cell cost more than they teach: their paths overlap.
-    constexpr double mostStates = 1.2e8; ///< a segment
+    // A sonar's hundred rates per cell add cost but little information, because their paths overlap.
+    constexpr double mostStates = 1.2e8; ///< per segment
     const double longest = std::min(4e6 / double(grid.size()), mostStates / double(model.space.stateCount()));
     const auto frames = Index(std::clamp(longest, 600.0, 4000.0));
     const auto segment = [&](int number) -> NormalisedFramesPointer {

@@ -13,12 +13,13 @@ namespace faintline {
 namespace {
 
     constexpr double shoulderNats = 8.0;
-    constexpr double noiseOnShoulder = 1e-3; ///< of the cells of a frame that decides
-    constexpr Index manyStates = 1'000'000;  ///< of so many, tracing a path back over tens of frames takes seconds
+    constexpr double noiseOnShoulder = 1e-3; ///< fraction of the cells of a frame that decides
+    constexpr Index manyStates = 1'000'000;  ///< from this number on, tracing a path back over tens of frames takes
+                                             ///< seconds
     constexpr Index onsetFramesOfMany = 16;
     constexpr Index longestRunUpLive = 512;
 
-    /// The values in whole cells, the last one for all axes behind.
+    /// The values in whole cells; the last one is used for all remaining axes.
     std::vector<Index> perAxis(const std::vector<double> &values, const Grid &grid)
     {
         std::vector<Index> result;
@@ -47,8 +48,8 @@ namespace {
         };
     }
 
-    /// The ends of a real recording's spectrum, where a line has no statistics to itself. Not so in a band that was
-    /// asked for, nor of a family, which leaves its members out there.
+    /// The ends of a real recording's spectrum, where a line does not have its usual statistics. None for a selected
+    /// band, nor for a family, which omits members there.
     std::vector<std::vector<Index>> excludedPlaces(const Spectrogram &spectrogram, const FamilySettings &family,
                                                    Index inhibitBins)
     {
@@ -63,9 +64,9 @@ namespace {
         return plan.frames->spectrogram() ? frameGeometry(plan.settings.spectrogram) : FrameGeometry{};
     }
 
-    /// Where an excursion ends. The score of paths, in nats, is forgotten down to 8 nat below the threshold: what lies
-    /// so near has branched off the path that crossed it, and would cross in its turn. Of any other statistic: at the
-    /// level that noise exceeds in one cell of a thousand, in its own unit.
+    /// Level at which an excursion ends. Path scores, in nats, are forgotten down to 8 nat below the threshold: paths
+    /// so near have branched off the path that crossed it, and would also cross. For any other statistic: the level
+    /// that noise exceeds in one cell of a thousand, in its own unit.
     double shoulderOf(const AnalysisPlan &plan)
     {
         const double threshold = plan.threshold;
@@ -103,7 +104,8 @@ namespace {
         if (plan.model.space.stateCount() > manyStates)
             chain.onsetFrames = onsetFramesOfMany;
         if (settings.noise.causal) {
-            // A live run tells of an event once nothing can become part of it any more: tracks have to begin somewhere.
+            // A live run reports an event once nothing can be joined to it any more, so the onset of tracks must be
+            // bounded.
             chain.onsetFrames = chain.onsetFrames > 0 ? chain.onsetFrames : longestRunUpLive;
             chain.keepsNumbers = true;
         }
@@ -129,7 +131,7 @@ std::size_t bytesOfStates(const AnalysisPlan &plan)
 
 namespace {
 
-    /// Of the sequential Markov detector's settings.
+    /// For the settings of the sequential Markov detector.
     std::unique_ptr<PathDetector> makeSmd(const AnalysisPlan &plan, const SmdSettings &smd)
     {
         if (!plan.isBank())

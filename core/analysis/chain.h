@@ -6,27 +6,27 @@
 
 namespace faintline {
 
-/// States of its model, or of all models of its bank.
+/// Number of states of the model, or of all models of the bank.
 Index stateCount(const AnalysisPlan &plan);
-/// What the scores of all of them take.
+/// Memory for the scores of all states.
 std::size_t bytesOfStates(const AnalysisPlan &plan);
 
 /// The detection chain of a plan, at its first frame.
 std::unique_ptr<DetectionChain> makeChain(const AnalysisPlan &plan);
-/// The same that does not trace tracks back to their onset: for a caller that only wants its scores.
+/// The same without tracing tracks back to their onset, for callers that only need scores.
 std::unique_ptr<DetectionChain> makeScoringChain(const AnalysisPlan &plan);
 
 /// The plan's detector, or bank of detectors, at its first frame.
 std::unique_ptr<Detector> makeDetector(const AnalysisPlan &plan);
-/// The same with paths for tracks to start from: a detector without any is guided by one that has them.
+/// The same with paths from which tracks can start: a detector without paths is guided by one with paths.
 std::unique_ptr<PathDetector> makePathDetector(const AnalysisPlan &plan);
 
-/// The chain around a detector that may have settled on noise. `looksBack`: whether tracks are traced back to their
-/// onset, which a caller that only counts them does not need.
+/// The chain around a detector that may already have settled on noise. `looksBack`: whether tracks are traced back to
+/// their onset, which is not needed for counting.
 std::unique_ptr<DetectionChain> makeChain(const AnalysisPlan &plan, std::unique_ptr<PathDetector> detector,
                                           bool looksBack = true);
 
-/// The cells of a line of frames where no signal is looked for.
+/// Excluded cells, where no signal is looked for, for frames of lines.
 std::vector<CellBox> excludedBoxes(const AnalysisPlan &plan);
 
 } // namespace faintline

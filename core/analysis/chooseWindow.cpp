@@ -14,9 +14,9 @@ namespace faintline {
 
 namespace {
 
-    constexpr double factor = 4.0;        ///< from one window to the next
-    constexpr double tooFast = 1.0 / 3.0; ///< below it the longer window loses what moves
-    constexpr double asGood = 0.85;       ///< from there on it loses next to nothing
+    constexpr double factor = 4.0;        ///< ratio of consecutive windows
+    constexpr double tooFast = 1.0 / 3.0; ///< below it the longer window loses moving signals
+    constexpr double asGood = 0.85;       ///< from there on it loses almost nothing
     constexpr double fewestCells = 24.0;
     constexpr double fewestFrames = 16.0;
     constexpr double fewestOfSteadyLines = 4.0; ///< frames
@@ -43,8 +43,8 @@ namespace {
         return asked > 0.0 ? asked : 1.0 / resolutionHz(analysis);
     }
 
-    /// Those that the noise explains, too: a fast line breaks into short, strong pieces in a window too long for it,
-    /// and that tells of the window.
+    /// Includes tracks that the noise explains: a fast line breaks into short, strong pieces in a window too long for
+    /// it, which is informative on the window.
     std::vector<Track> foundIn(const Analysis &analysis)
     {
         std::vector<Track> found = analysis.tracks;
@@ -52,7 +52,7 @@ namespace {
         return found;
     }
 
-    /// What another window is compared with, and what a change of the threshold goes on from.
+    /// An analysis with tracks only, for comparison with other windows and as a start after a change of the threshold.
     std::shared_ptr<const Analysis> tracksOnly(const Analysis &analysis)
     {
         auto result = std::make_shared<Analysis>();
@@ -73,7 +73,7 @@ namespace {
         {
         }
 
-        /// Of the window chosen; of another than T0 without pictures. Leaves the rest to `choice`.
+        /// Result for the chosen window; without pictures if it is not T0. Sets `choice`.
         std::shared_ptr<Analysis> run(const Analysis *previous, const PictureSink &pictures)
         {
             const std::shared_ptr<Analysis> automatic =
@@ -86,7 +86,7 @@ namespace {
             return best == automatic ? longer(automatic) : best;
         }
 
-        /// Of the window after that one, without pictures; null where none is borne.
+        /// Result for the next longer window, without pictures; null if it is not feasible.
         std::shared_ptr<const Analysis> nextLonger(const Analysis &chosen)
         {
             const std::size_t number = numberOf(windowSecondsOf(chosen));
@@ -111,14 +111,14 @@ namespace {
             }));
         }
 
-        /// A trial may be the last one: each takes half of what is left.
+        /// Any trial may be the last one, so each takes half of the remaining progress.
         RunContext nextPart()
         {
             const double from = std::exchange(m_done, m_done + 0.5 * (1.0 - m_done));
             return m_context.part(from, m_done);
         }
 
-        /// The shortest window that keeps its share of what the next shorter one follows, if there is one.
+        /// The shortest window that still follows a sufficient share of what the next shorter one follows, if any.
         std::shared_ptr<Analysis> shorter(const std::shared_ptr<Analysis> &automatic)
         {
             std::shared_ptr<Analysis> best = automatic;
@@ -127,14 +127,14 @@ namespace {
                 auto trial = tried(step, laws::glide());
                 const double kept = shareKept(*trial, *best);
                 m_trials.front().kept = kept;
-                if (!(kept < tooFast)) // nothing to compare, or a window that does
+                if (!(kept < tooFast)) // nothing to compare, or the window suffices
                     return std::isnan(kept) ? automatic : best;
                 best = std::move(trial);
             }
             return automatic;
         }
 
-        /// Whether there are frames enough, and memory: an automatic window is bounded however long the recording is.
+        /// Whether there are enough frames and memory: an automatic window is bounded for any length of recording.
         bool isBorne(double step, double frames) const
         {
             RecordingInfo endless = m_recording->info();
@@ -205,16 +205,16 @@ namespace {
         double m_cells = 0.0;         ///< at T0
         double m_frames = 0.0;
         std::vector<WindowTrial> m_trials;
-        std::vector<std::shared_ptr<const Analysis>> m_analyses; ///< of the trials, without pictures
+        std::vector<std::shared_ptr<const Analysis>> m_analyses; ///< for the trials, without pictures
     };
 
-    /// The settings with the window and law of one of the trials; T0 is what an open window comes to anyway.
+    /// The settings with the window and law of one of the trials; an open window gives T0 anyway.
     AnalysisSettings ofTrial(const WindowChoice &choice, std::size_t number, const AnalysisSettings &settings)
     {
         return number == choice.automatic ? settings : inWindowOf(choice.trials[number], settings);
     }
 
-    /// Whether nothing has changed that a window is chosen by.
+    /// Whether all settings that affect the choice of a window are equal.
     bool asksForTheSame(const AnalysisSettings &a, const AnalysisSettings &b)
     {
         return a.selection == b.selection && a.spectrogram == b.spectrogram && a.noise == b.noise && a.model == b.model
@@ -256,7 +256,7 @@ std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording
                           && !previous->calibration->isFirstEstimate
                           && asksForTheSame(previous->choice->asked, settings);
     const bool subtracts = settings.subtract.lines;
-    AnalysisSettings asked = settings; // what is subtracted in a window tells nothing of the window
+    AnalysisSettings asked = settings; // subtraction does not affect the choice
     asked.subtract.lines = false;
     const double searched = isChosen ? 0.0 : subtracts ? 0.4 : 0.7; // shares of the progress
     const double detected = isChosen ? 0.6 : subtracts ? 0.8 : 1.0;
@@ -281,7 +281,7 @@ std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording
     else if (isTrial || !isComplete)
         found = analyse(recording, ofTrial(choice, choice.chosen, settings), context.part(searched, detected),
                         isChosen ? previous : found.get(), {}, pictures, calibrationDepth, depth);
-    if (longer && !isComplete) // after the pictures, which are waited for
+    if (longer && !isComplete) // after the pictures, which the user waits for
         longer = analyse(recording, ofTrial(choice, choice.chosen + 1, settings), context.part(detected, 1.0),
                          longer.get(), {}, {}, calibrationDepth, AnalysisDepth::Trial);
     found->longer = std::move(longer);

@@ -4,37 +4,38 @@
 
 namespace faintline {
 
-/// Whether these settings leave window and law of motion to the recording: T_FT = 0 and the default law of the
-/// sequential Markov detector, whose tracks are looked at from both ends.
+/// Whether these settings let the recording determine window and law of motion: T_FT = 0 and the default law of the
+/// sequential Markov detector, with two-sided tracks.
 bool leavesWindowToRecording(const AnalysisSettings &settings);
 
-/// The settings with the window and law that were chosen for an analysis, if both leave them open; else as they are.
+/// The settings with the window and law chosen for an analysis, if both leave them open; else unchanged.
 AnalysisSettings inWindowOf(const Analysis &analysis, const AnalysisSettings &settings);
 
 /// The settings with the window and law of motion of a trial.
 AnalysisSettings inWindowOf(const WindowTrial &trial, AnalysisSettings settings);
 
-/// `analyse`, with the window that suits the signals of the recording where the settings leave it open.
+/// `analyse`, with a window that suits the recording's signals if the settings leave it open.
 ///
-/// The automatic window T0 (Spectrogram::automaticWindowSeconds) comes first, with its pictures. Others, four times as
-/// long or short from one to the next, are tried for their tracks alone, and judged by the share k of the energy along
-/// the shorter one's tracks that the longer one follows as well (energyKept; of tracks a hundred times rarer on noise
-/// than ordered):
+/// The automatic window T0 (Spectrogram::automaticWindowSeconds) is used first, with its pictures. Others, each four
+/// times as long or short as the previous one, are tried for their tracks alone, and judged by the fraction k of the
+/// energy along the shorter one's tracks that the longer one follows as well (energyKept; for tracks a hundred times
+/// rarer on noise than specified):
 ///
-///   shorter  while k < 1/3: signals move too fast for the longer one. Taken only where k ≥ 1/3 is reached, for of what
-///            is no line every shorter window has more. Shorter windows take the law of fast signals (laws::glide).
-///   longer   while k ≥ 0.85: a window four times as long costs next to nothing, and fainter lines stand out of the
+///   shorter  while k < 1/3: signals move too fast for the longer one. Accepted only if k ≥ 1/3 is reached, because for
+///            signals other than lines every shorter window follows more. Shorter windows use the law of fast signals
+///            (laws::glide).
+///   longer   while k ≥ 0.85: a window four times as long loses almost nothing, and fainter lines stand out of the
 ///            noise.
 ///
-/// Windows have at least 24 cells in the band and 16 frames, and no more samples than any T0. On noise nothing is sure
-/// enough to judge by, and T0 stays; at most five windows are tried. The answer's `choice` tells what was tried, its
-/// `settings` the window and law used. A change of the threshold or the tracks' settings alone keeps the choice of
-/// `previous`, unless that was made by a first estimate.
+/// Windows have at least 24 cells in the band and 16 frames, and no more samples than any T0. On noise no track is sure
+/// enough, and T0 is kept; at most five windows are tried. The result's `choice` lists the trials, and its `settings`
+/// have the window and law used. If only the threshold or the tracks' settings change, the choice of `previous` is
+/// kept, unless it was made with a first estimate.
 ///
-/// Where strong lines are subtracted, windows are tried on the recording as it is, and lines subtracted in the one that
-/// is chosen and in the next longer one.
+/// If strong lines are subtracted, windows are tried on the unchanged recording, and lines are subtracted in the chosen
+/// window and in the next longer one.
 ///
-/// The answer's tracks are those of the window chosen and the steady lines that only the next longer one finds
+/// The result's tracks are those of the chosen window and the steady lines that only the next longer one detects
 /// (steadyLines.h), which may have as few as four frames.
 std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording, const AnalysisSettings &settings,
                                                       const RunContext &context = {},

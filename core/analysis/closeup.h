@@ -14,25 +14,23 @@ struct FrameStretch {
     bool operator==(const FrameStretch &) const = default;
 };
 
-/// The frames to look at closely where some of a picture, `visible`, are to be seen: these, and as many beside them as
-/// there is room for.
+/// The frames of a close-up of the `visible` part of a picture: the visible frames, and as many beside them as fit.
 ///
-/// Empty where a close-up would show no more: the picture's rows are single frames or smaller than a pixel, or so much
-/// of it is visible that the byte budget would have rows of the close-up merged as far. Begins with a row of the
-/// picture's finest level.
+/// Empty if a close-up would show no more detail: the picture's rows are single frames or smaller than a pixel, or so
+/// much of it is visible that the byte budget would merge rows as far. Begins with a row of the picture's finest level.
 FrameStretch closeupStretch(const PeakPyramid &picture, const FrameStretch &visible, double framesPerPixel,
                             std::size_t byteBudget);
 
-/// Frames per row of a picture of this number of frames within a byte budget.
+/// Frames per row of a picture with this number of frames within a byte budget.
 Index framesPerRowWithin(std::size_t byteBudget, Index frames, Index cells);
 
-/// A stretch of an analysis's input and of its statistic, with the rows that an analysis of the whole with memory
-/// enough would have: the frames are read again, and the chain continues from the checkpoint before them. Time axes
+/// A stretch of an analysis's input and of its statistic, with the rows that an analysis of the whole would have with
+/// unlimited memory: the frames are read again, and the chain continues from the checkpoint before them. Time axes
 /// begin with the stretch's first frame.
 ///
-/// Cost: of the input, reading; of the statistic, also the chain over the stretch and up to an interval of checkpoints,
-/// over all frames before it where the detector cannot tell its state. Throws Cancelled. Oracle: the analysis's own
-/// pictures where they are not merged.
+/// Cost: for the input, reading; for the statistic, also the chain over the stretch and up to an interval of
+/// checkpoints, or over all preceding frames if the detector cannot save its state. Throws Cancelled. Oracle: the
+/// analysis's own pictures where they are not merged.
 std::shared_ptr<const PeakPyramid> inputCloseup(const Analysis &analysis, const FrameStretch &stretch,
                                                 std::size_t byteBudget, const RunContext &context = {});
 std::shared_ptr<const PeakPyramid> statisticCloseup(const Analysis &analysis, const FrameStretch &stretch,

@@ -14,13 +14,14 @@ namespace faintline {
 namespace {
 
     constexpr std::size_t leastMaxima = 40;
-    /// Block maxima above the thresholds where events are counted, per cell and frame; clustering and inhibition leave
-    /// a quarter of them as events. A tail that splitting follows is counted where events crowd each other out, in a
-    /// tenth of the noise, and where they do not (800 and 400 events in the usual 8·10⁷ cells × frames). One that is
-    /// continued along a line is counted at two thresholds far apart.
+    /// Block maxima above the thresholds at which events are counted, per cell and frame; after clustering and
+    /// inhibition a quarter of them are events. A tail from splitting is counted where events crowd each other out, in
+    /// a tenth of the noise, and where they do not (800 and 400 events in the usual 8·10⁷ cells × frames). One that is
+    /// extrapolated along a line is counted at two thresholds far apart.
     constexpr std::array<double, 2> ratesBeforeSplitting{1e-3, 2e-5};
     constexpr std::array<double, 2> ratesOfLine{2e-5, 2.5e-6};
-    /// Maxima at 2·10⁻⁵, of which a line takes a third; in small volumes the rates are higher.
+    /// Expected number of maxima at 2·10⁻⁵, a third of which become events of lines; in small volumes the rates are
+    /// higher.
     constexpr double leastExpected = 300.0;
     constexpr double leastEvents = 20.0;
 
@@ -29,7 +30,7 @@ namespace {
 std::vector<double> thresholdsForEvents(std::vector<float> maxima, double cellFramesPerBlock, double cellFrames,
                                         bool isLine)
 {
-    // A detector that decides in blocks of its own has blocks of ours without a decision.
+    // A detector that decides in its own blocks leaves some of ours without a decision.
     const auto blocks = double(maxima.size());
     std::erase_if(maxima, [](float maximum) { return !std::isfinite(maximum); });
     if (maxima.size() < leastMaxima)
@@ -88,7 +89,7 @@ void fitEventRate(std::span<const double> thresholds, std::span<const double> ev
 void anchorTail(const RareRates &rare, std::span<const double> thresholds, const EventCounts &counts,
                 Calibration &result)
 {
-    std::vector<double> levels; // where there are enough events to tell, ascending
+    std::vector<double> levels; // with enough events, ascending
     std::vector<double> offsets;
     double events = 0.0;
     for (std::size_t i = 0; i < thresholds.size(); ++i) {

@@ -8,10 +8,10 @@
 
 namespace faintline {
 
-// How often events come at which threshold, from counts at a few and from splitting.
+// Event rate as a function of the threshold, from counts at a few thresholds and from splitting.
 
-/// Thresholds at which chains may be expected to find events at about the wanted rates, by a rough look at the maxima
-/// of space-time blocks: with P(max ≤ T) = exp(-Λ e^{-θ(T-u)}), Λ and θ from two quantiles.
+/// Thresholds at which chains are expected to find events at about the wanted rates, from a rough analysis of the
+/// maxima of space-time blocks: P(max ≤ T) = exp(-Λ e^{-θ(T-u)}), with Λ and θ from two quantiles.
 std::vector<double> thresholdsForEvents(std::vector<float> maxima, double cellFramesPerBlock, double cellFrames,
                                         bool isLine);
 
@@ -20,7 +20,7 @@ std::vector<double> thresholdsForEvents(std::vector<float> maxima, double cellFr
 void fitEventRate(std::span<const double> thresholds, std::span<const double> events, double cellFrames,
                   Calibration &result);
 
-/// The tail of the chain's events: the shape is that of excursions, ln S(T), the height that of the counts,
+/// The tail of the chain's events: excursions, ln S(T), give the shape, the counts the height,
 ///
 ///   ln rate(T) = ln S(T) + δ(T)
 ///   δ = ln(events/noise) - ln S at the thresholds, linear between them, constant beyond

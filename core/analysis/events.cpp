@@ -41,7 +41,7 @@ namespace {
         return (n * sumTF - sumT * sumF) / (n * sumTT - sumT * sumT);
     }
 
-    /// What only the look from both ends knows.
+    /// Sets the properties that only the two-sided second pass gives.
     void describe(Event &event, const Track &track, const AnalysisPlan &analysis)
     {
         const auto count = double(track.points.size());

@@ -7,7 +7,7 @@
 
 namespace faintline {
 
-/// One detected signal, in physical units; a view of a track.
+/// One detected signal in physical units, derived from a track.
 struct Event {
     int id = 0;
     double onsetSeconds = 0.0;
@@ -15,50 +15,50 @@ struct Event {
     double endSeconds = 0.0;
     std::vector<double> position; ///< at detection, one per axis (Hz; or m, degrees)
     double driftPerSecond = 0.0;  ///< straight-line slope of the track along the last axis
-    /// In the detector's unit: the path's largest where it is its score, else that of the detection.
+    /// In the detector's unit: the path's largest if it is a path score, else that of the detection.
     double statistic = 0.0;
     bool isConfirmed = false;
     bool isOpen = false;
-    bool isSubtracted = false;          ///< from the recording that the others were found in (subtractLines.h)
-    std::vector<double> ratesPerSecond; ///< as driftPerSecond, along every axis
-    std::size_t model = 0;              ///< of a bank, the one that found it
+    bool isSubtracted = false;          ///< from the recording in which the others were found (subtractLines.h)
+    std::vector<double> ratesPerSecond; ///< as driftPerSecond, along each axis
+    std::size_t model = 0;              ///< index of the bank's model that found it
     double confirmSeconds = std::numeric_limits<double>::quiet_NaN(); ///< NaN: never confirmed
 
-    // Of tracks that were looked at from both ends (secondLook.h); NaN of others:
-    /// Mean power along the track over the noise's in one frame.
+    // For tracks with a two-sided second pass (secondLook.h); NaN for others:
+    /// Mean power along the track over the noise's, per frame.
     double snrDb = std::numeric_limits<double>::quiet_NaN();
-    /// Of the 5-95 % band of its position, mean, in units of the last axis.
+    /// Mean width of the 5-95 % band of its position, in units of the last axis.
     double bandWidth = std::numeric_limits<double>::quiet_NaN();
-    /// That noise alone brings an event as significant as this in this recording: 1 -
+    /// Probability that noise alone produces an event as significant as this one in this recording: 1 -
     /// exp(-rate(statistic)·cells·frames).
     double noiseProbability = std::numeric_limits<double>::quiet_NaN();
-    /// T_FT of the window that found it: the frames' own, or a longer one's (steadyLines.h).
+    /// T_FT of the window that found it: the frames' own, or a longer one (steadyLines.h).
     double windowSeconds = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// A burst, a cloud or another signal that is no line, in physical units; a view of an area.
+/// A burst, a cloud or another signal that is not a line, in physical units; derived from an area.
 struct AreaEvent {
     double onsetSeconds = 0.0;
     double endSeconds = 0.0;
     double low = 0.0; ///< along the last axis
     double high = 0.0;
-    double levelDb = 0.0; ///< at least, over the noise
+    double levelDb = 0.0; ///< minimum, over the noise
 };
 
-/// The areas of an analysis that are raised by 1 dB or more, ordered by onset, then frequency.
+/// The areas of an analysis with a level of at least 1 dB, ordered by onset, then frequency.
 std::vector<AreaEvent> areaEvents(const Analysis &analysis);
 
-/// A track's statistic as its event has it.
+/// A track's statistic as its event gives it.
 double statisticOf(const Track &track, const AnalysisPlan &analysis);
 
 /// The events of an analysis at its threshold, ordered by onset, then frequency.
 std::vector<Event> events(const Analysis &analysis);
-/// The same of other tracks on its frames, such as the conventional ones.
+/// The same for other tracks on its frames, such as the conventional ones.
 std::vector<Event> events(const AnalysisPlan &plan, const std::vector<Track> &tracks);
-/// By onset, then frequency: the order of the above.
+/// Sorts by onset, then frequency.
 void sortEvents(std::vector<Event> &events);
 
-/// The event of that number, or, of number 0, the one with the largest statistic. Throws Error where there is none.
+/// The event of that number, or for number 0 the one with the largest statistic. Throws Error if there is none.
 Event chosenEvent(const Analysis &analysis, int number);
 
 } // namespace faintline

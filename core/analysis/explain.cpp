@@ -12,7 +12,7 @@ namespace faintline {
 
 namespace {
 
-    /// Puts a chain at the run's latest checkpoint before that frame, and answers which one it takes next.
+    /// Sets a chain to the run's latest checkpoint before that frame; returns the frame it takes next.
     Index resumeBefore(DetectionChain &chain, const Analysis &analysis, Index frame)
     {
         const Index latest = analysis.checkpoints.latest(frame);
@@ -21,8 +21,8 @@ namespace {
         return latest;
     }
 
-    /// The chain as it stands after the given frame, with all of its past that it would remember there, and of trackers
-    /// what they know since `begin`. The statistic of that frame is left in `statistic`.
+    /// The chain after the given frame, with all of the past that it would have recorded, and with trackers' histories
+    /// since `begin`. `statistic` receives the statistic of that frame.
     std::unique_ptr<DetectionChain> runTo(const Analysis &analysis, Index begin, Index frame,
                                           std::vector<float> &statistic, const RunContext &context)
     {
@@ -39,7 +39,7 @@ namespace {
         return chain;
     }
 
-    /// What a model's scores are raised by in the chain's newest frame to be the statistic.
+    /// Offset between a model's scores in the chain's newest frame and the statistic.
     double offsetOf(const Analysis &analysis, const DetectionChain &chain, std::size_t model)
     {
         return chain.detector().offset(model) - analysis.offsetAt(model);
@@ -47,7 +47,7 @@ namespace {
 
     /// The best path into a cell in the newest frame, by the tracker that follows the cell or by the detector.
     struct PathInto {
-        std::vector<PathStep> steps; ///< under a tracker: from the frame it was seeded in, as far as it knows
+        std::vector<PathStep> steps; ///< under a tracker: from its seed frame on, as far as it knows
         bool isTracked = false;
         std::size_t model = 0;
         Index seedFrame = 0; ///< of the tracker
@@ -77,8 +77,8 @@ namespace {
         return {chain.detectorPathInto(state, model), false, model, 0};
     }
 
-    /// The chain frame by frame, and what the states it is about to go on from have: what no path can tell of its
-    /// competitors.
+    /// Runs the chain frame by frame and evaluates the alternatives to a path's steps, which the path itself does not
+    /// contain.
     class Competitors
     {
     public:
@@ -88,7 +88,7 @@ namespace {
         {
         }
 
-        /// Stands before that frame.
+        /// Moves to the state before that frame.
         void goTo(Index frame, const RunContext &context)
         {
             if (m_next == 0)
@@ -103,10 +103,10 @@ namespace {
         }
 
         struct Ways {
-            double best = minusInfinity; ///< with what is forgotten forgotten
+            double best = minusInfinity; ///< after forgetting
             double second = minusInfinity;
-            double remembered = minusInfinity; ///< the best with all of it
-            std::optional<int> track;          ///< for which the remembered one was forgotten
+            double remembered = minusInfinity; ///< the best without forgetting
+            std::optional<int> track;          ///< for which the path to the remembered one was forgotten
         };
         Ways into(Index state, Index frame) const
         {
@@ -128,7 +128,7 @@ namespace {
             return ways;
         }
 
-        /// Of the last step.
+        /// For the last step.
         double lnK() const { return m_chain->detector().regulation(m_number).stepLnK; }
 
     private:
@@ -152,7 +152,7 @@ namespace {
         Index m_next = 0;
     };
 
-    /// Why the path was reset on its way into its first step, and how narrowly the detector's own steps were won.
+    /// Determines why the path was reset in its first step, and the margins of the detector's own steps.
     void findCompetitors(Explanation &explanation, const Analysis &analysis, std::size_t ownSteps,
                          const RunContext &context)
     {
@@ -176,7 +176,7 @@ namespace {
         }
     }
 
-    /// The second best state of the cell.
+    /// Finds the second best state of the cell.
     void findOther(Explanation &explanation, const Analysis &analysis, const DetectionChain &chain, Index frame,
                    Index cell)
     {
@@ -192,7 +192,7 @@ namespace {
         explanation.otherMargin = double(scores.values[std::size_t(own)]) - best;
     }
 
-    /// What the track of an inhibited box is called among the analysis's own, which are numbered after a second look.
+    /// The number of an inhibited box's track in the analysis, where tracks are renumbered after the second pass.
     int numberOf(const DetectionChain::Inhibition &inhibition, Index frame, const Analysis &analysis)
     {
         if (inhibition.track == 0)
@@ -207,7 +207,7 @@ namespace {
         return -1;
     }
 
-    /// The tracks that run through the cell, or past it within a resolution cell.
+    /// The tracks through the cell, or within a resolution cell of it.
     std::vector<const Track *> tracksThrough(const std::vector<Track> &tracks, const Analysis &analysis, Index frame,
                                              Index cell)
     {
@@ -251,7 +251,7 @@ namespace {
     /// Explanation::inhibitedFor
     std::optional<int> inhibitedFor(const Analysis &analysis, const DetectionChain &chain, Index frame, Index cell)
     {
-        // The box of a track that starts in this frame keeps data from the detector from the next one on.
+        // The box of a track that starts in this frame inhibits the detector from the next frame on.
         const auto isNew = [&](int track) {
             return std::any_of(chain.trackers().begin(), chain.trackers().end(), [track](const HmmTracker &tracker) {
                 return tracker.track().id == track && tracker.age() == 1;
@@ -272,7 +272,7 @@ Explanation explain(const Analysis &analysis, double seconds, const std::vector<
     const Index frame = frameAt(analysis.time(), seconds);
     const Index cell = cellAt(analysis.grid(), position);
 
-    // A tracker's path goes on to its very beginning only if it keeps all of its history, which changes no score.
+    // A tracker's path reaches its beginning only if it keeps all of its history, which changes no score.
     Analysis detailed = analysis;
     detailed.settings.track.smoothingFrames = int(std::min<Index>(frame + 1, 1 << 30));
     std::vector<float> statistic;
@@ -293,13 +293,13 @@ Explanation explain(const Analysis &analysis, double seconds, const std::vector<
     explanation.isSubtracted = std::ranges::any_of(tracksThrough(analysis.tracks, analysis, frame, cell),
                                                    [](const Track *track) { return track->isSubtracted; });
     explanation.steps = path.steps;
-    std::size_t ownSteps = path.steps.size(); // the detector's, before a tracker's
+    std::size_t ownSteps = path.steps.size(); // the detector's, which precede a tracker's
     explanation.model = path.model;
     explanation.offset = offsetOf(detailed, *chain, path.model);
     findOther(explanation, detailed, *chain, frame, cell);
     explanation.inhibitedFor = inhibitedFor(analysis, *chain, frame, cell);
     if (path.isTracked) {
-        // Before its tracker was seeded, the path is the detector's own.
+        // Before its tracker was seeded, the path is that of the detector.
         const PathStep seed = path.steps.front();
         const auto before = runTo(detailed, seed.frame, seed.frame, statistic, context.part(0.5, 0.8));
         explanation.steps = before->detectorPathInto(seed.state, path.model);

@@ -8,42 +8,41 @@
 
 namespace faintline {
 
-/// Why a path begins where it does.
+/// Reason for the first frame of a path.
 struct ResetCause {
     enum class Kind {
-        Beginning,  ///< with the recording
-        Background, ///< what came before stood below the background: starting afresh was better
-        Forgotten   ///< going on would have been better, had the detector not forgotten what a track had taken over
+        Beginning,  ///< start of the recording
+        Background, ///< the score before was below the background, so a restart was better
+        Forgotten   ///< continuing would have been better, but the detector had forgotten a track's cells
     };
     Kind kind = Kind::Beginning;
-    double lost = 0.0; ///< Background: how far below 0 going on would have begun, nat. Forgotten: what was given up
-    int track = 0;     ///< Forgotten: for which one
+    double lost = 0.0; ///< nat. Background: depth below 0 of continuing. Forgotten: the score given up
+    int track = 0;     ///< Forgotten: number of the track
 };
 
-/// Why a cell has the statistic it has: the best path that ends there, term by term.
+/// Explains the statistic of a cell: the best path that ends there, term by term.
 struct Explanation {
     double seconds = 0.0;
     std::vector<double> position; ///< of the cell, one per axis
     std::vector<PathStep> steps;  ///< from the last reset on
-    double offset = 0.0;          ///< added to all of the detector's scores: K(t) under the mean law, less a bank's o_i
+    double offset = 0.0;          ///< added to all detector scores: K(t) under the mean law, minus a bank's o_i
     double statistic = 0.0;       ///< the sum of all terms and the offset, nat above background
-    double displayed = 0.0;       ///< what the analysis shows there: the same, in single precision
+    double displayed = 0.0;       ///< value shown by the analysis: the same, in single precision
     double threshold = 0.0;
-    std::size_t model = 0; ///< of a bank, the one whose path it is: it numbers the steps' states
+    std::size_t model = 0; ///< index of the bank's model with this path; it determines the steps' state numbers
     ResetCause reset;      ///< before the first step
-    /// The best of the other states of the cell and how far it lies behind, nat; absent for a model with one rate per
-    /// cell.
+    /// The best other state of the cell and its deficit, nat; absent for a model with one rate per cell.
     std::optional<Index> otherState;
     double otherMargin = 0.0;
-    /// The track for which the cell was kept from the detector in this frame; 0: a blind place, -1: one dropped later.
+    /// Track for which the cell was inhibited in this frame; 0: an excluded cell, -1: a track dropped later.
     std::optional<int> inhibitedFor;
-    bool isSubtracted = false;       ///< on a line that was subtracted: what is explained is the rest (subtractLines.h)
+    bool isSubtracted = false;       ///< on a subtracted line: the explanation is for the remainder (subtractLines.h)
     bool isExplainedByNoise = false; ///< on a path that the recording's own noise explains (overOwnNoise.h)
-    bool isTracked = false;          ///< a tracker follows this cell; its path runs on without reset
+    bool isTracked = false;          ///< a tracker follows this cell; its path continues without reset
 };
 
-/// Runs an analysis's chain again up to the frame nearest to `seconds` and traces the path to the cell nearest to
-/// `position`. Throws Error where the time lies outside of the recording; Cancelled.
+/// Repeats an analysis's chain up to the frame nearest to `seconds` and traces the path to the cell nearest to
+/// `position`. Throws Error if the time lies outside the recording; Cancelled.
 Explanation explain(const Analysis &analysis, double seconds, const std::vector<double> &position,
                     const RunContext &context = {});
 

@@ -10,7 +10,7 @@ namespace faintline {
 
 namespace {
 
-    /// Fraction of states continued, and mean ln K, of one field of noise.
+    /// Fraction of states continued, and mean ln K, on one noise field.
     ResetFit measureReset(const NormalisedFrames &noise, const MarkovModel &model, const ResetRule &rule)
     {
         Smd detector(model, rule);
@@ -45,7 +45,7 @@ namespace {
         return mean;
     }
 
-    /// ln K at which half of the states go on, by bisection: the fraction rises with K.
+    /// ln K at which half of the states continue, by bisection: the fraction increases with K.
     double lnKForHalf(const std::vector<NormalisedFramesPointer> &noise, const MarkovModel &model)
     {
         constexpr double largest = 20.0;
@@ -59,7 +59,7 @@ namespace {
         const bool isInside = low > -largest && high < largest;
         const double percent =
             isInside ? 50.0 : 100.0 * measureReset(noise, model, {ResetLaw::Fixed, end}).continuedFraction;
-        if (isInside || std::isnan(percent)) // of a few frames nothing is measured
+        if (isInside || std::isnan(percent)) // nothing can be measured on a few frames
             return 0.5 * (low + high);
         throw fieldError("model.snr", formatNumber(model.likelihood.snr()),
                          "permits no ln K at which half of the states continue on noise: at " + formatNumber(end)

@@ -11,7 +11,7 @@ namespace faintline {
 
 namespace {
 
-    /// The first cells of another stream: a band whose ends paths run off.
+    /// The first cells of another stream: a band that paths leave at its ends.
     class BandNoise final : public NoiseStream
     {
     public:
@@ -34,7 +34,7 @@ namespace {
         std::vector<float> m_y;
     };
 
-    /// Noise of a family's members, on a band that closes on itself.
+    /// Noise of a family's members, on a cyclic band.
     class FamilyNoise final : public NoiseStream
     {
     public:
@@ -57,7 +57,7 @@ namespace {
         std::vector<float> m_y;
     };
 
-    /// The frames' noise, of windows of so many samples, or more where a family's members need room to lie apart.
+    /// Noise of the frames, with windows of `windowSamples` samples, or more if a family's members need room.
     std::unique_ptr<NoiseStream> noiseOf(const AnalysisSettings &settings, int windowSamples)
     {
         const FamilySettings &family = settings.family;
@@ -109,7 +109,7 @@ RareRates followBand(const AnalysisSettings &bare, double lnK, std::optional<Ind
     constexpr int least = 32;
     const bool isCyclic = !bins;
     int samples = least;
-    while (bins && samples < *bins) // twice as many bins and more, so that the ends do not meet
+    while (bins && samples < *bins) // at least twice as many bins, so that the ends do not meet
         samples *= 2;
     const auto makeNoise = [&]() -> std::unique_ptr<NoiseStream> {
         auto wide = noiseOf(bare, samples);

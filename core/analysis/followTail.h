@@ -11,12 +11,11 @@ namespace faintline {
 
 // Splitting on noise like that of a calibration.
 
-/// How rare excursions of noise of known level are, on a small band that closes on itself, along which all cells are
-/// alike. The plan has a model, frames like those of the noise, and the calibration's K.
+/// Rates of rare excursions on noise of known level, in a small cyclic band in which all cells are equivalent. The plan
+/// has a model, frames like those of the noise, and the calibration's K.
 RareRates followTail(const AnalysisPlan &plan, const CalibrationEffort &effort, const RunContext &context);
 
-/// As `followTail`, in so many bins with two ends, or, where their number is not given, in a band that closes on
-/// itself.
+/// As `followTail`, in `bins` bins with two ends, or in a cyclic band if `bins` is not given.
 RareRates followBand(const AnalysisSettings &bare, double lnK, std::optional<Index> bins,
                      const SplittingSettings &splitting, const RunContext &context);
 

@@ -22,7 +22,7 @@ namespace {
             return track;
         const Axis &frequency = analysis.grid().axes.front();
         const double margin = toleranceBins * frequency.step;
-        const double half = 0.5 * analysis.time().step; // a box shorter than a frame still holds one
+        const double half = 0.5 * analysis.time().step; // a box shorter than a frame still contains one
         int there = 0;
         int inside = 0;
         for (const TrackPoint &point : track->points) {

@@ -8,14 +8,14 @@ namespace faintline {
 
 /// Applies the reviews of annotated boxes to the events within them.
 struct JudgedByBoxes {
-    std::vector<Review> reviews;    ///< the given ones and what was added
-    std::vector<Annotation> others; ///< boxes that judge no event here, or judge nothing
-    int judged = 0;                 ///< events
+    std::vector<Review> reviews;    ///< the given ones and those added
+    std::vector<Annotation> others; ///< boxes that match no event, or contain no judgement
+    int judged = 0;                 ///< number of events
 };
 
-/// A box that is accepted, rejected or has a note says so of every event it is of: they have at least half of the
-/// shorter one's time in common, and at least half of the track's points in that time lie in the box, two bins beyond
-/// its edges included. Of several boxes on one event the first counts. For lines, whose grid has one axis.
+/// A box with a verdict or a note applies it to each event that matches it: they share at least half of the shorter
+/// one's time, and at least half of the track's points in that time lie in the box, extended by two bins beyond its
+/// edges. If several boxes match an event, the first counts. For lines, whose grid has one axis.
 JudgedByBoxes judgeByBoxes(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events,
                            const std::vector<Annotation> &boxes);
 

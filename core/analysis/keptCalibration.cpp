@@ -46,7 +46,7 @@ AnalysisSettings dimensionless(AnalysisSettings settings)
     settings.selection = onlyCounted(settings.selection);
     settings.decide = withoutThreshold(settings.decide);
     settings.conventional = {};
-    settings.track.bothWays = TrackSettings{}.bothWays; // works on what was found
+    settings.track.bothWays = TrackSettings{}.bothWays; // applies after detection
     if (settings.spectrogram.windowSeconds > 0.0)
         settings.family = scaledFamily(settings.family, settings.spectrogram.windowSeconds / calibrationWindowSamples);
     settings.spectrogram.windowSeconds = calibrationWindowSamples;
@@ -62,7 +62,7 @@ namespace {
 
     using Made = std::shared_ptr<const Calibration>;
 
-    /// What this program knows of one key.
+    /// This program's cache entry of one key.
     struct Entry {
         std::mutex making; ///< held by the thread that makes it
         std::mutex guard;
@@ -77,7 +77,7 @@ namespace {
         return entries[key];
     }
 
-    /// From memory or from disk; null where it has to be made.
+    /// From memory or from disk; null if it must be made.
     Made known(Entry &entry, const std::string &key, const CalibrationStore &store)
     {
         const std::scoped_lock lock(entry.guard);
@@ -88,7 +88,7 @@ namespace {
 
     using Clock = std::chrono::steady_clock;
 
-    /// Until `isSo`, or until `end`.
+    /// Waits until `isSo`, or until `end`.
     template <class Condition>
     void waitUntil(Condition isSo, Clock::time_point end, std::string_view what, const RunContext &context)
     {

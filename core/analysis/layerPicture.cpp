@@ -10,13 +10,13 @@ namespace {
 
     constexpr float unreached = -std::numeric_limits<float>::infinity();
 
-    /// Of a rate of one cell a frame along an axis.
+    /// Rate of one cell per frame along an axis, in its unit per second.
     double rateUnit(const Analysis &analysis, std::size_t axis)
     {
         return analysis.grid().axes[axis].step / analysis.time().step;
     }
 
-    /// In the axis's unit a second, by model and plane; along an axis that is not there 0.
+    /// In the axis's unit per second, by model and plane; 0 along a missing axis.
     std::vector<std::vector<float>> ratesOfPlanes(const Analysis &analysis, std::size_t axis)
     {
         std::vector<std::vector<float>> rates(analysis.modelCount());
@@ -60,7 +60,7 @@ Index LayerPicture::pixelAt(Index row, Index column) const
 
 namespace {
 
-    /// A picture of a window that grows cell by cell.
+    /// A picture of a window, painted cell by cell.
     class LayerPainter
     {
     public:
@@ -100,7 +100,7 @@ namespace {
             return std::min((picture.firstColumn + picture.columns) * picture.perColumn, m_columns);
         }
 
-        /// One row of the window, whose first cell is `first` of the layers.
+        /// Paints one row of the window, whose first cell is `first` of the layers.
         void paintRow(Index row, const CellLayers &layers, Index first)
         {
             for (Index column = firstColumn(); column < endColumn(); ++column)

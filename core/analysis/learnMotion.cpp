@@ -61,7 +61,7 @@ namespace {
         return strips;
     }
 
-    /// h from numbers of changes by 0, 1, … steps either way.
+    /// h from the numbers of changes by 0, 1, … steps in either direction.
     std::vector<double> lawOf(std::vector<double> changes)
     {
         const double all = std::accumulate(changes.begin(), changes.end(), 0.0);

@@ -16,7 +16,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr double oversampling = 4.0; ///< of the band, so that the average's own response is flat over it
+    constexpr double oversampling = 4.0; ///< of the band, so that the averaging filter's response is flat over it
     constexpr Index fewest = 16;
     constexpr Index most = Index(1) << 22;
     constexpr Index runSamples = Index(1) << 18; ///< read at a time
@@ -34,16 +34,16 @@ namespace {
 
     struct DownConversion {
         double cyclesPerSample; ///< of the mixer
-        Index averaged;         ///< samples a value
+        Index averaged;         ///< samples per value
     };
 
-    /// The band around the mixer's frequency at 0 Hz.
+    /// Mixes the band around the mixer's frequency down to 0 Hz.
     std::vector<std::complex<double>> mixedDown(const Recording &recording, const SampleRange &range,
                                                 const DownConversion &conversion, const RunContext &context)
     {
         const double cyclesPerSample = conversion.cyclesPerSample; // clang 14 captures no structured binding
         const Index averaged = conversion.averaged;
-        constexpr Index exactEvery = 64; // samples; between them the mixer is turned by one step after the other
+        constexpr Index exactEvery = 64; // samples; between them the mixer is advanced step by step
         const auto floats = std::size_t(recording.info().floatsPerSample());
         const std::complex<double> step = turned(-cyclesPerSample);
         const auto mixed = [&](std::span<const float> samples, Index at) {
@@ -57,7 +57,7 @@ namespace {
             }
             return sum / double(averaged);
         };
-        // Read in long runs: of a straightened recording every read begins with blocks of its own.
+        // Reads long runs, because each read of a straightened recording computes blocks of its own.
         const Index run = averaged * std::max<Index>(1, runSamples / averaged);
         const Index end = range.count / averaged * averaged;
         std::vector<std::complex<double>> result;
@@ -73,7 +73,7 @@ namespace {
         return result;
     }
 
-    /// |F{Hann·x}|² over twice the length, x scaled to a largest value of 1, from the lowest frequency upward.
+    /// |F{Hann·x}|² over twice the length, with x scaled to a maximum of 1, from the lowest frequency upward.
     std::vector<float> powerSpectrum(const std::vector<std::complex<double>> &x)
     {
         double largest = 0.0;
@@ -96,7 +96,7 @@ namespace {
         return powers;
     }
 
-    /// The middle of a stretch that is longer than what is held.
+    /// The middle of a stretch that is too long.
     Stretch shortened(Stretch stretch, double longest)
     {
         if (const double spare = stretch.toSeconds - stretch.fromSeconds - longest; spare > 0.0) {

@@ -7,7 +7,7 @@
 
 namespace faintline {
 
-/// A stretch of one channel, and a band around a frequency.
+/// A time interval of one channel, and a band around a frequency.
 struct Stretch {
     int channel = 0;
     double fromSeconds = 0.0;
@@ -16,25 +16,25 @@ struct Stretch {
     double halfBandHz = 0.0;
 };
 
-/// How far the highest line of a stretch stands out.
+/// The highest line of a stretch.
 struct LineHeight {
     double hz = 0.0;
-    double db = 0.0; ///< over the median of the band; ∞ where that is silent
+    double db = 0.0; ///< above the median of the band; ∞ if that is silent
 };
 
-/// The band of a stretch.
+/// Spectrum of a stretch's band.
 struct LineSpectrum {
     std::vector<double> hz;
-    std::vector<double> db; ///< over the median of the band; ∞ or NaN where that is silent
+    std::vector<double> db; ///< above the median of the band; ∞ or NaN if that is silent
 };
 
-/// The band in one Hann-windowed transform of the whole stretch, of which lineHeight tells the highest line.
+/// The band in one Hann-windowed transform of the whole stretch; lineHeight gives its highest line.
 LineSpectrum lineSpectrum(const Recording &recording, const Stretch &stretch, const RunContext &context = {});
 
 /// The highest line in the band, in one Hann-windowed transform of the whole stretch; resolution 1.5 over its duration.
 ///
-/// The band is mixed down and averaged to as few samples as hold it, so that hours are possible: at most 2²², of a
-/// longer stretch its middle. Throws Error where it holds less than 16 samples, Cancelled.
+/// The band is mixed down and decimated to as few samples as can represent it, at most 2²², so that hours are possible;
+/// of a longer stretch its middle is used. Throws Error if it holds less than 16 samples, Cancelled.
 LineHeight lineHeight(const Recording &recording, const Stretch &stretch, const RunContext &context = {});
 
 } // namespace faintline

@@ -9,7 +9,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr double levelsInView = 300.0; ///< of them, below the largest statistic of the first frames
+    constexpr double levelsInView = 300.0; ///< number of levels below the largest statistic of the first frames
     constexpr Index framesAtOnce = 64;
 
     double countedCellFrames(const NormalisedFrames &noise)
@@ -17,7 +17,7 @@ namespace {
         return double(noise.grid().size() * std::max<Index>(0, noise.time().count - settlingFrames));
     }
 
-    /// Calls take(frame, y) for every frame.
+    /// Calls take(frame, y) for each frame.
     template <class Take>
     void forEachFrame(const NormalisedFrames &noise, Take take)
     {

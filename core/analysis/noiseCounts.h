@@ -9,41 +9,41 @@
 
 namespace faintline {
 
-// What detectors and chains do on noise, segment by segment: counts that add up.
+// Additive counts of detectors and chains on noise, segment by segment.
 
-inline constexpr int settlingFrames = 300;     ///< of a segment, that do not count
-inline constexpr Index noiseBlockFrames = 128; ///< of the blocks whose maxima are kept …
-inline constexpr Index noiseBlockCells = 64;   ///< … and their cells
+inline constexpr int settlingFrames = 300;     ///< at the start of a segment, which do not count
+inline constexpr Index noiseBlockFrames = 128; ///< size of the blocks whose maxima are kept, in frames …
+inline constexpr Index noiseBlockCells = 64;   ///< … and in cells
 inline constexpr std::size_t levelCount = 2000;
 
-/// StatisticLevels at which a statistic's exceedance is counted.
+/// Levels at which the exceedance of a statistic is counted.
 struct StatisticLevels {
     float lowest = 0.0f;
     float step = 1.0f;
 };
 
-/// What a detector that nothing is kept from does.
+/// Statistic of a detector without inhibition.
 struct NoiseTail {
     std::vector<double> counts = std::vector<double>(levelCount, 0.0); ///< cells per level bin
     std::vector<float> blockMaxima;
     double cellFrames = 0.0;
 };
 
-/// What chains with their thresholds do.
+/// Events of chains with given thresholds.
 struct EventCounts {
-    std::vector<double> events;     ///< of each chain …
-    std::vector<double> cellFrames; ///< … and in how much noise
+    std::vector<double> events;     ///< for each chain …
+    std::vector<double> cellFrames; ///< … and amount of noise
 };
 
-/// The frames from the start on, computed once for what goes through them many times.
+/// The first frames, computed once for repeated use.
 std::shared_ptr<const FrameArray> beginningOf(const NormalisedFrames &noise, Index frames);
 
-/// StatisticLevels that suit the statistic's own unit.
+/// Levels that suit the statistic's own unit.
 StatisticLevels statisticLevelsOf(const NormalisedFrames &noise, Detector &detector);
 
 NoiseTail measureTail(const NormalisedFrames &noise, Detector &detector, const StatisticLevels &levels);
 
-/// The chains' tracks after the settling frames; null chains count nothing.
+/// Counts the chains' tracks after the settling frames; null chains count nothing.
 EventCounts countEvents(const NormalisedFrames &noise, const std::vector<std::unique_ptr<DetectionChain>> &chains);
 
 void add(const NoiseTail &part, NoiseTail &whole);

@@ -15,22 +15,23 @@ namespace faintline {
 namespace {
 
     constexpr Index settlingFrames = 100;
-    constexpr Index stretchFrames = 400; ///< with them
+    constexpr Index stretchFrames = 400; ///< including them
     constexpr Index leastCounted = 20;
     constexpr double mostCellFrames = 4e6;
-    constexpr double clusterVariance = 16.0; ///< of the fraction, in that of independent states
+    constexpr double clusterVariance = 16.0; ///< of the fraction, relative to independent states
     constexpr double deviations = 4.0;
     constexpr double tolerance = 0.01;
     constexpr Index widestSkirt = 50; ///< resolution cells
     constexpr double noiseMean = 1.1;
-    constexpr double overlap = 1.3; ///< deviation of a mean over frames that overlap, in that of independent ones
+    constexpr double overlap = 1.3; ///< standard deviation of a mean over overlapping frames, relative to independent
+                                    ///< ones
 
     /// Part of a track that lies in a stretch, with the power around it.
     struct Piece {
         std::vector<TrackPoint> points;
         std::vector<double> below; ///< Σ y at 0, 1, 2 … bins below the track
         std::vector<double> above;
-        Index lowest = 0; ///< offsets of what is not taken for noise
+        Index lowest = 0; ///< offsets of cells that do not count as noise
         Index highest = 0;
     };
 
@@ -57,7 +58,7 @@ namespace {
         return points;
     }
 
-    /// Where, going away from a track, the power along it comes down to the noise's.
+    /// Distance from a track at which the power along it falls to the noise.
     Index endOfSkirt(const std::vector<double> &sums, Index least, Index frames)
     {
         const double highest = (noiseMean + 2.0 * overlap / std::sqrt(double(frames))) * double(frames);
@@ -78,7 +79,7 @@ namespace {
         {
         }
 
-        /// Mean fraction of paths that continue, in so many stretches that lie evenly.
+        /// Mean fraction of paths that continue, in evenly spread stretches.
         double continuedFraction(Index length, Index stretches)
         {
             const Index count = m_frames.time().count;
@@ -105,7 +106,7 @@ namespace {
             for (Index frame = first; frame < end; ++frame) {
                 context.checkpoint(double(frame - first) / double(end - first), checking);
                 m_frames.read(frame, 1, m_y);
-                if (std::isnan(m_y.front())) // a gap, of no cell of which anything is known
+                if (std::isnan(m_y.front())) // a gap, in which all cells are unknown
                     continue;
                 putNoiseOver(points, frame);
                 detector.update(m_y, m_statistic);
@@ -116,7 +117,7 @@ namespace {
             }
         }
 
-        /// How far the tracks' power reaches to either side.
+        /// Determines how far the tracks' power reaches on either side.
         void findSkirts(std::vector<Piece> &pieces, const PointsByFrame &points)
         {
             const int binsPerCell = m_analysis.settings.spectrogram.binsPerCell;

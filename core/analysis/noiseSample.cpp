@@ -14,9 +14,10 @@ namespace {
     constexpr double mostValues = 4e6;
     constexpr double cellsBeside = 4.0; ///< resolution cells, on either side of a track
     constexpr Index framesBeside = 2;
-    constexpr Index framesBeyond = 10;    ///< its ends
+    constexpr Index framesBeyond = 10;    ///< beyond its ends
     constexpr double leastObserved = 0.2; ///< of a bin's frames
-    constexpr double raised = 1.1;        ///< median of a bin with a steady line, over noise's, but for its scatter
+    constexpr double raised = 1.1;        ///< median of a bin with a steady line, relative to noise, apart from its
+                                          ///< scatter
 
 } // namespace
 

@@ -9,11 +9,11 @@
 
 namespace faintline {
 
-/// Frames of a recording in runs of successive ones, without what may hold a signal.
+/// Frames of a recording in runs of successive ones, without cells that may hold a signal.
 ///
-/// At most four million cells, in runs of `runFrames` frames that begin at even distances. Cells within four resolution
-/// cells of a track, two frames before and after each of its points and ten before and behind the track are NaN, and
-/// so are those without power.
+/// At most four million cells, in runs of `runFrames` frames at even intervals. Cells within four resolution cells of a
+/// track, two frames before and after each of its points and ten before and after the track are NaN, and so are cells
+/// without power.
 class NoiseSample
 {
 public:
@@ -27,8 +27,8 @@ public:
     Index cells() const { return m_cells; }
     float at(Index row, Index cell) const { return m_y[std::size_t(row * m_cells + cell)]; }
 
-    /// What a bin holds over time; nothing where its median over time exceeds that of noise, for it holds a steady
-    /// line, or where little of it is known.
+    /// Values of a bin over time; empty if their median exceeds that of noise, because the bin holds a steady line, or
+    /// if too few are known.
     std::vector<float> noiseIn(Index cell) const;
 
 private:
@@ -36,7 +36,7 @@ private:
     void mask(const Track &track, Index half);
 
     Index m_cells;
-    Index m_distance; ///< frames from the beginning of a run to that of the next, ≥ runFrames
+    Index m_distance; ///< frames between the beginnings of runs, ≥ runFrames
     Index m_rows = 0;
     std::vector<float> m_y;
 };

@@ -37,7 +37,7 @@ namespace {
 
         void next(Random &random, std::span<float> y) override
         {
-            // The first window is new as a whole, every other one in its last hop.
+            // The first window is entirely new, others only in their last hop.
             const std::size_t fresh = m_isFirst ? m_samples.size() : std::min(2 * m_hop, m_samples.size());
             m_isFirst = false;
             std::copy(m_samples.begin() + std::ptrdiff_t(fresh), m_samples.end(), m_samples.begin());

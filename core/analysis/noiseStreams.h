@@ -10,7 +10,7 @@ namespace faintline {
 
 class Random;
 
-/// Frames of noise, one after the other, whose future depends on nothing but `state()` and the random numbers to come.
+/// A sequence of noise frames whose future depends only on `state()` and the random numbers to come.
 class NoiseStream
 {
 public:
@@ -25,8 +25,8 @@ public:
 /// Independent exponential cells.
 std::unique_ptr<NoiseStream> independentNoise(Index cells);
 
-/// The spectrogram of complex white noise on `windowSamples` samples, a full band: neighbouring frames and bins are
-/// correlated as those of a recording are. The background is known, not estimated.
+/// The spectrogram of complex white noise on `windowSamples` samples, full band: neighbouring frames and bins are
+/// correlated as in a recording. The background is known, not estimated.
 std::unique_ptr<NoiseStream> spectralNoise(const SpectrogramSettings &settings, int windowSamples);
 
 } // namespace faintline

@@ -11,8 +11,8 @@ namespace faintline {
 namespace {
 
     constexpr float unreached = -std::numeric_limits<float>::infinity();
-    constexpr std::int32_t notKnown = 1 << 30; ///< an age: so many frames and those since it was said
-    /// Of noise's paths, of which most are reset after a few frames, the oldest of many.
+    constexpr std::int32_t notKnown = 1 << 30; ///< an unknown age; frames since then are added
+    /// Sufficient age for paths of noise, most of which are reset after a few frames.
     constexpr Index ageOfSome = 512;
 
 } // namespace
@@ -86,7 +86,7 @@ void LayerReplay::forgetAges()
             m_ages.trackers[tracker.track().id][origin.state] = notKnown;
 }
 
-/// A model's scores as the next frame's step will find them, what it is about to forget forgotten.
+/// A model's scores before the next frame's step, after forgetting.
 std::vector<float> LayerReplay::scoresBefore(std::size_t model) const
 {
     const PathDetector &detector = m_replay.chain().detector();
@@ -117,7 +117,7 @@ void LayerReplay::step()
     m_now = m_layers.frame = frame;
     project(statistic);
     if (m_replay.beginning() != m_beginning) {
-        m_checkpoints.clear(); // as the replay's
+        m_checkpoints.clear(); // as in the replay
         m_beginning = m_replay.beginning();
     }
     const Index next = m_replay.next();
@@ -139,12 +139,12 @@ std::size_t LayerReplay::Ages::bytes() const
     return total;
 }
 
-/// One axis's part of the step: of the ways into a state along it, the best, in the order that decides ties.
+/// One axis's part of the step: the best way into each state along it, with ties decided as in the recursion.
 void LayerReplay::move(const MarkovModel &model, std::size_t axis, Index step, const Paths &from, Paths &to)
 {
     const std::vector<KinematicAxis> &axes = model.space.axes();
     const KinematicAxis &own = axes[axis];
-    Index inner = 1; // what lies side by side while the axis's own coordinates stay
+    Index inner = 1; // neighbours with the same coordinates on this axis
     Index outerCells = 1;
     Index innerRates = 1;
     Index outerRates = 1;
@@ -244,7 +244,7 @@ void LayerReplay::project(std::span<const float> statistic)
                 if (m_layers.model[cell] != model)
                     continue;
                 const std::int32_t age = m_ages.states[model][state];
-                m_layers.resetFraction[cell] += age == 0 ? 1.0f : 0.0f; // counted, so far
+                m_layers.resetFraction[cell] += age == 0 ? 1.0f : 0.0f; // counts resets, for now
                 if (plane == 0 || scores[state] > best[cell]) {
                     best[cell] = scores[state];
                     m_layers.plane[cell] = std::int32_t(plane);
@@ -254,7 +254,7 @@ void LayerReplay::project(std::span<const float> statistic)
     }
     for (std::size_t cell = 0; cell < cells; ++cell)
         m_layers.resetFraction[cell] /= float(m_models[m_layers.model[cell]].space.planeCount());
-    std::unordered_map<std::size_t, double> followed; ///< the statistic where a tracker has a say
+    std::unordered_map<std::size_t, double> followed; ///< statistic of cells that a tracker covers
     for (const HmmTracker &tracker : chain.trackers())
         for (const auto &[state, age] : m_ages.trackers[tracker.track().id]) {
             const auto cell = std::size_t(state) % cells;

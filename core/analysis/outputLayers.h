@@ -17,32 +17,31 @@
 
 namespace faintline {
 
-/// What the best state of each cell is in one frame, besides its score.
+/// Properties of the best state of each cell in one frame, besides its score.
 struct CellLayers {
     Index frame = 0;
-    std::vector<float> statistic;     ///< D, as the run showed it
-    std::vector<unsigned char> model; ///< of a bank, the one whose state is best
+    std::vector<float> statistic;     ///< D, as displayed by the run
+    std::vector<unsigned char> model; ///< index of the bank's model with the best state
     std::vector<std::int32_t> plane;  ///< of the best state; the lowest among equals
-    /// Frames since the last reset of the best path, where asked for; 0: it was reset in this frame.
+    /// Frames since the last reset of the best path, if requested; 0: it was reset in this frame.
     std::vector<std::int32_t> age;
-    std::vector<float> resetFraction; ///< of the cell's states, those that were reset in this frame
+    std::vector<float> resetFraction; ///< fraction of the cell's states that were reset in this frame
     std::vector<char> isInhibited;    ///< inhibited in this frame for a track, or excluded
 };
 
-/// Goes through an analysis's chain again and tells of every cell which state won and for how long its path has gone
-/// on.
+/// Repeats an analysis's chain and determines for each cell which state won and how long its path has continued.
 ///
-///   age(n, t) = 0 where path n was reset in frame t, else 1 + age(m, t-1), m the predecessor that won
+///   age(n, t) = 0 if path n was reset in frame t, else 1 + age(m, t-1), m the winning predecessor
 ///
-/// Who won is read off two successive frames' scores, m = argmax [ln P(n|m) + u(m, t-1)], reset where ln K + that ≤ 0,
-/// ties as the recursion decides them: the recursion itself runs once, in the chain. Axes move independently, so the
-/// maximum is taken one axis after the other, and a path's age goes along with its score. A tracker's paths go on from
-/// those it was seeded with, without reset. Of a bank, each model's paths are its own. Oracle: tracePath (age + 1 =
-/// steps of its path). Lines and pings alike.
+/// The winner is determined from the scores of two successive frames, m = argmax [ln P(n|m) + u(m, t-1)], with a reset
+/// if ln K + that ≤ 0 and ties as in the recursion, so the recursion itself runs only once, in the chain. Axes move
+/// independently, so the maximum is taken one axis after the other, and a path's age is carried along with its score. A
+/// tracker's paths continue those it was seeded with, without reset. In a bank, each model has its own paths. Oracle:
+/// tracePath (age + 1 = steps of its path). For lines and pings alike.
 ///
-/// It begins at a checkpoint of the run, where no path's age is known; a path that was reset since then has one. While
-/// some that are asked for have none it begins again twice as far back. Cost: the detector's and several times that a
-/// frame, over at most twice the age of the oldest path asked for and an interval of checkpoints (ChainReplay). One
+/// It begins at a checkpoint of the run, where no path's age is known; a path that was reset since then has a known
+/// age. While requested ages are unknown it restarts twice as far back. Cost: the detector's and several times that per
+/// frame, over at most twice the age of the oldest requested path and an interval of checkpoints (ChainReplay). Use one
 /// object per thread.
 class LayerReplay
 {
@@ -56,7 +55,7 @@ public:
         Index end = std::numeric_limits<Index>::max();
     };
 
-    /// Frame 0 … count-1 (clamped), with the ages of those cells at least; valid until the next call. Throws Cancelled.
+    /// Frame 0 … count-1 (clamped), with the ages of at least these cells; valid until the next call. Throws Cancelled.
     const CellLayers &at(Index frame, const RunContext &context, const Cells &aged);
     const CellLayers &at(Index frame, const RunContext &context = {}) { return at(frame, context, {}); }
 
@@ -64,19 +63,19 @@ private:
     /// By the track's number, then the state.
     using TrackerAges = std::map<int, std::unordered_map<Index, std::int32_t>>;
     struct Ages {
-        std::vector<std::vector<std::int32_t>> states; ///< of each model
+        std::vector<std::vector<std::int32_t>> states; ///< for each model
         TrackerAges trackers;
-        Index since = 0; ///< frame that all paths have been followed from
+        Index since = 0; ///< frame from which all paths have been followed
 
         std::size_t bytes() const;
     };
-    /// Scores of all states on their way into the next frame, and the ages of the paths that have them.
+    /// Scores of all states in the step into the next frame, and the ages of their paths.
     struct Paths {
         std::vector<float> scores;
         std::vector<std::int32_t> ages;
     };
 
-    /// From `begin` or a checkpoint before it, unless it is on its way already.
+    /// Runs from `begin` or a checkpoint before it, unless it is already past that.
     void walk(Index begin, Index frame, const RunContext &context);
     void seek(Index frame);
     void forgetAges();
@@ -89,31 +88,31 @@ private:
     static void move(const MarkovModel &model, std::size_t axis, Index step, const Paths &from, Paths &to);
 
     ChainReplay m_replay;
-    Index m_now = -1; ///< frame that ages and layers belong to; -1: none
+    Index m_now = -1; ///< frame of the ages and layers; -1: none
     std::vector<MarkovModel> m_models;
     Ages m_ages;
     std::vector<std::vector<float>> m_before; ///< each model's scores before the step
     Paths m_paths;
     Paths m_moved;
     Index m_beginning = 0;
-    Checkpoints<Ages> m_checkpoints; ///< as the replay's own
+    Checkpoints<Ages> m_checkpoints; ///< parallel to those of the replay
     CellLayers m_layers;
 };
 
-/// A layer that can be looked at in the place of the statistic, or over it.
+/// A layer displayed instead of the statistic, or over it.
 enum class OutputLayer {
-    Statistic,  ///< none: D itself
-    Rate,       ///< winning rate along the first axis, its unit a second
-    SecondRate, ///< the same along the second one, of pings
+    Statistic,  ///< no layer: D itself
+    Rate,       ///< winning rate along the first axis, in its unit per second
+    SecondRate, ///< the same along the second one, for pings
     Age,        ///< path age since the last reset, s
     Reset,      ///< fraction of the cell's states that were reset
-    Inhibited   ///< 1 where the detector was kept from the data, else 0
+    Inhibited   ///< 1 where the detector was inhibited, else 0
 };
 inline constexpr std::array<std::string_view, 6> outputLayerNames{"statistic", "rate",  "bearing-rate",
                                                                   "age",       "reset", "inhibited"};
 
-/// What is looked at, in rows and columns, and how many of either the picture may have at most. Of a recording a row is
-/// a frame, a column a cell; of one ping a row is a cell of the first axis, a column one of the second.
+/// The displayed part in rows and columns, and the maximum number of either in the picture. For a recording a row is a
+/// frame and a column a cell; for one ping a row is a cell of the first axis, a column one of the second.
 struct LayerWindow {
     Index beginRow = 0, endRow = 0;
     Index beginColumn = 0, endColumn = 0;
@@ -121,14 +120,14 @@ struct LayerWindow {
     bool operator==(const LayerWindow &) const = default;
 };
 
-/// Layers of a window, made coarser where it has more rows or columns than the picture may have: a pixel stands for
-/// `perRow` × `perColumn` of them, counted from 0, and shows the values of the cell whose D is largest among them, so
-/// that a line of one bin survives. Inhibited: whether any of them is.
+/// Layers of a window, coarsened if it has more rows or columns than the picture may have: a pixel covers `perRow` ×
+/// `perColumn` of them, counted from 0, and shows the values of its cell with the largest D, so that a line one bin
+/// wide survives. Inhibited: whether any of them is.
 struct LayerPicture {
     Index perRow = 1, perColumn = 1;
     Index firstRow = 0, firstColumn = 0;
     Index rows = 0, columns = 0;
-    std::vector<float> statistic; ///< rows × columns, as those below
+    std::vector<float> statistic; ///< rows × columns, as the following
     std::vector<float> rate;
     std::vector<float> secondRate;
     std::vector<float> age;
@@ -136,22 +135,22 @@ struct LayerPicture {
     std::vector<float> inhibited;
 
     const std::vector<float> &values(OutputLayer layer) const;
-    /// The pixel that holds a row and column of the window, -1 outside of it.
+    /// The pixel that covers a row and column of the window; -1 outside it.
     Index pixelAt(Index row, Index column) const;
 };
 
 /// For lines: frames × cells.
 LayerPicture layerPicture(LayerReplay &replay, const LayerWindow &window, const RunContext &context = {});
-/// Of one ping. Precondition: the grid has two axes.
+/// For one ping. Precondition: the grid has two axes.
 LayerPicture layerPictureOf(LayerReplay &replay, Index ping, const LayerWindow &window, const RunContext &context = {});
 
-/// The largest rate along an axis, in its unit a second; of a bank, of all its models.
+/// The largest rate along an axis, in its unit per second; for a bank, over all its models.
 double largestRate(const Analysis &analysis, std::size_t axis);
 
-/// Of one cell.
+/// Values of one cell.
 struct CellReading {
     double ratePerSecond = 0.0;       ///< of its best state, along the first axis
-    double secondRatePerSecond = 0.0; ///< along the second one, where there is one
+    double secondRatePerSecond = 0.0; ///< along the second one, if there is one
     double ageSeconds = 0.0;
     bool isInhibited = false;
     double statistic = 0.0; ///< D

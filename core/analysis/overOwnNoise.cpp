@@ -13,13 +13,13 @@ namespace faintline {
 
 namespace {
 
-    /// ln Λ of n exponential cells with this mean, their own, against noise.
+    /// ln Λ against noise of n exponential cells with this mean.
     double evidence(double count, double mean)
     {
         return mean > 1.0 ? count * (mean - 1.0 - std::log(mean)) : 0.0;
     }
 
-    /// What overlap alone adds to the variance of means over many frames, as a ratio.
+    /// Factor by which overlap increases the variance of means over many frames.
     double overlapOf(const Spectrogram &spectrogram)
     {
         const SpectrogramSettings &settings = spectrogram.settings();
@@ -37,7 +37,7 @@ namespace {
         return strip;
     }
 
-    /// What is left of a track's evidence under the noise's own law, as a share.
+    /// Fraction of a track's evidence that remains under the noise's own law.
     double shareLeft(const PathStrip &strip, const OwnNoiseLaw &law)
     {
         double runs = 0.0;
@@ -71,7 +71,7 @@ void holdAgainstOwnNoise(Analysis &analysis, const RunContext &context)
     std::transform(tracks.begin(), tracks.end(), strips.begin(), stripOf);
     std::vector<PathStrip *> wanted(strips.size());
     std::transform(strips.begin(), strips.end(), wanted.begin(), [](PathStrip &strip) { return &strip; });
-    readStrips(analysis, std::move(wanted), context.part(0.5, 1.0), "holding tracks against the noise");
+    readStrips(analysis, std::move(wanted), context.part(0.5, 1.0), "testing tracks against the noise");
     for (std::size_t i = 0; i < tracks.size(); ++i) {
         const bool isKept =
             tracks[i].isSubtracted || tracks[i].peakStatistic * shareLeft(strips[i], law) >= analysis.threshold;

@@ -8,21 +8,21 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index fewestFrames = 128;
+    constexpr Index fewestFrames = 64;
     constexpr Index mostParts = 16;
     constexpr Index fewestCells = 40;         ///< of a part
     constexpr std::size_t fewestValues = 500; ///< of a part
     constexpr std::ptrdiff_t fewestBeyond = 60;
-    constexpr double alike = 4.0; ///< values that go for one, for windows and bins overlap
+    constexpr double alike = 4.0; ///< values that count as one, because windows and bins overlap
     constexpr double deviations = 3.0;
     constexpr double levelError = 0.03;
     constexpr float lowestSlope = 0.05f;
-    constexpr float highestPower = 5.0f; ///< of what runs are measured by
+    constexpr float highestPower = 5.0f; ///< limit of powers for measuring runs
     constexpr double runError = 0.05;
     constexpr Index fewestRuns = 60;
-    constexpr double leastNoise = 0.5; ///< of a part's cells, for runs to be its noise's
+    constexpr double leastNoise = 0.5; ///< fraction of a part's cells needed to measure runs
 
-    /// Sums of values one by one.
+    /// Running sums of values.
     struct Scatter {
         Index count = 0;
         double sum = 0.0;
@@ -37,7 +37,7 @@ namespace {
         double variance() const { return squares / double(count) - sum * sum / double(count) / double(count); }
     };
 
-    /// Means over `length` successive frames of a run, where all of them are noise.
+    /// Means over `length` successive frames of a run in which all values are noise.
     Scatter meansOf(const NoiseSample &sample, const std::vector<Index> &cells, Index length)
     {
         Scatter scatter;

@@ -8,9 +8,8 @@
 
 namespace faintline {
 
-/// Fills in strips of an analysis' frames, which know where they lie: y as the detector sees it, 0 where it is blind.
-/// One pass over the frames from the first strip to the last, in any order and number. Throws Cancelled. `what`: is
-/// being done, for the progress.
+/// Fills strips of an analysis's frames, whose positions are set, in any order and number, in one pass: y as the
+/// detector takes it, 0 in excluded cells. `what`: activity shown with the progress. Throws Cancelled.
 void readStrips(const Analysis &analysis, std::vector<PathStrip *> strips, const RunContext &context,
                 std::string_view what);
 

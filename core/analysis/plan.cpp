@@ -25,12 +25,12 @@ namespace {
             channel.background = estimateBackground(*spectrogram, settings, context);
             channel.frames = std::make_shared<NormalisedSpectrogram>(spectrogram, channel.background, settings);
         }
-        if (spectrogram->recording().info().sampleCount < endlessSamples) // whose samples can be looked at
+        if (spectrogram->recording().info().sampleCount < endlessSamples) // finished recordings only
             checkUsable(*spectrogram, *channel.background, context.part(1.0, 1.0));
         return channel;
     }
 
-    /// The same of another channel.
+    /// The same spectrogram for another channel.
     std::shared_ptr<const Spectrogram> ofChannel(const std::shared_ptr<const Spectrogram> &spectrogram, int channel)
     {
         SelectionSettings selection = spectrogram->selection();

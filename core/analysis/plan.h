@@ -5,16 +5,16 @@
 
 namespace faintline {
 
-/// Fills in frames and background of a plan with settings, of a spectrogram of its recording. Throws Error where
-/// nothing of it can be used, Cancelled.
+/// Sets frames and background of a plan with settings, from a spectrogram of its recording. Throws Error if no part of
+/// it is usable, Cancelled.
 void normalisePlan(AnalysisPlan &plan, std::shared_ptr<const Spectrogram> spectrogram, const RunContext &context = {});
 
-/// Fills in the model, its calibration and the threshold of a plan that has its frames.
+/// Sets the model, its calibration and the threshold of a plan that has its frames.
 void calibratePlan(AnalysisPlan &plan, const RunContext &context = {},
                    CalibrationDepth depth = CalibrationDepth::Refined);
 
-/// The frames of single lines that a family is looked for in, of all channels together; the plan's own where there is
-/// no family. Precondition: of a family, frames of a spectrogram.
+/// The frames of single lines, of all channels together, in which a family is searched for; without a family the plan's
+/// own frames. Precondition: for a family, frames of a spectrogram.
 NormalisedFramesPointer framesOfLines(const AnalysisPlan &plan);
 
 } // namespace faintline

@@ -47,11 +47,11 @@ namespace {
         return model;
     }
 
-    /// Parsons' chain with the constants that were found to do well (README of the core).
+    /// Parsons' chain with constants that proved useful (README of the core).
     AnalysisSettings sonarSettings()
     {
         AnalysisSettings sonar;
-        sonar.model = laws::billon(); // where slopes are chosen instead: two axes of fine ones would be 289 pairs
+        sonar.model = laws::billon(); // if slopes are selected instead: two axes of fine ones would have 289 pairs
         sonar.model.motion = Motion::Manoeuvring;
         sonar.model.likelihood = LikelihoodKind::Linear;
         sonar.detector = SmdSettings{SmdSettings::Reset::Mean, 0.0};

@@ -9,14 +9,14 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index settlingFrames = 128; ///< before what is shown
+    constexpr Index settlingFrames = 128; ///< before the displayed frames
     constexpr Index settlingPings = 16;   ///< the same of pings
-    constexpr Index averagedFrames = 48;  ///< of these, the last, whose ln K is taken
+    constexpr Index averagedFrames = 48;  ///< the last settling frames, over which ln K is averaged
     constexpr double settlingGain = 0.3;
     constexpr Index mostCells = 70'000'000;
     constexpr Index blockFrames = 64;
 
-    /// Blocks of frames, from memory where they are kept.
+    /// Blocks of frames, from memory if available.
     class Blocks
     {
     public:
@@ -39,7 +39,7 @@ namespace {
         std::vector<float> m_block;
     };
 
-    /// ln K with which half of the states go on, from the first frames of the range.
+    /// ln K with which half of the states continue, from the first frames of the range.
     double settledLnK(const MarkovModel &model, double lnK, const FrameRange &range, Blocks &blocks,
                       const RunContext &context)
     {

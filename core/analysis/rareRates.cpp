@@ -12,29 +12,30 @@ namespace faintline {
 
 namespace {
 
-    constexpr int streams = 16; ///< that the first level is looked for in
+    constexpr int streams = 16; ///< streams in which the first level is searched for
     constexpr int settlingFrames = 300;
     constexpr int quantileFrames = 2000; ///< of each stream, for the base and the first level
     constexpr double baseQuantile = 0.8;
     constexpr double firstQuantile = 0.96;
-    constexpr double pilotFraction = 0.2; ///< of them reach the next level
-    constexpr int longestTrial = 3000;    ///< frames; K so large that paths do not end has no rare excursions
-    constexpr int longestSearch = 20000;  ///< frames of a stream that the first level is entered in
+    constexpr double pilotFraction = 0.2; ///< fraction that reaches the next level
+    constexpr int longestTrial = 3000;    ///< frames; if K is so large that paths do not end, there are no rare
+                                          ///< excursions
+    constexpr int longestSearch = 20000;  ///< frames per stream until the first level is entered
     constexpr int mostEndless = 4;        ///< of the pilot trials
     constexpr int mostLevels = 60;
     constexpr int leastSuccesses = 10;
-    constexpr int replicates = 4; ///< independent runs, whose scatter tells what trials that share ancestors do not
-    constexpr double largestError = 0.5; ///< relative, of a rate that is believed
-    constexpr double deepEnough = 0.7;   ///< of leastLnRate, that has to be reached with this error
+    constexpr int replicates = 4;        ///< independent runs, whose scatter includes the effect of shared ancestors
+    constexpr double largestError = 0.5; ///< relative, of an accepted rate
+    constexpr double deepEnough = 0.7;   ///< fraction of leastLnRate that must be reached with this error
 
-    /// Noise and detector at one moment.
+    /// State of noise and detector at one moment.
     struct Particle {
         std::vector<float> noise;
         std::shared_ptr<const DetectorState> detector;
         double reached = 0.0; ///< largest D of the frame
     };
 
-    /// What goes from frame to frame: one a thread.
+    /// Noise and detector of one thread.
     class Walker
     {
     public:
@@ -44,7 +45,7 @@ namespace {
         {
         }
 
-        /// Largest D of the next frame.
+        /// Takes the next frame; returns its largest D.
         double step(Random &random)
         {
             m_noise->next(random, m_y);
@@ -151,7 +152,7 @@ namespace {
             m_level = quantileOf(all, firstQuantile);
         }
 
-        /// ln of the rate of cycles; fills the particles that enter the first level.
+        /// Computes ln of the rate of cycles and stores the particles that enter the first level.
         double enterFirstLevel()
         {
             const int wanted = (m_settings.entries + streams - 1) / streams;
@@ -187,8 +188,8 @@ namespace {
                                      : std::log(double(m_entered.size()) / (total * cells));
         }
 
-        /// From one of the entered states, with fresh noise, to the next level or back to the base; answers the highest
-        /// D, ∞ where there is no end to it.
+        /// Runs from one of the entered states, with new noise, to the next level or back to the base; returns the
+        /// highest D, or ∞ if it does not end.
         double walk(Walker &walker, Random &random, double next, std::optional<Particle> *outcome) const
         {
             const auto number =
@@ -250,7 +251,7 @@ namespace {
         RareRates m_result;
     };
 
-    /// The mean rate of independent runs, at the levels of the first as far as all of them reach.
+    /// The mean rate of independent runs, at those levels of the first that all of them reach.
     RareRates combined(const std::vector<RareRates> &runs)
     {
         RareRates result;
@@ -278,7 +279,7 @@ namespace {
         return result;
     }
 
-    /// Value at a level of what is known at levels, linear between and beyond them.
+    /// Interpolates values given at levels, and extrapolates linearly beyond them.
     double interpolated(const std::vector<double> &levels, const std::vector<double> &values, double level)
     {
         if (levels.size() == 1)
@@ -307,7 +308,7 @@ RareRates measureRareRates(const std::function<std::unique_ptr<Detector>()> &mak
                            const std::function<std::unique_ptr<NoiseStream>()> &makeNoise,
                            const SplittingSettings &settings, const RunContext &context)
 {
-    constexpr std::size_t mostBytes = std::size_t(64) << 20; // of all states that a level begins from
+    constexpr std::size_t mostBytes = std::size_t(64) << 20; // of all initial states of a level
     const auto state = makeDetector()->state();
     if (!state || state->bytes() * std::size_t(settings.entries) > mostBytes)
         return {};

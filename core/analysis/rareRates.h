@@ -12,27 +12,27 @@
 
 namespace faintline {
 
-/// How often a detector's statistic rises to a level, for levels that simulation alone would hardly ever reach.
+/// Rates at which a detector's statistic rises to levels that plain simulation would hardly ever reach.
 ///
 /// A *cycle* begins when the largest D of a frame exceeds the first level and ends when it falls below the base, a
 /// quantile of that maximum. The rate of cycles that reach level i is
 ///
 ///   rate(T₀)·Π p_i,   p_i the fraction of those that reached level i - 1
 ///
-/// by multilevel splitting: each level starts anew, with fresh noise, from states in which the one before was reached.
-/// A cycle that rises high is one event of the chain, so that ratios of rates are those of events wherever these are
-/// rare. Trials of a level share ancestors: the errors are those of four independent runs, or the binomial ones if
-/// these are larger. Where single cells carry an excursion (exponential likelihood far above its K) that is much, with
-/// Rice's it is not.
+/// by multilevel splitting: each level restarts, with new noise, from states in which the previous one was reached. A
+/// cycle that rises high is one event of the chain, so ratios of rates are those of events wherever these are rare.
+/// Trials of a level share ancestors: the errors are those of four independent runs, or the binomial ones if larger.
+/// They are large if single cells carry an excursion (exponential likelihood far above its K), but not with Rice's
+/// likelihood.
 /// Source: Kahn and Harris 1951; Au and Beck 2001. Oracles: Lindley's recursion in closed form for one slope;
 /// importance sampling with planted lines (tests/analysis/tst_rareRates).
 struct RareRates {
     std::vector<double> levels;         ///< ascending, in the statistic's own unit
-    std::vector<double> lnRates;        ///< ln of cycles per cell and frame that reach the level
-    std::vector<double> relativeErrors; ///< standard error of each of them
+    std::vector<double> lnRates;        ///< ln of the rate of cycles per cell and frame that reach the level
+    std::vector<double> relativeErrors; ///< standard error of each rate
 
     bool isEmpty() const { return levels.size() < 2; }
-    /// Interpolated between levels, continued with the last slope beyond the last one.
+    /// Interpolated between levels, extrapolated with the last slope beyond the last one.
     double lnRateAt(double level) const;
     double relativeErrorAt(double level) const;
 
@@ -40,15 +40,15 @@ struct RareRates {
 };
 
 struct SplittingSettings {
-    int entries = 1000;         ///< trials a level, of all runs together
-    int pilots = 200;           ///< trials of each run that tell where the next level is to lie
-    double leastLnRate = -25.0; ///< levels go on until cycles are as rare as this, per cell and frame
+    int entries = 1000;         ///< trials per level, over all runs
+    int pilots = 200;           ///< trials of each run that determine the next level
+    double leastLnRate = -25.0; ///< levels continue until cycles are as rare as this, per cell and frame
     std::uint64_t seed = 3000;
 };
 
-/// `makeDetector` and `makeNoise` are called once a thread. Results do not depend on the number of threads. Empty where
-/// the detector cannot tell its state, where that is too large, and where all trials soon descend from a few large
-/// cells, as those of a short window do (P out of N): the scatter of the runs exceeds a half before rates are rare.
+/// Calls `makeDetector` and `makeNoise` once per thread. Results do not depend on the number of threads. Empty if the
+/// detector cannot save its state, if the state is too large, or if all trials soon descend from a few large cells, as
+/// with short windows (P out of N): the scatter of the runs then exceeds a half before rates are rare.
 RareRates measureRareRates(const std::function<std::unique_ptr<Detector>()> &makeDetector,
                            const std::function<std::unique_ptr<NoiseStream>()> &makeNoise,
                            const SplittingSettings &settings, const RunContext &context = {});

@@ -16,25 +16,26 @@ namespace faintline {
 
 namespace {
 
-    constexpr std::string_view following = "following tracks both ways";
-    constexpr Index extraFrames = 16;         ///< before and behind a path that presence is looked for in
-    constexpr Index slopeFrames = 24;         ///< at either end of it, for where it may go on
-    constexpr Index largestGapFrames = 24;    ///< between two stretches of one signal
-    constexpr double levelCells = 0.75;       ///< where a signal's own maximum lies, on either side
-    constexpr float strongerThanNoise = 7.0f; ///< once in a thousand cells
-    constexpr double notchCells = 1.0;        ///< where a subtracted line leaves less than noise, on either side
+    constexpr std::string_view following = "refining tracks in both directions";
+    constexpr Index extraFrames = 16;         ///< before and after a path, in which presence is evaluated
+    constexpr Index slopeFrames = 24;         ///< at either end, for extrapolating it
+    constexpr Index largestGapFrames = 24;    ///< between stretches of one signal
+    constexpr double levelCells = 0.75;       ///< distance on either side within which a signal's own maximum lies
+    constexpr float strongerThanNoise = 7.0f; ///< probability on noise 1/1000
+    constexpr double notchCells = 1.0;        ///< distance on either side within which a subtracted line leaves less
+                                              ///< than noise
     constexpr Index skirtBins = 96;           ///< on either side of strong tracks
-    constexpr double strongGrowth = 2.0;      ///< nats a frame
-    constexpr double leastShare = 0.08;       ///< of a path's statistic, over the floor
-    constexpr Index longestPiece = 4096;      ///< frames of a track that are looked at together
-    constexpr Index pieceOverlap = 64;        ///< frames of the neighbouring pieces that are looked at too
-    constexpr std::size_t stripBytes = std::size_t(16) << 20; ///< that are read at a time
+    constexpr double strongGrowth = 2.0;      ///< nats per frame
+    constexpr double leastShare = 0.08;       ///< of a path's statistic, above the floor
+    constexpr Index longestPiece = 4096;      ///< frames of a track that are processed together
+    constexpr Index pieceOverlap = 64;        ///< frames of the neighbouring pieces that are also processed
+    constexpr std::size_t stripBytes = std::size_t(16) << 20; ///< read at a time
 
-    /// A track as it was found, or of a long one some thousand frames.
+    /// A track as detected, or a piece of a long one.
     struct Piece {
         const Track *track;
         std::size_t from; ///< points
-        std::size_t to;   ///< one behind the last
+        std::size_t to;   ///< one past the last
         PathStrip strip;
 
         bool isFirst() const { return from == 0; }
@@ -43,12 +44,12 @@ namespace {
 
     struct Stretch {
         Index from;      ///< frames of the piece's strip
-        Index to;        ///< one behind the last
-        double gain;     ///< of the found path's statistic, nat
-        double evidence; ///< of the mean path, nat
+        Index to;        ///< one past the last
+        double gain;     ///< gain of the path's statistic, nat
+        double evidence; ///< evidence of the mean path, nat
     };
 
-    /// What becomes of a stretch, or of several that the cuts between pieces had parted.
+    /// Result of a stretch, or of several that were separated by the cuts between pieces.
     struct Candidate {
         Track track;
         std::vector<ExplainedSignal> signals;
@@ -56,7 +57,7 @@ namespace {
         double evidence;
     };
 
-    /// Least-squares slope of so many points from `first` on, cells a frame.
+    /// Least-squares slope of `count` points from `first` on, cells per frame.
     double slopeOf(const std::vector<TrackPoint> &points, std::size_t first, std::size_t count)
     {
         const double middle = 0.5 * double(count - 1);
@@ -70,7 +71,7 @@ namespace {
         return square > 0.0 ? cross / square : 0.0;
     }
 
-    /// The point of a frame, or the nearest one.
+    /// The point at a frame, or the nearest one.
     const TrackPoint &pointAt(const Track &track, Index frame)
     {
         const Index first = track.points.front().frame;
@@ -137,8 +138,8 @@ namespace {
             }
         }
 
-        /// An empty strip around a piece of a path, which goes on for some frames at either end: as the track does, or
-        /// beyond its ends as it begins and ends.
+        /// An empty strip around a piece of a path, extended by some frames at either end: along the track, or beyond
+        /// its ends with its slope there.
         PathStrip stripRound(const Piece &piece) const
         {
             PathStrip strip;
@@ -168,7 +169,7 @@ namespace {
             return strip;
         }
 
-        /// Answers whether stronger tracks raise it at all.
+        /// Divides a strip by the floor of stronger tracks; returns whether they raise it.
         bool divideByFloor(PathStrip &strip) const
         {
             bool isRaised = false;
@@ -184,7 +185,8 @@ namespace {
             return isRaised;
         }
 
-        /// What a path's score loses where y is `less` instead, nat: the strongest bin counts, of three on its way.
+        /// Loss of a path's score, in nats, if y is replaced by `less`; the strongest of three bins along its way
+        /// counts.
         double lossAlongPath(const PathStrip &strip, const PathStrip &less) const
         {
             double loss = 0.0;
@@ -200,8 +202,8 @@ namespace {
             return loss;
         }
 
-        /// What it loses over what is beside it, of these levels: in a burst, a cloud or a hum a path is no signal of
-        /// its own.
+        /// Loss of score over the level of its surroundings: in a burst, a cloud or a hum a path is not a signal of its
+        /// own.
         double lossOver(const std::vector<double> &levels, const PathStrip &strip) const
         {
             PathStrip alone = strip;
@@ -211,7 +213,7 @@ namespace {
             return lossAlongPath(strip, alone);
         }
 
-        /// Where the levels beside a path are raised, as far as they were looked at.
+        /// Adds the areas in which the levels beside a path are raised, within the examined width.
         void addAreas(const PathStrip &strip, const std::vector<double> &levels)
         {
             const Index half = levelBesideHalfWidth(m_model.binsPerCell);
@@ -224,8 +226,8 @@ namespace {
             }
         }
 
-        /// Divides the strip by the floor; answers whether a line is left that the detector would still have found. Of
-        /// what is none, the areas it runs through are kept.
+        /// Divides the strip by the floor; returns whether a line remains that the detector would still have found.
+        /// Otherwise the areas through which it runs are stored.
         bool isLineOverFloor(const Track &track, PathStrip &strip)
         {
             const PathStrip before = strip;
@@ -240,7 +242,7 @@ namespace {
                     return false;
             }
             if (!m_analysis.settings.family.isNone())
-                return true; // beside a family lie its own members, one cell off
+                return true; // the family's own members lie one cell beside it
             const std::vector<double> levels = levelBeside(strip, m_model.binsPerCell);
             const double loss = lossOver(levels, strip);
             if (loss <= 0.0 || statistic - loss >= m_analysis.threshold)
@@ -264,7 +266,7 @@ namespace {
                 accept();
         }
 
-        /// What is left of a subtracted line, in frames where noise is not as strong, and its skirts.
+        /// Explains the remainder of a subtracted line, in frames where noise does not mask it, and its skirts.
         void explainRest(Piece &piece)
         {
             PathStrip &strip = piece.strip;
@@ -298,7 +300,7 @@ namespace {
             Track track = trackOf(piece, seen, stretch);
             ExplainedSignal signal = explain(piece.strip, seen, stretch);
             if (m_candidates.empty() || m_candidates.back().track.endFrame + 1 != track.onsetFrame) {
-                if (!piece.isLast()) { // it is going to be long: no room beyond that
+                if (!piece.isLast()) { // long: no room needed beyond that
                     track.points.reserve(piece.track->points.size() - piece.from + 2 * std::size_t(extraFrames));
                     track.smoothed.reserve(track.points.capacity());
                 }
@@ -315,7 +317,7 @@ namespace {
             before.evidence += stretch.evidence;
         }
 
-        /// Of a track's stretches the one whose gain is largest, and every other with enough evidence of its own.
+        /// Accepts the stretch of a track with the largest gain, and all others with sufficient evidence of their own.
         void accept()
         {
             const auto best = std::max_element(m_candidates.begin(), m_candidates.end(),
@@ -332,7 +334,7 @@ namespace {
             m_candidates.clear();
         }
 
-        /// The stretches of a piece, without what its neighbours will tell.
+        /// The stretches of a piece, without those that its neighbours give.
         std::vector<Stretch> stretchesOf(const Piece &piece, const BothWays &seen) const
         {
             const std::vector<TrackPoint> &points = piece.track->points;
@@ -403,8 +405,8 @@ namespace {
             return signal;
         }
 
-        /// What lies beside the path in units of its level, the lower of both sides, falling outwards; as far as it is
-        /// significant. Nearer than `nearest` it is as there.
+        /// Power beside the path in units of its level, the lower of both sides, decreasing outward, as far as it is
+        /// significant. Nearer than `nearest` it is constant.
         static std::vector<float> skirtOf(const PathStrip &strip, const ExplainedSignal &signal, Index from,
                                           Index first, Index nearest = 0)
         {
@@ -444,7 +446,7 @@ namespace {
         const Spectrogram &m_spectrogram;
         Explanations m_explanations;
         BothWaysModel m_model;
-        std::vector<Candidate> m_candidates; ///< of the track that is being looked at
+        std::vector<Candidate> m_candidates; ///< for the current track
         std::vector<Track> m_tracks;
         std::vector<Area> m_areas;
     };

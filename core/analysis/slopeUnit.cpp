@@ -12,7 +12,7 @@ namespace {
             return 0.0;
         const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 3.0);
         const double digits = std::round(value / unit);
-        // 10⁻ⁿ is no double: a whole number over 10ⁿ reads back as it was written
+        // 10⁻ⁿ has no exact double; an integer divided by 10ⁿ reads back as written
         return unit < 1.0 ? digits / std::round(1.0 / unit) : digits * std::round(unit);
     }
 
@@ -28,7 +28,7 @@ ModelSettings withSlopesIn(SlopeUnit unit, ModelSettings model, double hzPerSeco
 {
     if (model.slopeUnit == unit)
         return model;
-    constexpr double isOnTheSet = 0.01; // four digits of Hz/s come back to the slope they were made of
+    constexpr double isOnTheSet = 0.01; // four digits of Hz/s convert back to the original slope
     model.slopeUnit = unit;
     if (unit == SlopeUnit::HzPerSecond) {
         model.lowestSlope = fourDigits(model.lowestSlope * hzPerSecond);

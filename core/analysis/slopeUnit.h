@@ -6,18 +6,17 @@
 
 namespace faintline {
 
-/// How many Hz/s a slope of one bin a frame is where a recording is cut so: bin width over time from frame to frame,
-/// about k_t/(k_f·T_FT²).
-/// Of harmonics: of their fundamental's bins.
+/// Slope in Hz/s of one bin per frame for a recording with these settings: bin width over frame interval, about
+/// k_t/(k_f·T_FT²). For harmonics: in bins of their fundamental.
 double hzPerSecondOfABinAFrame(const AnalysisSettings &settings, const RecordingInfo &info);
 
-/// The same slopes in another unit. `hzPerSecond`: of one bin a frame. In bins a frame they lie on the set of multiples
-/// of 1/slopesPerBin, taken outwards, so that what may occur is among them; in Hz/s they have four digits.
+/// Converts slopes to another unit. `hzPerSecond`: one bin per frame. In bins per frame they are rounded outward to
+/// multiples of 1/slopesPerBin, so that the specified range is covered; in Hz/s they have four digits.
 ModelSettings withSlopesIn(SlopeUnit unit, ModelSettings model, double hzPerSecond);
 
-/// The settings with slopes in bins a frame, as all that computes with them wants them: unchanged where they are so.
+/// The settings with slopes in bins per frame, as computations need them; unchanged if they already are.
 AnalysisSettings withSlopesInBins(AnalysisSettings settings, const RecordingInfo &info);
-/// The same for frames that are there already, along the last axis.
+/// The same for ready-made frames, along the last axis.
 AnalysisSettings withSlopesInBins(AnalysisSettings settings, const NormalisedFrames &frames);
 
 } // namespace faintline

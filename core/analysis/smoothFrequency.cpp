@@ -15,11 +15,11 @@ namespace faintline {
 
 namespace {
 
-    constexpr double usualFrames = 32.0; ///< of the period that is halved
+    constexpr double usualFrames = 32.0; ///< period that is halved
     constexpr double fewestFrames = 2.0;
     constexpr double mostFrames = 4096.0;
 
-    /// What a track says of each of its frames.
+    /// Frequencies and weights of a track's frames.
     struct Samples {
         Eigen::VectorXd hz;
         Eigen::VectorXd weights;
@@ -40,7 +40,7 @@ namespace {
         return samples;
     }
 
-    /// The straight line of least squares, which costs no stiffness: without it rounding errors stay small beside f.
+    /// Removes the least-squares straight line, which the smoother does not change, to reduce rounding errors.
     Eigen::VectorXd straightLine(const Samples &samples)
     {
         const Eigen::Index n = samples.hz.size();
@@ -76,7 +76,7 @@ namespace {
         return line + Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(matrix).solve(right);
     }
 
-    /// As it begins and ends, for so many frames more at either end.
+    /// Extends the curve by `beyond` frames at either end with its slope there.
     std::vector<double> extended(const Eigen::VectorXd &hz, Index beyond)
     {
         const Eigen::Index last = hz.size() - 1;

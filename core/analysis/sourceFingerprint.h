@@ -4,8 +4,8 @@
 
 namespace faintline {
 
-/// Stands for the sources of all that a calibration can depend on: another text, other sources. Defined in a file that
-/// the build writes (cmake/fingerprint.cmake).
+/// Identifies the sources on which a calibration can depend: it changes when they do. Defined in a file that the build
+/// writes (cmake/fingerprint.cmake).
 std::string_view sourceFingerprint();
 
 } // namespace faintline

@@ -18,7 +18,7 @@ namespace {
         return std::clamp<Index>(Index(std::llround(time.position(seconds))), 0, time.count - 1);
     }
 
-    /// Frames of an analysis as what the level asks for.
+    /// Reads frames of an analysis in the unit of the level.
     class Reader
     {
     public:
@@ -46,7 +46,7 @@ namespace {
         }
 
     private:
-        NormalisedFramesPointer m_frames; ///< of single lines, also where a family is looked for
+        NormalisedFramesPointer m_frames; ///< of single lines, also for a family
         const Spectrogram *m_spectrogram;
         double m_unit = 1.0;
         std::vector<float> m_values;

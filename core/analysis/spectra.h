@@ -7,13 +7,13 @@
 
 namespace faintline {
 
-/// What the values of a spectrum are.
+/// Quantity of a spectrum's values.
 enum class SpectrumLevel {
     OverNoise, ///< y: power over the noise's mean power
     Density    ///< power per Hz, of samples whose full scale is 1; one-sided for real samples
 };
 
-/// One frame, and the mean of many, along the last axis of frames on one axis; where a family is looked for, along the
+/// Spectra of one frame and of the mean of many, along the last axis of frames on one axis; for a family, along the
 /// frequencies of its members.
 struct Spectra {
     std::vector<double> position; ///< Hz
@@ -21,14 +21,14 @@ struct Spectra {
     std::vector<double> mean;
 };
 
-/// From … to, both included.
+/// An interval that includes both ends.
 struct TimeSpan {
     double fromSeconds = 0.0;
     double toSeconds = 0.0;
 };
 
-/// The frame nearest to `seconds`, and the mean over `time`: of all its frames, or of 400 that lie evenly in it. What
-/// was not observed is left out of the mean and NaN in a frame. A density needs a recording (`spectrogram()`).
+/// The frame nearest to `seconds`, and the mean over `time`: of all its frames, or of 400 evenly spread ones. Values
+/// that were not observed are omitted from the mean and NaN in a frame. A density needs a recording (`spectrogram()`).
 ///
 ///   density = y·4^e/f_s for complex samples, twice that for real ones;  e = scaleExponent
 ///

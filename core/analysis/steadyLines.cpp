@@ -10,10 +10,10 @@ namespace faintline {
 
 namespace {
 
-    constexpr double mostWander = 0.1;    ///< of a line that stands still, cells a frame
-    constexpr double nearCells = 2.0;     ///< of the longer window
-    constexpr double mostExplained = 0.5; ///< of the frames of what is not found yet
-    constexpr double leastFollowed = 0.8; ///< of the frames of a piece of it
+    constexpr double mostWander = 0.1;    ///< of a steady line, cells per frame
+    constexpr double nearCells = 2.0;     ///< in cells of the longer window
+    constexpr double mostExplained = 0.5; ///< of the frames of a line that is not found yet
+    constexpr double leastFollowed = 0.8; ///< of the frames of a piece
 
     const Axis &frequencyOf(const Analysis &analysis)
     {
@@ -44,13 +44,13 @@ namespace {
         return steps > 0.0 && way <= mostWander * cellHz(analysis) * steps;
     }
 
-    /// The tracks of two windows side by side.
+    /// Comparison of the tracks of two windows.
     class Comparison
     {
     public:
         Comparison(const Analysis &chosen, const Analysis &longer) : m_chosen(chosen), m_longer(longer) {}
 
-        /// Of the chosen window's tracks, whether each follows this one, which is on the chosen window's frames.
+        /// For each track of the chosen window, whether it follows this one (on the chosen window's frames).
         std::vector<bool> followers(const Track &line) const
         {
             std::vector<bool> result;
@@ -59,7 +59,7 @@ namespace {
             return result;
         }
 
-        /// Whether the longer window's track is on none of the chosen window's, but for those that follow it.
+        /// Whether the longer window's track lies on none of the chosen window's tracks, except followers.
         bool isMissed(const Track &track, const std::vector<bool> &followers) const
         {
             double explained = 0.0;
@@ -69,12 +69,12 @@ namespace {
             return explained <= mostExplained * double(track.points.size());
         }
 
-        /// The track on the chosen window's frames.
+        /// Converts the track to the chosen window's frames.
         Track onChosenFrames(const Track &track) const
         {
             const double shift = m_chosen.threshold - m_longer.threshold;
             Track result = track;
-            result.isSubtracted = false; // the longer window's; what is shown is the chosen one's
+            result.isSubtracted = false; // refers to the longer window, but the display shows the chosen one
             result.windowSeconds = m_longer.frames->spectrogram()->windowSeconds();
             result.onsetFrame = frameOf(track.onsetFrame);
             result.detectFrame = frameOf(track.detectFrame);
@@ -96,7 +96,7 @@ namespace {
     private:
         struct Place {
             double statistic;
-            SmoothedPoint point; ///< in the longer window's cells and power
+            SmoothedPoint point; ///< in cells and power of the longer window
         };
 
         bool follows(const Track &track, const Track &line) const
@@ -115,7 +115,7 @@ namespace {
             return near >= leastFollowed * double(track.points.size());
         }
 
-        /// Whether a track of the chosen window, but for the followers, is near within the time of the longer one.
+        /// Whether a track of the chosen window, other than a follower, is near within the time of the longer window.
         bool isExplained(double seconds, double hz, const std::vector<bool> &followers) const
         {
             for (std::size_t i = 0; i < m_chosen.tracks.size(); ++i)
@@ -157,7 +157,7 @@ namespace {
             return m_chosen.time().nearest(m_longer.time().value(double(longerFrame)));
         }
 
-        /// At a fractional point of a track, by linear interpolation.
+        /// Interpolates linearly at a fractional point of a track.
         static Place between(const Track &track, double at)
         {
             const auto i = std::size_t(at);
@@ -188,7 +188,7 @@ namespace {
         const Analysis &m_longer;
     };
 
-    /// Whether none of the followers is known better by the chosen window.
+    /// Whether no follower is measured better by the chosen window.
     bool isBetterKnown(const Track &line, const std::vector<Track> &tracks, const std::vector<bool> &followers)
     {
         for (std::size_t i = 0; i < tracks.size(); ++i)

@@ -4,7 +4,7 @@
 
 namespace faintline {
 
-/// The statistic from which on a track is about a hundred times rarer on noise than ordered, nat: 3.3 above the
+/// The statistic, in nats, above which a track is about a hundred times rarer on noise than specified: 3.3 above the
 /// threshold, ln 100 over a typical slope of the tail.
 inline double sureStatistic(const Analysis &analysis)
 {

@@ -12,7 +12,7 @@ void checkUsable(const Spectrogram &spectrogram, const NoiseBackground &backgrou
     const auto isSilent = [](float ln) { return ln <= 0.5f * NoiseBackground::silence; };
     if (!std::all_of(background.lnPower.begin(), background.lnPower.end(), isSilent))
         return;
-    // The background looks at a long recording here and there only.
+    // The background only samples a long recording.
     constexpr Index blockSamples = 1 << 16;
     const Recording &recording = spectrogram.recording();
     const int channel = spectrogram.selection().channel;
@@ -21,7 +21,7 @@ void checkUsable(const Spectrogram &spectrogram, const NoiseBackground &backgrou
     const Index before = recording.nonFiniteCount();
     std::vector<float> samples(std::size_t(blockSamples * recording.info().floatsPerSample()));
     for (Index at = first; at < end; at += blockSamples) {
-        context.checkpoint(0.0, "looking for usable samples");
+        context.checkpoint(0.0, "checking for usable samples");
         recording.read(channel, at, std::min(blockSamples, end - at), samples);
         const auto used = samples.begin() + std::min(blockSamples, end - at) * recording.info().floatsPerSample();
         if (std::any_of(samples.begin(), used, [](float value) { return value != 0.0f; }))

@@ -6,9 +6,9 @@
 
 namespace faintline {
 
-/// Throws Error, one sentence that says why, where the part of a recording that a spectrogram looks at holds no sample
-/// that could be used: all are 0, below what single precision holds, or not finite. Cost: nothing where the background
-/// heard anything, else one reading.
+/// Throws Error with a one-sentence reason if a spectrogram's part of a recording holds no usable sample: all are 0,
+/// below the range of single precision, or not finite. Costs nothing if the background found any power, else one
+/// reading.
 void checkUsable(const Spectrogram &spectrogram, const NoiseBackground &background, const RunContext &context = {});
 
 } // namespace faintline

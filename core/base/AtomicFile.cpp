@@ -24,7 +24,7 @@ namespace {
         return std::strerror(code);
     }
 
-    /// The file a name stands for: through links, so that they stay links.
+    /// Resolves links, so that they remain links.
     std::string target(const std::string &path)
     {
         namespace fs = std::filesystem;
@@ -46,7 +46,7 @@ namespace {
 
     thread_local CommitTogether *together = nullptr;
 
-    /// What a file's temporary neighbours begin with: its name, or as much of it as leaves room for their ending.
+    /// Common prefix of a file's temporary files: its name, shortened to leave room for the suffix.
     std::string beginningOf(const std::string &path)
     {
         constexpr std::size_t most = 200;
@@ -67,7 +67,7 @@ namespace {
                && middle.find_first_not_of("0123456789-") == std::string_view::npos;
     }
 
-    /// Whoever writes one keeps it locked; a killed program's locks are gone.
+    /// A writer keeps its file locked; locks of a killed program are released.
     void removeAbandoned(const std::string &path)
     {
         namespace fs = std::filesystem;
@@ -86,8 +86,8 @@ namespace {
         }
     }
 
-    /// A name that a folder was given is on the disk only when the folder is. Where it cannot be opened or has no such
-    /// thing, so be it.
+    /// A rename is only durable once the folder is written. Ignored if the folder cannot be opened or does not support
+    /// it.
     void syncFolder(const std::string &path)
     {
         namespace fs = std::filesystem;
@@ -114,7 +114,7 @@ AtomicFile::AtomicFile(AtomicFile &&other) noexcept
     : m_path(std::move(other.m_path)), m_temporaryPath(std::move(other.m_temporaryPath)),
       m_durability(other.m_durability), m_descriptor(std::exchange(other.m_descriptor, -1))
 {
-    other.m_path = m_path; // it may be asked for after the commit
+    other.m_path = m_path; // still needed after the commit
 }
 
 void AtomicFile::makeTemporaryFile(const std::string &path)
@@ -131,7 +131,7 @@ void AtomicFile::makeTemporaryFile(const std::string &path)
         struct stat status = {};
         if (!isLocked
             || (::fstat(m_descriptor, &status) == 0
-                && status.st_nlink == 0)) { // taken for abandoned before it was locked
+                && status.st_nlink == 0)) { // removed as abandoned before it was locked
             ::close(m_descriptor);
             m_descriptor = -1;
         }
@@ -162,7 +162,7 @@ void AtomicFile::write(std::span<const std::byte> bytes)
 void AtomicFile::commit()
 {
     if (m_durability == Durability::Machine && ::fsync(m_descriptor) != 0
-        && errno != EINVAL) // a disk may turn out to be full here
+        && errno != EINVAL) // a full disk may be reported here
         throw Error(m_path, "cannot be written: " + systemMessage(errno), Error::Kind::Failure);
     if (!together)
         return rename();

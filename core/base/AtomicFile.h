@@ -9,16 +9,16 @@
 
 namespace faintline {
 
-/// What a file that was written survives: a crash of the program only, or of the machine as well, which takes some
+/// What a written file survives: a crash of the program, or a crash of the machine as well, which takes some
 /// milliseconds.
 enum class Durability { Program, Machine };
 
 /// A file that appears under its name only when it is complete.
 ///
-/// Bytes go to a temporary neighbour in the same folder; `commit` renames it over the wanted name. Without a commit
-/// (cancelled, an exception) nothing is left behind and what stood there before is untouched; what a killed program
-/// left is removed by the next that writes the same file. Throws Error where the folder is missing, may not be written,
-/// or the disk is full.
+/// Bytes go to a temporary file in the same folder; `commit` renames it to the final name. Without a commit
+/// (cancellation, an exception) the temporary file is removed and the existing file stays untouched. A temporary file
+/// left by a killed program is removed by the next program that writes the same file. Throws Error if the folder is
+/// missing or not writable, or the disk is full.
 class AtomicFile
 {
 public:
@@ -27,9 +27,9 @@ public:
     AtomicFile(const AtomicFile &) = delete;
     AtomicFile &operator=(const AtomicFile &) = delete;
 
-    /// Where the bytes go until the commit, for writers that want a descriptor.
+    /// File descriptor of the temporary file, valid until the commit.
     int descriptor() const { return m_descriptor; }
-    /// The same for writers that want a name.
+    /// Name of the temporary file.
     const std::string &temporaryPath() const { return m_temporaryPath; }
     const std::string &path() const { return m_path; }
 
@@ -51,9 +51,9 @@ private:
     int m_descriptor = -1;
 };
 
-/// As long as one lives, files that this thread commits are complete but do not appear; `commit` lets all of them, in
-/// that order, one right after the other. Without it none does. So that a result is never there without what tells how
-/// it was made: that one is committed before it.
+/// Defers the files that this thread commits: they are complete but do not appear until `commit` renames all of them in
+/// the order of their commits. Without `commit` none appears. A result can thus never appear without its provenance,
+/// which is committed before it.
 class CommitTogether
 {
 public:
@@ -70,7 +70,7 @@ private:
     std::vector<std::unique_ptr<AtomicFile>> m_files;
 };
 
-/// Writes a whole text under a name, or nothing.
+/// Writes a whole text file, or nothing.
 void writeTextFile(const std::string &path, std::string_view text, Durability durability = Durability::Machine);
 
 } // namespace faintline

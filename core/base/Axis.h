@@ -11,7 +11,7 @@ using Index = std::ptrdiff_t;
 /// One sampled dimension: index i ↔ physical value first + i·step (unit as named).
 ///
 /// A cyclic axis wraps: the cell after the last one is the first one (a sonar's bearings).
-/// Every conversion between indices and physical values in the program goes through here.
+/// All conversions between indices and physical values go through this class.
 struct Axis {
     std::string name;
     std::string unit;
@@ -28,7 +28,7 @@ struct Axis {
     /// Index of the nearest cell: wrapped on a cyclic axis, clamped to 0 … count-1 otherwise; 0 for NaN.
     Index nearest(double value) const;
 
-    /// An index brought into 0 … count-1 by wrapping, or -1 if it lies off a bounded axis.
+    /// Wraps an index into 0 … count-1; returns -1 if it lies off a bounded axis.
     Index wrapped(Index index) const
     {
         if (index >= 0 && index < count)

@@ -9,31 +9,30 @@
 
 namespace faintline {
 
-/// States of something that goes from frame to frame, at even distances, within a byte budget that counts what they
-/// really take.
+/// States of a frame-by-frame process, evenly spaced, within a budget of bytes actually used.
 ///
-/// A state is kept under the frame that comes next. Where the budget is exceeded every second one is dropped and the
-/// interval doubles, so that the distances stay even and what is kept never grows with the number of frames. At least
-/// one state is kept.
+/// A state is stored under the number of the next frame. When the budget is exceeded, every second state is dropped and
+/// the interval doubles, so that spacing stays even and memory does not grow with the number of frames. At least one
+/// state is kept.
 template <class State>
 class Checkpoints
 {
 public:
     using Pointer = std::shared_ptr<const State>;
 
-    Checkpoints() = default; ///< none are kept
+    Checkpoints() = default; ///< keeps none
     Checkpoints(Index interval, std::size_t byteBudget) : m_interval(interval), m_budget(byteBudget) {}
 
-    /// Frames between two of them, as things stand.
+    /// Current number of frames between two states.
     Index interval() const { return m_interval; }
     std::size_t bytes() const { return m_bytes; }
     bool isEmpty() const { return m_states.empty(); }
     std::size_t count() const { return m_states.size(); }
 
-    /// Whether the state before that frame is to be kept and is not known yet.
+    /// Whether the state before `frame` should be kept and is not stored yet.
     bool lacks(Index frame) const { return frame > 0 && frame % m_interval == 0 && !m_states.contains(frame); }
 
-    /// Keeps, or replaces, the state before that frame; `bytes`: what it takes.
+    /// Stores or replaces the state before `frame`, which takes `bytes` bytes.
     void keep(Index frame, Pointer state, std::size_t bytes)
     {
         drop(m_states.find(frame));
@@ -46,14 +45,14 @@ public:
         }
     }
 
-    /// The state kept before exactly that frame; null: none.
+    /// The state stored before exactly `frame`, or null.
     Pointer at(Index frame) const
     {
         const auto found = m_states.find(frame);
         return found == m_states.end() ? Pointer() : found->second.state;
     }
 
-    /// The latest frame, up to that one, whose state is kept; 0: none.
+    /// The latest frame ≤ `frame` whose state is stored, or 0.
     Index latest(Index frame) const
     {
         const auto after = m_states.upper_bound(frame);

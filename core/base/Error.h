@@ -5,13 +5,13 @@
 
 namespace faintline {
 
-/// A refusal a user can act on: what went wrong, where, and why or what would be accepted instead.
+/// An error the user can act on: what went wrong, where, and why, or what would be accepted.
 ///
 /// Thrown at edges only (opening, parsing, checking settings). Shown as one line, `where: why`.
 class Error : public std::runtime_error
 {
 public:
-    /// Mistake: the user can put it right (exit code 2). Failure: the machine's doing (exit code 1).
+    /// Mistake: the user can correct it (exit code 2). Failure: caused by the machine (exit code 1).
     enum class Kind { Mistake, Failure };
 
     Error(std::string where, std::string why, Kind kind = Kind::Mistake)
@@ -23,7 +23,7 @@ public:
     const std::string &why() const { return m_why; }
     Kind kind() const { return m_kind; }
 
-    /// The name of the setting or member that is wrong, as its table has it; empty where it is none. Forms mark it.
+    /// Name of the invalid setting or member, as in its table, which forms mark; empty if the error concerns none.
     const std::string &field() const { return m_field; }
     Error ofField(std::string name) const
     {
@@ -32,7 +32,7 @@ public:
         return error;
     }
 
-    /// The same, farther away: `place: where: why`.
+    /// The same error with an outer location: `place: where: why`.
     Error in(const std::string &place) const { return Error(place + ": " + m_where, m_why, m_kind).ofField(m_field); }
 
 private:
@@ -42,7 +42,7 @@ private:
     std::string m_field;
 };
 
-/// Thrown by a long computation whose RunContext was asked to stop; its partial results are discarded.
+/// Thrown by a long computation that was asked to stop through its RunContext; partial results are discarded.
 class Cancelled : public std::exception
 {
 public:

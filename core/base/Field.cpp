@@ -38,7 +38,7 @@ namespace {
         return std::nullopt;
     }
 
-    /// A number, or a fraction of two: "1/3".
+    /// A number or a quotient: "1/3".
     std::optional<double> parseQuotient(std::string_view text)
     {
         const std::size_t slash = text.find('/');

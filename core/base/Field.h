@@ -12,12 +12,12 @@
 
 namespace faintline {
 
-/// What a setting can hold. Enumerations travel as their name.
+/// Value of a setting. Enumerations are given by name.
 using FieldValue = std::variant<bool, int, double, std::string, std::vector<double>>;
 
 enum class FieldKind { Flag, Integer, Number, Choice, Numbers };
 
-/// What is known of one setting without an object that holds it: drives forms, documentation, checks, JSON.
+/// Describes one setting independently of the object that holds it; used by forms, documentation, checks and JSON.
 struct FieldInfo {
     std::string name; ///< "spectrogram.windowSeconds"
     std::string unit; ///< "s"; "" without a unit
@@ -25,37 +25,37 @@ struct FieldInfo {
     double maximum = 0.0;
     std::string sentence;
     std::vector<std::string> choices; ///< names of an enumeration's values
-    std::string wordForAll;           ///< of Numbers: what stands for -1 alone, such as "all"; "" where nothing does
+    std::string wordForAll;           ///< for Numbers: word for the single value -1, such as "all"; "" if there is none
     FieldKind kind = FieldKind::Number;
 };
 
-/// One setting of the struct S. `get` answers nothing where S does not hold it now (another detector is chosen).
+/// One setting of the struct S. `get` returns nothing if S does not currently hold it (another detector is chosen).
 template <class S>
 struct Field : FieldInfo {
     std::function<std::optional<FieldValue>(const S &)> get;
     std::function<void(S &, const FieldValue &)> set;
 };
 
-/// Text → value of the field's kind, checked against its range.
+/// Converts text to a value of the field's kind and checks its range.
 /// Throws Error naming the field, the text, and what would be accepted.
 FieldValue parseFieldValue(const FieldInfo &info, std::string_view text);
 
 /// Checks a value against the field's range or choices; throws Error.
 void checkFieldValue(const FieldInfo &info, const FieldValue &value);
 
-/// A value of a field refused: "NAME = VALUE: WHY", and the field for forms to mark.
+/// Error for an invalid value: "NAME = VALUE: WHY". It also carries the field name, which forms mark.
 Error fieldError(const std::string &name, const std::string &value, std::string why);
 
 /// Shortest text that reads back as the same value, in the C locale.
 std::string formatFieldValue(const FieldValue &value);
 
-/// The same with the field's own word, if it has one for that value.
+/// The same, but uses the field's own word if it has one for this value.
 std::string formatFieldValue(const FieldInfo &info, const FieldValue &value);
 
 /// Shortest decimal form of a number that reads back the same.
 std::string formatNumber(double value);
 
-/// A number from the whole of a text, in the C locale; nothing if it is not a number.
+/// Converts the whole text to a number, in the C locale; returns nothing if it is not a number.
 std::optional<double> parseNumber(std::string_view text);
 
 // ---- making tables -------------------------------------------------------------------------------------------------
@@ -76,7 +76,7 @@ Field<S> field(T S::*member, std::string name, std::string unit, double minimum,
     else if constexpr (std::is_same_v<T, std::vector<double>>)
         result.kind = FieldKind::Numbers;
     else
-        static_assert(!sizeof(T), "this kind of member needs a maker of its own");
+        static_assert(!sizeof(T), "no field() overload for members of this type");
     result.get = [member](const S &s) -> std::optional<FieldValue> { return s.*member; };
     result.set = [member](S &s, const FieldValue &value) { s.*member = std::get<T>(value); };
     return result;
@@ -94,7 +94,7 @@ Field<S> field(bool S::*member, std::string name, std::string sentence)
     return result;
 }
 
-/// An enumeration whose values 0, 1, … bear the given names.
+/// An enumeration whose values 0, 1, … have the given names.
 template <class S, class E>
 requires std::is_enum_v<E> Field<S> field(E S::*member, std::string name, std::span<const std::string_view> names,
                                           std::string sentence)
@@ -115,8 +115,8 @@ requires std::is_enum_v<E> Field<S> field(E S::*member, std::string name, std::s
     return result;
 }
 
-/// A struct's table seen from the struct that contains it: names get a prefix, access goes through `reach`,
-/// a function from Outer (const or not) to a pointer to Inner, null where it is not held.
+/// Table of an inner struct, seen from the struct that contains it. Names get a prefix. `reach` maps Outer (const or
+/// not) to a pointer to Inner, null if Outer does not hold one.
 template <class Outer, class Inner, class Reach>
 std::vector<Field<Outer>> within(const std::string &prefix, const std::vector<Field<Inner>> &fields, Reach reach)
 {

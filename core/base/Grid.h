@@ -6,7 +6,7 @@
 
 namespace faintline {
 
-/// The product of axes a frame lies on, slowest axis first, the last one contiguous in memory.
+/// The product of axes on which a frame lies: slowest axis first, the last one contiguous in memory.
 ///
 /// A spectrogram frame lies on one axis (frequency), a sonar ping on two (range, bearing), a radar scan on four.
 struct Grid {
@@ -14,19 +14,19 @@ struct Grid {
 
     Index size() const;
 
-    /// Whether a frame is a spectrum, its cells on one axis; if not, it is a ping or a scan, on several.
+    /// Whether a frame is a spectrum (one axis) rather than a ping or a scan (several axes).
     bool isSpectrum() const { return axes.size() == 1; }
 
-    /// Distance in memory between neighbours along one axis.
+    /// Memory stride between neighbouring cells along one axis.
     Index stride(std::size_t axis) const;
 
     /// Coordinates of a flat cell index, one per axis.
     std::vector<Index> coordinates(Index cell) const;
 
-    /// Where a cell lies, in the units of the axes.
+    /// Position of a cell in the units of the axes.
     std::vector<double> position(Index cell) const;
 
-    /// Flat index of coordinates, or -1 where one of them lies off a bounded axis.
+    /// Flat index of coordinates, or -1 if any of them lies off a bounded axis.
     Index cell(const std::vector<Index> &coordinates) const;
 
     bool operator==(const Grid &) const = default;

@@ -28,7 +28,7 @@ Interruption::Interruption(std::chrono::milliseconds patience) : m_patience(pati
 {
     const sigset_t signals = bothSignals();
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-    // A small stack, whatever the usual size is: all of it counts where addresses are limited.
+    // A small stack, because all of it counts towards a limited address space.
     pthread_attr_t attributes;
     pthread_attr_init(&attributes);
     pthread_attr_setstacksize(&attributes, std::size_t(256) << 10);
@@ -51,7 +51,7 @@ Interruption::~Interruption()
         m_isOver = true;
     }
     m_ended.notify_all();
-    pthread_kill(m_thread, SIGTERM); // wakes it where it waits for a signal
+    pthread_kill(m_thread, SIGTERM); // wakes it from waiting for a signal
     pthread_join(m_thread, nullptr);
 }
 

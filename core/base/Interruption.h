@@ -9,12 +9,11 @@
 
 namespace faintline {
 
-/// Ctrl+C and SIGTERM, from its construction on: they ask what runs to stop. What has not stopped within the patience
-/// (it waits for a pipe, it reads something large) is ended all the same, with exit code 1, after what is half-written
-/// was removed.
+/// Handles Ctrl+C and SIGTERM: requests running work to stop. If the program has not ended after the patience time (for
+/// example while it waits for a pipe or a large read), removes half-written files and exits with code 1.
 ///
-/// Construct it before any other thread is started: those that come later leave the two signals to the one that waits
-/// for them here. Where there is no room for that one, they end the program as they do by themselves.
+/// Construct it before starting any thread: later threads leave both signals to the thread that waits for them here. If
+/// that thread cannot be started, the signals end the program in their usual way.
 class Interruption
 {
 public:

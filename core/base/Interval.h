@@ -13,13 +13,14 @@ struct Interval {
     bool operator==(const Interval &) const = default;
 };
 
-/// Interval of a probability, from `successes` in `trials` independent trials (Wilson 1927): never empty, within 0 … 1.
+/// Wilson interval of a probability from `successes` in `trials` independent trials (Wilson 1927): never empty, within
+/// 0 … 1.
 Interval wilsonInterval(std::int64_t successes, std::int64_t trials);
 
-/// Interval of a Poisson mean from one count, exact (Garwood 1936, by χ² quantiles).
+/// Exact interval of a Poisson mean from one count (Garwood 1936, by χ² quantiles).
 Interval poissonInterval(std::int64_t count);
 
-/// Interval of a mean, from its standard error: ± 1.96 errors.
+/// Interval of a mean: ± 1.96 standard errors.
 Interval normalInterval(double mean, double standardError);
 
 } // namespace faintline

@@ -10,9 +10,8 @@
 
 namespace faintline {
 
-/// Memory for arrays of many planes, of which an inner loop goes through a piece each: with pages of 4 KiB every piece
-/// would cost the search for its page as well. From a few MiB on the system is asked for pages of 2 MiB; it may
-/// decline.
+/// Allocator for arrays of many planes of which an inner loop reads a piece each; with pages of 4 KiB every piece would
+/// cost a TLB miss. Arrays of a few MiB or more ask the system for pages of 2 MiB, which it may decline.
 template <class T>
 struct HugePageAllocator {
     using value_type = T;

@@ -2,12 +2,12 @@
 
 namespace faintline {
 
-/// Several lambdas as one, for std::visit: the one that fits is called.
+/// Combines several lambdas into one visitor for std::visit.
 template <class... F>
 struct Overloaded : F... {
     using F::operator()...;
 };
 template <class... F>
-Overloaded(F...) -> Overloaded<F...>; // clang 14 does not find it by itself
+Overloaded(F...) -> Overloaded<F...>; // clang 14 does not deduce it
 
 } // namespace faintline

@@ -14,7 +14,7 @@ namespace faintline {
 
 namespace {
 
-    /// Names a block of four words: the key and the counter of Philox.
+    /// Identifies a block of four words by key and counter of Philox.
     struct BlockNumber {
         std::uint64_t seed;
         std::uint64_t stream;
@@ -74,7 +74,7 @@ namespace {
     FAINTLINE_MULTIVERSION
     void exponentialsFromWords(const std::uint32_t *words, std::size_t blocks, float *out)
     {
-        // The words of a block stay neighbours, so that a request may be cut anywhere between blocks.
+        // The words of a block stay adjacent, so that a request may be cut anywhere between blocks.
         for (std::size_t i = 0; i < blocks; ++i)
             for (std::size_t j = 0; j < 4; ++j) {
                 const auto half = std::int32_t(words[j * lanes + i] >> 1);

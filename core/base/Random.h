@@ -8,9 +8,9 @@ namespace faintline {
 
 /// A counter-based random stream (Philox 4×32-10 of Salmon et al. 2011, through Random123).
 ///
-/// A stream is named by (seed, stream); its n-th number is a pure function of (seed, stream, n). Trials that own a
-/// stream each are therefore independent of thread count, order and shard, and every one of them can be re-made alone.
-/// Not thread-safe: one object per thread.
+/// (seed, stream) identifies a stream; its n-th number is a pure function of (seed, stream, n). Trials with a stream
+/// each are therefore independent of thread count, order and shard, and each can be repeated alone. Not thread-safe:
+/// use one object per thread.
 class Random
 {
 public:
@@ -27,11 +27,11 @@ public:
     /// Exponential of mean 1.
     double exponential();
 
-    /// Fills with independent normals of the given standard deviation: the fast way to make noise.
+    /// Fills with independent normals of the given standard deviation; the fast way to generate noise.
     ///
-    /// Box-Muller in float, four normals from each block of four words; starts at the next whole block and takes
-    /// ⌈n/4⌉ of them, so cutting a request at multiples of 4 changes nothing. |value| ≤ 6.7 deviations. Same bytes on
-    /// every instruction set and thread.
+    /// Box-Muller in float, four normals from each block of four words. Starts at the next whole block and takes ⌈n/4⌉
+    /// of them, so cutting a request at multiples of 4 changes nothing. |value| ≤ 6.7 deviations. The bytes are the
+    /// same on every instruction set and thread.
     void normals(std::span<float> out, float deviation);
 
     /// Fills with independent exponentials of mean 1, one from each word, by the same rules as `normals`; each ≤ 22.2.

@@ -8,12 +8,12 @@
 
 namespace faintline {
 
-/// What a long computation is given besides its inputs: when to stop, whom to tell, how many threads to use.
+/// Context of a long computation: stop request, progress callback, number of threads.
 ///
-/// Nothing in here may change a byte of a result.
+/// It must not change a byte of a result.
 struct RunContext {
     std::stop_token stop;
-    /// Called now and then from the computing thread with a fraction in 0 … 1 and what is being done.
+    /// Called now and then from the computing thread with a fraction in 0 … 1 and the current activity.
     std::function<void(double fraction, std::string_view what)> progress;
     int threads = 1;
 
@@ -26,7 +26,7 @@ struct RunContext {
             progress(fraction, what);
     }
 
-    /// The same context, its progress mapped to the part [from, to] of the whole.
+    /// The same context with progress mapped to the part [from, to] of the whole.
     RunContext part(double from, double to) const
     {
         RunContext inner = *this;

@@ -4,8 +4,8 @@
 
 namespace faintline {
 
-/// Part `index` of `count` of a computation on numbered items: those with number ≡ index (mod count). The indices 0 and
-/// count are the same part.
+/// Part `index` of `count` of a computation on numbered items: those with number ≡ index (mod count). Indices 0 and
+/// count denote the same part.
 struct Shard {
     int index = 0;
     int count = 1;

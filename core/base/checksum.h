@@ -5,8 +5,8 @@
 
 namespace faintline {
 
-/// 64-bit FNV-1a as sixteen hexadecimal digits: tells what was cut short, mixed up or changed by hand, and names files.
-/// Nobody who means to deceive is kept from it; where that matters, SHA-256 is in recording/fileHash.h.
+/// 64-bit FNV-1a as sixteen hexadecimal digits. Names files and detects truncation, mix-ups and manual changes. It does
+/// not protect against deliberate forgery; use SHA-256 (recording/fileHash.h) for that.
 std::string checksum(std::string_view text);
 
 } // namespace faintline

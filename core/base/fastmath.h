@@ -5,7 +5,7 @@
 
 namespace faintline {
 
-/// Branch-free float functions for inner loops that the compiler turns into vector code.
+/// Branch-free float functions that the compiler can vectorise in inner loops.
 ///
 /// Only +, -, ·, comparisons and integer operations, so every instruction set gives the same bits. Relative error below
 /// 2e-7. Polynomials: Moshier, Cephes (logf, expf, sinf, cosf).
@@ -31,7 +31,7 @@ inline float fastLn(float x)
     return (m + tail) + 0.693359375f * e; // ln 2 in two parts
 }
 
-/// eˣ, x held within -87 … 88 so that the result is a normal number; NaN stays what it is.
+/// eˣ with x clamped to -87 … 88, so that the result is a normal number; NaN gives NaN.
 inline float fastExp(float x)
 {
     x = x < -87.0f ? -87.0f : x;
@@ -46,7 +46,7 @@ inline float fastExp(float x)
     p = p * r + 1.6666665459e-1f;
     p = p * r + 5.0000001201e-1f;
     const float mantissa = (p * (r * r) + r) + 1.0f;
-    const float power = n == n ? n : 0.0f; // no integer stands for NaN
+    const float power = n == n ? n : 0.0f; // NaN has no integer value
     return mantissa * std::bit_cast<float>((std::int32_t(power) + 127) << 23);
 }
 
@@ -65,7 +65,7 @@ inline SineCosine fastSineCosineOctant(float angle)
     return {sine, cosine};
 }
 
-/// Exchanges two numbers where `one` is 1, not where it is 0; in integers, because compilers like to branch otherwise.
+/// Swaps two numbers if `one` is 1. It uses integers because compilers tend to branch otherwise.
 inline void swapIf(std::uint32_t one, float &a, float &b)
 {
     const std::uint32_t difference = (std::bit_cast<std::uint32_t>(a) ^ std::bit_cast<std::uint32_t>(b)) & (0u - one);

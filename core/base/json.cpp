@@ -25,13 +25,13 @@ namespace {
         return "line " + std::to_string(line) + ", column " + std::to_string(before.size() - lineStart + 1);
     }
 
-    /// Builds a value as the library's own parser does, in a time that grows with the text's length only: objects may
-    /// have so many keys, each of which is looked for among the others. (The library's call-backs look through a whole
+    /// Builds a value like the library's own parser, but in time linear in the length of the text: objects have a
+    /// limited number of keys, each of which is searched among the others. (The library's call-backs search a whole
     /// list for each of its members.)
     class BoundedParser : public nlohmann::detail::json_sax_dom_parser<Json>
     {
         using Base = nlohmann::detail::json_sax_dom_parser<Json>;
-        static constexpr std::size_t deepest = 100; // what goes through a value calls itself for every level
+        static constexpr std::size_t deepest = 100; // values are processed recursively
         static constexpr int mostKeys = 1000;
 
     public:
@@ -77,10 +77,10 @@ namespace {
         }
 
         const std::string &m_where;
-        std::vector<int> m_keys; ///< of each level
+        std::vector<int> m_keys; ///< for each level
     };
 
-    /// A value in an error message. Never the inside of an array or object, which may be long.
+    /// A value in an error message, without the contents of arrays and objects, which may be long.
     std::string shown(const Json &value)
     {
         if (value.is_structured())

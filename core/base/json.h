@@ -12,32 +12,31 @@
 
 namespace faintline {
 
-/// JSON whose keys keep the order in which they were written.
+/// JSON that keeps the order of its keys.
 using Json = nlohmann::ordered_json;
 
-/// Text → JSON, of at most 100 levels and 1000 keys an object; throws Error{where, line and column and what is wrong}.
+/// Parses JSON of at most 100 levels and 1000 keys per object; throws Error{where, line, column and cause}.
 Json parseJson(std::string_view text, const std::string &where);
 
-/// The JSON in a file of at most 64 MiB; throws Error naming the file.
+/// Reads JSON from a file of at most 64 MiB; throws Error naming the file.
 Json readJsonFile(const std::string &path);
 
-/// Checks that a value is an object that holds no key but the known ones; throws Error naming the key and the known
-/// ones.
+/// Checks that a value is an object with known keys only; throws Error naming the key and the known ones.
 void checkKeys(const Json &object, const std::string &where, const std::vector<std::string> &known);
 
-/// One setting's value from JSON, checked against its kind and range; throws Error.
+/// Converts JSON to a setting's value and checks its kind and range; throws Error.
 FieldValue fieldValueFromJson(const Json &value, const FieldInfo &info);
 
 Json jsonFromFieldValue(const FieldValue &value);
 
-/// `where` and a key as one name: "lines[2].snrDb".
+/// Joins `where` and a key to one name: "lines[2].snrDb".
 inline std::string jsonName(const std::string &where, const std::string &key)
 {
     return where.empty() ? key : where + "." + key;
 }
 
-/// Sets those members of a struct that a JSON object has keys for. Keys in neither the table nor `otherKeys`, values of
-/// the wrong kind or out of range throw Error naming `where.key`.
+/// Sets the members of a struct for which a JSON object has keys. Throws Error naming `where.key` for keys in neither
+/// the table nor `otherKeys`, and for values of the wrong kind or out of range.
 template <class S>
 void readFields(const Json &object, const std::vector<Field<S>> &fields, S &settings, const std::string &where = {},
                 std::initializer_list<const char *> otherKeys = {})
@@ -56,7 +55,7 @@ void readFields(const Json &object, const std::vector<Field<S>> &fields, S &sett
     }
 }
 
-/// Checks every member of a struct against its range; throws Error naming `where.member`.
+/// Checks each member of a struct against its range; throws Error naming `where.member`.
 template <class S>
 void checkFields(const S &settings, const std::vector<Field<S>> &fields, const std::string &where = {})
 {

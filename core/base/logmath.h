@@ -8,7 +8,7 @@ namespace faintline {
 
 constexpr double minusInfinity = -std::numeric_limits<double>::infinity();
 
-/// Power ratio ↔ decibel, the only place in the program where they meet.
+/// Conversion between power ratio and decibels; used throughout the program.
 inline double dbFromRatio(double powerRatio)
 {
     return 10.0 * std::log10(powerRatio);

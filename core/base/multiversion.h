@@ -2,7 +2,7 @@
 
 #include <type_traits>
 
-/// Compiles a hot loop once per instruction set and picks one when the program starts.
+/// Compiles a hot loop for several instruction sets and selects one when the program starts.
 ///
 /// Contraction into fused multiply-add is off for the whole core, so every version gives the same bits.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)                  \
@@ -15,8 +15,7 @@
 
 namespace faintline {
 
-/// As many values as `bytes` hold, for loops that are written in vectors; loaded from and stored to wherever a Value
-/// may lie.
+/// SIMD vector of `bytes` bytes. The unaligned type loads from and stores to any address of a Value.
 template <class Value, int bytes>
 struct Vector {
     typedef Value Type __attribute__((vector_size(bytes)));
@@ -24,7 +23,8 @@ struct Vector {
     static constexpr int lanes = bytes / int(sizeof(Value));
 };
 
-/// Bytes of the widest vectors to use: 64 with AVX-512, 32 with AVX2, else 16; fewer if FAINTLINE_VECTOR_BYTES says so.
+/// Width of the widest vectors to use, in bytes: 64 with AVX-512, 32 with AVX2, else 16; limited by
+/// FAINTLINE_VECTOR_BYTES.
 int vectorBytes();
 
 #ifdef FAINTLINE_HAS_VERSIONS
@@ -43,8 +43,8 @@ template <class Body>
 
 #endif
 
-/// body(bytes), compiled for each instruction set, with its widest vectors: the compiler takes wider ones apart value
-/// by value. The body and what it calls are always inlined.
+/// Calls body(bytes), compiled for each instruction set, with its widest vectors, because the compiler splits wider
+/// ones into single values. The body and what it calls are always inlined.
 template <class Body>
 inline auto withVectors(const Body &body)
 {

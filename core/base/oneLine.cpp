@@ -25,9 +25,9 @@ std::size_t characterLength(std::string_view text, std::size_t at)
 
 namespace {
 
-    /// What a terminal takes for a command, or what makes text read in another order than it is in: C0 and C1, the
-    /// marks, embeddings, overrides and isolates of bidirectional text, and the two ends of a line or paragraph. Of two
-    /// or three bytes.
+    /// Control characters for terminals, and characters that change the order of text: C0 and C1, the marks,
+    /// embeddings, overrides and isolates of bidirectional text, and the line and paragraph separators. They have up to
+    /// three bytes.
     bool isControl(std::string_view character)
     {
         const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(character[i]); };
@@ -48,7 +48,7 @@ namespace {
         return first == std::string::npos ? std::string() : text.substr(first, text.find_last_not_of(' ') - first + 1);
     }
 
-    /// The beginning of a character at or before a byte.
+    /// Start of a character at or before a byte.
     std::size_t boundary(const std::string &text, std::size_t at)
     {
         while (at > 0 && (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80)

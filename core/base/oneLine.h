@@ -5,15 +5,14 @@
 
 namespace faintline {
 
-/// On one line and valid UTF-8, without tabs and other control characters, those of bidirectional text included: what
-/// goes into a row of a table, into a message, to a terminal or onto a label. Of more than `mostBytes` the middle is
-/// left out, "…".
+/// Converts text to one line of valid UTF-8 without tabs and other control characters, including bidirectional ones,
+/// for table rows, messages, terminals and labels. If it is longer than `mostBytes`, its middle is replaced by "…".
 std::string oneLine(const std::string &text, std::size_t mostBytes = std::string::npos);
 
-/// Bytes of the UTF-8 character that begins there; 0 where none does.
+/// Length in bytes of the UTF-8 character that begins at `at`; 0 if none does.
 std::size_t characterLength(std::string_view text, std::size_t at);
 
-/// As long as a message may be, whatever is in the file that it tells of.
+/// Maximum length of a message in bytes, whatever a file contains.
 constexpr std::size_t longestMessage = 1000;
 
 } // namespace faintline

@@ -15,7 +15,7 @@ namespace faintline {
 
 namespace {
 
-    /// Looks for `isSo` for as long as waking a thread takes, before its caller goes to sleep.
+    /// Polls a condition for about the time that waking a thread takes, before the caller goes to sleep.
     template <class Condition>
     void lookFor(Condition isSo)
     {
@@ -24,11 +24,11 @@ namespace {
             std::this_thread::yield();
     }
 
-    /// Threads that wait for work from one loop to the next: a loop of a millisecond is shorter than a thread's making.
+    /// Threads that are reused between loops, because a short loop takes less time than starting a thread.
     class Helpers
     {
     public:
-        /// Work that up to `wanted` helpers may join as long as its loop lasts.
+        /// Work that up to `wanted` helpers may join while its loop runs.
         struct Job {
             std::function<void()> work;
             Index wanted;
@@ -50,12 +50,12 @@ namespace {
                 while (std::ssize(m_threads) < job.wanted)
                     m_threads.emplace_back([this](const std::stop_token &stop) { help(stop); });
             } catch (const std::system_error &) {
-                // As many as the machine gives; whoever offers work does it without any.
+                // Use the threads that exist; the caller can also work alone.
             }
             m_offered.notify_all();
         }
 
-        /// Nobody joins any more; returns when those who did are through.
+        /// Closes the job to further helpers and waits for those that joined.
         void end(Job &job)
         {
             {
@@ -93,7 +93,7 @@ namespace {
         std::condition_variable m_left;
         std::list<Job *> m_jobs;
         std::atomic<Index> m_wanted = 0;     ///< by all jobs
-        std::vector<std::jthread> m_threads; // last: they stop before the rest goes
+        std::vector<std::jthread> m_threads; // last, so that they stop before the other members are destroyed
     };
 
 } // namespace

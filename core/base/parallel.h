@@ -8,14 +8,14 @@
 
 namespace faintline {
 
-/// Does work item 0 … count-1, each exactly once, on up to context.threads threads, and returns when all are done.
+/// Processes work items 0 … count-1, each exactly once, on up to context.threads threads, and returns when all are
+/// done.
 ///
-/// Each thread asks `makeWorker` once for what it works with (a detector, scratch memory) and calls the answer with the
-/// numbers of the items it takes. Which thread takes which item is not defined: an item must write to its own place
-/// only and draw its random numbers from its own stream; then results do not depend on the number of threads. The other
-/// threads are kept from one call to the next; within a call of another they may all be busy, then the caller works
-/// alone. Reports progress from the calling thread. The first exception of any item ends the rest and is thrown; so is
-/// Cancelled.
+/// Each thread calls `makeWorker` once, for example to create a detector and scratch memory, and then calls the
+/// returned function with the numbers of its items. The assignment of items to threads is not defined. If each item
+/// writes to its own place only and uses its own random stream, results do not depend on the number of threads. Threads
+/// are reused between calls; in a nested call all may be busy, and the caller then works alone. Reports progress from
+/// the calling thread. The first exception of any item, or Cancelled, ends the rest and is rethrown.
 void parallelFor(Index count, const RunContext &context, std::string_view what,
                  const std::function<std::function<void(Index)>()> &makeWorker);
 

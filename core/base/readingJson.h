@@ -6,11 +6,11 @@
 
 namespace faintline {
 
-/// What the JSON library says where a value is missing or of another kind, without the name of its exception.
+/// The JSON library's message about a missing value or a wrong type, without the exception's name.
 std::string complaint(const Json::exception &error);
 
-/// Calls `read`, which takes a JSON value apart with at(), value() and get(). What it does not find there, or finds to
-/// be of another kind, becomes an Error that says where.
+/// Calls `read`, which accesses JSON through at(), value() and get(). If a value is missing or has the wrong type,
+/// throws an Error that names the place.
 template <class Read>
 auto readingJson(const std::string &where, const Read &read)
 {

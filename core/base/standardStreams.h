@@ -2,13 +2,12 @@
 
 namespace faintline {
 
-/// Opens what of standard input, output and error is closed, as nothing: otherwise the next file that is opened takes
-/// its number, and what is meant for a terminal ends up in a result. What was closed stays unwritable or silent. Call
-/// it before anything is opened.
+/// Opens closed standard streams on the null device. Otherwise the next opened file would take their descriptor, and
+/// terminal output would end up in a result. Streams that were closed stay unwritable or silent. Call it before any
+/// file is opened.
 void openStandardStreams();
 
-/// Sends out what standard output still holds; false where any of it could not be written, be it a full disk or a
-/// closed descriptor.
+/// Flushes standard output; returns false if any of it could not be written (disk full, descriptor closed).
 bool flushStandardOutput();
 
 } // namespace faintline

@@ -37,7 +37,7 @@ void forgetTemporary(const std::string &path)
 
 void removeTemporaries()
 {
-    known().guard.lock(); // and never unlocks
+    known().guard.lock(); // never unlocked
     for (const std::string &path : known().paths) {
         std::error_code ignored;
         std::filesystem::remove_all(path, ignored);

@@ -5,17 +5,17 @@
 
 namespace faintline {
 
-/// What is on disk only while something is being made: half-written files, and folders of a replay. Whoever makes one
-/// says so here, so that a program that has to end at once can take them with it.
+/// Register of temporary files and folders (half-written files, replay folders), so that a program that must end at
+/// once can remove them.
 
-/// Makes something temporary, of which `make` tells the path; an empty one is nothing. Nothing is made any more once
-/// all were removed.
+/// Creates a temporary through `make`, which returns its path, or an empty path if it created nothing. Creates nothing
+/// once all temporaries were removed.
 void makeTemporary(const std::function<std::string()> &make);
 
-/// It is gone, or has become a result.
+/// Removes a path from the register, because it was deleted or became a result.
 void forgetTemporary(const std::string &path);
 
-/// Removes all temporaries. The program must end after it: later attempts to create one block.
+/// Removes all temporaries. The program must end afterwards: later attempts to create one block.
 void removeTemporaries();
 
 } // namespace faintline

@@ -12,7 +12,7 @@ namespace faintline {
 
 namespace {
 
-    /// Takes `digits` decimal digits off the front of a text.
+    /// Removes `digits` decimal digits from the front of a text.
     std::optional<int> takeDigits(std::string_view &text, std::size_t digits)
     {
         int value = 0;

@@ -6,11 +6,11 @@
 
 namespace faintline {
 
-/// Seconds since 1970-01-01T00:00:00 UTC of an ISO 8601 date and time ("2024-07-26T00:00:00.25Z", "… +02:00"; a space
-/// may stand for the T, no zone means UTC); nothing if the text is not a time.
+/// Converts an ISO 8601 date and time ("2024-07-26T00:00:00.25Z", "… +02:00") to seconds since 1970-01-01T00:00:00 UTC.
+/// A space may replace the T; without a zone the time is UTC. Returns nothing if the text is not a time.
 std::optional<double> parseUtc(std::string_view text);
 
-/// ISO 8601, to the microsecond, trailing zeros of the fraction left out: "2024-07-26T00:00:00.25Z".
+/// Formats a time as ISO 8601, to the microsecond, without trailing zeros of the fraction: "2024-07-26T00:00:00.25Z".
 std::string formatUtc(double unixSeconds);
 
 struct TimeOfDay {
@@ -19,7 +19,7 @@ struct TimeOfDay {
     double second = 0.0;
 };
 
-/// Seconds since 1970-01-01 of a calendar date and time; nothing if there is no such day or time.
+/// Seconds since 1970-01-01 of a calendar date and time; nothing if they do not exist.
 std::optional<double> unixSeconds(int year, int month, int day, const TimeOfDay &time = {});
 
 } // namespace faintline

@@ -11,7 +11,7 @@
 
 namespace faintline {
 
-/// A number that is whole and that the type can hold, which the library's own conversion does not look at; throws Error
+/// Reads an integer and checks that it is whole and fits the type, which the JSON library does not do; throws Error
 /// naming `where`.
 template <std::integral T>
 T wholeNumber(const Json &value, const std::string &where)
@@ -27,7 +27,7 @@ T wholeNumber(const Json &value, const std::string &where)
                            + std::to_string(std::numeric_limits<T>::max()));
 }
 
-/// The same of what an object holds under a key, or what is given where it holds nothing there.
+/// Reads the integer under `key` of an object, or returns `otherwise` if the key is missing.
 template <std::integral T>
 T wholeNumber(const Json &object, const std::string &where, const char *key, T otherwise)
 {

@@ -9,7 +9,7 @@ namespace {
 
     using Moves = std::vector<KinematicAxis::Move>;
 
-    /// An axis that never moves and loses no probability needs no step of its own.
+    /// An axis that never moves and loses no probability needs no step.
     bool isIdentity(const Moves &moves)
     {
         return std::all_of(moves.begin(), moves.end(), [](const KinematicAxis::Move &m) {
@@ -30,9 +30,9 @@ namespace {
         return step;
     }
 
-    /// Where a later axis stands among the others.
+    /// Position of a later axis among the others.
     struct Standing {
-        Index inner;  ///< cells of the axes after it
+        Index inner;  ///< cells of the following axes
         Index before; ///< rate combinations within a group: of the later axes before this one …
         Index after;  ///< … and after it
     };
@@ -102,7 +102,7 @@ void shiftCells(const AxisStep<typename Semiring::Real> &step, Index cells,
     const Index size = std::ssize(plane);
     const Index period = step.cells * step.inner;
     const Index by = std::clamp(cells, -step.cells, step.cells) * step.inner;
-    // As if all blocks were one; then what that got wrong at their ends.
+    // Copy as if all blocks were one, then correct the ends of the blocks.
     if (by > 0)
         std::copy_n(from, size - by, to + by);
     else

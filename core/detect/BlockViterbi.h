@@ -8,7 +8,7 @@
 
 namespace faintline {
 
-/// The length of the window of fixed-window detection.
+/// Window length of fixed-window detection.
 struct BlockViterbiSettings {
     double durationWindows = 50.0; ///< in windows of the spectrogram (frames on ready-made frames)
 
@@ -16,21 +16,21 @@ struct BlockViterbiSettings {
     bool operator==(const BlockViterbiSettings &) const = default;
 };
 
-/// Fixed-window hidden-Markov-model detection: today's Viterbi line searches, block after block.
+/// Fixed-window hidden-Markov-model detection: conventional Viterbi line search, block after block.
 ///
 ///   u(n, t0) = λ(n, t0),   u(n, t) = λ(n, t) + max_m [ ln P(n|m) + u(m, t-1) ],   t0 < t < t0 + B
 ///
-/// The recursion of the sequential Markov detector without reset, begun afresh every B frames. The decision falls at a
-/// block's end: D = max over a cell's rates there, and -∞ in the frames between, which decide nothing. Source: Billon
-/// 2005 section 2. Oracle: enumeration of all paths of a block.
+/// The recursion of the sequential Markov detector without reset, restarted every B frames. The decision is made at a
+/// block's end: D = max over a cell's rates there, and -∞ in the frames between. Source: Billon 2005 section 2. Oracle:
+/// enumeration of all paths of a block.
 class BlockViterbi final : public Detector
 {
 public:
-    /// `phase`: how many frames of a block have gone by before the first one, whose block is shorter by as many.
+    /// `phase`: number of frames of the first block that precede the first frame; this block is shorter by as many.
     BlockViterbi(const MarkovModel &model, Index framesPerBlock, Index phase = 0);
 
     void update(std::span<const float> y, std::span<float> statistic) override;
-    /// The cells' paths so far begin again with no evidence.
+    /// Restarts the cells' paths without evidence.
     void forget(const Grid &grid, const CellBox &box) override { m_smd.forget(grid, box); }
     void useThreads(int threads) override { m_smd.useThreads(threads); }
 

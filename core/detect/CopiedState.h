@@ -6,8 +6,8 @@
 
 namespace faintline {
 
-/// A detector's state as a copy of the detector, for those whose members are all values. D::bytes() says what one
-/// takes.
+/// Stores a detector's state as a copy of the detector, for detectors with value members only. D::bytes() gives its
+/// size.
 template <class D>
 struct CopiedState final : DetectorState {
     explicit CopiedState(const D &copied) : detector(copied) {}

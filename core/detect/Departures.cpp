@@ -115,7 +115,7 @@ void Departures<Semiring>::apply(const OfRates &d, Index step, std::span<Real> s
 {
     const auto &phase = d.phases[std::size_t(step % std::ssize(d.phases))];
     const Index block = d.cells * d.inner;
-    const auto forRuns = [&](Index rate, Index cell, auto &&visit) { // of every plane of a rate, the values of a cell
+    const auto forRuns = [&](Index rate, Index cell, auto &&visit) { // the values of a cell in each plane of a rate
         for (Index plane = rate * d.after; plane < m_planeCount; plane += d.rates * d.after)
             for (Index each = plane; each < plane + d.after; ++each)
                 for (Index first = each * m_planeSize + cell * d.inner; first < (each + 1) * m_planeSize;

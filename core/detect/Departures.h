@@ -9,11 +9,11 @@
 
 namespace faintline {
 
-/// What of a step differs from cell to cell, ⊗-joined to the scores before the axes' moves.
+/// The part of a step that differs from cell to cell, ⊗-joined to the scores before the axes' moves.
 ///
-/// P of a renormalised axis is (departure of the source) ⊗ (law of the displacement), and the departures of one axis do
-/// not mind the moves of another. With rates a departure belongs to a rate and a cell, and scores of a rate with no way
-/// on are first ⊕-joined to those it turns to. A full matrix is applied whole.
+/// P of a renormalised axis is (departure of the source) ⊗ (law of the displacement), and the departures of one axis
+/// are independent of the moves of another. With rates, a departure belongs to a rate and a cell, and scores of a rate
+/// without a move are first ⊕-joined to those of the rate that replaces it. A full matrix is applied as a whole.
 template <class Semiring>
 class Departures
 {
@@ -25,24 +25,24 @@ public:
     /// Whether the law is the same in all cells.
     bool areNone() const { return m_ofCells.empty() && m_ofRates.empty() && m_matrices.empty(); }
 
-    /// The scores from which the axes' moves of step number `step` go on; the same memory where the law is the same in
-    /// all cells, else valid until the next call.
+    /// The scores to which the axes' moves of step number `step` apply: the same memory if the law is the same in all
+    /// cells, else valid until the next call.
     std::span<const Real> apply(std::span<const Real> scores, Index step);
 
 private:
-    /// An axis with a full matrix; inner: cells of the axes after it.
+    /// An axis with a full matrix; inner: cells of the following axes.
     struct Matrix {
         Index cells;
         Index inner;
         std::vector<Real> weights; ///< from × to
     };
 
-    /// What a renormalised axis with rates does to the scores before its step. after: planes that share the rates up to
+    /// Effect of a renormalised axis with rates on the scores before its step. after: planes that share the rates up to
     /// this axis.
     struct OfRates {
         struct Turn {
             Index cell;
-            Index count; ///< cells from there on
+            Index count; ///< cells from `cell` on
             Index fromRate;
             Index toRate;
         };
@@ -50,9 +50,9 @@ private:
         Index inner;
         Index rates;
         Index after;
-        Index edge; ///< cells at either end with departures of their own; those between share one
+        Index edge; ///< cells at either end with their own departures; the cells between share one
         struct Phase {
-            /// Of every rate: the cells of the low end, one between them, those of the high end.
+            /// For each rate: the cells of the low end, one between them, those of the high end.
             std::vector<Real> weights;
             std::vector<Turn> turns;
         };
@@ -71,7 +71,7 @@ private:
     double m_transitionScale;
     Index m_planeSize;
     Index m_planeCount;
-    std::vector<Real> m_ofCells; ///< of every cell, without rates
+    std::vector<Real> m_ofCells; ///< for each cell, without rates
     std::vector<OfRates> m_ofRates;
     std::vector<Matrix> m_matrices;
     std::vector<Real> m_scores;

@@ -9,53 +9,53 @@
 
 namespace faintline {
 
-/// A box of cells on a grid: centre ± halfWidth along every axis, wrapped on cyclic axes, cut off on bounded ones.
+/// A box of cells on a grid: centre ± halfWidth along each axis, wrapped on cyclic axes, clipped on bounded ones.
 struct CellBox {
     std::vector<Index> centre;
     std::vector<Index> halfWidth;
 
     bool contains(const Grid &grid, const std::vector<Index> &coordinates) const;
 
-    /// Calls visit(flat cell index) for every cell of the box.
+    /// Calls visit(flat cell index) for each cell of the box.
     template <class Visit>
     void forEachCell(const Grid &grid, Visit visit) const;
 };
 
-/// All that a detector's next frame depends on.
+/// Everything on which a detector's next frame depends.
 struct DetectorState {
     virtual ~DetectorState() = default;
-    virtual std::size_t bytes() const = 0; ///< that it takes
+    virtual std::size_t bytes() const = 0; ///< memory used
 };
 
-/// Something that turns frames into a statistic, one frame after the other.
+/// Converts frames to a statistic, one frame after the other.
 ///
-/// A frame is one y per cell (noise mean 1); the statistic is one value per cell, larger where a signal is likelier.
-/// A detector has state; one object per thread.
+/// A frame holds one y per cell (noise mean 1); the statistic has one value per cell, larger where a signal is
+/// likelier. A detector has state; use one object per thread.
 class Detector
 {
 public:
     virtual ~Detector() = default;
 
-    /// Takes one frame of cellCount values; writes the statistic D of every cell, -∞ where this frame decides nothing.
+    /// Takes one frame of cellCount values; writes the statistic D of each cell, or -∞ if this frame decides nothing.
     virtual void update(std::span<const float> y, std::span<float> statistic) = 0;
 
-    /// Takes several frames, one after the other in `y`: the same bytes as one at a time, faster where a detector can
-    /// look ahead.
+    /// Takes several consecutive frames: gives the same bytes as one at a time, but faster if the detector can look
+    /// ahead.
     virtual void updateBlock(std::span<const float> y, std::span<float> statistic, Index cells);
 
-    /// How many threads one update may use; changes no byte.
+    /// Maximum number of threads per update; it does not change the result.
     virtual void useThreads(int /*threads*/) {}
 
     /// Forgets the evidence of the past in a box of cells, as if only noise had been there.
     virtual void forget(const Grid &grid, const CellBox &box) = 0;
 
-    /// Names the cells, ascending, that a tracker looks after: until the next call their states do not count in the
+    /// Specifies the cells, ascending, that trackers follow. Until the next call their states do not count in the
     /// regulation.
     virtual void inhibit(std::span<const Index> /*cells*/) {}
 
-    /// All that the next frame depends on. Null: the detector cannot tell.
+    /// Everything on which the next frame depends; null if the detector cannot save its state.
     virtual std::shared_ptr<const DetectorState> state() const { return {}; }
-    /// Goes on from there, bit for bit: a state of this detector, or of another one made alike.
+    /// Continues from a state of this detector, or of one with the same settings, with identical bits.
     virtual void setState(const DetectorState & /*state*/) {}
 };
 

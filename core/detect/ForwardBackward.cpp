@@ -32,7 +32,7 @@ namespace {
         return result;
     }
 
-    /// ln Σ of what `into` gathers, a term for each move: `term(move)` goes to state `place(move)`.
+    /// Accumulates ln Σ in `into`, one term per move: `term(move)` goes to state `place(move)`.
     template <class Place, class Term>
     void gather(const Moves &moves, std::span<double> into, const Place &place, const Term &term)
     {
@@ -74,7 +74,7 @@ namespace {
             value = std::exp(value - lnSum);
     }
 
-    /// Forward and backward through one stack of frames.
+    /// Forward and backward pass through one stack of frames.
     class Pass
     {
     public:
@@ -111,7 +111,7 @@ namespace {
             return lnEvidence;
         }
 
-        /// What forward left becomes the posterior.
+        /// Converts the result of the forward pass to the posterior.
         void backward(const RunContext &context)
         {
             std::vector<double> beta(m_states, 0.0);

@@ -8,7 +8,7 @@
 
 namespace faintline {
 
-/// Where a target that is there has been, given all frames.
+/// Posterior of a present target's state, given all frames.
 struct Posterior {
     std::vector<double> probability; ///< γ: frames × states, StateSpace order; each frame adds up to 1
     double lnEvidence = 0.0;         ///< ln of the sum over all paths
@@ -20,13 +20,12 @@ struct Posterior {
 ///   β_T(n) = 1,                   β_{t-1}(m) = Σ_n P(n|m) e^{λ_t(n)} β_t(n)
 ///   γ_t(n) = α_t(n) β_t(n) / Σ,   lnEvidence = ln Σ_n α_T(n)
 ///
-/// `initial`: P_1 of every state, empty for 1/states; `lambda`: λ of frames × cells, finite or -∞; the step into frame
-/// t is step number t. The law is taken as it stands: probability that leaves the axes is lost. In logarithms
-/// throughout: evidence of any size neither overflows nor makes a path disappear that later frames prefer. `presenceIn`
-/// (track) is the same along a corridor, with a state "off". Source: Baum and others 1970; Rabiner 1989. Oracle:
-/// enumeration of all paths. Cost: two exponentials for each of states × moves a frame. Memory: that of the answer and
-/// of the moves of each phase. Throws Error where no path has a probability above 0, and where there would be more than
-/// 2²⁷ moves; Cancelled.
+/// `initial`: P_1 of each state, empty for 1/states; `lambda`: λ of frames × cells, finite or -∞; the step into frame t
+/// is step number t. The law is not renormalised: probability that leaves the axes is lost. Computed in logarithms, so
+/// that evidence of any size neither overflows nor removes a path that later frames prefer. `presenceIn` (track) is the
+/// same along a corridor, with a state "off". Source: Baum and others 1970; Rabiner 1989. Oracle: enumeration of all
+/// paths. Cost: two exponentials per state, move and frame. Memory: the result and the moves of each phase. Throws
+/// Error if no path has a positive probability or there are more than 2²⁷ moves; Cancelled.
 Posterior forwardBackward(const StateSpace &space, std::span<const double> initial, std::span<const double> lambda,
                           const RunContext &context = {});
 

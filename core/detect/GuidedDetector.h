@@ -6,10 +6,10 @@
 
 namespace faintline {
 
-/// A detector without paths beside a sequential Markov detector that has them: the first one decides, the second one
-/// tells which path led there, so that tracks can be started from any detector's events.
+/// A detector without paths combined with a sequential Markov detector: the first one decides, the second one gives the
+/// path, so that tracks can be started from any detector's events.
 ///
-/// The statistic is the first detector's; scores and regulation are the second one's.
+/// The statistic is that of the first detector; scores and regulation are those of the second one.
 class GuidedDetector final : public PathDetector
 {
 public:

@@ -9,7 +9,7 @@ namespace faintline {
 
 namespace {
 
-    /// What was not observed is taken for noise of mean 1.
+    /// Replaces unobserved values by noise of mean 1.
     inline float observed(float y)
     {
         return y == y ? y : 1.0f;

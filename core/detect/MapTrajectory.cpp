@@ -10,7 +10,7 @@ namespace faintline {
 namespace {
 
     constexpr Index keptScores = 32 * 1024 * 1024 / 8;
-    constexpr std::size_t keptStates = 4096; ///< whose predecessors are kept
+    constexpr std::size_t keptStates = 4096; ///< number of states whose predecessors are stored
 
 } // namespace
 
@@ -47,7 +47,7 @@ Index MapEstimator::origin(Index state, Index stage, const Scores &before)
     const auto [found, isNew] = m_predecessors.try_emplace({state, stage % m_space.phaseCount()});
     if (isNew)
         found->second = m_space.predecessors(state, stage);
-    if (found->second.empty()) // of a trajectory that cannot be
+    if (found->second.empty()) // of an impossible trajectory
         return state;
     Index best = -1;
     double bestScore = minusInfinity;
@@ -67,7 +67,7 @@ MapTrajectory MapEstimator::estimate(Index stages, const Evidence &evidence, con
     const bool keepsAll = stages * states <= keptScores;
     const Index stride = keepsAll ? stages : Index(std::ceil(std::sqrt(double(stages))));
     std::vector<Scores> milestones; // stages 0, stride, 2·stride, …
-    std::vector<Scores> block;      // the stages from the last milestone on
+    std::vector<Scores> block;      // the stages since the last milestone
     for (Index stage = 0; stage < stages; ++stage) {
         context.checkpoint(0.5 * double(stage) / double(stages), "trajectory");
         Scores scores = stage == 0 ? start(evidence) : next(block.back(), stage, evidence);

@@ -6,15 +6,14 @@
 
 namespace faintline {
 
-/// Several motion models in parallel, one sequential Markov detector each.
+/// Several motion models in parallel, with one sequential Markov detector each.
 ///
 ///   D(t, cell) = max_i [ D_i(t, cell) - o_i ],   o_i = T_i - T
 ///
-/// T_i is the threshold at which model i alone has the wanted false-alarm probability, T the one the bank shows: a
-/// crossing of T by the bank is a crossing of T_i by model i, whichever is the easier. With m models the bank's
-/// false-alarm probability lies between one model's and m times it. Decision: D > T. Ties go to the first model.
-/// Source: Parsons 2008, section 5 ("the use of multiple target manoeuvre models in parallel"). Oracle: its members run
-/// alone. Cost and memory: the sum of the members'.
+/// T_i is the threshold at which model i alone has the wanted false-alarm probability, and T that of the bank: the bank
+/// crosses T when model i crosses T_i. With m models the bank's false-alarm probability lies between one model's and m
+/// times it. Decision: D > T. Ties go to the first model. Source: Parsons 2008, section 5 ("the use of multiple target
+/// manoeuvre models in parallel"). Oracle: its members run alone. Cost and memory: the sum of the members'.
 class ModelBank final : public PathDetector
 {
 public:
@@ -24,7 +23,7 @@ public:
         double offset = 0.0; ///< o_i, nat
     };
 
-    /// At least one member; all on the same cells. Throws Error.
+    /// Needs at least one member; all on the same cells. Throws Error.
     explicit ModelBank(const std::vector<Member> &members);
 
     void update(std::span<const float> y, std::span<float> statistic) override;
@@ -47,8 +46,8 @@ private:
 
     std::vector<Smd> m_detectors;
     std::vector<float> m_offsets;
-    std::vector<unsigned char> m_winners; ///< of each cell, in the last frame
-    std::vector<float> m_own;             ///< a member's statistic
+    std::vector<unsigned char> m_winners; ///< for each cell, in the last frame
+    std::vector<float> m_own;             ///< statistic of a member
 };
 
 } // namespace faintline

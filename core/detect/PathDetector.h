@@ -7,30 +7,30 @@
 
 namespace faintline {
 
-/// A detector that scores the states of a model by the paths into them: the best one, which can be traced (tracePath)
-/// and followed on, or the sum over all of them. Or several models in parallel, each with states of its own.
+/// A detector that scores the states of one or more parallel models by the paths into them: by the best path, which can
+/// be traced (tracePath) and followed, or by the sum over all paths.
 class PathDetector : public Detector
 {
 public:
-    /// Models in parallel; one unless said otherwise.
+    /// Number of parallel models.
     virtual std::size_t modelCount() const { return 1; }
 
-    /// The scores of all states of a model after the last frame, in nats (StateSpace order).
+    /// Scores of all states of a model after the last frame, in nats (StateSpace order).
     virtual std::span<const float> scores(std::size_t model = 0) const = 0;
 
-    /// What is to be added to a model's score to get its statistic, nat.
+    /// Offset to add to a model's score to get its statistic, nat.
     virtual double offset(std::size_t model = 0) const = 0;
 
-    /// What regulated a model's scores in the last frame.
+    /// Regulation of a model's scores in the last frame.
     struct Regulation {
-        double lnK = 0.0;               ///< what the law gave for the last frame
-        double continuedFraction = 0.0; ///< of the states, those whose path went on rather than being reset
-        /// What was added on the way into the last frame (under Mean, the ln K of the frame before).
+        double lnK = 0.0;               ///< result of the law for the last frame
+        double continuedFraction = 0.0; ///< fraction of states whose path continued instead of being reset
+        /// Value added in the step into the last frame (under Mean, ln K of the previous frame).
         double stepLnK = 0.0;
     };
     virtual Regulation regulation(std::size_t model = 0) const = 0;
 
-    /// The model whose statistic a cell shows after the last frame.
+    /// The model that gave a cell's statistic after the last frame.
     virtual std::size_t winnerAt(Index /*cell*/) const { return 0; }
 };
 

@@ -12,7 +12,7 @@ namespace faintline {
 
 namespace {
 
-    /// The part of the state space that a path of a given length into one cell can have come through.
+    /// The part of the state space from which a path of a given length can reach a cell.
     class Corridor
     {
     public:
@@ -35,10 +35,10 @@ namespace {
             }
         }
 
-        /// Global cell of every local one.
+        /// Global cell of each local one.
         const std::vector<Index> &cells() const { return m_cells; }
 
-        /// Local cell of a global one, or -1 outside of the corridor.
+        /// Local cell of a global one, or -1 outside the corridor.
         Index localCell(Index cell) const
         {
             Index local = 0;
@@ -79,7 +79,7 @@ namespace {
         StateSpace space;
 
     private:
-        /// Rates from which the end's can be reached: it changes by so much in a step and no more.
+        /// Limits the rates to those from which the end's rate can be reached in the number of steps.
         void restrictRates(KinematicAxis &axis, Index endRate, Index length)
         {
             Index reach = 0;
@@ -93,7 +93,7 @@ namespace {
             m_lowestRate.push_back(int(lowest));
         }
 
-        /// Cells that so many steps at these rates lead from.
+        /// Limits the cells to those from which these rates lead to the end in the number of steps.
         void restrictCells(KinematicAxis &axis, std::size_t i, Index length)
         {
             Index least = 0;
@@ -129,7 +129,7 @@ namespace {
     constexpr Index historyFloats = Index(1) << 24;
     constexpr Index shortestCorridor = 8;
 
-    /// Memory that one corridor after the other uses: fresh pages cost as much as what is written to them.
+    /// Memory reused by consecutive corridors, because new pages cost as much as writing to them.
     class Storage
     {
     public:
@@ -147,7 +147,7 @@ namespace {
         Index m_size = 0;
     };
 
-    /// Scores of the corridor's states in the newest frames, as many as fit into the memory set aside.
+    /// Scores of the corridor's states in the newest frames, as many as fit into the reserved memory.
     class CorridorScores
     {
     public:
@@ -183,7 +183,7 @@ namespace {
         });
     }
 
-    /// The corridor's part of the scores of all states.
+    /// Copies the corridor's part of the scores of all states.
     void take(std::span<const float> all, const MarkovModel &model, const Corridor &corridor, std::span<float> scores)
     {
         const Index cells = corridor.space.cellCount();
@@ -194,7 +194,7 @@ namespace {
         }
     }
 
-    /// Follows a path backwards from its end, from corridor to corridor.
+    /// Traces a path backwards from its end, corridor by corridor.
     class PathTracer
     {
     public:
@@ -203,7 +203,7 @@ namespace {
         {
         }
 
-        /// Newest step first.
+        /// Returns the newest step first.
         std::vector<PathStep> trace(PathEnd end)
         {
             for (Index length = shortestCorridor; !m_isReset;) {
@@ -211,8 +211,7 @@ namespace {
                 const Corridor corridor(m_model, m_grid, end.state, end.frame - begin.frame);
                 const CorridorScores history = run(corridor, begin, end.frame);
                 const Index local = corridor.toLocal(m_model.space, end.state);
-                // Paths that start outside of the corridor are missing in it: what it finds is at most the detector's
-                // score.
+                // Paths that start outside the corridor are missing, so its score is at most the detector's.
                 if (begin.isWithinRecord
                     && double(history.at(end.frame)[std::size_t(local)]) < end.score - scoreTolerance) {
                     length *= 2;
@@ -225,7 +224,7 @@ namespace {
         }
 
     private:
-        /// The first frame of a corridor, and the scores of all states after it; without them paths start there.
+        /// The first frame of a corridor, and the scores of all states after it; without scores, paths start there.
         struct Beginning {
             Index frame;
             std::span<const float> scores{};
@@ -282,11 +281,11 @@ namespace {
                 std::copy_n(scores.begin(), cells, scores.begin() + plane * cells);
         }
 
-        /// Adds the path's steps from a local state on, until its reset, or as far as the corridor knows; answers where
-        /// the rest ends.
+        /// Adds the path's steps from a local state back to its reset, or as far as the corridor reaches; returns the
+        /// end of the remaining part.
         PathEnd follow(const Corridor &corridor, const CorridorScores &history, const Beginning &begin, PathEnd at)
         {
-            while (!(begin.isCheckpoint && at.frame == begin.frame)) { // what came before, from the one before
+            while (!(begin.isCheckpoint && at.frame == begin.frame)) { // the previous corridor gives the rest
                 const Origin origin = at.frame == begin.frame
                                           ? Origin{}
                                           : originOf(corridor, history.at(at.frame - 1), at.frame, at.state);
@@ -297,13 +296,13 @@ namespace {
                 at.state = origin.state;
                 --at.frame;
                 if (at.frame == history.firstFrame() && at.frame > begin.frame)
-                    break; // older scores were let go: once more, from here
+                    break; // older scores are no longer stored: continue with a new corridor
             }
             return {at.frame, corridor.toGlobal(m_model.space, at.state),
                     double(history.at(at.frame)[std::size_t(at.state)])};
         }
 
-        /// Where a step's maximum came from.
+        /// Origin of a step's maximum.
         struct Origin {
             Index state = -1; ///< -1 if the path was reset there
             double lnTransition = 0.0;

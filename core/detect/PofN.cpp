@@ -23,9 +23,9 @@ namespace {
 
     constexpr Index mostLanes = 16;
 
-    /// The mean and the smallest of each cell's P largest, from the window's rows, oldest first; `n` a multiple of the
-    /// lanes. Only the shorter end of the order is sorted out: the P largest, or the N-P+1 smallest, whose last one is
-    /// the P-th largest too.
+    /// The mean and the smallest of each cell's P largest, from the window's rows, oldest first; `n` is a multiple of
+    /// the lanes. Only the shorter end is sorted: the P largest, or the N-P+1 smallest, the last of which is also the
+    /// P-th largest.
     template <int bytes>
     [[gnu::always_inline]] inline void largestBy(std::span<const float *const> rows, int p, Index n, float *means,
                                                  float *smallest)
@@ -121,7 +121,7 @@ void PofN::update(std::span<const float> y, std::span<float> statistic)
                       overlap);
     }
 
-    std::vector<const float *> rows; // from the oldest, so that rounding does not depend on where they stand in memory
+    std::vector<const float *> rows; // from the oldest, so that rounding does not depend on memory positions
     for (std::size_t i = 0; i < m_maxima.size(); ++i)
         rows.push_back(m_maxima[(m_next + i) % m_maxima.size()].data());
     largest(rows, m_settings.p, std::ssize(m_means), m_means.data(), m_smallest.data());

@@ -9,17 +9,17 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index tileCells = 1024;     ///< of each plane of a tile
-    constexpr Index longTileCells = 2048; ///< the same where a single axis needs no second step
-    /// The same where planes are so many that the next tile's would not fit into the cache beside them.
+    constexpr Index tileCells = 1024;     ///< of each plane in a tile
+    constexpr Index longTileCells = 2048; ///< the same for a single axis, which needs no second step
+    /// The same for so many planes that those of the next tile would not fit into the cache as well.
     constexpr Index fewestCells = 256;
-    constexpr Index tileBytes = 1 << 19; ///< of all planes of a tile, read and written
+    constexpr Index tileBytes = 1 << 19; ///< read and written, for all planes of a tile
     constexpr Index vectorCells = 32;
-    constexpr Index manyFrames = 16;        ///< gone through at a time: then the memory has become as good as free
+    constexpr Index manyFrames = 16;        ///< processed at a time; memory traffic is then negligible
     constexpr Index worthAThread = 1 << 19; ///< states × frames
 
-    /// Asks for memory that the next tile will read or write: planes are many, and pieces of them too short for the
-    /// processor to foresee.
+    /// Prefetches memory for the next tile, because there are many planes, whose pieces are too short for the hardware
+    /// prefetcher.
     template <bool toWrite>
     void fetch(const void *begin, Index bytes)
     {
@@ -32,13 +32,13 @@ namespace {
 
 template <class Semiring>
 struct Recursion<Semiring>::Scratch {
-    std::vector<Real> slides; ///< each maximum's rows of a tile
-    std::vector<Real> tile;   ///< a group's planes of a tile, after an axis's step
+    std::vector<Real> slides; ///< rows of each maximum in a tile
+    std::vector<Real> tile;   ///< planes of a group in a tile, after an axis's step
     std::vector<Real> otherTile;
     std::vector<Real> copies;
-    std::vector<const Real *> planes; ///< what the next axis starts from
+    std::vector<const Real *> planes; ///< input of the next axis
     std::vector<Source> sources;
-    std::vector<std::size_t> firstSource; ///< of each target, and one beyond the last
+    std::vector<std::size_t> firstSource; ///< for each target, and one past the last
     std::vector<TargetPlane> targets;
     std::vector<float> lambda;
 
@@ -92,24 +92,24 @@ Index Recursion<Semiring>::chooseTileRows(Index reach) const
 {
     const Index fitting = std::clamp(tileBytes / (2 * m_planeCount * Index(sizeof(Real))), fewestCells, tileCells);
     const bool isSingle = m_planeCount == m_groups && m_isSingle;
-    // Shared maxima need more rows than the tile has: those of a short one would cost too much.
+    // Shared maxima need more rows than the tile has, which is too expensive for short tiles.
     const Index cells = isSingle ? longTileCells : m_maxima.ring > 0 ? tileCells : fitting;
     const Index most = std::clamp<Index>(cells / m_inner, 1, m_rows);
     Index chosen = most;
-    // Whole vectors, if that can be had.
+    // Whole vectors, if possible.
     for (Index rows = most; rows > 0 && most < m_rows; --rows)
         if (rows * m_inner % vectorCells == 0) {
             chosen = rows;
             break;
         }
-    // Of a wide law only those sources count that exist for some row of a tile.
+    // For a wide law, only sources that exist for some row of a tile count.
     return 4 * reach > m_rows ? std::min<Index>(chosen, 8) : chosen;
 }
 
 template <class Semiring>
 void Recursion<Semiring>::prepareSlantedTiles() requires std::same_as<Semiring, MaxPlus<float>>
 {
-    if constexpr (std::same_as<Semiring, MaxPlus<float>>) { // clang 14 makes it for the others as well
+    if constexpr (std::same_as<Semiring, MaxPlus<float>>) { // clang 14 instantiates it for others as well
         if (m_isCyclic || m_maxima.ring > 0 || !m_departures.areNone())
             return;
         std::vector<SlantedTiles::Targets> phases;
@@ -177,8 +177,7 @@ void Recursion<Semiring>::predict(std::span<const Real> scores, Index step, cons
         });
 }
 
-/// Where a maximum is kept: those of the same rates as many targets on as a law reaches take the place of those of
-/// before.
+/// Slot of a maximum: maxima reuse the slots of rates that are out of the law's reach.
 template <class Semiring>
 Index Recursion<Semiring>::slotOf(Index number, Index group) const
 {
@@ -186,7 +185,7 @@ Index Recursion<Semiring>::slotOf(Index number, Index group) const
     return (level * m_maxima.ring + number % m_groups % m_maxima.ring) * m_groupSize + group;
 }
 
-/// Makes one maximum for the rows of a tile.
+/// Computes one maximum for the rows of a tile.
 template <class Semiring>
 void Recursion<Semiring>::slide(std::span<const Real> scores, const SharedMaximum &slide, Index group, TileRows rows,
                                 Scratch &own) const
@@ -229,7 +228,7 @@ void Recursion<Semiring>::listFirst(const AxisStep<Real> &first, std::span<const
     }
 }
 
-/// Shifted copies of the planes a later axis starts from.
+/// Makes shifted copies of the planes from which a later axis starts.
 template <class Semiring>
 void Recursion<Semiring>::makeCopies(const AxisStep<Real> &step, Index size, Scratch &own) const
 {
@@ -242,8 +241,8 @@ void Recursion<Semiring>::makeCopies(const AxisStep<Real> &step, Index size, Scr
     }
 }
 
-/// All axes' steps for the rows of a tile. `finish(plane)` is called with the first of the target planes whose sources
-/// have been listed.
+/// Performs all axes' steps for the rows of a tile. `finish(plane)` is called with the first of the target planes whose
+/// sources have been listed.
 template <class Semiring>
 template <class Finish>
 void Recursion<Semiring>::goThroughTile(const PhaseSteps<Real> &phase, std::span<const Real> scores, TileRows rows,
@@ -282,7 +281,7 @@ void Recursion<Semiring>::goThroughTile(const PhaseSteps<Real> &phase, std::span
         finish(0);
 }
 
-/// Joins the sources of each target that has been listed to a plane; one that would be but a copy is the plane itself.
+/// Joins the sources of each listed target to a plane; a target that would be a mere copy uses the source plane itself.
 template <class Semiring>
 void Recursion<Semiring>::joinListed(bool isOnlyStep, Index size, Scratch &own) const
 {
@@ -311,7 +310,7 @@ Continued Recursion<Semiring>::advance(std::span<const float> scores, std::span<
                                        const Likelihood &likelihood,
                                        const FrameJoin &join) requires std::same_as<Semiring, MaxPlus<float>>
 {
-    if constexpr (std::same_as<Semiring, MaxPlus<float>>) { // clang 14 makes it for the others as well
+    if constexpr (std::same_as<Semiring, MaxPlus<float>>) { // clang 14 instantiates it for others as well
         RunContext context;
         const Index work = std::ssize(frames.y) * m_planeCount;
         context.threads = int(std::clamp<Index>(work / worthAThread, 1, m_threads));
@@ -326,12 +325,12 @@ template <class Semiring>
 Continued Recursion<Semiring>::advanceOne(const Passage &passage,
                                           const RunContext &context) requires std::same_as<Semiring, MaxPlus<float>>
 {
-    if constexpr (std::same_as<Semiring, MaxPlus<float>>) { // clang 14 makes it for the others as well
+    if constexpr (std::same_as<Semiring, MaxPlus<float>>) { // clang 14 instantiates it for others as well
         const std::span<const float> scores = m_departures.apply(passage.scores, passage.frames.firstStep);
         m_tiled.fillMargins(scores);
         const Index count = std::ssize(m_tiled.tiles());
         m_tileContinued.assign(std::size_t(count), {});
-        // A stretch of tiles for each thread: each fetches the next tile ahead.
+        // Each thread gets a stretch of tiles and prefetches its next tile.
         scratch(std::size_t(context.threads) - 1);
         parallelFor(context.threads, context, "recursion", [&] {
             return [&](Index thread) {
@@ -342,7 +341,7 @@ Continued Recursion<Semiring>::advanceOne(const Passage &passage,
             };
         });
         Continued all;
-        for (const Continued &part : m_tileContinued) { // in this order: a sum in floating point
+        for (const Continued &part : m_tileContinued) { // in this order, because the sum is in floating point
             all.count += part.count;
             all.sum += part.sum;
         }
@@ -356,7 +355,7 @@ template <class Semiring>
 Continued Recursion<Semiring>::advanceTile(const Passage &passage, std::span<const float> scores, TileRows rows,
                                            Scratch &own) const requires std::same_as<Semiring, MaxPlus<float>>
 {
-    if constexpr (std::same_as<Semiring, MaxPlus<float>>) { // clang 14 makes it for the others as well
+    if constexpr (std::same_as<Semiring, MaxPlus<float>>) { // clang 14 instantiates it for others as well
         const Index firstCell = rows.first * m_inner;
         const Index n = rows.count * m_inner;
         passage.likelihood.apply(passage.frames.y.subspan(std::size_t(firstCell), std::size_t(n)),

@@ -20,31 +20,31 @@
 
 namespace faintline {
 
-/// One step of dynamic programming over a kinematic state space, before the new data are added:
+/// One step of dynamic programming over a kinematic state space, before new data are added:
 ///
 ///   M(n) = ⊕_m F(m) ⊗ P(n | m)
 ///
-/// Every detector of the program stands on this one recursion; they differ in ⊕ (max of logarithms, or sum of weights),
+/// All detectors of the program are based on this recursion; they differ in ⊕ (max of logarithms, or sum of weights),
 /// in what they join to M (a reset, or nothing) and in how they decide. The axes are independent, so P is a product and
-/// ⊕ is taken one axis at a time: a target plane is the join of shifted source planes, all of them in one sweep.
+/// ⊕ is applied one axis at a time: a target plane is the join of shifted source planes, all in one sweep.
 ///
-/// The cells are gone through in tiles of the slowest axis; within one, all axes' steps are done while it is in cache.
-/// A tile that reaches beyond the axis's ends works on a copy with margins, neutral or wrapped round, and later axes on
-/// shifted copies of the tile's planes: no inner loop knows an edge. Of equal weights, the maximum over four rates and
-/// more is taken from maxima over two and four planes that neighbouring targets share: with r' - r = δ, planes r and r
-/// + 2 reach a target a cell apart.
+/// The cells are processed in tiles of the slowest axis; in each tile all axes' steps are done while it is in cache. A
+/// tile that reaches beyond the axis's ends works on a copy with neutral or wrapped margins, and later axes on shifted
+/// copies of the tile's planes, so that no inner loop tests for edges. For equal weights, the maximum over four or more
+/// rates is computed from maxima over two and four planes that neighbouring targets share: with r' - r = δ, planes r
+/// and r + 2 reach a target a cell apart.
 ///
-/// Along one bounded axis, several frames can be gone through at once (`SlantedTiles`).
+/// Along a single bounded axis, several frames can be processed at once (`SlantedTiles`).
 ///
-/// Where rates are fractions of a cell, displacements differ from step to step and repeat after `phaseCount` steps:
-/// each phase has tables of its own.
+/// If rates are fractions of a cell, displacements differ from step to step and repeat after `phaseCount` steps; each
+/// phase has its own tables.
 ///
-/// What differs from cell to cell (a renormalised axis's departures, a full matrix) is ⊗-joined to the scores
+/// Factors that differ from cell to cell (a renormalised axis's departures, a full matrix) are ⊗-joined to the scores
 /// beforehand (`Departures`).
 ///
-/// Unreached states hold ⊕'s neutral element (-∞, or 0). Cost: states × Σ over axes of moves per target rate; memory is
-/// read once and written once. Oracle: enumeration of all paths. Scratch memory belongs to this object: one object per
-/// thread.
+/// Unreached states hold the neutral element of ⊕ (-∞, or 0). Cost: states × Σ over axes of moves per target rate;
+/// memory is read once and written once. Oracle: enumeration of all paths. The object owns its scratch memory: use one
+/// object per thread.
 template <class Semiring>
 class Recursion
 {
@@ -56,20 +56,19 @@ public:
     Recursion(Recursion &&) noexcept;
     Recursion &operator=(Recursion &&) noexcept;
 
-    /// ⊕ over predecessors of `scores` (stateCount values) in step number `step`. The answer stays valid until the next
+    /// ⊕ over predecessors of `scores` (stateCount values) in step number `step`. The result is valid until the next
     /// call.
     std::span<Real> predict(std::span<const Real> scores, Index step = 0);
 
-    /// Takes M of the states of one plane in cells firstCell, firstCell + 1, …
+    /// Receives M for the states of one plane in cells firstCell, firstCell + 1, …
     using Tile = std::function<void(Index plane, Index firstCell, std::span<const Real> predicted)>;
 
-    /// The same, handed over tile by tile: each state once, tiles ascending. `scores` must stay as they are until the
-    /// end.
+    /// The same, delivered tile by tile: each state once, tiles ascending. `scores` must not change until the end.
     void predict(std::span<const Real> scores, Index step, const Tile &take);
 
-    /// M joined with frames at once: u = λ + max(M + ln K, floor), D = max over rates. `scores` → `next`, which are not
-    /// the same memory. Up to `framesAtOnce()`; any number of frames, cut in any way, on any number of threads gives
-    /// the same bytes. Answers what went on in the last frame.
+    /// Computes M and joins it with frames at once: u = λ + max(M + ln K, floor), D = max over rates. Reads `scores`
+    /// and writes `next`, which must not overlap, for up to `framesAtOnce()` frames. Any division into calls and any
+    /// number of threads gives the same bytes. Returns what continued in the last frame.
     Continued advance(std::span<const float> scores, std::span<float> next, const FrameBlock &frames,
                       const Likelihood &likelihood,
                       const FrameJoin &join) requires std::same_as<Semiring, MaxPlus<float>>;
@@ -107,21 +106,21 @@ private:
     Index m_planeSize;
     Index m_planeCount;
     Index m_groups;         ///< rates of the first axis
-    Index m_groupSize;      ///< planes that share one of them
+    Index m_groupSize;      ///< planes per rate of the first axis
     Index m_rows;           ///< cells of the first axis …
-    Index m_inner;          ///< … and of all after it
-    bool m_isCyclic;        ///< the first axis
+    Index m_inner;          ///< … and of all following axes
+    bool m_isCyclic;        ///< of the first axis
     bool m_isSingle = true; ///< no later axis moves
     std::vector<PhaseSteps<Real>> m_phases;
-    SharedMaxima m_maxima; ///< of a single phase
-    Index m_slotSize = 0;  ///< of each of them
+    SharedMaxima m_maxima; ///< for a single phase
+    Index m_slotSize = 0;  ///< size of each of them
     std::optional<SlantedTiles> m_slanted;
     std::vector<Continued> m_tileContinued;
     TiledPlanes<Semiring> m_tiled;
-    Index m_tileRows = 1; ///< of the largest tile
+    Index m_tileRows = 1; ///< rows of the largest tile
     int m_threads = 1;
     std::vector<std::unique_ptr<Scratch>> m_scratch;
-    std::vector<Real> m_result; ///< empty until it is asked for
+    std::vector<Real> m_result; ///< allocated on first use
     Departures<Semiring> m_departures;
 };
 

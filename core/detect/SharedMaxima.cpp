@@ -8,7 +8,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr std::size_t fewest = 4; ///< rates whose maximum is worth sharing
+    constexpr std::size_t fewest = 4; ///< number of rates from which sharing pays off
 
     template <class Real>
     using Shifts = std::vector<Shift<Real>>;
@@ -21,7 +21,7 @@ namespace {
                });
     }
 
-    /// Takes out of the shifts those that follow the first unused one, each two rates and a cell on.
+    /// Removes and returns the shifts that follow the first unused one, each two rates and one cell further.
     template <class Real>
     Shifts<Real> takeRun(const Shifts<Real> &all, std::size_t start, std::vector<bool> &used)
     {
@@ -34,7 +34,7 @@ namespace {
         return run;
     }
 
-    /// What maxima are wanted, and at which shifts.
+    /// The required maxima and their shifts.
     class Wanted
     {
     public:
@@ -57,7 +57,7 @@ namespace {
             return 2 * m_rates + rate;
         }
 
-        /// Lists a maximum, those it is made of before it, unless that has been done.
+        /// Lists a maximum, preceded by its operands, unless it is already listed.
         void make(Index number, std::vector<SharedMaximum> &list)
         {
             if (number < m_rates || m_isMade[std::size_t(number - m_rates)])
@@ -136,7 +136,7 @@ SharedMaxima shareMaxima(AxisStep<Real> &step, bool keepsAll)
     SharedMaxima result;
     result.before.resize(std::size_t(rates));
     bool isAny = false;
-    for (std::size_t rate = 0; rate < all.size(); ++rate) { // just before the first target that takes it
+    for (std::size_t rate = 0; rate < all.size(); ++rate) { // just before the first target that uses it
         for (const Shift<Real> &shift : all[rate])
             wanted.make(shift.from, result.before[rate]);
         isAny = isAny || !result.before[rate].empty();

@@ -6,9 +6,9 @@
 
 namespace faintline {
 
-/// max(of(cell), other(cell - back)) of two rates or maxima, wanted at shifts smallest … largest.
+/// max(of(cell), other(cell - back)) of two rates or maxima, needed at shifts smallest … largest.
 struct SharedMaximum {
-    Index number; ///< on from the rates: those over two rates, then those over four
+    Index number; ///< numbered after the rates: first maxima over two rates, then over four
     Index of;
     Index other;
     Index back;
@@ -16,19 +16,20 @@ struct SharedMaximum {
     Index largest;
 };
 
-/// Maxima over two and four rates that the targets of one axis share.
+/// Maxima over two and four rates, shared by the targets of one axis.
 struct SharedMaxima {
-    /// Those to make before each target rate, in this order.
+    /// The maxima to compute before each target rate, in this order.
     std::vector<std::vector<SharedMaximum>> before;
-    std::vector<Index> largest; ///< shift that each is wanted at
-    Index ring = 0;             ///< rates whose maxima are kept at a time; 0: there are none
+    std::vector<Index> largest; ///< largest shift at which each is needed
+    Index ring = 0;             ///< number of rates whose maxima are kept at a time; 0: no maxima
 
-    /// Most cells beyond those of its tile that a maximum needs.
+    /// Largest number of cells beyond its tile that a maximum needs.
     Index longestSpan() const;
 };
 
-/// Replaces runs of sources of equal weight, each two rates and a cell on from the one before, by maxima over two and
-/// four of them. They may overlap: a maximum minds no repetition. `keepsAll`: until all targets are finished.
+/// Replaces runs of sources of equal weight, each two rates and a cell after the previous one, by maxima over two and
+/// four of them. They may overlap, because repetition does not change a maximum. `keepsAll`: keeps the maxima until all
+/// targets are finished.
 template <class Real>
 SharedMaxima shareMaxima(AxisStep<Real> &step, bool keepsAll);
 

@@ -12,22 +12,22 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index longest = 4096; ///< cells: what is copied from tile to tile should be small beside it …
+    constexpr Index longest = 4096; ///< cells: copies between tiles should be small compared with it …
     constexpr Index shortest = 512;
-    constexpr Index cacheBytes = 7 << 16; ///< … and both windows lie in the second-level cache
+    constexpr Index cacheBytes = 7 << 16; ///< … and both windows should fit into the second-level cache
     constexpr Index lineFloats = 16;
     constexpr Index vectorCells = 32;
     constexpr float unreached = -std::numeric_limits<float>::infinity();
 
 } // namespace
 
-/// What all threads are given.
+/// Input of all threads.
 struct SlantedTiles::Work : Passage {
     Index frameCount;
     bool isLast(Index frame) const { return frame + 1 == frameCount; }
 };
 
-/// Cells from … end-1 that one thread answers for; what goes in begins at low and ends at high.
+/// Cells from … end-1 assigned to one thread; its input begins at low and ends at high.
 struct SlantedTiles::Stretch {
     Index from;
     Index end;
@@ -36,7 +36,7 @@ struct SlantedTiles::Stretch {
     Continued continued{};
 };
 
-/// One frame's part of a tile: its cells begin at `begin`, those within the stretch are from … end-1.
+/// One frame's part of a tile: its cells begin at `begin`; those within the stretch are from … end-1.
 struct SlantedTiles::Part {
     Index frame;
     Index begin;
@@ -58,7 +58,7 @@ SlantedTiles::SlantedTiles(Index cells, std::vector<Targets> phases)
                 m_reach = std::max(m_reach, std::abs(source.displacement));
     const Index fitting = cacheBytes / (2 * m_rates * Index(sizeof(float))) - 2 * m_reach;
     m_tileCells = std::min(longest, fitting / vectorCells * vectorCells);
-    // Targets lie on whole cache lines, and rates not a power of two apart.
+    // Targets are aligned to cache lines, and rates are not a power of two apart.
     m_margin = (2 * m_reach + vectorCells) / vectorCells * vectorCells;
     m_stride = m_margin + m_tileCells;
 }
@@ -88,7 +88,7 @@ Continued SlantedTiles::advance(const Passage &passage, const RunContext &contex
     return all;
 }
 
-/// Sources 2R cells before the targets' first, which is that of their own frame's tile, R cells on.
+/// Sources start 2R cells before the targets' first cell, which is that of their own frame's tile, R cells later.
 SlantedTiles::TargetList SlantedTiles::listTargets(const Targets &targets, const float *from, float *to,
                                                    Index toStride) const
 {
@@ -106,7 +106,7 @@ SlantedTiles::TargetList SlantedTiles::listTargets(const Targets &targets, const
     return list;
 }
 
-/// The scores, as if a frame's tile began at `begin`.
+/// Reads the scores as if a frame's tile began at `begin`.
 void SlantedTiles::readScores(const Work &work, Index begin, float *window) const
 {
     const Index first = begin - 2 * m_reach;
@@ -121,7 +121,7 @@ void SlantedTiles::readScores(const Work &work, Index begin, float *window) cons
     }
 }
 
-/// What the next frame reads and writes; of what the next tile begins with and this one ends with, this frame's share.
+/// Lists the rows that the next frame reads and writes, and this frame's share of those at the borders of tiles.
 void SlantedTiles::listAhead(const Work &work, Index frame, Index first, Index n,
                              std::vector<const float *> &rows) const
 {
@@ -142,7 +142,7 @@ void SlantedTiles::listAhead(const Work &work, Index frame, Index first, Index n
     }
 }
 
-/// Where the first window's cells begin, on a whole cache line.
+/// Start of the first window's cells, aligned to a cache line.
 float *SlantedTiles::prepareWindows(Scratch &own, Index frames) const
 {
     own.windows.resize(std::size_t(2 * m_rates * m_stride + lineFloats));
@@ -159,7 +159,7 @@ void SlantedTiles::goThrough(const Work &work, Stretch &s, Scratch &own) const
     float *const windows = prepareWindows(own, work.frameCount);
     const auto windowOf = [&](Index frame) {
         return windows + (frame + 1) % 2 * m_rates * m_stride;
-    }; // the scores are of frame -1
+    }; // the scores are those of frame -1
 
     std::vector<TargetList> lists;
     for (Index frame = 0; frame < work.frameCount; ++frame) {
@@ -188,7 +188,7 @@ void SlantedTiles::goThrough(const Work &work, Stretch &s, Scratch &own) const
     }
 }
 
-/// Of a frame's window, what is not joined: the end of the tile before, and what lies outside of the stretch.
+/// Fills the part of a frame's window that is not joined: the end of the previous tile, and cells outside the stretch.
 void SlantedTiles::fillOutside(const Part &part, const float *halo, float *window) const
 {
     for (Index rate = 0; rate < m_rates; ++rate) {
@@ -208,7 +208,7 @@ void SlantedTiles::joinFrame(const Work &work, const TargetList &list, const Par
     join.counting = isLast ? join.counting : Counting::Nothing;
     work.likelihood.apply(work.frames.y.subspan(std::size_t(frame * m_cells + from), std::size_t(end - from)),
                           own.lambda);
-    // What lies outside of the stretch is the neighbour's to count and to show.
+    // Cells outside the stretch are counted and output by the neighbour.
     const std::array<Index, 4> cuts{from, std::clamp(s.from, from, end), std::clamp(s.end, from, end), end};
     for (std::size_t third = 0; third < 3; ++third) {
         const Index first = cuts[third];

@@ -9,14 +9,14 @@
 
 namespace faintline {
 
-/// Frames to go through: as many as y holds.
+/// The frames to process: as many as y holds.
 struct FrameBlock {
     std::span<const float> y;
-    std::span<float> statistic; ///< D of every frame and cell
-    Index firstStep = 0;        ///< number of the step into the first of them
+    std::span<float> statistic; ///< D of each frame and cell
+    Index firstStep = 0;        ///< number of the step into the first frame
 };
 
-/// The recursion's way through some frames: scores before the first → those after the last, not in the same memory.
+/// Parameters of the recursion over some frames. `scores` before the first and `next` after the last must not overlap.
 struct Passage {
     std::span<const float> scores;
     std::span<float> next;
@@ -25,19 +25,19 @@ struct Passage {
     const FrameJoin &join;
 };
 
-/// The maximum recursion along one bounded axis, several frames at a time, so that T frames cost one reading and one
-/// writing of all scores.
+/// The maximum recursion along one bounded axis, several frames at a time (time skewing), so that T frames read and
+/// write all scores once.
 ///
-/// Tiles slant by the largest displacement R a frame: what one needs of the frame before lies in the tile itself and in
-/// the last 2R cells of the tile before. Two frames of a tile lie in the second-level cache, in turns source and
-/// target:
+/// Tiles slant by the largest displacement R per frame: the values that a tile needs of the previous frame lie in the
+/// tile itself and in the last 2R cells of the previous tile. Two frames of a tile fit into the second-level cache and
+/// serve alternately as source and target:
 ///
 ///     frame    cells →
 ///       0      [ tile 0 ][ tile 1 ][ tile 2 ]
 ///       1    [ tile 0 ][ tile 1 ][ tile 2 ]        begins R cells earlier
 ///       2  [ tile 0 ][ tile 1 ][ tile 2 ]
 ///
-/// Threads take stretches of cells that overlap by (T-1)·R. Oracle: one frame at a time, to the last bit.
+/// Threads process stretches of cells that overlap by (T-1)·R. Oracle: one frame at a time, to the last bit.
 class SlantedTiles
 {
 public:
@@ -47,21 +47,21 @@ public:
         float weight;       ///< ln P
     };
 
-    /// The sources of every target rate in the steps of one phase.
+    /// The sources of each target rate in the steps of one phase.
     using Targets = std::vector<std::vector<Source>>;
     SlantedTiles(Index cells, std::vector<Targets> phases);
 
     /// Whether two frames of a tile fit into the cache.
     bool areWorthwhile() const;
 
-    /// u = λ + max(M + ln K, floor) of all frames of the passage; answers what went on in the last.
+    /// u = λ + max(M + ln K, floor) for all frames of the passage; returns what continued in the last frame.
     Continued advance(const Passage &passage, const RunContext &context);
 
 private:
-    /// Of one thread.
+    /// Scratch memory of one thread.
     struct Scratch {
         std::vector<float> windows; ///< two frames of a tile
-        std::vector<float> halo;    ///< of every frame: the last columns of the tile before
+        std::vector<float> halo;    ///< for each frame: the last columns of the previous tile
         std::vector<float> lambda;
         std::vector<float> unused; ///< a statistic that is not used
         std::vector<const float *> ahead;
@@ -85,9 +85,9 @@ private:
     std::vector<Targets> m_phases;
     Index m_rates;
     Index m_reach = 0;
-    Index m_tileCells; ///< of each rate
+    Index m_tileCells; ///< for each rate
     Index m_margin;    ///< before them
-    Index m_stride;    ///< from rate to rate
+    Index m_stride;    ///< between rates
     std::vector<Scratch> m_scratch;
 };
 

@@ -29,7 +29,7 @@ void Smd::update(std::span<const float> y, std::span<float> statistic)
     const Continued apart = inhibitedPart(y);
     const Index counted = m_rule.law == ResetLaw::None ? cells : cells - std::ssize(m_inhibited);
     const bool isObserved = std::any_of(y.begin(), y.end(), [](float value) { return value == value; });
-    if (counted > 0 && isObserved) { // without evidence all paths fade, which says nothing of K
+    if (counted > 0 && isObserved) { // without evidence all paths fade, which carries no information on K
         const auto states = double(counted * m_space.planeCount());
         m_regulation = {m_lnK, double(all.count - apart.count) / states, m_lnK};
         regulate(m_regulation.continuedFraction, (all.sum - apart.sum) / states);
@@ -88,7 +88,7 @@ Continued Smd::advance(std::span<const float> y, std::span<float> statistic)
     return continued;
 }
 
-/// Of the inhibited cells: what their scores have beyond the frame's own evidence.
+/// Part of the inhibited cells: their scores minus the frame's own evidence.
 Continued Smd::inhibitedPart(std::span<const float> y) const
 {
     Continued part;
@@ -136,12 +136,12 @@ void Smd::forget(const Grid &grid, const CellBox &box)
     });
 }
 
-/// What the next frame depends on, and what a chain asks for before it.
+/// Everything on which the next frame depends, and what a chain needs before it.
 struct Smd::State final : DetectorState {
     std::vector<float> scores;
     double lnK = 0.0;
     double offset = 0.0;
-    Index frames = 0; ///< taken so far
+    Index frames = 0; ///< number taken
     Regulation regulation;
     std::vector<Index> inhibited;
 

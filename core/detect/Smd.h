@@ -13,7 +13,7 @@
 
 namespace faintline {
 
-/// How K, the factor that makes a path's evidence fade, is found.
+/// How K, the factor by which a path's evidence fades, is determined.
 enum class ResetLaw {
     Fixed, ///< a given ln K (calibrated on noise, or by hand)
     Mean,  ///< K(t) = K0 - mean of the continued scores (Parsons 2008)
@@ -23,10 +23,10 @@ enum class ResetLaw {
 
 inline constexpr std::array<std::string_view, 4> resetLawNames{"fixed", "mean", "half", "none"};
 
-/// The reset law with its constants.
+/// The reset law and its constants.
 struct ResetRule {
     ResetLaw law = ResetLaw::Fixed;
-    double lnK = 0.0;  ///< Fixed: ln K; Half: where the regulation starts
+    double lnK = 0.0;  ///< Fixed: ln K; Half: initial ln K
     double k0 = 0.0;   ///< Mean: K0
     double gain = 0.1; ///< Half: change of ln K per frame and unit of deviation from ½
 };
@@ -37,12 +37,12 @@ struct ResetRule {
 ///   u(n, t) = λ(n, t) + max( ln K + max_m [ ln P(n|m) + u(m, t-1) ], 0 )
 ///
 /// u = ln(N Λ), the log-likelihood ratio in nats above the background of a uniform initial law 1/N; a path is *reset*
-/// where the second argument of the outer max wins (only if strictly greater). D(t, cell) = max over the cell's rates.
-/// Decision: D > threshold. Under Mean the statistic is u + K(t), which is Parsons' ln Λ, and K(t) applies to the next
-/// frame's predecessors. The reset fraction and the mean that regulate K are taken over the cells that are not
-/// inhibited. Half is integral control, ln K += gain·(½ - fraction continued), whose answer takes some ten frames;
-/// gains of 1 and more swing. Source: Billon 2005 section 3, Parsons 2008 eq. 8 and 10. Oracle: enumeration of all
-/// paths; Lindley's recursion in closed form for one-to-one transitions.
+/// where the second argument of the outer max is strictly greater. D(t, cell) = max over the cell's rates. Decision: D
+/// > threshold. Under Mean the statistic is u + K(t), which is Parsons' ln Λ, and K(t) applies to the next frame's
+/// predecessors. The reset fraction and the mean that regulate K are taken over the cells that are not inhibited. Half
+/// is integral control, ln K += gain·(½ - fraction continued), with a response time of some ten frames; gains of 1 and
+/// more oscillate. Source: Billon 2005 section 3, Parsons 2008 eq. 8 and 10. Oracle: enumeration of all paths;
+/// Lindley's recursion in closed form for one-to-one transitions.
 class Smd final : public PathDetector
 {
 public:
@@ -74,10 +74,10 @@ private:
     ResetRule m_rule;
     Recursion<MaxPlus<float>> m_recursion;
     LargeVector<float> m_scores;
-    LargeVector<float> m_next; ///< the scores being written
+    LargeVector<float> m_next; ///< scores being computed
     double m_lnK;
     double m_offset = 0.0;
-    Index m_frames = 0; ///< taken so far; the step into frame n is step number n
+    Index m_frames = 0; ///< number of frames taken; the step into frame n is step number n
     std::vector<Index> m_inhibited;
     Regulation m_regulation;
 };

@@ -60,8 +60,7 @@ double LikelihoodRatio::update(std::span<const double> lambda)
     const std::span<const double> predicted =
         m_stages == 0 ? std::span<const double>(m_initial) : m_recursion.predict(m_posterior, m_stages);
     ++m_stages;
-    double highest =
-        minusInfinity; // among the cells that can be reached: the others must not push these below the smallest number
+    double highest = minusInfinity; // among reachable cells: others must not cause an underflow of these
     for (std::size_t n = 0; n < predicted.size(); ++n)
         if (predicted[n] > 0.0)
             highest = std::max(highest, lambda[n % cells]);
@@ -81,7 +80,7 @@ double LikelihoodRatio::update(std::span<const double> lambda)
 
 namespace {
 
-    /// λ of every frame cell, stage by stage.
+    /// λ of each frame cell, stage by stage.
     class Evidence
     {
     public:

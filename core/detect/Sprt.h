@@ -14,15 +14,15 @@
 
 namespace faintline {
 
-/// What a sequential test says after a stage. H0: noise only, H1: a signal as well.
+/// Decision of a sequential test after a stage. H0: noise only, H1: signal and noise.
 enum class SprtDecision { Undecided, H0, H1 };
 
 inline constexpr std::array<std::string_view, 3> sprtDecisionNames{"undecided", "H0", "H1"};
 
-/// How sure a sequential test has to be, and how long it may take.
+/// Error probabilities and duration of a sequential test.
 struct SprtSettings {
-    double falseAlarm = 1e-3; ///< α: wanted probability of accepting H1 on noise
-    double miss = 1e-3;       ///< β: wanted probability of accepting H0 with a signal, averaged over its trajectories
+    double falseAlarm = 1e-3; ///< α: desired probability of accepting H1 on noise
+    double miss = 1e-3;       ///< β: desired probability of accepting H0 with a signal, averaged over its trajectories
     int cutOffStage = 0;      ///< K: a decision is forced there; 0: never
 
     static const std::vector<Field<SprtSettings>> &fields();
@@ -32,13 +32,13 @@ struct SprtSettings {
 /// Throws Error naming `where` and the member.
 void checkSprt(const SprtSettings &settings, const std::string &where);
 
-/// Where the test stops, in nats of ln Λ.
+/// Boundaries of the test, in nats of ln Λ.
 ///
 ///   ln γ1 = ln (1-β)/α,   ln γ0 = ln β/(1-α),   at the cut-off stage ½(ln γ0 + ln γ1)
 ///
 /// Source: Wald's approximation, Grossi and Lops 2006, eq. 9 and section 4.3.
 ///
-/// α/(1-β) and β/(1-α) of the test as it runs are at most 1/γ1 and γ0: rigorous for the test without a cut-off.
+/// For the actual test, α/(1-β) and β/(1-α) are at most 1/γ1 and γ0: rigorous without a cut-off.
 struct SprtBoundaries {
     double lnLower = 0.0;
     double lnUpper = 0.0;
@@ -46,18 +46,18 @@ struct SprtBoundaries {
 };
 SprtBoundaries sprtBoundaries(const SprtSettings &settings);
 
-/// Decision after a stage (1, 2, …): H1 where ln Λ ≥ ln γ1, H0 where ln Λ ≤ ln γ0; at the cut-off stage these first,
-/// then H1 where ln Λ ≥ ½(ln γ0 + ln γ1), otherwise H0. Source: Grossi and Lops 2006 eq. 4 and section 3.4.
+/// Decision after a stage (1, 2, …): H1 if ln Λ ≥ ln γ1, H0 if ln Λ ≤ ln γ0; at the cut-off stage otherwise H1 if ln Λ
+/// ≥ ½(ln γ0 + ln γ1), else H0. Source: Grossi and Lops 2006 eq. 4 and section 3.4.
 SprtDecision decide(const SprtSettings &settings, double lnLambda, Index stage);
 
 /// The likelihood ratio of "a signal since the first stage" to "noise only".
 ///
 ///   F_1(n) = P_1(n) · e^{λ_1(n)},   F_k(n) = e^{λ_k(n)} · Σ_m P(n|m) F_{k-1}(m),   Λ_k = Σ_n F_k(n)
 ///
-/// λ_k(n): ln p1/p0 of the state's cell at stage k. Kept as F/Λ, which is the posterior law of the state, and ln Λ, so
-/// that a thousand stages neither overflow nor lose digits. On noise E[Λ_k] = 1. Source: Grossi and Lops 2006,
-/// Algorithm 3.1. Oracle: enumeration of all trajectories. Cost: the recursion's and one exponential a cell. One object
-/// per thread.
+/// λ_k(n): ln p1/p0 of the state's cell at stage k. Stored as F/Λ, the posterior law of the state, and ln Λ, so that a
+/// thousand stages neither overflow nor lose digits. On noise E[Λ_k] = 1. Source: Grossi and Lops 2006, Algorithm 3.1.
+/// Oracle: enumeration of all trajectories. Cost: the recursion's and one exponential per cell. Use one object per
+/// thread.
 class LikelihoodRatio
 {
 public:
@@ -79,31 +79,31 @@ private:
     Index m_stages = 0;
 };
 
-/// Writes the frame of a stage (0, 1, …), reduction.frameCells() values of noise mean 1. Must give the same frame
-/// whenever asked.
+/// Writes the frame of a stage (0, 1, …), reduction.frameCells() values of noise mean 1. Repeated calls must give the
+/// same frame.
 using StageSource = std::function<void(Index stage, std::span<double> y)>;
 
-/// How a sequential test went.
+/// Outcome of a sequential test.
 struct SprtResult {
     SprtDecision decision = SprtDecision::Undecided;
-    Index stages = 0;             ///< taken; the decision fell after the last of them
+    Index stages = 0;             ///< number taken; the decision was made after the last one
     bool isForced = false;        ///< at the cut-off stage, between the boundaries
-    std::vector<double> lnLambda; ///< after every stage taken
-    /// Most probable cell of every stage, one index per frame axis; only where H1 was accepted.
+    std::vector<double> lnLambda; ///< after each stage taken
+    /// Most probable cell of each stage, one index per frame axis; only if H1 was accepted.
     std::vector<std::vector<Index>> trajectory;
     double lnMapScore = 0.0; ///< ln of the trajectory's probability times its likelihood ratio
 };
 
-/// The stages that a test may take.
+/// The stages available to a test.
 struct StageSeries {
     Index count = 0;
     StageSource source;
-    /// Is shown every stage right after it was taken; may be empty.
+    /// Called for each stage after it was taken; may be empty.
     std::function<void(const LikelihoodRatio &ratio)> observer{};
 };
 
-/// Takes stage after stage until a boundary is reached, the cut-off stage, or the last of `stages`; then, where H1 was
-/// accepted, estimates the trajectory (MapTrajectory). Throws Error, Cancelled.
+/// Takes stages until a boundary, the cut-off stage or the last of `stages` is reached; then, if H1 was accepted,
+/// estimates the trajectory (MapTrajectory). Throws Error, Cancelled.
 SprtResult runSprt(const SequentialModel &model, const SprtSettings &settings, const StageSeries &stages,
                    const RunContext &context = {});
 SprtResult runSprt(const SequentialModel &model, const SprtSettings &settings, Index stages, const StageSource &source,

@@ -11,7 +11,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr double widest = 600.0; ///< nats; e^±700 is still a number
+    constexpr double widest = 600.0; ///< nats; e^±700 is still representable
 
 } // namespace
 
@@ -33,7 +33,7 @@ void SumDetector::update(std::span<const float> y, std::span<float> statistic)
     const auto [least, most] = std::minmax_element(lambda.begin(), lambda.end());
     const double highest = *most;
     const double background =
-        m_rule.law == ResetLaw::Fixed ? std::abs(m_scale) : 0.0; // how far the fresh paths' 1 lies from the best
+        m_rule.law == ResetLaw::Fixed ? std::abs(m_scale) : 0.0; // distance of a new path's 1 from the best
     const bool isWide = std::max(highest - *least, background) > widest;
     if (isWide) {
         updateWide(lambda);
@@ -68,7 +68,7 @@ void SumDetector::update(std::span<const float> y, std::span<float> statistic)
     }
 }
 
-/// The same step in logarithms, for the scores; weights and scale from them.
+/// The same step in logarithms, for the scores; weights and scale follow from them.
 void SumDetector::updateWide(std::span<const double> lambda)
 {
     std::vector<double> ln(m_weights.size(), 0.0);
@@ -78,7 +78,7 @@ void SumDetector::updateWide(std::span<const double> lambda)
         for (std::size_t n = 0; n < ln.size(); ++n) {
             const double goesOn = m_scale + (isFixed ? m_rule.lnK : 0.0) + std::log(predicted[n]);
             ln[n] = isFixed ? std::max(goesOn, 0.0) + std::log1p(std::exp(-std::abs(goesOn)))
-                            : goesOn; // with the fresh one's 1
+                            : goesOn; // plus the new path's 1
         }
     }
     for (std::size_t n = 0; n < ln.size(); ++n)
@@ -101,7 +101,7 @@ void SumDetector::forget(const Grid &grid, const CellBox &box)
     });
 }
 
-/// What the next frame depends on, and the scores of the last.
+/// Everything on which the next frame depends, and the last scores.
 struct SumDetector::State final : DetectorState {
     std::vector<double> weights;
     std::vector<float> scores;

@@ -9,14 +9,14 @@
 
 namespace faintline {
 
-/// The sum-product sibling of the sequential Markov detector: all paths count, not only the best.
+/// The sum-product variant of the sequential Markov detector: all paths count, not only the best.
 ///
 ///   A(n, t) = e^{λ(n, t)} · ( K Σ_m P(n|m) A(m, t-1) + r ),   u = ln A
 ///
 /// with r = 1 under a fixed reset law (Shiryaev-Roberts) and r = 0 under none, where ln Σ A/N is the log-likelihood
-/// ratio of "a signal since the first frame" (Grossi and Lops 2006, Algorithm 3.1). Kept as scaled weights, so that a
-/// thousand frames neither overflow nor lose digits; where the evidence of one frame spans more than a double does,
-/// they go by their logarithms (a path more than 700 nats below the best one then counts for no more than a fresh one).
+/// ratio of "a signal since the first frame" (Grossi and Lops 2006, Algorithm 3.1). Stored as scaled weights, so that a
+/// thousand frames neither overflow nor lose digits; if the evidence of one frame spans more than the range of a
+/// double, logarithms are used (a path more than 700 nats below the best one then counts no more than a new one).
 /// Oracle: enumeration of all paths in the linear domain.
 class SumDetector final : public PathDetector
 {
@@ -32,7 +32,7 @@ public:
     double offset(std::size_t /*model*/ = 0) const override { return 0.0; }
     Regulation regulation(std::size_t /*model*/ = 0) const override { return {m_rule.lnK, 1.0, m_rule.lnK}; }
 
-    /// ln of the mean of A over all states: the log-likelihood ratio of the uniform initial law.
+    /// ln of the mean of A over all states: the log-likelihood ratio for the uniform initial law.
     double lnMean() const { return m_lnMean; }
 
 private:
@@ -47,7 +47,7 @@ private:
     std::vector<double> m_weights; ///< A·e^(-scale)
     double m_scale = 0.0;
     double m_lnMean = 0.0;
-    Index m_frames = 0; ///< taken so far
+    Index m_frames = 0; ///< number of frames taken
     std::vector<float> m_scores;
 };
 

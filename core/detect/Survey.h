@@ -7,38 +7,38 @@
 
 namespace faintline {
 
-/// One look of a radar into one angular sector: a sequential test of its own.
+/// One look of a radar into one angular sector: a separate sequential test.
 struct SectorVisit {
     Index round = 0;
     Index sector = 0;
-    Index firstStage = 0; ///< stages the radar spent before it came here
+    Index firstStage = 0; ///< stages the radar spent before this visit
     SprtResult result;
 };
 
-/// Rounds of looks, and what they cost.
+/// Rounds of looks and their cost.
 struct Survey {
-    std::vector<SectorVisit> visits; ///< in the order they were made
-    Index stages = 0;                ///< all of them together
-    Index fixedStages = 0;           ///< a test of fixed size would have spent
+    std::vector<SectorVisit> visits; ///< in chronological order
+    Index stages = 0;                ///< total number
+    Index fixedStages = 0;           ///< that a test of fixed size would have spent
 
-    /// Share of the fixed-size test's stages that was not needed; negative if more were.
+    /// Fraction of the fixed-size test's stages that was saved; negative if more were needed.
     double saving() const { return fixedStages > 0 ? 1.0 - double(stages) / double(fixedStages) : 0.0; }
 };
 
-/// The stages of one look; may depend on when it begins.
+/// The stages of one look; they may depend on when it begins.
 using SectorSource = std::function<StageSource(const SectorVisit &visit)>;
 
-/// How often each sector is visited, and how long a look may take.
+/// Number of visits and maximum length of a look.
 struct SurveyPlan {
     Index sectors = 1;
     Index rounds = 1;
-    Index stagesAtMost = 1; ///< of one look
-    Index fixedSize = 1;    ///< stages a look of the test that it is compared with
+    Index stagesAtMost = 1; ///< per look
+    Index fixedSize = 1;    ///< stages per look of the fixed-size test for comparison
 };
 
-/// Visits sector after sector, round after round: each is looked at until its test decides or `plan.stagesAtMost` are
-/// taken (no decision), then the beam moves on. Empty sectors, the many, are left early; that is what a sequential test
-/// saves against one of `plan.fixedSize` stages a look. Source: Grossi and Lops 2006, section 4. Throws Error,
+/// Visits sector after sector, round after round. Each look lasts until its test decides or `plan.stagesAtMost` stages
+/// are taken (no decision). Empty sectors, the majority, are left early, which is where a sequential test saves stages
+/// compared with one of `plan.fixedSize` stages per look. Source: Grossi and Lops 2006, section 4. Throws Error,
 /// Cancelled.
 Survey survey(const SequentialModel &model, const SprtSettings &settings, const SurveyPlan &plan,
               const SectorSource &source, const RunContext &context = {});

@@ -25,8 +25,8 @@ TiledPlanes<Semiring>::TiledPlanes(const PlaneShape &shape, Index reach, Index t
     }
 }
 
-/// Rows beyond the ends of the first axis, and those near to them: rows -reach … edge+reach and the same at the other
-/// end, or all.
+/// Copies rows beyond and near the ends of the first axis: rows -reach … edge+reach and the same at the other end, or
+/// all.
 template <class Semiring>
 void TiledPlanes<Semiring>::fillMargins(std::span<const Real> scores)
 {
@@ -62,7 +62,7 @@ void TiledPlanes<Semiring>::fillMargins(std::span<const Real> scores)
     }
 }
 
-/// Where a plane's rows from firstRow on lie, with `reach` more on either side of the tile.
+/// Pointer to a plane's rows from firstRow on, with `reach` more on either side of the tile.
 template <class Semiring>
 const typename Semiring::Real *TiledPlanes<Semiring>::rowsOf(std::span<const Real> scores, Index plane,
                                                              Index firstRow) const

@@ -7,24 +7,24 @@
 
 namespace faintline {
 
-/// How the planes of all states lie, by their slowest axis.
+/// Memory layout of the planes of all states, by their slowest axis.
 struct PlaneShape {
     Index planes;
     Index rows;  ///< cells of the slowest axis …
-    Index inner; ///< … and of all after it
+    Index inner; ///< … and of all following axes
     bool isCyclic;
 
     Index size() const { return rows * inner; }
 };
 
-/// Cells of the slowest axis that are dealt with at a time.
+/// Cells of the slowest axis that are processed at a time.
 struct TileRows {
     Index first;
     Index count;
 };
 
-/// Planes cut into tiles of the slowest axis, so that a tile's rows can be read with `reach` more on either side: those
-/// of tiles at the axis's ends from a copy with margins, ⊕'s neutral element or wrapped round.
+/// Planes divided into tiles of the slowest axis. A tile's rows can be read with `reach` more on either side; tiles at
+/// the axis's ends use a copy whose margins hold the neutral element of ⊕ or wrapped values.
 template <class Semiring>
 class TiledPlanes
 {
@@ -36,18 +36,18 @@ public:
 
     const std::vector<TileRows> &tiles() const { return m_tiles; }
 
-    /// To be called when the scores have changed.
+    /// Call when the scores have changed.
     void fillMargins(std::span<const Real> scores);
 
-    /// Where a plane's rows from firstRow, a tile's first, on lie.
+    /// Pointer to a plane's rows from firstRow, the first row of a tile, on.
     const Real *rowsOf(std::span<const Real> scores, Index plane, Index firstRow) const;
 
 private:
     PlaneShape m_shape{};
     Index m_reach = 0;
     std::vector<TileRows> m_tiles;
-    Index m_edgeRows = 0;        ///< tiles that begin nearer to an end of the axis, or end there, use the margins
-    std::vector<Real> m_margins; ///< of each plane: the rows round either end, or all of them
+    Index m_edgeRows = 0;        ///< tiles that begin within this distance of an end, or end there, use margins
+    std::vector<Real> m_margins; ///< for each plane: the rows around either end, or all of them
 };
 
 extern template class TiledPlanes<MaxPlus<float>>;

@@ -11,7 +11,7 @@ namespace faintline {
 
 namespace {
 
-    /// The last axis with a state: how many cells it has, and how far apart they lie on a frame.
+    /// The last axis with a state: its number of cells and their stride in a frame.
     struct Row {
         Index cells = 0;
         Index stride = 1;

@@ -18,8 +18,8 @@ namespace {
 
     constexpr Index lineFloats = 16; ///< of a cache line
 
-    /// A target's sources as the inner loop wants them: of three, nearly always, the outer two weigh the same; of
-    /// fewer, some count twice.
+    /// A target's sources in the form of the inner loop: with three, the outer two nearly always have equal weights;
+    /// with fewer, some are used twice.
     struct Joined {
         const float *first;
         const float *second;
@@ -27,12 +27,12 @@ namespace {
         float outer; ///< ln P of the first and the third …
         float inner; ///< … and of the second, ln K included
         float *to;
-        const TargetPlane *general; ///< where there are more, or none, or three weights
+        const TargetPlane *general; ///< if there are more, none, or three different weights
     };
 
     constexpr std::size_t mostAtOnce = 64; ///< targets
 
-    /// What all targets are joined with in some cells.
+    /// Data joined with all targets in some cells.
     struct FramePart {
         CellRun cells;
         const float *lambda;
@@ -58,16 +58,16 @@ namespace {
         return result;
     }
 
-    /// How a frame's targets lie to each other; the more is known, the less the inner loop loads.
+    /// Layout of a frame's targets; the more is known, the fewer loads the inner loop needs.
     enum class Layout {
         Any,
         Singles, ///< each has one source
         Threes,  ///< none is general
-        Chained, ///< and each one's second source is the next one's first; all else as far apart from target to target
-        Uniform, ///< and all sources weigh the same
+        Chained, ///< and the second source of each is the first of the next, with constant distances otherwise
+        Uniform, ///< and all sources have the same weight
     };
 
-    /// Of two sources the edge's own comes second.
+    /// With two sources the edge's own comes second.
     Layout arrange(std::span<Joined> targets)
     {
         const auto isGeneral = [](const Joined &t) { return t.general != nullptr; };
@@ -100,7 +100,7 @@ namespace {
         return isUniform ? Layout::Uniform : Layout::Chained;
     }
 
-    /// The maximum over any sources, their weights and ln K included.
+    /// The maximum over any number of sources, including their weights and ln K.
     template <int bytes>
     [[gnu::always_inline]] inline Floats<bytes> bestOf(const TargetPlane &target, Index i, float lnK)
     {
@@ -110,8 +110,8 @@ namespace {
         return best;
     }
 
-    /// So many cells at a time through all targets: what belongs to the cells stays in registers, as arrays of a plain
-    /// loop would not.
+    /// Processes `cells` cells at a time through all targets, so that their data stays in registers, as arrays of a
+    /// plain loop would not.
     template <int bytes, Index cells, Counting counting, Layout layout>
     [[gnu::always_inline]] inline Index finishCells(std::span<const Joined> targets, Index i, const FramePart &frame,
                                                     Continued &continued)
@@ -198,7 +198,7 @@ namespace {
             for (Index part = 0; part < parts; ++part)
                 store(statistic + i + part * width, best[part]);
         }
-        // The sum is rounded in the same order whatever the vectors' width: cells that are sixteen apart first.
+        // The sum is rounded in the same order for any vector width: cells at a distance of sixteen first.
         constexpr Index half = std::min<Index>(cells, 16);
         for (Index lane = 0; counting != Counting::Nothing && lane < half; ++lane) {
             double together = 0.0;
@@ -211,7 +211,7 @@ namespace {
         return i;
     }
 
-    /// One cell of the run through all targets.
+    /// Processes one cell of the run through all targets.
     [[gnu::always_inline]] inline void finishOne(std::span<const TargetPlane> targets, Index i, const FramePart &frame,
                                                  Continued &continued)
     {

@@ -4,8 +4,8 @@
 
 namespace faintline::vectors {
 
-// Vectors of floats for the inner loops of the recursion; wide ones never cross a call, for all that takes them is
-// inlined.
+// Vectors of floats for the inner loops of the recursion. Wide ones never cross a call, because all functions that take
+// them are inlined.
 
 template <int bytes>
 using Floats = typename Vector<float, bytes>::Type;

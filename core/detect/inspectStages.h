@@ -7,10 +7,10 @@
 
 namespace faintline {
 
-/// Where the target was thought to be, stage after stage, along one axis of the model: the posterior law summed over
-/// all other axes and rates.
+/// Posterior law of the target's place along one axis of the model, stage by stage, summed over all other axes and
+/// rates.
 struct PosteriorPicture {
-    std::size_t frameAxis = 0; ///< which axis of the frames
+    std::size_t frameAxis = 0; ///< index of the axis in the frames
     std::string name;
     Index cells = 0;
     Index stride = 1;               ///< row i belongs to stage i·stride (0, 1, …)
@@ -19,14 +19,14 @@ struct PosteriorPicture {
     Index rows() const { return cells > 0 ? Index(probability.size()) / cells : 0; }
 };
 
-/// A sequential test with what it thought on the way.
+/// A sequential test with its posterior laws.
 struct InspectedTest {
     SprtResult result;
     std::vector<PosteriorPicture> posterior; ///< one per axis with a state
 };
 
-/// runSprt with P(x_k | z_1 … z_k) kept. Where a picture would exceed 2²² values, every second row is dropped, again
-/// and again. Oracle: LikelihoodRatio. Throws Error, Cancelled.
+/// runSprt that keeps P(x_k | z_1 … z_k). When a picture would exceed 2²² values, every second row is dropped,
+/// repeatedly if necessary. Oracle: LikelihoodRatio. Throws Error, Cancelled.
 InspectedTest inspectStages(const SequentialModel &model, const SprtSettings &settings, Index stages,
                             const StageSource &source, const RunContext &context = {});
 

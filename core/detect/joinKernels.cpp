@@ -16,7 +16,7 @@ namespace {
 
     using namespace vectors;
 
-    constexpr Index lanes = 64; ///< values kept in registers while all sources are joined to them
+    constexpr Index lanes = 64; ///< values kept in registers while all sources are joined
 
     struct MaxJoin {
         template <class Real>
@@ -37,7 +37,7 @@ namespace {
         }
     };
 
-    /// Where all weights are the same: max(a + w, b + w) = max(a, b) + w to the last bit, for rounding is monotone.
+    /// For equal weights: max(a + w, b + w) = max(a, b) + w to the last bit, because rounding is monotone.
     struct EqualMaxJoin {
         template <class Real>
         Real first(Real value, Real) const
@@ -62,7 +62,7 @@ namespace {
         double last(double sum, double) const { return sum; }
     };
 
-    /// to[i] = ⊕_k from_k[i] ⊗ weight_k, the sources in their order.
+    /// to[i] = ⊕_k from_k[i] ⊗ weight_k, in the order of the sources.
     template <class Real, class Join>
     [[gnu::always_inline]] inline void joinAll(Real *to, Index n, const ShiftedPlane<Real> *sources, std::size_t count,
                                                Join join)
@@ -109,7 +109,7 @@ namespace {
             joinAll(to, n, sources.data(), sources.size(), MaxJoin());
     }
 
-    /// `joinMaxima` for floats: some cells stay in registers while the sources go by.
+    /// `joinMaxima` for floats: keeps some cells in registers while iterating over the sources.
     template <int bytes, bool equal>
     [[gnu::always_inline]] inline Index joinVectors(float *to, Index n, std::span<const ShiftedPlane<float>> sources)
     {

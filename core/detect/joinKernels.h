@@ -6,20 +6,20 @@
 
 namespace faintline {
 
-/// A source plane, moved to where its values are needed.
+/// A source plane, shifted to the target's cells.
 template <class Real>
 struct ShiftedPlane {
     const Real *from;
     Real weight;
 };
 
-// The inner loops of the recursion, compiled for each instruction set.
+// Inner loops of the recursion, compiled for each instruction set.
 
-/// to[i] = max_k from_k[i] + weight_k; with no source -∞.
+/// to[i] = max_k from_k[i] + weight_k; -∞ without sources.
 void joinMax(float *to, Index n, std::span<const ShiftedPlane<float>> sources);
 void joinMax(double *to, Index n, std::span<const ShiftedPlane<double>> sources);
 
-/// to[i] = Σ_k from_k[i]·weight_k, the sources in their order; with none 0.
+/// to[i] = Σ_k from_k[i]·weight_k, in the order of the sources; 0 without sources.
 void joinSum(double *to, Index n, std::span<const ShiftedPlane<double>> sources);
 
 void maxOfTwo(float *to, const float *a, const float *b, Index n);

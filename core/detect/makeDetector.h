@@ -15,13 +15,13 @@
 
 namespace faintline {
 
-/// The sequential Markov detector's own settings.
+/// Settings of the sequential Markov detector.
 struct SmdSettings {
     enum class Reset { Calibrated, Fixed, Half, Mean };
     static constexpr std::array<std::string_view, 4> resetNames{"calibrated", "fixed", "half", "mean"};
 
-    Reset reset = Reset::Calibrated; ///< how K is found
-    double lnK = 0.0;                ///< Fixed
+    Reset reset = Reset::Calibrated; ///< how K is determined
+    double lnK = 0.0;                ///< for Fixed
 
     static const std::vector<Field<SmdSettings>> &fields();
     bool operator==(const SmdSettings &) const = default;
@@ -33,23 +33,23 @@ struct EnergySettings {
     bool operator==(const EnergySettings &) const = default;
 };
 
-/// The Shiryaev-Roberts detector: SumDetector with a reset, all paths count.
+/// The Shiryaev-Roberts detector: SumDetector with a reset; all paths count.
 struct ShiryaevRobertsSettings {
-    /// 0: the classical procedure, whose statistic grows without end on noise where the law loses no probability.
+    /// 0: the classical procedure, whose statistic grows without bound on noise if the law loses no probability.
     double lnK = -0.1;
 
     static const std::vector<Field<ShiryaevRobertsSettings>> &fields();
     bool operator==(const ShiryaevRobertsSettings &) const = default;
 };
 
-/// Any detector's settings; the alternatives are named by `detectorNames`, in order.
+/// Settings of any detector, in the order of `detectorNames`.
 using DetectorSettings = std::variant<SmdSettings, PofNSettings, IntegratorSettings, EnergySettings,
                                       BlockViterbiSettings, ShiryaevRobertsSettings>;
 
 inline constexpr std::array<std::string_view, std::variant_size_v<DetectorSettings>> detectorNames{
     "smd", "pOfN", "integrator", "energy", "blockViterbi", "shiryaevRoberts"};
 
-/// What the statistics of these are measured in: log-likelihoods in nats, mean powers as multiples of the noise's.
+/// Units of their statistics: nats for log-likelihoods, multiples of the noise for mean powers.
 inline constexpr std::array<std::string_view, detectorNames.size()> detectorUnits{"nat",     "× noise", "× noise",
                                                                                   "× noise", "nat",     "nat"};
 
@@ -58,29 +58,29 @@ inline std::string_view statisticUnit(const DetectorSettings &settings)
     return detectorUnits[settings.index()];
 }
 
-/// The default settings of the alternative of that index.
+/// Default settings of the alternative with that index.
 DetectorSettings detectorOfKind(std::size_t index);
 
-/// What the frames are made of, for settings that are stated independently of it.
+/// Properties of the frames, for settings that are independent of them.
 struct FrameGeometry {
     double framesPerWindow = 1.0; ///< k_t
     double binsPerCell = 1.0;     ///< k_f
-    /// Frames of a block that have gone by before the first frame, for detectors that decide in blocks.
+    /// Frames of a block that precede the first frame, for detectors that decide in blocks.
     Index blockPhase = 0;
 };
 
-/// Whether the statistic is the score of a path, in nats, which a tracker follows on. The tracks of the others start
-/// from the paths of a sequential Markov detector beside them (GuidedDetector), whose scores have nothing to do with
-/// the statistic.
+/// Whether the statistic is the score of a path, in nats, which a tracker continues. Tracks of other detectors start
+/// from the paths of a sequential Markov detector beside them (GuidedDetector), whose scores are unrelated to the
+/// statistic.
 inline bool isScoreOfPaths(const DetectorSettings &settings)
 {
     return std::holds_alternative<SmdSettings>(settings);
 }
 
-/// Frames from one decision to the next: a block's length where a detector decides at the end of blocks, else 1.
+/// Frames between decisions: a block's length if a detector decides at the end of blocks, else 1.
 Index framesPerDecision(const DetectorSettings &settings, const FrameGeometry &geometry);
 
-/// The detector that the settings describe. `rule`: the reset of the sequential Markov detector, as calibrated.
+/// Creates the detector that the settings describe. `rule`: calibrated reset of the sequential Markov detector.
 std::unique_ptr<Detector> makeDetector(const DetectorSettings &settings, const MarkovModel &model, const Grid &grid,
                                        const FrameGeometry &geometry, const ResetRule &rule);
 

@@ -8,7 +8,7 @@
 
 namespace faintline {
 
-/// The (⊕, ⊗) the recursion runs on. Scores are logarithms under max-plus, plain weights under sum-product.
+/// The (⊕, ⊗) of the recursion. Scores are logarithms under max-plus, plain weights under sum-product.
 template <class R>
 struct MaxPlus {
     using Real = R;
@@ -20,7 +20,7 @@ struct SumProduct {
     static constexpr bool logarithmic = false;
 };
 
-/// ⊕'s neutral element.
+/// Neutral element of ⊕.
 template <class Semiring>
 constexpr typename Semiring::Real neutral()
 {

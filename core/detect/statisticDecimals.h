@@ -4,7 +4,7 @@
 
 namespace faintline {
 
-/// Decimals that a statistic is shown with: a hundredth of the noise's power matters, of a nat it does not.
+/// Number of decimals of a displayed statistic: a hundredth matters for noise power, not for a nat.
 inline int statisticDecimals(const DetectorSettings &settings)
 {
     return statisticUnit(settings) == "nat" ? 1 : 2;

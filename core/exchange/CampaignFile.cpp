@@ -42,7 +42,7 @@ namespace {
         return Json{{"run", outcome.run}, {"noise", outcome.noise}, {"signal", outcome.signal}}.dump();
     }
 
-    /// JSON has no infinity; a maximum over nothing is written as null.
+    /// JSON has no infinity; the maximum of an empty set is written as null.
     float floatFrom(const Json &value)
     {
         return value.is_null() ? -std::numeric_limits<float>::infinity() : value.get<float>();
@@ -70,7 +70,8 @@ namespace {
         return outcome;
     }
 
-    /// The end of a file to which lines are added. They survive the program at once, and the machine a second later.
+    /// Appends lines to a file. A line survives the death of the program at once, and that of the machine after a
+    /// second.
     class Lines
     {
     public:
@@ -122,7 +123,7 @@ namespace {
 
     constexpr std::string_view checkKey = ",\"checksum\":\"";
 
-    /// A line of JSON that carries the checksum of what it was before.
+    /// Appends to a line of JSON the checksum of the original line.
     std::string withChecksum(std::string line)
     {
         const std::string own = checksum(line);
@@ -130,14 +131,14 @@ namespace {
         return line + std::string(checkKey) + own + "\"}";
     }
 
-    /// Whether it is as it was written.
+    /// Whether the checksum of a line is correct.
     bool isAsWritten(const std::string &line)
     {
         const std::size_t at = line.rfind(checkKey);
         return at != std::string::npos && line == withChecksum(line.substr(0, at) + "}");
     }
 
-    /// Of a sweep: how many false alarms in how many seconds.
+    /// Of a sweep: number of false alarms and observed seconds.
     bool isCount(const std::vector<float> &noise)
     {
         constexpr float most = 1e9f; // of either in one run
@@ -226,8 +227,8 @@ namespace {
         writeTextFile(parts, text);
     }
 
-    /// What a killed run left, without lines that are not as they were written: their runs are made again. Nothing
-    /// where the first is none of ours.
+    /// Reads what a killed run left, without damaged lines: their runs are repeated. Empty if the first line is not
+    /// ours.
     std::optional<Campaign> readParts(const std::string &parts)
     {
         std::ifstream file(parts);
@@ -271,7 +272,7 @@ Campaign readCampaign(const std::string &path)
         readingJson(path + ", line 1: thresholds", [&] { return head["thresholds"].get<std::vector<double>>(); });
     for (int number = 2; std::getline(file, line); ++number) {
         if (file.eof())
-            break; // no line end: cut off
+            break; // no line end: truncated
         try {
             const std::string where = path + ", line " + std::to_string(number);
             campaign.outcomes.push_back(outcomeFrom(parseJson(line, where), campaign.experiment, where));

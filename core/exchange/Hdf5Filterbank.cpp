@@ -32,13 +32,13 @@ Hdf5Filterbank::Hdf5Filterbank(const std::string &path)
     constexpr Index mostPolarisations = 64;
     if (shape[1] > mostPolarisations || shape[2] > mostChannels)
         throw Error(path, "has " + std::to_string(shape[1]) + " polarisations of " + std::to_string(shape[2])
-                              + " channels; 64 of 67 million can be");
+                              + " channels; at most 64 polarisations of 67 million channels are supported");
     FilterbankHeader header;
     for (const auto &[value, name] :
          {std::pair{&header.fch1, "fch1"}, std::pair{&header.foff, "foff"}, std::pair{&header.tsamp, "tsamp"}}) {
         const auto given = m_data->number(name);
         if (!given)
-            throw Error(path, "its dataset \"data\" has no number " + std::string(name));
+            throw Error(path, "its dataset \"data\" has no numeric attribute " + std::string(name));
         *value = *given;
     }
     header.tstart = m_data->number("tstart").value_or(0.0);

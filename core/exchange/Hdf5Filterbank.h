@@ -5,15 +5,15 @@
 
 namespace faintline {
 
-/// A filterbank in HDF5 (.h5, as blimpy and turboSETI read it): a dataset "data" of shape (frames, IFs, channels) with
+/// A filterbank in HDF5 (.h5, as read by blimpy and turboSETI): a dataset "data" of shape (frames, IFs, channels) with
 /// the attributes of a sigproc header: fch1, foff (MHz), tsamp (s), tstart (MJD).
 ///
-/// Axes, time and notes as of SigprocFile. Packed data is unpacked chunk by chunk, with at most 32 MiB of chunks kept.
-/// Thread-safe.
+/// Axes, time and notes are as for SigprocFile. Compressed data is unpacked chunk by chunk; at most 32 MiB of chunks
+/// are cached. Thread-safe.
 class Hdf5Filterbank final : public PowerFrames
 {
 public:
-    /// Throws Error where the file holds no such dataset, or says of it what cannot be.
+    /// Throws Error if the file has no such dataset or its attributes are invalid.
     explicit Hdf5Filterbank(const std::string &path);
 
     void read(const PowerPart &part, std::span<float> out) const override;

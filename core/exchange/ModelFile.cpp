@@ -70,7 +70,7 @@ namespace {
             return otherwise;
         if (!found->is_string())
             throw Error(jsonName(where, key), "must be a string");
-        constexpr std::size_t mostBytes = 80; // a name or a unit, which goes onto labels and to terminals
+        constexpr std::size_t mostBytes = 80; // names and units appear on labels and in terminals
         return oneLine(found->get<std::string>(), mostBytes);
     }
 
@@ -102,7 +102,7 @@ namespace {
             throw Error(where + ".step",
                         "must be a list of probabilities, \"uniform-admissible\" or {\"gaussian\": cells}");
         checkKeys(*step, where + ".step", {"gaussian"});
-        constexpr double widest = 1e5; // its law is nine times as long
+        constexpr double widest = 1e5; // the law has nine times as many values
         const double deviation = number(*step, where + ".step", "gaussian", -1.0);
         if (!(deviation >= 0.0 && deviation <= widest))
             throw Error(where + ".step.gaussian",
@@ -170,14 +170,14 @@ namespace {
         checkKeys(json, path, {"axes", "likelihood", "reset", "initial", "semiring", "scaleTransitions"});
         if (!json.contains("axes") || !json["axes"].is_array() || json["axes"].empty())
             throw Error(path, "needs \"axes\", a list of at least one axis");
-        constexpr std::size_t mostAxes = 8; // a law of one may take megabytes
+        constexpr std::size_t mostAxes = 8; // the law of one axis may take megabytes
         if (json["axes"].size() > mostAxes)
             throw Error(path + ": axes", "must be at most " + std::to_string(mostAxes));
         if (!json.contains("likelihood") || !json["likelihood"].is_object())
             throw Error(path, "needs \"likelihood\", such as {\"kind\": \"rice\", \"r0\": 0.5}");
     }
 
-    /// Those of the settings, and evidence that somebody else has computed.
+    /// Those of the settings, and likelihood ratios computed elsewhere.
     constexpr std::array<std::string_view, 4> modelLikelihoodNames{"rice", "exponential", "linear", "given"};
 
     Likelihood readLikelihood(const Json &json, const std::string &path)

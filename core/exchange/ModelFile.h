@@ -12,7 +12,7 @@
 
 namespace faintline {
 
-/// A model and its reset rule as read from a JSON file.
+/// A model and its reset rule from a JSON file.
 ///
 ///   { "axes": [ { "name", "cells", "cyclic", "rates": [-2, …, 2], "ratesPerCell", "rateChange": [h(0), h(1), …],
 ///                 "step": [q(0), …], "round": "halfDown" | "trunc", "renormalised": bool } ],
@@ -20,41 +20,41 @@ namespace faintline {
 ///     "reset": { "law": "fixed" | "mean" | "half" | "none", "lnK", "K0" }, "initial": "uniform",
 ///     "semiring": "max" | "sum", "scaleTransitions": bool }
 ///
-/// Every key but axes and likelihood may be left out. Rates are whole multiples of 1/ratesPerCell cell per step.
+/// All keys except axes and likelihood are optional. Rates are integer multiples of 1/ratesPerCell cell per step.
 struct ModelFile {
     MarkovModel model;
     ResetRule reset;
     bool isSum = false; ///< semiring "sum": log-sum-exp instead of max
 };
 
-/// The detector of such a file: the maximum over paths, or the sum.
+/// The detector for such a file: the maximum over paths, or the sum.
 std::unique_ptr<PathDetector> makePathDetector(const ModelFile &file);
 
 /// Throws Error naming the file and the key.
 ModelFile readModelFile(const std::string &path);
 
-/// The model of such an object; `where` stands before the keys in what is thrown.
+/// Reads the model from such an object; `where` precedes the keys in errors.
 ModelFile modelFromJson(const Json &json, const std::string &where);
 
-/// How one coordinate moves, from an object as "axes" holds them. Throws Error naming `where.key`.
+/// Reads the motion of one coordinate from an element of "axes". Throws Error naming `where.key`.
 KinematicAxis kinematicAxisFromJson(const Json &json, const std::string &where);
 
-/// The same file for a sequential test, which knows no reset (the key is checked and not used) and more of these:
+/// The same file for a sequential test, which has no reset (the key is checked but not used), with additional values:
 ///
-///   axes      "step": "uniform-admissible" | {"gaussian": σ in cells}, both shared out among the cells that exist
-///             "integrate": true, an axis of the frames without a state
-///             "transition": [[P(from, to)]] in place of a law
-///   initial   [P(x1) of every state]
+///   axes      "step": "uniform-admissible" | {"gaussian": σ in cells}, both renormalised over the existing cells
+///             "integrate": true for an axis of the frames without a state
+///             "transition": [[P(from, to)]] instead of a law
+///   initial   [P(x1) of each state]
 ///
-/// readModelFile takes the steps and the matrix as well. Throws Error; also where the cells are not those of the
-/// frames, if these are known, and before anything is made as large as the file says.
+/// readModelFile accepts these steps and the matrix as well. Throws Error, also if the cells do not match those of the
+/// frames, if known, and before allocating anything of a size that the file specifies.
 struct FrameCells {
     std::string path;
-    std::vector<Index> cells; ///< of every axis
+    std::vector<Index> cells; ///< for each axis
 };
 SequentialModel readSequentialModel(const std::string &path, const FrameCells *frames = nullptr);
 
-/// Ready-made frames in double precision, cell after cell, stage after stage, checked as readFrames does.
+/// Ready-made frames in double precision, cell by cell, stage by stage, checked as by readFrames.
 struct DoubleFrames {
     std::vector<Index> shape; ///< stages, cells…
     std::vector<double> values;
@@ -62,23 +62,23 @@ struct DoubleFrames {
 DoubleFrames readDoubleFrames(const std::string &path);
 
 /// Grid and time axis of a stack of frames: { "axes": [ { "name", "unit", "first", "step", "count", "cyclic" } ],
-/// "time": { "first", "step" }, "values": "normalised" | "power" }; count may be left out where the frames tell it.
+/// "time": { "first", "step" }, "values": "normalised" | "power" }; count is optional if the frames determine it.
 /// Throws Error.
 struct GridFile {
     Grid grid;
     Axis time;
-    bool isPower = false; ///< of a spectrogram in a unit of its own, which is not normalised yet
+    bool isPower = false; ///< a spectrogram in its own unit that is not normalised yet
 };
 GridFile readGridFile(const std::string &path, const std::vector<Index> &shape);
 
-/// A grid file's text, as readGridFile takes it.
+/// The text of a grid file, as read by readGridFile.
 std::string gridFileText(const GridFile &file);
 
-/// Throws Error naming `where` for values that are negative or infinite.
+/// Throws Error naming `where` if a value is negative or infinite.
 void checkFrameValues(std::span<const float> values, const std::string &where);
 
-/// Ready-made frames from a NumPy file of shape (frames, cells…); `grid` may be empty (axes without units). Values that
-/// are negative or infinite are refused; NaN stands for a cell that was not observed.
+/// Reads ready-made frames from a NumPy file of shape (frames, cells…); `grid` may be empty (axes without units).
+/// Negative or infinite values are errors; NaN denotes a cell that was not observed.
 NormalisedFramesPointer readFrames(const std::string &path, const std::string &gridPath);
 
 } // namespace faintline

@@ -16,7 +16,7 @@ namespace faintline {
 namespace {
 
     constexpr std::string_view magic("\x93NUMPY", 6);
-    constexpr int arrayExponent = 31; ///< of what is read as a whole
+    constexpr int arrayExponent = 31; ///< of arrays read as a whole
     constexpr int fileExponent = 50;
 
     std::string shapeText(const std::vector<Index> &shape)
@@ -54,7 +54,7 @@ namespace {
         return rest;
     }
 
-    /// A shape whose product, and that of its beginning, is at most 2^mostExponent.
+    /// Parses a shape whose partial products are at most 2^mostExponent.
     std::vector<Index> parseShape(std::string_view text, int mostExponent, const std::string &path)
     {
         if (!text.starts_with('('))
@@ -127,7 +127,7 @@ namespace {
         const std::uintmax_t size = std::filesystem::file_size(path, code);
         const auto wanted =
             static_cast<std::uintmax_t>(valueCount(layout)) * (layout.isDouble ? sizeof(double) : sizeof(float));
-        if (!code && size - before - length < wanted) // before room is made for values that are not there
+        if (!code && size - before - length < wanted) // before memory is allocated for missing values
             throw cutShort(layout, path);
         return layout;
     }

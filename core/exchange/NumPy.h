@@ -21,27 +21,27 @@ struct NumPyDoubles {
     std::vector<double> values;
 };
 
-/// Where the values of such a file lie, and of what kind they are, without reading them.
+/// Position and type of the values of such a file, without reading them.
 struct NumPyLayout {
     std::vector<Index> shape;
     Index offset = 0; ///< of the first value, bytes
     bool isDouble = false;
 };
 
-/// Throws Error where the file is no such array, or is cut short; it may be larger than memory.
+/// Throws Error if the file is not such an array or is truncated; it may be larger than memory.
 NumPyLayout readNumPyLayout(const std::string &path);
 
-/// Throws Error where the file is no such array, is cut short, or holds more than 2³¹ values.
+/// Throws Error if the file is not such an array, is truncated, or holds more than 2³¹ values.
 NumPyArray readNumPy(const std::string &path);
 NumPyDoubles readNumPyDoubles(const std::string &path);
 
-/// Writes a float32 array piece by piece; the file appears when `finish` is called, with all values there.
+/// Writes a float32 array piece by piece; the file appears with `finish`, when it holds all values.
 class NumPyWriter
 {
 public:
     NumPyWriter(const std::string &path, const std::vector<Index> &shape);
     void write(std::span<const float> values);
-    /// Throws Error where fewer or more values came than the shape says.
+    /// Throws Error if the number of values does not match the shape.
     void finish();
 
 private:

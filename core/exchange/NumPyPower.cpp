@@ -26,7 +26,7 @@ NumPyPower::NumPyPower(const std::string &path, const std::string &gridPath)
     const GridFile grid = readGridFile(gridPath, m_layout.shape);
     if (!grid.grid.isSpectrum())
         throw Error(path, "holds power on " + std::to_string(grid.grid.axes.size())
-                              + " axes; (frames, frequencies) can be normalised");
+                              + " axes; only (frames, frequencies) can be normalised");
     m_info.path = path;
     m_info.container = "NumPy spectrogram";
     m_info.sampleType = m_layout.isDouble ? "float64" : "float32";
@@ -47,7 +47,7 @@ void NumPyPower::read(const PowerPart &part, std::span<float> out) const
         const Index at =
             m_layout.offset + ((part.firstFrame + i) * m_info.frequency.count + part.firstCell) * valueBytes;
         if (m_file.readAt(at, bytes) < bytes.size())
-            throw Error(m_info.path, "became shorter while it was open", Error::Kind::Failure);
+            throw Error(m_info.path, "was truncated while open", Error::Kind::Failure);
         for (std::size_t cell = 0; cell < doubles.size(); ++cell)
             row[cell] = float(doubles[cell]);
     }

@@ -6,8 +6,8 @@
 
 namespace faintline {
 
-/// A spectrogram in a NumPy file of shape (frames, frequencies), power in any unit, whose axes a grid file beside it
-/// describes with "values": "power":
+/// A spectrogram in a NumPy file of shape (frames, frequencies), power in any unit, whose axes are described by a grid
+/// file with "values": "power":
 ///
 ///   { "values": "power", "time": { "first": 0, "step": 0.5 },
 ///     "axes": [ { "name": "frequency", "unit": "Hz", "first": 100, "step": 2 } ] }
@@ -16,12 +16,12 @@ namespace faintline {
 class NumPyPower final : public PowerFrames
 {
 public:
-    /// Throws Error where one of the files is damaged or they do not fit.
+    /// Throws Error if one of the files is damaged or they do not match.
     NumPyPower(const std::string &path, const std::string &gridPath);
 
     void read(const PowerPart &part, std::span<float> out) const override;
 
-    /// Whether the grid file is there and says so. False where it cannot be read, for whoever reads it next says why.
+    /// Whether the grid file exists and declares power. False if it cannot be read; the next reader then reports why.
     static bool recognises(const std::string &path, const std::string &gridPath);
 
 private:

@@ -23,7 +23,7 @@ namespace {
     constexpr double largestCount = 1 << 26;
     constexpr std::string_view start = "HEADER_START";
 
-    /// What follows a keyword.
+    /// Type of the value after a keyword.
     enum class Kind { Whole, Real, Text, Byte, Nothing };
 
     const std::map<std::string_view, Kind> keywords{
@@ -37,7 +37,7 @@ namespace {
         {"nbeams", Kind::Whole},        {"ibeam", Kind::Whole},      {"signed", Kind::Byte},
         {"npuls", Kind::Whole},         {"nbins", Kind::Whole},      {"FREQUENCY_START", Kind::Nothing}};
 
-    /// Goes through a header from its beginning.
+    /// Reads a header from its beginning.
     class HeaderReader
     {
     public:
@@ -56,7 +56,7 @@ namespace {
             const auto length = number<std::int32_t>();
             if (length < 1 || length > longestWord)
                 throw Error(m_path, "its filterbank header has a keyword of " + std::to_string(length)
-                                        + " characters; 1 … 255 are possible");
+                                        + " characters; the length must be 1 … 255");
             const std::span<const std::byte> text = take(std::size_t(length));
             return {reinterpret_cast<const char *>(text.data()), text.size()};
         }
@@ -67,7 +67,7 @@ namespace {
         std::span<const std::byte> take(std::size_t count)
         {
             if (m_bytes.size() - m_at < count)
-                throw Error(m_path, "is cut short in its filterbank header, or has none of at most 64 KiB");
+                throw Error(m_path, "has a filterbank header that is truncated or longer than 64 KiB");
             m_at += count;
             return m_bytes.subspan(m_at - count, count);
         }
@@ -82,13 +82,13 @@ namespace {
     Values readValues(HeaderReader &header, const std::string &path)
     {
         if (header.word() != start)
-            throw Error(path, "is no sigproc filterbank");
+            throw Error(path, "is not a sigproc filterbank");
         Values values;
         for (std::string word = header.word(); word != "HEADER_END"; word = header.word()) {
             const auto known = keywords.find(word);
             if (known == keywords.end())
                 throw Error(path, "its filterbank header has the keyword " + oneLine(word)
-                                      + ", which is not known, nor how long its value is");
+                                      + ", which is unknown, as is the length of its value");
             switch (known->second) {
             case Kind::Whole:
                 values[word] = header.number<std::int32_t>();
@@ -103,8 +103,8 @@ namespace {
                 header.word();
                 break;
             case Kind::Nothing:
-                throw Error(path,
-                            "lists a frequency for each channel; evenly spaced channels (fch1, foff) can be read");
+                throw Error(
+                    path, "lists a frequency for each channel; only evenly spaced channels (fch1, foff) are supported");
             }
         }
         return values;
@@ -188,7 +188,7 @@ SigprocFile::SigprocFile(const std::string &path) : m_file(path)
     const Index dataBytes = m_file.size() - m_dataOffset;
     const Index frames = dataBytes / (bitsOfFrame / 8);
     if (frames < 1)
-        throw Error(path, "holds no whole spectrum of its " + std::to_string(channels) + " channels");
+        throw Error(path, "holds no complete spectrum of its " + std::to_string(channels) + " channels");
     const FilterbankHeader axes{required(values, "fch1", path),
                                 required(values, "foff", path),
                                 required(values, "tsamp", path),
@@ -199,9 +199,9 @@ SigprocFile::SigprocFile(const std::string &path) : m_file(path)
     m_descends = axes.foff < 0.0;
     if (const auto claimed = Index(valueOr(values, "nsamples", 0.0)); claimed > frames)
         m_info.notes.push_back("The header claims " + std::to_string(claimed) + " spectra; the "
-                               + std::to_string(frames) + " that are there are read.");
+                               + std::to_string(frames) + " existing ones are read.");
     else if (dataBytes % (bitsOfFrame / 8) != 0)
-        m_info.notes.push_back("The file ends within a spectrum, which is left out.");
+        m_info.notes.push_back("The file ends within a spectrum, which is omitted.");
 }
 
 namespace {
@@ -216,7 +216,7 @@ namespace {
         }
     }
 
-    /// Values of a few bits, from one within the first byte on, the lowest bits first.
+    /// Unpacks values of a few bits, from one in the first byte on, the lowest bits first.
     void unpack(std::span<const std::byte> bytes, int bits, Index firstBit, std::span<float> out)
     {
         const unsigned mask = (1u << bits) - 1u;
@@ -228,14 +228,14 @@ namespace {
 
 } // namespace
 
-/// Channels of one spectrum of one IF, in the file's order. Row: frame × IFs + IF.
+/// Reads channels of one spectrum of one IF in the file's order. Row: frame × IFs + IF.
 void SigprocFile::readRow(Index row, Index firstChannel, std::span<float> out) const
 {
     const Index firstBit = (row * m_info.frequency.count + firstChannel) * m_bits;
     const Index bits = std::ssize(out) * m_bits;
     std::vector<std::byte> bytes(std::size_t((firstBit % 8 + bits + 7) / 8));
     if (m_file.readAt(m_dataOffset + firstBit / 8, bytes) < bytes.size())
-        throw Error(m_info.path, "became shorter while it was open", Error::Kind::Failure);
+        throw Error(m_info.path, "was truncated while open", Error::Kind::Failure);
     switch (m_bits) {
     case 8:
         m_isSigned ? widen<std::int8_t>(bytes, out, 128.0) : widen<std::uint8_t>(bytes, out);

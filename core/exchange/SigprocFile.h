@@ -5,25 +5,25 @@
 
 namespace faintline {
 
-/// A sigproc filterbank (.fil): spectra of 1, 2, 4, 8, 16 (unsigned) or 32 bits (float), one after the other.
+/// A sigproc filterbank (.fil): consecutive spectra of 1, 2, 4, 8, 16 (unsigned) or 32 bits (float).
 ///
-///   header   HEADER_START, then keywords with values, texts as a length of 32 bits and as many characters, to
+///   header   HEADER_START, then keywords with values, texts as a 32-bit length and that many characters, up to
 ///            HEADER_END
-///   data     frames × IFs × channels; of 1, 2 and 4 bits the lowest come first
+///   data     frames × IFs × channels; for 1, 2 and 4 bits the lowest bits come first
 ///
-/// Channel i lies at fch1 + i·foff MHz; where foff is negative the channels are turned round, so that frequencies
-/// ascend. The time of a frame is the middle of its tsamp seconds, tstart (MJD) the beginning of the first. IFs are the
-/// channels of PowerInfo. A file that ends within a frame is read up to it, with a note. Source: sigproc (Lorimer),
-/// read_header.c. Reads nothing but what is asked for; thread-safe.
+/// Channel i lies at fch1 + i·foff MHz; if foff is negative the channels are reversed, so that frequencies ascend. The
+/// time of a frame is the middle of its tsamp seconds; tstart (MJD) is the beginning of the first one. IFs are the
+/// channels of PowerInfo. A file that ends within a frame is read up to that frame, with a note. Source: sigproc
+/// (Lorimer), read_header.c. Reads only the requested part; thread-safe.
 class SigprocFile final : public PowerFrames
 {
 public:
-    /// Throws Error where the header is cut short or says what cannot be.
+    /// Throws Error if the header is truncated or invalid.
     explicit SigprocFile(const std::string &path);
 
     void read(const PowerPart &part, std::span<float> out) const override;
 
-    /// Whether a file begins as one.
+    /// Whether a file begins with a sigproc header.
     static bool recognises(const std::string &path);
 
 private:

@@ -79,7 +79,7 @@ namespace {
         return frames > 0.0 ? sum / std::sqrt(frames) : 0.0;
     }
 
-    /// Whatever stands behind "NAME:" in a comment of the table.
+    /// The number after "NAME:" in a comment of the table.
     std::optional<double> numberBehind(const std::string &line, const std::string &name)
     {
         const std::size_t at = line.find(name + ":");
@@ -113,8 +113,8 @@ namespace {
         }
         if (numbers.size() != columns || std::isnan(numbers[1]) || std::isnan(numbers[2]) || std::isnan(numbers[3])
             || !(numbers[5] >= 0.0 && numbers[5] < 1e15))
-            throw Error(where, "is no line of a table of hits: twelve numbers, of which the second is the drift, the "
-                               "third the SNR, and the fourth the frequency in MHz");
+            throw Error(where, "is not a row of a table of hits: expected twelve numbers, with the drift second, the "
+                               "SNR third and the frequency in MHz fourth");
         return {numbers[1],
                 numbers[2],
                 megahertz * numbers[3],
@@ -141,7 +141,8 @@ double gaussianDeviate(double y)
 TopHits topHits(const Analysis &analysis, const Observation &observation, double leastSnr)
 {
     if (!analysis.grid().isSpectrum())
-        throw Error("a table of hits (.dat)", "requires frames on frequency; these have more than one axis");
+        throw Error("a table of hits (.dat)",
+                    "requires frames with a frequency axis only; these have more than one axis");
     const Axis &time = analysis.time();
     const Axis &frequency = analysis.grid().axes.back();
     TopHits table;
@@ -205,7 +206,7 @@ TopHits readTopHits(const std::string &path)
     for (int number = 1; std::getline(file, line); ++number) {
         const std::string where = path + ", line " + std::to_string(number);
         if (line.size() > longestLine || table.hits.size() >= mostHits)
-            throw Error(where, "is no table of at most a million hits");
+            throw Error(where, "is not a table of at most a million hits");
         if (line.starts_with('#'))
             readComment(line, table);
         else if (line.find_first_not_of(" \t\r") != std::string::npos)
@@ -214,7 +215,7 @@ TopHits readTopHits(const std::string &path)
     const auto isSound = [](double value) { return value > 0.0 && std::isfinite(value); };
     if (!isSound(table.frameSeconds) || !isSound(table.channelHz) || !isSound(table.durationSeconds))
         throw Error(path,
-                    "is no table of hits: its comments must tell DELTAT, DELTAF(Hz) and obs_length, each above 0");
+                    "is not a table of hits: its comments must give DELTAT, DELTAF(Hz) and obs_length, each above 0");
     return table;
 }
 

@@ -6,11 +6,10 @@
 
 namespace faintline {
 
-/// "label [rejected] note": what a format with one text for everything holds. A note without a verdict comes after
-/// "[]".
+/// "label [rejected] note", for formats with a single text field. A note without a verdict follows "[]".
 std::string annotationText(const std::string &label, Verdict verdict, const std::string &note);
 
-/// Takes such a text apart; one without brackets is all label.
+/// Splits such a text; without brackets, all of it is the label.
 void takeApart(const std::string &text, Annotation &annotation);
 
 } // namespace faintline

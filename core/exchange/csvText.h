@@ -4,7 +4,7 @@
 
 namespace faintline {
 
-/// A text as one field of a CSV file: quoted, quotes doubled.
+/// A text as one CSV field: quoted, quotes doubled.
 std::string csvText(const std::string &text);
 
 } // namespace faintline

@@ -29,7 +29,7 @@ void setFilterbankAxes(PowerInfo &info, const FilterbankHeader &header, const st
     check(header.fch1, -farthest, farthest, "fch1", path);
     check(header.foff, -farthest, farthest, "foff", path);
     if (!(std::abs(header.foff) > 0.0))
-        throw Error(path + ": foff = 0", "must be the channels' distance, MHz");
+        throw Error(path + ": foff = 0", "must be the channel spacing, MHz");
     const double lowest = header.foff < 0.0 ? header.fch1 + double(header.channels - 1) * header.foff : header.fch1;
     info.frequency = {"frequency", "Hz", lowest * megahertz, std::abs(header.foff) * megahertz, header.channels, false};
     info.time = {"time", "s", 0.5 * header.tsamp, header.tsamp, header.frames, false};

@@ -10,20 +10,20 @@ namespace faintline {
 /// What sigproc's header says of a filterbank's axes, in its units.
 struct FilterbankHeader {
     double fch1 = 0.0;   ///< frequency of the first channel, MHz
-    double foff = 0.0;   ///< from one channel to the next, MHz; negative where they descend
+    double foff = 0.0;   ///< between channels, MHz; negative if they descend
     double tsamp = 0.0;  ///< s
-    double tstart = 0.0; ///< MJD of the beginning of the first spectrum; 0: not known
+    double tstart = 0.0; ///< MJD of the beginning of the first spectrum; 0: unknown
     Index channels = 0;
     Index frames = 0;
 };
 
-/// Sets an information's axes and start time: frequencies ascend, in Hz; the time of a frame is its middle. Throws
-/// Error naming `path` and the value that cannot be.
+/// Sets axes and start time: frequencies ascend, in Hz; the time of a frame is its middle. Throws Error naming `path`
+/// and the invalid value.
 void setFilterbankAxes(PowerInfo &info, const FilterbankHeader &header, const std::string &path);
 
-/// Sets to NaN, not observed, what a part holds of the channels in which a receiver's constant offset lies: the middle
-/// one of each coarse channel, of files of so fine a resolution that they have such. A coarse channel has 2²⁰ channels;
-/// a file of fewer but at least 2¹⁶ is one. `descends`: as in the file.
+/// Sets values of a part to NaN (not observed) in channels that hold a receiver's DC offset: the middle one of each
+/// coarse channel, in files of sufficiently fine resolution. A coarse channel has 2²⁰ channels; a file of fewer but at
+/// least 2¹⁶ is one. `descends`: as in the file.
 void excludeDc(const PowerInfo &info, const PowerPart &part, bool descends, std::span<float> out);
 
 } // namespace faintline

@@ -34,10 +34,10 @@ std::vector<CadenceEvent> findCadence(const std::vector<TopHits> &observations, 
                                       const RunContext &context)
 {
     if (observations.size() < 2)
-        throw Error("a cadence", "needs at least two observations, on and off target in turn");
+        throw Error("a cadence", "needs at least two observations, alternately on and off target");
     for (const TopHits &each : observations)
         if (!each.startUnixSeconds)
-            throw Error(oneLine(each.source), "does not tell when it begins (MJD), which a cadence needs");
+            throw Error(oneLine(each.source), "does not give its start time (MJD), which a cadence requires");
     const TopHits &first = observations.front();
     std::vector<CadenceEvent> events;
     for (const TopHit &hit : first.hits) {

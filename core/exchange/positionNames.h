@@ -7,7 +7,7 @@
 
 namespace faintline {
 
-/// What a position's coordinates are called in CSV and JSON files: f in a spectrum, else as the axes.
+/// Names of a position's coordinates in CSV and JSON files: f for a spectrum, else those of the axes.
 std::vector<std::string> positionNames(const Grid &grid);
 
 } // namespace faintline

@@ -44,7 +44,7 @@ namespace {
         return text;
     }
 
-    /// A text's lines one after the other: a million empty ones need no room.
+    /// Iterates over the lines of a text; a million empty lines need no memory.
     class Lines
     {
     public:
@@ -64,7 +64,7 @@ namespace {
             return true;
         }
 
-        /// Of the line read last, counted from 1.
+        /// Of the last line read, counted from 1.
         std::size_t number() const { return m_number; }
 
     private:
@@ -117,7 +117,7 @@ namespace {
                                                                 : std::optional(numberOf(text, place, what));
     }
 
-    /// Checks a box and puts it to the others.
+    /// Checks a box and appends it.
     void add(std::vector<Annotation> &all, Annotation box, const std::string &place)
     {
         if (!(box.endSeconds >= box.startSeconds) || !std::isfinite(box.startSeconds) || !std::isfinite(box.endSeconds))
@@ -131,7 +131,7 @@ namespace {
         all.push_back(std::move(box));
     }
 
-    /// The names in a table's first line.
+    /// Column names in a table's first line.
     struct Header {
         std::string path;
         std::vector<std::string> names;
@@ -149,7 +149,7 @@ namespace {
         }
     };
 
-    /// A row's cell; empty where the row ends before it.
+    /// A row's cell; empty if the row is too short.
     std::string cellOf(const std::vector<std::string> &row, std::ptrdiff_t column)
     {
         return column < 0 || column >= std::ssize(row) ? std::string() : row[std::size_t(column)];
@@ -164,10 +164,10 @@ namespace {
 
     struct Columns {
         std::ptrdiff_t begin, end, low, high, label, review, note;
-        std::ptrdiff_t once = -1; ///< rows that follow one with the same there are other views of it
+        std::ptrdiff_t once = -1; ///< rows with the same value here as the previous row are further views of it
     };
 
-    /// Boxes of the rows after the header, one row at a time: what is kept are boxes, not cells.
+    /// Boxes of the rows after the header, read row by row: only boxes are kept, no cells.
     std::vector<Annotation> fromRows(Lines &lines, const Header &header, Split split, const Columns &columns)
     {
         std::vector<Annotation> all;
@@ -220,7 +220,7 @@ namespace {
     {
         Lines lines(text);
         const Header header = headerOf(lines, path, splitCsv);
-        // Events without edges are where they were detected.
+        // Events without edges are located at their detected frequency.
         const std::ptrdiff_t low = header.column("f_low") >= 0 ? header.column("f_low") : header.column("f");
         const std::ptrdiff_t high = header.column("f_high") >= 0 ? header.column("f_high") : header.column("f");
         const std::ptrdiff_t label = header.column("label");
@@ -250,7 +250,7 @@ namespace {
                 all.pop_back();
                 const double low = numberOf(cells[1], place, "the lower frequency");
                 const double high = numberOf(cells[2], place, "the upper frequency");
-                if (low != -1.0 || high != -1.0) { // Audacity's way to say none
+                if (low != -1.0 || high != -1.0) { // Audacity's notation for no frequencies
                     box.lowHz = low;
                     box.highHz = high;
                 }
@@ -268,7 +268,7 @@ namespace {
         return all;
     }
 
-    /// The boxes that `boxOf` makes of a list's members, each of which is `name` and its number in messages.
+    /// The boxes that `boxOf` makes of a list's members; messages call them `name` and their number.
     template <class BoxOf>
     std::vector<Annotation> fromList(const Json &list, const std::string &name, const BoxOf &boxOf)
     {

@@ -8,13 +8,13 @@
 
 namespace faintline {
 
-/// Reads annotations of another program, or of this one: Raven selection tables (columns by their names), Audacity
-/// labels (with or without frequencies), SigMF annotations, and the CSV and JSON that `writeReviewed` and `writeEvents`
-/// write. Which it is, the content tells.
+/// Reads annotations of this or another program: Raven selection tables (columns by name), Audacity labels (with or
+/// without frequencies), SigMF annotations, and the CSV and JSON of `writeReviewed` and `writeEvents`. The format is
+/// recognised by content.
 ///
-/// Times are in seconds from the first sample; frequencies as the program has them everywhere else, of I/Q recordings
-/// offsets from the centre, which `info` knows. A text "label [rejected] note" is taken apart. At most 100 000
-/// annotations of a file of at most 64 MiB; broken or hostile content throws Error naming file and line.
+/// Times are in seconds since the first sample. Frequencies are as elsewhere in the program; for I/Q recordings they
+/// are relative to the centre, which `info` gives. A text "label [rejected] note" is split. At most 100 000 annotations
+/// of a file of at most 64 MiB; invalid or hostile content throws Error naming file and line.
 std::vector<Annotation> readAnnotations(const std::string &path, const RecordingInfo &info);
 
 } // namespace faintline

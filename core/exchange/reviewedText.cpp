@@ -11,7 +11,7 @@ namespace faintline {
 
 namespace {
 
-    /// A box may lie anywhere; a sample's number is held in a double and in the file alike.
+    /// A box may lie anywhere; the sample number must be exact as a double, here and in the file.
     long long sampleAt(double seconds, double rate)
     {
         constexpr double most = 9007199254740992.0; // 2⁵³
@@ -73,7 +73,7 @@ std::string sigmfText(const std::vector<ReviewedRow> &rows, double rate, double 
     json["global"] = {
         {"core:version", "1.0.0"},
         {"core:sample_rate", rate},
-        {"core:description", "Events found by Faintline, and what was said about them"},
+        {"core:description", "Events found by Faintline, with their reviews"},
         {"core:extensions", Json::array({{{"name", "faintline"}, {"version", "1.0.0"}, {"optional", true}}})}};
     json["captures"] = Json::array({{{"core:sample_start", 0}, {"core:frequency", centre}}});
     json["annotations"] = Json::array();
@@ -93,7 +93,7 @@ std::string sigmfText(const std::vector<ReviewedRow> &rows, double rate, double 
             one["faintline:statistic"] = row.event->statistic;
         json["annotations"].push_back(one);
     }
-    // A SigMF reader expects them in order of time.
+    // SigMF requires annotations in order of time.
     std::stable_sort(json["annotations"].begin(), json["annotations"].end(),
                      [](const Json &a, const Json &b) { return a["core:sample_start"] < b["core:sample_start"]; });
     return json.dump(2) + "\n";

@@ -8,14 +8,14 @@
 
 namespace faintline {
 
-/// One line of a list of events: an event, or a box somebody drew.
+/// One row of a list of events: an event or a manually drawn box.
 struct ReviewedRow {
     const Event *event = nullptr;
     int signal = 0;
-    Annotation box; ///< an event's too: what its track fills
+    Annotation box; ///< for an event, the extent of its track
 };
 
-/// What an event's track fills on the last axis; its position at detection where there is none.
+/// Sets the box to the extent of an event's track along the last axis, or to its position at detection without a track.
 void fillBox(const Analysis &analysis, const Event &event, Annotation &box);
 
 /// Shortest form that reads back the same; empty for nothing.
@@ -27,7 +27,7 @@ std::string ravenText(const std::vector<ReviewedRow> &rows);
 /// Audacity labels with frequencies, "label [rejected] note".
 std::string audacityText(const std::vector<ReviewedRow> &rows);
 
-/// SigMF annotations of a recording of that rate and centre, Hz.
+/// SigMF annotations of a recording with the given sample rate and centre frequency, Hz.
 std::string sigmfText(const std::vector<ReviewedRow> &rows, double rate, double centre);
 
 } // namespace faintline

@@ -23,7 +23,7 @@ namespace {
     constexpr double bottom = 56.0;
     constexpr int ticksWanted = 6;
 
-    /// Okabe and Ito's palette: told apart by colour-blind readers too.
+    /// Okabe and Ito's palette, which colour-blind readers can distinguish.
     constexpr std::array<std::string_view, 7> colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                       "#e69f00", "#56b4e9", "#000000"};
 
@@ -39,13 +39,13 @@ namespace {
         return result;
     }
 
-    /// Pixels to a hundredth, which no eye tells from the exact place.
+    /// Pixels rounded to a hundredth, which is invisible.
     std::string pixels(double value)
     {
         return formatNumber(std::round(value * 100.0) / 100.0);
     }
 
-    /// One axis: values ↔ pixels, and where its ticks stand.
+    /// One axis: values ↔ pixels, and the positions of its ticks.
     struct Scale {
         double low = std::numeric_limits<double>::infinity();
         double high = -std::numeric_limits<double>::infinity();
@@ -62,7 +62,7 @@ namespace {
             high = std::max(high, value);
         }
 
-        /// Widens the range to whole ticks.
+        /// Extends the range to whole ticks.
         void settle()
         {
             if (!(low <= high)) {
@@ -78,7 +78,7 @@ namespace {
             }
             if (low == high)
                 high += 1.0;
-            // Of the range as it is: the widened one might ask for another step, and its top lie off the canvas.
+            // From the original range: the extended one might give another step, and its top might lie off the canvas.
             step = tickStep();
             low = std::floor(low / step + 1e-9) * step;
             high = std::ceil(high / step - 1e-9) * step;
@@ -202,7 +202,7 @@ namespace {
         return svg;
     }
 
-    /// Pixels that the names of the curves take to the right of the canvas.
+    /// Width in pixels of the curves' names to the right of the canvas.
     double legendWidth(std::span<const Chart> charts)
     {
         constexpr double pixelsPerLetter = 7.0;
@@ -213,7 +213,7 @@ namespace {
         return 48.0 + pixelsPerLetter * double(longestName);
     }
 
-    /// One chart, its canvas between two heights; the number tells its canvas from others.
+    /// Draws one chart with its canvas between two heights; `number` makes the canvas's name unique.
     std::string drawChart(const Chart &chart, double canvasTop, double canvasBottom, std::size_t number)
     {
         Scale x;

@@ -7,10 +7,10 @@
 
 namespace faintline {
 
-/// Writes what two analyses have found, .csv: in (A, B or both), event_a, event_b (their numbers), t_onset, t_end, f
-/// (or a column per axis), drift_hz_per_s (B's where B has it), t_detect_a, t_detect_b, statistic_a, statistic_b,
-/// shared_s. What there is not stays empty. Numbers in the C locale, shortest form that reads back the same. The file
-/// appears when it is complete. Throws Error.
+/// Writes the signals detected by two analyses, .csv: in (A, B or both), event_a, event_b (their numbers), t_onset,
+/// t_end, f (or a column per axis), drift_hz_per_s (B's if B has it), t_detect_a, t_detect_b, statistic_a, statistic_b,
+/// shared_s. Missing values are empty. Numbers are in the C locale, in the shortest form that reads back the same. The
+/// file appears when it is complete. Throws Error.
 void writeComparison(const Comparison &comparison, const Grid &grid, const std::string &path);
 
 /// Throws Error if `writeComparison` does not know the extension of a name; call it before a long run.

@@ -15,7 +15,7 @@ namespace faintline {
 
 namespace {
 
-    /// Digits after the point that show a number to a tenth of the first digit of `width`.
+    /// Decimals that show a number to a tenth of the first digit of `width`.
     int decimalsFor(double width)
     {
         return std::clamp(1 - int(std::floor(std::log10(width))), 0, 9);
@@ -56,7 +56,7 @@ namespace {
         return {point.seconds, point.hz, {point.hz - half, point.hz + half}};
     }
 
-    /// The measured points, those that took part first.
+    /// The measured points, those used in the fit first.
     std::vector<Curve> measuredCurves(const DopplerReport &report, bool isResidual)
     {
         std::vector<Curve> curves{{"track", Curve::Kind::Paper, {}}, {"left out", Curve::Kind::Paper, {}}};
@@ -165,7 +165,7 @@ std::vector<std::string> dopplerNotes(const DopplerReport &report)
         notes.push_back("Points left out where the path is as steep as the model allows: "
                         + std::to_string(report.track.steepCount) + "; it falls at most by "
                         + rounded(report.track.steepestHzPerSecond, 0.0)
-                        + " Hz/s, and the line may fall faster. A shorter window or steeper slopes follow it.");
+                        + " Hz/s, and the line may fall faster. A shorter window or steeper slopes can follow it.");
     notes.insert(notes.end(), report.fit.sentences.begin(), report.fit.sentences.end());
     return notes;
 }

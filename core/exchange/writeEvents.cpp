@@ -33,14 +33,14 @@ namespace {
 
     const std::vector<std::string> smoothedColumns{"f_low", "f_high", "presence", "snr_db"};
 
-    /// 5 and 95 % of a point's position, probability that the signal is there, and its SNR in one frame.
+    /// 5 and 95 % quantiles of a point's position, probability that the signal is present, and its SNR in one frame.
     std::vector<double> numbersOf(const SmoothedPoint &point, const Axis &axis)
     {
         return {axis.value(double(point.low)), axis.value(double(point.high)), double(point.presence),
                 dbFromRatio(double(point.level))};
     }
 
-    /// On a grid of several axes, names of the rates along each.
+    /// Names of the rates along each axis of a grid of several axes.
     std::vector<std::string> rateNames(const Grid &grid)
     {
         std::vector<std::string> names;
@@ -51,14 +51,14 @@ namespace {
         return names;
     }
 
-    /// What is known of tracks that were looked at from both ends.
+    /// Columns of tracks that were smoothed from both ends.
     const std::vector<std::string> smoothedNames{"snr_db", "band_hz", "noise_probability", "window_s"};
     std::vector<double> smoothedOf(const Event &e)
     {
         return {e.snrDb, e.bandWidth, e.noiseProbability, e.windowSeconds};
     }
 
-    /// Rounded as it is shown, with its unit.
+    /// Rounded as displayed, with its unit.
     std::string shownStatistic(const Event &e, const Analysis &analysis)
     {
         const double steps = std::pow(10.0, statisticDecimals(analysis.settings.detector));
@@ -126,8 +126,8 @@ namespace {
                  {"core:freq_lower_edge", centre + area.low},
                  {"core:freq_upper_edge", centre + area.high},
                  {"core:label", "area"},
-                 {"core:comment", "no line: level raised by at least " + roundedDb(area.levelDb) + " dB"}});
-        // The specification wants them in order of their start.
+                 {"core:comment", "not a line: level raised by at least " + roundedDb(area.levelDb) + " dB"}});
+        // The specification requires them in order of their start.
         std::stable_sort(json["annotations"].begin(), json["annotations"].end(), [](const Json &a, const Json &b) {
             return a["core:sample_start"].get<long long>() < b["core:sample_start"].get<long long>();
         });

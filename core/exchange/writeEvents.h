@@ -7,36 +7,36 @@
 
 namespace faintline {
 
-/// Writes the events of an analysis, the kind by the extension: .csv, .json, .txt (Audacity labels), .sigmf-meta
+/// Writes the events of an analysis; the extension selects the format: .csv, .json, .txt (Audacity labels), .sigmf-meta
 /// (annotations).
 ///
 /// CSV columns: event, t_onset, t_detect, t_end (s from the first sample), f (Hz at detection; or one column per axis),
 /// drift_hz_per_s (along the last axis), statistic (in the detector's unit: nat, or multiples of the noise; the .json
-/// names it), confirmed, open; on several axes AXIS_per_s of each. Numbers in the C locale, shortest form that reads
-/// back the same. Of lines whose tracks were looked at from both ends also snr_db (mean, in one window), band_hz (width
-/// of the position's 5-95 % band) and noise_probability (that noise alone brings such an event in this recording).
-/// Areas, which are no events, stand in the .json ("areas": t_onset, t_end, f_low, f_high, level_db) and in the
-/// .sigmf-meta with the label "area".
-/// Files appear only when complete. Throws Error for an unknown extension or a full disk.
+/// names it), confirmed, open; on several axes AXIS_per_s of each. Numbers are in the C locale, in the shortest form
+/// that reads back the same. Lines with a two-sided second pass also have snr_db (mean, in one window), band_hz (width
+/// of the position's 5-95 % band) and noise_probability (probability that noise alone produces such an event in this
+/// recording). Areas, which are not events, are in the .json ("areas": t_onset, t_end, f_low, f_high, level_db) and in
+/// the .sigmf-meta with the label "area". Files appear only when complete. Throws Error for an unknown extension or a
+/// full disk.
 void writeEvents(const Analysis &analysis, const std::string &path);
 
-/// The same as text of a .csv or .json file, of events that were collected one by one.
+/// The text of such a .csv or .json file, for a list of events.
 std::string eventsCsv(const AnalysisPlan &plan, const std::vector<Event> &events);
 std::string eventsJson(const AnalysisPlan &plan, const std::vector<Event> &events,
                        const std::vector<AreaEvent> &areas = {});
-/// One event as it stands there.
+/// One event as an element of that JSON.
 Json eventJson(const Event &event, const Grid &grid);
 
 /// Throws Error if `writeEvents` or `writeTracks` does not know the extension of a name; call it before a long run.
 void checkEventsPath(const std::string &path);
 void checkTracksPath(const std::string &path);
 
-/// Writes the tracks: .csv with a row per frame of each track (track, t, f, statistic; where they were looked at from
-/// both ends also f_low and f_high, 5 and 95 % of the position, presence, a probability, and snr_db), or .json. The
-/// statistic is the score of the track's path, in nats for every detector: if it has no paths, that of the sequential
-/// Markov detector that guides it.
+/// Writes the tracks: .csv with one row per frame of each track (track, t, f, statistic; after a two-sided second pass
+/// also f_low and f_high, 5 and 95 % of the position, presence, a probability, and snr_db), or .json. The statistic is
+/// the score of the track's path, in nats for every detector: if it has no paths, that of the sequential Markov
+/// detector that guides it.
 void writeTracks(const Analysis &analysis, const std::string &path);
-/// The same of the tracks of these events alone.
+/// The same for the tracks of these events only.
 void writeTracksOf(const std::vector<Event> &events, const Analysis &analysis, const std::string &path);
 
 } // namespace faintline

@@ -52,7 +52,7 @@ namespace {
         return text;
     }
 
-    /// A minus sign that is one, in the exponent as well.
+    /// Replaces hyphens by minus signs, in the exponent as well.
     std::string withMinus(std::string text)
     {
         for (std::size_t at = text.find('-'); at != std::string::npos; at = text.find('-', at))
@@ -60,7 +60,7 @@ namespace {
         return text;
     }
 
-    /// So many decimals, the C locale's way.
+    /// Fixed number of decimals in the C locale.
     std::string fixed(double value, int decimals)
     {
         const double scale = std::pow(10.0, decimals);
@@ -79,7 +79,7 @@ namespace {
         return withMinus(text);
     }
 
-    /// Three significant digits.
+    /// Rounded to three significant digits.
     std::string rough(double value)
     {
         if (value == 0.0 || !std::isfinite(value))
@@ -97,7 +97,7 @@ namespace {
         return row + "</tr>\n";
     }
 
-    /// A row of which the first so many are numbers.
+    /// A row whose first `count` cells are numbers.
     std::string numbers(const std::vector<std::string> &texts, std::size_t count, const char *tag = "td")
     {
         std::string row = "<tr>";
@@ -118,7 +118,7 @@ namespace {
         return capitalised(axis.name) + " (" + axis.unit + ")";
     }
 
-    /// A unit in which rates along an axis are no long fractions.
+    /// A unit in which rates along an axis need few digits.
     struct RateUnit {
         std::string name;
         double scale = 1.0;
@@ -186,7 +186,7 @@ namespace {
         const double halfWidth = calibration.thresholdUncertainty(eventRate);
         const std::string unit = " " + std::string(statisticUnit(analysis.settings.detector));
         std::string text = "<table class=\"facts\">\n";
-        text += fact("Threshold", fixed(analysis.threshold, 2) + unit + "; simulation knows it to \u00b1"
+        text += fact("Threshold", fixed(analysis.threshold, 2) + unit + "; accuracy of its simulation \u00b1"
                                       + fixed(halfWidth, 2) + unit + " (95 %)");
         const double factor = std::exp(calibration.tailSlope * halfWidth);
         text += fact("False alarms on noise", rough(perHour) + " per hour; 95 % interval " + rough(perHour / factor)
@@ -263,7 +263,7 @@ namespace {
         const Explanation &why = one.explanation;
         const StateSpace &space = analysis.modelAt(why.model).space;
         const std::vector<Axis> &axes = analysis.grid().axes;
-        // Of a detector without paths: its statistic there, and the path of the detector that guides its tracks.
+        // For a detector without paths: its statistic, and the path of the detector that guides its tracks.
         const bool isScore = isScoreOfPaths(analysis.settings.detector);
         const double decided = isScore ? why.statistic : why.displayed;
         const std::string unit = " " + std::string(statisticUnit(analysis.settings.detector));

@@ -8,7 +8,7 @@
 
 namespace faintline {
 
-/// What a report tells besides the analysis.
+/// Content of a report besides the analysis.
 struct ReportMaterial {
     struct Picture {
         std::string title;
@@ -29,14 +29,14 @@ struct ReportMaterial {
     std::string provenance; ///< JSON
 };
 
-/// The events whose ladders a report shows: the accepted ones, or, where none is, the ten strongest that were not
-/// rejected.
+/// The events whose path breakdown a report shows: the accepted ones, or, if there are none, the ten strongest that
+/// were not rejected.
 std::vector<Event> eventsToExplain(const Analysis &analysis, const std::vector<Event> &events,
                                    const Annotations &annotations);
 
-/// A report as one HTML page that needs nothing else: facts, settings that differ from the defaults, pictures,
-/// threshold and calibration with their interval, events and annotations, the ladder of terms for the most interesting
-/// ones, provenance. The same material gives the same bytes.
+/// A report as one self-contained HTML page: facts, settings that differ from the defaults, pictures, threshold and
+/// calibration with their interval, events and annotations, path breakdowns of the most interesting ones, provenance.
+/// The same material gives the same bytes.
 std::string reportHtml(const Analysis &analysis, const ReportMaterial &material);
 
 } // namespace faintline

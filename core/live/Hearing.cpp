@@ -40,6 +40,12 @@ std::optional<double> Hearing::startUnixSeconds() const
     return m_start;
 }
 
+std::shared_ptr<const WrittenSamples> Hearing::written() const
+{
+    const std::lock_guard lock(m_startMutex);
+    return m_written;
+}
+
 void Hearing::run(const std::stop_token &own)
 {
     m_own = own;
@@ -52,9 +58,16 @@ void Hearing::run(const std::stop_token &own)
     } catch (...) {
         m_failure = std::current_exception();
     }
-    if (m_recorder)
-        m_files = m_recorder->files();
+    noteFiles();
     m_buffer.end();
+}
+
+void Hearing::noteFiles()
+{
+    if (!m_recorder)
+        return;
+    m_files = m_recorder->files();
+    m_whole = m_recorder->whole();
 }
 
 void Hearing::tell(ListenNotice::Kind kind, Index samples, std::string words)
@@ -114,13 +127,13 @@ bool Hearing::makeRoom(std::size_t bytes)
 void Hearing::begin(Index samples)
 {
     const double start = now() - double(samples) / m_buffer.format().sampleRateHz;
-    {
-        const std::lock_guard lock(m_startMutex);
-        m_start = start;
-    }
     if (!m_settings.recordPath.empty())
         m_recorder =
             std::make_unique<SigmfRecorder>(m_settings.recordPath, m_buffer.format(), m_settings.rotation, start);
+    const std::lock_guard lock(m_startMutex);
+    m_start = start;
+    if (m_recorder)
+        m_written = m_recorder->written();
 }
 
 void Hearing::record(std::span<const std::byte> bytes)
@@ -131,7 +144,7 @@ void Hearing::record(std::span<const std::byte> bytes)
     try {
         m_recorder->write(bytes);
     } catch (const Error &error) { // listening goes on
-        m_files = m_recorder->files();
+        noteFiles();
         m_recorder.reset();
         m_isRecordedWhole = false;
         tell(ListenNotice::Kind::RecordingFailed, 0, std::string("The recording ends here: ") + error.what());

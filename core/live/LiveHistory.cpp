@@ -1,6 +1,9 @@
 #include "live/LiveHistory.h"
 
+#include "analysis/chain.h"
 #include "base/memoryShares.h"
+#include "spectrum/CausalSpectrogram.h"
+#include "spectrum/Family.h"
 
 #include <algorithm>
 
@@ -10,6 +13,7 @@ namespace {
 
     constexpr std::size_t mostTracks = 256;
     constexpr std::size_t mostPoints = 512;
+    constexpr Index shortestInterval = 64; ///< of checkpoints, in frames
 
     Axis from(Axis time, Index frame)
     {
@@ -79,11 +83,43 @@ void LiveHistory::take(const AnalysisPlan &plan)
     if (m_plan)
         markChange(plan, isSamePicture ? plan.time().value(double(m_input->all.frameCount())) : plan.time().first);
     m_plan = std::make_shared<const AnalysisPlan>(plan);
+    beginStates(plan, isSamePicture ? m_input->all.frameCount() : 0);
     if (isSamePicture)
         return;
     m_input = std::make_unique<Picture>(plan.time(), plan.grid().size(), ByteScale::Kind::PowerDb);
     m_statistic = std::make_unique<Picture>(plan.time(), plan.grid().size(), ByteScale::Kind::ScoreNats);
     m_tracks.clear(); // whose points are on other frames
+}
+
+void LiveHistory::beginStates(const AnalysisPlan &plan, Index from)
+{
+    m_heldFrom = from;
+    m_checkpoints = std::make_shared<Checkpoints<ChainState>>(shortestInterval, memoryShares::checkpoints);
+    if (m_written)
+        for (const NormalisedFramesPointer &line : plan.lines)
+            static_cast<const CausalSpectrogram &>(*line).keepStates();
+}
+
+void LiveHistory::keepState(const ListenFrame &frame)
+{
+    const Index next = frame.number + 1;
+    if (!m_written || !m_checkpoints->lacks(next))
+        return;
+    const auto state = frame.chain.state();
+    if (!state)
+        return;
+    if (m_checkpoints.use_count() > 1) // a view has them
+        m_checkpoints = std::make_shared<Checkpoints<ChainState>>(*m_checkpoints);
+    m_checkpoints->keep(next, state, state->bytes());
+}
+
+/// A plan that came later has no beginning at frame 0, but states at even distances.
+Index LiveHistory::goesBackTo() const
+{
+    if (m_heldFrom == 0)
+        return 0;
+    const Index first = (m_heldFrom / m_checkpoints->interval() + 1) * m_checkpoints->interval();
+    return m_checkpoints->isEmpty() ? m_input->all.frameCount() : first;
 }
 
 void LiveHistory::markChange(const AnalysisPlan &plan, double seconds)
@@ -98,6 +134,7 @@ void LiveHistory::take(const ListenFrame &frame)
 {
     m_input->append(frame.y);
     m_statistic->append(frame.statistic);
+    keepState(frame);
     m_heardAt = frame.heardAt;
     m_lostCount = frame.lostCount;
     for (const HmmTracker &tracker : frame.chain.trackers())
@@ -158,12 +195,35 @@ LiveView LiveHistory::view() const
                   m_told,
                   {},
                   m_changes,
+                  m_written,
+                  goesBackTo(),
+                  m_checkpoints,
                   m_heardAt,
                   m_lostCount};
     view.time.count = m_input->all.frameCount();
     for (const auto &[id, track] : m_tracks)
         view.tracks.push_back(track);
     return view;
+}
+
+std::shared_ptr<const Analysis> analysisSoFar(const LiveView &view)
+{
+    if (!view.written || view.isEmpty())
+        return nullptr;
+    auto analysis = std::make_shared<Analysis>();
+    static_cast<AnalysisPlan &>(*analysis) = *view.plan;
+    const Spectrogram &live = *view.plan->frames->spectrogram();
+    // Frames that are there, and no others.
+    const Index samples = live.firstSample() + (view.time.count - 1) * live.hopSamples() + live.windowSamples();
+    analysis->recording = std::make_shared<HeardRecording>(view.written, samples);
+    for (NormalisedFramesPointer &line : analysis->lines)
+        line = static_cast<const CausalSpectrogram &>(*line).over(
+            std::make_shared<Spectrogram>(analysis->recording, live.settings(), line->spectrogram()->selection()));
+    analysis->frames = familyFrames(analysis->lines, analysis->settings.family);
+    analysis->input = view.input;
+    analysis->statistic = view.statistic;
+    analysis->checkpoints = *view.checkpoints;
+    return analysis;
 }
 
 } // namespace faintline

@@ -27,19 +27,29 @@ struct LiveView {
     std::shared_ptr<const std::vector<Event>> events;          ///< by onset, then frequency; those in progress are open
     std::vector<std::shared_ptr<const Track>> tracks;          ///< of the newest events, their points thinned out
     std::vector<SettingsChange> changes;
-    std::chrono::steady_clock::time_point heardAt; ///< when the last sample of the newest frame came
-    Index lostCount = 0;                           ///< samples
+    std::shared_ptr<const WrittenSamples> written; ///< what is being recorded; null: nothing
+    Index goesBackTo = 0;                          ///< the first frame that can be gone through again under the plan
+    std::shared_ptr<const Checkpoints<ChainState>> checkpoints; ///< of the chain
+    std::chrono::steady_clock::time_point heardAt;              ///< when the last sample of the newest frame came
+    Index lostCount = 0;                                        ///< samples
 
     bool isEmpty() const { return !plan; }
 };
 
+/// A live run so far as an analysis, from its recording: what it has of pictures, and what it takes to read frames and to go
+/// through the chain again, from where the plan holds. Tracks, counts and what there is for each frame it has not. Null
+/// where nothing is recorded. Reads nothing; its frames are read, as any, on a worker.
+std::shared_ptr<const Analysis> analysisSoFar(const LiveView &view);
+
 /// Collects what a live run tells, for `view`. Used by one thread.
 ///
-/// Memory: 64 MiB a picture and as much of its end, however long the run; 256 tracks of up to 512 points; all events.
+/// Memory: 64 MiB a picture and as much of its end, however long the run; 256 tracks of up to 512 points; all events;
+/// states to go back to, 64 MiB of the noise and 32 MiB of the chain.
 class LiveHistory
 {
 public:
     // What ListenSinks tell of:
+    void take(std::shared_ptr<const WrittenSamples> written) { m_written = std::move(written); }
     void take(const AnalysisPlan &plan);
     void take(const ListenFrame &frame);
     void take(const EventChange &change);
@@ -65,6 +75,9 @@ private:
     };
 
     void markChange(const AnalysisPlan &plan, double seconds);
+    void beginStates(const AnalysisPlan &plan, Index from);
+    void keepState(const ListenFrame &frame);
+    Index goesBackTo() const;
     void follow(const HmmTracker &tracker, const ListenFrame &frame);
 
     std::shared_ptr<const AnalysisPlan> m_plan;
@@ -74,6 +87,9 @@ private:
     mutable std::shared_ptr<const std::vector<Event>> m_told; ///< of these; null: they have changed
     std::map<int, std::shared_ptr<Track>> m_tracks;
     std::vector<SettingsChange> m_changes;
+    std::shared_ptr<const WrittenSamples> m_written;
+    Index m_heldFrom = 0; ///< frame from which on the plan is in force
+    std::shared_ptr<Checkpoints<ChainState>> m_checkpoints;
     std::chrono::steady_clock::time_point m_heardAt{};
     Index m_lostCount = 0;
 };

@@ -17,6 +17,9 @@ namespace {
     constexpr double transition = 0.95;
     constexpr double meanLevel = 0.1;
     constexpr double besideHz = 300.0;
+    constexpr double levelSeconds = 10.0; ///< of what was before, of a recording that is being made
+    constexpr double farBehindSeconds = 2.0;
+    constexpr double behindSeconds = 0.5;
 
     /// sinc under a Hann window, from its middle on.
     std::vector<float> halfKernel()
@@ -41,14 +44,33 @@ PlayedSound::PlayedSound(RecordingPointer recording, int channel, const PlaySett
 {
 }
 
-/// From stretches all over what is played.
+double PlayedSound::reachSeconds() const
+{
+    return (crossings / m_cutoff + 2.0) / m_recording->info().sampleRateHz;
+}
+
+bool PlayedSound::isThere(Index sample) const
+{
+    return !m_settings.endSeconds || secondsAt(sample) + reachSeconds() <= m_settings.endSeconds();
+}
+
+Index PlayedSound::behindBy(Index sample) const
+{
+    const double behind = m_settings.endSeconds ? m_settings.endSeconds() - secondsAt(sample) : 0.0;
+    return behind < farBehindSeconds ? 0 : Index((behind - behindSeconds) / m_settings.speed * m_deviceRate);
+}
+
+/// From stretches all over what is played, or was heard before.
 double PlayedSound::measuredGain() const
 {
     constexpr Index stretches = 16;
     constexpr Index stretch = 4096;
     const RecordingInfo &info = m_recording->info();
-    const auto first = Index(m_settings.fromSeconds * info.sampleRateHz);
-    const auto last = Index(m_settings.toSeconds * info.sampleRateHz);
+    const bool isGrowing = bool(m_settings.endSeconds);
+    const double from = isGrowing ? std::max(0.0, m_settings.fromSeconds - levelSeconds) : m_settings.fromSeconds;
+    const double to = isGrowing ? m_settings.fromSeconds : m_settings.toSeconds;
+    const auto first = Index(from * info.sampleRateHz);
+    const auto last = Index(to * info.sampleRateHz);
     std::vector<float> samples(std::size_t(stretch * info.floatsPerSample()));
     double sum = 0.0;
     Index count = 0;

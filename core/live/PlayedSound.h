@@ -3,6 +3,7 @@
 #include "recording/Recording.h"
 #include "spectrum/FrequencyCurve.h"
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,8 @@ struct PlaySettings {
     double speed = 1.0; ///< of time, and so of all frequencies but toneHz
     bool loops = false;
     double toneHz = 0.0; ///< where 0 Hz of I/Q samples is heard, at any speed
+    /// Of a recording that is being made: up to where it can be played by now, s; any thread asks. Empty: all of it.
+    std::function<double()> endSeconds{};
 };
 
 /// The samples a sound device gets for a stretch of a recording: resampled (32 crossings of a windowed sinc, band-limited to
@@ -32,6 +35,10 @@ public:
     Index length() const { return m_length; }
     /// Samples from number `first` ≥ 0 on; 0 after the end of the only pass.
     void render(Index first, std::span<float> out) const;
+    /// Whether the recording has grown far enough for the samples before this one.
+    bool isThere(Index sample) const;
+    /// How many samples have to be left out from this one on, where the recording has run away from what is played.
+    Index behindBy(Index sample) const;
     /// The recording's time that a sample comes from; of one after the end the end.
     double secondsAt(Index sample) const;
 
@@ -39,6 +46,7 @@ private:
     void renderPass(Index first, Index number, std::span<float> out) const;
     float kernel(double distance) const;
     double measuredGain() const;
+    double reachSeconds() const;
 
     RecordingPointer m_recording;
     int m_channel;

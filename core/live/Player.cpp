@@ -11,6 +11,7 @@ namespace {
 
     constexpr double aheadSeconds = 0.3;
     constexpr Index renderedSamples = 2048; ///< at once
+    constexpr std::chrono::milliseconds askingInterval{5};
 
     StreamFormat formatFor(const SoundDevice &device)
     {
@@ -38,6 +39,9 @@ void Player::renderAhead(const std::stop_token &stop)
     const auto enough = std::size_t(aheadSeconds * m_format.sampleRateHz);
     try {
         for (Index next = 0; !stop.stop_requested(); next += renderedSamples) {
+            next += leaveOut(m_sound.behindBy(next));
+            while (!m_sound.isThere(next + renderedSamples) && !stop.stop_requested())
+                std::this_thread::sleep_for(askingInterval);
             m_sound.render(next, some);
             std::unique_lock lock(m_mutex);
             m_changed.wait(lock, stop, [&] { return m_ready.size() < enough; });
@@ -47,6 +51,13 @@ void Player::renderAhead(const std::stop_token &stop)
         const std::lock_guard lock(m_mutex);
         m_failure = error.what();
     }
+}
+
+Index Player::leaveOut(Index samples)
+{
+    const std::lock_guard lock(m_mutex);
+    m_leftOut += samples;
+    return samples;
 }
 
 /// In the device's thread: what is ready, on every channel, and silence where that is not enough.
@@ -69,7 +80,7 @@ Index Player::heardCount() const
 {
     const auto delay = Index(m_stream.outputDelaySeconds() * m_format.sampleRateHz);
     const std::lock_guard lock(m_mutex);
-    return std::max<Index>(0, m_givenCount - delay);
+    return std::max<Index>(0, m_givenCount + m_leftOut - delay);
 }
 
 double Player::positionSeconds() const

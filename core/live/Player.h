@@ -13,7 +13,9 @@
 
 namespace faintline {
 
-/// Plays a stretch of a recording on a sound device, from its making to its end.
+/// Plays a stretch of a recording on a sound device, from its making to its end. Of a recording that is being made, it waits
+/// in silence for what is not there yet, and is that much later from then on; where it is two seconds behind, because the
+/// device's clock is slower than the source's, it leaves some out.
 class Player
 {
 public:
@@ -30,6 +32,7 @@ public:
 
 private:
     void renderAhead(const std::stop_token &stop);
+    Index leaveOut(Index samples);
     void give(std::span<std::byte> block);
     Index heardCount() const;
 
@@ -40,6 +43,7 @@ private:
     std::condition_variable_any m_changed;
     std::deque<float> m_ready; ///< that the device has not taken yet
     Index m_givenCount = 0;    ///< samples that it has
+    Index m_leftOut = 0;       ///< samples, because the recording had run away
     std::string m_failure;
     std::jthread m_rendering;
     SoundStream m_stream; ///< last: its thread uses what is above

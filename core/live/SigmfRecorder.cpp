@@ -20,18 +20,32 @@ namespace {
 
     constexpr std::string_view metaEnding = ".sigmf-meta";
     constexpr std::string_view dataEnding = ".sigmf-data";
+    constexpr std::string_view listEnding = ".timeline";
     constexpr Index mostCaptures = 10000; ///< of a file, whose metadata is written anew with each
 
 } // namespace
 
 SigmfRecorder::SigmfRecorder(const std::string &path, const StreamFormat &format, const RotationSettings &rotation,
                              double startUnixSeconds)
-    : m_format(format), m_rotation(rotation), m_startUnixSeconds(startUnixSeconds)
+    : m_format(format), m_rotation(rotation), m_startUnixSeconds(startUnixSeconds),
+      m_writtenSamples(std::make_shared<WrittenSamples>(format, startUnixSeconds))
 {
     if (!SigmfRecording::isNamedSo(path))
         throw Error(path, "recordings of what is heard are SigMF; the file name must end in .sigmf-meta");
     m_stem = path.substr(0, path.size() - metaEnding.size());
+    checkIsNew(m_stem + std::string(listEnding));
     begin();
+}
+
+void SigmfRecorder::checkIsNew(const std::string &path) const
+{
+    if (std::filesystem::exists(path))
+        throw Error(path, "exists already and is not overwritten; choose another name");
+}
+
+std::string SigmfRecorder::whole() const
+{
+    return m_files.size() == 1 ? m_files.front() : m_stem + std::string(listEnding);
 }
 
 SigmfRecorder::~SigmfRecorder()
@@ -44,8 +58,7 @@ void SigmfRecorder::begin()
     const std::string stem = m_files.empty() ? m_stem : m_stem + "-" + std::to_string(m_files.size() + 1);
     const std::string data = stem + std::string(dataEnding);
     for (const std::string &name : {stem + std::string(metaEnding), data})
-        if (std::filesystem::exists(name))
-            throw Error(name, "exists already and is not overwritten; choose another name");
+        checkIsNew(name);
     const int descriptor = ::open(data.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0)
         throw Error(data, std::string("cannot be written: ") + std::strerror(errno));
@@ -57,7 +70,18 @@ void SigmfRecorder::begin()
     m_captures = {{0, m_position}};
     m_isAfterGap = false;
     m_files.push_back(stem + std::string(metaEnding));
+    m_writtenSamples->beginFile(data);
     writeMeta();
+    if (m_files.size() > 1)
+        writeList();
+}
+
+void SigmfRecorder::writeList() const
+{
+    std::string names;
+    for (const std::string &file : m_files)
+        names += std::filesystem::path(file).filename().string() + "\n";
+    writeTextFile(whole(), names, Durability::Program);
 }
 
 void SigmfRecorder::writeMeta() const
@@ -125,6 +149,7 @@ void SigmfRecorder::write(std::span<const std::byte> bytes)
         }
         left = left.subspan(std::size_t(written));
     }
+    m_writtenSamples->add(m_position, count);
     m_written += count;
     m_position += count;
 }

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "live/SampleSource.h"
+#include "live/HeardRecording.h"
 
 #include <chrono>
 #include <cstddef>
-#include <optional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,7 +23,8 @@ struct RotationSettings {
 /// The samples go to NAME.sigmf-data as they came, at once. NAME.sigmf-meta is there from the beginning and complete at
 /// any time: its captures say where samples are missing, one entry for each stretch that was heard without a gap, with
 /// core:sample_start (in the file), core:global_index (in time, gaps included) and core:datetime. Rotation begins
-/// NAME-2, NAME-3 … at the next gap or delivery. Reading it again, SigmfRecording puts the gaps back where they were.
+/// NAME-2, NAME-3 … at the next gap or delivery, and NAME.timeline lists them all. Reading it again, SigmfRecording puts the
+/// gaps back where they were.
 class SigmfRecorder
 {
 public:
@@ -43,6 +44,10 @@ public:
     double secondsLeft() const;
 
     const std::vector<std::string> &files() const { return m_files; } ///< the metadata of each
+    /// What to open all of it by: the metadata, or of several files their list.
+    std::string whole() const;
+    /// The same while it is being written.
+    std::shared_ptr<const WrittenSamples> written() const { return m_writtenSamples; }
 
 private:
     struct Capture {
@@ -53,6 +58,8 @@ private:
     void begin();
     void rotateIfDue();
     void writeMeta() const;
+    void writeList() const;
+    void checkIsNew(const std::string &path) const;
 
     std::string m_stem;
     StreamFormat m_format;
@@ -65,6 +72,7 @@ private:
     bool m_isAfterGap = true;
     std::vector<Capture> m_captures;
     std::vector<std::string> m_files;
+    std::shared_ptr<WrittenSamples> m_writtenSamples;
 };
 
 } // namespace faintline

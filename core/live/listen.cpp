@@ -69,6 +69,7 @@ namespace {
             m_result.lostCount = m_hearing.lostCount();
             m_result.isRecordedWhole = m_hearing.isRecordedWhole();
             m_result.files = m_hearing.files();
+            m_result.recording = m_hearing.whole();
             return std::move(m_result);
         }
 
@@ -117,7 +118,16 @@ namespace {
                 std::make_shared<Spectrogram>(plan.recording, settings.spectrogram, settings.selection);
             normalisePlan(plan, spectrogram, m_context);
             calibratePlan(plan, m_context);
+            tellRecording();
             return true;
+        }
+
+        void tellRecording()
+        {
+            const auto written = m_hearing.written();
+            const std::lock_guard lock(m_mutex);
+            if (written && m_sinks.recording)
+                m_sinks.recording(written);
         }
 
         void analyse()
@@ -137,6 +147,8 @@ namespace {
                 take(frame, first + spectrogram.windowSamples());
                 m_buffer->release(first + spectrogram.hopSamples());
             }
+            if (m_prepared.valid() || (m_sinks.wish && m_sinks.wish()))
+                tellTooLate();
             end();
             sortEvents(m_result.events);
         }
@@ -217,6 +229,13 @@ namespace {
                   std::string("Listening goes on with the settings before: ") + error.what()});
         }
 
+        void tellTooLate()
+        {
+            tell({ListenNotice::Kind::Refused, m_buffer->length(), 0,
+                  "Listening ended before the changed settings were in force: its events are those of the settings "
+                  "before."});
+        }
+
         /// Calibrates for other settings beside the run, which takes seconds the first time. The newest wish wins.
         void prepare(const AnalysisSettings &settings)
         {
@@ -253,8 +272,10 @@ namespace {
             m_buffer->widen(bytesFor(next.settings));
             m_buffer->waitFor(spectrogram->firstSample()
                               + CausalSpectrogram::samplesOfFirstBlock(*spectrogram, settings.noise));
-            if (m_buffer->length() < spectrogram->firstSample() + spectrogram->windowSamples())
-                return frame; // it ended meanwhile
+            if (m_buffer->length() < spectrogram->firstSample() + spectrogram->windowSamples()) {
+                tellTooLate(); // it ended meanwhile
+                return frame;
+            }
             normalisePlan(next, spectrogram, m_context);
             calibratePlan(next, m_context);
             end();

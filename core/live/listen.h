@@ -3,6 +3,7 @@
 #include "analysis/Analysis.h"
 #include "base/RunContext.h"
 #include "live/EventFollower.h"
+#include "live/HeardRecording.h"
 #include "live/ListenSettings.h"
 #include "live/SampleSource.h"
 
@@ -31,6 +32,8 @@ struct ListenSinks {
     /// `plan` is that of the run.
     std::function<void(const EventChange &change, const AnalysisPlan &plan)> event;
     std::function<void(const ListenNotice &notice, const StreamFormat &format)> notice;
+    /// Before the first plan, where something is recorded.
+    std::function<void(std::shared_ptr<const WrittenSamples> written)> recording{};
     /// Before the first frame, and again where changed settings are in force: what all that follows is made with.
     std::function<void(const AnalysisPlan &plan)> plan{};
     std::function<void(const ListenFrame &frame)> frame{};
@@ -48,6 +51,7 @@ struct ListenResult {
     bool isAnalysedToTheEnd = true; ///< else the recording has more than was analysed
     bool isRecordedWhole = true;
     std::vector<std::string> files; ///< recordings' metadata
+    std::string recording;          ///< to open all of it by: the metadata, or the list of several; empty: none
 };
 
 /// Listens until the source is over, the selection's end is reached, or the context's stop is asked for, which is no

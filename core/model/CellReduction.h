@@ -7,7 +7,8 @@
 
 namespace faintline {
 
-/// Frame axes along which a target is anywhere, anew at every stage: a radar's ambiguous Doppler. They need no state.
+/// Frame axes along which a target is uniform and independent at each stage, such as a radar's ambiguous Doppler. They
+/// need no state.
 ///
 /// With P(p'|p) = 1/N_d along such axes, the sum over trajectories of a product of p1/p0 factorises stage by stage, and
 /// so does the maximum; the recursion runs on the other axes only, on
@@ -20,26 +21,26 @@ class CellReduction
 {
 public:
     CellReduction() = default;
-    /// Cells of every frame axis, slowest first, and which of them are folded.
+    /// Number of cells of each frame axis, slowest first, and which axes are folded.
     CellReduction(std::vector<Index> cells, const std::vector<bool> &isFolded);
 
-    const std::vector<Index> &axisCells() const { return m_cells; } ///< of the frame, folded axes included
+    const std::vector<Index> &axisCells() const { return m_cells; } ///< of the frame, including folded axes
     bool isFolded(std::size_t axis) const { return m_isFolded[axis]; }
     Index frameCells() const { return m_frameCells; }
     Index stateCells() const { return m_stateCells; }
     Index foldedCells() const { return m_frameCells / m_stateCells; } ///< N_d
 
-    /// frameCells values to stateCells values.
+    /// Reduces frameCells values to stateCells values.
     void sum(std::span<const double> lambda, std::span<double> reduced) const;
     void maximum(std::span<const double> lambda, std::span<double> reduced) const;
 
-    /// Coordinates on the frame of the cell with the largest λ among those that are folded into one.
+    /// Frame coordinates of the cell with the largest λ among those folded into `stateCell`.
     std::vector<Index> best(std::span<const double> lambda, Index stateCell) const;
 
 private:
     std::vector<Index> m_cells;
     std::vector<bool> m_isFolded;
-    std::vector<Index> m_stateCell; ///< of every frame cell
+    std::vector<Index> m_stateCell; ///< for each frame cell
     Index m_frameCells = 1;
     Index m_stateCells = 1;
 };

@@ -25,7 +25,7 @@ namespace {
         return numerator % denominator < 0 ? quotient - 1 : quotient;
     }
 
-    /// Cells that k/q cells a step make in step number t: ⌊k(t + 1)/q + ½⌋ - ⌊k·t/q + ½⌋.
+    /// Displacement of a rate of k/q cells per step in step number t: ⌊k(t + 1)/q + ½⌋ - ⌊k·t/q + ½⌋.
     int displacementInStep(int k, int q, Index t)
     {
         const auto reached = [&](Index steps) { return floorOfQuotient(2 * k * steps + q, 2 * q); };
@@ -63,18 +63,18 @@ namespace {
                 checkProbability(probability, where);
                 sum += probability;
             }
-            if (!(sum < 1.0 + 1e-6)) // less is allowed: what leaves the axis
+            if (!(sum < 1.0 + 1e-6)) // less is allowed: probability that leaves the axis
                 throw Error(where, "row " + std::to_string(from) + " adds up to " + formatNumber(sum)
                                        + "; it must be at most 1");
         }
     }
 
-    /// A renormalised axis has a move from every cell, with some rate.
+    /// A renormalised axis must have a move from each cell, with some rate.
     void checkWaysOn(const KinematicAxis &axis, const std::string &where)
     {
         const Index edge = axis.edgeCells();
         for (Index cell = 0; cell < axis.cells; ++cell) {
-            if (cell > edge && cell < axis.cells - edge) { // as the one before
+            if (cell > edge && cell < axis.cells - edge) { // same as the previous one
                 cell = axis.cells - edge - 1;
                 continue;
             }
@@ -140,7 +140,7 @@ int KinematicAxis::rateGoingOn(Index cell, int rate, Index number) const
         for (const int other : {rate - apart, rate + apart})
             if (other >= 0 && other < rateCount && remaining(cell, other, number) > 0.0)
                 return other;
-    return rate; // of an axis that check() refuses
+    return rate; // of an axis that check() rejects
 }
 
 double KinematicAxis::lnDeparture(Index fromCell, int fromRate, Index number) const
@@ -161,7 +161,7 @@ double KinematicAxis::largestLoss() const
     const bool isLaw = transition.empty();
     const Index edge = isLaw ? edgeCells() : cells;
     for (Index cell = 0; cell < cells; ++cell) {
-        if (isLaw && cell > edge && cell < cells - edge) { // as the one before
+        if (isLaw && cell > edge && cell < cells - edge) { // same as the previous one
             cell = cells - edge - 1;
             continue;
         }
@@ -190,7 +190,7 @@ KinematicAxis KinematicAxis::stochastic(const std::string &where) const
         }
         return result;
     }
-    if (cyclic && !step.empty()) { // each way round counts by itself
+    if (cyclic && !step.empty()) { // each way round counts separately
         const double sum = remaining(0);
         for (double &q : result.step)
             q /= sum;

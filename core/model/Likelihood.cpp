@@ -36,16 +36,16 @@ namespace {
         }
     }
 
-    // With z = r0·y and w = √(z + c), c = the negative of ln I0(2√z)'s singularity nearest to 0,
+    // With z = r0·y and w = √(z + c), where -c is the singularity of ln I0(2√z) nearest to 0,
     //
     //   ln I0(2√z) = 2w - ½ ln w + g(1/w),
     //
-    // where g is smooth on all of 0 < 1/w ≤ 1/√c: a polynomial of degree 12 is right to 1.4e-7 there.
+    // where g is smooth on all of 0 < 1/w ≤ 1/√c: a polynomial of degree 12 is accurate to 1.4e-7 there.
     constexpr double singularity = 1.4457964907366961; ///< (first zero of J0 / 2)²
     constexpr int degree = 12;
     using Polynomial = std::array<float, degree + 1>; ///< in powers of t = 2√c/w - 1
 
-    /// g's polynomial, by interpolation in Chebyshev's nodes.
+    /// g's polynomial, by interpolation at Chebyshev nodes.
     Polynomial fitPolynomial()
     {
         constexpr int n = degree + 1;
@@ -58,7 +58,7 @@ namespace {
             for (int k = 0; k < n; ++k)
                 chebyshev[std::size_t(k)] += (k == 0 ? 1.0 : 2.0) / n * g * std::cos(k * angle);
         }
-        // Chebyshev's series to powers of t, by T_k+1 = 2t·T_k - T_k-1.
+        // Converts the Chebyshev series to powers of t, by T_k+1 = 2t·T_k - T_k-1.
         std::array<double, n> sum{};
         std::array<double, n> before{};
         std::array<double, n> now{};
@@ -83,8 +83,8 @@ namespace {
         return fitted;
     }
 
-    /// -r0 + 2w would cancel where it matters; instead, with 4w² - r0² = 4·r0·(y - r0/4) + 4c,
-    /// λ = (4w² - r0²)/(2w + r0) - ½ ln w + g, the difference taken from y in two parts.
+    /// -r0 + 2w would suffer from cancellation; instead, with 4w² - r0² = 4·r0·(y - r0/4) + 4c, λ = (4w² - r0²)/(2w +
+    /// r0) - ½ ln w + g, with the difference computed from y in two parts.
     FAINTLINE_MULTIVERSION
     void rice(const float *y, std::size_t n, const Polynomial &g, double snr, float *out)
     {
@@ -108,7 +108,7 @@ namespace {
         }
     }
 
-    /// λ = 0 where y is NaN. A pass of its own: within the formulas the comparison keeps them from being vectorised.
+    /// Sets λ = 0 where y is NaN, in a separate pass, because the comparison prevents vectorisation of the formulas.
     FAINTLINE_MULTIVERSION
     void leaveOutUnobserved(const float *y, std::size_t n, float *lambda)
     {

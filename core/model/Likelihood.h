@@ -11,7 +11,7 @@ enum class LikelihoodKind {
     Rice,
     Exponential,
     Linear,
-    Given ///< evidence that somebody else has computed; of no setting, so it has no name among these:
+    Given ///< evidence computed elsewhere; not a setting, so it has no name here
 };
 
 inline constexpr std::array<std::string_view, 3> likelihoodNames{"rice", "exponential", "linear"};
@@ -22,10 +22,10 @@ inline constexpr std::array<std::string_view, 3> likelihoodNames{"rice", "expone
 ///   exponential  fluctuating, mean SNR ρ:        λ = yρ/(1+ρ) - ln(1+ρ)      Parsons 2008 eq. 9, Grossi and Lops 2006
 ///                                                                            eq. 10
 ///   linear       the exponential one rescaled:   λ = y                       Parsons 2008 eq. 10
-///   given        frames hold λ itself, any finite number, not power
+///   given        frames hold λ itself, any finite number, instead of power
 ///
-/// `apply` works in single precision: |error| ≤ 1e-6 · max(1, |λ|) for 0 ≤ y ≤ 1e4 and beyond; rice is one polynomial
-/// behind a square root and a logarithm, without a branch. Oracle: Boost.Math's Bessel function. Thread-safe.
+/// `apply` works in single precision: |error| ≤ 1e-6 · max(1, |λ|) for 0 ≤ y ≤ 1e4 and beyond; rice is one branch-free
+/// polynomial after a square root and a logarithm. Oracle: Boost.Math's Bessel function. Thread-safe.
 class Likelihood
 {
 public:
@@ -35,7 +35,7 @@ public:
     LikelihoodKind kind() const { return m_kind; }
     double snr() const { return m_snr; }
 
-    /// λ of every value; negative or infinite power counts as 0 (no energy). NaN was not observed: λ = 0, no evidence
+    /// λ of each value; negative or infinite power counts as 0 (no energy). NaN was not observed: λ = 0, no evidence
     /// either way.
     void apply(std::span<const float> y, std::span<float> out) const;
 

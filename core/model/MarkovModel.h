@@ -7,7 +7,7 @@
 
 namespace faintline {
 
-/// What a track-before-detect recursion is told of the world: how a state moves, and what a signal does to a cell.
+/// Model of a track-before-detect recursion: how a state moves, and how a signal changes a cell.
 struct MarkovModel {
     StateSpace space;
     Likelihood likelihood;

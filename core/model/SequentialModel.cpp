@@ -59,7 +59,7 @@ SequentialModel makeSequentialModel(const std::vector<KinematicAxis> &frameAxes,
         axes.emplace_back();
         axes.back().cells = 1;
     }
-    // Each by itself: GCC 12 loses its way out of a list in which a later member throws.
+    // Constructed separately, because GCC 12 mishandles a braced list in which a later member throws.
     StateSpace space(std::move(axes));
     CellReduction reduction(std::move(cells), isFolded);
     SequentialModel model{{std::move(space), likelihood, 1.0}, std::move(reduction), std::move(initial), 1};

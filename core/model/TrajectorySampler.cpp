@@ -62,7 +62,7 @@ void TrajectorySampler::move(std::size_t axis, Index step, int &rate, Index &cel
         if (left < 0.0)
             break;
     }
-    if (!chosen) // at the end of the axis with a rate that leads off it
+    if (!chosen) // at the end of the axis with a rate that leaves it
         return;
     rate = chosen->toRate;
     cell = ((cell + chosen->cells) % a.cells + a.cells) % a.cells;

@@ -9,8 +9,8 @@
 
 namespace faintline {
 
-/// How a sonar's targets may move, in range cells and beams per ping. State: range × bearing × range rate × bearing
-/// rate.
+/// Possible motion of a sonar's targets, in range cells and beams per ping. State: range × bearing × range rate ×
+/// bearing rate.
 struct SonarMotion {
     int fastestRange = 20;                    ///< range rates -20 … 20
     int fastestBearing = 1;                   ///< bearing rates -1 … 1
@@ -18,19 +18,19 @@ struct SonarMotion {
     std::vector<double> bearingRateChange{1.0};
 };
 
-/// Targets that keep their rates: every state has one successor, P = 1.
+/// Targets that keep their rates: each state has one successor, P = 1.
 SonarMotion nonManoeuvring();
 
-/// Targets whose range rate changes by up to ± `reach` cells per ping from ping to ping, all changes equally likely,
-/// and whose bearing rate changes by one beam per ping with probability ¼ either way.
+/// Targets whose range rate changes by up to ± `reach` cells per ping between pings, with equal probability, and whose
+/// bearing rate changes by one beam per ping with probability ¼ either way.
 SonarMotion manoeuvring(int reach = 4);
 
-/// The model of such targets on a ping's grid of range and bearing, whose rates are rounded toward zero; the
-/// log-likelihood ratio is y itself (Parsons 2008, eq. 10). Memory: 123 states a cell with the default rates. Source:
-/// Parsons 2008, section 3 and Table 1. Throws Error where the grid is no such plane.
+/// The model of such targets on a ping's grid of range and bearing. Mean rates are rounded toward zero; the
+/// log-likelihood ratio is y itself (Parsons 2008, eq. 10). Memory: 123 states per cell with the default rates. Source:
+/// Parsons 2008, section 3 and Table 1. Throws Error if the grid is not range × bearing.
 MarkovModel sonarModel(const Grid &grid, const SonarMotion &motion);
 
-/// A motion by name, for lists and settings.
+/// A motion with a name, for lists and settings.
 struct NamedMotion {
     std::string name;
     std::string sentence;

@@ -11,11 +11,11 @@ namespace {
     constexpr double lowestSnr = 1e-6;
     constexpr double highestSnr = 1e9;
 
-    /// Simpson's rule over the amplitude a = √y, whose law is 2a·e^(-a²)·p1/p0.
+    /// Simpson's rule over the amplitude a = √y, whose density is 2a·e^(-a²)·p1/p0.
     double meanRice(const Likelihood &likelihood, double snr)
     {
         constexpr int intervals = 600;
-        constexpr double reach = 7.0; // of the amplitude, whose standard deviation is at most √½
+        constexpr double reach = 7.0; // in amplitude, whose standard deviation is at most √½
         const Likelihood actual(LikelihoodKind::Rice, std::max(snr, lowestSnr));
         const double first = std::max(0.0, std::sqrt(snr) - reach);
         const double step = (std::sqrt(snr) + reach - first) / intervals;
@@ -41,7 +41,8 @@ std::vector<double> withProbability(std::vector<double> law, std::size_t change,
     const double left = 1.0 - times * wanted;
     if (others > 1e-12) {
         for (std::size_t i = 0; i < law.size(); ++i)
-            law[i] = i == change ? 0.0 : std::clamp(law[i] * left / others, 0.0, 1.0); // rounding must not leave 0 … 1
+            law[i] = i == change ? 0.0 : std::clamp(law[i] * left / others, 0.0, 1.0); // rounding must stay within 0 …
+                                                                                       // 1
     } else {
         const std::size_t heir = change == 0 ? 1 : 0;
         law.assign(std::max(law.size(), heir + 1), 0.0);

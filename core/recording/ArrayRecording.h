@@ -6,24 +6,24 @@
 
 namespace faintline {
 
-/// What samples in memory are.
+/// Layout of samples in memory.
 struct ArrayLayout {
     double sampleRateHz = 0.0;
     Index sampleCount = 0; ///< per channel
     int channelCount = 1;
     bool isComplex = false; ///< a sample is two floats, I and Q
-    double centreHz = 0.0;  ///< frequency that 0 Hz of the samples stands for
+    double centreHz = 0.0;  ///< frequency that corresponds to 0 Hz of the samples
 };
 
-/// Samples that are in memory already, sample after sample, its channels side by side.
+/// Samples that are already in memory, with interleaved channels.
 ///
-/// They are not copied: `samples` keeps what owns them alive, and they must not change meanwhile. They are in a unit of
-/// their own, as those of a file of floats are. Thread-safe.
+/// The samples are not copied: `samples` shares their ownership, and they must not change. Like those of a float file,
+/// they are in their own unit. Thread-safe.
 class ArrayRecording final : public Recording
 {
 public:
-    /// `samples`: sampleCount × channelCount × (isComplex ? 2 : 1) floats. Throws Error naming `where` for a rate that
-    /// is no positive number and for no samples.
+    /// `samples`: sampleCount × channelCount × (isComplex ? 2 : 1) floats. Throws Error naming `where` if the rate is
+    /// not a positive number or there are no samples.
     ArrayRecording(const std::string &where, std::shared_ptr<const float> samples, const ArrayLayout &layout);
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;

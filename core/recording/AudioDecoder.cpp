@@ -27,8 +27,7 @@ namespace {
                            [](std::byte c) { return c >= std::byte(32) && c < std::byte(127); });
     }
 
-    /// Where the length of a RIFF file's data chunk stands, if that length is 0 although what follows is no other
-    /// chunk.
+    /// Position of the length of a RIFF file's data chunk, if that length is 0 although no other chunk follows.
     std::optional<Index> unsetDataLength(const FileBytes &file)
     {
         std::array<std::byte, 8> header;
@@ -55,8 +54,8 @@ namespace {
 
 } // namespace
 
-/// What libsndfile reads through: a shared file, an offset of its own, and 4 bytes that may read as 0xFF … instead.
-/// While it reads the header, name by name, lists in which it would lose its way get a name that it does not know.
+/// Input of libsndfile: a shared file, its own offset, and 4 bytes that may be replaced by 0xFF …. While it reads the
+/// header, lists that would make it loop get an unknown name.
 struct AudioDecoder::Source {
     std::shared_ptr<const FileBytes> file;
     std::optional<Index> patched;
@@ -73,7 +72,7 @@ struct AudioDecoder::Source {
     {
         Source &source = of(user);
         const Index base = whence == SEEK_CUR ? source.offset : whence == SEEK_END ? source.file->size() : 0;
-        constexpr Index farthest = Index(1) << 60; // behind every file's end, as a chunk's length may lead
+        constexpr Index farthest = Index(1) << 60; // beyond the end of any file; a chunk's length may point there
         source.offset = std::clamp<Index>(base + std::clamp<Index>(offset, -farthest, farthest), 0, farthest);
         return source.offset;
     }

@@ -13,13 +13,13 @@
 
 namespace faintline {
 
-/// One open libsndfile handle on a file, with the position it has come to. For one thread at a time.
+/// An open libsndfile handle and its current position. Use it from one thread at a time.
 ///
-/// A WAV file whose data chunk was never given its length (a recorder that was killed, a stream) is read to its end.
+/// A WAV file whose data chunk has no length (recorder killed, stream) is read to its end.
 class AudioDecoder
 {
 public:
-    /// Null where libsndfile does not take the file; `why` then says what it said.
+    /// Returns null if libsndfile rejects the file; `why` then holds its message.
     static std::unique_ptr<AudioDecoder> open(std::shared_ptr<const FileBytes> file, std::string &why);
 
     ~AudioDecoder();
@@ -28,16 +28,16 @@ public:
 
     const SF_INFO &format() const { return m_format; }
 
-    /// Samples per channel come to by reading and seeking.
+    /// Current position in samples per channel.
     Index position() const { return m_position; }
 
-    /// Moves to a sample; false where libsndfile cannot.
+    /// Moves to a sample; returns false if libsndfile cannot.
     bool seek(Index sample);
 
-    /// Reads up to `count` samples of all channels, interleaved; returns how many there were.
+    /// Reads up to `count` samples of all channels, interleaved; returns the number read.
     Index read(Index count, std::span<float> out);
 
-    /// What libsndfile wrote down while parsing the header.
+    /// libsndfile's log of parsing the header.
     std::string log() const;
 
     /// The bytes of a chunk of the header ("auxi"); empty if absent.

@@ -11,7 +11,7 @@ namespace faintline {
 namespace {
 
     constexpr Index floatsPerBlock = 1 << 18;
-    constexpr Index lossyRunUp = 1 << 14; ///< samples; longer than any codec's memory that matters
+    constexpr Index lossyRunUp = 1 << 14; ///< samples; longer than the relevant memory of any codec
     constexpr std::size_t mostIdle = 16;
 
     bool isLossy(int format)
@@ -39,7 +39,7 @@ namespace {
         }
     }
 
-    /// What libsndfile says of a file that is of none of its formats.
+    /// Whether libsndfile's message denotes an unknown format.
     bool isOfUnknownFormat(const std::string &said)
     {
         return said.find("not recognised") != std::string::npos || said.find("unknown format") != std::string::npos;
@@ -129,7 +129,7 @@ void AudioRecording::failAt(Index sample) const
 
 // ---- handles -----------------------------------------------------------------------------------------------------
 
-/// The idle handle that has least to do for this block or position; a new one where none will do.
+/// The idle handle with the least work for this block or position, or a new one.
 std::unique_ptr<AudioRecording::Handle> AudioRecording::borrow(Index block, Index position) const
 {
     {
@@ -184,7 +184,7 @@ void AudioRecording::readStored(int channel, Index first, std::span<float> out) 
         readBlocks(offset, first, out);
 }
 
-/// One channel's floats out of interleaved ones.
+/// Copies one channel from interleaved floats.
 void AudioRecording::copyChannel(std::span<const float> frames, Index offset, std::span<float> out) const
 {
     const Index floats = m_info.floatsPerSample();
@@ -242,7 +242,7 @@ void AudioRecording::decodeBlock(Handle &handle, Index block) const
 {
     handle.block = -1;
     if (m_runUp > 0)
-        handle.decoder = openDecoder(); // a used one remembers, to the last bit, what it decoded before
+        handle.decoder = openDecoder(); // a used decoder's output depends on earlier blocks in the last bits
     AudioDecoder &decoder = *handle.decoder;
     const Index start = block * m_blockSamples;
     const Index count = std::min(m_blockSamples, m_stored - start);
@@ -259,18 +259,18 @@ void AudioRecording::decodeBlock(Handle &handle, Index block) const
     handle.block = block;
 }
 
-// ---- length of what can be decoded -------------------------------------------------------------------------------
+// ---- decodable length --------------------------------------------------------------------------------------------
 
 bool AudioRecording::isReadable(std::unique_ptr<AudioDecoder> &decoder, Index sample) const
 {
     std::vector<float> one(static_cast<std::size_t>(m_streams));
     if (decoder->seek(sample) && decoder->read(1, one) == 1)
         return true;
-    decoder = openDecoder(); // a decoder that met the end of a truncated stream cannot be trusted any more
+    decoder = openDecoder(); // a decoder that reached the end of a truncated stream is unreliable
     return false;
 }
 
-/// The header's sample count if its last sample is there; else the largest count whose last sample is, by bisection.
+/// The header's sample count if its last sample is readable; else the largest readable count, by bisection.
 Index AudioRecording::readableCount(std::unique_ptr<AudioDecoder> &decoder) const
 {
     const Index claimed = decoder->format().frames;

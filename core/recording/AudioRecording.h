@@ -9,21 +9,21 @@
 
 namespace faintline {
 
-/// Whatever libsndfile reads: WAV, RF64, W64, AIFF, FLAC, CAF, OGG, MP3, AU and more, with any number of channels.
+/// Any file that libsndfile reads: WAV, RF64, W64, AIFF, FLAC, CAF, OGG, MP3, AU and more, with any number of channels.
 ///
 /// With `iq`, channels 2k and 2k+1 are I and Q of complex channel k. Start time and centre frequency are taken from a
-/// broadcast chunk (bext), from the chunk that receivers write (auxi) or that of XWAV (harp), where there is one. A
-/// file that was cut short gives the existing part, with a note. Where harp tells that samples are missing between
-/// stretches, they keep their place in time, read as 0, and isWhole tells.
+/// broadcast chunk (bext), from the chunk that receivers write (auxi) or from that of XWAV (harp), if present. A
+/// truncated file gives the existing part, with a note. Samples that harp marks as missing keep their place in time and
+/// read as 0; isWhole reports them.
 ///
-/// Uncompressed data is read where it is wanted. Compressed data is decoded in fixed blocks that are kept while they
-/// are in use. Each block of a lossy codec (OGG, MP3) is decoded by a fresh decoder after a run-up, which it needs to
-/// settle (libsndfile's Vorbis seek gives a wrong first block), so that a sample's value never depends on what was read
-/// before. A codec that cannot seek is decoded from the beginning. Thread-safe: threads use handles of their own.
+/// Uncompressed data is read on demand. Compressed data is decoded in fixed blocks that are kept while in use. Each
+/// block of a lossy codec (OGG, MP3) is decoded by a fresh decoder after the run-up that it needs to settle
+/// (libsndfile's Vorbis seek gives a wrong first block), so that a sample's value never depends on earlier reads. A
+/// codec that cannot seek is decoded from the beginning. Thread-safe: each thread uses its own handle.
 class AudioRecording final : public Recording
 {
 public:
-    /// Throws Error where the file cannot be opened or is not a recording, saying what would be accepted.
+    /// Throws Error if the file cannot be opened or is not a recording, listing what would be accepted.
     AudioRecording(const std::string &path, bool iq);
     ~AudioRecording() override;
 
@@ -31,13 +31,13 @@ public:
     bool isWhole(Index first, Index count) const override { return m_stretches.isWhole(first, count); }
     int scaleExponent(int channel) const override { return m_isFloat ? measuredScaleExponent(channel) : 0; }
 
-    /// Whether libsndfile knows the content of a file, sound or damaged.
+    /// Whether libsndfile recognises the file's format, even if the file is damaged.
     static bool recognises(const std::string &path);
 
 private:
     struct Handle {
         std::unique_ptr<AudioDecoder> decoder;
-        std::vector<float> samples; ///< the block last decoded, or scratch; all channels interleaved
+        std::vector<float> samples; ///< last decoded block, or scratch; all channels interleaved
         Index block = -1;
     };
     enum class Access { Direct, Blocks, Forward };
@@ -57,7 +57,7 @@ private:
 
     std::shared_ptr<const FileBytes> m_file;
     Index m_stored = 0;     ///< samples in the file
-    Stretches m_stretches;  ///< of them in time; none: all of them lie together
+    Stretches m_stretches;  ///< their places in time; empty if they are contiguous
     Index m_streams = 1;    ///< channels of the file
     bool m_isFloat = false; ///< uncompressed floats, whose full scale need not be 1
     Access m_access = Access::Direct;
@@ -67,7 +67,7 @@ private:
     mutable std::vector<std::unique_ptr<Handle>> m_idle; ///< guarded by m_mutex
 };
 
-/// What openRecording accepts, for messages.
+/// Formats that openRecording accepts, for messages.
 inline constexpr const char *acceptedFormats =
     "accepted are WAV, RF64, W64, AIFF, FLAC, CAF, OGG, MP3, AU and other audio files, SigMF pairs (.sigmf-meta, "
     ".sigmf-data), strain and filterbanks in HDF5, sigproc filterbanks, and raw samples when their type and rate are "

@@ -40,7 +40,7 @@ DigitalRfRecording::DigitalRfRecording(const std::string &path)
 {
     constexpr Index mostSubchannels = 1024;
     if (!m_data || m_data->shape().size() > 2 || (m_data->shape().size() == 2 && m_data->shape()[1] > mostSubchannels))
-        throw Error(path, "holds no rf_data of samples and at most 1024 subchannels");
+        throw Error(path, "holds no rf_data with samples of at most 1024 subchannels");
     m_info.path = path;
     m_info.container = "Digital RF";
     m_info.sampleType = (m_data->isFloat()    ? "float"
@@ -76,7 +76,7 @@ void DigitalRfRecording::readIndex()
     m_info.startUnixSeconds = double(numbers[0]) / m_info.sampleRateHz;
     if (m_stretches.hasGaps())
         m_info.notes.push_back(std::to_string(m_stretches.gaps()) + " gap(s), in all "
-                               + std::to_string(m_stretches.missing()) + " samples, are not observed.");
+                               + std::to_string(m_stretches.missing()) + " samples, which were not observed.");
 }
 
 void DigitalRfRecording::read(int channel, Index first, Index count, std::span<float> out) const

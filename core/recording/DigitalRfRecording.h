@@ -6,25 +6,25 @@
 
 namespace faintline {
 
-/// One file of a Digital RF channel (rf@SECONDS.MILLISECONDS.h5); a channel's folder is a Timeline of them.
+/// One file of a Digital RF channel (rf@SECONDS.MILLISECONDS.h5). The channel's folder is a Timeline of such files.
 ///
 ///   rf_data         samples × subchannels, numbers or pairs of them ("r", "i")
-///   rf_data_index   for each stretch without a gap: its first sample since 1970, and its row in rf_data
+///   rf_data_index   for each contiguous stretch: number of its first sample since 1970, and its row in rf_data
 ///
-/// The rate is what the attributes of rf_data say, sample_rate_numerator over sample_rate_denominator, or
-/// samples_per_second. Integers are scaled to ±1. The centre frequency, which is kept elsewhere, is not known. Source:
-/// Digital RF 2.6 (MIT Haystack). Thread-safe.
+/// The rate is given by the attributes of rf_data: sample_rate_numerator over sample_rate_denominator, or
+/// samples_per_second. Integers are scaled to ±1. The centre frequency is stored elsewhere and therefore unknown.
+/// Source: Digital RF 2.6 (MIT Haystack). Thread-safe.
 class DigitalRfRecording final : public Recording
 {
 public:
-    /// Throws Error where the file lacks one of the two, or says of them what cannot be.
+    /// Throws Error if either dataset is missing or invalid.
     explicit DigitalRfRecording(const std::string &path);
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;
     bool isWhole(Index first, Index count) const override { return m_stretches.isWhole(first, count); }
     int scaleExponent(int channel) const override { return m_data->isFloat() ? measuredScaleExponent(channel) : 0; }
 
-    /// Whether an HDF5 file holds both.
+    /// Whether an HDF5 file holds both datasets.
     static bool recognises(const std::string &path);
 
 private:
@@ -32,7 +32,7 @@ private:
 
     std::unique_ptr<Hdf5File> m_file;
     std::unique_ptr<Hdf5Dataset> m_data;
-    Stretches m_stretches; ///< of the rows in time
+    Stretches m_stretches; ///< places of the rows in time
 };
 
 } // namespace faintline

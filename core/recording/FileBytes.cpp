@@ -13,9 +13,9 @@ namespace faintline {
 
 FileBytes::FileBytes(const std::string &path) : m_path(path)
 {
-    if (path.find('\0') != std::string::npos) // the system would stop reading there, and open another file
+    if (path.find('\0') != std::string::npos) // the system would stop there and open another file
         throw Error(path, "no such file; a file name cannot contain a zero byte");
-    // Without O_NONBLOCK a named pipe would keep us waiting for its writer.
+    // Without O_NONBLOCK, opening a named pipe would wait for its writer.
     m_descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (m_descriptor < 0 && (errno == ENOENT || errno == ENOTDIR))
         throw Error(path, "no such file");

@@ -10,12 +10,12 @@ namespace faintline {
 
 /// Random access to the bytes of a regular file, of any size.
 ///
-/// Reads at positions through one descriptor, so it may be used from several threads at once, survives the file being
-/// renamed, and a file that shrinks meanwhile gives short reads, not a crash.
+/// Reads at given positions through one descriptor. It may be used from several threads at once and survives renaming
+/// of the file; a file that shrinks gives short reads, not a crash.
 class FileBytes
 {
 public:
-    /// Throws Error where there is no such file, it is a folder or a device, or it may not be read.
+    /// Throws Error if the file does not exist, is a folder or a device, or is not readable.
     explicit FileBytes(const std::string &path);
     ~FileBytes();
     FileBytes(const FileBytes &) = delete;
@@ -23,11 +23,11 @@ public:
 
     const std::string &path() const { return m_path; }
 
-    /// In bytes, when it was opened.
+    /// Size in bytes when the file was opened.
     Index size() const { return m_size; }
 
-    /// Reads from `offset` on; returns how many bytes were there, fewer than wanted only at the end of the file.
-    /// Throws Error where the device fails.
+    /// Reads from `offset` on; returns the number of bytes read, fewer than requested only at the end of the file.
+    /// Throws Error if the device fails.
     std::size_t readAt(Index offset, std::span<std::byte> out) const;
 
 private:

@@ -18,11 +18,11 @@ namespace {
 
     constexpr haddr_t farthest = ~haddr_t(0) >> 1;
 
-    /// The library's part comes first, by which it knows the whole.
+    /// The library's part must come first.
     struct OpenFile {
         H5FD_t library{};
         std::unique_ptr<const FileBytes> bytes;
-        haddr_t end = 0; ///< of what the file says to be its own
+        haddr_t end = 0; ///< size that the file claims
 
         static OpenFile &of(H5FD_t *file) { return *reinterpret_cast<OpenFile *>(file); }
         static const OpenFile &of(const H5FD_t *file) { return *reinterpret_cast<const OpenFile *>(file); }
@@ -89,7 +89,7 @@ namespace {
         H5FD_class_t driver{};
 #ifdef H5FD_CLASS_VERSION
         driver.version = H5FD_CLASS_VERSION;
-        driver.value = static_cast<H5FD_class_value_t>(600); // of those that are nobody's
+        driver.value = static_cast<H5FD_class_value_t>(600); // from the range for unregistered drivers
 #endif
         driver.name = "faintline";
         driver.maxaddr = farthest;
@@ -101,9 +101,9 @@ namespace {
         driver.set_eoa = setEnd;
         driver.get_eof = sizeOf;
         driver.read = read;
-        // Without one that writes, no driver is taken.
+        // The library rejects a driver without a write function.
         driver.write = [](H5FD_t *, H5FD_mem_t, hid_t, haddr_t, std::size_t, const void *) -> herr_t { return -1; };
-        // As H5FD_FLMAP_SINGLE: all kinds of content lie in one address space.
+        // As H5FD_FLMAP_SINGLE: one address space for all kinds of content.
         for (H5FD_mem_t &kind : driver.fl_map)
             kind = H5FD_MEM_SUPER;
         return driver;

@@ -4,13 +4,13 @@
 
 namespace faintline {
 
-/// How the library reads: through FileBytes, and nothing but what is there.
+/// HDF5 file driver that reads through FileBytes, and only bytes that exist.
 ///
-/// Its own drivers let it keep what it last read of a file's structure in a buffer, whose reach it compares with
-/// addresses that a damaged file chose, without looking whether their sum wraps (1.10: a file of a kilobyte ended
-/// the program). This one has no such buffer, and no locks, which a read-only folder need not allow.
+/// The library's own drivers allow a metadata buffer, and the library compares the buffer's range with addresses from
+/// the file without checking for overflow (in 1.10 a damaged file of a kilobyte crashed the program). This driver has
+/// neither that buffer nor locks, which a read-only folder may not allow.
 ///
-/// To be given back with H5FDunregister once the file is open; negative where the library refuses it.
+/// Release it with H5FDunregister once the file is open. Returns a negative number if the library refuses it.
 std::int64_t registerHdf5Driver();
 
 } // namespace faintline

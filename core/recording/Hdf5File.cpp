@@ -21,12 +21,12 @@ namespace faintline {
 namespace {
 
     constexpr std::size_t largestChunk = std::size_t(64) << 20;
-    constexpr std::size_t cacheBytes = std::size_t(128) << 20; // a chunk that does not fit is unpacked for every read
+    constexpr std::size_t cacheBytes = std::size_t(128) << 20; // a chunk that does not fit is unpacked at each read
     constexpr std::size_t cacheSlots = 1009;
     constexpr H5Z_filter_t bitshuffle = 32008;
     constexpr unsigned bitshuffleLz4 = 2;
 
-    /// A handle that closes itself.
+    /// A handle that is closed by its destructor.
     class Handle
     {
     public:
@@ -71,8 +71,8 @@ namespace {
         return decoded.size();
     }
 
-    /// The library while one of us uses it: for one thread, without plug-ins, and in silence, for what goes wrong is
-    /// said once, by Error. Others of the same process, such as h5py, find it as they left it.
+    /// Scope of library use: one thread, no plug-ins, and no printed messages, because Error reports failures once.
+    /// Restores the state for other users in the process, such as h5py.
     class LibraryUse
     {
     public:
@@ -128,18 +128,19 @@ namespace {
             const H5Z_filter_t filter =
                 H5Pget_filter2(plan, unsigned(i), &flags, &none, nullptr, name.size() - 1, name.data(), nullptr);
             if (filter < 0 || H5Zfilter_avail(filter) <= 0)
-                throw Error(where, "is packed by filter " + std::to_string(filter) + " (" + oneLine(name.data())
-                                       + "); deflate, szip, shuffle, bitshuffle and bitshuffle with LZ4 can be read");
+                throw Error(where,
+                            "is compressed by filter " + std::to_string(filter) + " (" + oneLine(name.data())
+                                + "); only deflate, szip, shuffle, bitshuffle and bitshuffle with LZ4 are supported");
         }
     }
 
-    /// The sizes of a dataset's chunks; empty where it has none.
+    /// Chunk sizes of a dataset; empty if it is not chunked.
     std::vector<Index> checkStorage(hid_t dataset, std::size_t elementBytes, const std::string &where)
     {
         std::vector<Index> chunk;
         const Handle plan(H5Dget_create_plist(dataset), H5Pclose);
         if (H5Pget_external_count(plan) != 0)
-            throw Error(where, "has its values in other files, which are not read");
+            throw Error(where, "stores its values in other files, which are not read");
         switch (H5Pget_layout(plan)) {
         case H5D_CHUNKED: {
             std::array<hsize_t, H5S_MAX_RANK> sizes{};
@@ -157,13 +158,13 @@ namespace {
         case H5D_CONTIGUOUS:
             break;
         default:
-            throw Error(where, "is put together from other datasets or files, which are not read");
+            throw Error(where, "is a virtual dataset of other datasets or files, which are not read");
         }
         checkFilters(plan, where);
         return chunk;
     }
 
-    /// Lengths may lie: what was never written is no part of the file, and no filter packs numbers better than this.
+    /// Lengths may be false: unwritten parts are not in the file, and no filter compresses numbers better than this.
     void checkLength(hid_t dataset, std::span<const hsize_t> sizes, std::size_t elementBytes, const std::string &where)
     {
         constexpr double bestPacking = 4096.0;
@@ -173,7 +174,7 @@ namespace {
             claimed *= double(size);
         if (claimed > bestPacking * std::max(fewBytes, double(H5Dget_storage_size(dataset))))
             throw Error(where, "claims " + std::to_string(std::llround(claimed / fewBytes))
-                                   + " MiB of values, of which the file holds next to nothing");
+                                   + " MiB of values, but the file holds almost none of them");
     }
 
     bool isNumber(hid_t type)
@@ -191,17 +192,14 @@ namespace {
             && H5Tget_member_index(type, "i") == 1) {
             Handle real(H5Tget_member_type(type, 0), H5Tclose);
             const Handle imaginary(H5Tget_member_type(type, 1), H5Tclose);
-            const std::size_t bytes = H5Tget_size(real);
-            const std::size_t last = std::max(H5Tget_member_offset(type, 0), H5Tget_member_offset(type, 1));
-            const bool isWithin =
-                bytes <= H5Tget_size(type) && last <= H5Tget_size(type) - bytes; // else it is read beyond
-            if (isNumber(real) && H5Tequal(real, imaginary) > 0 && isWithin)
+            const auto end = std::max(H5Tget_member_offset(type, 0), H5Tget_member_offset(type, 1)) + H5Tget_size(real);
+            if (isNumber(real) && H5Tequal(real, imaginary) > 0 && end <= H5Tget_size(type)) // else it is read beyond
                 return real.release();
         }
-        throw Error(where, "holds no numbers of up to 64 bits");
+        throw Error(where, "does not hold numbers of at most 64 bits");
     }
 
-    /// What a value is read as: a float, or two of them.
+    /// The memory type of a value: a float, or two of them.
     hid_t floatType(bool isComplex)
     {
         if (!isComplex)
@@ -212,14 +210,14 @@ namespace {
         return pair;
     }
 
-    /// Whether a name leads on within the file.
+    /// Whether a name leads to an object within the file.
     bool follows(hid_t file, const std::string &name, const std::string &path)
     {
         H5L_info_t info;
         if (H5Lexists(file, name.c_str(), H5P_DEFAULT) <= 0 || H5Lget_info(file, name.c_str(), &info, H5P_DEFAULT) < 0)
             return false;
         if (info.type != H5L_TYPE_HARD)
-            throw Error(path + ": " + name, "is a link to elsewhere, which is not followed");
+            throw Error(path + ": " + name, "is a soft or external link, which is not followed");
         return true;
     }
 
@@ -240,15 +238,15 @@ bool Hdf5File::recognises(const std::string &path)
 
 Hdf5File::Hdf5File(const std::string &path) : m_path(path)
 {
-    const FileBytes check(path); // says what is wrong with a name
+    const FileBytes check(path); // reports an invalid name
     const LibraryUse use;
     const Handle driver(registerHdf5Driver(), H5FDunregister);
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     if (H5Pset_driver(access, driver, nullptr) < 0)
-        throw Error(path, "cannot be opened: the HDF5 library takes no driver", Error::Kind::Failure);
+        throw Error(path, "cannot be opened: the HDF5 library rejects the driver", Error::Kind::Failure);
     m_handle = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
     if (m_handle < 0)
-        throw Error(path, "is no HDF5 file, or damaged or cut short");
+        throw Error(path, "is not an HDF5 file, or is damaged or truncated");
 }
 
 Hdf5File::~Hdf5File()
@@ -270,7 +268,7 @@ std::unique_ptr<Hdf5Dataset> Hdf5File::dataset(const std::string &name) const
     H5Pset_chunk_cache(access, cacheSlots, cacheBytes, 1.0);
     Handle handle(H5Dopen2(m_handle, name.c_str(), access), H5Dclose);
     if (handle < 0)
-        throw Error(where, "is no dataset, or damaged");
+        throw Error(where, "is not a dataset, or is damaged");
     const Handle type(H5Dget_type(handle), H5Tclose);
     const Handle number(numberType(type, where), H5Tclose);
     const H5T_class_t kind = H5Tget_class(number);
@@ -280,10 +278,10 @@ std::unique_ptr<Hdf5Dataset> Hdf5File::dataset(const std::string &name) const
     constexpr hsize_t mostValues = hsize_t(1) << 50;
     if (axes < 1
         || std::any_of(sizes.begin(), sizes.begin() + axes, [](hsize_t size) { return size < 1 || size > mostValues; }))
-        throw Error(where, "holds no values, or more than can be");
+        throw Error(where, "holds no values, or claims too many");
     std::vector<Index> chunk = checkStorage(handle, H5Tget_size(type), where);
     if (!chunk.empty() && (std::ssize(chunk) != axes || std::find(chunk.begin(), chunk.end(), 0) != chunk.end()))
-        throw Error(where, "is damaged: its chunks are of another shape");
+        throw Error(where, "is damaged: its chunks have an invalid shape");
     checkLength(handle, std::span(sizes).first(std::size_t(axes)), H5Tget_size(type), where);
 
     std::unique_ptr<Hdf5Dataset> dataset(new Hdf5Dataset(m_path, handle.release()));
@@ -306,7 +304,7 @@ Hdf5Dataset::~Hdf5Dataset()
 
 namespace {
 
-    /// An attribute of one value; null handles where there is none. To be called with the lock.
+    /// An attribute with a single value; null handles if it is missing. Call with the lock held.
     struct Attribute {
         Handle handle;
         Handle type;
@@ -353,10 +351,10 @@ std::optional<std::string> Hdf5Dataset::text(const std::string &name) const
     return std::string(value.c_str());
 }
 
-/// Where a small part lies in more chunks than are kept, all of them would be unpacked again for the next one.
+/// If a small part lies in more chunks than the cache holds, every read would unpack all of them again.
 void Hdf5Dataset::checkChunks(const std::vector<Index> &first, const std::vector<Index> &count) const
 {
-    constexpr double mostUnpacked = 16.0; // times what is read
+    constexpr double mostUnpacked = 16.0; // relative to the part that is read
     double wanted = (m_isComplex ? 0.25 : 0.125) * m_bits;
     double unpacked = wanted;
     for (std::size_t axis = 0; axis < m_chunk.size(); ++axis) {
@@ -366,7 +364,7 @@ void Hdf5Dataset::checkChunks(const std::vector<Index> &first, const std::vector
     }
     if (unpacked > double(cacheBytes) && unpacked > mostUnpacked * wanted)
         throw Error(m_path, "has chunks of which " + std::to_string(std::llround(unpacked / 0x1p20))
-                                + " MiB would have to be unpacked for every " + std::to_string(std::llround(wanted))
+                                + " MiB must be unpacked for every " + std::to_string(std::llround(wanted))
                                 + " bytes; choose a narrower band, or repack it (h5repack)");
 }
 
@@ -381,7 +379,7 @@ void Hdf5Dataset::read(const std::vector<Index> &first, const std::vector<Index>
     const Handle type(floatType(m_isComplex), H5Tclose);
     if (H5Sselect_hyperslab(file, H5S_SELECT_SET, from.data(), nullptr, size.data(), nullptr) < 0
         || H5Dread(m_handle, type, memory, file, H5P_DEFAULT, out.data()) < 0)
-        throw Error(m_path, "is damaged where it is read, or became shorter while it was open", Error::Kind::Failure);
+        throw Error(m_path, "is damaged in the part read, or was truncated while open", Error::Kind::Failure);
 }
 
 std::vector<std::int64_t> Hdf5Dataset::readIntegers() const
@@ -391,11 +389,11 @@ std::vector<std::int64_t> Hdf5Dataset::readIntegers() const
     for (const Index size : m_shape)
         count *= double(size);
     if (m_isFloat || m_isComplex || count > most)
-        throw Error(m_path, "holds a table that is not of whole numbers, or of more than a million");
+        throw Error(m_path, "must hold a table of at most a million whole numbers");
     const LibraryUse use;
     std::vector<std::int64_t> values(static_cast<std::size_t>(count));
     if (H5Dread(m_handle, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-        throw Error(m_path, "is damaged where it is read, or became shorter while it was open", Error::Kind::Failure);
+        throw Error(m_path, "is damaged in the part read, or was truncated while open", Error::Kind::Failure);
     return values;
 }
 

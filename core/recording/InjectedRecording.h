@@ -4,22 +4,22 @@
 
 namespace faintline {
 
-/// A line of known amplitude; its snrDb and referenceSeconds only go into the truth.
+/// A line of known amplitude; its snrDb and referenceSeconds are only copied to the truth.
 struct InjectedLine {
     LineSettings line;
     double amplitude = 0.0;
 };
 
-/// Checks lines that are to be added to a recording one after the other, in a list of that name: they are laid one over
-/// the other, each with what it tells of itself. Throws Error naming the line.
+/// Checks the list `name` of at most 1000 lines to add to a recording; injections are stacked, and each keeps its own
+/// description. Throws Error naming the line.
 void checkInjections(const std::vector<InjectedLine> &lines, const RecordingInfo &recording, const std::string &name);
 
-/// A recording with known lines added to one of its channels. How strong a line must be for a wanted SNR in this noise
-/// is the caller's to say (toneAmplitude). Thread-safe.
+/// A recording with known lines added to one channel. The caller computes the amplitude for a wanted SNR in this noise
+/// (toneAmplitude). Thread-safe.
 class InjectedRecording final : public Recording
 {
 public:
-    /// Throws Error where checkLine does.
+    /// Throws Error as checkLine does.
     InjectedRecording(RecordingPointer base, const std::vector<InjectedLine> &lines, int channel, std::uint64_t seed);
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;

@@ -57,7 +57,7 @@ namespace {
                && std::memcmp(head.data() + 8, "WAVE", 4) == 0;
     }
 
-    /// The GNSS second of the week of a chunk's first sample; nothing where the receiver had no fix.
+    /// The GNSS second of the week of a chunk's first sample; nothing if the receiver had no fix.
     std::optional<double> stampOf(const FileBytes &file, const Chunk &kiwi)
     {
         constexpr Index stampBytes = 10;
@@ -71,7 +71,7 @@ namespace {
         return isSound ? std::optional(seconds) : std::nullopt;
     }
 
-    /// What a file's time stamps say of its clock.
+    /// The sample clock derived from a file's time stamps.
     class StampedClock
     {
     public:
@@ -104,7 +104,7 @@ namespace {
             }
         }
 
-        /// Over the longest stretch without a gap; the header's where that is short or says something else altogether.
+        /// Over the longest stretch without a gap; the header's rate if that is short or contradicts it.
         double rateHz() const
         {
             const double seconds = m_longestEnd.seconds - m_longestBegin.seconds;
@@ -114,13 +114,13 @@ namespace {
             return seconds >= shortest && std::abs(rate / m_nominalHz - 1.0) < farOff ? rate : m_nominalHz;
         }
 
-        /// The second of the GPS week of the first sample.
+        /// Second of the GPS week of the first sample.
         std::optional<double> firstSecond() const
         {
             return m_isKnown ? std::optional(m_first.seconds - double(m_first.sample) / rateHz()) : std::nullopt;
         }
 
-        /// Where `stored` samples lie in time; adds what the stamps contradict to `notes`.
+        /// Places of `stored` samples in time; adds contradictions between stamps to `notes`.
         Stretches stretches(Index stored, std::vector<std::string> &notes) const
         {
             Stretches stretches;
@@ -160,15 +160,15 @@ namespace {
         };
 
         struct Gap {
-            Index sample; ///< the first one behind it
+            Index sample; ///< first sample after it
             double seconds;
         };
 
         double m_nominalHz;
         double m_weeks = 0.0;
-        bool m_isKnown = false; ///< whether there was any stamp
+        bool m_isKnown = false; ///< whether there was a stamp
         Stamp m_first, m_last;
-        Stamp m_begin;                      ///< of the stretch without a gap that goes on
+        Stamp m_begin;                      ///< of the current stretch without a gap
         Stamp m_longestBegin, m_longestEnd; ///< of the longest one
         std::vector<Gap> m_gaps;
     };
@@ -193,7 +193,7 @@ KiwiRecording::KiwiRecording(const std::string &path) : m_file(path)
     const std::optional<Chunk> format = chunkAt(m_file, headerBytes);
     std::array<std::byte, 16> fields;
     if (!isWave(m_file) || !format || !format->is("fmt ") || m_file.readAt(format->offset, fields) < fields.size())
-        throw Error(path, "is no WAV file of a KiwiSDR");
+        throw Error(path, "is not a KiwiSDR WAV file");
     const auto channels = numberAt<std::uint16_t>(fields, 2);
     const double nominalHz = numberAt<std::uint32_t>(fields, 4);
     const auto bits = numberAt<std::uint16_t>(fields, 14);
@@ -213,10 +213,10 @@ KiwiRecording::KiwiRecording(const std::string &path) : m_file(path)
         clock.add(stored(), std::exchange(stamp, std::nullopt));
         add(chunk->offset, there / m_bytesPerSample);
         if (there < chunk->size)
-            m_info.notes.push_back("The file ends within a chunk of samples; what is there is read.");
+            m_info.notes.push_back("The file ends within a chunk of samples; the existing part is read.");
     }
     if (stored() == 0)
-        throw Error(path, "is a WAV file of a KiwiSDR without samples");
+        throw Error(path, "is a KiwiSDR WAV file without samples");
     m_info.path = path;
     m_info.container = "KiwiSDR WAV";
     m_info.sampleType = "int16";
@@ -232,9 +232,9 @@ KiwiRecording::KiwiRecording(const std::string &path) : m_file(path)
     m_info.sampleCount = m_stretches.end();
     if (m_stretches.hasGaps())
         m_info.notes.push_back(
-            "The time stamps tell of " + std::to_string(m_stretches.gaps()) + " gap(s), "
+            "The time stamps show " + std::to_string(m_stretches.gaps()) + " gap(s), "
             + formatNumber(std::round(1e3 * double(m_stretches.missing()) / m_info.sampleRateHz) / 1e3)
-            + " s altogether, which are not observed.");
+            + " s in total, which were not observed.");
 }
 
 Index KiwiRecording::stored() const
@@ -261,7 +261,7 @@ void KiwiRecording::add(Index offset, Index samples)
     m_runs.push_back({stored(), offset, samples, 0, 1});
 }
 
-/// Samples of one run, from one of its own on.
+/// Reads samples of one run, from one of its samples on.
 void KiwiRecording::readWithin(const Run &run, Index sample, std::span<float> out) const
 {
     constexpr float fullScale = 32768.0f;
@@ -273,7 +273,7 @@ void KiwiRecording::readWithin(const Run &run, Index sample, std::span<float> ou
         bytes.resize(std::size_t(count * m_bytesPerSample));
         const Index at = run.offset + sample / run.samples * run.stride + within * m_bytesPerSample;
         if (m_file.readAt(at, bytes) < bytes.size())
-            throw Error(m_info.path, "became shorter while it was open", Error::Kind::Failure);
+            throw Error(m_info.path, "was truncated while open", Error::Kind::Failure);
         for (std::size_t i = 0; i < std::size_t(count * floats); ++i)
             out[i] = float(numberAt<std::int16_t>(bytes, 2 * i)) / fullScale;
         out = out.subspan(std::size_t(count * floats));

@@ -20,7 +20,7 @@ namespace {
         return line.durationSeconds > 0.0 ? line.durationSeconds : recording.durationSeconds() - line.startSeconds;
     }
 
-    /// Of its frequency's path and of its fading's, as `Tone` keeps them.
+    /// Number of nodes of a line's frequency path and of its fading, as stored by `Tone`.
     double wanderNodes(const LineSettings &line, double duration)
     {
         return line.wanderHz > 0.0 ? duration / (0.1 * std::min(line.referenceSeconds, line.wanderSeconds)) : 0.0;

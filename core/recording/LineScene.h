@@ -26,7 +26,7 @@ struct LineSettings {
     double snrDb = -1.0;            ///< r: see toneAmplitude
     double referenceSeconds = 0.25; ///< T: the window that r refers to
     double startSeconds = 0.0;
-    double durationSeconds = 0.0; ///< 0: to the recording's end
+    double durationSeconds = 0.0; ///< 0: to the end of the recording
     double frequencyHz = 1000.0;  ///< at the start, centre frequency included
     double driftHzPerSecond = 0.0;
     double wanderHz = 0.0;
@@ -38,9 +38,9 @@ struct LineSettings {
     bool operator==(const LineSettings &) const = default;
 };
 
-/// Gaussian noise. `deviation` is the standard deviation σ of a sample (of a complex one: E|n|² = σ²). Its density goes
-/// with the frequency's magnitude at slopeDbPerOctave, flat below 1/1024 of half the sample rate. Its level drifts by
-/// an Ornstein-Uhlenbeck process in dB of standard deviation levelDriftDb and correlation time levelDriftSeconds.
+/// Gaussian noise. `deviation` is the standard deviation σ of a sample (complex: E|n|² = σ²). Its density changes with
+/// |frequency| by slopeDbPerOctave and is flat below 1/1024 of half the sample rate. Its level drifts as an
+/// Ornstein-Uhlenbeck process in dB, of standard deviation levelDriftDb and correlation time levelDriftSeconds.
 struct NoiseSettings {
     double deviation = 0.1;
     double slopeDbPerOctave = 0.0;
@@ -51,12 +51,12 @@ struct NoiseSettings {
     bool operator==(const NoiseSettings &) const = default;
 };
 
-/// A recording to be simulated: spectral lines in noise. Rate and duration have no default.
+/// A scene to simulate: spectral lines in noise. Rate and duration have no default.
 struct LineScene {
     double sampleRateHz = 0.0;
     double durationSeconds = 0.0;
     bool isComplex = false; ///< "complex" in JSON
-    double centreHz = 0.0;  ///< frequency that 0 Hz of the samples stands for
+    double centreHz = 0.0;  ///< frequency that corresponds to 0 Hz of the samples
     int seed = 1;
     NoiseSettings noise;
     std::vector<LineSettings> lines;
@@ -66,21 +66,21 @@ struct LineScene {
     bool operator==(const LineScene &) const = default;
 };
 
-/// What the scene's recording will be like.
+/// Description of the scene's recording.
 RecordingInfo recordingInfo(const LineScene &scene);
 
-/// Checks a line's ranges, and that it lies within the recording and, but for its wander, within its band.
-/// Throws Error naming the key ("lines[2].snrDb", where `name` is "lines[2]").
+/// Checks a line's ranges, and that it lies within the recording and, apart from its wander, within the band. Throws
+/// Error naming the key ("lines[2].snrDb" if `name` is "lines[2]").
 void checkLine(const LineSettings &line, const RecordingInfo &recording, const std::string &name);
 
-/// Checks each as `checkLine` does, and what they need together; `name` stands for the list ("lines").
+/// Checks each line as `checkLine` does, and their total memory; `name` is the list's name ("lines").
 void checkLines(std::span<const LineSettings> lines, const RecordingInfo &recording, const std::string &name);
 
 /// Checks the scene and its lines. Throws Error naming the key.
 void checkScene(const LineScene &scene);
 
-/// The scene of a JSON object {"kind": "lines", "sampleRateHz": …, "durationSeconds": …, "noise": {…}, "lines": [{…}]}.
-/// Keys that are not known are errors, missing ones take their defaults. Throws Error as checkScene does.
+/// Reads a scene from {"kind": "lines", "sampleRateHz": …, "durationSeconds": …, "noise": {…}, "lines": [{…}]}. Unknown
+/// keys are errors; missing ones take their defaults. Throws Error as checkScene does.
 LineScene lineSceneFromJson(const Json &json);
 
 Json toJson(const LineScene &scene);

@@ -24,7 +24,7 @@ namespace {
         return a / b - (a % b < 0 ? 1 : 0);
     }
 
-    /// Decay per sample of a first-order section whose corner lies at a frequency in cycles per sample.
+    /// Decay per sample of a first-order section with a corner frequency in cycles per sample.
     double decay(double turns)
     {
         return std::exp(-2.0 * std::numbers::pi * turns);
@@ -38,7 +38,7 @@ namespace {
         std::array<float, sections> residues;
     };
 
-    /// One component of the samples (every `stride`-th float) through a filter.
+    /// Filters one component of the samples (every `stride`-th float).
     template <std::size_t sections>
     void run(const ParallelFilter<sections> &filter, float *samples, std::size_t count, std::size_t stride)
     {
@@ -77,12 +77,12 @@ NoiseSource::NoiseSource(const NoiseSettings &settings, double sampleRateHz, dou
     }
 }
 
-/// Partial fractions of g·Π(1 - zₖ/z)/(1 - pₖ/z), g such that white noise of variance 1 gives variance 1.
+/// Partial fractions of g·Π(1 - zₖ/z)/(1 - pₖ/z), with g such that white noise of variance 1 gives variance 1.
 void NoiseSource::design(double slopeDbPerOctave)
 {
     std::array<double, sections> zeros;
     for (std::size_t k = 0; k < sections; ++k) {
-        // A falling slope lasts from a pole to its zero, a rising one from a zero to its pole.
+        // A falling slope extends from a pole to its zero, a rising one from a zero to its pole.
         const double begin = std::ldexp(lowestTurns, int(k));
         const double end = begin * std::exp2(std::abs(slopeDbPerOctave) / dbFromRatio(4.0));
         m_poles[k] = decay(slopeDbPerOctave < 0.0 ? begin : end);

@@ -10,27 +10,27 @@
 
 namespace faintline {
 
-/// Gaussian noise as a function of (settings, seed, sample index): white, or coloured by first-order sections, its
-/// level constant or drifting.
+/// Gaussian noise as a function of (settings, seed, sample index): white or coloured by first-order sections, of
+/// constant or drifting level.
 ///
-/// A slope of s dB per octave is made of ten pairs of a pole and a zero, pairs an octave apart from 1/1024 of half the
-/// rate on, |s|/6.02 octaves between pole and zero (within 1 dB of the slope up to a quarter of the rate). Their sum
-/// form is
+/// A slope of s dB per octave is built from ten pole-zero pairs, an octave apart, starting at 1/1024 of half the rate,
+/// with |s|/6.02 octaves between pole and zero (within 1 dB of the slope up to a quarter of the rate). As a
+/// partial-fraction sum,
 ///
 ///   y(n) = d·x(n) + Σ sₖ(n),   sₖ(n) = pₖ·sₖ(n-1) + rₖ·x(n)
 ///
-/// scaled to the wanted standard deviation in closed form. Coloured noise is made in fixed blocks, each with a run-up
-/// from rest, so any stretch gives the same values however it is cut. Thread-safe.
+/// scaled to the wanted standard deviation in closed form. Coloured noise is generated in fixed blocks, each with a
+/// run-up from rest, so a stretch gives the same values however it is divided. Thread-safe.
 class NoiseSource
 {
 public:
     NoiseSource(const NoiseSettings &settings, double sampleRateHz, double durationSeconds, bool isComplex,
                 std::uint64_t seed);
 
-    /// Fills with samples from `first` on, one float each or two where complex.
+    /// Writes samples from `first` on: one float each, or two if complex.
     void read(Index first, std::span<float> out) const;
 
-    /// Variance of white noise whose density is that of this one at a frequency (from the centre), without level drift.
+    /// Variance of white noise with the same density at a frequency (relative to the centre), without level drift.
     double localVariance(double frequencyHz) const;
 
 private:
@@ -50,7 +50,7 @@ private:
     double m_direct = 1.0; ///< d
     std::array<double, sections> m_poles{};
     std::array<double, sections> m_residues{};
-    std::vector<double> m_level; ///< amplitude factors at nodes; empty: 1
+    std::vector<double> m_level; ///< amplitude factors at nodes; empty means 1
     double m_levelStepSeconds = 0.0;
 };
 

@@ -19,7 +19,7 @@ namespace {
         return targetName(target) + ".legs[" + std::to_string(leg) + "]";
     }
 
-    /// The objects of a list under a key; none where the key is missing.
+    /// The objects of a list under a key; empty if the key is missing.
     std::vector<Json> listOf(const Json &object, const std::string &key, const std::string &where)
     {
         const auto found = object.find(key);
@@ -178,7 +178,7 @@ void checkScene(const PingScene &scene)
     }
     constexpr std::size_t mostTargets = 1000;
     constexpr double mostPlaces = 3e6; // 24 bytes each
-    constexpr double mostSteps = 1e8;  // each leg is looked at for each ping
+    constexpr double mostSteps = 1e8;  // each leg is evaluated for each ping
     if (scene.targets.size() > mostTargets)
         throw Error("targets", "must be at most " + std::to_string(mostTargets));
     double places = 0.0;

@@ -11,32 +11,31 @@
 
 namespace faintline {
 
-/// What a target's echo does to the power y of its cell, S its SNR as a power ratio and n the complex noise, E|n|² = 1.
+/// Effect of a target's echo on the power y of its cell; S is the SNR as a power ratio, n the complex noise, E|n|² = 1.
 enum class Echo {
     Constant,    ///< y = |n|² + S: constant added power (Parsons 2008, section 3)
-    Fluctuating, ///< y ~ (1 + S)·Exp(1) in every ping anew (Grossi and Lops 2006, eq. 10)
+    Fluctuating, ///< y ~ (1 + S)·Exp(1), independent in each ping (Grossi and Lops 2006, eq. 10)
     Complex      ///< y = |n + √S e^{iφ}|²: constant amplitude, random phase (Billon 2005)
 };
 inline constexpr std::array<std::string_view, 3> echoNames{"constant", "fluctuating", "complex"};
 
-/// Rates of range and bearing that hold for some pings. Physical rates and rates in cells add up, so either may be
-/// given.
+/// Rates of range and bearing for a number of pings. Physical rates and rates in cells add up, so either may be given.
 struct PingLeg {
-    int pings = 0; ///< how long it lasts; 0: to the end
+    int pings = 0; ///< duration; 0: to the end
     double rangeRateMetresPerSecond = 0.0;
     double bearingRateDegreesPerSecond = 0.0;
     double rangeCellsPerPing = 0.0;
     double beamsPerPing = 0.0;
-    int turnPings = 1; ///< pings over which the rates change from the last leg's to these
+    int turnPings = 1; ///< pings over which the rates change from the previous leg's to these
 
     static const std::vector<Field<PingLeg>> &fields();
     bool operator==(const PingLeg &) const = default;
 };
 
-/// A point target: where it starts, how it moves, how strong its echo is.
+/// A point target: start, motion, strength.
 ///
-/// With v(k) the rate k pings after it appeared, its position is p(k+1) = p(k) + (v(k) + v(k+1))/2 on each axis, and it
-/// fills the nearest cell. Bearings wrap; a target beyond the range cells is silent until it comes back.
+/// With v(k) the rate k pings after it appears, its position is p(k+1) = p(k) + (v(k) + v(k+1))/2 on each axis, and it
+/// fills the nearest cell. Bearings wrap; a target beyond the range cells is silent until it returns.
 struct PingTarget {
     double snrDb = 7.0;
     Echo echo = Echo::Constant;
@@ -46,17 +45,17 @@ struct PingTarget {
     int vanishPing = 0;             ///< first ping without it; 0: never
     double weaveCellsPerPing = 0.0; ///< amplitude of a sinusoid added to the range rate
     double weavePings = 20.0;       ///< its period
-    std::vector<PingLeg> legs;      ///< in order; none: it stands still
+    std::vector<PingLeg> legs;      ///< in order; without legs the target is stationary
 
-    /// Its own members, without legs.
+    /// The target's own members, without legs.
     static const std::vector<Field<PingTarget>> &fields();
     bool operator==(const PingTarget &) const = default;
 };
 
-/// Whose mean the pings are divided by where there is reverberation.
+/// Mean by which the pings are divided if there is reverberation.
 enum class PingNormalisation {
     Known,    ///< the true mean
-    Estimated ///< the mean of the cells round about in the same ping (SimulatedPings)
+    Estimated ///< the mean of the surrounding cells in the same ping (SimulatedPings)
 };
 inline constexpr std::array<std::string_view, 2> pingNormalisationNames{"known", "estimated"};
 
@@ -71,18 +70,18 @@ struct Reverberation {
     bool operator==(const Reverberation &) const = default;
 };
 
-/// An active sonar's pings to be simulated: a grid of range × bearing, targets, noise. The defaults are Parsons'
-/// simulation (2008, section 3): 2500 range cells of 10 m, 20 beams all round, a ping every 40 s.
+/// A scene of active sonar pings to simulate: a grid of range × bearing, targets, noise. The defaults are Parsons'
+/// simulation (2008, section 3): 2500 range cells of 10 m, 20 beams over 360°, a ping every 40 s.
 struct PingScene {
     int pings = 60;
-    double priSeconds = 40.0; ///< from ping to ping
+    double priSeconds = 40.0; ///< between pings
     int rangeCells = 2500;
     double firstRangeMetres = 3000.0; ///< centre of the first range cell
     double rangeStepMetres = 10.0;
     int beams = 20;
     double firstBearingDegrees = 0.0;
-    double beamStepDegrees = 0.0; ///< 0: all round, 360°/beams
-    int looks = 1;                ///< M: powers averaged in a cell; y is χ² with 2M degrees of freedom, of mean 1
+    double beamStepDegrees = 0.0; ///< 0: beams over 360°, 360°/beams
+    int looks = 1;                ///< M: powers averaged in a cell; y is χ² with 2M degrees of freedom and mean 1
     int seed = 1;
     std::optional<Reverberation> reverberation;
     std::vector<PingTarget> targets;
@@ -92,23 +91,23 @@ struct PingScene {
     bool operator==(const PingScene &) const = default;
 };
 
-/// Range, then bearing: the axes of a ping. The bearing is cyclic where the beams go all round.
+/// Axes of a ping: range, then bearing. The bearing is cyclic if the beams cover 360°.
 Grid pingGrid(const PingScene &scene);
 
-/// Time of the pings.
+/// Times of the pings.
 Axis pingTime(const PingScene &scene);
 
-/// Power of noise and reverberation in a range cell, the noise's being 1.
+/// Power of noise and reverberation in a range cell; that of the noise is 1.
 double backgroundPower(const PingScene &scene, Index rangeCell);
 
 /// Checks the scene. Throws Error naming the key.
 void checkScene(const PingScene &scene);
 
-/// Whether a scene's JSON is one of pings: {"kind": "pings", …}.
+/// Whether JSON describes a ping scene: {"kind": "pings", …}.
 bool isPingScene(const Json &json);
 
-/// The scene of {"kind": "pings", "reverberation": {…}, "targets": [{…, "legs": [{…}]}], …}. Keys that are not known
-/// are errors, missing ones take their defaults. Throws Error as checkScene does.
+/// Reads a scene from {"kind": "pings", "reverberation": {…}, "targets": [{…, "legs": [{…}]}], …}. Unknown keys are
+/// errors; missing ones take their defaults. Throws Error as checkScene does.
 PingScene pingSceneFromJson(const Json &json);
 
 Json toJson(const PingScene &scene);

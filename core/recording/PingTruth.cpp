@@ -33,7 +33,7 @@ namespace {
                 leg.beamsPerPing + leg.bearingRateDegreesPerSecond * scene.priSeconds / grid.axes[1].step};
     }
 
-    /// k pings after the target appeared.
+    /// Rates k pings after the target appeared.
     Rates ratesAt(int k, const PingTarget &target, const PingScene &scene, const Grid &grid)
     {
         Rates rates;

@@ -7,21 +7,21 @@
 
 namespace faintline {
 
-/// Where a simulated target was, ping by ping from the one in which it appeared.
+/// Position of a simulated target in each ping from its appearance on.
 struct TruthTarget {
     double snrDb = 0.0;
     int firstPing = 0;
     std::vector<double> rangeMetres;
-    std::vector<double> bearingDegrees; ///< brought into the grid's turn where the beams go all round
-    std::vector<double> cell;           ///< flat index on the grid of the cell it fills, -1 where it is beyond the grid
+    std::vector<double> bearingDegrees; ///< wrapped into the grid's turn if the beams cover 360°
+    std::vector<double> cell;           ///< flat index of the cell it fills; -1 if beyond the grid
 
-    /// The cell it fills in a ping, -1 where it is not there.
+    /// The cell it fills in a ping, or -1 if it is absent.
     Index cellAt(Index ping) const;
 
     bool operator==(const TruthTarget &) const = default;
 };
 
-/// The targets of a scene, in its order.
+/// The targets of a scene, in the scene's order.
 struct PingTruth {
     std::vector<TruthTarget> targets;
 

@@ -6,7 +6,7 @@
 
 namespace faintline {
 
-/// What has to be known of a file of bare samples. Channels are interleaved.
+/// Layout of a file of raw samples. Channels are interleaved.
 struct RawLayout {
     SampleType type;
     double sampleRateHz = 0.0;
@@ -15,17 +15,17 @@ struct RawLayout {
     Index trailingBytes = 0; ///< after the last one
 };
 
-/// The layout with channels 2k and 2k+1 taken as I and Q of channel k: the same bytes under another name. A complex
-/// layout stays as it is. Throws Error where channels are left over.
+/// The same layout with channels 2k and 2k+1 as I and Q of channel k. A complex layout is returned unchanged. Throws
+/// Error if the number of channels is odd.
 RawLayout withIqPairs(const std::string &path, RawLayout layout);
 
-/// A file of bare samples, I/Q or real, read by random access for any size.
+/// A file of raw samples, I/Q or real, of any size, with random access.
 ///
-/// A last sample that is cut in the middle is left out, with a note. Thread-safe.
+/// A truncated last sample is omitted, with a note. Thread-safe.
 class RawRecording : public Recording
 {
 public:
-    /// Throws Error where the file cannot be opened, the layout is impossible, or it holds no sample.
+    /// Throws Error if the file cannot be opened, the layout is invalid, or it holds no sample.
     RawRecording(const std::string &path, const RawLayout &layout);
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;
@@ -35,7 +35,7 @@ public:
     }
 
 protected:
-    /// Samples of the file from one on, all of which are there.
+    /// Reads samples of the file from `first` on. Precondition: all of them exist.
     void readFile(int channel, Index first, std::span<float> out) const;
 
 private:
@@ -44,9 +44,8 @@ private:
     Index m_frameBytes = 0; ///< one sample of every channel
 };
 
-/// The type that a file's extension stands for by custom (".cf32", ".cs16", ".cu8" …); empty where it stands for raw
-/// samples of an unknown type (".iq", ".raw", ".bin" …).
-/// Nothing where the extension is not one of raw samples.
+/// Sample type that a file's extension conventionally denotes (".cf32", ".cs16", ".cu8" …). Empty if it denotes raw
+/// samples of an unknown type (".iq", ".raw", ".bin" …); nothing if it is not an extension of raw samples.
 std::optional<std::string> rawTypeOfExtension(const std::string &path);
 
 } // namespace faintline

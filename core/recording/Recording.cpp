@@ -12,7 +12,7 @@ namespace faintline {
 
 namespace {
 
-    /// Sets what is not finite to 0; returns how many there were.
+    /// Replaces values that are not finite by 0; returns their number.
     FAINTLINE_MULTIVERSION
     Index clearNonFinite(float *values, std::size_t n)
     {
@@ -32,13 +32,13 @@ namespace {
 int Recording::scaleExponentOf(double magnitude)
 {
     constexpr int step = 60;
-    constexpr int most = 120; // beyond that floats themselves end
+    constexpr int most = 120; // the range of floats ends beyond it
     if (!(magnitude > 0.0) || !std::isfinite(magnitude))
         return 0;
     return std::clamp(step * int(std::lround(std::log2(magnitude) / step)), -most, most);
 }
 
-/// Of the samples from one on that are not 0; 0 where there are none.
+/// Mean magnitude of the non-zero samples from one on; 0 if there are none.
 double Recording::meanMagnitude(int channel, Index first, std::span<float> samples) const
 {
     read(channel, first, std::ssize(samples) / m_info.floatsPerSample(), samples);

@@ -12,7 +12,7 @@
 
 namespace faintline {
 
-/// What is known of a recording without reading its samples.
+/// Properties of a recording that are known without reading its samples.
 struct RecordingInfo {
     std::string path;
     std::string container;  ///< "WAV", "FLAC", "SigMF", "raw", "simulated" …
@@ -21,9 +21,9 @@ struct RecordingInfo {
     Index sampleCount = 0;                  ///< samples per channel; one I/Q pair is one sample
     int channelCount = 0;                   ///< an I/Q recording's two streams are one channel
     bool isComplex = false;                 ///< I/Q: negative frequencies are different from positive ones
-    double centreHz = 0.0;                  ///< frequency that 0 Hz of the samples stands for
+    double centreHz = 0.0;                  ///< frequency that corresponds to 0 Hz of the samples
     std::optional<double> startUnixSeconds; ///< UTC of the first sample
-    std::vector<std::string> notes;         ///< what was repaired or assumed while opening, one sentence each
+    std::vector<std::string> notes;         ///< repairs and assumptions made on opening, one sentence each
 
     double durationSeconds() const { return double(sampleCount) / sampleRateHz; }
     Index floatsPerSample() const { return isComplex ? 2 : 1; }
@@ -31,9 +31,9 @@ struct RecordingInfo {
 
 /// Random access by sample to a recording that may be larger than memory.
 ///
-/// A sample is one float, or two (I, Q) where isComplex. Integer formats are scaled to ±1 at full scale. Samples that
-/// are not finite read as 0 and are counted. `read` may be called from several threads at once, and its values do not
-/// depend on how a stretch is cut into requests.
+/// A sample is one float, or two (I, Q) if isComplex. Integer formats are scaled to ±1 at full scale. Samples that are
+/// not finite read as 0 and are counted. `read` may be called from several threads at once; its values do not depend on
+/// how a stretch is divided into requests.
 class Recording
 {
 public:
@@ -41,34 +41,34 @@ public:
 
     const RecordingInfo &info() const { return m_info; }
 
-    /// Fills `out` (count samples of one channel, count·2 floats where isComplex) from sample `first` on. Samples
-    /// before the start or beyond the end read as 0. Precondition: 0 ≤ channel < channelCount. Throws Error where the
-    /// file fails under it.
+    /// Fills `out` (count samples of one channel, count·2 floats if isComplex) from sample `first` on. Samples before
+    /// the start or beyond the end read as 0. Precondition: 0 ≤ channel < channelCount. Throws Error if reading the
+    /// file fails.
     virtual void read(int channel, Index first, Index count, std::span<float> out) const = 0;
 
     /// Order of magnitude of a channel's samples: they lie around 2^e, e a multiple of 60, so 0 for all within 2^±30.
-    /// Whoever squares samples takes it off before: single precision holds the square of no strain of 1e-22. A power of
-    /// two, so it costs no bit. 0 for a recording that does not measure it (measuredScaleExponent) because its scale is
-    /// known to be about 1.
+    /// Remove it before squaring samples, because single precision cannot hold the square of a strain of 1e-22. As a
+    /// power of two it costs no precision. 0 for recordings whose scale is known to be about 1, which do not measure it
+    /// (measuredScaleExponent).
     virtual int scaleExponent(int /*channel*/) const { return 0; }
 
-    /// Whether all of these samples were heard: false where any of them lies in a gap, which reads as 0. A recording
-    /// that knows of no gaps has none.
+    /// Whether all of these samples were observed: false if any lies in a gap, which reads as 0. The default is for
+    /// recordings without gaps.
     virtual bool isWhole(Index /*first*/, Index /*count*/) const { return true; }
 
-    /// Floats that were not finite in all reads so far (one that was read twice counts twice): 0 for a sound recording.
+    /// Number of floats that were not finite in all reads so far (read twice, counted twice).
     Index nonFiniteCount() const { return m_nonFiniteCount.load(std::memory_order_relaxed); }
 
 protected:
-    /// What every `read` does besides fetching: 0 outside the recording, `fetch(first, out)` for the part inside, then
-    /// 0 for values that are not finite.
+    /// Common part of every `read`: writes 0 outside the recording, calls `fetch(first, out)` for the part inside, and
+    /// replaces values that are not finite by 0.
     void fill(Index first, Index count, std::span<float> out,
               const std::function<void(Index first, std::span<float> out)> &fetch) const;
 
-    /// What scaleExponent answers, from the median magnitude of short stretches all over the channel, silent ones left
-    /// out.
+    /// Implementation of scaleExponent: the median magnitude of short stretches distributed over the channel, without
+    /// silent ones.
     int measuredScaleExponent(int channel) const;
-    /// The same of a known magnitude.
+    /// The scale exponent of a known magnitude.
     static int scaleExponentOf(double magnitude);
 
     RecordingInfo m_info;

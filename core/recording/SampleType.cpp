@@ -38,7 +38,7 @@ namespace {
         if constexpr (number == SampleType::Number::Float) {
             return float(std::bit_cast<std::conditional_t<bytes == 4, float, double>>(bits));
         } else {
-            // Unsigned with its highest bit turned over is the signed number round mid-scale.
+            // Inverting the highest bit of an unsigned number gives the signed number relative to mid-scale.
             constexpr auto highest = static_cast<Bits<bytes>>(Bits<bytes>(1) << (8 * bytes - 1));
             if constexpr (number == SampleType::Number::Unsigned)
                 bits = static_cast<Bits<bytes>>(bits ^ highest);
@@ -46,9 +46,9 @@ namespace {
         }
     }
 
-    /// How samples lie in memory.
+    /// Layout of samples in memory.
     struct SampleLayout {
-        Index stride;   ///< bytes from one to the next
+        Index stride;   ///< bytes between samples
         int components; ///< adjacent numbers of each
         bool isReversed;
     };
@@ -65,7 +65,7 @@ namespace {
             }
     }
 
-    /// The same with the stride known to the compiler where samples are adjacent, so that it makes vector code.
+    /// The same with a compile-time stride for adjacent samples, so that the compiler vectorises it.
     template <SampleType::Number number, int bytes>
     void convertFast(const std::byte *in, SampleLayout layout, float *out, Index count)
     {

@@ -9,8 +9,8 @@
 
 namespace faintline {
 
-/// How one sample of a raw file is written, by SigMF's names: c or r (complex, real), f, i or u (float, signed,
-/// unsigned integer), bits, and _le or _be where there is more than one byte: "ci16_le", "rf32_be", "cu8".
+/// Encoding of one sample of a raw file, by SigMF's names: c or r (complex, real), f, i or u (float, signed, unsigned
+/// integer), bits, and _le or _be if there is more than one byte: "ci16_le", "rf32_be", "cu8".
 struct SampleType {
     enum class Number { Float, Signed, Unsigned };
 
@@ -25,13 +25,13 @@ struct SampleType {
     bool operator==(const SampleType &) const = default;
 };
 
-/// A type by its name. A missing byte order means little-endian. Throws Error{where, …} listing the types.
+/// Parses a type name. A missing byte order means little-endian. Throws Error{where, …} listing the types.
 SampleType parseSampleType(std::string_view name, const std::string &where);
 
 /// "cf32, ci16, … " for messages and forms.
 std::string sampleTypeList();
 
-/// Converts samples that lie `stride` bytes apart to floats, integers scaled to ±1 (unsigned: ½ of full scale is 0).
+/// Converts samples spaced `stride` bytes apart to floats, with integers scaled to ±1 (unsigned: ½ of full scale is 0).
 /// `out` takes one float per real sample, two per complex one.
 void convertSamples(const SampleType &type, std::span<const std::byte> bytes, Index stride, std::span<float> out);
 

@@ -20,7 +20,7 @@ namespace {
         return std::min(cells - 1, Index(random.uniform() * double(cells)));
     }
 
-    /// Draws until a step stays on the axis, which is what renormalising over the existing cells means.
+    /// Draws until a step stays on the axis, which renormalises the law over the existing cells.
     Index moved(Index from, Index cells, const ScanScene &scene, Random &random)
     {
         for (;;) {

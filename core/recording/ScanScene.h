@@ -12,17 +12,17 @@
 namespace faintline {
 
 enum class ScanMoves {
-    Uniform, ///< to any of the cells within one that exist, all alike
-    Gaussian ///< a discretised Gaussian step, of those cells that exist
+    Uniform, ///< to any existing cell within one, with equal probability
+    Gaussian ///< a discretised Gaussian step, restricted to existing cells
 };
 inline constexpr std::array<std::string_view, 2> scanMovesNames{"uniform", "gaussian"};
 
-/// A surveillance radar's look into one sector: scan after scan (stage after stage) of azimuth × elevation × range ×
-/// Doppler cells.
+/// A surveillance radar's look into one sector: consecutive scans (stages) of azimuth × elevation × range × Doppler
+/// cells.
 ///
-/// A cell is exponential, of mean 1 on noise and 1 + SNR where the target is. The target begins anywhere and walks over
-/// azimuth, elevation and range without leaving them; its Doppler cell is uniform anew at every stage (ambiguous).
-/// Source: Grossi and Lops 2006, section 4.
+/// A cell is exponential, of mean 1 on noise and 1 + SNR where the target is. The target starts anywhere and moves over
+/// azimuth, elevation and range without leaving them; its Doppler cell is uniform and independent at each stage
+/// (ambiguous). Source: Grossi and Lops 2006, section 4.
 struct ScanScene {
     int azimuthCells = 3;
     int elevationCells = 3;
@@ -40,14 +40,13 @@ struct ScanScene {
     bool operator==(const ScanScene &) const = default;
 };
 
-/// Where a target is at a stage: azimuth, elevation, range, Doppler.
+/// Cell of a target at a stage: azimuth, elevation, range, Doppler.
 using ScanCell = std::array<Index, 4>;
 
 /// Checks the ranges, and that a scan has at most 2²⁸ cells. Throws Error naming the key.
 void checkScene(const ScanScene &scene);
 
-/// The scene of {"kind": "scans", …}; keys that are not known are errors, missing ones take their defaults. Throws
-/// Error.
+/// Reads a scene from {"kind": "scans", …}. Unknown keys are errors; missing ones take their defaults. Throws Error.
 ScanScene scanSceneFromJson(const Json &json);
 
 Json toJson(const ScanScene &scene);
@@ -58,7 +57,7 @@ Grid scanGrid(const ScanScene &scene);
 /// The target's cells at all stages of a run; empty without a target. A pure function of (seed, run).
 std::vector<ScanCell> scanTrajectory(const ScanScene &scene, int run = 0);
 
-/// Writes the scan of a stage, scanGrid().size() values, given the run's trajectory. A pure function of (seed, run,
+/// Writes the scan of a stage, scanGrid().size() values, for the run's trajectory. A pure function of (seed, run,
 /// stage).
 void readScan(const ScanScene &scene, const std::vector<ScanCell> &trajectory, int run, Index stage,
               std::span<float> y);

@@ -77,7 +77,7 @@ namespace {
 
     constexpr double largestCount = 9007199254740992.0; // 2⁵³
 
-    /// The file of the samples that belong to a metadata file, by its name or by what it says.
+    /// The sample file of a metadata file, by its name or as specified in it.
     std::string dataPathOf(const Section &global, const std::string &path)
     {
         const std::optional<std::string> dataset = global.text("core:dataset");
@@ -91,7 +91,7 @@ namespace {
 } // namespace
 
 struct SigmfRecording::Meta {
-    /// Where a sample of the file, and those that follow it, lie in time.
+    /// A sample whose place in time determines that of the following ones.
     struct Start {
         Index inTime;
         Index inFile;
@@ -187,7 +187,7 @@ void SigmfRecording::Meta::readLayout(const Section &global)
     layout.trailingBytes = global.count("core:trailing_bytes", 0.0, largestCount, 0);
 }
 
-/// From the time of a capture that begins with sample `start`.
+/// Sets the start time from that of a capture that begins with sample `start`.
 void SigmfRecording::Meta::readStartTime(const std::optional<std::string> &time, Index start)
 {
     startUnixSeconds = time ? parseUtc(*time) : std::nullopt;
@@ -197,7 +197,7 @@ void SigmfRecording::Meta::readStartTime(const std::optional<std::string> &time,
         notes.push_back("core:datetime \"" + oneLine(*time, 40) + "\" is not an ISO 8601 time and is ignored.");
 }
 
-/// A capture's first sample in the file and in time, if it comes later in time than the file has it.
+/// Adds a capture's first sample with its places in file and time, if samples are missing before it.
 void SigmfRecording::addStretch(Meta &meta, Index start, Index globalIndex)
 {
     if (meta.starts.empty()) {
@@ -234,7 +234,7 @@ void SigmfRecording::placeInTime(const Meta &meta)
 {
     Meta::Start next{0, 0};
     for (const Meta::Start &start : meta.starts) {
-        if (start.inFile >= m_info.sampleCount) // what was not written yet is not there
+        if (start.inFile >= m_info.sampleCount) // not written yet
             continue;
         m_stretches.add(next.inTime, next.inFile, start.inFile - next.inFile);
         next = start;
@@ -244,7 +244,7 @@ void SigmfRecording::placeInTime(const Meta &meta)
         return;
     m_info.sampleCount = m_stretches.end();
     m_info.notes.push_back(std::to_string(m_stretches.gaps()) + " gap(s), in all "
-                           + std::to_string(m_stretches.missing()) + " samples, are not observed.");
+                           + std::to_string(m_stretches.missing()) + " samples, which were not observed.");
 }
 
 void SigmfRecording::read(int channel, Index first, Index count, std::span<float> out) const

@@ -7,26 +7,25 @@
 
 namespace faintline {
 
-/// A SigMF recording: samples in one file (.sigmf-data), what they are in another (.sigmf-meta, JSON).
+/// A SigMF recording: samples in one file (.sigmf-data), their description in another (.sigmf-meta, JSON).
 ///
-/// Read are core:datatype, sample_rate, num_channels, offset, dataset, trailing_bytes and the first capture's
-/// sample_start, frequency, datetime and header_bytes; a note tells where later captures differ. Where captures'
-/// global_index grows by more than their sample_start, samples are missing: they keep their place in time, read as 0,
-/// and isWhole tells.
-/// Source: the SigMF specification, 1.2.
+/// Reads core:datatype, sample_rate, num_channels, offset, dataset, trailing_bytes and the first capture's
+/// sample_start, frequency, datetime and header_bytes; a note says if later captures differ. Where captures'
+/// global_index grows by more than their sample_start, samples are missing: they keep their place in time and read as
+/// 0, and isWhole reports them. Source: the SigMF specification, 1.2.
 class SigmfRecording final : public RawRecording
 {
 public:
-    /// Takes either file's name; `iq` pairs real channels. Throws Error naming the file and key at fault.
+    /// Accepts either file's name; `iq` pairs real channels. Throws Error naming the invalid file and key.
     explicit SigmfRecording(const std::string &path, bool iq = false);
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;
     bool isWhole(Index first, Index count) const override;
 
-    /// Whether a name is one of the two.
+    /// Whether a name has one of the two extensions.
     static bool isNamedSo(const std::string &path);
 
-    /// The file that holds the samples, and the one that says what they are.
+    /// The file of samples, and the file that describes them.
     static std::string dataPath(const std::string &path);
     static std::string metaPath(const std::string &path);
 
@@ -37,7 +36,7 @@ private:
     static void addStretch(Meta &meta, Index start, Index globalIndex);
     void placeInTime(const Meta &meta);
 
-    Stretches m_stretches; ///< of the file's samples in time
+    Stretches m_stretches; ///< places of the file's samples in time
 };
 
 } // namespace faintline

@@ -6,15 +6,15 @@
 
 namespace faintline {
 
-/// A scene as a recording: x(n) = noise(n) + Σ tones(n), a pure function of (scene, n), computed where it is read.
+/// A scene as a recording: x(n) = noise(n) + Σ tones(n), a pure function of (scene, n), computed when read.
 ///
-/// Each line's amplitude follows from its SNR and the noise's density at its first frequency (toneAmplitude). Memory
-/// does not grow with the length, but for the nodes of wandering and fading lines (16 bytes for each
-/// 0.1·referenceSeconds). Thread-safe.
+/// Each line's amplitude follows from its SNR and the noise density at its first frequency (toneAmplitude). Memory does
+/// not grow with the length, except for the nodes of wandering and fading lines (16 bytes per 0.1·referenceSeconds).
+/// Thread-safe.
 class SimulatedRecording final : public Recording
 {
 public:
-    /// Throws Error where checkScene does.
+    /// Throws Error as checkScene does.
     explicit SimulatedRecording(const LineScene &scene);
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;

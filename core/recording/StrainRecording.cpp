@@ -23,19 +23,19 @@ StrainRecording::StrainRecording(const std::string &path)
     : m_file(std::make_unique<Hdf5File>(path)), m_strain(m_file->dataset(strainName))
 {
     if (!m_strain || m_strain->isComplex() || m_strain->shape().size() != 1)
-        throw Error(path, "holds no strain/Strain of one number a sample");
+        throw Error(path, "holds no strain/Strain with one number per sample");
     const double spacing = m_strain->number("Xspacing").value_or(0.0);
     constexpr double shortest = 1e-9;
     if (!(spacing >= shortest && spacing <= 1e6))
         throw Error(path + ": strain/Strain: Xspacing = " + formatNumber(spacing),
-                    "must be the seconds from one sample to the next");
+                    "must be the sample interval in seconds");
     m_info.path = path;
     m_info.container = "HDF5 strain";
     m_info.sampleType = (m_strain->isFloat() ? "float" : "int") + std::to_string(m_strain->bits());
     m_info.sampleRateHz = 1.0 / spacing;
     if (std::abs(m_info.sampleRateHz - std::round(m_info.sampleRateHz)) < 1e-6 * m_info.sampleRateHz
         && m_info.sampleRateHz >= 1.0)
-        m_info.sampleRateHz = std::round(m_info.sampleRateHz); // its inverse had been rounded
+        m_info.sampleRateHz = std::round(m_info.sampleRateHz); // the interval in the file is rounded
     m_info.sampleCount = m_strain->shape().front();
     m_info.channelCount = 1;
     if (const auto start = m_strain->number("Xstart"); start && *start > 0.0 && *start < 1e10)

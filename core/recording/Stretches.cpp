@@ -39,7 +39,7 @@ Index Stretches::end() const
     return m_stretches.empty() ? 0 : m_stretches.back().end();
 }
 
-/// The first stretch that ends behind a sample.
+/// The first stretch that ends after a sample.
 std::vector<Stretches::Stretch>::const_iterator Stretches::stretchOf(Index sample) const
 {
     return std::upper_bound(m_stretches.begin(), m_stretches.end(), sample,

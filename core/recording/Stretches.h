@@ -8,30 +8,30 @@
 
 namespace faintline {
 
-/// Where samples lie in time that are stored one after the other though some are missing between them.
+/// Places in time of samples that are stored contiguously although some are missing between them.
 ///
-/// Stretches without a gap, in ascending order. What lies between them was not observed: it keeps its place in time and
-/// reads as 0, and `isWhole` tells.
+/// Stretches without a gap, in ascending order. Time between them was not observed: it reads as 0, and `isWhole`
+/// reports it.
 class Stretches
 {
 public:
-    /// A gap that is longer than this is no gap, but a clock that was set wrongly.
+    /// A longer gap is taken for a wrongly set clock.
     static constexpr double longestSeconds = 400.0 * 86400.0;
 
-    /// `count` samples, stored from `stored` on, whose first one was heard at `inTime`. Those that follow the ones
-    /// before without a gap belong to their stretch. Precondition: inTime ≥ end().
+    /// Adds `count` samples, stored from `stored` on, the first of which was taken at `inTime`. Samples that follow the
+    /// previous ones without a gap extend their stretch. Precondition: inTime ≥ end().
     void add(Index inTime, Index stored, Index count);
 
     bool hasGaps() const { return m_stretches.size() > 1; }
     Index gaps() const { return hasGaps() ? std::ssize(m_stretches) - 1 : 0; }
     Index missing() const; ///< samples in all gaps
     Index samples() const; ///< in all stretches
-    Index end() const;     ///< behind the last sample, in time
+    Index end() const;     ///< one past the last sample, in time
 
-    /// Whether all of these samples were heard, of those that lie before the end.
+    /// Whether all of these samples that lie before the end were observed.
     bool isWhole(Index first, Index count) const;
 
-    /// Fills `out` from a place in time on: 0 in gaps, `fetch(stored, part)` for every part that was heard.
+    /// Fills `out` from a place in time on: 0 in gaps, `fetch(stored, part)` for each observed part.
     void read(Index first, Index floatsPerSample, std::span<float> out,
               const std::function<void(Index stored, std::span<float> part)> &fetch) const;
 

@@ -28,7 +28,7 @@ namespace {
                            [&](const std::string &ending) { return hasEnding(path, "." + ending); });
     }
 
-    /// What Digital RF keeps beside its samples, and what it is writing now.
+    /// Files that Digital RF stores beside its samples, and the one being written.
     bool isBesideSamples(const std::string &name)
     {
         return name == "drf_properties.h5" || name == "dmd_properties.h5" || name.starts_with("metadata@")
@@ -68,7 +68,7 @@ namespace {
             if (line.empty() || line.starts_with('#'))
                 continue;
             if (line.size() > longestLine || line.find('\0') != std::string::npos || files.size() >= mostFiles)
-                throw Error(path, "is no list of at most a million file names, one a line");
+                throw Error(path, "is not a list of at most a million file names, one per line");
             const std::string name = (fs::path(path).parent_path() / line).lexically_normal().string();
             if (Timeline::isNamedSo(name))
                 throw Error(path, "names " + name + ", which is a folder or a list itself; name files");
@@ -129,15 +129,15 @@ Timeline::Timeline(const std::vector<std::string> &names, OpenFile open) : m_ope
         m_info.notes.push_back("Some files have gaps of their own, which are not observed.");
 }
 
-/// Opens a file for what its header says.
+/// Opens a file to read its header.
 TimedFile Timeline::addPart(const std::string &path)
 {
     const RecordingPointer recording = m_openFile(path);
     const RecordingInfo &info = recording->info();
     const std::optional<double> start = info.startUnixSeconds ? info.startUnixSeconds : timeInName(path);
     if (!start)
-        throw Error(path, "has no time stamp, neither in it nor in its name (such as 20260123_235959); a timeline "
-                          "needs one");
+        throw Error(path,
+                    "has no time stamp in its header or its name (such as 20260123_235959); a timeline requires one");
     if (m_parts.empty())
         m_info = info;
     else
@@ -185,7 +185,7 @@ RecordingPointer Timeline::partAt(std::size_t number) const
     return m_open.back().second;
 }
 
-/// The part that holds a sample.
+/// The part that contains a sample.
 std::size_t Timeline::partOf(Index stored) const
 {
     const auto behind = std::upper_bound(m_parts.begin(), m_parts.end(), stored,
@@ -232,7 +232,7 @@ bool Timeline::isWhole(Index first, Index count) const
     return isWhole;
 }
 
-/// That of the first file that is not silent; they come from one recorder.
+/// Uses the first file that is not silent; all come from one recorder.
 int Timeline::scaleExponent(int channel) const
 {
     constexpr std::size_t mostLookedAt = 16;

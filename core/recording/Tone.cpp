@@ -40,7 +40,7 @@ namespace {
         }
     }
 
-    /// Nodes of the frequency path of a line of the given duration.
+    /// Number of intervals of the frequency path of a line of the given duration.
     Index intervalCount(const LineSettings &line, double durationSeconds)
     {
         if (line.wanderHz == 0.0)
@@ -108,7 +108,7 @@ Tone::Tone(const LineSettings &line, double amplitude, const RecordingInfo &reco
     m_end = firstAt(m_truth.endSeconds);
 }
 
-/// First sample of an interval between two nodes; that of the one after the last is the tone's end.
+/// First sample of an interval between two nodes; for the interval after the last one, the tone's end.
 Index Tone::firstSampleOf(Index interval) const
 {
     if (interval <= 0)

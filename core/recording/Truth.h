@@ -6,23 +6,23 @@
 
 namespace faintline {
 
-/// What is known of a simulated or injected line: when, how strong, and its frequency f(t).
+/// Known parameters of a simulated or injected line: its times, strength and frequency f(t).
 struct TruthLine {
-    double startSeconds = 0.0; ///< of the first sample it is in, up to a sample
+    double startSeconds = 0.0; ///< of its first sample, to within a sample
     double endSeconds = 0.0;
     double snrDb = 0.0;
     double referenceSeconds = 0.0;   ///< the window that snrDb refers to
     double amplitude = 0.0;          ///< of the tone, before fading
-    double stepSeconds = 0.0;        ///< between the values of frequencyHz
+    double stepSeconds = 0.0;        ///< spacing of frequencyHz
     std::vector<double> frequencyHz; ///< f(startSeconds + k·stepSeconds), linear between; the last at endSeconds
 
-    /// f(t), the end values outside of the line. Precondition: frequencyHz is not empty.
+    /// f(t); outside the line, its end values. Precondition: frequencyHz is not empty.
     double frequencyAt(double seconds) const;
 
     bool operator==(const TruthLine &) const = default;
 };
 
-/// The lines of a recording, in order of the scene.
+/// The lines of a recording, in the scene's order.
 struct Truth {
     std::vector<TruthLine> lines;
 

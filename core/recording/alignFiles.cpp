@@ -16,9 +16,9 @@ namespace {
     constexpr double clockError = 200e-6; ///< of a crystal, relative
     constexpr double leastResolution = 0.01;
     constexpr double exactness = 1e-4;    ///< of stamps that count samples, s
-    constexpr double leastScatter = 1e-3; ///< of stamps that a program took
+    constexpr double leastScatter = 1e-3; ///< of stamps set by a program
 
-    /// Files that follow on one another.
+    /// Files that follow one another without a gap.
     struct Run {
         std::vector<std::size_t> files;
         std::vector<double> before; ///< samples of the run before each
@@ -67,8 +67,8 @@ namespace {
             const TimedFile &first = file(m_order.front());
             for (const TimedFile &other : m_files)
                 if (!(std::abs(other.rateHz / first.rateHz - 1.0) <= clockError))
-                    throw Error(other.path, "has " + formatNumber(other.rateHz) + " samples a second, but " + first.path
-                                                + " has " + formatNumber(first.rateHz)
+                    throw Error(other.path, "has " + formatNumber(other.rateHz) + " samples per second, but "
+                                                + first.path + " has " + formatNumber(first.rateHz)
                                                 + "; files of one timeline must have the same rate");
             std::vector<double> rates;
             for (const TimedFile &each : m_files)
@@ -94,14 +94,14 @@ namespace {
                     if (late > Stretches::longestSeconds)
                         throw Error(now.path, "begins " + formatNumber(std::round(late / 86400.0)) + " days after "
                                                   + last.path
-                                                  + " ends, more than the 400 that a timeline bridges; was a clock set "
-                                                    "wrongly?");
+                                                  + " ends, more than the 400 days that a timeline can bridge; check "
+                                                    "the recorder's clock");
                 }
                 m_runs.push_back({{next}, {0.0}, 0.0});
             }
         }
 
-        /// Stamp of a run's file less the samples before it.
+        /// Stamp of a run's file minus the duration of the samples before it.
         double startBy(const Run &run, std::size_t i, double rateHz) const
         {
             return file(run.files[i]).startUnixSeconds - m_epoch - run.before[i] / rateHz;
@@ -115,10 +115,10 @@ namespace {
             return sum / double(run.files.size());
         }
 
-        /// The seconds that a sample lasts longer than the nominal rate says, and the standard error.
+        /// Fits the deviation of the sample interval from its nominal value, s, and its standard error.
         void fitClock()
         {
-            m_epoch = file(m_order.front()).startUnixSeconds; // seconds since 1970 leave a microsecond
+            m_epoch = file(m_order.front()).startUnixSeconds; // doubles resolve seconds since 1970 to a microsecond
             double squares = 0.0;
             double products = 0.0;
             for (const Run &run : m_runs) {
@@ -203,16 +203,15 @@ namespace {
                 notes.push_back(std::to_string(m_gaps) + " gap(s) between files, "
                                 + milliseconds(double(m_missing) / rate) + " altogether, are not observed.");
             if (m_overlaps > 0)
-                notes.push_back(std::to_string(m_overlaps) + " file(s) begin before the one before ends; "
+                notes.push_back(std::to_string(m_overlaps) + " file(s) begin before the previous one ends; "
                                 + milliseconds(double(m_twice) / rate)
-                                + " that are there twice are taken from the earlier one.");
+                                + " of duplicate samples are taken from the earlier one.");
             if (rate != m_nominalHz)
                 notes.push_back("The sample rate is that of the time stamps, " + formatNumber(rate)
                                 + " Hz: the clock of the files, " + formatNumber(m_nominalHz) + " Hz, is off by "
                                 + formatNumber(std::round(1e7 * (rate / m_nominalHz - 1.0)) / 10.0) + " ppm.");
             if (const double worst = farthest(); worst > leastResolution)
-                notes.push_back("Files that follow on one another lie within " + milliseconds(worst)
-                                + " of their time stamps.");
+                notes.push_back("Consecutive files lie within " + milliseconds(worst) + " of their time stamps.");
         }
 
         const std::vector<TimedFile> &m_files;

@@ -108,14 +108,14 @@ namespace {
         }
     }
 
-    /// One stretch of samples of an XWAV (a "raw file"): when it began, and how long it is.
+    /// One stretch of samples of an XWAV (a "raw file"): start time and length.
     struct HarpEntry {
         double startUnixSeconds;
         Index samples;
     };
 
-    /// Scripps' XWAV: what is known of the deployment, then an entry for each stretch. Those before the first one whose
-    /// time is none.
+    /// Scripps' XWAV: deployment data, then an entry for each stretch. Returns the entries before the first one with an
+    /// invalid time.
     std::vector<HarpEntry> harpEntries(const std::vector<std::byte> &harp, int channels)
     {
         constexpr std::size_t entriesAt = 56;
@@ -160,9 +160,9 @@ namespace {
         }
         stretches.add(stretches.end(), stored, info.sampleCount - stored);
         if (stretches.hasGaps())
-            info.notes.push_back("The harp chunk tells of " + std::to_string(stretches.gaps()) + " gap(s), "
+            info.notes.push_back("The harp chunk shows " + std::to_string(stretches.gaps()) + " gap(s), "
                                  + std::to_string(std::llround(double(stretches.missing()) / info.sampleRateHz))
-                                 + " s altogether, which are not observed.");
+                                 + " s in total, which were not observed.");
         return stretches;
     }
 
@@ -178,7 +178,7 @@ namespace {
 
 bool hasAiffRate(const FileBytes &file)
 {
-    std::array<std::byte, 18> head; // a chunk's name and length, or what the common chunk says
+    std::array<std::byte, 18> head; // a chunk's name and length, or the contents of the common chunk
     const std::span<const std::byte> bytes(head);
     Index offset = 12;
     for (int chunks = 0; chunks < 1000 && file.readAt(offset, std::span(head).first(8)) == 8; ++chunks) {
@@ -187,12 +187,12 @@ bool hasAiffRate(const FileBytes &file)
         if (isCommon) {
             if (file.readAt(offset + 8, head) != head.size())
                 return false;
-            // Channels, frames, bits, then sign and exponent (bias 16383) in two bytes, and a significand with its
+            // Channels, frames, bits, then sign and exponent (bias 16383) in two bytes, and a significand with explicit
             // leading 1.
             const std::uint32_t exponent = bigEndian(bytes.subspan(8, 2));
             const bool isNormal = bigEndian(bytes.subspan(10, 4)) >> 31 != 0;
             return isNormal && exponent >= 16383
-                   && exponent < 16383 + 30; // a sign makes it larger than that, as infinity and NaN are
+                   && exponent < 16383 + 30; // also false with a sign bit, and for infinity and NaN
         }
         offset += 8 + length + length % 2;
     }

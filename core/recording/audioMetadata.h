@@ -6,20 +6,20 @@
 
 namespace faintline {
 
-/// Container and sample type of a libsndfile format in plain words: "WAV", "int16".
+/// Container and sample type of a libsndfile format: "WAV", "int16".
 std::string containerName(int format);
 std::string sampleTypeName(int format);
 
-/// Fills in what the header says of when and at which frequency it was recorded: bext (origination date and time
-/// reference), auxi (a receiver's start time and centre frequency), harp (XWAV's start times), or a date string that is
-/// an ISO 8601 time. Answers where the file's samples lie in time, which only harp tells.
+/// Sets start time and centre frequency from the header: bext (origination date and time reference), auxi (a receiver's
+/// start time and centre frequency), harp (XWAV's start times), or a date string that is an ISO 8601 time. Returns the
+/// places of the file's samples in time, which only harp gives.
 Stretches readAudioMetadata(const AudioDecoder &decoder, RecordingInfo &info);
 
-/// The number of bytes, as libsndfile's log tells, by which a header claims more than the file holds; 0 if it does not.
+/// Number of bytes by which a header claims more than the file holds, according to libsndfile's log; 0 if it does not.
 long long missingBytes(const std::string &log);
 
-/// Whether an AIFF file's sample rate, an 80-bit floating-point number, lies in 1 Hz … 2³⁰ Hz. The library makes one up
-/// where it does not.
+/// Whether an AIFF file's sample rate, an 80-bit floating-point number, lies in 1 Hz … 2³⁰ Hz. The library invents one
+/// if it does not.
 bool hasAiffRate(const FileBytes &file);
 
 } // namespace faintline

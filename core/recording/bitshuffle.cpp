@@ -10,8 +10,8 @@ namespace faintline {
 
 namespace {
 
-    constexpr std::size_t multiple = 8;       ///< elements of a block
-    constexpr std::size_t targetBytes = 8192; ///< of a block whose size is not told
+    constexpr std::size_t multiple = 8;       ///< block sizes are multiples of it, elements
+    constexpr std::size_t targetBytes = 8192; ///< size of a block if not specified
     constexpr std::size_t fewestElements = 128;
 
     std::uint64_t bigEndian(std::span<const std::byte> bytes)
@@ -49,7 +49,7 @@ namespace {
             }
     }
 
-    /// Goes through a chunk's bytes; what is not there is answered with false.
+    /// Reads a chunk's bytes sequentially; returns false beyond its end.
     class Source
     {
     public:

@@ -5,11 +5,11 @@
 
 namespace faintline {
 
-/// SHA-256 of a file's bytes as lower-case hexadecimal digits; of its first and last mebibyte and its length where it
-/// is larger than 64 MiB, so that it stays quick ("part:" stands before such a hash).
+/// SHA-256 of a file's bytes as lower-case hexadecimal digits. For files larger than 64 MiB, only the first and last
+/// mebibyte and the length are hashed, to stay fast; such a hash begins with "part:".
 std::string fileHash(const std::string &path);
 
-/// One of many files, in their order: of the first and last 64 KiB of each and its length ("files:" stands before it).
+/// Hash of many files in their order, from the first and last 64 KiB and the length of each; it begins with "files:".
 std::string filesHash(const std::vector<std::string> &paths);
 
 } // namespace faintline

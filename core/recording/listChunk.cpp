@@ -11,7 +11,7 @@ namespace faintline {
 namespace {
 
     constexpr Index wordBytes = 4;
-    constexpr Index most = Index(16) << 20; ///< bytes that are looked at
+    constexpr Index most = Index(16) << 20; ///< bytes to examine
 
     std::uint32_t number(std::span<const std::byte> bytes, bool isBigEndian)
     {
@@ -21,7 +21,7 @@ namespace {
         return value;
     }
 
-    /// What the library does at a name that is no part of the list, or no name.
+    /// Whether the library stops at a name: one that is not part of the list, or invalid.
     bool isEnd(std::string_view name)
     {
         return name == "data" || name == std::string_view("\0\0\0\0", wordBytes);
@@ -58,7 +58,7 @@ bool leadsBackwards(const FileBytes &file, Index chunk)
             return true;
         at += size + size % 2;
     }
-    return at < length && length > most; // nobody knows what comes behind
+    return at < length && length > most; // longer lists are not examined
 }
 
 } // namespace faintline

@@ -4,11 +4,11 @@
 
 namespace faintline {
 
-/// Whether the LIST or INFO chunk of a RIFF file holds a length with which libsndfile 1.2 (wavlike_subchunk_parse)
-/// would leave it backwards, and might never come to an end: it adds them up in 32 bits. What describes photographs
-/// (exif) counts as such, as it is not followed here, and no recorder writes it.
+/// Whether a LIST or INFO chunk of a RIFF file holds a length that would make libsndfile 1.2 (wavlike_subchunk_parse),
+/// which adds lengths in 32 bits, seek backwards and possibly loop forever. Chunks for photographs (exif) count as
+/// such: they are not parsed here, and no recorder writes them.
 ///
-///   "LIST" size "INFO"|"adtl",  then again and again  name size content
+///   "LIST" size "INFO"|"adtl",  then repeatedly  name size content
 bool leadsBackwards(const FileBytes &file, Index chunk);
 
 } // namespace faintline

@@ -23,7 +23,7 @@ namespace {
         return std::make_shared<RawRecording>(path, options.iq ? withIqPairs(path, layout) : layout);
     }
 
-    /// A file whose name says raw samples and whose content does not contradict.
+    /// Opens a file as raw samples if its name says so and its content does not contradict.
     RecordingPointer openByRawExtension(const std::string &path, const std::string &typeName,
                                         const OpenOptions &options)
     {
@@ -58,10 +58,8 @@ RecordingPointer openRecording(const std::string &path, const OpenOptions &optio
             return std::make_shared<StrainRecording>(path);
         if (DigitalRfRecording::recognises(path))
             return std::make_shared<DigitalRfRecording>(path);
-        throw Error(
-            path,
-            "is an HDF5 file of another kind; strain (strain/Strain), Digital RF (rf_data) and filterbanks (data, with "
-            "fch1) can be read");
+        throw Error(path, "is an HDF5 file of an unsupported kind; supported are strain (strain/Strain), Digital RF "
+                          "(rf_data) and filterbanks (data, with fch1)");
     }
     if (const auto rawType = rawTypeOfExtension(path); rawType && !AudioRecording::recognises(path))
         return openByRawExtension(path, *rawType, options);

@@ -6,7 +6,7 @@
 
 namespace faintline {
 
-/// How to read a file whose content does not say it all.
+/// How to read a file that does not fully describe itself.
 struct OpenOptions {
     bool iq = false;        ///< take real channels in pairs, as I and Q of one complex channel
     std::string rawType;    ///< datatype of a raw file, SigMF's names ("ci16_le", "rf32_be", "cu8" …); empty: not raw
@@ -15,14 +15,14 @@ struct OpenOptions {
     Index rawHeaderBytes = 0;
 };
 
-/// Opens a recording: of many files where a folder or a list is named (Timeline); raw where rawType is given; SigMF by
-/// either of its two names; a KiwiSDR's WAV; GWOSC's strain; else any format that libsndfile recognises, by content;
-/// else, where the extension is one of raw samples (".cf32", ".cs16" …), a raw file of that type, for which the rate
-/// must be given. Reads no more than headers. Throws Error{path, what is wrong and what would be accepted}.
+/// Opens a recording: a folder or list as many files (Timeline); raw samples if rawType is given; SigMF by either of
+/// its two names; KiwiSDR WAV; GWOSC strain; else any format that libsndfile recognises by content; else a raw file if
+/// its extension denotes a raw sample type (".cf32", ".cs16" …), for which the rate must be given. Reads headers only.
+/// Throws Error{path, cause and what would be accepted}.
 RecordingPointer openRecording(const std::string &path, const OpenOptions &options = {});
 
-/// SHA-256 of the recording's data file as lower-case hexadecimal digits; of its first and last mebibyte and its length
-/// where it is larger than 64 MiB, so that opening stays quick ("part:" stands before such a hash).
+/// SHA-256 of the recording's data file as lower-case hexadecimal digits. For files larger than 64 MiB, only the first
+/// and last mebibyte and the length are hashed, so that opening stays fast; such a hash begins with "part:".
 std::string recordingHash(const std::string &path);
 
 } // namespace faintline

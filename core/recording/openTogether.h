@@ -7,7 +7,7 @@
 
 namespace faintline {
 
-/// Opens what is named, files, folders and lists, as one recording (Timeline). Throws Error.
+/// Opens files, folders and lists as one recording (Timeline). Throws Error.
 RecordingPointer openTogether(const std::vector<std::string> &names, const OpenOptions &options = {});
 
 } // namespace faintline

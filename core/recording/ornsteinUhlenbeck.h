@@ -12,13 +12,13 @@ namespace faintline {
 ///   x₀ = n₀,   x_{k+1} = a·x_k + √(1 - a²)·n_{k+1},   a = e^(-step)
 std::vector<double> ornsteinUhlenbeck(Random &random, Index count, double step);
 
-/// Shifts and scales a path to mean 0 and the given standard deviation exactly (that of the path itself, 1/n).
+/// Shifts and scales a path to exactly mean 0 and the given standard deviation (of the path itself, 1/n).
 void standardise(std::vector<double> &path, double deviation);
 
-/// Linear interpolation in a path; the end values outside of it. Precondition: not empty.
+/// Linear interpolation in a path; outside it, its end values. Precondition: not empty.
 double interpolate(const std::vector<double> &path, double position);
 
-/// Names the random streams of a recording: (kind, number of the block or line).
+/// Names of a recording's random streams: (kind, number of the block or line).
 enum class SimulationStream : std::uint64_t { Noise = 1, Level, Phase, Wander, FadingReal, FadingImaginary };
 
 inline std::uint64_t streamNumber(SimulationStream kind, Index number)

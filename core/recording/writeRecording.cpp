@@ -37,7 +37,7 @@ namespace {
         return std::ranges::find_if(audioKinds, [&](const auto &kind) { return hasEnding(path, kind.first); });
     }
 
-    /// Takes interleaved samples, all channels, in order.
+    /// Receives interleaved samples of all channels, in order.
     class Writer
     {
     public:
@@ -90,7 +90,7 @@ namespace {
             m_handle.reset(sf_open_fd(m_file.descriptor(), SFM_WRITE, &format, SF_FALSE));
             if (!m_handle)
                 throw Error(path, std::string("cannot be written: ") + sf_strerror(nullptr), Error::Kind::Failure);
-            sf_command(m_handle.get(), SFC_SET_ADD_PEAK_CHUNK, nullptr, SF_FALSE); // it holds the time of writing
+            sf_command(m_handle.get(), SFC_SET_ADD_PEAK_CHUNK, nullptr, SF_FALSE); // it would store the time of writing
             if (info.startUnixSeconds && (kind == SF_FORMAT_WAV || kind == SF_FORMAT_RF64))
                 writeStart(*info.startUnixSeconds, info.sampleRateHz);
         }
@@ -103,7 +103,7 @@ namespace {
                 written = sf_writef_float(m_handle.get(), samples.data(), frames);
             } else {
                 m_integers.resize(samples.size());
-                for (std::size_t i = 0; i < samples.size(); ++i) // libsndfile takes the high bits
+                for (std::size_t i = 0; i < samples.size(); ++i) // libsndfile uses the high bits
                     m_integers[i] = toInteger(samples[i], m_bits) * (1 << (32 - m_bits));
                 written = sf_writef_int(m_handle.get(), m_integers.data(), frames);
             }
@@ -146,7 +146,7 @@ namespace {
         }
 
         AtomicFile m_file;
-        int m_bits; ///< of an integer; 0: float
+        int m_bits; ///< bits of an integer; 0: float
         std::size_t m_channels = 1;
         std::unique_ptr<SNDFILE, Closer> m_handle;
         std::vector<int> m_integers;

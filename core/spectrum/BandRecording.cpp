@@ -7,16 +7,16 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index blockSamples = 8192;
+    constexpr Index blockSamples = BandRecording::reachSamples;
 
-    /// Of every bin of a block, whose transform is not divided by its length.
+    /// Gains of each bin of a block; the transform is not divided by its length.
     std::vector<float> gainsOf(const RecordingInfo &info, double lowHz, double highHz)
     {
         std::vector<float> gains(static_cast<std::size_t>(blockSamples), 0.0f);
         for (Index bin = 0; bin < blockSamples; ++bin) {
             const bool isNegative = bin > blockSamples / 2;
             const double hz = double(isNegative ? bin - blockSamples : bin) * info.sampleRateHz / double(blockSamples);
-            const bool isEdge = bin == 0 || bin == blockSamples / 2; // whose conjugate it is itself
+            const bool isEdge = bin == 0 || bin == blockSamples / 2; // is its own conjugate
             const float gain = info.isComplex || isEdge ? 1.0f : isNegative ? 0.0f : 2.0f;
             if (hz >= lowHz && hz <= highHz)
                 gains[std::size_t(bin)] = gain / float(blockSamples);

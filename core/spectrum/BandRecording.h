@@ -7,12 +7,16 @@
 
 namespace faintline {
 
-/// One band of a recording's channel, as I/Q at the same sample rate: of real samples the analytic signal, so that its real
-/// part is the band of the recording. By BlockFilter, whose edges are some of its cells (rate/8192) wide. Thread-safe.
+/// One band of a recording's channel, as I/Q at the same sample rate. For real samples it is the analytic signal, whose
+/// real part is the recording's band. Filtered by BlockFilter; the edges are a few of its cells (rate/8192) wide.
+/// Thread-safe.
 class BandRecording final : public Recording
 {
 public:
-    /// What of the band lies outside the recording's is left out; of a band upside down nothing is left.
+    /// Largest number of samples that a sample of the band depends on.
+    static constexpr Index reachSamples = 8192;
+
+    /// The band is clipped to the recording's; with lowHz > highHz nothing passes.
     BandRecording(RecordingPointer base, int channel, double lowHz, double highHz);
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;

@@ -20,7 +20,7 @@ void BlockFilter::apply(std::span<std::complex<float>> block, std::span<const fl
         samples[2 * n + 1] = m_window[n] * block[n].imag();
     }
     m_fft.run(*buffer);
-    // The inverse transform by a forward one: F⁻¹{X} = conj(F{conj X})/N.
+    // Inverse transform by a forward transform: F⁻¹{X} = conj(F{conj X})/N.
     for (std::size_t bin = 0; bin < block.size(); ++bin) {
         const std::complex<float> value = buffer->output()[bin];
         samples[2 * bin] = value.real() * gains[bin];

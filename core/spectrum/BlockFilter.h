@@ -9,11 +9,11 @@
 
 namespace faintline {
 
-/// A linear filter that may change from block to block, of blocks of N samples half of it apart:
+/// A linear filter that may change from block to block, with blocks of N samples at intervals of N/2:
 ///
 ///   s(n) = Σ_b w_b(n)·F⁻¹{ g_b(f)·F{ w_b x } }(n),   w_b(n) = sin(π(n - bN/2 + ½)/N)
 ///
-/// w is a √Hann window, Σ_b w_b(n)² = 1, so that g = 1 leaves x as it is. Thread-safe. Oracle: g = 1.
+/// w is a √Hann window with Σ_b w_b(n)² = 1, so that g = 1 leaves x unchanged. Thread-safe. Oracle: g = 1.
 class BlockFilter
 {
 public:
@@ -23,11 +23,11 @@ public:
     Index length() const { return std::ssize(m_window); }
     /// The first sample of a block.
     Index beginOf(Index block) const { return block * (length() / 2); }
-    /// The first block that a sample n ≥ 0 belongs to; the next one is the second.
+    /// The first of the two blocks that contain sample n ≥ 0.
     Index firstBlockOf(Index sample) const { return sample / (length() / 2) - 1; }
 
-    /// A block's x → its share w F⁻¹{ g F{ w x } }, in place. `gains`: g/N of every bin, from 0 Hz upward, then the
-    /// negative frequencies.
+    /// Replaces a block's x by its contribution w F⁻¹{ g F{ w x } }. `gains`: g/N of each bin, from 0 Hz upward, then
+    /// the negative frequencies.
     void apply(std::span<std::complex<float>> block, std::span<const float> gains) const;
 
 private:

@@ -11,7 +11,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr std::size_t blocksAveraged = 7; ///< the newest and six before it
+    constexpr std::size_t blocksAveraged = 7; ///< the newest and six previous ones
 
     double scatterOf(const CausalGeometry &geometry, double cells)
     {
@@ -33,7 +33,7 @@ CausalBackground::CausalBackground(const CausalGeometry &geometry, const Axis &f
       m_firstBlockWindows(std::ssize(firstBlock) / frequency.count), m_levels(levelsFor(geometry, m_bands))
 {
     m_background.frequency = frequency;
-    m_background.time = {"time", "s", 0.0, 1.0, 1, false}; // what is asked at any time
+    m_background.time = {"time", "s", 0.0, 1.0, 1, false}; // valid at any time
     m_background.levelTime = m_background.time;
     m_background.bandCount = m_bands;
     m_background.lnLevel.assign(std::size_t(m_bands), 0.0f);
@@ -45,7 +45,7 @@ CausalBackground::CausalBackground(const CausalGeometry &geometry, const Axis &f
 void CausalBackground::keepWindow(std::span<const float> power)
 {
     if (std::none_of(power.begin(), power.end(), [](float value) { return value > 0.0f; }))
-        return; // digital silence tells nothing
+        return; // digital silence carries no information
     if (std::ssize(m_windows) == m_geometry.blockWindows * m_cells) {
         std::move(m_windows.begin() + m_cells, m_windows.end(), m_windows.begin());
         m_windows.resize(m_windows.size() - std::size_t(m_cells));
@@ -71,7 +71,7 @@ void CausalBackground::renew()
     if (m_bands > 0)
         flatten(block, m_cells);
     m_blocks.push_back(blockBackground(block, m_cells, m_geometry.halfWidthCells));
-    // Every so many renewals a block is another one, without a window in common.
+    // Blocks this many renewals apart share no window.
     const auto apart =
         std::size_t((m_geometry.blockWindows + m_geometry.renewalWindows() - 1) / m_geometry.renewalWindows());
     if (m_blocks.size() > apart * (blocksAveraged - 1) + 1)

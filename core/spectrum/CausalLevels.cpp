@@ -6,7 +6,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index smoothedFrames = 256; ///< what latestBeyondScatter looks at
+    constexpr Index smoothedFrames = 256; ///< frames that latestBeyondScatter uses
 
 } // namespace
 
@@ -18,7 +18,7 @@ CausalLevels::CausalLevels(Index bands, double commonScatter, double bandScatter
 
 void CausalLevels::push(std::span<const float> levels)
 {
-    if (rows() >= 2 * smoothedFrames) // memory is moved once in as many frames
+    if (rows() >= 2 * smoothedFrames) // moves memory only once per that many frames
         m_levels.erase(m_levels.begin(), m_levels.end() - smoothedFrames * m_columns);
     const bool isKnown = levels.back() < levelNotKnown;
     const std::size_t before = m_levels.size() - std::size_t(m_columns);
@@ -42,7 +42,7 @@ void CausalLevels::setOffsets(const LevelOffsets &offsets)
     }
 }
 
-/// The last frames' values of a column, less its offset.
+/// Reads the last frames' values of a column, minus its offset.
 void CausalLevels::readSeries(Index column, std::vector<float> &series) const
 {
     series.resize(std::size_t(smoothedFrames));

@@ -8,27 +8,29 @@
 
 namespace faintline {
 
-/// Levels of noise over its background, frame by frame and from the past alone: what of the newest frame's counts.
+/// Significant level changes of noise over its background, frame by frame, from past data alone.
 ///
-/// A frame has `bands` sub-bands' levels and the common one of the whole band (levelsOf in bandLevels.h), in ln power.
-/// What counts of a sub-band is what the common level does beyond its scatter, and what the sub-band does besides
-/// (latestBeyondScatter), less what lines raise it by (LevelOffsets). Before the first frame all levels were 0.
+/// A frame has levels of `bands` sub-bands and one common level of the whole band (levelsOf in bandLevels.h), in ln
+/// power. The significant level of a sub-band is what the common level shows beyond its scatter plus what the sub-band
+/// adds to that (latestBeyondScatter), minus the offset that lines cause (LevelOffsets). Levels before the first frame
+/// are 0.
 class CausalLevels
 {
 public:
-    /// Standard errors of one frame's common level and of a sub-band's.
+    /// Standard errors of a frame's common level and of a sub-band's level.
     CausalLevels(Index bands, double commonScatter, double bandScatter);
 
-    /// The next frame's levels, bands + 1 values; levelNotKnown in digital silence, which keeps the level before it.
+    /// Adds the next frame's levels, bands + 1 values; levelNotKnown marks digital silence, which keeps the previous
+    /// level.
     void push(std::span<const float> levels);
 
-    /// The background that all levels are over has become lower by as much, bands + 1 values.
+    /// Lowers the background to which all levels refer, by bands + 1 values.
     void moveBy(std::span<const double> rise);
 
-    /// Takes offsets off from now on: the sure ones, else of sub-bands what lines may make.
+    /// Subtracts offsets from now on: the sure ones, and for other sub-bands the part that lines may cause.
     void setOffsets(const LevelOffsets &offsets);
 
-    /// Of the newest frame, `bands` values.
+    /// Levels of the newest frame, `bands` values.
     std::vector<float> latest() const;
 
     std::size_t bytes() const { return m_levels.capacity() * sizeof(float); }
@@ -40,7 +42,7 @@ private:
     Index m_columns;
     double m_commonScatter;
     double m_bandScatter;
-    std::vector<float> m_levels; ///< rows × columns, the newest last; bridged over silence
+    std::vector<float> m_levels; ///< rows × columns, newest last; interpolated over silence
     std::vector<float> m_offsets;
 };
 

@@ -14,7 +14,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index checkpointFrames = 64; ///< between two, at first
+    constexpr Index checkpointFrames = 64; ///< initial interval
     constexpr Index mostBlockWindows = 512;
 
     Index blockWindowsOf(const NormaliserSettings &settings)
@@ -41,11 +41,36 @@ namespace {
 CausalSpectrogram::CausalSpectrogram(std::shared_ptr<const Spectrogram> spectrogram, const NormaliserSettings &settings)
     : NormalisedFrames(spectrogram->time(), Grid{{spectrogram->frequency()}}), m_spectrogram(std::move(spectrogram)),
       m_settings(settings), m_coarse(coarseFrames(*m_spectrogram, settings, m_spectrogram->settings().stepsPerWindow)),
-      m_geometry(geometryOf(m_coarse, settings)), m_kept(checkpointFrames, memoryShares::background)
+      m_geometry(geometryOf(m_coarse, settings)), m_kept(checkpointFrames, memoryShares::background),
+      m_keepsStates(m_spectrogram->recording().info().sampleCount < endlessSamples) // else nothing is read twice
 {
     m_power.resize(std::size_t(m_geometry.cells));
     m_background = begin();
     m_firstBackground = std::make_shared<const NoiseBackground>(m_background->latest());
+}
+
+/// It stands nowhere yet.
+CausalSpectrogram::CausalSpectrogram(std::shared_ptr<const Spectrogram> spectrogram, const CausalSpectrogram &like)
+    : NormalisedFrames(spectrogram->time(), Grid{{spectrogram->frequency()}}), m_spectrogram(std::move(spectrogram)),
+      m_settings(like.m_settings),
+      m_coarse(coarseFrames(*m_spectrogram, m_settings, m_spectrogram->settings().stepsPerWindow)),
+      m_geometry(like.m_geometry), m_firstBackground(like.m_firstBackground), m_next(std::numeric_limits<Index>::max()),
+      m_keepsStates(true)
+{
+    m_power.resize(std::size_t(m_geometry.cells));
+    const std::lock_guard lock(like.m_mutex);
+    m_kept = like.m_kept;
+}
+
+void CausalSpectrogram::keepStates() const
+{
+    const std::lock_guard lock(m_mutex);
+    m_keepsStates = true;
+}
+
+std::shared_ptr<const CausalSpectrogram> CausalSpectrogram::over(std::shared_ptr<const Spectrogram> spectrogram) const
+{
+    return std::shared_ptr<const CausalSpectrogram>(new CausalSpectrogram(std::move(spectrogram), *this));
 }
 
 Index CausalSpectrogram::samplesOfFirstBlock(const Spectrogram &spectrogram, const NormaliserSettings &settings)
@@ -67,8 +92,7 @@ CausalBackground CausalSpectrogram::begin() const
 
 const NoiseBackground &CausalSpectrogram::step() const
 {
-    const bool isPassing = m_spectrogram->recording().info().sampleCount >= endlessSamples; // nothing is read twice
-    if (!isPassing && m_kept.lacks(m_next)) {
+    if (m_keepsStates && m_kept.lacks(m_next)) {
         auto state = std::make_shared<const CausalBackground>(*m_background);
         const std::size_t bytes = state->bytes();
         m_kept.keep(m_next, std::move(state), bytes);

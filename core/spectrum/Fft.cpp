@@ -12,7 +12,7 @@ namespace faintline {
 
 namespace {
 
-    // FFTW's planner is the one part of it that is not thread-safe.
+    // FFTW's planner is its only part that is not thread-safe.
     std::mutex plannerMutex;
 
     fftwf_complex *fftw(std::span<std::complex<float>> bins)

@@ -8,8 +8,8 @@ namespace faintline {
 
 /// A forward Fourier transform of fixed length, X(k) = Σ x(n) e^{-2πikn/N}, in single precision; not scaled.
 ///
-/// Wraps an FFTW plan made with FFTW_ESTIMATE (measured plans differ from run to run, and so would the last bits).
-/// `run` may be called from several threads at once, each with a buffer of its own from `buffer()`.
+/// Wraps an FFTW plan made with FFTW_ESTIMATE, because measured plans, and thus the last bits, vary from run to run.
+/// `run` may be called from several threads at once, each with its own `buffer()`.
 class Fft
 {
 public:
@@ -48,7 +48,7 @@ public:
     int length() const { return m_length; }
     int binCount() const { return m_input == Input::Real ? m_length / 2 + 1 : m_length; }
 
-    /// The smallest length ≥ wanted whose only prime factors are 2, 3, 5 and 7: FFTW's fast ones.
+    /// The smallest length ≥ wanted with prime factors 2, 3, 5 and 7 only, which FFTW transforms fast.
     static int fastLength(int wanted);
 
 private:

@@ -16,7 +16,7 @@ namespace {
 
     constexpr float largestRatio = 1e30f;
 
-    // What every frame goes through, cell by cell and bin by bin.
+    // Per-frame operations, cell by cell and bin by bin.
 
     inline float overPower(float y, float ln)
     {
@@ -25,8 +25,8 @@ namespace {
         return ln <= 0.5f * NoiseBackground::silence ? 0.0f : most;
     }
 
-    /// y ← y/B, ln B interpolated between cells: at a band's edge B falls by 20 dB from one cell to the next. One value
-    /// more than there are cells is given.
+    /// y ← y/B with ln B interpolated between cells: at a band's edge B falls by 20 dB between cells. `ln` has one
+    /// value more than there are cells.
     FAINTLINE_MULTIVERSION
     void divideByBackground(std::span<float> y, const float *ln, double start, double perBin, double lastCell)
     {
@@ -40,7 +40,7 @@ namespace {
         }
     }
 
-    /// The same where bins are cells.
+    /// The same for one bin per cell.
     FAINTLINE_MULTIVERSION
     void divideBinByBin(std::span<float> y, const float *ln)
     {
@@ -59,8 +59,8 @@ namespace {
 
     void guardAgainstClicks(double binsPerCell, std::span<float> values)
     {
-        // What is shorter than the spacing of the levels. In most frames counting is enough: the median of a sub-band
-        // exceeds a limit where more than half of its values do.
+        // Handles changes shorter than the spacing of the levels. For most frames counting suffices: the median of a
+        // sub-band exceeds a limit if more than half of its values do.
         const auto bands = std::size_t(NoiseBackground::subBandCount(double(values.size()) / binsPerCell));
         constexpr Index half = 20;
         const double allowed = 1.0 + 4.0 * inverseLn2 / std::sqrt(2.0 * half + 1.0);
@@ -73,7 +73,7 @@ namespace {
         }
         if (!isLoud)
             return;
-        // The frame's own running median over frequency, which keeps the edges of what is loud.
+        // The frame's own running median over frequency, which preserves the edges of loud regions.
         const auto stride = std::size_t(std::max(1.0, std::floor(binsPerCell)));
         std::vector<float> ln;
         for (std::size_t bin = 0; bin < values.size(); bin += stride)

@@ -8,11 +8,11 @@
 
 namespace faintline {
 
-/// Frames of a spectrogram over its noise.
+/// Divides frames of a spectrogram by their noise.
 ///
 /// values ← values/B, 0 in digital silence; ln B is interpolated between the background's cells. With
-/// `guardsAgainstClicks`, a sub-band most of which is far above its background is divided by that excess. Holds scratch
-/// memory: one object per thread.
+/// `guardsAgainstClicks`, a sub-band that lies mostly far above its background is divided by that excess. Holds scratch
+/// memory: use one object per thread.
 class FrameNormaliser
 {
 public:
@@ -21,7 +21,7 @@ public:
     {
     }
 
-    /// One frame, over the background at the time `seconds`.
+    /// Normalises one frame over the background at the time `seconds`.
     void normalise(std::span<float> values, const NoiseBackground &background, double seconds);
 
 private:

@@ -7,12 +7,11 @@
 
 namespace faintline {
 
-/// Frames in order, in blocks of about 1 MiB: read one block ahead of their use, on another thread, if there is one to
-/// spare.
+/// Reads frames in order, in blocks of about 1 MiB, one block ahead on another thread if there is a spare one.
 class FrameStream
 {
 public:
-    FrameStream(const NormalisedFrames &frames, bool readsAhead); ///< `frames` outlive this
+    FrameStream(const NormalisedFrames &frames, bool readsAhead); ///< `frames` must outlive this
 
     /// Index of the first frame of `next`.
     Index position() const { return m_position; }

@@ -47,7 +47,7 @@ double FrequencyCurve::secondsAt(double cycles) const
     const double after = cycles - m_cycles[knot];
     const bool isBetween = above > 0 && knot + 1 < m_hz.size();
     const double slope = isBetween ? (m_hz[knot + 1] - m_hz[knot]) / m_time.step : 0.0;
-    // The root of ½·slope·τ² + f·τ = after, in the form that does not cancel.
+    // The root of ½·slope·τ² + f·τ = after, in the form without cancellation.
     const double root = std::sqrt(std::max(0.0, m_hz[knot] * m_hz[knot] + 2.0 * slope * after));
     return m_time.value(double(knot)) + 2.0 * after / (m_hz[knot] + root);
 }

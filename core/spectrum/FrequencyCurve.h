@@ -6,11 +6,11 @@
 
 namespace faintline {
 
-/// A frequency over time: linear between equidistant knots, constant before the first and after the last.
+/// A frequency over time: linear between equidistant knots, constant outside them.
 class FrequencyCurve
 {
 public:
-    /// `time`: of the knots, s; `hz`: one value a knot. Throws Error where there is none, or one that is not finite.
+    /// `time`: knots, s; `hz`: one value per knot. Throws Error if there is none or one is not finite.
     FrequencyCurve(const Axis &time, std::vector<double> hz);
 
     const Axis &time() const { return m_time; }
@@ -18,15 +18,16 @@ public:
     double meanHz() const;
 
     double at(double seconds) const;
-    /// ∫ f dt from the first knot on: whole turns and their fraction, negative before it. Exact for this curve.
+    /// ∫ f dt from the first knot, in cycles; negative before it. Exact for this curve.
     double cyclesAt(double seconds) const;
-    /// When so many turns have passed: the inverse of cyclesAt. Precondition: all frequencies lie above 0.
+    /// Time at which the given number of cycles has passed: the inverse of cyclesAt. Precondition: all frequencies are
+    /// positive.
     double secondsAt(double cycles) const;
 
 private:
     Axis m_time;
     std::vector<double> m_hz;
-    std::vector<double> m_cycles; ///< at every knot
+    std::vector<double> m_cycles; ///< at each knot
 };
 
 } // namespace faintline

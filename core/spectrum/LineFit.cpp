@@ -16,21 +16,21 @@ namespace {
     using Complex = std::complex<double>;
 
     constexpr Index run = LineFit::silentSamples;
-    constexpr Index readSamples = 256 * run; ///< at a time
-    constexpr double beyondWindows = 2.0;    ///< a path's ends, T_FT: where the line may begin
-    constexpr double insideWindows = 4.0;    ///< where it surely is there
-    constexpr double slopeWindows = 8.0;     ///< that its frequency goes on as in
-    constexpr double stepWindows = 12.0;     ///< that its phase there is known from
-    constexpr int mostSteps = 8;             ///< from there outwards
-    constexpr double shortestPiece = 0.25;   ///< that is fitted, T_FT
-    constexpr std::size_t order = 4;         ///< of the spline: coefficients at a place
+    constexpr Index readSamples = 256 * run; ///< samples per read
+    constexpr double beyondWindows = 2.0;    ///< search range for the line's ends beyond the path's ends, T_FT
+    constexpr double insideWindows = 4.0;    ///< distance inside the path's ends where the line is certainly present
+    constexpr double slopeWindows = 8.0;     ///< over which its slope is extrapolated
+    constexpr double stepWindows = 12.0;     ///< over which its phase is known beyond a fitted piece
+    constexpr int mostSteps = 8;             ///< steps outward from there
+    constexpr double shortestPiece = 0.25;   ///< minimum length of a fitted piece, T_FT
+    constexpr std::size_t order = 4;         ///< order of the spline: coefficients per place
 
     Complex turned(double cycles)
     {
         return std::polar(1.0, 2.0 * std::numbers::pi * (cycles - std::floor(cycles)));
     }
 
-    /// e^(iφ) of a run: φ is the parabola that begins as the curve does, and turns as the curve does at both ends.
+    /// e^(iφ) of a run, where φ is the parabola with the curve's initial frequency and its phase at both ends.
     std::array<Complex, std::size_t(run)> phasors(const FrequencyCurve &curve, double rate, Index first)
     {
         const double begin = double(first) / rate;
@@ -48,7 +48,7 @@ namespace {
         return result;
     }
 
-    /// The cubic B-splines that are not 0 at a place, and the number of the first.
+    /// The cubic B-splines that are non-zero at a place, and the index of the first.
     struct Basis {
         std::size_t first;
         std::array<double, order> weights;
@@ -74,7 +74,7 @@ namespace {
         return sample - (sample % run + run) % run;
     }
 
-    /// Calls `each(first, samples)` with every run between two samples that is not silent; runs begin at multiples.
+    /// Calls `each(first, samples)` for each run between two samples that is not silent; runs begin at multiples.
     template <class Each>
     void forRuns(const LineFit::Samples &samples, Index begin, Index end, Each each)
     {
@@ -111,7 +111,7 @@ double LineFit::Piece::intervals() const
     return double(coefficients.size() / 2 - (order - 1));
 }
 
-/// Normal equations of the coefficients, real and imaginary parts in turn: a band of 2·order.
+/// Normal equations of the coefficients, with real and imaginary parts alternating: a band matrix of width 2·order.
 class LineFit::Equations
 {
 public:
@@ -119,7 +119,7 @@ public:
     {
     }
 
-    /// A sample that is Re{ a·factor }.
+    /// Adds a sample modelled as Re{ a·factor }.
     void add(const Basis &basis, Complex factor, double value)
     {
         std::array<double, width> row;
@@ -135,7 +135,7 @@ public:
         }
     }
 
-    /// What nothing is known of, a silent stretch for instance, is 0.
+    /// Undetermined coefficients, for instance in a silent stretch, are 0.
     std::vector<double> solution() const
     {
         constexpr double negligible = 1e-9;
@@ -159,7 +159,7 @@ public:
 
 private:
     static constexpr std::size_t width = 2 * order;
-    std::vector<std::array<double, width>> m_band; ///< of each unknown with itself and those after it
+    std::vector<std::array<double, width>> m_band; ///< each unknown with itself and the following ones
     Eigen::VectorXd m_right;
 };
 
@@ -172,7 +172,7 @@ LineFit::LineFit(const Samples &samples, LinePath path)
     const double window = m_path.windowSeconds;
     const Piece sure{
         sampleAt(m_path.fromSeconds + insideWindows * window), sampleAt(m_path.toSeconds - insideWindows * window), {}};
-    if (double(sure.end - sure.begin) < 2.0 * window * m_rate) { // too short to tell how it goes on
+    if (double(sure.end - sure.begin) < 2.0 * window * m_rate) { // too short to extrapolate
         const Piece all{sampleAt(m_path.fromSeconds - 0.5 * window), sampleAt(m_path.toSeconds + 0.5 * window), {}};
         add(fitted(samples, all));
         return;
@@ -187,7 +187,7 @@ LineFit::LineFit(const Samples &samples, LinePath path)
     add(fitted(samples, {line.end, last, {}}));
 }
 
-/// From where the line surely is outwards, step by step, for what is known of its phase does not reach far.
+/// Extends the line outward step by step, because its phase is only known over a short distance.
 Index LineFit::goOn(const Samples &samples, const Piece &sure, Index farthest)
 {
     const bool isBegin = farthest < sure.begin;
@@ -206,7 +206,7 @@ Index LineFit::goOn(const Samples &samples, const Piece &sure, Index farthest)
     return known;
 }
 
-/// Turns the path's curve as the amplitude turns, and beyond a piece that is at its beginning or end straight on.
+/// Corrects the path's curve by the amplitude's phase, and extends it straight beyond a piece at its beginning or end.
 void LineFit::follow(const Piece &piece, bool isBegin, bool isEnd)
 {
     const Axis &time = m_path.curve.time();
@@ -225,7 +225,7 @@ void LineFit::follow(const Piece &piece, bool isBegin, bool isEnd)
                              * std::conj(amplitudeAt(piece.coefficients, middle - 0.5, intervals));
         hz[std::size_t(knot)] += std::arg(turn) / (2.0 * std::numbers::pi) * perSample * m_rate;
     }
-    const auto slope = [&](Index first, Index last) { // Hz a knot
+    const auto slope = [&](Index first, Index last) { // Hz per knot
         return (hz[std::size_t(last)] - hz[std::size_t(first)]) / double(std::max<Index>(1, last - first));
     };
     const auto reach = Index(std::lround(slopeWindows * m_path.windowSeconds / time.step));
@@ -266,8 +266,8 @@ LineFit::Piece LineFit::fitted(const Samples &samples, Piece piece) const
     return piece;
 }
 
-/// How far out the line goes on, beyond an end of what is known of it, as it is there: where the energy that it
-/// explains, Σ 2·x·s - s², is largest.
+/// Extrapolates the line beyond an end of the known part and finds where the energy that it explains, Σ 2·x·s - s², is
+/// largest.
 Index LineFit::brink(const Samples &samples, const Piece &inner, bool isBegin, Index farthest) const
 {
     const double intervals = inner.intervals();
@@ -278,7 +278,7 @@ Index LineFit::brink(const Samples &samples, const Piece &inner, bool isBegin, I
     const Complex before = amplitudeAt(inner.coefficients, edge + inward, intervals);
     const double turns = std::arg(amplitude * std::conj(before)) / (2.0 * std::numbers::pi) * perSample;
     const Index known = isBegin ? inner.begin : inner.end;
-    std::vector<double> gains(std::size_t(std::abs(known - farthest)), 0.0); // from the known end outwards
+    std::vector<double> gains(std::size_t(std::abs(known - farthest)), 0.0); // from the known end outward
     forRuns(samples, std::min(known, farthest), std::max(known, farthest),
             [&](Index first, std::span<const float> values) {
                 const auto factors = phasors(m_path.curve, m_rate, first);

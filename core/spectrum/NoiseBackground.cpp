@@ -13,8 +13,7 @@ namespace {
 
     constexpr float silence = NoiseBackground::silence;
 
-    /// Between two blocks' ln powers. Between silence and noise there is nothing to interpolate: the noisy block speaks
-    /// for both.
+    /// Interpolates ln powers between two blocks. Between silence and noise the noisy block is used for both.
     FAINTLINE_MULTIVERSION
     void interpolateBlocks(const float *early, const float *late, float fraction, std::size_t cells, float *ln)
     {
@@ -35,9 +34,9 @@ namespace {
             values[i] += start + step * float(i);
     }
 
-    /// Adds levels of sub-bands of equal width, interpolated between their middles, constant beyond the outer ones.
-    /// Between middles that lie an abyss apart, such as a receiver's band and the emptiness beside it, it is different
-    /// noise, and changes half-way down.
+    /// Adds levels of sub-bands of equal width, interpolated between their middles and constant beyond the outer ones.
+    /// If adjacent levels differ extremely, as at the edge of a receiver's band, the noise is different on both sides,
+    /// and the level changes abruptly half-way.
     void addBetweenBands(std::span<float> ln, const std::vector<float> &levels)
     {
         constexpr float abyss = 4.6f; // 20 dB

@@ -10,11 +10,10 @@ namespace faintline {
 
 class Spectrogram;
 
-/// Frames whose noise has mean 1 in every cell: the only input a detector takes.
+/// Frames whose noise has mean 1 in every cell: the only input of a detector.
 ///
-/// A frame is one value y ≥ 0 per cell of `grid`, power over noise power, or NaN where nothing was observed. Frames are
-/// read by index, in any order, from any thread. A spectrogram cannot stand here before a normaliser has been through
-/// it.
+/// A frame holds one value y ≥ 0 per cell of `grid`, power over noise power, or NaN if not observed. Frames are read by
+/// index, in any order, from any thread. A spectrogram must be normalised first.
 class NormalisedFrames
 {
 public:
@@ -26,7 +25,7 @@ public:
     /// Writes frames first … first+count-1, count × grid().size() values, row by row.
     virtual void read(Index first, Index count, std::span<float> out) const = 0;
 
-    /// The spectrogram that the frames were made from; null for ready-made frames.
+    /// The spectrogram from which the frames were made; null for ready-made frames.
     virtual const Spectrogram *spectrogram() const { return nullptr; }
 
 protected:

@@ -23,20 +23,20 @@ namespace {
     constexpr double tableLowest = -8.0;
     constexpr double tableStep = 1.0 / 64.0;
     constexpr double tableHighest = 36.0;
-    constexpr double smallest = 1e-290; ///< probability that is still known to all its digits
+    constexpr double smallest = 1e-290; ///< smallest probability with full precision
 
     constexpr Index mostBlocks = 256;
     constexpr Index valuesPerBlock = Index(1) << 20;
     constexpr Index fewestFramesPerBlock = 16;
     constexpr Index mostCells = Index(1) << 20;
-    constexpr Index levelCells = 500; ///< that tell a frame's level
+    constexpr Index levelCells = 500; ///< cells from which a frame's level is estimated
 
     double gammaQuantile(double looks, double p)
     {
         return boost::math::gamma_p_inv(looks, p) / looks;
     }
 
-    /// Uniform in 0 … 1: the bits of a counter, well mixed (Steele and others 2014, splitmix64).
+    /// Uniform in 0 … 1: a hashed counter (Steele and others 2014, splitmix64).
     float uniformAt(std::uint64_t counter)
     {
         std::uint64_t z = counter * 0x9e3779b97f4a7c15u + 0x9e3779b97f4a7c15u;
@@ -52,7 +52,7 @@ namespace {
         return *at;
     }
 
-    /// What a median over time takes: what was not observed is no power there.
+    /// Replaces values that were not observed by 0, for medians over time.
     void withoutUnobserved(std::vector<float> &values)
     {
         for (float &value : values)
@@ -69,7 +69,7 @@ LooksLaw::LooksLaw(double looks, double median)
         const double root = std::max(0.0, double(m_centre) + z / double(m_spread));
         const double q = boost::math::gamma_q(looks, looks * root * root * root);
         if (!(q > smallest))
-            break; // beyond, the last step goes on
+            break; // extrapolated beyond this with the last step
         m_table.push_back(float(-std::log(q)));
     }
 }
@@ -99,7 +99,7 @@ LooksLaw LooksLaw::fromQuantiles(double low, double middle, double high)
 
 namespace {
 
-    /// B of a part, from blocks of frames evenly spread over it.
+    /// Estimates B of a part from blocks of frames evenly spread over it.
     NoiseBackground estimate(const Axis &time, const Axis &frequency, const NormaliserSettings &settings,
                              const RunContext &context, const std::function<std::vector<float>(Index frame)> &readFrame)
     {
@@ -157,11 +157,11 @@ NormalisedPower::NormalisedPower(std::shared_ptr<const PowerFrames> power, const
     if (part.cells > mostCells)
         throw Error(path,
                     "has " + std::to_string(part.cells)
-                        + " channels, more than can be looked at together; choose a band (--set selection.lowHz=..., "
+                        + " channels, more than can be analysed together; choose a band (--set selection.lowHz=..., "
                           "selection.highHz=...)");
     m_background = estimate(time(), frequency, settings, context, [this](Index frame) { return readPower(frame, 1); });
 
-    // The spread of what is left tells how many looks were averaged.
+    // The spread of the normalised values gives the number of averaged looks.
     constexpr Index framesLookedAt = 64;
     constexpr Index valuesOfFrame = 4096;
     const Index step = std::max<Index>(1, time().count / framesLookedAt);
@@ -201,13 +201,13 @@ std::vector<float> NormalisedPower::readPower(Index first, Index count) const
     return values;
 }
 
-/// p → p/B; NaN where there is no noise to compare with.
+/// p → p/B; NaN if the noise is unknown.
 void NormalisedPower::divide(Index frame, std::span<float> values, std::vector<float> &ln) const
 {
     ln.resize(values.size());
     m_background.readLnPower(time().value(double(frame)), ln);
     for (std::size_t cell = 0; cell < values.size(); ++cell) {
-        const float p = std::max(values[cell], 0.0f); // NaN stays
+        const float p = std::max(values[cell], 0.0f); // keeps NaN
         const bool isKnown = ln[cell] > 0.5f * NoiseBackground::silence && std::isfinite(p);
         values[cell] = isKnown ? p * std::exp(-ln[cell]) : std::numeric_limits<float>::quiet_NaN();
     }
@@ -244,7 +244,7 @@ PowerPart partOf(const PowerInfo &info, const SelectionSettings &selection)
         const Index first = std::max<Index>(0, Index(std::ceil(place(from))));
         const Index last = std::min<Index>(axis.count - 1, Index(std::floor(place(to))));
         if (last < first)
-            throw Error(name, "leaves nothing of " + info.path + ", which goes from " + formatNumber(axis.first)
+            throw Error(name, "selects nothing of " + info.path + ", which extends from " + formatNumber(axis.first)
                                   + " to " + formatNumber(axis.last()) + " " + axis.unit);
         return std::pair(first, last - first + 1);
     };

@@ -30,16 +30,15 @@ namespace {
         constexpr auto lowest = std::bit_cast<std::int32_t>(0.0316227766f); // -15 dB
         constexpr auto infinite = std::bit_cast<std::int32_t>(std::numeric_limits<float>::infinity());
         for (Index i = 0; i < n; ++i) {
-            // As whole numbers, positive floats have the same order; a comparison of floats keeps the compiler from
-            // vector code.
+            // Positive floats have the same order as integers; a comparison of floats would prevent vectorisation.
             const auto given = std::bit_cast<std::int32_t>(values[i]);
-            const std::int32_t bits = given > infinite ? lowest : std::max(given, lowest); // NaN: nothing to be seen
+            const std::int32_t bits = given > infinite ? lowest : std::max(given, lowest); // NaN: lowest
             const auto byte = std::int32_t(stepsPerNeper * fastLn(std::bit_cast<float>(bits)) + 30.5f);
             bytes[i] = std::uint8_t(std::min(byte, 255));
         }
     }
 
-    constexpr int endOfEven = 200; ///< of a score's bytes, the first that is not ¼ nat above the one before
+    constexpr int endOfEven = 200; ///< first byte of a score that is more than ¼ nat above the previous one
 
     /// Returns whether there are scores beyond the even part; their bytes are `endOfEven`.
     FAINTLINE_MULTIVERSION
@@ -48,7 +47,7 @@ namespace {
         std::int32_t most = 0;
         for (Index i = 0; i < n; ++i) {
             const float position = 4.0f * (values[i] + 4.0f) + 0.5f;
-            const float inside = position > 0.0f ? position : 0.0f; // NaN as well
+            const float inside = position > 0.0f ? position : 0.0f; // also for NaN
             const auto byte = std::int32_t(inside < float(endOfEven) ? inside : float(endOfEven));
             bytes[i] = std::uint8_t(byte);
             most = std::max(most, byte);
@@ -130,7 +129,7 @@ void ByteScale::encode(std::span<const float> values, std::span<std::uint8_t> by
             bytes[i] = byte(double(values[i]));
         return;
     }
-    // The even part of the scale covers nearly all cells; the rest goes the long way.
+    // The even part of the scale covers nearly all cells; the others are searched individually.
     if (!encodeEvenScores(values.data(), bytes.data(), std::ssize(values)))
         return;
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -175,7 +174,7 @@ void PeakPyramid::push(int level, std::span<const std::uint8_t> row)
         return;
     pending.count = 0;
     add(m_levels[l], pending.row);
-    const std::vector<std::uint8_t> whole = pending.row; // the vectors may move
+    const std::vector<std::uint8_t> whole = pending.row; // copied because the vectors may move
     push(level + 1, whole);
     if (level == 0 && bytes() > m_byteBudget)
         coarsen();
@@ -183,7 +182,7 @@ void PeakPyramid::push(int level, std::span<const std::uint8_t> row)
 
 void PeakPyramid::coarsen()
 {
-    // Level 1 becomes level 0; the rows of level 0 not yet in it are what its pending row holds.
+    // Level 1 becomes level 0; the rows of level 0 that are not yet in it are in its pending row.
     if (m_levels.size() < 2 || m_levels[1].rows == 0)
         return;
     m_baseFrames *= branching;
@@ -216,7 +215,7 @@ PeakPyramid PeakPyramid::soFar() const
     for (Level &level : copy.m_levels) {
         const Index shared = level.rows % m_chunkRows;
         if (shared == 0)
-            continue; // the next row goes to a chunk of its own
+            continue; // the next row goes to its own chunk
         const auto own = std::make_shared_for_overwrite<std::uint8_t[]>(std::size_t(m_chunkRows * m_cells));
         std::copy_n(level.chunks.back().get(), shared * m_cells, own.get());
         level.chunks.back() = own;

@@ -9,12 +9,12 @@
 
 namespace faintline {
 
-/// Values as one byte, for pictures only: no decision is ever taken on them.
+/// Values encoded as one byte, for pictures only; no decision is based on them.
 ///
-/// Power: -15 … +112 dB in steps of ½ dB. Score: -4 … 46 nat in steps of ¼ nat, above that in steps of 15 %, to 10⁵
-/// nat. Difference of scores: 0 … ±24 nat in steps of ¼ nat, above that in steps of 30 %, to ±8·10⁴ nat. Its bytes
-/// ascend by magnitude, the lowest bit being the sign, so that the maximum of bytes is the difference of largest
-/// magnitude (of two equal ones the positive one). Zero is byte 0; byte 1 stays unused.
+/// Power: -15 … +112 dB in steps of ½ dB. Score: -4 … 46 nat in steps of ¼ nat, above in steps of 15 %, to 10⁵ nat.
+/// Difference of scores: 0 … ±24 nat in steps of ¼ nat, above in steps of 30 %, to ±8·10⁴ nat; its bytes ascend by
+/// magnitude with the sign in the lowest bit, so that the maximum of bytes is the difference of largest magnitude (the
+/// positive one of two equal ones). Zero is byte 0; byte 1 is unused.
 class ByteScale
 {
 public:
@@ -23,11 +23,11 @@ public:
     explicit ByteScale(Kind kind = Kind::PowerDb);
 
     Kind kind() const { return m_kind; }
-    /// The value a byte stands for: dB or nat.
+    /// The value of a byte, in dB or nat.
     double value(int byte) const { return double(m_values[std::size_t(byte)]); }
     /// The nearest byte of a value in dB or nat.
     std::uint8_t byte(double value) const;
-    /// All bytes in the order of their values.
+    /// All bytes, sorted by value.
     std::vector<int> ascending() const;
     /// Encodes power ratios (PowerDb) or scores (ScoreNats, DifferenceNats).
     void encode(std::span<const float> values, std::span<std::uint8_t> bytes) const;
@@ -37,29 +37,29 @@ private:
     std::vector<float> m_values;
 };
 
-/// A recording-long picture that keeps its maxima: a line one bin wide survives zooming out.
+/// A picture of a whole recording that keeps its maxima: a line one bin wide survives zooming out.
 ///
-/// Level 0 has one row per `framesPerRow` frames, each further level one per four rows of the level below; a row is the
-/// maximum, cell by cell, of what it stands for. 1.33 bytes a cell. When the byte budget would be exceeded, rows of
-/// level 0 are merged by four, so memory stays bounded however long the recording.
+/// Level 0 has one row per `framesPerRow` frames, each further level one row per four of the level below; a row is the
+/// maximum, cell by cell, of the frames it covers. 1.33 bytes per cell. When the byte budget would be exceeded, rows of
+/// level 0 are merged by four, so memory stays bounded for any length.
 class PeakPyramid
 {
 public:
     PeakPyramid(Axis time, Index cells, ByteScale scale, std::size_t byteBudget = std::size_t(160) << 20);
 
-    /// Takes the next frames, in order: whole rows of `cells` values.
+    /// Appends the next frames, in order: whole rows of `cells` values.
     void append(std::span<const float> frames);
-    /// The same, one frame that is bytes of the scale already.
+    /// Appends one frame that is already encoded as bytes of the scale.
     void appendBytes(std::span<const std::uint8_t> frame);
 
-    /// Closes the last, incomplete rows. Nothing may be appended afterwards.
+    /// Completes the last rows. Nothing may be appended afterwards.
     void finish();
 
-    /// What there is so far, finished, while this one goes on: shares all but the newest rows with it, so it costs
-    /// little. What is still to come are rows that it does not have.
+    /// A finished copy of the picture so far, while this one continues. It shares all rows but the newest, so it is
+    /// cheap; rows that are added later are not part of it.
     PeakPyramid soFar() const;
 
-    const Axis &time() const { return m_time; } ///< of frames
+    const Axis &time() const { return m_time; } ///< of the frames
     Index cells() const { return m_cells; }
     const ByteScale &scale() const { return m_scale; }
     Index frameCount() const { return m_frameCount; }
@@ -69,7 +69,7 @@ public:
     Index rowCount(int level) const { return m_levels[std::size_t(level)].rows; }
     std::span<const std::uint8_t> row(int level, Index row) const;
 
-    /// Coarsest level whose rows hold no more than `frames` frames each.
+    /// The coarsest level whose rows cover at most `frames` frames each.
     int levelFor(double frames) const;
 
 private:
@@ -77,7 +77,7 @@ private:
     void coarsen();
     Index bytes() const;
 
-    /// Rows in chunks that never move: what is there already may be shared, and read, while more are added.
+    /// Rows in chunks that never move, so that existing rows can be shared and read while more are added.
     struct Level {
         std::vector<std::shared_ptr<std::uint8_t[]>> chunks;
         Index rows = 0;

@@ -9,20 +9,20 @@
 
 namespace faintline {
 
-/// What is known of a file of power without reading its values.
+/// Properties of a power file that are known without reading its values.
 struct PowerInfo {
     std::string path;
     std::string container;  ///< "sigproc filterbank" …
     std::string sampleType; ///< "uint8", "float32" …
-    Axis time;              ///< s from the first frame
+    Axis time;              ///< s since the first frame
     Axis frequency;         ///< Hz, ascending
     int channelCount = 1;   ///< polarisations
-    double quantum = 0.0; ///< step from one value to the next where there are only a few of them (1, 2, 4 bits), else 0
+    double quantum = 0.0;   ///< step between values if there are only a few (1, 2, 4 bits), else 0
     std::optional<double> startUnixSeconds;
-    std::vector<std::string> notes; ///< what was repaired or assumed while opening, one sentence each
+    std::vector<std::string> notes; ///< repairs and assumptions made on opening, one sentence each
 };
 
-/// A part of it: some cells of some frames of one channel.
+/// A part of a file: some cells of some frames of one channel.
 struct PowerPart {
     int channel = 0;
     Index firstFrame = 0;
@@ -31,9 +31,9 @@ struct PowerPart {
     Index cells = 0;
 };
 
-/// Power over time and frequency that a file holds already, as a spectrometer or a correlator wrote it: in a unit of
-/// its own, with the receiver's passband on it, the mean of any number of looks. No detector takes it before
-/// NormalisedPower has been through it.
+/// Power over time and frequency stored in a file, as written by a spectrometer or a correlator: in its own unit,
+/// including the receiver's passband, averaged over any number of looks. Detectors need it normalised
+/// (NormalisedPower).
 ///
 /// Random access; files may be larger than memory. Thread-safe.
 class PowerFrames
@@ -43,8 +43,8 @@ public:
 
     const PowerInfo &info() const { return m_info; }
 
-    /// Writes frames × cells of a part that lies within the file, row by row; NaN where nothing was observed. Throws
-    /// Error where the file fails under it.
+    /// Writes frames × cells of a part that lies within the file, row by row; NaN if not observed. Throws Error if
+    /// reading the file fails.
     virtual void read(const PowerPart &part, std::span<float> out) const = 0;
 
 protected:

@@ -13,7 +13,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr float halfPower = std::numbers::sqrt2_v<float> / 2.0f; ///< deviation of each part of the complex noise
+    constexpr float halfPower = std::numbers::sqrt2_v<float> / 2.0f; ///< deviation of each part of the noise
 
     FAINTLINE_MULTIVERSION
     void addPowers(const float *noise, Index cells, float *power)
@@ -22,7 +22,7 @@ namespace {
             power[i] += noise[2 * i] * noise[2 * i] + noise[2 * i + 1] * noise[2 * i + 1];
     }
 
-    /// Range half-width of the window around a cell: shorter at the axis's ends, so that the cell stays in its middle.
+    /// Range half width of the window around a cell, shorter at the axis's ends so that the cell stays in its middle.
     Index windowAt(Index range, Index rangeCells)
     {
         constexpr Index widest = 16;
@@ -54,7 +54,7 @@ void SimulatedPings::readPing(Index ping, std::span<float> y) const
     std::vector<float> noise(2 * y.size());
     std::fill(y.begin(), y.end(), 0.0f);
     Random random(std::uint64_t(m_scene.seed), std::uint64_t(ping));
-    // Echoes interfere with the noise look by look: their cells' noise is kept.
+    // Echoes interfere with the noise look by look, so the noise of their cells is stored.
     std::vector<float> kept;
     std::vector<Index> occupied;
     for (const TruthTarget &target : m_truth.targets)
@@ -87,8 +87,8 @@ void SimulatedPings::readPing(Index ping, std::span<float> y) const
 void SimulatedPings::addEchoes(Index ping, std::span<const float> noise, std::span<float> power) const
 {
     struct Sum {
-        double constant = 0.0;    ///< powers that add to the cell's
-        double fluctuating = 0.0; ///< powers that raise the noise's
+        double constant = 0.0;    ///< powers added to the cell's
+        double fluctuating = 0.0; ///< powers that scale the noise's
         double amplitude = 0.0;
     };
     std::map<Index, Sum> sums;
@@ -113,7 +113,7 @@ void SimulatedPings::addEchoes(Index ping, std::span<const float> noise, std::sp
     std::size_t number = 0;
     for (const auto &[cell, sum] : sums) {
         const double background = double(m_background[std::size_t(cell / m_scene.beams)]);
-        // The noise's phase is uniform and fresh in every look, so the echo's own phase need not be drawn.
+        // The noise's phase is uniform and independent in each look, so the echo's phase need not be drawn.
         double total = 0.0;
         for (int look = 0; look < m_scene.looks; ++look) {
             const std::size_t at = 2 * (std::size_t(look) * sums.size() + number);
@@ -133,7 +133,7 @@ void SimulatedPings::divideByEstimate(std::span<float> power) const
     constexpr Index guardBeams = 1;
     const Index ranges = m_scene.rangeCells;
     const Index beams = m_scene.beams;
-    std::vector<double> rows(std::size_t(ranges) + 1, 0.0); // Σ over beams and over the ranges before
+    std::vector<double> rows(std::size_t(ranges) + 1, 0.0); // Σ over beams and over the preceding ranges
     for (Index range = 0; range < ranges; ++range) {
         double sum = 0.0;
         for (Index beam = 0; beam < beams; ++beam)

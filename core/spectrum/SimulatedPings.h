@@ -6,19 +6,19 @@
 
 namespace faintline {
 
-/// A scene of sonar pings as normalised frames: a pure function of (scene, ping), computed where it is read.
+/// A scene of sonar pings as normalised frames: a pure function of (scene, ping), computed when read.
 ///
 ///   y(r, b) = [ (1/M) Σ_l |√m(r) n_l + echo|² + … ] / m̂(r, b)
 ///
-/// n_l: complex white noise, E|n|² = 1, one look of M; m(r): power of noise and reverberation, the noise's being 1; the
-/// echo as the target's kind says. m̂ is m where that is known. Estimated, it is the mean of the same ping's cells at
-/// ±16 ranges in all beams, the cell's own neighbourhood of ±2 × ±1 left out (at the ends of the range axis the window
-/// shrinks to keep its middle, to ±4 at the least), times NM/(NM - 1), so that y has mean exactly 1 on a level
-/// background of N cells. Cost: 2M normals a cell. Memory: two frames. Thread-safe.
+/// n_l: complex white noise, E|n|² = 1, for each of M looks; m(r): power of noise and reverberation, that of the noise
+/// being 1; the echo depends on the target's kind. m̂ is m if known. If estimated, it is the mean of the same ping's
+/// cells at ±16 ranges in all beams without the cell's own neighbourhood of ±2 × ±1 (at the ends of the range axis the
+/// window shrinks symmetrically, to at least ±4), times NM/(NM - 1), so that y has mean exactly 1 on a level background
+/// of N cells. Cost: 2M normals per cell. Memory: two frames. Thread-safe.
 class SimulatedPings final : public NormalisedFrames
 {
 public:
-    /// Throws Error where checkScene does.
+    /// Throws Error as checkScene does.
     explicit SimulatedPings(const PingScene &scene);
 
     void read(Index first, Index count, std::span<float> out) const override;

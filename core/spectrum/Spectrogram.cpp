@@ -13,7 +13,7 @@ namespace faintline {
 
 namespace {
 
-    /// Read at a time: little enough to be in the cache when they are transformed.
+    /// Samples per read, few enough to be in the cache when they are transformed.
     constexpr Index runSamples = 1 << 17;
 
     FAINTLINE_MULTIVERSION
@@ -35,7 +35,7 @@ namespace {
     FAINTLINE_MULTIVERSION
     void squaredMagnitude(const float *bins, std::size_t n, float *out)
     {
-        // Samples too loud for a float's square give ∞ or no number at all: the largest float stands for both.
+        // Samples whose square overflows a float give ∞ or NaN; both are replaced by the largest float.
         constexpr float largest = std::numeric_limits<float>::max();
         for (std::size_t i = 0; i < n; ++i) {
             const float power = bins[2 * i] * bins[2 * i] + bins[2 * i + 1] * bins[2 * i + 1];
@@ -48,7 +48,7 @@ namespace {
         return formatNumber(value) + " s";
     }
 
-    /// A channel that is chosen is alone …
+    /// Selecting a channel deselects the others …
     Field<SelectionSettings> alone(Field<SelectionSettings> field)
     {
         field.set = [inner = field.set](SelectionSettings &selection, const FieldValue &value) {
@@ -58,7 +58,7 @@ namespace {
         return field;
     }
 
-    /// … and of several the first is the channel of all that takes one.
+    /// … and the first of several becomes the channel for everything that uses one.
     Field<SelectionSettings> together(Field<SelectionSettings> field)
     {
         field.wordForAll = "all";
@@ -166,8 +166,7 @@ double Spectrogram::automaticWindowSeconds(const RecordingInfo &info)
     const double decade = std::pow(10.0, std::floor(std::log10(wanted)));
     const double mantissa = wanted / decade;
     double chosen = decade * (mantissa < 1.5 ? 1.0 : mantissa < 3.5 ? 2.0 : mantissa < 7.5 ? 5.0 : 10.0);
-    // At least 16 samples, so that there is a spectrum at all; never more than a quarter of the recording, nor than
-    // memory bears.
+    // At least 16 samples, so that a spectrum exists; at most a quarter of the recording, and limited by memory.
     constexpr double fewest = 16.0;
     constexpr double most = 4e6;
     chosen = std::clamp(chosen, fewest / info.sampleRateHz, most / info.sampleRateHz);
@@ -176,7 +175,7 @@ double Spectrogram::automaticWindowSeconds(const RecordingInfo &info)
 
 Spectrogram::Steps Spectrogram::stepsOf(const SpectrogramSettings &settings, const RecordingInfo &info)
 {
-    constexpr double most = 1e8; // longer windows are refused where they are made
+    constexpr double most = 1e8; // longer windows are rejected where they are created
     const double wanted =
         (settings.windowSeconds > 0.0 ? settings.windowSeconds : automaticWindowSeconds(info)) * info.sampleRateHz;
     const int samples = int(std::llround(std::clamp(wanted * settings.binsPerCell, 2.0 * settings.binsPerCell, most)
@@ -273,7 +272,7 @@ void Spectrogram::selectBand()
 
 void Spectrogram::read(Index first, Index count, std::span<float> out, const RunContext &context) const
 {
-    // Samples of a run of frames are read once; a run is bounded so that memory does not grow with the request.
+    // The samples of a run of frames are read once; runs are bounded so that memory does not grow with the request.
     const auto bins = std::size_t(m_frequency.count);
     const Index share = (count + context.threads - 1) / context.threads;
     const Index framesPerRun = std::clamp<Index>(runSamples / m_hopSamples, 1, std::max<Index>(share, 1));

@@ -12,9 +12,9 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index shortestSilence = 64; ///< samples that are 0 by chance less often than once in a recording
+    constexpr Index shortestSilence = 64; ///< samples that are 0 by chance less often than once per recording
 
-    /// Of samples scaled to ±1: what one digit of an integer format stands for; 0 for others.
+    /// Quantisation step of an integer format, for samples scaled to ±1; 0 for other formats.
     double quantisationStep(const std::string &sampleType)
     {
         const bool isInteger = sampleType.find('i') != std::string::npos || sampleType.find('u') != std::string::npos;
@@ -54,7 +54,7 @@ void SurrogateRecording::read(int /*channel*/, Index first, Index count, std::sp
     });
 }
 
-/// A block of white noise, complex; half blocks have a random stream of their own, for each belongs to two blocks.
+/// A block of complex white noise; each half block has its own random stream, because it belongs to two blocks.
 void SurrogateRecording::fillWhite(Index block, std::span<std::complex<float>> samples) const
 {
     const Index hop = m_filter.length() / 2;
@@ -71,7 +71,7 @@ void SurrogateRecording::fillWhite(Index block, std::span<std::complex<float>> s
     }
 }
 
-/// √B at a time, over the block's length, of every bin of its transform.
+/// √B at a time, averaged over the block, for each bin of its transform.
 std::vector<float> SurrogateRecording::gainsAt(double seconds) const
 {
     const Axis &frequency = m_background->frequency;
@@ -93,7 +93,7 @@ std::vector<float> SurrogateRecording::gainsAt(double seconds) const
     return gains;
 }
 
-/// Adds a block's share to the samples from `first` on.
+/// Adds a block's contribution to the samples from `first` on.
 void SurrogateRecording::addBlock(Index block, Index first, std::span<float> out) const
 {
     const Index begin = m_filter.beginOf(block);
@@ -113,7 +113,7 @@ void SurrogateRecording::addBlock(Index block, Index first, std::span<float> out
     }
 }
 
-/// 0 where the recording holds nothing but zeros for longer than chance has it.
+/// Sets samples to 0 where the recording has a run of zeros longer than chance would produce.
 void SurrogateRecording::silence(Index first, std::span<float> out) const
 {
     const auto floats = std::size_t(m_info.floatsPerSample());
@@ -122,7 +122,7 @@ void SurrogateRecording::silence(Index first, std::span<float> out) const
     const Index total = count + 2 * shortestSilence;
     std::vector<float> original(std::size_t(total) * floats);
     m_base->read(m_baseChannel, begin, total, original);
-    Index run = 0; // of zeros, up to and with this sample
+    Index run = 0; // number of consecutive zeros, including this sample
     const auto isZero = [&](Index n) {
         const auto at = std::size_t(n) * floats;
         return original[at] == 0.0f && original[at + floats - 1] == 0.0f;

@@ -11,14 +11,14 @@
 
 namespace faintline {
 
-/// Noise like that of a recording and no signal: white noise shaped by the recording's estimated background,
+/// Noise that resembles a recording's, without signals: white noise shaped by the recording's estimated background,
 ///
 ///   s(n) = Σ_b w_b(n)·F⁻¹{ √B(t_b, f)·F{ w_b x } }(n),   Σ_b w_b(n)² = 1
 ///
-/// with blocks b as long as the spectrogram's window (BlockFilter), and x white noise of unit variance. It has
-/// the recording's length, rate, channel type and quantisation step; where the recording is digitally silent, so is
-/// this. Oracle: its own estimated background is the recording's. Thread-safe; samples are a pure function of
-/// (recording, background, seed, index).
+/// with blocks b as long as the spectrogram's window (BlockFilter) and x white noise of unit variance. It has the
+/// recording's length, rate, channel type and quantisation step, and is digitally silent where the recording is.
+/// Oracle: its own estimated background is the recording's. Thread-safe; samples are a pure function of (recording,
+/// background, seed, index).
 class SurrogateRecording final : public Recording
 {
 public:
@@ -39,7 +39,7 @@ private:
     std::shared_ptr<const NoiseBackground> m_background;
     std::uint64_t m_seed;
     BlockFilter m_filter;
-    double m_step = 0.0; ///< of quantisation; 0: none
+    double m_step = 0.0; ///< quantisation step; 0: none
 };
 
 } // namespace faintline

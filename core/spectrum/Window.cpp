@@ -54,10 +54,10 @@ namespace {
 
     struct Leakage {
         double halfWidthCells;
-        double mainLobeDb; ///< -Δ² of this many dB bounds the main lobe: its curvature at the peak
+        double mainLobeDb; ///< -Δ² times this many dB bounds the main lobe: its curvature at the peak
         double highestSideLobeDb;
         double tailDb;          ///< side lobes stay below this line at the half width …
-        double fallDbPerOctave; ///< … that falls so steeply
+        double fallDbPerOctave; ///< … which falls with this slope
     };
 
     // From the windows' transforms, sin(πΔ)/π · Σₖ (-1)ᵏ (aₖ/a₀) Δ/(Δ² - k²), rounded up.

@@ -21,7 +21,7 @@ namespace {
             frame[cell] *= std::exp(-ln[cell]);
     }
 
-    /// A stretch of time that may come to be told apart into sources.
+    /// A stretch of time to be decomposed into sources.
     class StretchFit
     {
     public:
@@ -32,7 +32,7 @@ namespace {
         {
         }
 
-        /// Divides the frames by what lies below all sources; false in silence.
+        /// Divides the frames by the level below all sources; returns false in silence.
         bool begin()
         {
             const float strongest = *std::max_element(m_frames.begin(), m_frames.end());
@@ -55,7 +55,7 @@ namespace {
             return true;
         }
 
-        /// False where there are none.
+        /// Returns false if there are none.
         bool findSources()
         {
             constexpr Index cellsForThree = 144;
@@ -65,7 +65,7 @@ namespace {
             return sources > 0;
         }
 
-        /// Whether sources tell what the background does not, and all but chance.
+        /// Whether sources explain more than the background, leaving only chance.
         bool isBetter(double likeness)
         {
             constexpr double better = 1.1;
@@ -74,14 +74,14 @@ namespace {
             m_rest = blockBackground(m_frames, m_cells, m_half);
             for (Index frame = 0; frame < m_stretchFrames.count; ++frame)
                 divide(frameOf(m_frames, frame), m_rest.lnPower);
-            // Signals change with time, too, and are no sources of noise: nothing but chance may be left.
+            // Signals also change with time but are not sources of noise, so that nothing but chance may remain.
             const Unevenness after = unevenness(m_frames, m_asTheyAre, m_each);
             const bool isLess = m_before.variance() > better * after.variance()
                                 || m_before.varianceOfMeans() > better * after.varianceOfMeans();
             return isLess && !(after.variance() > explained * Unevenness::ofNoise(likeness));
         }
 
-        /// Replaces the levels of the stretch by those over its noise.
+        /// Replaces the levels of the stretch by levels relative to its noise.
         NoiseStretch finish(double likeness, std::vector<float> &levels)
         {
             for (std::size_t cell = 0; cell < m_stretch.lnPower.size(); ++cell)
@@ -115,7 +115,7 @@ namespace {
             return std::span(all).subspan(std::size_t(frame * m_cells), std::size_t(m_cells));
         }
 
-        /// Of frames that are divided by lnPower already.
+        /// Applies to frames that are already divided by lnPower.
         void divideByNoise(Index shift)
         {
             const Index sources = m_stretch.sources.count();

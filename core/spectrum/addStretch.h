@@ -7,7 +7,7 @@
 
 namespace faintline {
 
-/// Frames of a stretch of time, as the detector sees them: windows from `first` on, `shift` hops later each.
+/// Frames of a stretch of time, as the detector sees them: windows from `first` on, each shifted by `shift` hops.
 struct StretchFrames {
     Index first;
     Index count;
@@ -26,7 +26,7 @@ struct StretchFrames {
     }
 };
 
-/// Where a stretch's noise is a sum of sources, adds them to the background and replaces its levels by those over them.
+/// If a stretch's noise is a sum of sources, adds them to the background and replaces its levels by levels over them.
 void addStretch(NoiseBackground &background, const StretchFrames &stretchFrames, Index half, double likeness,
                 std::vector<float> &levels);
 

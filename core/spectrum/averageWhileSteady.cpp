@@ -14,10 +14,9 @@ namespace faintline {
 
 namespace {
 
-    constexpr double leastNoiseRatio = 1.3; // the noise's shape itself differs from its running median by as much
+    constexpr double leastNoiseRatio = 1.3; // deviation of the noise's own shape from its running median
 
-    /// How much higher a whole row of ln powers lies than another: the median difference, of 500 cells if there are
-    /// more; 0 where it may be chance.
+    /// Median difference of two rows of ln powers, from at most 500 cells; 0 if it may be due to chance.
     float levelBetween(const float *upper, const float *lower, Index cells, double framesUsed)
     {
         std::vector<float> differences;
@@ -35,20 +34,20 @@ namespace {
         float *count;
     };
 
-    /// sum ← sum + e^(values - level - about) where `counts`, which is counted.
+    /// sum ← sum + e^(values - level - about) where `counts`, which are added up.
     FAINTLINE_MULTIVERSION
     void addRatios(const float *values, float level, const float *about, std::span<const float> counts, Means to)
     {
         for (std::size_t cell = 0; cell < counts.size(); ++cell) {
             const float ratio = fastExp(values[cell] - level - about[cell]);
-            to.sum[cell] += counts[cell] > 0.0f ? ratio : 0.0f; // it may be no number where it does not count
+            to.sum[cell] += counts[cell] > 0.0f ? ratio : 0.0f; // it may be NaN where it does not count
             to.count[cell] += counts[cell];
         }
     }
 
     constexpr Index reach = 6; ///< blocks on either side
 
-    /// What all blocks' averages share.
+    /// Shared by all blocks' averages.
     class SteadyAverage
     {
     public:
@@ -70,7 +69,7 @@ namespace {
 
         Index blocks() const { return m_blocks; }
 
-        /// The background of one block, averaged with those on either side of it.
+        /// The background of one block, averaged with its neighbours.
         std::vector<float> backgroundOf(Index block)
         {
             const float *own = m_rows.data() + block * m_cells;
@@ -103,7 +102,7 @@ namespace {
             std::vector<float> background = runningMedian(column, m_half);
             refine(column, background, m_half,
                    std::max(leastNoiseRatio, mostNoiseRatio(m_framesUsed * blocksAveraged)));
-            const float least = *std::min_element(own, own + m_cells); // the floor of rounding
+            const float least = *std::min_element(own, own + m_cells); // floor of rounding errors
             for (float &value : background)
                 value = std::max(value, least);
             return background;
@@ -139,7 +138,7 @@ void averageWhileSteady(std::vector<float> &columns, const std::vector<float> &r
                         double framesUsed)
 {
     SteadyAverage average(columns, rows, cells, half, framesUsed);
-    std::deque<std::vector<float>> finished; // the last blocks, whose own medians are still asked for
+    std::deque<std::vector<float>> finished; // the last blocks, whose own medians are still needed
     for (Index block = 0; block < average.blocks(); ++block) {
         finished.push_back(average.backgroundOf(block));
         if (std::ssize(finished) > reach) {

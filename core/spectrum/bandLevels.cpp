@@ -26,15 +26,14 @@ namespace {
         return column == bands ? cells : (column + 1) * cells / bands;
     }
 
-    /// ln of the mean of which a mean of so many cells is an estimate: what the logarithm of one that scatters falls
-    /// short by is added.
+    /// ln of the true mean estimated by a mean of `cells` cells, corrected for the bias of the logarithm.
     float lnMean(float mean, std::ptrdiff_t cells, double likeness)
     {
         const double scatter = meanScatter(double(cells), likeness);
         return std::log(mean) + float(0.5 * scatter * scatter);
     }
 
-    /// Gives silence the level of what was before it, or of what comes first.
+    /// Replaces silence by the preceding level, or by the first known one.
     void bridgeSilence(std::vector<float> &series)
     {
         const auto first =
@@ -44,7 +43,7 @@ namespace {
             level = value = value < levelNotKnown ? value : level;
     }
 
-    /// The levels of one frame after the other over a block's background.
+    /// Computes levels over a block's background, frame by frame.
     class FrameLevels
     {
     public:
@@ -56,12 +55,12 @@ namespace {
                 m_inverse[cell] = block.lnPower[cell] > silence ? std::exp(-block.lnPower[cell]) : 0.0f;
         }
 
-        /// Of each sub-band, and last of the whole band.
+        /// Levels of each sub-band, and last of the whole band.
         void read(std::span<const float> frame, std::span<float> levels)
         {
             levelsOfBands(frame, levels);
             const bool isFirm = 2 * std::ssize(m_telling) >= m_bands || m_known.size() == m_telling.size();
-            if (!isFirm) // a few sub-bands are not the whole
+            if (!isFirm) // a few sub-bands do not represent the whole band
                 m_telling = m_known;
             std::vector<float> told;
             for (const Index band : m_telling)
@@ -78,7 +77,7 @@ namespace {
         }
 
     private:
-        /// Levels of the sub-bands, those that are known, and those that tell of the whole band.
+        /// Levels of the sub-bands, the known ones, and those that represent the whole band.
         void levelsOfBands(std::span<const float> frame, std::span<float> levels)
         {
             constexpr std::ptrdiff_t fewestCells = 24;
@@ -110,7 +109,7 @@ namespace {
                     m_sample.push_back(frame[c] * m_inverse[c]);
         }
 
-        /// Two cannot outvote one another: then all count.
+        /// Median; two values have no majority, so all count.
         static float middleOf(std::vector<float> &levels)
         {
             if (levels.size() > 2)
@@ -122,7 +121,7 @@ namespace {
         Index m_bands;
         Index m_cells;
         double m_likeness;
-        float m_agreeing; ///< largest distance of a sub-band's level from the middle one
+        float m_agreeing; ///< maximum distance of a sub-band's level from the median one
         std::vector<float> m_inverse;
         std::vector<float> m_sample;
         std::vector<Index> m_telling;
@@ -227,7 +226,7 @@ std::vector<double> meanOver(const float *upper, const float *lower, std::vector
     for (std::size_t column = 0; column < result.size(); ++column)
         result[column] = counts[column] > 0.0 ? result[column] / counts[column] : 0.0;
     for (std::size_t column = 0; column < result.size(); ++column)
-        if (counts[column] == 0.0) // its level is the common one
+        if (counts[column] == 0.0) // uses the common level
             result[column] = result.back();
     return result;
 }
@@ -238,7 +237,7 @@ void moveToBackground(std::vector<float> &levels, const BlockRows &rows, const N
     const Index columns = background.bandCount + 1;
     const Index cells = background.frequency.count;
     const Index last = background.time.count - 1;
-    std::array<std::vector<double>, 3> over; // the block before, its own, the next
+    std::array<std::vector<double>, 3> over; // the previous block, its own, the next
     Index known = -1;
     for (Index i = 0; i < background.levelTime.count; ++i) {
         const Index block = blockOfLevel[std::size_t(i)];

@@ -45,7 +45,7 @@ std::vector<bool> refine(const std::vector<float> &values, std::vector<float> &m
 BlockBackground blockBackground(const std::vector<float> &frames, Index cells, Index half)
 {
     const Index frameCount = std::ssize(frames) / cells;
-    std::vector<float> loud; // the frames that are no digital silence
+    std::vector<float> loud; // frames without digital silence
     double strongest = 0.0;
     for (Index frame = 0; frame < frameCount; ++frame) {
         const auto row = frames.begin() + frame * cells;

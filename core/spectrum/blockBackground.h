@@ -6,32 +6,33 @@
 
 namespace faintline {
 
-// What one block of frames says about its noise.
+// Noise estimate from one block of frames.
 
-/// Rounding of the single-precision transform, relative to the frame's strongest bin: nothing below it is noise.
+/// Rounding error of the single-precision transform, relative to the frame's strongest bin; values below it are not
+/// noise.
 inline constexpr double roundingFloor = 1e-13;
 
-/// What cells of noise, medians of this number of frames, never exceed in relation to their neighbours: five standard
-/// errors.
+/// Upper bound on the ratio of noise cells (medians of `frames` frames) to their neighbours: five standard errors.
 double mostNoiseRatio(double frames);
 
-/// Mean of ratio e^(value-median) over the cells within ±half that are not lines; answers which are not.
+/// Replaces medians by the mean of ratio e^(value-median) over the cells within ±half that are not lines; returns which
+/// cells are noise.
 std::vector<bool> refine(const std::vector<float> &values, std::vector<float> &medians, Index half, double mostRatio);
 
-/// What one block of frames says about its cells.
+/// Noise estimate of one block, cell by cell.
 struct BlockBackground {
     std::vector<float> medians; ///< ln of each cell's mean, from its median over time
     std::vector<float> lnPower; ///< ln mean noise power
-    std::vector<bool> isNoise;  ///< false where a line lies all through the block, and where there is but rounding
+    std::vector<bool> isNoise;  ///< false if a line persists throughout the block, and if there is only rounding error
     std::vector<bool> isFirm;   ///< noise well above rounding
 };
 
-/// The background under one block of frames (frames × cells).
+/// The background of one block of frames (frames × cells).
 BlockBackground blockBackground(const std::vector<float> &frames, Index cells, Index half);
 
-/// Brings frames (frames × cells) that are plainly louder or softer than most to one level, so that medians over time
-/// tell the noise's colour independent of its level; answers by how much each was changed, ln. The level is the median
-/// cell's over the medians over time, of 500 cells if there are more. Digital silence is left alone.
+/// Scales frames (frames × cells) that are clearly louder or softer than most to one level, so that medians over time
+/// give the noise colour independent of its level; returns the change of each frame, ln. The level is that of the
+/// median cell relative to the medians over time, from at most 500 cells. Digital silence is not changed.
 std::vector<float> flatten(std::vector<float> &frames, Index cells);
 
 } // namespace faintline

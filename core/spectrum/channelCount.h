@@ -4,7 +4,7 @@
 
 namespace faintline {
 
-/// How many channels' evidence is added. Throws Error where that depends on the recording.
+/// Number of channels whose evidence is added. Throws Error if it depends on the recording.
 int channelCount(const SelectionSettings &selection);
 
 } // namespace faintline

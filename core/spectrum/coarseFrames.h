@@ -5,8 +5,8 @@
 
 namespace faintline {
 
-/// What a background is estimated from: the spectrogram's windows, `stepsPerWindow` of them a window's length, with one
-/// bin per resolution cell and the neighbourhood of a narrow band, which has no noise of its own to speak of.
+/// Frames from which a background is estimated: the spectrogram's windows, `stepsPerWindow` per window length, with one
+/// bin per resolution cell. A narrow band, which has too little noise of its own, includes its neighbourhood.
 Spectrogram coarseFrames(const Spectrogram &spectrogram, const NormaliserSettings &settings, int stepsPerWindow);
 
 } // namespace faintline

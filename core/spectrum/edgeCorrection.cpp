@@ -14,18 +14,18 @@ namespace {
 
     constexpr Index framesRead = 1024;
     constexpr Index mostValues = Index(1) << 24;
-    constexpr float steep = 1.2f; ///< of ln B, from one cell to the next
+    constexpr float steep = 1.2f; ///< change of ln B between cells
     constexpr Index reach = 6;    ///< cells on either side of a steep place
     constexpr float mostNoise = 0.5f;
 
-    /// How often each cell's background falls or rises steeply to the next.
+    /// Counts how often each cell's background changes steeply to the next cell.
     void countSteep(std::span<const float> ln, std::vector<Index> &counts)
     {
         for (std::size_t cell = 0; cell + 1 < ln.size(); ++cell)
             counts[cell] += std::abs(ln[cell + 1] - ln[cell]) > steep ? 1 : 0;
     }
 
-    /// Cells within reach of one that is steep in half of the frames.
+    /// Cells near one that is steep in half of the frames.
     std::vector<bool> nearEdges(const std::vector<Index> &counts, Index frames)
     {
         const Index cells = std::ssize(counts);
@@ -46,7 +46,7 @@ std::vector<float> edgeCorrection(const Spectrogram &spectrogram, const NoiseBac
     const Index stride = spectrogram.time().count / framesRead;
     if (stride < spectrogram.settings().stepsPerWindow || bins * framesRead > mostValues)
         return {};
-    std::vector<Index> observed; // the frames that are neither in a gap nor digital silence
+    std::vector<Index> observed; // frames outside gaps and digital silence
     std::vector<Index> counts(std::size_t(cells), 0);
     std::vector<float> ln(static_cast<std::size_t>(cells));
     for (Index frame = 0; frame < spectrogram.time().count; frame += stride) {

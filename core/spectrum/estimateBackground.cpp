@@ -17,16 +17,15 @@ namespace faintline {
 
 namespace {
 
-    constexpr int framesPerBlock = 512;              // longer blocks are looked at here and there
-    constexpr Index valuesPerBlock = Index(1) << 22; // so are those of many cells
+    constexpr int framesPerBlock = 512;              // longer blocks are subsampled
+    constexpr Index valuesPerBlock = Index(1) << 22; // as are blocks of many cells
     constexpr Index fewestFramesPerBlock = 64;
     constexpr int sketchFrames = 64;
     constexpr Index largestBlockCount = 1024;
-    /// Nine hours at 48 kHz; beyond that blocks are longer.
+    /// Nine hours at 48 kHz; beyond that, blocks are longer.
     constexpr Index largestValueCount = memoryShares::background / sizeof(float);
 
-    /// The frames between two windows that the detector looks at besides, up to three: spectra of windows that begin a
-    /// hop later each.
+    /// The detector's frames between two windows, up to three: spectra of windows that each begin a hop later.
     std::vector<Spectrogram> betweenWindows(const Spectrogram &detector, const Spectrogram &windows)
     {
         constexpr Index most = 4;
@@ -43,7 +42,7 @@ namespace {
         return result;
     }
 
-    /// The frames that a background is estimated from, in blocks.
+    /// Frames for estimating a background, in blocks.
     struct BlockedFrames {
         const Spectrogram &frames;
         const std::vector<Spectrogram> &shifted;
@@ -56,7 +55,7 @@ namespace {
         }
     };
 
-    /// Where blocks change their colour, a dozen at a time: noise that is a sum of sources.
+    /// Decomposes stretches of a dozen blocks whose colour changes into sources.
     void addStretches(NoiseBackground &background, const BlockedFrames &blocked, const std::vector<Unevenness> &changes,
                       Index half, double likeness, std::vector<float> &levels)
     {
@@ -81,120 +80,194 @@ namespace {
         }
     }
 
+    /// One estimate, block by block.
+    class Estimate
+    {
+    public:
+        Estimate(const Spectrogram &spectrogram, const NormaliserSettings &settings, BackgroundDepth depth)
+            : m_spectrogram(spectrogram), m_settings(settings), m_isSketch(depth == BackgroundDepth::Sketch),
+              m_frames(coarseFrames(spectrogram, settings, 1)),
+              m_window(sampleWindow(m_frames.settings().window, m_frames.windowSamples())),
+              m_likeness(cellLikeness(m_window)), m_cells(m_frames.frequency().count),
+              m_background(std::make_shared<NoiseBackground>())
+        {
+            layOutBlocks();
+            layOutLevels();
+        }
+
+        std::shared_ptr<const NoiseBackground> run(const RunContext &context)
+        {
+            for (Index block = 0; block < m_blockCount; ++block) {
+                context.checkpoint(double(block) / double(m_blockCount), "noise background");
+                addBlock(block);
+            }
+            finish();
+            return m_background;
+        }
+
+    private:
+        bool hasLevels() const { return m_background->bandCount > 0; }
+        Index columns() const { return m_background->bandCount + 1; }
+        BlockedFrames blocked() const { return {m_frames, m_shifted, m_steps, m_blockFrames}; }
+
+        void layOutBlocks()
+        {
+            const Index frameCount = m_frames.time().count;
+            const Index perFrame = std::max<Index>(1, m_cells);
+            const Index mostBlocks = std::clamp<Index>(largestValueCount / perFrame, 1, largestBlockCount);
+            const Index framesWanted =
+                std::max(Index(std::llround(m_settings.blockWindows)), (frameCount + mostBlocks - 1) / mostBlocks);
+            m_blockCount = m_isSketch ? 1 : std::max<Index>(1, frameCount / framesWanted);
+            m_blockFrames = double(frameCount) / double(m_blockCount);
+            const Axis &time = m_frames.time();
+            m_background->time = {
+                "time",       "s",  time.first + 0.5 * (m_blockFrames - 1.0) * time.step, m_blockFrames * time.step,
+                m_blockCount, false};
+            m_background->frequency = m_frames.frequency();
+            m_background->lnUnit = 2.0 * std::numbers::ln2 * m_frames.scaleExponent();
+            // Selected frames lie on one even raster over all blocks; every frame is used if there are not too many.
+            m_mostUsed =
+                double(m_isSketch ? sketchFrames
+                                  : std::clamp<Index>(valuesPerBlock / perFrame, fewestFramesPerBlock, framesPerBlock));
+            m_stride = Index(std::ceil(m_blockFrames / m_mostUsed));
+            m_rows.lnPower.reserve(std::size_t(m_blockCount * m_cells));
+            m_background->lnPower.reserve(std::size_t(m_blockCount * m_cells));
+        }
+
+        /// Levels are computed for the detector's own, overlapping frames, because a sudden change between windows could
+        /// only be guessed.
+        void layOutLevels()
+        {
+            m_background->bandCount =
+                m_settings.followLevel && !m_isSketch ? NoiseBackground::subBandCount(double(m_cells)) : 0;
+            if (m_stride == 1 && hasLevels())
+                m_shifted = betweenWindows(m_spectrogram, m_frames);
+            m_steps = std::ssize(m_shifted) + 1;
+            const Axis &time = m_frames.time();
+            m_background->levelTime = {"time",
+                                       "s",
+                                       time.first,
+                                       double(m_stride) * time.step / double(m_steps),
+                                       (time.count + m_stride - 1) / m_stride * m_steps,
+                                       false};
+            m_levels.resize(hasLevels() ? std::size_t(m_background->levelTime.count * columns()) : 0, levelNotKnown);
+            m_blockOfLevel.resize(std::size_t(m_background->levelTime.count), m_blockCount - 1);
+        }
+
+        void addBlock(Index block)
+        {
+            const Index first = blocked().blockBegin(block);
+            const Index end = blocked().blockBegin(block + 1);
+            const Index firstUsed = (first + m_stride - 1) / m_stride * m_stride;
+            const Index used = (end - firstUsed + m_stride - 1) / m_stride;
+            m_block.resize(std::size_t(used * m_cells));
+            for (Index i = 0; i < (m_stride > 1 ? used : 1); ++i) {
+                const Index together = m_stride > 1 ? 1 : used;
+                m_frames.read(firstUsed + i * m_stride, together,
+                              std::span(m_block).subspan(std::size_t(i * m_cells), std::size_t(together * m_cells)));
+            }
+            const std::vector<float> taken =
+                hasLevels() ? flatten(m_block, m_cells) : std::vector<float>(std::size_t(used), 0.0f);
+            const BlockBackground own = blockBackground(m_block, m_cells, m_settings.halfWidthCells);
+            std::vector<float> &medians = m_background->lnPower;
+            medians.insert(medians.end(), own.medians.begin(), own.medians.end());
+            m_rows.lnPower.insert(m_rows.lnPower.end(), own.lnPower.begin(), own.lnPower.end());
+            m_rows.isNoise.insert(m_rows.isNoise.end(), own.isNoise.begin(), own.isNoise.end());
+            if (!hasLevels())
+                return;
+            const Index row = firstUsed / m_stride;
+            std::fill_n(m_blockOfLevel.begin() + row * m_steps, used * m_steps, block);
+            addLevels(own, row, taken);
+            addLevelsBetween(own, first, used);
+        }
+
+        /// Of the block's frames; `taken`: what each was flattened by.
+        void addLevels(const BlockBackground &own, Index row, const std::vector<float> &taken)
+        {
+            const std::vector<float> measured = levelsOf(m_block, own, m_background->bandCount, m_likeness);
+            m_offsets.emplace_back(measured, columns());
+            if (m_stride == 1)
+                m_changes.push_back(changesOf(m_block, own, measured, m_background->bandCount));
+            for (Index i = 0; i < std::ssize(taken); ++i)
+                putLevels(measured, i, (row + i) * m_steps, taken[std::size_t(i)]);
+        }
+
+        /// Of the detector's frames between the block's.
+        void addLevelsBetween(const BlockBackground &own, Index first, Index used)
+        {
+            for (Index shift = 1; shift < m_steps; ++shift) {
+                const Spectrogram &other = m_shifted[std::size_t(shift - 1)];
+                const Index there = std::min(used, other.time().count - first);
+                if (there <= 0)
+                    continue;
+                const auto values = std::span(m_block).first(std::size_t(there * m_cells));
+                other.read(first, there, values);
+                const std::vector<float> measured = levelsOf(values, own, m_background->bandCount, m_likeness);
+                for (Index i = 0; i < there; ++i)
+                    putLevels(measured, i, (first + i) * m_steps + shift, 0.0f);
+            }
+        }
+
+        void putLevels(const std::vector<float> &measured, Index row, Index place, float more)
+        {
+            for (Index column = 0; column < columns(); ++column)
+                if (const float level = measured[std::size_t(row * columns() + column)]; level < levelNotKnown)
+                    m_levels[std::size_t(place * columns() + column)] = level + more;
+        }
+
+        void finish()
+        {
+            averageWhileSteady(m_background->lnPower, m_rows.lnPower, m_cells, m_settings.halfWidthCells,
+                               std::min(m_mostUsed, m_blockFrames));
+            if (hasLevels()) {
+                removeOffsets(m_levels, m_offsets, m_blockOfLevel);
+                moveToBackground(m_levels, m_rows, *m_background, m_blockOfLevel);
+            }
+            const double overlap = overlapFactor(m_window, int(m_steps));
+            m_background->lnLevel = finishLevels(m_levels, *m_background, overlap, m_likeness);
+            if (hasLevels() && m_stride == 1) {
+                addStretches(*m_background, blocked(), m_changes, m_settings.halfWidthCells, m_likeness, m_levels);
+                if (!m_background->stretches.empty())
+                    m_background->lnLevel = finishLevels(m_levels, *m_background, overlap, m_likeness);
+            }
+            if (!m_isSketch) {
+                m_background->bins = m_spectrogram.frequency();
+                m_background->lnAtEdges = edgeCorrection(m_spectrogram, *m_background);
+            }
+        }
+
+        const Spectrogram &m_spectrogram;
+        const NormaliserSettings &m_settings;
+        bool m_isSketch;
+        Spectrogram m_frames; ///< of windows side by side
+        std::vector<float> m_window;
+        double m_likeness;
+        Index m_cells;
+        std::shared_ptr<NoiseBackground> m_background;
+
+        Index m_blockCount = 1;
+        double m_blockFrames = 1.0;
+        double m_mostUsed = 1.0;
+        Index m_stride = 1; ///< between frames that are used
+
+        std::vector<Spectrogram> m_shifted; ///< the detector's frames between those
+        Index m_steps = 1;
+        std::vector<float> m_levels;
+        std::vector<Index> m_blockOfLevel;
+
+        std::vector<float> m_block; ///< frames of the present one
+        BlockRows m_rows;
+        std::vector<Unevenness> m_changes; ///< of each block
+        std::vector<LevelOffsets> m_offsets;
+    };
+
 } // namespace
 
 std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spectrogram,
                                                           const NormaliserSettings &settings, const RunContext &context,
                                                           BackgroundDepth depth)
 {
-    const bool isSketch = depth == BackgroundDepth::Sketch;
-    const Spectrogram frames = coarseFrames(spectrogram, settings, 1);
-    const std::vector<float> window = sampleWindow(frames.settings().window, frames.windowSamples());
-    const double likeness = cellLikeness(window);
-
-    const Index frameCount = frames.time().count;
-    const Index cells = frames.frequency().count;
-    const Index mostBlocks = std::clamp<Index>(largestValueCount / std::max<Index>(1, cells), 1, largestBlockCount);
-    const Index framesWanted =
-        std::max(Index(std::llround(settings.blockWindows)), (frameCount + mostBlocks - 1) / mostBlocks);
-    const Index blockCount = isSketch ? 1 : std::max<Index>(1, frameCount / framesWanted);
-    const double blockFrames = double(frameCount) / double(blockCount);
-
-    auto background = std::make_shared<NoiseBackground>();
-    const double step = blockFrames * frames.time().step;
-    background->time = {"time", "s",        frames.time().first + 0.5 * (blockFrames - 1.0) * frames.time().step,
-                        step,   blockCount, false};
-    background->frequency = frames.frequency();
-    background->lnUnit = 2.0 * std::numbers::ln2 * frames.scaleExponent();
-
-    // Frames looked at lie on one even raster over all blocks, every frame where there are not too many of them.
-    const auto mostUsed = double(
-        isSketch ? sketchFrames
-                 : std::clamp<Index>(valuesPerBlock / std::max<Index>(1, cells), fewestFramesPerBlock, framesPerBlock));
-    const Index stride = Index(std::ceil(blockFrames / mostUsed));
-    background->bandCount = settings.followLevel && !isSketch ? NoiseBackground::subBandCount(double(cells)) : 0;
-    // Levels are those of the detector's own frames, which overlap: in between a sudden change would have to be
-    // guessed.
-    const std::vector<Spectrogram> shifted =
-        stride == 1 && background->bandCount > 0 ? betweenWindows(spectrogram, frames) : std::vector<Spectrogram>{};
-    const Index steps = std::ssize(shifted) + 1;
-    background->levelTime = {"time",
-                             "s",
-                             frames.time().first,
-                             double(stride) * frames.time().step / double(steps),
-                             (frameCount + stride - 1) / stride * steps,
-                             false};
-    const Index columns = background->bandCount + 1;
-    std::vector<float> levels(background->bandCount > 0 ? std::size_t(background->levelTime.count * columns) : 0,
-                              levelNotKnown);
-    std::vector<Index> blockOfLevel(std::size_t(background->levelTime.count), blockCount - 1);
-    BlockRows rows;
-    rows.lnPower.reserve(std::size_t(blockCount * cells));
-    background->lnPower.reserve(std::size_t(blockCount * cells));
-    std::vector<Unevenness> changes; // of each block
-    std::vector<LevelOffsets> offsets;
-    std::vector<float> block;
-    for (Index b = 0; b < blockCount; ++b) {
-        context.checkpoint(double(b) / double(blockCount), "noise background");
-        const auto first = Index(std::floor(double(b) * blockFrames));
-        const auto end = std::min(frameCount, Index(std::floor(double(b + 1) * blockFrames)));
-        const Index firstUsed = (first + stride - 1) / stride * stride;
-        const Index used = (end - firstUsed + stride - 1) / stride;
-        block.resize(std::size_t(used * cells));
-        for (Index i = 0; i < (stride > 1 ? used : 1); ++i)
-            frames.read(firstUsed + i * stride, stride > 1 ? 1 : used,
-                        std::span(block).subspan(std::size_t(i * cells), std::size_t((stride > 1 ? 1 : used) * cells)));
-        const std::vector<float> taken =
-            background->bandCount > 0 ? flatten(block, cells) : std::vector<float>(std::size_t(used), 0.0f);
-        const BlockBackground own = blockBackground(block, cells, settings.halfWidthCells);
-        background->lnPower.insert(background->lnPower.end(), own.medians.begin(), own.medians.end());
-        rows.lnPower.insert(rows.lnPower.end(), own.lnPower.begin(), own.lnPower.end());
-        rows.isNoise.insert(rows.isNoise.end(), own.isNoise.begin(), own.isNoise.end());
-        if (background->bandCount == 0)
-            continue;
-        const std::vector<float> measured = levelsOf(block, own, background->bandCount, likeness);
-        offsets.emplace_back(measured, columns);
-        if (stride == 1)
-            changes.push_back(changesOf(block, own, measured, background->bandCount));
-        const auto put = [&](const std::vector<float> &source, Index row, Index place, float more) {
-            for (Index column = 0; column < columns; ++column)
-                if (const float level = source[std::size_t(row * columns + column)]; level < levelNotKnown)
-                    levels[std::size_t(place * columns + column)] = level + more;
-        };
-        std::fill_n(blockOfLevel.begin() + firstUsed / stride * steps, used * steps, b);
-        for (Index i = 0; i < used; ++i)
-            put(measured, i, (firstUsed / stride + i) * steps, taken[std::size_t(i)]);
-        for (Index shift = 1; shift < steps; ++shift) {
-            const Spectrogram &other = shifted[std::size_t(shift - 1)];
-            const Index there = std::min(used, other.time().count - first);
-            if (there <= 0)
-                continue;
-            const auto values = std::span(block).first(std::size_t(there * cells));
-            other.read(first, there, values);
-            const std::vector<float> more = levelsOf(values, own, background->bandCount, likeness);
-            for (Index i = 0; i < there; ++i)
-                put(more, i, (first + i) * steps + shift, 0.0f);
-        }
-    }
-    averageWhileSteady(background->lnPower, rows.lnPower, cells, settings.halfWidthCells,
-                       std::min(mostUsed, blockFrames));
-    if (background->bandCount > 0) {
-        removeOffsets(levels, offsets, blockOfLevel);
-        moveToBackground(levels, rows, *background, blockOfLevel);
-    }
-    const double overlap = overlapFactor(window, int(steps));
-    background->lnLevel = finishLevels(levels, *background, overlap, likeness);
-    if (background->bandCount > 0 && stride == 1) {
-        addStretches(*background, {frames, shifted, steps, blockFrames}, changes, settings.halfWidthCells, likeness,
-                     levels);
-        if (!background->stretches.empty())
-            background->lnLevel = finishLevels(levels, *background, overlap, likeness);
-    }
-    if (!isSketch) {
-        background->bins = spectrogram.frequency();
-        background->lnAtEdges = edgeCorrection(spectrogram, *background);
-    }
-    return background;
+    return Estimate(spectrogram, settings, depth).run(context);
 }
 
 } // namespace faintline

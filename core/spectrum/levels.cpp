@@ -8,11 +8,11 @@ namespace faintline {
 
 namespace {
 
-    constexpr double likeness = 1.5; // so many neighbouring cells tell as much as one
+    constexpr double likeness = 1.5; // neighbouring cells that count as one
 
     constexpr int scales = 7;
 
-    /// An index beyond a series' ends, reflected into it.
+    /// Reflects an index beyond the ends of a series into it.
     std::ptrdiff_t reflected(std::ptrdiff_t i, std::ptrdiff_t n)
     {
         if (n == 1)
@@ -33,8 +33,8 @@ namespace {
         return result;
     }
 
-    /// Standard deviation of a scale's details of white noise of deviation 1: the root of the energy of the details of
-    /// a single 1.
+    /// Standard deviation of a scale's details for white noise of deviation 1: the root of the energy of the details of
+    /// a unit impulse.
     const std::array<double, scales> &detailDeviations()
     {
         static const std::array<double, scales> deviations = [] {
@@ -54,7 +54,7 @@ namespace {
         return deviations;
     }
 
-    /// Sums of squares up to each value.
+    /// Cumulative sums of squares.
     std::vector<double> energyUpTo(const std::vector<double> &x)
     {
         std::vector<double> sums(x.size() + 1, 0.0);
@@ -115,8 +115,8 @@ float truncatedMean(std::span<const float> cells, float guess)
 
 std::vector<float> beyondScatter(const std::vector<float> &series, double scatter)
 {
-    // Neighbours on either side, in steps of the scale, and the E/σ² that white noise hardly ever reaches with so many
-    // of them: the few see what is short, the many see what is faint.
+    // Neighbours on either side, in steps of the scale, and the E/σ² that white noise hardly ever reaches with that
+    // many: few neighbours detect short changes, many detect faint ones.
     struct Neighbourhood {
         std::ptrdiff_t half;
         double chance;
@@ -153,7 +153,7 @@ std::vector<float> beyondScatter(const std::vector<float> &series, double scatte
 
 float latestBeyondScatter(std::span<const float> series, double scatter)
 {
-    // As in beyondScatter, with all neighbours on one side; what is short is seen by the newest detail itself.
+    // As in beyondScatter, with all neighbours on one side; short changes are detected by the newest detail itself.
     struct Neighbourhood {
         std::ptrdiff_t before;
         double chance;
@@ -165,7 +165,7 @@ float latestBeyondScatter(std::span<const float> series, double scatter)
     double kept = 0.0;
     for (int scale = 0; scale < scales && (std::ptrdiff_t(2) << scale) <= n; ++scale) {
         const std::ptrdiff_t lag = std::ptrdiff_t(1) << scale;
-        const std::ptrdiff_t first = 2 * lag - 1; // value whose mean lies in the series
+        const std::ptrdiff_t first = 2 * lag - 1; // first value whose mean lies in the series
         for (std::ptrdiff_t i = n - 1; i >= first; --i) {
             const auto at = std::size_t(i);
             detail[at] = 0.5 * (rest[at] - rest[std::size_t(i - lag)]);

@@ -11,10 +11,10 @@ namespace faintline {
 
 namespace {
 
-    constexpr std::size_t lanes = 32; ///< columns at a time, in a few registers
+    constexpr std::size_t lanes = 32; ///< columns processed at a time, in a few registers
 
-    /// The value of a rank in every one of `lanes` columns, found bit by bit: floats that are not negative are ordered
-    /// as their bits are.
+    /// The value of a rank in each of `lanes` columns, found bit by bit: the bits of non-negative floats have the order
+    /// of the floats.
     template <int bytes>
     [[gnu::always_inline]] inline void rankedBy(const float *columns, std::size_t rows, std::int32_t rank, float *out)
     {
@@ -51,7 +51,7 @@ void columnMedians(std::span<const float> frames, std::span<float> out)
     const std::size_t cells = out.size();
     const std::size_t rows = frames.size() / cells;
     const auto rank = std::int32_t((rows - 1) / 2);
-    // In a copy that lies together: rows whose distance is a power of two would push one another out of the cache.
+    // A contiguous copy, because rows at a power-of-two distance would evict one another from the cache.
     std::vector<float> columns(rows * lanes, 0.0f);
     std::array<float, lanes> medians;
     for (std::size_t cell = 0; cell < cells; cell += lanes) {
@@ -75,7 +75,7 @@ std::vector<float> runningMedian(const std::vector<float> &sequence, Index half)
     };
     const float low = pivot(0);
     const float high = pivot(std::max<Index>(0, n - pivotCells));
-    const Index centre = (std::min(pivotCells, n) - 1) / 2; // of a slope the pivot's value is that of its middle
+    const Index centre = (std::min(pivotCells, n) - 1) / 2; // for a slope, the pivot's value is that of its middle
     const auto at = [&](Index i) {
         if (i < 0)
             return 2.0f * low - sequence[std::size_t(std::min(2 * centre - i, n - 1))];
@@ -83,7 +83,7 @@ std::vector<float> runningMedian(const std::vector<float> &sequence, Index half)
             return 2.0f * high - sequence[std::size_t(std::max<Index>(0, 2 * (n - 1 - centre) - i))];
         return sequence[std::size_t(i)];
     };
-    // A sorted window that one value enters and one leaves.
+    // A sorted window, with one value inserted and one removed per step.
     std::vector<float> window;
     for (Index i = -half; i <= half; ++i)
         window.push_back(at(i));

@@ -12,9 +12,9 @@ namespace faintline {
 
 namespace {
 
-    constexpr std::size_t lanes = 16; // sums in so many parts, in one order on every processor
-    constexpr float least = 1e-12f;   // of B, in relation to frames that are near 1
-    constexpr float cut = 6.0f;       // a line is no more than six times its noise
+    constexpr std::size_t lanes = 16; // number of partial sums, in the same order on each processor
+    constexpr float least = 1e-12f;   // lower limit of B, relative to frames near 1
+    constexpr float cut = 6.0f;       // limits a line to six times its noise
     constexpr int sweeps = 16;
     constexpr int levelUpdates = 12;
     constexpr Index profileCells = 24;
@@ -59,7 +59,7 @@ namespace {
         return std::accumulate(parts.begin(), parts.end(), 0.0);
     }
 
-    /// What one frame's updates need.
+    /// Scratch memory for one frame's updates.
     struct Scratch {
         std::vector<float> sum, pull, inverse;
 
@@ -85,7 +85,7 @@ namespace {
         }
     }
 
-    /// Every source with an equal part of what is there.
+    /// Equal contributions of all sources.
     std::vector<float> firstLevels(const NoiseSources &sources, std::span<const float> frame)
     {
         const auto count = std::size_t(sources.count());
@@ -101,7 +101,7 @@ namespace {
         return levels;
     }
 
-    /// ln of a frame's means over stretches of cells, less their median: its colour, roughly.
+    /// ln of a frame's means over ranges of cells, minus their median: a coarse colour.
     std::vector<float> profileOf(std::span<const float> frame)
     {
         const Index cells = std::ssize(frame);
@@ -128,8 +128,8 @@ namespace {
         return sum / double(a.size());
     }
 
-    /// Colours to begin with: of the frames that lie farthest from those taken already, a few of the oddest left aside,
-    /// each with those nearest to it.
+    /// Initial colours: those of frames farthest from the ones already chosen, without the few most extreme, each
+    /// averaged with its nearest frames.
     NoiseSources firstSources(std::span<const float> frames, Index cells, Index count)
     {
         constexpr double oddest = 0.03;
@@ -175,11 +175,10 @@ namespace {
         return result;
     }
 
-    /// Cells near which a colour falls or rises steeply: smoothing would move such an edge, and flatten what leaks over
-    /// it.
+    /// Cells near steep changes of a colour, where smoothing would move the edge and flatten the leakage.
     void markEdges(const std::vector<float> &ln, std::vector<char> &isEdge)
     {
-        constexpr float steep = 1.4f; // 6 dB from one neighbour to the other
+        constexpr float steep = 1.4f; // 6 dB between neighbours
         constexpr Index reach = 6;
         const Index cells = std::ssize(ln);
         for (Index cell = 1; cell + 1 < cells; ++cell)
@@ -233,7 +232,7 @@ std::vector<float> NoiseSources::levelsIn(std::span<const float> frame) const
 NoiseSources fitSources(std::span<const float> frames, Index cells, Index count, Index half)
 {
     const auto size = std::size_t(cells);
-    std::vector<float> loud; // the frames that are no digital silence
+    std::vector<float> loud; // frames without digital silence
     for (std::size_t first = 0; first < frames.size(); first += size)
         if (const auto row = frames.subspan(first, size);
             std::any_of(row.begin(), row.end(), [](float y) { return y > 0.0f; }))

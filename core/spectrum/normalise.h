@@ -9,8 +9,7 @@
 
 namespace faintline {
 
-/// A spectrogram over its noise, as the settings ask for it: NormalisedSpectrogram, or with `noise.causal`
-/// CausalSpectrogram.
+/// Normalises a spectrogram by its noise: NormalisedSpectrogram, or CausalSpectrogram with `noise.causal`.
 NormalisedFramesPointer normalise(std::shared_ptr<const Spectrogram> spectrogram, const NormaliserSettings &settings,
                                   const RunContext &context = {});
 

@@ -6,7 +6,7 @@ namespace faintline {
 
 namespace {
 
-    /// The time of the rows of the finest level, each in the middle of its frames.
+    /// Times of the rows of the finest level, each in the middle of its frames.
     Axis rowTime(const PeakPyramid &picture)
     {
         const auto frames = double(picture.framesPerRow(0));

@@ -7,11 +7,10 @@
 
 namespace faintline {
 
-/// A first look at a recording of any length: frames that lie evenly over all of it, in dB over a background from a few
-/// of them.
+/// A quick look at a recording of any length: frames spread evenly over it, in dB over a background from a few of them.
 ///
-/// At most 256 frames, fewer where the windows are long: some 2²⁵ samples are transformed, which takes a fraction of a
-/// second. Its time axis is that of the frames it holds. For the eye only: it tells nothing of what lies between them.
+/// At most 256 frames, fewer for long windows: some 2²⁵ samples are transformed, which takes a fraction of a second.
+/// Its time axis is that of the frames it holds. For display only: it shows nothing between these frames.
 std::shared_ptr<const PeakPyramid> quickLook(std::shared_ptr<const Spectrogram> spectrogram,
                                              const NormaliserSettings &settings, const RunContext &context = {});
 

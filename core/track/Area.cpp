@@ -32,7 +32,7 @@ namespace {
 std::vector<Area> joinAreas(std::vector<Area> areas)
 {
     std::vector<Area> joined;
-    std::vector<double> taken; // by what each of them was joined of
+    std::vector<double> taken; // size of the parts of each
     for (Area area : areas) {
         double size = sizeOf(area);
         for (std::size_t other = 0; other < joined.size();) {
@@ -45,7 +45,7 @@ std::vector<Area> joinAreas(std::vector<Area> areas)
             size = std::min(size + taken[other], sizeOf(both));
             joined.erase(joined.begin() + std::ptrdiff_t(other));
             taken.erase(taken.begin() + std::ptrdiff_t(other));
-            other = 0; // what has grown may touch others that it did not touch before
+            other = 0; // a grown area may touch others that it did not touch before
         }
         joined.push_back(area);
         taken.push_back(size);

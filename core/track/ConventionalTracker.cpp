@@ -108,8 +108,7 @@ void ConventionalTracker::drop(Index frame)
             candidate.track.detectFrame = candidate.track.confirmFrame = frame;
             candidate.track.isConfirmed = true;
         }
-        // Hits that will still be in the window however long one waits: a young candidate's all, an old one's all but
-        // the oldest.
+        // Hits that can still count towards the window: all of a young candidate's, all but the oldest of an old one's.
         const int frames = int(candidate.recent.size());
         const bool isHopeless = found + (m_settings.window - frames) < m_settings.hits;
         if (!isHopeless)

@@ -10,39 +10,39 @@
 
 namespace faintline {
 
-/// How the conventional detector decides.
+/// Decision rule of the conventional detector.
 struct ConventionalSettings {
     double hitThreshold = 9.2;  ///< y of a hit, × noise: 10⁻⁴ of noise cells (Parsons 2008, Table 2)
     int hits = 3;               ///< M pings with a hit …
     int window = 5;             ///< … among the latest N
-    double fastestCells = 20.0; ///< largest speed along the first axis, cells a frame
+    double fastestCells = 20.0; ///< maximum speed along the first axis, cells per frame
     double fastestAcross = 1.0; ///< along the other axes
 
     static const std::vector<Field<ConventionalSettings>> &fields();
     bool operator==(const ConventionalSettings &) const = default;
 };
 
-/// What track-before-detect is held against: each frame is thresholded by itself, then hits are put together.
+/// Reference for track-before-detect: each frame is thresholded separately, then hits are associated.
 ///
 ///   hit:   y(cell) > hitThreshold
 ///   gate:  |hit - last hit| ≤ speed · (frames since) along every axis
 ///   track: M hits within N frames
 ///
-/// The oldest track chooses first and takes the strongest hit of its gate, the lowest cell among equals; a hit that no
-/// gate took starts a track, which is reported once it has M hits in N frames and ends when it can have so many no
-/// more. It has a point for each hit; its statistic is the mean y of its M strongest hits. The gate grows with the
-/// largest speed, and false tracks with it: a price that a recursion over states does not pay. Source: Parsons 2008,
-/// sections 1 and 4 (the processing he compares with). Oracle: matrices by eye. Cost: one comparison a cell, and hits ×
-/// tracks. One object per thread.
+/// The oldest track chooses first and takes the strongest hit in its gate, the lowest cell among equals. A hit outside
+/// all gates starts a track, which is reported once it has M hits in N frames and ends when it can no longer reach M. A
+/// track has a point for each hit; its statistic is the mean y of its M strongest hits. The gate, and with it the
+/// number of false tracks, grows with the maximum speed, which is not so for a recursion over states. Source: Parsons
+/// 2008, sections 1 and 4 (the processing he compares with). Oracle: hand-made matrices. Cost: one comparison per cell,
+/// and hits × tracks. Use one object per thread.
 class ConventionalTracker
 {
 public:
     ConventionalTracker(const Grid &grid, const ConventionalSettings &settings);
 
-    /// Frames ascending, without gaps.
+    /// Frames must be ascending, without gaps.
     void update(Index frame, std::span<const float> y);
 
-    /// Reported tracks, ordered by detection, then id; those still open included.
+    /// Reported tracks, including open ones, ordered by detection, then id.
     std::vector<Track> tracks() const;
 
 private:

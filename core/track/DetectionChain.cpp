@@ -9,15 +9,15 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index checkpointFrames = 32; ///< from one to the next
+    constexpr Index checkpointFrames = 32; ///< frames between checkpoints
     constexpr int framesUntilDuplicate = 3;
-    constexpr double skirtLevel = 8.0; ///< y that noise seldom reaches
-    /// By so much more than to noise of its own level a constant leaks: where noise falls steeply from 0 Hz on, its
-    /// side lobes lie on less of it.
+    constexpr double skirtLevel = 8.0; ///< y that noise rarely exceeds
+    /// Factor by which a constant leaks more than a line: where noise falls steeply from 0 Hz on, its side lobes lie on
+    /// less noise.
     constexpr double excludedMargin = 10.0;
     constexpr Index largestSkirtSteps = 16;
 
-    /// Frames to remember: the newest one where nobody looks back.
+    /// Number of frames to record: only the newest one without traceback.
     std::size_t framesOf(const Grid &grid, const ChainSettings &settings)
     {
         const std::size_t most = memoryShares::pathRecord / (sizeof(float) * std::size_t(grid.size()));
@@ -34,8 +34,8 @@ namespace {
         return memoryShares::pathRecord / (sizeof(float) * states);
     }
 
-    /// A path usually comes to its signal over some frames of noise that happened to suit it. The signal begins where
-    /// the score begins to grow: the change point between no growth and half the path's own mean growth.
+    /// A path usually reaches its signal through some frames of favourable noise. The signal begins where the score
+    /// begins to grow: the change point between no growth and half the path's own mean growth.
     void trimOnset(std::vector<TrackPoint> &points)
     {
         const double tilt = 0.5 * points.back().statistic / double(points.size());
@@ -77,7 +77,8 @@ void DetectionChain::update(Index frame, std::span<const float> y, std::span<flo
         m_detector->update(y, statistic);
         return;
     }
-    // What the last frame's tracks took over is forgotten only now, so that between frames the scores are those shown.
+    // Cells that the last frame's tracks took over are forgotten only now, so that between frames the scores are those
+    // displayed.
     if (m_settings.resets)
         for (const CellBox &box : forgottenBoxes())
             m_detector->forget(m_grid, box);
@@ -129,8 +130,8 @@ void DetectionChain::remember(Index frame, Seen seen)
 
     if (m_checkpointLimit == 0 || frame % checkpointFrames != 0)
         return;
-    // Those before the frames that are remembered lead nowhere. The oldest one's memory is used again: fresh pages cost
-    // as much as what is written to them.
+    // Checkpoints before the recorded frames are useless. The oldest one's memory is reused, because new pages cost as
+    // much as writing to them.
     Checkpoint checkpoint;
     if (!m_checkpoints.empty()
         && (m_checkpoints.size() == m_checkpointLimit || m_checkpoints.front().frame < m_firstSeen)) {
@@ -153,8 +154,8 @@ std::span<const CellBox> DetectionChain::forgottenBoxes() const
 
 void DetectionChain::keepExcursions()
 {
-    // A whole excursion is forgotten with its track's start: in the frame after it, all of that is kept from the
-    // detector, be it wider than the box its track has by now.
+    // A whole excursion is forgotten when its track starts, and in the following frame all of it is inhibited, even if
+    // it is wider than the track's box by then.
     m_excursions = m_settings.trackThreshold && m_settings.forgetCells.empty() ? m_newBoxes.size() : 0;
     const auto begun = std::ptrdiff_t(m_excursions);
     m_boxes.erase(m_boxes.begin(), m_boxes.end() - begun);
@@ -190,11 +191,11 @@ void DetectionChain::updateTrackers(Index frame, std::span<const float> y)
     m_models.front().likelihood.apply(y, m_lambda);
     for (const std::vector<Index> &place : m_settings.excluded) {
         const CellBox box = boxRound(place, y, excludedMargin);
-        if (box.halfWidth.back() > m_settings.inhibitCells.back()) // there is a constant, with side lobes
+        if (box.halfWidth.back() > m_settings.inhibitCells.back()) // there is a constant with side lobes
             box.forEachCell(m_grid, [this](Index cell) { m_lambda[std::size_t(cell)] = nothingSeen(); });
     }
     std::vector<HmmTracker> going;
-    std::vector<std::vector<Index>> places; // as of the last frame: some trackers are about to move or end
+    std::vector<std::vector<Index>> places; // as of the last frame, because some trackers are about to move or end
     for (const HmmTracker &tracker : m_trackers)
         places.push_back(tracker.coordinates());
     places.insert(places.end(), m_settings.excluded.begin(), m_settings.excluded.end());
@@ -221,7 +222,8 @@ float DetectionChain::nothingSeen() const
 
 std::vector<std::pair<Index, float>> DetectionChain::maskNeighbours(const PlaceIndex &places, std::size_t own)
 {
-    // A tracker must not slip over to a stronger signal that another one follows: what lies nearer to the other is its.
+    // Prevents a tracker from moving over to a stronger signal that another one follows: cells nearer to the other
+    // tracker belong to it.
     const auto distance = [this](const std::vector<Index> &a, const std::vector<Index> &b) {
         Index largest = 0;
         for (std::size_t axis = 0; axis < a.size(); ++axis) {
@@ -248,15 +250,15 @@ std::vector<std::pair<Index, float>> DetectionChain::maskNeighbours(const PlaceI
             value = nothingSeen();
         });
     });
-    // Undone backward, a cell hidden twice gets its first value back.
+    // Undoing in reverse order restores the first value of a cell hidden twice.
     std::reverse(hidden.begin(), hidden.end());
     return hidden;
 }
 
 void DetectionChain::endDuplicates()
 {
-    // Two trackers on one signal: the younger one ends. It was a second report of the same, unless it had a longer life
-    // of its own.
+    // If two trackers follow one signal, the younger one ends. It was a second report of the same signal, unless it had
+    // existed separately for longer.
     if (m_trackers.size() < 2)
         return;
     std::vector<std::vector<Index>> places;
@@ -295,12 +297,13 @@ CellBox DetectionChain::boxRound(const std::vector<Index> &centre, std::span<con
 {
     CellBox box{centre, m_settings.inhibitCells};
     const Index middle = m_grid.cell(centre);
-    const double level = double(std::max(0.0f, y[std::size_t(middle)])); // 0 where nothing was observed
+    const double level = double(std::max(0.0f, y[std::size_t(middle)])); // 0 if not observed
     if (m_settings.leakageExtent)
         box.halfWidth.back() = std::max(box.halfWidth.back(), m_settings.leakageExtent(margin * level));
     if (m_settings.skirtStep <= 0 || level < skirtLevel)
         return box;
-    // Beyond the window's own side lobes a modulated line has skirts: its hill, down to where it stops falling.
+    // Beyond the window's own side lobes a modulated line has skirts: extend the box down the hill to where it stops
+    // falling.
     const Axis &axis = m_grid.axes.back();
     const Index position = centre.back();
     const auto hillOn = [&](Index direction) {
@@ -449,7 +452,7 @@ void DetectionChain::startTrack(Index frame, const Cluster &cluster, std::span<c
     m_trackers.emplace_back(*m_trackerModels[model], std::move(track),
                             HmmTracker::Seed{state, cluster.cells, m_detector->scores(model), offset});
 
-    // The box must hold the whole cluster, or its rim would start a second track in the next frame.
+    // The box must contain the whole cluster; otherwise its rim would start a second track in the next frame.
     CellBox box = boxRound(m_grid.coordinates(cluster.peakCell), y);
     for (std::size_t axis = 0; axis < m_settings.forgetCells.size(); ++axis)
         box.halfWidth[axis] = std::max(box.halfWidth[axis], m_settings.forgetCells[axis]);

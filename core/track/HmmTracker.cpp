@@ -49,7 +49,7 @@ HmmTracker::HmmTracker(TrackerModel &model, Track start, const Seed &seed)
     holdLevel();
     m_track.peakStatistic = m_statistic;
     if (!m_track.points.empty())
-        m_track.points.pop_back(); // the detection frame's point is traced with the rest
+        m_track.points.pop_back(); // the detection frame's point is traced again
 }
 
 HmmTracker HmmTracker::withoutPast(TrackerModel &model) const
@@ -70,7 +70,7 @@ HmmTracker HmmTracker::withoutPast(TrackerModel &model) const
 
 std::size_t HmmTracker::bytes() const
 {
-    constexpr std::size_t dequeBytes = 512 + 8 * sizeof(void *); // one node and the map of them
+    constexpr std::size_t dequeBytes = 512 + 8 * sizeof(void *); // one node and the map of nodes
     std::size_t total = sizeof *this + dequeBytes + m_track.points.capacity() * sizeof(TrackPoint)
                         + m_beside.capacity() * sizeof(Beside);
     for (const Slice &slice : m_history)
@@ -79,7 +79,7 @@ std::size_t HmmTracker::bytes() const
     return total;
 }
 
-/// The final fall's beginning: the change point between "holds" and "loses half the decay a frame", so far.
+/// Updates the beginning of the final fall: the change point between "holds" and "loses half the decay per frame".
 void HmmTracker::holdLevel()
 {
     const double tilt = 0.5 * m_model->settings.decayNats;
@@ -95,7 +95,7 @@ bool HmmTracker::update(Index frame, std::span<const float> lambda, double lnK)
 {
     TrackerModel &model = *m_model;
     const Slice &last = m_history.back();
-    // Old scores into the middle of the padded window.
+    // Copies old scores into the middle of the padded window.
     std::fill(model.scores.begin(), model.scores.end(), unreached);
     const Index windowCells = model.window.cellCount();
     const Index cells = model.padded.cellCount();
@@ -136,7 +136,7 @@ void HmmTracker::follow(Index frame, std::span<const float> lambda, double lnK)
     const Index local = best - model.scores.begin();
     const double before = m_statistic;
     const Slice &last = m_history.back();
-    if (*best == unreached) { // left the grid
+    if (*best == unreached) { // has left the grid
         m_level = minusInfinity;
         return;
     }

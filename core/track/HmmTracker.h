@@ -10,13 +10,13 @@
 
 namespace faintline {
 
-/// Follows one signal on a small window of the state space that moves with the most probable state.
+/// Follows one signal in a small window of the state space that moves with the most probable state.
 ///
-/// The same recursion as the detector's, without reset: u = λ + ln K + max_m [ln P(n|m) + u(m)]. Two scores are kept.
-/// The *statistic* is the path's own and goes on from the detector's. The *level* decides about the end: it follows the
-/// statistic, loses `decayNats` a frame, is held below threshold + `ceilingNats`, and the track ends when it falls
+/// The recursion is the detector's without reset: u = λ + ln K + max_m [ln P(n|m) + u(m)]. There are two scores. The
+/// *statistic* is the path's own and continues from the detector's. The *level* decides about the end: it follows the
+/// statistic, loses `decayNats` per frame, is limited to threshold + `ceilingNats`, and the track ends when it falls
 /// below threshold - `endNats`. The path is smoothed by tracing back from the best state `smoothingFrames` or more
-/// later. The end is put where the level's final fall began. Source: Parsons 2008 section 2.3 and Figure 1.
+/// later. The end is placed where the level's final fall began. Source: Parsons 2008 section 2.3 and Figure 1.
 class HmmTracker
 {
 public:
@@ -25,24 +25,24 @@ public:
         Index state;
         std::span<const Index> cells;  ///< ascending
         std::span<const float> scores; ///< of all states
-        double offset;                 ///< which is added to them
+        double offset;                 ///< to be added to the scores
     };
 
-    /// `start` has the path so far.
+    /// `start` holds the path so far.
     HmmTracker(TrackerModel &model, Track start, const Seed &seed);
 
-    // Trackers are moved as their vector grows, never copied: their history is large.
+    // Trackers are only moved, never copied, because their history is large.
     HmmTracker(HmmTracker &&) noexcept = default;
     HmmTracker &operator=(HmmTracker &&) noexcept = default;
 
-    /// One that follows the signal on as this one does, to the bit, but knows no path before the newest frame: of a
-    /// size that does not depend on its age.
+    /// A copy that continues bit for bit but has no path before the newest frame, so its size does not depend on its
+    /// age.
     HmmTracker withoutPast(TrackerModel &model) const;
 
-    /// What it takes of memory.
+    /// Memory used.
     std::size_t bytes() const;
 
-    /// Takes the log-likelihood ratios of a whole frame; false when the track has ended.
+    /// Takes the log-likelihood ratios of a whole frame; returns false when the track has ended.
     bool update(Index frame, std::span<const float> lambda, double lnK);
 
     Index cell() const { return m_model->space.cellOf(m_best); }
@@ -50,12 +50,12 @@ public:
     double statistic() const { return m_statistic; }
     double level() const { return m_level; }
     const Track &track() const { return m_track; }
-    Index age() const { return m_age; } ///< frames since detection, that one included
+    Index age() const { return m_age; } ///< frames since detection, inclusive
 
-    /// The track goes on to this frame at least, whatever comes: its end is put where its level's final fall begins.
+    /// Earliest possible end of the track: its end is placed where its level's final fall begins.
     Index earliestEnd() const { return m_track.detectFrame + m_fallFrame; }
 
-    /// A track that this one was beside in one frame after the other, up to now.
+    /// A track that was beside this one in consecutive frames, up to now.
     struct Beside {
         int track = 0;
         int frames = 0;
@@ -63,16 +63,16 @@ public:
     const std::vector<Beside> &beside() const { return m_beside; }
     void setBeside(std::vector<Beside> beside) { m_beside = std::move(beside); }
 
-    /// Raises `statistic` to this track's score in every cell of its window.
+    /// Raises `statistic` to this track's score in each cell of its window.
     void paint(std::span<float> statistic) const;
-    /// The same, state by state, to the scores of all states (StateSpace order).
+    /// Raises the scores of all states (StateSpace order) to this track's, state by state.
     void paintStates(std::span<float> scores) const;
 
-    /// Score of the best state in a cell, -∞ outside of the window; and that state.
+    /// Score of the best state in a cell, and that state; -∞ outside the window.
     double scoreAt(Index cell, Index *state = nullptr) const;
 
-    /// The states of the newest frame's window that can be reached, and where each came from in the frame before
-    /// (itself when seeded).
+    /// The reachable states of the newest frame's window, and the origin of each in the previous frame (itself when
+    /// seeded).
     struct Origin {
         Index state;
         Index before;
@@ -80,10 +80,10 @@ public:
     std::vector<Origin> origins() const;
 
     /// The terms of the path to a state in the newest frame, back to the state it was seeded from (first step, score
-    /// only). As far as the history goes: ask for a long smoothing lag first.
+    /// only), as far as the history goes: request a long smoothing lag first.
     std::vector<PathStep> explain(Index state) const;
 
-    /// Ends the track, its points traced and cut at the last evidence.
+    /// Ends the track, with its points traced and cut at the last evidence.
     Track finish(bool isOpen);
 
 private:
@@ -100,7 +100,7 @@ private:
     HmmTracker() = default;
     Slice cutOut(Index frame, const std::vector<Index> &centre, std::span<const float> lambda, double lnK) const;
     void follow(Index frame, std::span<const float> lambda, double lnK);
-    Index predecessorIn(const Slice &earlier, Index state, PathStep &step) const; ///< fills in ln P and the runner-up
+    Index predecessorIn(const Slice &earlier, Index state, PathStep &step) const; ///< sets ln P and the runner-up
     Index localOf(const Slice &slice, Index state) const;
     void commit(std::size_t count);
     void holdLevel();
@@ -109,8 +109,8 @@ private:
     Track m_track;
     std::deque<Slice> m_history;
     Index m_age = 0;
-    Index m_fallFrame = 0;    ///< frames from detection to where the level's fall began, if it is the last
-    double m_fallLevel = 0.0; ///< the tilted level there: the largest so far
+    Index m_fallFrame = 0;    ///< frames from detection to the start of the level's latest fall
+    double m_fallLevel = 0.0; ///< tilted level at that frame: the largest so far
     Index m_best = 0;         ///< global index of the most probable state
     std::vector<Beside> m_beside;
     double m_statistic = 0.0;

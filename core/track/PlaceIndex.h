@@ -8,8 +8,7 @@
 
 namespace faintline {
 
-/// Places on a grid, sorted by where they lie along its first axis: who is near is found without looking at all of
-/// them.
+/// Places on a grid, sorted along its first axis, so that near ones are found without testing all.
 class PlaceIndex
 {
 public:
@@ -24,8 +23,8 @@ public:
     std::size_t size() const { return m_places.size(); }
     const std::vector<Index> &operator[](std::size_t number) const { return m_places[number]; }
 
-    /// Calls visit(number), once each, for all places that lie within `reach` of this one along the first axis, the
-    /// short way round on a cyclic one; whether they do along the others is the caller's to see.
+    /// Calls visit(number) once for each place within `reach` of `place` along the first axis, the short way round on a
+    /// cyclic one; the caller tests the other axes.
     template <class Visit>
     void forEachNear(const std::vector<Index> &place, Index reach, Visit visit) const
     {

@@ -7,7 +7,7 @@
 
 namespace faintline {
 
-/// Where a followed signal was in one frame.
+/// Position of a followed signal in one frame.
 struct TrackPoint {
     Index frame = 0;
     Index cell = 0;         ///< flat index on the frames' grid
@@ -15,22 +15,22 @@ struct TrackPoint {
     double statistic = 0.0; ///< score of the path up to here, nat above background
 };
 
-/// What the look from both ends knows of a point (analysis/secondLook.h), along the last axis.
+/// Result of the two-sided second pass (analysis/secondLook.h) for one point, along the last axis.
 struct SmoothedPoint {
-    double position = 0.0; ///< in cells, below one
-    float low = 0.0f;      ///< 5 % of the posterior, cells
+    double position = 0.0; ///< in cells, with subcell precision
+    float low = 0.0f;      ///< 5 % quantile of the posterior, cells
     float high = 0.0f;     ///< 95 %
-    float presence = 0.0f; ///< probability that the signal is there
-    float level = 0.0f;    ///< its mean power over the noise's along the path
+    float presence = 0.0f; ///< probability that the signal is present
+    float level = 0.0f;    ///< mean signal power over the noise's along the path
 
-    /// Standard deviation of the position, in cells, by the 5-95 % band, which is 3.29 of them wide for a normal law;
-    /// at least a tenth of a cell, for the posterior knows nothing of what its model leaves out.
+    /// Standard deviation of the position in cells, from the 5-95 % band, whose width is 3.29 deviations for a normal
+    /// law; at least a tenth of a cell, because the posterior ignores the model's own errors.
     double deviation() const { return std::max(0.1, double(high - low) / 3.2897); }
 };
 
-/// One signal from its onset to its end, and the decision that started it.
+/// One signal from onset to end, and the decision that started it.
 struct Track {
-    int id = 0;                 ///< counted from 1, in order of detection, then of cell
+    int id = 0;                 ///< numbered from 1, in order of detection, then of cell
     Index onsetFrame = 0;       ///< where the detecting path's score began to grow
     Index detectFrame = 0;      ///< where the statistic first exceeded the threshold
     Index endFrame = 0;         ///< last frame with evidence
@@ -38,21 +38,22 @@ struct Track {
     bool isConfirmed = false;
     bool isOpen = false;                   ///< still followed when the data ended
     std::vector<TrackPoint> points;        ///< onset … end, one per frame
-    Index confirmFrame = -1;               ///< where it was confirmed, -1: never
-    std::size_t model = 0;                 ///< which of a bank's models found it and follows it
-    double detectStatistic = 0.0;          ///< the detector's, in its own unit, where it was detected
+    Index confirmFrame = -1;               ///< frame of the confirmation; -1: never
+    std::size_t model = 0;                 ///< index of the bank's model that found and follows it
+    double detectStatistic = 0.0;          ///< the detector's statistic at the detection, in its own unit
     std::vector<SmoothedPoint> smoothed{}; ///< one per point; empty without the second pass
-    double windowSeconds = 0.0; ///< of the longer window that found it (analysis/steadyLines.h); 0: the frames' own
-    bool isSubtracted = false;  ///< from the recording whose frames are shown (analysis/subtractLines.h)
+    double windowSeconds =
+        0.0;                   ///< T_FT of the longer window that found it (analysis/steadyLines.h); 0: the frames' own
+    bool isSubtracted = false; ///< from the recording whose frames are displayed (analysis/subtractLines.h)
 
-    /// Where a point is along the last axis, in cells, as exactly as is known.
+    /// Position of a point along the last axis, in cells, as precisely as known.
     double lastPosition(std::size_t point, const Axis &axis) const
     {
         const Index cell = points[point].cell;
         return !smoothed.empty() ? smoothed[point].position : double(axis.count > 0 ? cell % axis.count : cell);
     }
 
-    /// The same on all axes, in their units.
+    /// Position on all axes, in their units.
     std::vector<double> positionOf(std::size_t point, const Grid &grid) const
     {
         std::vector<double> position;
@@ -63,7 +64,7 @@ struct Track {
         return position;
     }
 
-    /// All but what there is for each frame, without copying them first.
+    /// A copy without the per-frame values, which are not copied first.
     Track withoutPoints() const
     {
         return {id,           onsetFrame, detectFrame,     endFrame, peakStatistic, isConfirmed, isOpen, {},
@@ -71,7 +72,7 @@ struct Track {
     }
 };
 
-/// The track of that number; null where there is none.
+/// The track with that number; null if there is none.
 inline const Track *trackOfId(const std::vector<Track> &tracks, int id)
 {
     const auto found = std::find_if(tracks.begin(), tracks.end(), [id](const Track &track) { return track.id == id; });

@@ -9,22 +9,22 @@
 
 namespace faintline {
 
-/// How a detected signal is followed and given up.
+/// How a detected signal is followed and ended.
 struct TrackSettings {
-    std::vector<double> windowCells{12.0}; ///< half the window that follows the state, per axis (the last one repeats)
-    double decayNats = 0.05;               ///< taken off the level every frame, so that a track on noise fades
-    double ceilingNats = 8.0;              ///< the level never stands higher above the threshold than this
+    std::vector<double> windowCells{12.0}; ///< half width of the tracking window, per axis (the last one repeats)
+    double decayNats = 0.05;               ///< subtracted from the level in each frame, so that a track on noise fades
+    double ceilingNats = 8.0;              ///< upper limit of the level above the threshold
     double endNats = 8.0;                  ///< a track ends when its level is this far below the threshold
     double confirmNats = 0.0;              ///< a track is confirmed this far above the threshold …
     int confirmFrames = 1;                 ///< … and at this age
     int smoothingFrames = 48;              ///< lag of the path's smoothing
-    bool bothWays = true;                  ///< complete tracks are looked at from both ends (analysis/secondLook.h)
+    bool bothWays = true;                  ///< completed tracks get a two-sided second pass (analysis/secondLook.h)
 
     static const std::vector<Field<TrackSettings>> &fields();
     bool operator==(const TrackSettings &) const = default;
 };
 
-/// What all trackers of a chain share: the model, the shape of the window, and scratch memory (one chain, one thread).
+/// Shared by all trackers of a chain: the model, the shape of the window, and scratch memory (one chain, one thread).
 struct TrackerModel {
     TrackerModel(const MarkovModel &model, const Grid &grid, const TrackSettings &settings, double threshold);
 
@@ -35,13 +35,13 @@ struct TrackerModel {
     const double transitionScale;
     std::vector<Index> halfWidth; ///< of the window, per axis
     std::vector<Index> reach;     ///< largest displacement in one step, per axis
-    Index largestExtent = 0;      ///< beyond this distance a cell cannot matter to a tracker
+    Index largestExtent = 0;      ///< cells beyond this distance cannot affect a tracker
     StateSpace window;
-    StateSpace padded; ///< the window with room for one step
+    StateSpace padded; ///< the window extended by one step
     Recursion<MaxPlus<float>> recursion;
     std::vector<float> scores; ///< padded
 
-    /// Grid cell of a cell of the window, or of the padded one, that is centred there; -1 off the grid.
+    /// Grid cell of a cell of the window, or of the padded window, centred at `centre`; -1 off the grid.
     Index windowCell(const std::vector<Index> &centre, Index cell) const
     {
         return gridCell(centre, windowOffsets, cell);
@@ -50,7 +50,7 @@ struct TrackerModel {
     {
         return gridCell(centre, paddedOffsets, cell);
     }
-    /// Cell of the padded window where a cell of the window lies that has moved against it; -1 outside.
+    /// Cell of the padded window for a cell of a window shifted by `moved`; -1 outside.
     Index inPadded(Index cell, const std::vector<Index> &moved) const;
 
 private:

@@ -12,11 +12,12 @@ namespace faintline {
 namespace {
 
     constexpr double corridorCells = 3.0; ///< resolution cells on either side of the path
-    constexpr Index levelFrames = 12;     ///< either way
-    constexpr double leastChange = 2.0;   ///< nat, that an interruption costs however low the threshold is
+    constexpr Index levelFrames = 12;     ///< on either side
+    constexpr double leastChange = 2.0;   ///< nat: minimum cost of an interruption, even with a low threshold
     constexpr double leastLevel = 0.5;
     constexpr double largestLevel = 4.0;
-    constexpr double levelOfOneFrame = 10.0; ///< from that SNR on, a frame's neighbours are enough for its position
+    constexpr double levelOfOneFrame = 10.0; ///< from this SNR on, the neighbouring frames suffice for a frame's
+                                             ///< position
     constexpr double framesAtMost = 8.0;
 
     Index inBins(double cells, double binsPerCell)
@@ -98,7 +99,7 @@ namespace {
                                                       .first->second;
         }
 
-        /// `byDesign`: with the detector's likelihood instead of that of the track's own level.
+        /// `byDesign`: uses the detector's likelihood instead of that at the track's own level.
         Corridor corridor(const BothWays &seen, bool byDesign)
         {
             const Index half = inBins(corridorCells, m_model.binsPerCell);
@@ -133,7 +134,7 @@ namespace {
             return result;
         }
 
-        /// y between cells, along the mean path.
+        /// Interpolates y between cells, along the mean path.
         double powerBeside(const BothWays &seen, Index at, double offset) const
         {
             const double position = seen.presence.mean[std::size_t(at)] + offset;
@@ -145,7 +146,7 @@ namespace {
 
         std::vector<double> refined(const BothWays &seen) const
         {
-            constexpr int farthest = 2; ///< bins that a parabola may stand on
+            constexpr int farthest = 2; ///< maximum distance, in bins, of a parabola from the mean
             std::vector<double> result;
             for (Index at = 0; at < m_strip.frameCount(); ++at) {
                 const double level = seen.levels[std::size_t(at)];
@@ -177,6 +178,11 @@ namespace {
 Index bothWaysHalfWidth(double binsPerCell)
 {
     return 2 * inBins(corridorCells, binsPerCell) + 2;
+}
+
+Index corridorHalfWidth(double binsPerCell)
+{
+    return inBins(corridorCells, binsPerCell);
 }
 
 BothWays lookBothWays(const PathStrip &strip, const BothWaysModel &model)

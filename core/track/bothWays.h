@@ -9,29 +9,32 @@
 
 namespace faintline {
 
-/// What the look from both ends has to know of the detection that found a track.
+/// Parameters of the detection that found a track, for the two-sided pass.
 struct BothWaysModel {
     const KinematicAxis *axis = nullptr;
     Likelihood likelihood;  ///< the detector's
     double threshold = 0.0; ///< nat
     double binsPerCell = 1.0;
-    std::vector<double> lnK; ///< of each frame of the strip
+    std::vector<double> lnK; ///< for each frame of the strip
 };
 
-/// A track seen from both ends; one value a frame of its strip.
+/// A track estimated from past and future; one value per frame of its strip.
 struct BothWays {
     Presence presence;
-    std::vector<double> positions; ///< below a cell
+    std::vector<double> positions; ///< with subcell precision
     std::vector<double> levels;    ///< signal power over the noise's, mean along the path over ±12 frames
-    /// What the detector's account says of the mean path in each frame: λ + ln K + ln h(0), nat.
+    /// Gain of the mean path in each frame under the detector's recursion: λ + ln K + ln h(0), nat.
     std::vector<double> gains;
 };
 
-/// Half-width of a strip that this look needs, in bins.
+/// Half width in bins of the strip that lookBothWays needs.
 Index bothWaysHalfWidth(double binsPerCell);
 
-/// Takes the posterior of presence and place in a corridor of ±3 resolution cells around the strip's path, twice, the
-/// second time around the first one's mean.
+/// Half width in bins of the corridor alone.
+Index corridorHalfWidth(double binsPerCell);
+
+/// Computes the posterior of presence and position in a corridor of ±3 resolution cells around the strip's path, twice,
+/// the second time around the mean of the first.
 ///
 ///   r(t) = mean of y along the path over ±12 frames, less 1; λ is the likelihood's at SNR clamp(r, ½, 4), in half
 ///          octaves
@@ -39,13 +42,13 @@ Index bothWaysHalfWidth(double binsPerCell);
 ///   f(t) = maximum of the power averaged along the mean path over ±clamp(10/r, 1, 8) frames, by a parabola through its
 ///          logarithm, at most one bin from the mean
 ///
-/// A line that stops is given up sooner the stronger it is; up to SNR 4, so that a keyed one stays one.
+/// The stronger a line, the sooner its end is recognised, limited to SNR 4, so that a keyed line stays one track.
 BothWays lookBothWays(const PathStrip &strip, const BothWaysModel &model);
 
-/// How often the track's slope changed by 0, 1, … steps (expectedSlopeChanges), at its own level.
+/// Expected number of slope changes by 0, 1, … steps (expectedSlopeChanges), at the track's own level.
 std::vector<double> slopeChangesOf(const PathStrip &strip, const BothWaysModel &model);
 
-/// The detector's own score of the strongest path in the corridor, nat.
+/// The detector's score of the strongest path in the corridor, nat.
 double strongestIn(const PathStrip &strip, const BothWaysModel &model);
 
 } // namespace faintline

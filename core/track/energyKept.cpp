@@ -30,7 +30,7 @@ namespace {
 
         double secondsAt(std::size_t i) const { return time->value(double(track->points[i].frame)); }
 
-        /// Where it is within a frame of that time.
+        /// Range of frequencies within a frame of that time.
         Range around(double at) const
         {
             Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
@@ -63,7 +63,7 @@ namespace {
         return curves;
     }
 
-    /// Σ r of all curves near one of them.
+    /// Σ r of all curves near a path.
     double energyNear(const Curve &path, const std::vector<Curve> &curves, double marginHz)
     {
         double sum = 0.0;

@@ -9,9 +9,9 @@ namespace faintline {
 namespace {
 
     constexpr Index piece = 64;      ///< frames
-    constexpr double perCell = 16.0; ///< of the leakage's table
+    constexpr double perCell = 16.0; ///< entries of the leakage table
     constexpr double margin = 2.0;
-    constexpr double negligible = 0.02; ///< of the noise
+    constexpr double negligible = 0.02; ///< relative to the noise
     constexpr double farthestCells = 4096.0;
 
 } // namespace
@@ -36,7 +36,7 @@ std::span<const float> Explanations::skirtAt(const ExplainedSignal &signal, std:
     return signal.skirts[std::min(at / std::size_t(ExplainedSignal::skirtFrames), signal.skirts.size() - 1)];
 }
 
-/// Cells on either side over which a signal adds what is not negligible.
+/// Distance, in cells, within which a signal's contribution is not negligible.
 double Explanations::reachAt(const ExplainedSignal &signal, std::size_t at) const
 {
     const double least = negligible / (margin * std::max(1e-3, double(signal.levels[at])));
@@ -47,7 +47,7 @@ double Explanations::reachAt(const ExplainedSignal &signal, std::size_t at) cons
 
 void Explanations::add(ExplainedSignal signal)
 {
-    const auto last = std::size_t(signal.endFrame() / piece); // with the frame behind it
+    const auto last = std::size_t(signal.endFrame() / piece); // including the frame after it
     if (m_byTime.size() <= last)
         m_byTime.resize(last + 1);
     for (auto i = std::size_t(std::max<Index>(0, signal.firstFrame - 1) / piece); i <= last; ++i) {

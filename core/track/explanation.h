@@ -8,26 +8,26 @@
 
 namespace faintline {
 
-/// A signal along its track, and what it puts into the cells beside it.
+/// A signal along its track, and its contribution to neighbouring cells.
 struct ExplainedSignal {
     Index firstFrame = 0;
     std::vector<double> positions; ///< one per frame, cells
-    std::vector<float> levels;     ///< A, its power over the noise's
-    /// Measured beside it, in blocks of `skirtFrames`: share of A that lies 0, 1, … cells away; empty: no more than the
-    /// window's leakage.
+    std::vector<float> levels;     ///< A, signal power over the noise's
+    /// Measured in blocks of `skirtFrames`: fraction of A at a distance of 0, 1, … cells; empty: only the window's
+    /// leakage.
     std::vector<std::vector<float>> skirts;
 
     static constexpr Index skirtFrames = 24;
 
-    Index endFrame() const { return firstFrame + Index(positions.size()); } ///< one behind the last
+    Index endFrame() const { return firstFrame + Index(positions.size()); } ///< one past the last
 };
 
-/// The floor that explained signals raise under weaker ones:
+/// The floor that explained signals raise for weaker ones:
 ///
 ///   floor(t, n) = Π 1 + 2·A_t·max(|W(n - f_t)|², e(|n - f_t|))
 ///
-/// The factor 2 lets an explanation be 3 dB short before what is left of the signal gathers evidence: explained power
-/// is constant, not exponential. One frame more at either end, for windows overlap.
+/// The factor 2 allows an explanation to be 3 dB too low before the remainder of the signal gathers evidence: explained
+/// power is constant, not exponential. One frame is added at either end, because windows overlap.
 class Explanations
 {
 public:
@@ -36,11 +36,11 @@ public:
 
     void add(ExplainedSignal signal);
 
-    /// The floor of cells firstCell … in a frame.
+    /// Reads the floor of cells firstCell … in a frame.
     void read(Index frame, Index firstCell, std::span<float> floor) const;
 
 private:
-    /// A signal in a piece of time, with all cells that it may raise there.
+    /// A signal in a block of time, and the cells that it may raise there.
     struct Entry {
         std::size_t signal;
         double lowest;
@@ -52,7 +52,7 @@ private:
     std::span<const float> skirtAt(const ExplainedSignal &signal, std::size_t at) const;
 
     std::vector<ExplainedSignal> m_signals;
-    std::vector<std::vector<Entry>> m_byTime; ///< of each piece of 64 frames
+    std::vector<std::vector<Entry>> m_byTime; ///< for each block of 64 frames
     std::vector<float> m_leakage;             ///< at multiples of 1/16 cell
 };
 

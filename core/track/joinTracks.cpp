@@ -19,13 +19,13 @@ namespace {
         return steps;
     }
 
-    /// Nats a frame that a track gathered.
+    /// Mean gain of a track, nats per frame.
     double growth(const Track &track)
     {
         return track.peakStatistic / double(track.points.size());
     }
 
-    /// Where a later track takes up an earlier one.
+    /// Point at which a later track continues an earlier one.
     struct Joint {
         std::size_t point = 0; ///< of the later track
         Index gapFrames = 0;
@@ -62,7 +62,7 @@ namespace {
         return {};
     }
 
-    /// Puts the later track's points from the joint on behind the earlier one's, with a straight line between.
+    /// Appends the later track's points from the joint on to the earlier one, with a straight line between.
     void append(Track &earlier, const Track &later, const Joint &joint, const Grid &grid)
     {
         const TrackPoint end = earlier.points.back();

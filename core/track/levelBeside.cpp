@@ -7,13 +7,13 @@ namespace faintline {
 
 namespace {
 
-    constexpr double nearestCells = 2.5; ///< where the main lobe of any window has ended
+    constexpr double nearestCells = 2.5; ///< beyond the main lobe of any window
     constexpr double farthestCells = 7.0;
-    constexpr Index reaches[] = {6, 24, 72}; ///< frames, either way
-    constexpr Index valuesPerReach = 6;      ///< the level is taken anew after this share of it
-    constexpr double share = 0.35;           ///< of the values, below the quantile: lines may fill the rest
+    constexpr Index reaches[] = {6, 24, 72}; ///< frames, on either side
+    constexpr Index valuesPerReach = 6;      ///< values per reach: the level is evaluated at this fraction of it
+    constexpr double share = 0.35;           ///< of the values, below the quantile: lines may occupy the rest
     constexpr double deviations = 1.5;
-    constexpr double framesPerWindow = 2.0; ///< more of them tell hardly more
+    constexpr double framesPerWindow = 2.0; ///< more frames add hardly any information
     constexpr std::size_t fewestValues = 8;
 
     /// Bins beside a path, nearest to farthest or the other way round.
@@ -27,18 +27,18 @@ namespace {
         return -std::log1p(-share);
     }
 
-    /// Relative scatter of the quantile of so many independent values.
+    /// Relative scatter of the quantile of `count` independent values.
     double scatterOf(double count)
     {
         return std::sqrt(share / (1.0 - share) / count) / quantileOfNoise();
     }
 
-    /// What one side says, or both.
+    /// Level of one side, or of both.
     struct Level {
         double mean;        ///< the quantile over that of noise of mean 1
-        double independent; ///< values that it was taken of; 0: too few
+        double independent; ///< number of independent values; 0: too few
 
-        /// Less what chance may bring.
+        /// Level minus what chance may contribute.
         double least() const { return independent > 0.0 ? mean * (1.0 - deviations * scatterOf(independent)) : 1.0; }
     };
 
@@ -52,7 +52,7 @@ namespace {
         {
         }
 
-        /// The least level within `reach` frames of one that chance cannot explain.
+        /// The lowest level within `reach` frames that chance cannot explain.
         double leastLevel(Index at, Index reach)
         {
             const Level below = levelOf({-m_far, -m_near}, at, reach);

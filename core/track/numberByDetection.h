@@ -7,7 +7,7 @@
 
 namespace faintline {
 
-/// Orders tracks by detection, then cell, and numbers them so, from 1. Each has a point.
+/// Orders tracks by detection, then cell, and numbers them from 1. Precondition: each has a point.
 inline void numberByDetection(std::vector<Track> &tracks)
 {
     std::stable_sort(tracks.begin(), tracks.end(), [](const Track &a, const Track &b) {

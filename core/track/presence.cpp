@@ -10,9 +10,9 @@ namespace {
 
     constexpr double lowQuantile = 0.05;
     constexpr double highQuantile = 0.95;
-    constexpr double largestLambda = 60.0; ///< more decides no more than this does
+    constexpr double largestLambda = 60.0; ///< larger values would not change a decision
 
-    /// Probabilities of the states after a frame: rates × width, and "off" behind them.
+    /// Probabilities of the states after a frame: rates × width, followed by "off".
     using Weights = std::vector<double>;
 
     struct Step {
@@ -23,15 +23,15 @@ namespace {
         double lnProbability;
     };
 
-    /// Calls take(from, to, move) for every way from a corridor's cells in one frame into those of the next: a move
-    /// goes between corridors that lie apart by what the path moved.
+    /// Calls take(from, to, move) for each transition from a corridor's cells in one frame to those in the next; the
+    /// corridors are displaced by the path's motion.
     template <class Take>
     void forEachWay(const Corridor &corridor, const std::vector<Step> &steps, Index frame, Take take)
     {
         const auto at = std::size_t(frame);
         const Index drift = corridor.firstCells[at] - corridor.firstCells[at - 1];
         for (const Step &step : steps) {
-            const Index shift = step.cells - drift; // target cell - source cell, in the corridors' own counting
+            const Index shift = step.cells - drift; // target cell - source cell, in the corridors' numbering
             const Index last = std::min(corridor.width, corridor.width + shift);
             for (Index to = std::max<Index>(0, shift); to < last; ++to)
                 take(step.from + to - shift, step.to + to, step);
@@ -70,7 +70,7 @@ namespace {
             return weights;
         }
 
-        /// α of a frame from that of the one before, scaled to a sum of 1.
+        /// Computes α of a frame from the previous one, scaled to a sum of 1.
         Weights forward(const Weights &before, Index frame) const
         {
             Weights after(before.size(), m_birth * before.back());
@@ -89,7 +89,7 @@ namespace {
             return after;
         }
 
-        /// β of a frame from that of the next.
+        /// Computes β of a frame from the next one.
         Weights backward(Weights next, Index nextFrame) const
         {
             applyEvidence(nextFrame, next);
@@ -125,7 +125,7 @@ namespace {
             result.high[at] = float(first + quantile(cells, highQuantile * on));
         }
 
-        /// Adds the probabilities that the slope changed by 0, 1, … steps on the way into that frame.
+        /// Adds the probabilities that the slope changed by 0, 1, … steps in the step into that frame.
         void addChangesTo(std::vector<double> &changes, const Weights &before, Weights next, Index frame) const
         {
             applyEvidence(frame, next);
@@ -184,7 +184,7 @@ namespace {
                     w /= sum;
         }
 
-        /// Position where the sum from the lowest cell's lower edge reaches `sum`.
+        /// Position at which the cumulative sum from the lowest cell's lower edge reaches `sum`.
         static double quantile(const std::vector<double> &cells, double sum)
         {
             double before = 0.0;
@@ -206,11 +206,11 @@ namespace {
         std::vector<std::vector<Step>> m_steps; ///< of each phase
     };
 
-    /// Calls take(frame, α of the frame before, α, β) for every frame, the last one first.
+    /// Calls take(frame, α of the previous frame, α, β) for each frame, the last one first.
     template <class Take>
     void forwardBackward(const Chain &chain, Index frames, Take take)
     {
-        // α at the beginning of each chunk; within one it is made again on the way back.
+        // α at the beginning of each chunk; inside a chunk it is recomputed on the way back.
         const auto chunk = std::max<Index>(16, Index(std::sqrt(double(frames))));
         std::vector<Weights> starts;
         Weights alpha = chain.start();

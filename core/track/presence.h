@@ -16,28 +16,28 @@ struct Corridor {
     Index frameCount() const { return Index(firstCells.size()); }
 };
 
-/// Where a signal is, and whether it is there at all, given everything before and after. One value per frame of the
-/// corridor.
+/// Whether a signal is present, and where, given all frames before and after. One value per frame of the corridor.
 struct Presence {
     std::vector<float> present;   ///< probability
     std::vector<double> mean;     ///< position given that it is present, cells
-    std::vector<float> low, high; ///< 5 and 95 % of it, linear inside a cell
+    std::vector<float> low, high; ///< 5 and 95 % quantiles of the position, linear inside a cell
 };
 
-/// Forward and backward through a hidden Markov chain of one state "off" and the corridor's states (rate, cell) "on":
+/// Forward-backward algorithm for a hidden Markov chain with one state "off" and the corridor's states (rate, cell)
+/// "on":
 ///
 ///   α_t(s)   ∝ e^{λ_t(s)} [p/N·α_{t-1}(off) + (1 - p) Σ_m P(s|m) α_{t-1}(m)]
 ///   α_t(off) ∝ (1 - p)·α_{t-1}(off) + p Σ_s α_{t-1}(s),        γ = α·β,   present = 1 - γ(off)
 ///
-/// p = e^{lnChange}: an interruption has to be as significant as a detection for lnChange = -T/2. P is the axis's law
-/// in step firstStep, firstStep + 1, …; what leaves the corridor is lost. Both states are as probable before the first
-/// frame. Source: Baum and others 1970. Oracle: enumeration of all sequences. Cost: frames × moves × width, three
-/// times; memory: √frames.
+/// p = e^{lnChange}: for lnChange = -T/2 an interruption must be as significant as a detection. P is the axis's law in
+/// step firstStep, firstStep + 1, …; probability that leaves the corridor is lost. Both states are equally probable
+/// before the first frame. Source: Baum and others 1970. Oracle: enumeration of all sequences. Cost: frames × moves ×
+/// width, three times; memory: √frames.
 Presence presenceIn(const Corridor &corridor, const KinematicAxis &axis, double lnChange, Index firstStep);
 
-/// How often a signal in the corridor changed its slope by 0, 1, … steps of the slope set from one frame to the next:
-/// expected numbers, given all of the corridor and that it was there in both frames (Baum's ξ, summed over cells and
-/// directions). As many numbers as the law has.
+/// Expected number of slope changes by 0, 1, … steps of the slope set between frames for a signal in the corridor,
+/// given all of its frames and presence in both frames (Baum's ξ, summed over cells and directions). Has as many values
+/// as the law.
 std::vector<double> expectedSlopeChanges(const Corridor &corridor, const KinematicAxis &axis, double lnChange,
                                          Index firstStep);
 
@@ -45,7 +45,7 @@ std::vector<double> expectedSlopeChanges(const Corridor &corridor, const Kinemat
 ///
 ///   u_t(s) = λ_t(s) + max(0, ln K_t + max_m [ln P(s|m) + u_{t-1}(m)])
 ///
-/// `lnK`: one a frame.
+/// `lnK`: one per frame.
 double strongestPath(const Corridor &corridor, const KinematicAxis &axis, const std::vector<double> &lnK,
                      Index firstStep);
 

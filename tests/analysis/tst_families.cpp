@@ -57,6 +57,9 @@ private slots:
     void findsOneFundamental_data();
     void findsOneFundamental();
     void findsSidebandsByTheirCarrier();
+    void needsMoreThanOneMember_data();
+    void needsMoreThanOneMember();
+    void findsFaintMembersOfAStrongLine();
     void ordersFewFalseAlarms();
     void isCalibratedInTheAutomaticWindow();
     void isRefusedWhereLinesAreSingle();
@@ -104,6 +107,56 @@ void tst_families::findsSidebandsByTheirCarrier()
     QCOMPARE(found.size(), std::size_t(1));
     QVERIFY(std::abs(found[0].position[0] - 200.0) < 0.3);
     QVERIFY(analysis->areas.empty());
+}
+
+void tst_families::needsMoreThanOneMember_data()
+{
+    using Relation = FamilySettings::Relation;
+    QTest::addColumn<Relation>("relation");
+    QTest::addColumn<std::vector<double>>("members");
+    QTest::addColumn<double>("snrDb");
+    for (const double snrDb : {8.0, 20.0, 40.0}) {
+        const auto row = [&](const char *name, Relation relation, std::vector<double> members) {
+            QTest::addRow("%s, %.0f dB", name, snrDb) << relation << std::move(members) << snrDb;
+        };
+        row("multiples", Relation::Harmonics, eight);
+        row("sidebands", Relation::Offsets, {-50.0, 50.0});
+        row("sidebands of a carrier", Relation::Offsets, {-50.0, 0.0, 50.0});
+        row("in its side lobes", Relation::Offsets, {-3.0, 3.0});
+    }
+}
+
+/// A line by itself is a member of no family. Events of noise elsewhere may be.
+void tst_families::needsMoreThanOneMember()
+{
+    QFETCH(FamilySettings::Relation, relation);
+    QFETCH(std::vector<double>, members);
+    QFETCH(double, snrDb);
+    LineScene scene;
+    scene.sampleRateHz = 1000.0;
+    scene.durationSeconds = 60.0;
+    scene.lines = {{.snrDb = snrDb, .referenceSeconds = 1.0, .startSeconds = 10.0, .frequencyHz = 211.3}};
+    const AnalysisSettings settings = familyOf(members, relation);
+    for (scene.seed = 31; scene.seed < 35; ++scene.seed)
+        for (const Event &event : events(*analyse(std::make_shared<SimulatedRecording>(scene), settings)))
+            for (const double hz : memberFrequencies(settings.family, event.position[0]))
+                QVERIFY2(std::abs(hz - 211.3) > 2.0, qPrintable(QString::number(event.position[0])));
+}
+
+/// Sidebands that nobody would find alone belong to a line 26 dB above them.
+void tst_families::findsFaintMembersOfAStrongLine()
+{
+    LineScene scene;
+    scene.sampleRateHz = 1000.0;
+    scene.durationSeconds = 60.0;
+    scene.seed = 36;
+    for (const double hz : {150.0, 200.0, 250.0})
+        scene.lines.push_back(
+            {.snrDb = hz == 200.0 ? 28.0 : 2.0, .referenceSeconds = 1.0, .startSeconds = 10.0, .frequencyHz = hz});
+    const RecordingPointer recording = std::make_shared<SimulatedRecording>(scene);
+    const auto found = events(*analyse(recording, familyOf({-50.0, 0.0, 50.0}, FamilySettings::Relation::Offsets)));
+    QCOMPARE(found.size(), std::size_t(1));
+    QVERIFY(std::abs(found[0].position[0] - 200.0) < 0.3);
 }
 
 /// Half an hour of noise at 40 false alarms an hour: 20 of them.

@@ -2,7 +2,10 @@
 
 #include "analysis/slopeUnit.h"
 #include "app/base/MessageBar.h"
+#include "app/base/diskRoom.h"
 #include "app/openWindow.h"
+#include "app/panels/ListenDialog.h"
+#include "app/panels/WhyPanel.h"
 #include "app/workspace/LiveBar.h"
 #include "app/workspace/Workbench.h"
 #include "exchange/writeEvents.h"
@@ -11,7 +14,11 @@
 #include "support/recordings.h"
 #include "widgets/events/EventTable.h"
 
+#include <QComboBox>
 #include <QDir>
+#include <QDoubleSpinBox>
+#include <QLineEdit>
+#include <QRegularExpression>
 
 #include <atomic>
 #include <cmath>
@@ -105,6 +112,10 @@ private slots:
     void initTestCase();
     void showsAndRecords();
     void holdsAndScrollsBack();
+    void looksBackInDetail();
+    void saysWhyMeanwhile();
+    void recordsInSeveralFiles();
+    void asksWhenAnotherFileBegins();
     void changesTheThreshold();
     void stopsWhenTheWindowCloses();
     void tellsOfASourceThatCannotBe();
@@ -227,6 +238,118 @@ void tst_Live::holdsAndScrollsBack()
     QTRY_VERIFY_WITH_TIMEOUT(viewport.time().high > 278.0, patience);
     window->live().stop();
     QTRY_VERIFY_WITH_TIMEOUT(!window->live().isRunning(), patience);
+}
+
+// 6800 frames of 8192 cells, of which the picture merges four: zoomed in on old ones they are single, as those of the
+// recording are in the end.
+void tst_Live::looksBackInDetail()
+{
+    const QTemporaryDir folder;
+    Feeder feeder(folder, someNoise(7'000'000));
+    AnalysisSettings settings = m_settings;
+    settings.spectrogram.windowSeconds = 8.192;
+    settings.spectrogram.stepsPerWindow = 8;
+    settings.noise.blockWindows = 4.0;
+    setSetting(settings, "detector.kind", "energy");
+    setSetting(settings, "decide.thresholdNats", "1000");
+    const auto window = listeningWindow(folder, feeder, settings);
+    Document &document = window->document();
+    const WaterfallView &input = *window->workbench().input();
+    const WaterfallView &output = *window->workbench().output();
+    feeder.allow(6900.0);
+    QTRY_VERIFY_WITH_TIMEOUT(document.isLive() && document.live().time.last() > 6800.0, 5 * patience);
+    QCOMPARE(input.picture()->framesPerRow(0), Index(4));
+    const Span old{1000.0, 1080.0};
+    const Span band = document.viewport().full().frequency;
+    document.viewport().zoomTo(old, band);
+    QVERIFY(!document.viewport().isFollowing());
+    const auto areSingle = [&] {
+        return input.shownPicture()->framesPerRow(0) == 1 && output.shownPicture()->framesPerRow(0) == 1;
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(areSingle(), patience);
+    feeder.allow(6950.0); // it stays while more comes in
+    QTRY_VERIFY_WITH_TIMEOUT(document.live().time.last() > 6930.0, patience);
+    QVERIFY(areSingle());
+    const auto liveInput = input.shownPicture();
+    const auto liveOutput = output.shownPicture();
+
+    feeder.allowAll();
+    QTRY_VERIFY_WITH_TIMEOUT(!document.isLive() && document.isCurrent() && settle(*window), 5 * patience);
+    document.viewport().zoomTo(old, band);
+    QTRY_VERIFY_WITH_TIMEOUT(areSingle(), patience);
+    const auto haveSame = [&](const PeakPyramid &live, const PeakPyramid &file) {
+        const Index shift = std::llround((old.low - live.time().first) / live.time().step);
+        const Index fileShift = std::llround((old.low - file.time().first) / file.time().step);
+        for (Index row = 0; row < 60; ++row)
+            if (!std::ranges::equal(live.row(0, shift + row), file.row(0, fileShift + row)))
+                return false;
+        return true;
+    };
+    QVERIFY(haveSame(*liveInput, *input.shownPicture()));
+    QVERIFY(haveSame(*liveOutput, *output.shownPicture()));
+}
+
+// The terms add up to what the picture shows, while it goes on.
+void tst_Live::saysWhyMeanwhile()
+{
+    const QTemporaryDir folder;
+    Feeder feeder(folder, scene(150.0));
+    const auto window = listeningWindow(folder, feeder, m_settings);
+    Document &document = window->document();
+    feeder.allow(80.0);
+    QTRY_VERIFY_WITH_TIMEOUT(document.isLive() && document.live().time.last() > 78.0, patience);
+    window->showWhy();
+    const auto *why = window->findChild<WhyPanel *>();
+    document.viewport().setCursor({70.0, 290.0});
+    QTRY_VERIFY_WITH_TIMEOUT(why->sentence().contains(QStringLiteral("add up to")), patience);
+    QVERIFY2(why->sentence().startsWith(QStringLiteral("Followed by a track")), qPrintable(why->sentence()));
+    feeder.allow(90.0);
+    QTRY_VERIFY_WITH_TIMEOUT(document.live().time.last() > 88.0, patience);
+    document.viewport().setCursor({86.0, 340.0}); // noise, and newer than what was looked at before
+    QTRY_VERIFY_WITH_TIMEOUT(why->sentence().startsWith(QStringLiteral("Not detected")), patience);
+    window->live().stop();
+    QTRY_VERIFY_WITH_TIMEOUT(!window->live().isRunning(), patience);
+}
+
+void tst_Live::recordsInSeveralFiles()
+{
+    const QTemporaryDir folder;
+    Feeder feeder(folder, scene(120.0));
+    const auto window = newWindow();
+    RotationSettings rotation;
+    rotation.longestSeconds = 30.0;
+    window->listenTo(feeder.source(), folder.path(), m_settings, rotation);
+    Document &document = window->document();
+    feeder.allow(100.0);
+    QTRY_VERIFY_WITH_TIMEOUT(document.isLive() && document.live().time.last() > 98.0, patience);
+    feeder.allowAll();
+    QTRY_VERIFY_WITH_TIMEOUT(!document.isLive() && document.isCurrent() && settle(*window), patience);
+    QCOMPARE(QDir(folder.path()).entryList({QStringLiteral("*.sigmf-meta")}).size(), 4);
+    QVERIFY(document.source().path.endsWith(QStringLiteral(".timeline")));
+    QCOMPARE(document.recording()->info().sampleCount, Index(120'000));
+    QVERIFY(document.shownEvents().size() >= 4);
+}
+
+void tst_Live::asksWhenAnotherFileBegins()
+{
+    const QTemporaryDir folder;
+    ListenDialog dialog;
+    dialog.show();
+    QCOMPARE(dialog.rotation().longestSeconds, 0.0);
+    QCOMPARE(dialog.rotation().largestBytes, 0.0);
+    dialog.findChild<QDoubleSpinBox *>("longest")->setValue(30.0);
+    dialog.findChild<QDoubleSpinBox *>("largest")->setValue(500.0);
+    QCOMPARE(dialog.rotation().longestSeconds, 1800.0);
+    QCOMPARE(dialog.rotation().largestBytes, 500e6);
+    dialog.findChild<QLineEdit *>("folder")->setText(folder.filePath("to/be/made"));
+    auto *kind = dialog.findChild<QComboBox *>("sourceKind");
+    kind->setCurrentIndex(kind->findText("Pipe or file")); // whose header would tell its rate
+    const double room = *freeBytes(folder.path()) / 1e9;
+    static const QRegularExpression free(QStringLiteral("([0-9.]+) GB free$"));
+    QTRY_VERIFY(free.match(dialog.diskWords()).hasMatch());
+    QVERIFY(std::abs(free.match(dialog.diskWords()).captured(1).toDouble() - room) < 0.1 * room);
+    kind->setCurrentIndex(kind->findText("UDP")); // 48 kHz of 16 bits
+    QTRY_VERIFY(dialog.diskWords().contains(QStringLiteral("GB free, full in ")));
 }
 
 void tst_Live::changesTheThreshold()

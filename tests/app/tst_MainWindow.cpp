@@ -277,6 +277,12 @@ private slots:
         QVERIFY(output->orientation() != orientation);
         QCOMPARE(input->orientation(), output->orientation());
 
+        QTest::keyClick(output, Qt::Key_L, Qt::ShiftModifier);
+        QVERIFY(input->isLogarithmic() && output->isLogarithmic());
+        QVERIFY(window->workbench().viewState().isLogarithmic);
+        QTest::keyClick(output, Qt::Key_L, Qt::ShiftModifier);
+        QVERIFY(!output->isLogarithmic());
+
         const QString map = output->colourMap().name();
         QTest::keyClick(output, Qt::Key_C);
         QVERIFY(output->colourMap().name() != map);

@@ -1,6 +1,7 @@
 #include "app/base/MessageBar.h"
 #include "app/control/Playback.h"
 #include "app/openWindow.h"
+#include "app/workspace/LiveBar.h"
 #include "app/workspace/Workbench.h"
 #include "live/SoundSource.h"
 #include "recording/SimulatedRecording.h"
@@ -11,8 +12,12 @@
 #include <QAction>
 #include <QElapsedTimer>
 #include <QMenuBar>
+#include <QRegularExpression>
+#include <QToolButton>
 
 #include <cstring>
+#include <numbers>
+#include <thread>
 
 using namespace faintline;
 using namespace faintline::test;
@@ -26,9 +31,11 @@ private slots:
     void initTestCase();
     void cleanupTestCase() { m_window.reset(); }
 
+    void withoutDeviceTheCursorMoves_data();
     void withoutDeviceTheCursorMoves();
     void theCursorFollowsTheSound();
     void theLineIsHeardAt700Hz();
+    void whatComesInIsHeard();
     void startsAgainWhereTheCursorIsPut();
 
 private:
@@ -43,6 +50,69 @@ private:
     std::unique_ptr<PulseServer> m_server;
     std::unique_ptr<MainWindow> m_window;
 };
+
+namespace {
+
+constexpr double deviceRate = 48'000.0;
+
+/// At the sound server's other end.
+class Ear
+{
+public:
+    void hear(Index samples)
+    {
+        for (m_heard.clear(); std::ssize(m_heard) < samples; QCoreApplication::processEvents()) {
+            const Heard some = m_source.hear(std::chrono::milliseconds(20));
+            const std::size_t before = m_heard.size();
+            m_heard.resize(before + some.bytes.size() / sizeof(float));
+            if (!some.bytes.empty())
+                std::memcpy(m_heard.data() + before, some.bytes.data(), some.bytes.size());
+        }
+    }
+
+    /// In the last second.
+    double amplitude(double hz) const
+    {
+        const auto second = Index(deviceRate);
+        return 2.0 * std::abs(fourier(m_heard.data() + std::ssize(m_heard) - second, second, false, hz / deviceRate))
+               / deviceRate;
+    }
+
+private:
+    SoundSource m_source{{"default", {}, 0.0, 0}};
+    std::vector<float> m_heard;
+};
+
+/// 2 kHz in real time, after sixteen seconds of it at once.
+class Whistle final : public SampleSource
+{
+public:
+    const StreamFormat &format() const override { return m_format; }
+    Heard hear(std::chrono::milliseconds) override
+    {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        const double due = 16.0 + 1e-3 * double(m_begun.elapsed());
+        std::vector<float> samples(std::size_t(due * m_format.sampleRateHz) - m_count);
+        Random(5, m_count).normals(samples, 0.02f);
+        for (float &sample : samples)
+            sample += float(0.3 * std::sin(2.0 * std::numbers::pi * 0.25 * double(m_count++ % 4)));
+        Heard heard;
+        const auto bytes = std::as_bytes(std::span(samples));
+        heard.bytes.assign(bytes.begin(), bytes.end());
+        return heard;
+    }
+
+private:
+    StreamFormat m_format{parseSampleType("rf32_le", "test"), 8000.0, 1, 0.0, "whistle"};
+    QElapsedTimer m_begun = [] {
+        QElapsedTimer timer;
+        timer.start();
+        return timer;
+    }();
+    std::size_t m_count = 0;
+};
+
+} // namespace
 
 void tst_Playback::initTestCase()
 {
@@ -80,10 +150,20 @@ bool tst_Playback::hasServer()
     return m_server->whyNot().isEmpty();
 }
 
+void tst_Playback::withoutDeviceTheCursorMoves_data()
+{
+    QTest::addColumn<QString>("what");
+    QTest::newRow("line") << "Line of the event, or at the cursor, at 700 Hz";
+    QTest::newRow("recording") << "Recording";
+}
+
 void tst_Playback::withoutDeviceTheCursorMoves()
 {
+    QFETCH(QString, what);
     if (!soundDevices().empty())
         QSKIP("this machine has a sound card");
+    m_window->findChild<MessageBar *>()->hide();
+    choose(what);
     viewport().setCursor({10.0, 2000.0});
     pressSpace();
     QTRY_VERIFY(cursor() > 10.5);
@@ -128,34 +208,63 @@ void tst_Playback::theLineIsHeardAt700Hz()
 {
     if (!hasServer())
         QSKIP(qPrintable(m_server->whyNot()));
-    SoundSource ear({"default", {}, 0.0, 0});
-    std::vector<float> heard;
-    const auto hear = [&](Index samples) {
-        for (heard.clear(); std::ssize(heard) < samples; QCoreApplication::processEvents()) {
-            const Heard some = ear.hear(std::chrono::milliseconds(20));
-            const std::size_t before = heard.size();
-            heard.resize(before + some.bytes.size() / sizeof(float));
-            if (!some.bytes.empty())
-                std::memcpy(heard.data() + before, some.bytes.data(), some.bytes.size());
-        }
-    };
-    const auto amplitude = [&](double hz) { // in the last second
-        return 2.0 * std::abs(fourier(heard.data() + heard.size() - 48'000, 48'000, false, hz / 48'000.0)) / 48'000.0;
-    };
-    hear(1);
+    Ear ear;
+    ear.hear(1);
     viewport().setCursor({20.0, 2000.0});
     choose("Line of the event, or at the cursor, at 700 Hz");
     pressSpace();
-    hear(3 * 48'000);
-    QVERIFY2(amplitude(700.0) > 0.08, qPrintable(QString::number(amplitude(700.0))));
-    QVERIFY(amplitude(2017.0) < 0.01);
+    ear.hear(3 * 48'000);
+    QVERIFY2(ear.amplitude(700.0) > 0.08, qPrintable(QString::number(ear.amplitude(700.0))));
+    QVERIFY(ear.amplitude(2017.0) < 0.01);
     pressSpace();
     choose("Recording");
     viewport().setCursor({20.0, 2000.0});
     pressSpace();
-    hear(3 * 48'000);
-    QVERIFY(amplitude(700.0) < 0.02);
+    ear.hear(3 * 48'000);
+    QVERIFY(ear.amplitude(700.0) < 0.02);
     pressSpace();
+}
+
+// A source that gives sound in real time, after sixteen seconds of it at once.
+void tst_Playback::whatComesInIsHeard()
+{
+    if (!hasServer())
+        QSKIP(qPrintable(m_server->whyNot()));
+    auto window = newWindow();
+    AnalysisSettings settings;
+    settings.spectrogram.windowSeconds = 0.25;
+    settings.noise.blockWindows = 8.0;
+    setSetting(settings, "detector.kind", "energy"); // with nothing to be calibrated
+    setSetting(settings, "decide.thresholdNats", "1000");
+    window->listenTo([](const std::stop_token &) { return std::make_unique<Whistle>(); }, m_folder.path(), settings);
+    QTRY_VERIFY_WITH_TIMEOUT(window->document().isLive(), patience);
+    Ear ear;
+    ear.hear(1);
+    auto *button = window->liveBar().findChild<QToolButton *>("hear");
+    button->click();
+    Playback &hearing = *window->findChild<Playback *>();
+    QVERIFY(hearing.isPlaying());
+    ear.hear(4 * 48'000);
+    QVERIFY2(ear.amplitude(2000.0) > 0.08, qPrintable(QString::number(ear.amplitude(2000.0))));
+    window->document().viewport().setCursor({10.0, 2000.0});
+    hearing.setWhat(Playback::What::Line);
+    ear.hear(5 * 48'000);
+    QVERIFY2(ear.amplitude(700.0) > 0.08, qPrintable(QString::number(ear.amplitude(700.0))));
+    QVERIFY(ear.amplitude(2000.0) < 0.01);
+    static const QRegularExpression later(QStringLiteral("heard ([0-9.]+) s later"));
+    QTRY_VERIFY(later.match(window->liveBar().text()).hasMatch());
+    const double delay = later.match(window->liveBar().text()).captured(1).toDouble();
+    QVERIFY2(delay > 0.0 && delay < 5.0 * slowdown, qPrintable(window->liveBar().text()));
+    button->click();
+    QVERIFY(!hearing.isPlaying());
+    button->click();
+    QVERIFY(hearing.isPlaying());
+    window->live().stop();
+    QTRY_VERIFY_WITH_TIMEOUT(!hearing.isPlaying() && !button->isChecked(), patience);
+    QTRY_VERIFY_WITH_TIMEOUT(!window->live().isRunning(), patience);
+    window.reset();
+    m_window->activateWindow(); // whose keys the others press
+    QVERIFY(QTest::qWaitForWindowActive(m_window.get()));
 }
 
 void tst_Playback::startsAgainWhereTheCursorIsPut()

@@ -54,6 +54,7 @@ private slots:
         session.view.visible = {{1.5, 2.5}, {-100.25, 100.0}};
         session.view.cursor = {2.0, 0.1};
         session.view.orientation = "leftToRight";
+        session.view.isLogarithmic = session.view.isRadioAxis = true;
         session.view.colourMap = "viridis";
         writeSession(path("sessions/s.faintline"), session);
 
@@ -68,6 +69,7 @@ private slots:
         QVERIFY(back.view.visible == session.view.visible);
         QVERIFY(back.view.cursor == session.view.cursor);
         QCOMPARE(back.view.orientation, session.view.orientation);
+        QVERIFY(back.view.isLogarithmic && back.view.isRadioAxis);
         QCOMPARE(back.view.colourMap, session.view.colourMap);
         QCOMPARE(back.recordingHash.size(), std::size_t(64));
         QCOMPARE(recordingMismatch(back), QString());

@@ -1,6 +1,10 @@
 #include "app/openWindow.h"
 #include "app/panels/SpectrumPanel.h"
+#include "app/workspace/Workbench.h"
 #include "widgets/plot/ChartPlot.h"
+#include "widgets/waterfall/WaterfallView.h"
+
+#include <qwt_text.h>
 
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -57,7 +61,7 @@ private slots:
         QVERIFY(std::abs(peakOf(panel, 1).y - uncalibrated - 160.0) < 1e-9);
     }
 
-    /// Of what is left the curves say so, and the strong line is not in them.
+    /// Of what is left the curves and the picture say so, and the strong line is not in them.
     void saysWhatWasSubtracted()
     {
         QTemporaryDir folder;
@@ -78,6 +82,8 @@ private slots:
         for (const Curve &curve : panel.plot().chart().curves)
             QVERIFY2(curve.name.find("strong lines subtracted") != std::string::npos, curve.name.c_str());
         QVERIFY(peakOf(panel, 1).y < 10.0);
+        QCOMPARE(window->workbench().input()->title().text(),
+                 QString("Input, strong lines subtracted (dB over noise)"));
     }
 
 private:

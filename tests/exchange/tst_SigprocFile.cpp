@@ -228,11 +228,11 @@ void tst_SigprocFile::endsThatAreMissing()
 {
     const SigprocFile cut(write(Header().bytes() + twelveBytes().left(11)));
     QCOMPARE(cut.info().time.count, Index(2));
-    QCOMPARE(cut.info().notes, std::vector<std::string>{"The file ends within a spectrum, which is left out."});
+    QCOMPARE(cut.info().notes, std::vector<std::string>{"The file ends within a spectrum, which is omitted."});
     Header claims;
     claims.more = word("nsamples") + bytesOf(std::int32_t(900));
     QCOMPARE(SigprocFile(write(claims.bytes() + twelveBytes())).info().notes,
-             std::vector<std::string>{"The header claims 900 spectra; the 3 that are there are read."});
+             std::vector<std::string>{"The header claims 900 spectra; the 3 existing ones are read."});
     claims.more = word("nsamples") + bytesOf(std::int32_t(3));
     QVERIFY(SigprocFile(write(claims.bytes() + twelveBytes())).info().notes.empty());
 }
@@ -256,16 +256,15 @@ void tst_SigprocFile::refusals_data()
         change(header);
         return header.bytes() + data;
     };
-    QTest::newRow("another file") << word("RIFF") + QByteArray(100, 'x') << "is no sigproc filterbank";
-    QTest::newRow("a keyword without letters") << QByteArray(8, '\0')
-                                               << "its filterbank header has a keyword of 0 characters; 1 … 255 are "
-                                                  "possible";
+    QTest::newRow("another file") << word("RIFF") + QByteArray(100, 'x') << "is not a sigproc filterbank";
+    QTest::newRow("a keyword without letters")
+        << QByteArray(8, '\0') << "its filterbank header has a keyword of 0 characters; the length must be 1 … 255";
     QTest::newRow("a keyword that is not known")
         << with([](Header &h) { h.more = word("nchan") + bytesOf(4); })
-        << "its filterbank header has the keyword nchan, which is not known, nor how long its value is";
+        << "its filterbank header has the keyword nchan, which is unknown, as is the length of its value";
     QTest::newRow("a frequency for each channel")
         << with([](Header &h) { h.more = word("FREQUENCY_START"); })
-        << "lists a frequency for each channel; evenly spaced channels (fch1, foff) can be read";
+        << "lists a frequency for each channel; only evenly spaced channels (fch1, foff) are supported";
     QTest::newRow("no channels") << with([](Header &h) { h.nchans = 0; }) << "nchans = 0: must lie in 1 … 67108864";
     QTest::newRow("7 bits") << with([](Header &h) { h.nbits = 7; }) << "nbits = 7: must be 1, 2, 4, 8, 16 or 32";
     QTest::newRow("64 bits") << with([](Header &h) { h.nbits = 64; }) << "nbits = 64: must lie in 1 … 32";
@@ -273,9 +272,9 @@ void tst_SigprocFile::refusals_data()
     QTest::newRow("bits that fill no byte")
         << with([](Header &h) { h.nchans = 3, h.nbits = 2; }) << "nchans = 3: of 2 bits do not fill whole bytes";
     QTest::newRow("not one spectrum") << with([](Header &h) { h.nchans = 13; })
-                                      << "holds no whole spectrum of its 13 channels";
+                                      << "holds no complete spectrum of its 13 channels";
     QTest::newRow("no distance") << with([](Header &h) { h.foff = 0.0; })
-                                 << "foff = 0: must be the channels' distance, MHz";
+                                 << "foff = 0: must be the channel spacing, MHz";
     QTest::newRow("no time") << with([](Header &h) { h.tsamp = 0.0; }) << "tsamp = 0: must lie in";
     QTest::newRow("no number") << with([](Header &h) { h.fch1 = std::nan(""); }) << "fch1 = nan: must lie in";
     QTest::newRow("no frequency") << word("HEADER_START") + word("nchans") + bytesOf(4) + word("nbits") + bytesOf(8)
@@ -296,8 +295,8 @@ void tst_SigprocFile::cutShortAnywhereInTheHeader()
 {
     const QByteArray header = Header().bytes();
     for (int length = 0; length < header.size(); ++length)
-        QVERIFY(contains(errorOf([&] { SigprocFile file(write(header.left(length))); }), "cut short"));
-    QVERIFY(contains(errorOf([&] { SigprocFile file(write(header)); }), "holds no whole spectrum"));
+        QVERIFY(contains(errorOf([&] { SigprocFile file(write(header.left(length))); }), "truncated or longer"));
+    QVERIFY(contains(errorOf([&] { SigprocFile file(write(header)); }), "holds no complete spectrum"));
 }
 
 void tst_SigprocFile::aFileThatShrinks()
@@ -306,7 +305,7 @@ void tst_SigprocFile::aFileThatShrinks()
     const SigprocFile file(path);
     QVERIFY(QFile::resize(QString::fromStdString(path), Header().bytes().size() + 10));
     QCOMPARE(readPart(file, {0, 1, 1, 0, 4}).size(), std::size_t(4));
-    QCOMPARE(errorOf([&] { readPart(file, {0, 2, 1, 0, 4}); }), path + ": became shorter while it was open");
+    QCOMPARE(errorOf([&] { readPart(file, {0, 2, 1, 0, 4}); }), path + ": was truncated while open");
 }
 
 QTEST_APPLESS_MAIN(tst_SigprocFile)

@@ -221,16 +221,16 @@ void tst_TopHits::badTables_data()
     QTest::addColumn<QByteArray>("text");
     QTest::addColumn<QString>("words");
     const QByteArray head = "# DELTAT: 18 DELTAF(Hz): 2 obs_length: 100\n";
-    QTest::newRow("empty") << QByteArray() << "must tell DELTAT";
-    QTest::newRow("no length") << QByteArray("# DELTAT: 18 DELTAF(Hz): 2\n") << "must tell DELTAT";
-    QTest::newRow("lengths of 0") << QByteArray("# DELTAT: 0 DELTAF(Hz): 0 obs_length: nan\n") << "must tell DELTAT";
+    QTest::newRow("empty") << QByteArray() << "must give DELTAT";
+    QTest::newRow("no length") << QByteArray("# DELTAT: 18 DELTAF(Hz): 2\n") << "must give DELTAT";
+    QTest::newRow("lengths of 0") << QByteArray("# DELTAT: 0 DELTAF(Hz): 0 obs_length: nan\n") << "must give DELTAT";
     QTest::newRow("few columns") << head + "001 1 2 3\n"
-                                 << "line 2: is no line of a table of hits";
+                                 << "line 2: is not a row of a table of hits";
     QTest::newRow("words") << head + "a b c d e f g h i j k l\n"
                            << "line 2: is no line";
     QTest::newRow("infinite") << head + "1 inf 1 1 1 1 1 1 1 1 1 1\n"
                               << "line 2: is no line";
-    QTest::newRow("a long line") << head + QByteArray(100000, '1') << "is no table of at most a million hits";
+    QTest::newRow("a long line") << head + QByteArray(100000, '1') << "is not a table of at most a million hits";
 }
 
 void tst_TopHits::badTables()
@@ -281,7 +281,7 @@ void tst_TopHits::cadencesThatAreNone()
     QVERIFY(contains(errorOf([] { findCadence({observation(0.0, {})}); }), "needs at least two observations"));
     TopHits timeless = observation(0.0, {});
     timeless.startUnixSeconds.reset();
-    QVERIFY(contains(errorOf([&] { findCadence({timeless, timeless}); }), "does not tell when it begins"));
+    QVERIFY(contains(errorOf([&] { findCadence({timeless, timeless}); }), "does not give its start time"));
 }
 
 QTEST_APPLESS_MAIN(tst_TopHits)

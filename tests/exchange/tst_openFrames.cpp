@@ -192,7 +192,7 @@ void tst_openFrames::refusals()
                    "axes": [{"name": "range", "unit": "m", "first": 0, "step": 1},
                             {"name": "bearing", "unit": "°", "first": 0, "step": 1}]})");
     const std::string words = errorOf([&] { openFrames(path("cube.npy")); });
-    QVERIFY2(contains(words, "holds power on 2 axes; (frames, frequencies) can be normalised"), words.c_str());
+    QVERIFY2(contains(words, "holds power on 2 axes; only (frames, frequencies) can be normalised"), words.c_str());
 }
 
 void tst_openFrames::aFileThatShrinks()
@@ -202,10 +202,7 @@ void tst_openFrames::aFileThatShrinks()
     QVERIFY(QFile::resize(QString::fromStdString(stack), QFile(QString::fromStdString(stack)).size() - 4));
     std::vector<float> row(std::size_t(cells), 0.0f);
     power->read({0, frames - 2, 1, 0, cells}, row);
-    QCOMPARE(errorOf([&] {
-                 power->read({0, frames - 1, 1, 0, cells}, row);
-             }),
-             stack + ": became shorter while it was open");
+    QCOMPARE(errorOf([&] { power->read({0, frames - 1, 1, 0, cells}, row); }), stack + ": was truncated while open");
 }
 
 QTEST_APPLESS_MAIN(tst_openFrames)

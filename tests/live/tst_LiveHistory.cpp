@@ -1,9 +1,11 @@
 #include "live/LiveHistory.h"
 
 #include "analysis/analyse.h"
+#include "analysis/closeup.h"
 #include "exchange/writeEvents.h"
 #include "recording/SigmfRecording.h"
 #include "recording/SimulatedRecording.h"
+#include "recording/Timeline.h"
 #include "support/recordings.h"
 
 #include <QtTest>
@@ -23,10 +25,12 @@ class tst_LiveHistory : public QObject
 private slots:
     void showsWhatItsRecordingShows();
     void keepsTheNewestFramesSingle();
+    void looksBackAtItsRecording();
     void anotherThresholdKeepsTracks();
     void anotherDetectorBeginsAnew();
     void otherFramesBeginAnew();
     void refusesWhatCannotBe();
+    void tellsOfSettingsThatCameTooLate();
 
 private:
     QTemporaryDir m_folder;
@@ -41,19 +45,24 @@ StreamFormat format()
     return {parseSampleType("rf32_le", "test"), rate, 1, 0.0, "test"};
 }
 
-/// Samples in memory, a tenth of a second at a time.
+/// Samples in memory, a tenth of a second at a time; half a second is lost at one place, if any.
 class GivenSource final : public SampleSource
 {
 public:
-    explicit GivenSource(std::vector<float> samples) : m_samples(std::move(samples)) {}
+    explicit GivenSource(std::vector<float> samples, double lossSeconds = -1.0)
+        : m_samples(std::move(samples)), m_lossAt(Index(lossSeconds * rate))
+    {
+    }
     const StreamFormat &format() const override { return m_format; }
     bool isPatient() const override { return true; }
     Heard hear(std::chrono::milliseconds) override
     {
         const std::size_t count = std::min<std::size_t>(100, m_samples.size() - m_next);
         const auto bytes = std::as_bytes(std::span(m_samples).subspan(m_next, count));
-        m_next += count;
         Heard heard;
+        if (Index(m_next) == m_lossAt)
+            heard.lostSamples = 500;
+        m_next += count;
         heard.bytes.assign(bytes.begin(), bytes.end());
         heard.isOver = m_next == m_samples.size();
         return heard;
@@ -62,6 +71,7 @@ public:
 private:
     StreamFormat m_format = ::format();
     std::vector<float> m_samples;
+    Index m_lossAt;
     std::size_t m_next = 0;
 };
 
@@ -198,6 +208,44 @@ void tst_LiveHistory::keepsTheNewestFramesSingle()
     QVERIFY(haveSameRows(*view.input, from, *view.newInput, view.newInput->frameCount()));
 }
 
+// While it is being written, in several files and with a gap: the oracle is the analysis of all of it afterwards.
+void tst_LiveHistory::looksBackAtItsRecording()
+{
+    ListenSettings used = settings(m_folder.filePath("back.sigmf-meta").toStdString());
+    used.rotation.longestSeconds = 25.0;
+    GivenSource source(scene(120.0), 45.0);
+    LiveHistory history;
+    LiveView view;
+    ListenSinks sinks;
+    sinks.recording = [&](const auto &written) { history.take(written); };
+    sinks.plan = [&](const AnalysisPlan &plan) { history.take(plan); };
+    sinks.frame = [&](const ListenFrame &frame) {
+        history.take(frame);
+        if (frame.number == 700)
+            view = history.view();
+    };
+    const ListenResult live = listen(source, used, sinks);
+    QCOMPARE(live.files.size(), std::size_t(5));
+    QVERIFY(live.recording.ends_with("back.timeline"));
+
+    const auto soFar = analysisSoFar(view);
+    QCOMPARE(soFar->time().count, Index(701));
+    QVERIFY(!view.checkpoints->isEmpty());
+    const auto whole = analyse(
+        std::make_shared<Timeline>(std::vector{live.recording},
+                                   [](const std::string &file) { return std::make_shared<SigmfRecording>(file); }),
+        settingsForListening(settings().analysis, format()));
+    const FrameStretch stretch{300, 701};
+    constexpr std::size_t enough = 64 << 20;
+    QVERIFY(haveSameRows(*whole->input, 300, *inputCloseup(*soFar, stretch, enough), 401));
+    QVERIFY(haveSameRows(*whole->statistic, 300, *statisticCloseup(*soFar, stretch, enough), 401));
+    const std::vector<float> samples = scene(120.0);
+    std::vector<float> heard(2000);
+    HeardRecording(view.written).read(0, 50'500, 2000, heard); // 500 of them were not
+    QVERIFY(std::ranges::equal(heard, std::span(samples).subspan(50'000, 2000)));
+    QVERIFY(!soFar->recording->isWhole(45'000, 501) && soFar->recording->isWhole(45'500, 30'000));
+}
+
 // The strong line's track goes on under its number; the mark stands where the threshold changed.
 void tst_LiveHistory::anotherThresholdKeepsTracks()
 {
@@ -269,6 +317,19 @@ void tst_LiveHistory::refusesWhatCannotBe()
     QVERIFY(live->refusals[0].find("selection.lowHz") != std::string::npos);
     QVERIFY(live->history.view().changes.empty());
     QVERIFY(live->result.isAnalysedToTheEnd);
+}
+
+// Asked for behind the last frame, which begins at 59.75 s.
+void tst_LiveHistory::tellsOfSettingsThatCameTooLate()
+{
+    AnalysisSettings other = settings().analysis;
+    other.decide.falseAlarmsPerHour = 5.0;
+    const auto live = run(scene(60.0), settings(), 59.74, other);
+    QCOMPARE(live->refusals.size(), std::size_t(1));
+    QVERIFY2(live->refusals[0].starts_with("Listening ended before the changed settings were in force"),
+             live->refusals[0].c_str());
+    QVERIFY(live->history.view().changes.empty());
+    QCOMPARE(live->result.plan.settings.decide.falseAlarmsPerHour, 60.0);
 }
 
 QTEST_APPLESS_MAIN(tst_LiveHistory)

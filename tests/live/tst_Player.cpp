@@ -23,6 +23,7 @@ private slots:
     void bandAlone();
     void lineStaysAtItsTone_data();
     void lineStaysAtItsTone();
+    void waitsForWhatIsBeingMade();
     void loops();
     void silenceIsSilent();
     void withoutDevice();
@@ -155,6 +156,23 @@ void tst_Player::lineStaysAtItsTone()
     const std::vector<float> samples = played(sound, 0, 4 * 48'000);
     QVERIFY2(std::abs(amplitudeAt(samples, 700.0) / fullTone - 1.0) < 0.02,
              qPrintable(QString::number(amplitudeAt(samples, 700.0) / fullTone)));
+}
+
+// Nothing is played that is not there yet; what has run away is left out but for half a second; the level is that before.
+void tst_Player::waitsForWhatIsBeingMade()
+{
+    double end = 12.0;
+    PlaySettings settings{10.0, 1e9};
+    settings.endSeconds = [&end] { return end; };
+    const PlayedSound sound(tones({steady(1000.0)}, 8000.0, 30.0, false), 0, settings, deviceRate);
+    QVERIFY(sound.isThere(Index(1.99 * deviceRate)));
+    QVERIFY(!sound.isThere(Index(2.0 * deviceRate))); // which is made from what lies behind it, too
+    end = 12.5;
+    QVERIFY(sound.isThere(Index(2.0 * deviceRate)));
+    QCOMPARE(sound.behindBy(0), Index(2.0 * deviceRate));
+    QCOMPARE(sound.behindBy(Index(1.0 * deviceRate)), Index(0));
+    const std::vector<float> samples = played(sound, 0, 96'000);
+    QVERIFY(std::abs(amplitudeAt(samples, 1000.0) / fullTone - 1.0) < 0.01);
 }
 
 void tst_Player::loops()

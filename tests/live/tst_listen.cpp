@@ -376,6 +376,8 @@ void tst_listen::rotates()
     used.rotation.longestSeconds = 20.0;
     const ListenResult live = listen(source, used, {});
     QCOMPARE(live.files.size(), std::size_t(3));
+    QCOMPARE(QString::fromStdString(live.recording), m_folder.filePath("turn.timeline"));
+    QCOMPARE(readBytes(live.recording), QByteArray("turn.sigmf-meta\nturn-2.sigmf-meta\nturn-3.sigmf-meta\n"));
     std::vector<float> all;
     double start = 0.0;
     for (const std::string &file : live.files) {

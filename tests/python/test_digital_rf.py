@@ -92,7 +92,7 @@ class DigitalRf(InFolder):
         wide = np.ones((2, 3, 2), "f4")
         self.assertIn("no rf_data", self.refusal(fl.open, self.write(begin, wide)).what)
         texts = np.array([[b"a"]], "S5")
-        self.assertIn("no numbers", self.refusal(fl.open, self.write(begin, texts)).what)
+        self.assertIn("not hold numbers", self.refusal(fl.open, self.write(begin, texts)).what)
 
 
 if __name__ == "__main__":

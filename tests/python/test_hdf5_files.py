@@ -126,23 +126,23 @@ class Hdf5Filterbanks(InFolder):
             return make
 
         hostile = {
-            linked: "link to elsewhere",
-            soft: "link to elsewhere",
+            linked: "soft or external link",
+            soft: "soft or external link",
             outside: "other files",
-            virtual: "put together",
+            virtual: "virtual dataset",
             bomb: "64 MiB",
-            enormous: "next to nothing",
-            texts: "no numbers",
+            enormous: "almost none of them",
+            texts: "not hold numbers",
             flat: "frames, polarisations and channels",
-            group: "no dataset",
+            group: "not a dataset",
             empty: "no values",
             attributes(fch1=np.nan): "fch1",
             attributes(foff=np.inf): "foff",
             attributes(foff=0.0): "foff",
             attributes(tsamp=-1.0): "tsamp",
             attributes(tsamp="soon"): "tsamp",
-            attributes(fch1=[1.0, 2.0]): "another kind",
-            (lambda file: None): "another kind",
+            attributes(fch1=[1.0, 2.0]): "unsupported kind",
+            (lambda file: None): "unsupported kind",
         }
         for number, (make, part) in enumerate(hostile.items()):
             with self.subTest(part):
@@ -171,7 +171,7 @@ class Hdf5Filterbanks(InFolder):
         path = self.folder / "broken.h5"
         whole = made.read_bytes()
         path.write_bytes(whole[:3000])
-        self.assertIn("cut short", self.refusal(fl.open, path).why)
+        self.assertIn("truncated", self.refusal(fl.open, path).why)
         rng = np.random.default_rng(4)
         for _ in range(200):  # one line each, whatever it is, or it was no harm
             broken = bytearray(whole)
@@ -264,11 +264,11 @@ class Strain(InFolder):
         path = self.folder / "matrix.hdf5"
         with h5py.File(path, "w") as file:
             file.create_dataset("strain/Strain", data=np.ones((3, 3)))
-        self.assertIn("one number a sample", self.refusal(fl.open, path).what)
+        self.assertIn("one number per sample", self.refusal(fl.open, path).what)
         path = self.folder / "linked.hdf5"
         with h5py.File(path, "w") as file:
             file["strain"] = h5py.ExternalLink("/etc/passwd", "/")
-        self.assertIn("link to elsewhere", self.refusal(fl.open, path).what)
+        self.assertIn("soft or external link", self.refusal(fl.open, path).what)
 
 
 if __name__ == "__main__":

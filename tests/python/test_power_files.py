@@ -104,7 +104,7 @@ class Filterbanks(InFolder):
         self.assertEqual(result.input.shape, (220, 41))
         self.assertEqual(result.frequency.first, 1420e6 + 100)
         self.assertGreater(len(result.events), 0)
-        self.assertIn("leaves nothing", self.refusal(fl.detect, path, low_hz=1.0, high_hz=2.0).why)
+        self.assertIn("selects nothing", self.refusal(fl.detect, path, low_hz=1.0, high_hz=2.0).why)
 
     def test_unobserved_values_are_no_evidence(self):
         power = drifting_line()[:, ::-1]
@@ -138,11 +138,11 @@ class Filterbanks(InFolder):
         good = header()
         data = bytes(64 * 4 * 4)
         hostile = {
-            "cut in its header": (good[:40], "cut short"),
+            "cut in its header": (good[:40], "truncated or longer"),
             "a word of no length": (keyword("HEADER_START") + struct.pack("<i", 0) + data, "characters"),
             "a word of two billion": (keyword("HEADER_START") + struct.pack("<i", 2**31 - 1) + data, "characters"),
-            "an unknown word": (keyword("HEADER_START") + keyword("evil\x1b[2J", 3) + data, "not known"),
-            "no end": (keyword("HEADER_START") + keyword("nbits", 8) * 9000, "cut short"),
+            "an unknown word": (keyword("HEADER_START") + keyword("evil\x1b[2J", 3) + data, "unknown"),
+            "no end": (keyword("HEADER_START") + keyword("nbits", 8) * 9000, "truncated or longer"),
             "no channels": (header(nchans=0) + data, "nchans"),
             "too many channels": (header(nchans=2**31 - 1) + data, "nchans"),
             "negative channels": (header(nchans=-5) + data, "nchans"),
@@ -154,7 +154,7 @@ class Filterbanks(InFolder):
             "no time": (header(tsamp=0.0) + data, "tsamp"),
             "many polarisations": (header(nifs=2**30) + data, "nifs"),
             "half a byte": (header(nchans=3, nbits=1) + data, "whole bytes"),
-            "no spectrum": (header(nchans=4096) + data[:100], "no whole spectrum"),
+            "no spectrum": (header(nchans=4096) + data[:100], "no complete spectrum"),
             "only zeros": (good + data, "holds no power"),
             "only NaN": (good + np.full((100, 64), np.nan, "<f4").tobytes(), "holds no power"),
             "only negative": (good + np.full((100, 64), -1, "<f4").tobytes(), "holds no power"),

@@ -185,18 +185,19 @@ void tst_Timeline::gapsAndOverlaps()
              == std::array<Index, 3>{aligned.places[i].inTime, aligned.places[i].skipped, aligned.places[i].count}),
             qPrintable(QString::number(i)));
     QVERIFY(aligned.notes.at(1).starts_with("1 gap(s) between files, 5.25 s"));
-    QVERIFY(aligned.notes.at(2).starts_with("1 file(s) begin before the one before ends; 0.5 s"));
+    QVERIFY(aligned.notes.at(2).starts_with("1 file(s) begin before the previous one ends; 0.5 s"));
 }
 
 void tst_Timeline::refusals_data()
 {
     QTest::addColumn<TimedFile>("other");
     QTest::addColumn<QString>("words");
-    QTest::newRow("rate") << TimedFile{"b", newYear + 10, 101.0, 1000} << "b: has 101 samples a second, but a has 100";
+    QTest::newRow("rate") << TimedFile{"b", newYear + 10, 101.0, 1000}
+                          << "b: has 101 samples per second, but a has 100";
     QTest::newRow("within") << TimedFile{"b", newYear + 2, 100.0, 100} << "b: lies within the time of a";
     QTest::newRow("the same time") << TimedFile{"b", newYear, 100.0, 1000} << "b: lies within the time of a";
     QTest::newRow("a wrong clock") << TimedFile{"b", newYear + 4e8, 100.0, 1000} << "b: begins 4630 days after a ends";
-    QTest::newRow("no rate") << TimedFile{"b", newYear, std::nan(""), 1000} << "b: has nan samples a second";
+    QTest::newRow("no rate") << TimedFile{"b", newYear, std::nan(""), 1000} << "b: has nan samples per second";
 }
 
 void tst_Timeline::refusals()
@@ -280,7 +281,7 @@ void tst_Timeline::refusedFiles()
     writeBytes(path("itself.timeline"), "itself.timeline\n");
     QVERIFY(contains(said(path("itself.timeline")), "which is a folder or a list itself"));
     writeBytes(path("binary.timeline"), QByteArray("a\0b\n", 4));
-    QVERIFY(contains(said(path("binary.timeline")), "is no list of at most a million file names"));
+    QVERIFY(contains(said(path("binary.timeline")), "is not a list of at most a million file names"));
     writeBytes(path("lost.timeline"), "nowhere.sigmf-meta\n");
     QVERIFY(contains(said(path("lost.timeline")), "nowhere.sigmf-meta"));
     write("a", 0.0, "abc");

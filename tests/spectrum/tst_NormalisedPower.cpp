@@ -311,14 +311,15 @@ void tst_NormalisedPower::refusals()
     QCOMPARE(refusal(selection), std::string("selection.channels = 1: memory has 1 channel(s), counted from 0"));
     selection = {};
     selection.fromSeconds = 900.0;
-    QCOMPARE(refusal(selection), std::string("selection.fromSeconds, selection.toSeconds: leaves nothing of memory, "
-                                             "which goes from 0.5 to 399.5 s"));
+    QCOMPARE(refusal(selection), std::string("selection.fromSeconds, selection.toSeconds: selects nothing of memory, "
+                                             "which extends from 0.5 to 399.5 s"));
     selection = {};
     selection.lowHz = 1000.5;
     selection.highHz = 1001.5;
-    QCOMPARE(refusal(selection),
-             std::string("selection.lowHz, selection.highHz: leaves nothing of memory, which goes from 1000 to 1598 "
-                         "Hz"));
+    QCOMPARE(
+        refusal(selection),
+        std::string("selection.lowHz, selection.highHz: selects nothing of memory, which extends from 1000 to 1598 "
+                    "Hz"));
     NormaliserSettings causal = settings();
     causal.causal = true;
     QCOMPARE(errorOf([&] { NormalisedPower(power, partOf(power->info(), {}), causal); }),

@@ -2,6 +2,7 @@
 #include "recording/ArrayRecording.h"
 #include "spectrum/ResampledRecording.h"
 #include "support/errors.h"
+#include "support/recordings.h"
 
 #include <QtTest>
 
@@ -11,6 +12,7 @@
 #include <numbers>
 
 using namespace faintline;
+using test::amplitudeAt;
 
 namespace {
 
@@ -56,19 +58,6 @@ RecordingPointer family(bool isComplex)
             sum += std::polar(1.0, 2.0 * std::numbers::pi * multiple * cyclesAt(t));
         return sum;
     });
-}
-
-double amplitudeAt(const Recording &recording, double hz, Index first, Index length)
-{
-    const auto floats = std::size_t(recording.info().floatsPerSample());
-    std::vector<float> samples(std::size_t(length) * floats);
-    recording.read(0, first, length, samples);
-    std::complex<double> sum = 0.0;
-    for (std::size_t n = 0; n < std::size_t(length); ++n) {
-        const std::complex<double> x(double(samples[floats * n]), floats > 1 ? double(samples[floats * n + 1]) : 0.0);
-        sum += x * std::polar(1.0, -2.0 * std::numbers::pi * hz * double(n) / rate);
-    }
-    return std::abs(sum) / double(length) * (floats > 1 ? 1.0 : 2.0);
 }
 
 double meanPower(const Recording &recording, Index first, Index length)

@@ -1,6 +1,7 @@
 #include "base/Error.h"
 #include "recording/ArrayRecording.h"
 #include "spectrum/StraightenedRecording.h"
+#include "support/recordings.h"
 
 #include <QtTest>
 
@@ -9,6 +10,7 @@
 #include <numbers>
 
 using namespace faintline;
+using test::amplitudeAt;
 
 namespace {
 
@@ -47,20 +49,6 @@ FrequencyCurve curve()
     for (Index i = 0; i < time.count; ++i)
         hz.push_back(frequencyAt(time.value(double(i))));
     return {time, hz};
-}
-
-/// Amplitude of a frequency in samples first … first+length-1.
-double amplitudeAt(const Recording &recording, double hz, Index first, Index length)
-{
-    const auto floats = std::size_t(recording.info().floatsPerSample());
-    std::vector<float> samples(std::size_t(length) * floats);
-    recording.read(0, first, length, samples);
-    std::complex<double> sum = 0.0;
-    for (std::size_t n = 0; n < std::size_t(length); ++n) {
-        const std::complex<double> x(double(samples[floats * n]), floats > 1 ? double(samples[floats * n + 1]) : 0.0);
-        sum += x * std::polar(1.0, -2.0 * std::numbers::pi * hz * double(n) / rate);
-    }
-    return std::abs(sum) / double(length) * (floats > 1 ? 1.0 : 2.0);
 }
 
 } // namespace

@@ -137,6 +137,16 @@ inline std::complex<double> fourier(const float *samples, Index n, bool isComple
     return sum;
 }
 
+/// Amplitude of a frequency in samples first … first+length-1 of channel 0.
+inline double amplitudeAt(const Recording &recording, double hz, Index first, Index length)
+{
+    const RecordingInfo &info = recording.info();
+    std::vector<float> samples(std::size_t(length * info.floatsPerSample()));
+    recording.read(0, first, length, samples);
+    const double sum = std::abs(fourier(samples.data(), length, info.isComplex, hz / info.sampleRateHz));
+    return sum / double(length) * (info.isComplex ? 1.0 : 2.0);
+}
+
 /// Samples held in memory, one channel.
 class MemoryRecording final : public Recording
 {

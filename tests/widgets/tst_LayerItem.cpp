@@ -51,6 +51,7 @@ private slots:
     void aRowOfPixelsLiesOnItsFrames();
     void timeMayRunToTheRight();
     void coarsePixelsCoverAllTheirCells();
+    void frequencyMayBeLogarithmic();
     void itStaysOnTheCanvas();
     void withoutAPictureNothingIsDrawn();
     void anotherLayerIsPaintedAnew();
@@ -264,6 +265,34 @@ void tst_LayerItem::coarsePixelsCoverAllTheirCells()
     QCOMPARE(image.pixel(62, 40), qRgb(0, 0, 0));
     QCOMPARE(image.pixel(45, 62), qRgb(0, 0, 0));
     QCOMPARE(image.pixel(45, 18), ground); // frames 8 and 9 are not in it
+}
+
+void tst_LayerItem::frequencyMayBeLogarithmic()
+{
+    const auto cells = picture(10, 20);
+    cells->inhibited[3 * 20 + 8] = 1.0f; // frame 3, cell 8: 16 … 18 Hz
+    m_item->setPicture(cells, m_rows, m_columns);
+    m_item->setLayer(OutputLayer::Inhibited, {0.0, 1.0}, "Inhibited", 1.0);
+    QwtScaleMap hz;
+    hz.setTransformation(new QwtLogTransform);
+    hz.setScaleInterval(1.0, 100.0);
+    for (const bool isTimeVertical : {true, false}) {
+        QImage image(200, 200, QImage::Format_RGB32);
+        image.fill(ground);
+        QPainter painter(&image);
+        m_item->setTimeVertical(isTimeVertical);
+        hz.setPaintInterval(isTimeVertical ? 0.0 : 200.0, isTimeVertical ? 200.0 : 0.0); // 100 pixels a decade
+        const QwtScaleMap time = scaleMap(0.0, 10.0, 0.0, 200.0);
+        m_item->draw(&painter, isTimeVertical ? hz : time, isTimeVertical ? time : hz, {0, 0, 200, 200});
+        const auto colourAt = [&](double frequency) {
+            const int place = int(hz.transform(frequency));
+            return isTimeVertical ? image.pixel(place, 70) : image.pixel(70, place); // 3.5 s
+        };
+        QCOMPARE(colourAt(17.0), qRgb(0, 170, 190));
+        QCOMPARE(colourAt(15.4), qRgb(0, 0, 0));
+        QCOMPARE(colourAt(18.8), qRgb(0, 0, 0));
+        QCOMPARE(colourAt(50.0), ground); // above the last cell
+    }
 }
 
 void tst_LayerItem::itStaysOnTheCanvas()

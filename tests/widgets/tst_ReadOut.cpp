@@ -26,6 +26,7 @@ private slots:
     void neighbouringCellsDiffer_data();
     void neighbouringCellsDiffer();
     void longTimesAndHighFrequenciesChangeTheirUnit();
+    void aCentreFrequencyGivesTheRadioFrequency();
     void theDayEndsAtMidnight();
     void noSecondHasSixty();
     void theStatisticHasItsUnit();
@@ -131,6 +132,19 @@ void tst_ReadOut::longTimesAndHighFrequenciesChangeTheirUnit()
     m_line->setReading({-2.5, -12000.0, {}, {}, {}});
     QCOMPARE(shown("Time"), QString("−2.5 s"));
     QCOMPARE(shown("Frequency"), QString("−12.0000 kHz"));
+}
+
+void tst_ReadOut::aCentreFrequencyGivesTheRadioFrequency()
+{
+    QVERIFY(figure("Radio")->parentWidget()->isHidden());
+    m_line->setResolution(0.1, 0.02);
+    m_line->setCentreHz(2.5e6);
+    m_line->setReading({1.0, -2.91, {}, {}, {}});
+    QVERIFY(!figure("Radio")->parentWidget()->isHidden());
+    QCOMPARE(figure("Radio")->text(), QString("2499.99709 kHz"));
+    QVERIFY(m_line->text().contains("2499.99709 kHz"));
+    m_line->setCentreHz(0.0);
+    QVERIFY(figure("Radio")->parentWidget()->isHidden());
 }
 
 void tst_ReadOut::theDayEndsAtMidnight()

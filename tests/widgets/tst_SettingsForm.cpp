@@ -248,6 +248,9 @@ void tst_SettingsForm::labelsAreWords()
 {
     QCOMPARE(settingLabel("spectrogram.windowSeconds"), QString("Window length"));
     QCOMPARE(settingLabel("some.newThingHere"), QString("New thing here"));
+    QCOMPARE(settingExample("selection.channels"), QString("all, or 0, 1"));
+    QCOMPARE(qobject_cast<QLineEdit *>(m_form->editor("family.members"))->placeholderText(),
+             QString("1, 2, 3 or -50, 50"));
     QCOMPARE(stageLabel("smd"), QString("Sequential Markov"));
     QCOMPARE(stageLabel("someStage"), QString("Some stage"));
 }

@@ -23,6 +23,9 @@ private slots:
     void signalsOnlyChanges();
     void emptyIsHarmless();
     void followsWhatGrows();
+    void logarithmicZoomAndScrollKeepRatios();
+    void logarithmicExtentsBeginAboveZero();
+    void negativeFrequenciesStayLinear();
 
 private:
     Viewport m_view;
@@ -165,6 +168,55 @@ void tst_Viewport::followsWhatGrows()
     QVERIFY(!m_view.isFollowing());
     m_view.showAll();
     QVERIFY(!m_view.isFollowing());
+}
+
+void tst_Viewport::logarithmicZoomAndScrollKeepRatios()
+{
+    m_view.setExtents({0.0, 10.0}, {10.0, 10000.0}, 0.5, 1.0);
+    QSignalSpy scale(&m_view, &Viewport::scaleChanged);
+    m_view.setLogarithmic(true);
+    QCOMPARE(scale.count(), 1);
+    QVERIFY(m_view.isLogarithmic() && m_view.showsAll());
+    m_view.zoomAt(3.0, {5.0, 100.0}, Viewport::Axes::Frequency); // three decades become one; 100 Hz stays at a third
+    QVERIFY(std::abs(m_view.frequency().high / m_view.frequency().low - 10.0) < 1e-9);
+    QVERIFY(std::abs(std::log10(100.0 / m_view.frequency().low) - 1.0 / 3.0) < 1e-9);
+    const Viewport::Box before = m_view.visible();
+    m_view.scroll(0.0, 0.5);
+    QVERIFY(std::abs(m_view.frequency().low / before.frequency.low - std::sqrt(10.0)) < 1e-9);
+    QVERIFY(std::abs(m_view.frequency().high / before.frequency.high - std::sqrt(10.0)) < 1e-9);
+    m_view.move(before, {0.0, 200.0}, {0.0, 100.0}); // what was at 200 Hz comes to where 100 Hz was
+    QVERIFY(std::abs(m_view.frequency().low / before.frequency.low - 2.0) < 1e-9);
+    m_view.reveal({{1.0, 2.0}, {5000.0, 6000.0}});
+    QVERIFY(m_view.frequency().contains(5000.0) && m_view.frequency().contains(6000.0));
+    m_view.showAll();
+    QVERIFY(m_view.showsAll());
+    m_view.setLogarithmic(false);
+    QCOMPARE(m_view.frequency().low, 10.0);
+}
+
+void tst_Viewport::logarithmicExtentsBeginAboveZero()
+{
+    m_view.setExtents({0.0, 10.0}, {-0.5, 8000.5}, 0.5, 8.0); // cells of 1 Hz from 0 Hz on
+    m_view.setLogarithmic(true);
+    QCOMPARE(m_view.full().frequency.low, 8.0005); // a thousandth of the highest
+    QCOMPARE(m_view.extents().frequency.low, -0.5);
+    m_view.zoomTo({0.0, 10.0}, {-100.0, 16.0});
+    QCOMPARE(m_view.frequency().low, 8.0005);
+    m_view.setExtents({0.0, 10.0}, {-0.5, 64.5}, 0.5, 8.0); // it holds for later recordings
+    QVERIFY(m_view.isLogarithmic());
+    QCOMPARE(m_view.full().frequency.low, 0.5); // above the cell of 0 Hz
+}
+
+void tst_Viewport::negativeFrequenciesStayLinear()
+{
+    m_view.setLogarithmic(true);
+    QSignalSpy scale(&m_view, &Viewport::scaleChanged);
+    m_view.setExtents({0.0, 10.0}, {-500.0, 500.0});
+    QVERIFY(!m_view.isLogarithmic() && !m_view.canBeLogarithmic());
+    QCOMPARE(scale.count(), 1);
+    m_view.setLogarithmic(false); // means nothing here
+    m_view.setExtents({0.0, 10.0}, {0.0, 500.0});
+    QVERIFY(m_view.isLogarithmic());
 }
 
 QTEST_MAIN(tst_Viewport)

@@ -4,6 +4,9 @@
 #include "pixels.h"
 #include "widgets/base/Theme.h"
 
+#include <qwt_scale_draw.h>
+#include <qwt_text.h>
+
 #include <QMenu>
 #include <QSignalSpy>
 #include <QtTest>
@@ -42,6 +45,8 @@ private slots:
     void valueAtEveryCell();
     void emptyAndBack();
     void everyOrientationShowsTheSameCell();
+    void logarithmicFrequency();
+    void radioFrequency();
     void contextMenuOffersAndAsks();
     void samePixelsTwice();
     void theSelectedTrackShowsItsBand();
@@ -70,6 +75,7 @@ void tst_WaterfallView::init()
 void tst_WaterfallView::cleanup()
 {
     m_view.reset();
+    m_viewport.setLogarithmic(false);
 }
 
 void tst_WaterfallView::wheel(const QPointF &position, int notches, Qt::KeyboardModifiers modifiers)
@@ -437,6 +443,45 @@ void tst_WaterfallView::everyOrientationShowsTheSameCell()
         QCOMPARE(qGreen(image.pixel(pixel(42.5, 200.0))), 9);
         QCOMPARE(qGreen(image.pixel(pixel(40.5, 204.0))), 9);
     }
+}
+
+void tst_WaterfallView::logarithmicFrequency()
+{
+    constexpr double hotHz = 200.0;
+    m_viewport.setLogarithmic(true);
+    for (const auto orientation : {WaterfallView::Orientation::NewestOnTop, WaterfallView::Orientation::LeftToRight}) {
+        m_view->setOrientation(orientation);
+        const Span visible = m_viewport.frequency();
+        const QPointF low = m_view->positionOf({50.0, visible.low}), high = m_view->positionOf({50.0, visible.high}),
+                      middle = m_view->positionOf({50.0, std::sqrt(visible.low * visible.high)});
+        QVERIFY((middle - 0.5 * (low + high)).manhattanLength() < 1.0);
+        QTest::mouseClick(m_view->canvas(), Qt::LeftButton, {}, pixel(40.5, hotHz));
+        QVERIFY(m_viewport.cursor());
+        const double pixelHz = hotHz * (std::pow(visible.high / visible.low, 1.0 / 300.0) - 1.0);
+        QVERIFY(std::abs(m_viewport.cursor()->hz - hotHz) < 2.0 * pixelHz);
+        QCOMPARE(m_view->valueAt(m_viewport.cursor()->seconds, m_viewport.cursor()->hz), std::optional(30.0));
+        const QImage shown = m_view->canvas()->grab().toImage(); // the hot cell lies in the cursor's gap
+        int brightest = 0;
+        for (int dx = -1; dx <= 1; ++dx)
+            for (int dy = -1; dy <= 1; ++dy)
+                brightest = std::max(brightest, qGray(shown.pixel(pixel(40.5, hotHz) + QPoint(dx, dy))));
+        QVERIFY(brightest > qGray(shown.pixel(pixel(40.5, hotHz) + QPoint(40, 40))) + 60);
+    }
+    m_viewport.zoomTo(m_viewport.full().time, {120.0, 480.0});
+    const QPoint from = pixel(50.0, 200.0), to = pixel(50.0, 220.0);
+    drag(from, to);
+    QVERIFY(std::abs(m_viewport.frequency().high / m_viewport.frequency().low - 4.0) < 1e-6); // ratios are kept
+    QVERIFY(std::abs(m_view->pointAt(to).hz - 200.0) < 4.0);
+}
+
+void tst_WaterfallView::radioFrequency()
+{
+    const QString offset = m_view->axisTitle(m_view->hzAxis()).text();
+    m_viewport.setOriginHz(7.03e6);
+    QCOMPARE(m_view->axisTitle(m_view->hzAxis()).text(), QString("Radio frequency (kHz)"));
+    QVERIFY(m_view->axisScaleDraw(m_view->hzAxis())->label(200.0).text().startsWith("7030.2"));
+    m_viewport.setOriginHz(0.0);
+    QCOMPARE(m_view->axisTitle(m_view->hzAxis()).text(), offset);
 }
 
 void tst_WaterfallView::contextMenuOffersAndAsks()

@@ -17,6 +17,7 @@ class tst_rasterise : public QObject
 private slots:
     void zoomedInEveryCellIsARectangle();
     void zoomedOutAgainstTheDefinition();
+    void logarithmicPixelsAgainstTheDefinition();
     void aHotCellSurvivesAnyZoom();
     void aOneBinLineSurvivesLongRecordings();
     void theLastFrameIsShown();
@@ -61,6 +62,34 @@ void tst_rasterise::zoomedOutAgainstTheDefinition()
                     highest = std::max(highest, picture->scale().value(picture->row(0, f)[std::size_t(cell)]));
             QCOMPARE(picture->scale().value(out[std::size_t(t * hz.count + c)]), highest);
         }
+}
+
+void tst_rasterise::logarithmicPixelsAgainstTheDefinition()
+{
+    // Cells of 1 Hz from -0.5 Hz on; pixels from 1 to 600 Hz: narrower than cells below, wider above.
+    const Index cells = 620;
+    const auto picture = test::picture(3, cells, [](Index f, Index c) { return float((f * 37 + c * 91) % 43); });
+    const int count = 200;
+    const double step = std::log(600.0) / count;
+    const auto out = raster(*picture, {0.0, 1.0, 3}, {0.0, step, count, 0.5});
+    QSet<int> inSight;
+    for (int t = 0; t < 3; ++t)
+        for (int p = 0; p < count; ++p) {
+            const double low = 0.5 + std::exp(p * step), high = 0.5 + std::exp((p + 1) * step);
+            double highest = -100.0;
+            for (Index cell = 0; cell < cells; ++cell) {
+                const double centre = double(cell) + 0.5;
+                const bool isInside = high - low > 1.0 ? centre >= low && centre < low + std::ceil(high - low)
+                                                       : cell == Index(0.5 * (low + high));
+                if (!isInside)
+                    continue;
+                inSight.insert(int(cell));
+                highest = std::max(highest, picture->scale().value(picture->row(0, t)[std::size_t(cell)]));
+            }
+            QCOMPARE(picture->scale().value(out[std::size_t(t * count + p)]), highest);
+        }
+    for (int cell = 2; cell < 600; ++cell)
+        QVERIFY2(inSight.contains(cell), qPrintable(QString::number(cell)));
 }
 
 void tst_rasterise::aHotCellSurvivesAnyZoom()

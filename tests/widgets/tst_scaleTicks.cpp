@@ -24,6 +24,8 @@ private slots:
     void decadesAreThinnedOut_data();
     void decadesAreThinnedOut();
     void digitsBetweenTheDecades();
+    void logarithmicTicks();
+    void ticksOfAnOrigin();
     void secondsOrClock();
     void timesOfDay();
     void numbersInTheirUnit();
@@ -104,6 +106,35 @@ void tst_scaleTicks::digitsBetweenTheDecades()
     const QList<double> minor = div.ticks(QwtScaleDiv::MinorTick);
     QCOMPARE(minor.size(), qsizetype(5 * 8));
     QVERIFY(std::abs(std::pow(10.0, minor.front()) - 0.02) < 1e-12);
+}
+
+void tst_scaleTicks::logarithmicTicks()
+{
+    QCOMPARE(major(logarithmicScaleDiv({20.0, 3000.0}, 12)), (QList<double>{20, 50, 100, 200, 500, 1000, 2000}));
+    QCOMPARE(major(logarithmicScaleDiv({20.0, 3000.0}, 5)), (QList<double>{30, 100, 300, 1000, 3000}));
+    QCOMPARE(major(logarithmicScaleDiv({20.0, 3000.0}, 3)), (QList<double>{100, 1000}));
+    QVERIFY(major(logarithmicScaleDiv({210.0, 290.0}, 5)).size() >= 3); // as on a linear scale
+    QVERIFY(logarithmicScaleDiv({20.0, 3000.0}, 12).ticks(QwtScaleDiv::MinorTick).contains(700.0));
+    NumberScaleDraw draw;
+    draw.setLogarithmic(true);
+    draw.setUnit(1000.0);
+    draw.setScaleDiv(logarithmicScaleDiv({20.0, 30000.0}, 12));
+    QCOMPARE(draw.label(20.0).text(), QString("0.02"));
+    QCOMPARE(draw.label(20000.0).text(), QString("20"));
+}
+
+void tst_scaleTicks::ticksOfAnOrigin()
+{
+    const double origin = 145.8e6;
+    const QwtScaleDiv div = linearScaleDiv({-1300.0, 1300.0}, 4, origin);
+    NumberScaleDraw draw;
+    draw.setUnit(1e6);
+    draw.setOrigin(origin);
+    draw.setScaleDiv(div);
+    QCOMPARE(div.lowerBound(), -1300.0);
+    QCOMPARE(major(div).size(), qsizetype(3));
+    QCOMPARE(draw.label(major(div)[0]).text(), QString("145.799"));
+    QCOMPARE(draw.label(major(div)[2]).text(), QString("145.801"));
 }
 
 void tst_scaleTicks::secondsOrClock()

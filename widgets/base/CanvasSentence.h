@@ -7,7 +7,7 @@
 
 namespace faintline {
 
-/// A sentence in the middle of a plot that has nothing to show yet; what to do, never just emptiness.
+/// A sentence in the middle of an empty plot that tells the user what to do.
 class CanvasSentence : public QwtPlotItem
 {
 public:

@@ -20,7 +20,7 @@ namespace {
 
     const QString dash = QStringLiteral("–");
 
-    /// "2024-07-26 00:00:12.5", to the frame's digits.
+    /// "2024-07-26 00:00:12.5", with the frame's precision.
     QString utcText(double unixSeconds, int decimals)
     {
         const double scale = std::pow(10.0, decimals);
@@ -36,16 +36,19 @@ ReadOut::ReadOut(QWidget *parent) : QWidget(parent)
     auto *layout = new QHBoxLayout(this);
     layout->setContentsMargins(8, 2, 8, 2);
     layout->setSpacing(16);
-    layout->setSizeConstraint(QLayout::SetNoConstraint); // in a narrow window its end gives way, the window must not
+    layout->setSizeConstraint(QLayout::SetNoConstraint); // in a narrow window the line is clipped, so that it does not
+                                                         // widen the window
     setMinimumWidth(600);
     m_time = addItem(tr("Time"), QStringLiteral("00:00:00.00"));
     m_utc = addItem(tr("UTC"), QStringLiteral("0000-00-00 00:00:00.00"));
     m_frequency = addItem(tr("Frequency"), QStringLiteral("0000.000 kHz"));
+    m_radio = addItem(tr("Radio"), QStringLiteral("000.000000 MHz"));
     m_level = addItem(tr("Level"), QStringLiteral("−00.0 dB"));
     m_statistic = addItem(tr("Statistic"), QStringLiteral("000.00 × noise"));
     m_slope = addItem(tr("Slope"), QStringLiteral("−00.000 Hz/s"));
     m_age = addItem(tr("Path"), {});
     layout->addStretch(1);
+    m_radio.box->setToolTip(tr("Radio frequency: the recording's centre frequency plus the offset"));
     m_level.box->setToolTip(tr("Power over the mean of the noise"));
     m_statistic.box->setToolTip(tr("The detector's statistic D"));
     m_slope.box->setToolTip(tr("Slope of the best state in this cell, or of the track through it"));
@@ -53,6 +56,7 @@ ReadOut::ReadOut(QWidget *parent) : QWidget(parent)
                              "layer (V) or the state space (S) is shown"));
     setAccessibleName(tr("Read-out"));
     setStartUnixSeconds({});
+    setCentreHz(0.0);
     clear();
 }
 
@@ -77,6 +81,13 @@ void ReadOut::setStartUnixSeconds(std::optional<double> unixSeconds)
 {
     m_startUnixSeconds = unixSeconds;
     m_utc.box->setVisible(unixSeconds.has_value());
+    setReading(m_reading);
+}
+
+void ReadOut::setCentreHz(double hz)
+{
+    m_centreHz = hz;
+    m_radio.box->setVisible(hz != 0.0);
     setReading(m_reading);
 }
 
@@ -109,6 +120,7 @@ void ReadOut::setReading(const Reading &reading)
     show(m_utc, reading.seconds,
          [this](double v) { return utcText(m_startUnixSeconds.value_or(0.0) + v, decimalsFor(m_frameSeconds)); });
     show(m_frequency, reading.hz, [this](double v) { return hertzText(v, m_binHz); });
+    show(m_radio, reading.hz, [this](double v) { return hertzText(m_centreHz + v, m_binHz); });
     show(m_level, reading.levelDb, [](double v) { return numberText(v, 1) + tr(" dB"); });
     const int decimals = m_statisticUnit == QLatin1String("nat") ? 1 : 2;
     show(m_statistic, reading.statisticNats,
@@ -122,7 +134,7 @@ void ReadOut::setReading(const Reading &reading)
 QString ReadOut::text() const
 {
     QStringList words;
-    for (const Item *item : {&m_time, &m_utc, &m_frequency, &m_level, &m_statistic, &m_slope, &m_age})
+    for (const Item *item : {&m_time, &m_utc, &m_frequency, &m_radio, &m_level, &m_statistic, &m_slope, &m_age})
         if (!item->box->isHidden() && item->value->text() != dash)
             words << item->value->text();
     return words.join(QStringLiteral(" · "));

@@ -8,13 +8,13 @@ class QLabel;
 
 namespace faintline {
 
-/// One line of figures about the cell under the pointer. Every figure keeps its place, so the eye need not search.
+/// One line of figures about the cell under the pointer, each in a fixed position.
 class ReadOut : public QWidget
 {
     Q_OBJECT
 
 public:
-    /// What is unknown shows as a dash.
+    /// Unknown values are shown as a dash.
     struct Reading {
         std::optional<double> seconds; ///< from the first sample
         std::optional<double> hz;
@@ -26,20 +26,22 @@ public:
 
     explicit ReadOut(QWidget *parent = nullptr);
 
-    /// What the statistic is measured in: "nat" unless said otherwise.
+    /// Unit of the statistic, by default "nat".
     void setStatisticUnit(const QString &unit);
 
-    /// What the frequency is that of: "Frequency" unless said otherwise.
+    /// Name of the frequency, by default "Frequency".
     void setFrequencyName(const QString &name);
 
     /// UTC of the first sample; without it only relative time is shown.
     void setStartUnixSeconds(std::optional<double> unixSeconds);
-    /// Digits are chosen so that neighbouring cells differ.
+    /// Radio frequency of 0 Hz; 0: unknown, only offsets are shown.
+    void setCentreHz(double hz);
+    /// Sets the resolution, which determines the number of digits: neighbouring cells must differ.
     void setResolution(double frameSeconds, double binHz);
     void setReading(const Reading &reading);
     void clear() { setReading({}); }
 
-    /// The line as text, as it would be copied.
+    /// The line as text, for copying.
     QString text() const;
 
 protected:
@@ -53,8 +55,9 @@ private:
     };
     Item addItem(const QString &name, const QString &widest);
 
-    Item m_time, m_utc, m_frequency, m_level, m_statistic, m_slope, m_age;
+    Item m_time, m_utc, m_frequency, m_radio, m_level, m_statistic, m_slope, m_age;
     std::optional<double> m_startUnixSeconds;
+    double m_centreHz = 0.0;
     double m_frameSeconds = 0.01;
     double m_binHz = 0.1;
     Reading m_reading;

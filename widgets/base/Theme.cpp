@@ -24,7 +24,7 @@ namespace {
     constexpr auto sansFamily = "Inter";
     constexpr auto monoFamily = "Noto Sans Mono";
 
-    /// The few colours everything else is made from.
+    /// The basic colours from which all others are derived.
     struct Ground {
         QColor window, base, alternate, button, text, faint, disabled, accent, onAccent, link, toolTip;
     };
@@ -65,7 +65,7 @@ namespace {
         return font;
     }
 
-    double wordScale = 1.0; ///< of plots
+    double wordScale = 1.0; ///< relative text size of plots
 
     int scaled(int pixelSize)
     {
@@ -82,7 +82,7 @@ namespace {
         Q_UNUSED(isLoaded);
     }
 
-    /// Fusion, with tabs that leave their names the room of a narrow column, and our icons.
+    /// Fusion style with tabs that fit a narrow column, and our own icons.
     class Style : public QProxyStyle
     {
     public:
@@ -95,7 +95,7 @@ namespace {
             return metric == PM_TabBarTabHSpace ? tabRoom : QProxyStyle::pixelMetric(metric, option, widget);
         }
 
-        /// Fusion's own buttons of a dock have few pixels, and light ones in every theme.
+        /// Fusion's own dock buttons have few pixels, and light ones in every theme.
         QIcon standardIcon(StandardPixmap kind, const QStyleOption *option, const QWidget *widget) const override
         {
             if (kind == SP_TitleBarCloseButton)
@@ -128,7 +128,7 @@ namespace {
         draw.setTickLength(QwtScaleDiv::MediumTick, 2);
         draw.setTickLength(QwtScaleDiv::MajorTick, 4);
         draw.setSpacing(3);
-        widget.setLabelRotation(draw.labelRotation()); // has it measure the scale anew
+        widget.setLabelRotation(draw.labelRotation()); // recomputes the scale's layout
     }
 
 } // namespace
@@ -203,7 +203,8 @@ QPalette Theme::palette(Kind kind)
     for (const QPalette::ColorRole role :
          {QPalette::WindowText, QPalette::Text, QPalette::ButtonText, QPalette::HighlightedText})
         palette.setColor(QPalette::Disabled, role, g.disabled);
-    palette.setColor(QPalette::Disabled, QPalette::Light, Qt::transparent); // Fusion etches disabled words with it
+    palette.setColor(QPalette::Disabled, QPalette::Light, Qt::transparent); // Fusion draws the etching of disabled text
+                                                                            // with it
     palette.setColor(QPalette::Disabled, QPalette::Highlight, mixed(g.window, g.faint, 0.3));
     return palette;
 }
@@ -341,7 +342,7 @@ void Theme::style(QwtPlot &plot)
     if (auto *canvas = qobject_cast<QwtPlotCanvas *>(plot.canvas())) {
         canvas->setFrameStyle(int(QFrame::Box) | int(QFrame::Plain));
         canvas->setLineWidth(1);
-        // Our items are cheap to paint; a second copy of the canvas costs more than it saves.
+        // Our items are cheap to paint; a backing store costs more than it saves.
         canvas->setPaintAttribute(QwtPlotCanvas::BackingStore, false);
     }
     frame(plot);

@@ -10,10 +10,10 @@ class QwtPlot;
 
 namespace faintline {
 
-/// How the program looks: Fusion, our own palettes, the bundled fonts; the same pixels on every machine.
+/// Appearance of the program: Fusion, our own palettes, bundled fonts; the same pixels on every machine.
 ///
-/// There is no current theme to ask for: the palette carries it, so a widget finds its colours with
-/// `Theme::colours(*this)` and restyles itself when its palette changes.
+/// There is no global current theme: the palette carries it, so a widget gets its colours with `Theme::colours(*this)`
+/// and restyles itself when its palette changes.
 ///
 ///     Theme::prepareEnvironment();          // before QApplication
 ///     QApplication application(argc, argv);
@@ -23,15 +23,15 @@ class Theme
 public:
     enum class Kind { Light, Dark, HighContrast };
 
-    /// "light", "dark", "contrast": as files and the command line write them. An unknown name is the dark one.
+    /// "light", "dark", "contrast", as in files and on the command line. Unknown names give the dark theme.
     static QString nameOf(Kind kind);
     static Kind named(const QString &name);
 
-    /// What a palette has no role for.
+    /// Colours for which QPalette has no role.
     struct Colours {
         QColor canvas; ///< behind curves
         QColor grid;
-        QColor frame; ///< hair lines round canvases and sections
+        QColor frame; ///< hairlines around canvases and sections
         QColor text;
         QColor faintText; ///< units, hints, disabled sections
         QColor accent;    ///< selection, focus, the visible span
@@ -43,14 +43,14 @@ public:
         QColor cursor;
         QColor contour; ///< around the cells above the threshold
         QColor error;
-        QColor curves[8]; ///< distinguishable without colour vision, in this order
+        QColor curves[8]; ///< distinguishable without colour vision, used in this order
     };
 
-    /// Removes the environment variables that would change sizes or style. Call before QApplication is made.
+    /// Removes environment variables that would change sizes or style. Call before creating QApplication.
     static void prepareEnvironment();
 
-    /// Style, palette, fonts, C locale, steady text cursor. May be called again to change the theme of a running
-    /// program.
+    /// Sets style, palette, fonts, C locale and a non-blinking text cursor. May be called again to change the theme of
+    /// a running program.
     static void apply(Kind kind);
 
     static QPalette palette(Kind kind);
@@ -61,19 +61,19 @@ public:
 
     static QFont font(int pixelSize = 13);
     static QFont boldFont(int pixelSize = 13);
-    static QFont monoFont(int pixelSize = 13); ///< figures that must stay in their columns
+    static QFont monoFont(int pixelSize = 13); ///< for figures in columns
     static QFont plotFont();                   ///< tick labels
     static QFont plotTitleFont();              ///< axis titles
     static QFont plotHeadingFont();
-    /// How much larger all plots' words are than usual, for those who sit far away.
+    /// Relative text size of all plots, for presentations.
     static void setPlotScale(double scale);
     static double plotScale();
 
-    /// The thin frame of a plot's canvas, in the accent's colour while the plot has the focus.
+    /// Draws the thin frame of a plot's canvas, in the accent colour while the plot has the focus.
     static void frame(QwtPlot &plot);
-    static void frame(QwtPlot &plot, bool hasFocus); ///< where the plot is a part of what has it
+    static void frame(QwtPlot &plot, bool hasFocus); ///< if the plot is part of the focused widget
 
-    /// Makes a Qwt plot look like the rest: canvas, thin frame, short ticks, our fonts, margins.
+    /// Styles a Qwt plot: canvas, thin frame, short ticks, fonts, margins.
     static void style(QwtPlot &plot);
 };
 

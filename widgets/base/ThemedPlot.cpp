@@ -10,7 +10,8 @@ namespace faintline {
 
 ThemedPlot::ThemedPlot(QWidget *parent) : QwtPlot(parent)
 {
-    QwtText::setTextEngine(QwtText::RichText, nullptr); // names and units come from files, whose tags are letters
+    QwtText::setTextEngine(QwtText::RichText, nullptr); // names and units come from files; their tags must be shown as
+                                                        // text
     setFocusPolicy(Qt::StrongFocus);
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
     canvas()->setFocusPolicy(Qt::NoFocus);
@@ -19,7 +20,7 @@ ThemedPlot::ThemedPlot(QWidget *parent) : QwtPlot(parent)
 
 ThemedPlot::~ThemedPlot()
 {
-    canvas()->removeEventFilter(this); // it outlives what the filter looks at
+    canvas()->removeEventFilter(this); // the canvas outlives objects that the filter uses
 }
 
 void ThemedPlot::changeEvent(QEvent *event)

@@ -6,28 +6,28 @@
 
 namespace faintline {
 
-/// A plot that looks as the theme says and takes the keyboard's focus, which its frame shows. What a plot of one's own
-/// adds is said in two functions: one for other colours or words, one for a canvas of another size.
+/// A plot that follows the theme, accepts the keyboard focus and shows it by its frame. Subclasses implement two
+/// functions: one for changes of colours or texts, one for changes of the canvas size.
 class ThemedPlot : public QwtPlot
 {
     Q_OBJECT
 
 public:
-    using Axis = faintline::Axis; ///< QwtPlot has one of its own
+    using Axis = faintline::Axis; ///< QwtPlot has another Axis
 
     explicit ThemedPlot(QWidget *parent = nullptr);
     ~ThemedPlot() override;
 
 protected:
-    /// Palette or words are others.
+    /// Called when the palette or the texts change.
     virtual void restyle() = 0;
-    /// The canvas has another size: ticks, and what is counted per pixel, depend on it as laid out, not on the window.
+    /// Called when the canvas size changes, on which ticks and per-pixel counts depend after layout.
     virtual void followCanvas() = 0;
 
     void changeEvent(QEvent *event) override;
     void focusInEvent(QFocusEvent *event) override;
     void focusOutEvent(QFocusEvent *event) override;
-    /// What happens on the canvas.
+    /// Handles canvas events.
     bool eventFilter(QObject *watched, QEvent *event) override;
 };
 

@@ -7,6 +7,7 @@ namespace faintline {
 namespace {
 
     constexpr std::size_t historyLimit = 64;
+    constexpr double lowestShare = 1e-3; ///< of the highest frequency, on a logarithmic scale
 
     Span scaled(const Span &span, double factor, double about)
     {
@@ -18,7 +19,7 @@ namespace {
         return {span.low + by, span.high + by};
     }
 
-    /// `span` moved, or widened, just so far that it holds `wanted`.
+    /// `span` moved or widened by as little as possible to contain `wanted`.
     Span holding(const Span &span, const Span &wanted)
     {
         if (wanted.width() > span.width())
@@ -42,20 +43,92 @@ Viewport::Viewport(QObject *parent) : QObject(parent) {}
 
 void Viewport::setExtents(const Span &time, const Span &frequency, double smallestSeconds, double smallestHz)
 {
+    m_frequencies = frequency;
     m_full = m_visible = {time, frequency};
     m_smallest = {{0.0, std::min(smallestSeconds, time.width())}, {0.0, std::min(smallestHz, frequency.width())}};
     m_history.clear();
     m_isZoomRun = m_isGrowing = m_isFollowing = false;
+    const bool wasLogarithmic = m_isLogarithmic;
+    applyScale();
     emit extentsChanged();
+    if (m_isLogarithmic != wasLogarithmic)
+        emit scaleChanged();
     emit spanChanged();
     clearCursor();
     clearSelection();
 }
 
+bool Viewport::canBeLogarithmic() const
+{
+    return m_frequencies.high > 0.0 && m_frequencies.low > -0.01 * m_frequencies.high; // half a cell below 0 Hz is DC
+}
+
+void Viewport::setLogarithmic(bool isLogarithmic)
+{
+    if (!isEmpty() && !canBeLogarithmic())
+        return;
+    m_wantsLogarithmic = isLogarithmic;
+    if ((isLogarithmic && canBeLogarithmic()) == m_isLogarithmic)
+        return;
+    applyScale();
+    m_history.clear();
+    m_isZoomRun = false;
+    emit scaleChanged();
+    emit spanChanged();
+}
+
+void Viewport::setOriginHz(double hz)
+{
+    if (hz == m_originHz)
+        return;
+    m_originHz = hz;
+    emit scaleChanged();
+}
+
+/// What is visible stays, as far as the scale has it.
+void Viewport::applyScale()
+{
+    const bool wasAll = showsAll();
+    m_isLogarithmic = m_wantsLogarithmic && canBeLogarithmic();
+    m_full.frequency = m_frequencies;
+    if (m_isLogarithmic)
+        m_full.frequency.low = std::max(std::abs(m_frequencies.low), lowestShare * m_frequencies.high);
+    m_visible = wasAll ? m_full : clamped(m_visible);
+}
+
+double Viewport::onScale(double hz) const
+{
+    return m_isLogarithmic ? std::log(std::max(hz, lowestShare * m_full.frequency.low)) : hz;
+}
+
+Span Viewport::onScale(const Span &hz) const
+{
+    return {onScale(hz.low), onScale(hz.high)};
+}
+
+Span Viewport::fromScale(const Span &span) const
+{
+    return m_isLogarithmic ? Span{std::exp(span.low), std::exp(span.high)} : span;
+}
+
+/// The smallest span about the middle of another one.
+double Viewport::smallestOnScale(const Span &span) const
+{
+    const double smallest = m_smallest.frequency.width();
+    return m_isLogarithmic ? smallest / std::exp(span.middle()) : smallest;
+}
+
 Viewport::Box Viewport::clamped(const Box &box) const
 {
-    return {box.time.within(m_full.time, m_smallest.time.width()),
-            box.frequency.within(m_full.frequency, m_smallest.frequency.width())};
+    const Span full = onScale(m_full.frequency);
+    const Span frequency = onScale(box.frequency);
+    const Span within = frequency.within(full, smallestOnScale(frequency));
+    Span hz = fromScale(within);
+    if (within.low == full.low) // not a rounding error beside it
+        hz.low = m_full.frequency.low;
+    if (within.high == full.high)
+        hz.high = m_full.frequency.high;
+    return {box.time.within(m_full.time, m_smallest.time.width()), hz};
 }
 
 void Viewport::remember()
@@ -119,10 +192,11 @@ void Viewport::zoomAt(double factor, const Point &point, Axes axes)
     if (axes != Axes::Frequency)
         box.time = scaled(box.time, std::min(factor, box.time.width() / std::max(m_smallest.time.width(), 1e-12)),
                           point.seconds);
-    if (axes != Axes::Time)
-        box.frequency =
-            scaled(box.frequency,
-                   std::min(factor, box.frequency.width() / std::max(m_smallest.frequency.width(), 1e-12)), point.hz);
+    if (axes != Axes::Time) {
+        const Span span = onScale(box.frequency);
+        const double most = span.width() / std::max(smallestOnScale(span), 1e-12);
+        box.frequency = fromScale(scaled(span, std::min(factor, most), onScale(point.hz)));
+    }
     stretch(box.time, box.frequency);
 }
 
@@ -139,14 +213,29 @@ void Viewport::stretch(const Span &time, const Span &frequency)
 
 void Viewport::pan(double seconds, double hz)
 {
-    show(clamped({shifted(m_visible.time, seconds), shifted(m_visible.frequency, hz)}));
+    const double low = m_visible.frequency.low;
+    const double shift = m_isLogarithmic ? onScale(low + hz) - onScale(low) : hz;
+    show(clamped({shifted(m_visible.time, seconds), fromScale(shifted(onScale(m_visible.frequency), shift))}));
+}
+
+void Viewport::scroll(double timeShare, double frequencyShare)
+{
+    const Span span = onScale(m_visible.frequency);
+    show(clamped({shifted(m_visible.time, timeShare * m_visible.time.width()),
+                  fromScale(shifted(span, frequencyShare * span.width()))}));
+}
+
+void Viewport::move(const Box &start, const Point &from, const Point &to)
+{
+    show(clamped({shifted(start.time, from.seconds - to.seconds),
+                  fromScale(shifted(onScale(start.frequency), onScale(from.hz) - onScale(to.hz)))}));
 }
 
 void Viewport::reveal(const Box &box)
 {
-    const Box wanted{holding(m_visible.time, withRoom(box.time, m_visible.time)),
-                     holding(m_visible.frequency, withRoom(box.frequency, m_visible.frequency))};
-    zoomTo(wanted.time, wanted.frequency);
+    const Span visible = onScale(m_visible.frequency);
+    zoomTo(holding(m_visible.time, withRoom(box.time, m_visible.time)),
+           fromScale(holding(visible, withRoom(onScale(box.frequency), visible))));
 }
 
 void Viewport::showAll()

@@ -5,12 +5,12 @@
 
 namespace faintline {
 
-/// How an axis of cells is written: frequencies in Hz, kHz or MHz, everything else in its own unit.
+/// Text of axes: frequencies in Hz, kHz or MHz, other quantities in their own unit.
 
-/// The unit an axis is labelled in, and what its values are divided by for that.
+/// The unit of an axis's labels, and the divisor of its values.
 FrequencyUnit shownUnit(const Axis &axis);
 
-/// "Frequency (kHz)", "Bearing (deg)"; without a unit the name alone.
+/// "Frequency (kHz)", "Bearing (deg)"; only the name if there is no unit.
 QString titleOf(const Axis &axis);
 
 /// "12.4 m", in the axis's own unit.

@@ -7,8 +7,8 @@
 
 namespace faintline {
 
-/// The whole cells of a span, at least one: the first, and the one behind the last. Beside the axis they are those at
-/// its ends, of a cyclic one too.
+/// The whole cells of a span, at least one: first cell and one past the last. A span beside the axis gives the cells at
+/// its ends, also for a cyclic axis.
 std::pair<Index, Index> cellsOf(const Axis &axis, const Span &span);
 
 } // namespace faintline

@@ -16,7 +16,7 @@ DeviceRect deviceRect(const QPainter &painter, const QRectF &rect)
     const QTransform toDevice = painter.deviceTransform();
     if (ratio == std::floor(ratio) || toDevice.m11() != ratio || toDevice.m22() != ratio)
         return {QRectF(aligned), (QSizeF(aligned.size()) * ratio).toSize()};
-    constexpr double hair = 1e-6; // what a whole number may have lost on the way
+    constexpr double hair = 1e-6; // tolerance for rounding errors of integers
     const QRect pixels = toDevice.mapRect(QRectF(aligned)).adjusted(hair, hair, -hair, -hair).toAlignedRect();
     return {toDevice.inverted().mapRect(QRectF(pixels)), pixels.size()};
 }

@@ -14,13 +14,13 @@ struct DeviceRect {
     QSize pixels; ///< of the device
 };
 
-/// The smallest one that covers a rectangle: an image of so many pixels drawn there keeps each of its own, without gaps
-/// at the edges, also where a pixel of the window is 1.25 of the screen's. On a device without pixels of its own (a
-/// drawing) a pixel is one unit.
+/// The smallest one that covers a rectangle. An image of that many pixels drawn there is not resampled and leaves no
+/// gaps at the edges, even if a window pixel is 1.25 screen pixels. On a device without pixels of its own (a drawing) a
+/// pixel is one unit.
 DeviceRect deviceRect(const QPainter &painter, const QRectF &rect);
 
-/// Draws an image of that many pixels there. A clip that ends within a pixel would leave out the outermost ones: it is
-/// made wider.
+/// Draws an image of that many pixels there. The clip is extended to whole pixels, so that the outermost ones are not
+/// omitted.
 void drawOnPixels(QPainter &painter, const DeviceRect &place, const QImage &image);
 
 } // namespace faintline

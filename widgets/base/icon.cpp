@@ -12,7 +12,7 @@ namespace faintline {
 
 namespace {
 
-    /// Draws a one-colour SVG in the colour that the palette has at the moment of drawing.
+    /// Draws a one-colour SVG in the current colour of the palette.
     class PaletteIconEngine : public QIconEngine
     {
     public:

@@ -4,8 +4,8 @@
 
 namespace faintline {
 
-/// An icon of resources/icons by its name ("open", "run", "show-all" …), drawn in the colour of the palette's text, so
-/// it follows a change of theme by itself.
+/// An icon of resources/icons by name ("open", "run", "show-all" …), drawn in the palette's text colour, so that it
+/// follows changes of the theme.
 QIcon icon(const QString &name);
 
 /// The program's own icon, in its own colours.

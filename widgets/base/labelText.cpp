@@ -10,7 +10,7 @@ namespace faintline {
 
 namespace {
 
-    /// Without the second half of a character at its end.
+    /// Removes an incomplete surrogate pair at the end.
     QString wholeCharacters(const QString &text)
     {
         return !text.isEmpty() && text.back().isHighSurrogate() ? text.chopped(1) : text;

@@ -10,36 +10,35 @@ class QLabel;
 
 namespace faintline {
 
-/// How text from files is shown. Names, units, notes and messages may hold anything: control characters, marks that
-/// turn the direction of text, tags, a megabyte. A label gets one line of plain text of a known length.
+/// Display of text from files. Names, units, notes and messages may contain control characters, bidirectional marks,
+/// tags, or a megabyte of text. A label gets one line of plain text of limited length.
 
-/// As many letters of a file's name as a label shows.
+/// Maximum length of a file name in a label.
 constexpr int mostLabelLetters = 40;
-/// As many of an axis's name or unit.
+/// Maximum length of an axis's name or unit.
 constexpr int mostUnitLetters = 24;
-/// As many of a whole path as a tool tip shows, and of a note.
+/// Maximum lengths of a path in a tool tip, and of a note.
 constexpr int longestPath = 1000;
 constexpr int longestNote = 400;
 
-/// On one line, without control characters and those of bidirectional text; of more than `mostLetters` the middle is
-/// left out, "…".
+/// One line without control and bidirectional characters. If it is longer than `mostLetters`, its middle is replaced by
+/// "…".
 QString labelText(const QString &text, int mostLetters = mostLabelLetters);
 QString labelText(const std::string &text, int mostLetters = mostLabelLetters);
 
-/// A message, of which every word that no line can hold is shortened in its middle.
+/// A message in which words too long for a line are shortened in their middle.
 QString messageText(const std::string &text, std::size_t mostBytes = longestMessage);
 
-/// The same of as many lines as it has.
+/// The same for a text of several lines.
 QString paragraphs(const std::string &text);
 
-/// The same as a label for menus and buttons, where "&" makes the next letter a key.
+/// The same for menus and buttons, with "&" escaped.
 QString buttonText(const QString &text, int mostLetters = mostLabelLetters);
 
-/// Plain text for tool tips and message boxes, which take a text with tags for HTML: it is shown letter by letter, and
-/// broken into lines.
+/// Escapes plain text for tool tips and message boxes, which interpret tags as HTML, and breaks it into lines.
 QString asHtml(const QString &text);
 
-/// A label that shows its text letter by letter, whatever tags are in it.
+/// A label that shows its text literally, including tags.
 QLabel *plainLabel();
 
 } // namespace faintline

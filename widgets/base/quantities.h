@@ -4,21 +4,21 @@
 
 namespace faintline {
 
-/// Numbers as people read them: true minus sign, unit after a space, no more digits than the resolution is worth.
+/// Numbers for display: true minus sign, a space before the unit, and no more digits than the resolution justifies.
 
-/// Digits after the point so that two values `resolution` apart look different; 0 … 9.
+/// Number of decimals with which two values `resolution` apart look different; 0 … 9.
 int decimalsFor(double resolution);
 
-/// Fixed decimals, − for a minus, never "−0".
+/// Fixed decimals, with − as minus sign, never "−0".
 QString numberText(double value, int decimals);
 
-/// "83.25 s", or from ten minutes on "1:02:30.5" (h:min:s).
+/// "83.25 s", or for ten minutes and more "1:02:30.5" (h:min:s).
 QString secondsText(double seconds, double resolution);
 
 /// h:min:s or min:s, without a unit: "1:02:30", "12:05".
 QString clockText(double seconds, int decimals, bool withHours);
 
-/// The unit a frequency axis is written in.
+/// The unit of a frequency axis.
 struct FrequencyUnit {
     QString name;
     double hz = 1.0;
@@ -30,13 +30,13 @@ FrequencyUnit frequencyUnit(double largestHz);
 /// "440.0 Hz", "14.0956 kHz", "14.074 MHz".
 QString hertzText(double hz, double resolution);
 
-/// "3·10⁻⁷", or "0.25" where that is short.
+/// "3·10⁻⁷", or "0.25" if that is short.
 QString powerText(double value, int digits = 2);
 
 /// A drift: "−1.2 Hz/s", "0.38 mHz/s", "19 µHz/s".
 QString rateText(double hzPerSecond);
 
-/// The unit in which drifts of that size are written, "mHz/s", and what it is in Hz/s.
+/// The unit in which drifts of that size are written, such as "mHz/s", and its size in Hz/s.
 FrequencyUnit rateUnit(double largestHzPerSecond);
 
 /// "Frequency" from "frequency".

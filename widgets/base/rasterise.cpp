@@ -18,23 +18,34 @@ namespace {
         Index end = 0;
     };
 
+    /// The items of a pixel.
+    Range itemsOf(double low, double width, Index itemCount)
+    {
+        const auto count = Index(std::ceil(width - 1e-6));
+        const double first = width > 1.0 ? std::ceil(low - 0.5 - 1e-6) : std::floor(low + 0.5 * width);
+        const Index begin = std::clamp<Index>(Index(first), 0, std::max<Index>(itemCount - count, 0));
+        return {begin, std::min(begin + count, itemCount)};
+    }
+
     /// The items (cells, or rows of `size` frames) of each pixel.
     std::vector<Range> itemsOfPixels(const PixelRow &pixels, double size, Index itemCount)
     {
         std::vector<Range> ranges(std::size_t(pixels.count));
+        if (pixels.zero) {
+            for (int p = 0; p < pixels.count; ++p) {
+                const double low = std::exp(pixels.first + p * pixels.step);
+                const double width = low * std::expm1(pixels.step);
+                ranges[std::size_t(p)] = itemsOf((*pixels.zero + low) / size, width / size, itemCount);
+            }
+            return ranges;
+        }
         const double step = pixels.step / size;
-        const auto perPixel = Index(std::ceil(step - 1e-6));
-        // On a grid that starts with the axis a pixel's cells depend on nothing but its number on the grid.
+        // On a grid that starts with the axis, a pixel's cells depend only on its number in the grid.
         double number = pixels.first / pixels.step;
         if (std::abs(number - std::round(number)) < 1e-6)
             number = std::round(number);
-        for (int p = 0; p < pixels.count; ++p) {
-            const double low = (number + p) * step;
-            const double begin = step > 1.0 ? std::ceil(low - 0.5 - 1e-6) : std::floor(low + 0.5 * step);
-            Range &range = ranges[std::size_t(p)];
-            range.begin = std::clamp<Index>(Index(begin), 0, std::max<Index>(itemCount - perPixel, 0));
-            range.end = std::min(range.begin + perPixel, itemCount);
-        }
+        for (int p = 0; p < pixels.count; ++p)
+            ranges[std::size_t(p)] = itemsOf((number + p) * step, step, itemCount);
         return ranges;
     }
 
@@ -60,16 +71,21 @@ namespace {
         return high;
     }
 
-    /// The highest of each pixel's cells, of which all have as many: maxima over 2, 4, 8 … cells of the whole line,
-    /// then of the largest such stretches at either end of the pixel.
+    /// The maximum of each pixel's cells. If all pixels have the same number of cells: from maxima over 2, 4, 8 … cells
+    /// of the whole line, it combines the largest ones at either end of the pixel.
     class LineMaxima
     {
     public:
-        explicit LineMaxima(std::size_t width) : m_one(width), m_other(width) {}
+        LineMaxima(std::size_t width, bool areAlike) : m_areAlike(areAlike), m_one(width), m_other(width) {}
 
         void draw(const std::uint8_t *values, std::size_t lowest, const std::vector<Range> &cellsOfPixel,
                   std::uint8_t *line)
         {
+            if (!m_areAlike) {
+                for (const Range &range : cellsOfPixel)
+                    *line++ = highest(values + std::size_t(range.begin) - lowest, range.end - range.begin);
+                return;
+            }
             const auto cells = std::size_t(cellsOfPixel.front().end - cellsOfPixel.front().begin);
             std::size_t stretch = 1;
             for (; 2 * stretch <= cells; stretch *= 2) {
@@ -84,6 +100,7 @@ namespace {
         }
 
     private:
+        bool m_areAlike;
         std::vector<std::uint8_t> m_one;
         std::vector<std::uint8_t> m_other;
     };
@@ -101,7 +118,7 @@ namespace {
         return scale.value(255);
     }
 
-    /// Black and white level of differences: as far from zero on either side, to where all but the strongest lie.
+    /// Black and white level of differences: symmetric about zero, excluding only the strongest.
     Span rangeOfDifferences(const ByteScale &scale, const std::vector<double> &counts)
     {
         constexpr double smallest = 6.0, largest = 40.0;
@@ -120,9 +137,9 @@ namespace {
 
 int levelToRead(const PeakPyramid &picture, const PixelRow &time, const PixelRow &cells)
 {
-    // Reading twice as many rows draws a sharper picture, but takes its time on a hundred thousand cells.
+    // Reading twice as many rows gives a sharper picture, but takes too long for a hundred thousand cells.
     constexpr double affordableBytes = 48e6;
-    const bool isAffordable = 8.0 * time.count * cells.step * cells.count < affordableBytes;
+    const bool isAffordable = 8.0 * time.count * cells.cellCount() < affordableBytes;
     return picture.levelFor(std::max(isAffordable ? 0.5 * time.step : time.step, 1.0));
 }
 
@@ -139,7 +156,7 @@ void rasterise(const PeakPyramid &picture, int level, const PixelRow &time, cons
         std::fill(out.begin(), out.end(), std::uint8_t(0));
         return;
     }
-    // Of a picture that is still being made, rows to come are empty.
+    // Future rows of a picture in progress are empty.
     const Index perRow = picture.framesPerRow(level);
     const Index firstRow = frames.first / perRow;
     const Index wholeCount =
@@ -153,7 +170,7 @@ void rasterise(const PeakPyramid &picture, int level, const PixelRow &time, cons
 
     const auto drawLines = [&](Index begin, Index end) {
         std::vector<std::uint8_t> merged(width);
-        LineMaxima maxima(width);
+        LineMaxima maxima(width, !cells.zero);
         Range done;
         for (Index p = begin; p < end; ++p) {
             std::uint8_t *line = out.data() + std::size_t(p) * cellsOfPixel.size();
@@ -253,7 +270,7 @@ Span automaticRange(const ByteScale &scale, const std::vector<double> &counts, s
     if (!threshold || *threshold <= 0.0)
         return {middle, middle + height};
     constexpr double mostThresholds =
-        5.0; // above the black level: what just exceeds the threshold has a fifth of the colours below it
+        5.0; // above the black level: values just above the threshold then have a fifth of the colours below them
     const double low = std::min(middle, 0.5 * *threshold);
     return {low, std::max(std::min(middle + height, low + mostThresholds * (*threshold - low)), low + 10.0)};
 }

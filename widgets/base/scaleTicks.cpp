@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 namespace faintline {
 
@@ -55,16 +56,43 @@ QwtScaleDiv timeScaleDiv(const Span &span, int majorTicks, double origin)
     return QwtScaleDiv(span.low, span.high, ticks);
 }
 
-QwtScaleDiv linearScaleDiv(const Span &span, int majorTicks)
+QwtScaleDiv linearScaleDiv(const Span &span, int majorTicks, double origin)
 {
-    // One number alone says nothing about a scale: where there is room for two but steps are too wide, they are made
-    // smaller.
+    if (origin != 0.0) {
+        const QwtScaleDiv there = linearScaleDiv({span.low + origin, span.high + origin}, majorTicks);
+        QList<double> ticks[QwtScaleDiv::NTickTypes];
+        for (int type = 0; type < QwtScaleDiv::NTickTypes; ++type)
+            for (const double tick : there.ticks(type))
+                ticks[type] << tick - origin;
+        return QwtScaleDiv(span.low, span.high, ticks);
+    }
+    // A single number does not define a scale: if there is room for two but steps are too wide, they are reduced.
     const auto divided = [&](int most) { return QwtLinearScaleEngine().divideScale(span.low, span.high, most, 5); };
     QwtScaleDiv div = divided(std::max(majorTicks, 1));
     if (majorTicks >= 2 && div.ticks(QwtScaleDiv::MajorTick).size() < 2)
         div = divided(majorTicks + 1);
     div.setInterval(span.low, span.high);
     return div;
+}
+
+QwtScaleDiv logarithmicScaleDiv(const Span &span, int majorTicks)
+{
+    const auto ticksAt = [&](std::initializer_list<int> digits) {
+        QList<double> ticks;
+        for (double exponent = std::floor(std::log10(span.low)); exponent <= std::log10(span.high); exponent += 1.0)
+            for (const int digit : digits)
+                if (const double value = digit * std::pow(10.0, exponent); span.contains(value))
+                    ticks << value;
+        return ticks;
+    };
+    QList<double> major = ticksAt({1, 2, 5});
+    if (major.size() < 3)
+        return linearScaleDiv(span, majorTicks);
+    if (major.size() > majorTicks)
+        major = ticksAt({1, 3});
+    if (major.size() > majorTicks)
+        major = ticksAt({1});
+    return QwtScaleDiv(span.low, span.high, ticksAt({1, 2, 3, 4, 5, 6, 7, 8, 9}), {}, major);
 }
 
 QwtScaleDiv decadeScaleDiv(const Span &exponents, int most)

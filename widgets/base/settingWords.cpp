@@ -164,6 +164,15 @@ QString choiceLabel(const QString &choice)
     return found != labels.constEnd() ? *found : spelled(choice);
 }
 
+QString settingExample(const QString &name)
+{
+    static const QHash<QString, QString> examples{
+        {"selection.channels", "all, or 0, 1"},
+        {"family.members", "1, 2, 3 or -50, 50"},
+    };
+    return examples.value(name);
+}
+
 bool isSeldomUsed(const QString &name)
 {
     static const QSet<QString> names{"model.rangeRateChange",
@@ -171,7 +180,6 @@ bool isSeldomUsed(const QString &name)
                                      "noise.blockWindows",
                                      "noise.followLevel",
                                      "selection.channels",
-                                     "family.members",
                                      "family.present",
                                      "model.slopeChange",
                                      "model.rounding",

@@ -4,8 +4,8 @@
 
 namespace faintline {
 
-/// Words for people, from the names that files and the command line use. What is not in the lists is made from the name
-/// itself, so a new setting needs no entry here.
+/// Display texts for names in files and on the command line. Names that are not listed are converted automatically, so
+/// a new setting needs no entry here.
 
 /// "decide.falseAlarmsPerHour" → "False alarms per hour".
 QString settingLabel(const QString &name);
@@ -16,7 +16,10 @@ QString stageLabel(const QString &prefix);
 /// "halfDown" → "half rounds down".
 QString choiceLabel(const QString &choice);
 
-/// Whether a setting is folded away under "More".
+/// An example of what to type into an empty field, e.g. "all, or 0, 1" for channels. Empty for most settings.
+QString settingExample(const QString &name);
+
+/// Whether a setting is folded under "More".
 bool isSeldomUsed(const QString &name);
 
 } // namespace faintline

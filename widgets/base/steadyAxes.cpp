@@ -22,12 +22,12 @@ void steadyAxes(QwtPlot &plot, const QString &left, const QString &bottom)
         hasChanged = hasChanged || extent != draw.minimumExtent();
         draw.setMinimumExtent(extent);
         plot.axisWidget(axis)->setMinBorderDist(halfHeight, halfHeight);
-        plot.axisWidget(axis)->setLabelRotation(draw.labelRotation()); // has it measure the scale anew
+        plot.axisWidget(axis)->setLabelRotation(draw.labelRotation()); // recomputes the scale's layout
     }
     if (!hasChanged)
         return;
-    // Titles stand beside the numbers: the widgets must lay them out again, which they do by themselves only for other
-    // ticks.
+    // Titles are placed beside the numbers: the widgets must repeat their layout, which they do automatically only if
+    // the ticks change.
     for (const QwtAxisId axis : {QwtAxis::YLeft, QwtAxis::YRight, QwtAxis::XBottom})
         plot.axisWidget(axis)->setLabelRotation(plot.axisScaleDraw(axis)->labelRotation());
     plot.updateLayout();

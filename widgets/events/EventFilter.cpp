@@ -56,7 +56,7 @@ namespace {
         return [=](const Event &e, const EventReview &) { return of(e) >= limit; };
     }
 
-    /// "class=finwhale": the class begins so, spaces left out; "class=": has none.
+    /// "class=finwhale": the class begins with it, ignoring spaces; "class=": no class.
     Condition classOf(const QString &term)
     {
         const QString key = QStringLiteral("class=");
@@ -80,7 +80,7 @@ namespace {
                 return {};
             return [opposite](const Event &e, const EventReview &review) { return !opposite(e, review); };
         }
-        // The first word that begins so.
+        // The first word that begins with the term.
         static const std::pair<QString, Condition> words[] = {
             {QStringLiteral("open"), [](const Event &e, const EventReview &) { return e.isOpen; }},
             {QStringLiteral("confirmed"), [](const Event &e, const EventReview &) { return e.isConfirmed; }},

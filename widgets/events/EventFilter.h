@@ -9,12 +9,12 @@
 
 namespace faintline {
 
-/// What a line of text lets through: words of the state and comparisons, all of which must hold.
+/// A filter from a line of text: state words and comparisons, all of which must hold.
 ///
 ///     f>1000 drift<0 stat>=25 t<60 dur>5 id=3 open confirmed tentative
 ///     accepted rejected unreviewed merged noted !rejected
 ///
-/// A term that is not understood is reported, and lets everything through.
+/// A term that is not understood is reported and accepts everything.
 class EventFilter
 {
 public:

@@ -29,7 +29,7 @@ namespace {
         return std::round(10.0 * seconds) / 10.0;
     }
 
-    /// Seconds without their unit, which every row would repeat.
+    /// Seconds without a unit, which each row would repeat.
     QString timeText(double seconds, int decimals)
     {
         constexpr double asClockFrom = 600.0;
@@ -146,7 +146,7 @@ int EventModel::columnCount(const QModelIndex &parent) const
 QString EventModel::text(const Event &event, int column) const
 {
     switch (column) {
-    case Id: { // in sight however narrow the panel, unlike the review's own column
+    case Id: { // visible in a narrow panel, unlike the review column
         const Verdict verdict = review(event).verdict;
         const QString mark = verdict == Verdict::Accepted   ? QStringLiteral("✓ ")
                              : verdict == Verdict::Rejected ? QStringLiteral("× ")
@@ -293,7 +293,7 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
         tr("Confirmed: time at which the track was confirmed"),
         tr("Largest statistic"),
         tr("Mean signal-to-noise power ratio in one window and bin"),
-        tr("Length of the window that found it: the one shown, or a longer one for lines that stand still"),
+        tr("Length of the window that found the event: the displayed one, or a longer one for steady lines"),
         tr("Date and time of the onset"),
         tr("Radio frequency at detection: centre frequency plus offset"),
         tr("Last frame with evidence"),

@@ -11,13 +11,13 @@
 
 namespace faintline {
 
-/// Events as rows. Numbers sort as numbers (`SortRole`), and show with as many digits as they deserve.
+/// Table model of events. Numbers sort numerically (`SortRole`), and are shown with a suitable number of digits.
 class EventModel : public QAbstractTableModel
 {
     Q_OBJECT
 
 public:
-    /// In a narrow panel only the first ones are in sight: where, and when it began, was detected and confirmed.
+    /// In a narrow panel only the first columns are visible: position, onset, detection and confirmation.
     enum Column {
         Id,
         Frequency,
@@ -27,14 +27,14 @@ public:
         Confirmation,
         Statistic,
         Snr,
-        Window, ///< where some were found by another one than the others
-        Utc,    ///< onset, where the recording knows when it began
-        Radio,  ///< frequency with the receiver's centre, where there is one
+        Window, ///< if events were found with different windows
+        Utc,    ///< onset, if the recording's start time is known
+        Radio,  ///< frequency including the receiver's centre, if there is one
         End,
         Drift,
         State,
         Judged,
-        Class, ///< where one of the events has one
+        Class, ///< if an event has one
         Note,
         ColumnCount
     };
@@ -43,31 +43,31 @@ public:
     using QAbstractTableModel::QAbstractTableModel;
 
     void setEvents(std::vector<Event> events);
-    /// What was said about them, in any order; what is not there has not been reviewed.
+    /// Reviews in any order; events without one are not reviewed.
     void setReviews(const std::vector<EventReview> &reviews);
     EventReview review(const Event &event) const;
     void setStatisticUnit(const QString &unit);
-    /// The axes of the events' positions; of two, the first one takes the frequency's place, the second one is the
+    /// The axes of the events' positions; with two axes, the first takes the frequency's column, the second is the
     /// bearing.
     void setAxes(const std::vector<Axis> &axes);
     bool hasBearing() const { return m_axes.size() > 1; }
-    /// What the recording says of its beginning (UTC) and of the frequency that 0 Hz stands for.
+    /// Sets the recording's start time (UTC) and the frequency that corresponds to 0 Hz.
     void setOrigin(std::optional<double> startUnixSeconds, double centreHz);
     bool hasUtc() const { return m_startUnixSeconds.has_value(); }
-    /// Whether a longer window has found some of the events.
+    /// Whether a longer window found some of the events.
     bool hasWindows() const;
-    /// Whether one of the events was given a class.
+    /// Whether any event has a class.
     bool hasClasses() const;
     bool hasRadio() const { return m_centreHz != 0.0; }
     const std::vector<Event> &events() const { return m_events; }
 
-    /// Row of an event, -1 if there is none of that id.
+    /// Row of an event; -1 if there is none with that id.
     int rowOf(int id) const;
 
-    /// "accepted", "rejected", with the number of the signal it belongs to where that is another event's.
+    /// "accepted", "rejected", with the number of the signal if it is another event's.
     static QString reviewText(const EventReview &review);
 
-    /// "confirmed", "tentative", with ", open" where the data ended first.
+    /// "confirmed", "tentative", with ", open" if the data ended before the track.
     static QString stateText(const Event &event);
 
     int rowCount(const QModelIndex &parent = {}) const override;

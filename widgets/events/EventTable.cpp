@@ -65,8 +65,8 @@ void EventTable::setUpUnmatched()
     m_unmatchedTitle->setBuddy(m_unmatched);
     m_unmatched->setMaximumHeight(mostHeight);
     m_unmatched->setAccessibleName(tr("Reviews without an event"));
-    m_unmatched->setToolTip(tr("What was said of signals that are not detected with these settings. It is kept, and "
-                               "belongs to the events again as soon as they are there; click to go to the place"));
+    m_unmatched->setToolTip(tr("Reviews of signals that are not detected with these settings. They are kept and apply "
+                               "again when the signals are detected; click one to go to its place"));
     connect(m_unmatched, &QListWidget::itemClicked, this,
             [this](QListWidgetItem *item) { emit unmatchedActivated(m_unmatched->row(item)); });
     connect(m_unmatched, &QListWidget::itemActivated, this,
@@ -109,7 +109,7 @@ void EventTable::setUpTable()
          {EventModel::Bearing, EventModel::Window, EventModel::Utc, EventModel::Radio, EventModel::Class})
         m_table->setColumnHidden(column, true);
     connect(m_table, &QTableView::clicked, this, [this](const QModelIndex &index) {
-        if (selectedEvents().size() == 1) // several are being chosen otherwise
+        if (selectedEvents().size() == 1) // otherwise several are being selected
             activate(index.row());
     });
     connect(m_table, &QTableView::doubleClicked, this, [this](const QModelIndex &index) {
@@ -134,11 +134,11 @@ void EventTable::setEvents(const std::vector<Event> &events)
     updateCount();
 }
 
-/// Columns of numbers are as wide as their headings, without the room that a style leaves around them.
+/// Number columns are as wide as their headings, without the style's margins.
 void EventTable::narrowColumns()
 {
     constexpr int room = 10;  // pixels
-    constexpr int arrow = 12; // of the one it is sorted by
+    constexpr int arrow = 12; // sort indicator
     const QHeaderView &header = *m_table->horizontalHeader();
     for (int column = EventModel::Id; column <= EventModel::Drift; ++column) {
         if (m_table->isColumnHidden(column))
@@ -149,7 +149,7 @@ void EventTable::narrowColumns()
     }
 }
 
-/// Numbers are never cut short, be it another recording's: as wide as the least and the largest of each column are.
+/// Numbers are never truncated: columns fit their smallest and largest values.
 void EventTable::widenColumns()
 {
     const int rows = m_model->rowCount();
@@ -176,7 +176,7 @@ void EventTable::setReviews(const std::vector<EventReview> &reviews)
     const int selected = selectedEvent();
     m_model->setReviews(reviews);
     m_table->setColumnHidden(EventModel::Class, !m_model->hasClasses());
-    m_proxy->setFilter(m_proxy->filter()); // it may ask for what has just been said
+    m_proxy->setFilter(m_proxy->filter()); // the filter may depend on reviews
     if (selected != 0 && selectedEvent() != selected)
         setSelectedEvent(selected);
     updateCount();
@@ -243,7 +243,7 @@ void EventTable::setSelectedEvent(int id)
     m_table->scrollTo(index);
 }
 
-/// This row and no other, whatever keys are held.
+/// Selects only this row, regardless of modifier keys.
 void EventTable::choose(const QModelIndex &row)
 {
     m_table->selectionModel()->setCurrentIndex(row, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
@@ -313,7 +313,7 @@ bool EventTable::eventFilter(QObject *watched, QEvent *event)
             activate(m_table->currentIndex().row());
             return true;
         }
-        if (key->key() == Qt::Key_N) { // otherwise the table's search for what begins with n
+        if (key->key() == Qt::Key_N) { // otherwise the table's keyboard search would take it
             keyPressEvent(key);
             return true;
         }

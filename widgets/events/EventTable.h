@@ -18,7 +18,7 @@ namespace faintline {
 class EventModel;
 class EventProxy;
 
-/// The events of an analysis: sorted by any column, filtered by a line of text, and followed with N and Shift+N.
+/// The events of an analysis: sorted by any column, filtered by a line of text, stepped through with N and Shift+N.
 ///
 /// The filter is an EventFilter: words ("open", "tentative") and comparisons ("f>1000", "stat>=25"), all of which must
 /// hold.
@@ -29,18 +29,18 @@ class EventTable : public QWidget
 public:
     explicit EventTable(QWidget *parent = nullptr);
 
-    /// Keeps the selection where the event of that id still exists. Emits nothing.
+    /// Keeps the selection if the event with that id still exists. Emits nothing.
     void setEvents(const std::vector<Event> &events);
     void setReviews(const std::vector<EventReview> &reviews); ///< of these events
     void setStatisticUnit(const QString &unit);
     void setAxes(const std::vector<Axis> &axes);                             ///< of the events' positions
     void setOrigin(std::optional<double> startUnixSeconds, double centreHz); ///< see EventModel::setOrigin
-    /// What was said of signals that are not among the events, a line each; none hides the list.
+    /// Reviews of signals that match no event, one per line; an empty list hides them.
     void setUnmatched(const QStringList &lines);
     void setEmptySentence(const QString &sentence);
 
     int selectedEvent() const;               ///< 0: none
-    std::vector<int> selectedEvents() const; ///< several, chosen with Shift or Ctrl
+    std::vector<int> selectedEvents() const; ///< all selected with Shift or Ctrl
     std::vector<int> shownIds() const;       ///< in the order shown
     QTableView *table() const { return m_table; }
     QLineEdit *filter() const { return m_filter; }
@@ -48,16 +48,16 @@ public:
     QSize sizeHint() const override { return {420, 220}; }
 
 public slots:
-    /// Selects a row without emitting: the event was chosen elsewhere.
+    /// Selects a row without emitting; for events selected elsewhere.
     void setSelectedEvent(int id);
     void selectNext();
     void selectPrevious();
 
 signals:
-    /// Chosen by click, Enter, N or Shift+N: views should go there.
+    /// Emitted on click, Enter, N or Shift+N: views should go to the event.
     void eventActivated(int id);
-    void unmatchedActivated(int line); ///< of `setUnmatched`
-    void noteRequested();              ///< by a double click where notes stand: on the selected event
+    void unmatchedActivated(int line); ///< index of the line in `setUnmatched`
+    void noteRequested();              ///< emitted on a double-click in the notes column, for the selected event
 
 protected:
     void keyPressEvent(QKeyEvent *event) override;

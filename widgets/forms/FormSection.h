@@ -7,7 +7,7 @@ class QVBoxLayout;
 
 namespace faintline {
 
-/// A heading that folds away what stands under it, and within that a second fold, "More", for what is seldom used.
+/// A heading that folds its content, with a second fold, "More", for seldom used rows.
 class FormSection : public QWidget
 {
     Q_OBJECT
@@ -21,7 +21,7 @@ public:
     void setMoreOpen(bool isOpen);
     bool isOpen() const;
 
-    /// Opens whatever hides the row.
+    /// Unfolds everything that hides the row.
     void reveal(QWidget *row);
 
 private:

@@ -31,7 +31,7 @@ namespace {
         return fractionText(value);
     }
 
-    /// The sentence, then what is accepted and what is the default.
+    /// The sentence, followed by the accepted range and the default.
     QString toolTipOf(const FieldInfo &info, const FieldValue &defaultValue)
     {
         const QString unit = info.unit.empty() ? QString() : QStringLiteral(" ") + QString::fromStdString(info.unit);
@@ -50,20 +50,20 @@ namespace {
         return QStringLiteral("<qt>%1</qt>").arg(lines.join(QStringLiteral("<br>")));
     }
 
-    /// Words and lists need the width of the form: they stand below their label.
+    /// Choices and lists need the width of the form and are placed below their label.
     bool isBelowLabel(const FieldInfo &info)
     {
         return info.kind == FieldKind::Choice || info.kind == FieldKind::Numbers;
     }
 
-    /// A long unit beside the field would leave it no room: it stands with the label.
+    /// A long unit would leave no room for the field and is placed with the label.
     bool isWithLabel(const std::string &unit)
     {
         constexpr std::size_t longest = 5;
         return unit.size() > longest;
     }
 
-    /// A text field with arrows: what a step is, others know.
+    /// A text field with arrows whose steps are defined elsewhere.
     class ArrowBox : public QAbstractSpinBox
     {
     public:
@@ -184,7 +184,7 @@ void SettingRow::makeEditor()
         if (m_stepsInOne > 0) {
             auto *box = new ArrowBox([this](int steps) { stepBy(steps); });
             connect(box, &QAbstractSpinBox::editingFinished, this, [this, box] {
-                // Return has taken the line's own mark of an edit away; after a mistake the old value is one, too.
+                // Return clears the line edit's own modified flag; after an error the old value also counts.
                 if (box->text() != shownText(m_value) || m_isRefused)
                     acceptText(box->text());
             });
@@ -192,6 +192,7 @@ void SettingRow::makeEditor()
             break;
         }
         auto *edit = new QLineEdit;
+        edit->setPlaceholderText(settingExample(QString::fromStdString(m_info.name)));
         connect(edit, &QLineEdit::editingFinished, this, [this, edit] {
             if (edit->isModified())
                 acceptText(edit->text());
@@ -207,7 +208,7 @@ void SettingRow::makeEditor()
 
 void SettingRow::acceptText(const QString &text)
 {
-    // A comma within a number is how many write a decimal point; in a list it separates.
+    // A comma in a number is taken for a decimal point; in a list it separates.
     const QString plain =
         m_info.kind == FieldKind::Number ? text.trimmed().replace(QLatin1Char(','), QLatin1Char('.')) : text.trimmed();
     try {
@@ -218,7 +219,7 @@ void SettingRow::acceptText(const QString &text)
     }
 }
 
-/// To the next multiples of a step, which are whole numbers over `m_stepsInOne`.
+/// Steps to the next multiples of a step, which are integers over `m_stepsInOne`.
 void SettingRow::stepBy(int steps)
 {
     if (const QString typed = static_cast<ArrowBox *>(m_editor)->text(); typed != shownText(m_value))
@@ -226,7 +227,7 @@ void SettingRow::stepBy(int steps)
     constexpr double isMultiple = 1e-6;
     const double at = std::get<double>(m_value) * m_stepsInOne;
     const double from = steps > 0 ? std::floor(at + isMultiple) : std::ceil(at - isMultiple);
-    constexpr double digits = 1e4; // of steps that are no whole numbers' parts, as Hz/s are
+    constexpr double digits = 1e4; // for steps that are not fractions of integers, such as those in Hz/s
     const double next = (from + steps) / m_stepsInOne;
     const bool isWhole = m_stepsInOne == std::floor(m_stepsInOne);
     accept(std::clamp(isWhole ? next : std::round(next * digits) / digits, m_info.minimum, m_info.maximum));
@@ -293,7 +294,7 @@ void SettingRow::showMessage()
 
 bool SettingRow::eventFilter(QObject *watched, QEvent *event)
 {
-    // A wheel turned over a form scrolls the form; it never changes a setting in passing.
+    // A wheel over a form scrolls the form and never changes a setting.
     if (watched == m_editor && event->type() == QEvent::Wheel && !m_editor->hasFocus()) {
         event->ignore();
         return true;

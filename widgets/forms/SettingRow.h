@@ -9,13 +9,13 @@ class QToolButton;
 
 namespace faintline {
 
-/// One setting in a form: label, editor, unit, and a button that goes back to the default.
+/// One setting in a form: label, editor, unit, and a button that restores the default.
 class SettingRow : public QWidget
 {
     Q_OBJECT
 
 public:
-    /// A number with steps, so many in 1, has arrows that go from one multiple to the next; any other can be typed.
+    /// A number with `stepsInOne` steps per unit has arrows that move between multiples; other values can be typed.
     SettingRow(const FieldInfo &info, const QString &label, const FieldValue &defaultValue, double stepsInOne = 0.0,
                QWidget *parent = nullptr);
 
@@ -28,7 +28,7 @@ public:
     void setNote(const QString &note);
     void setLabelWidth(int width);
     void setStepsInOne(double steps) { m_stepsInOne = steps; }
-    /// Where unit and range are not those of the field's table.
+    /// For a unit and range that differ from those of the field's table.
     void setUnit(const QString &unit, double largestMagnitude);
 
 signals:
@@ -48,13 +48,13 @@ private:
     FieldInfo m_info;
     FieldValue m_default;
     FieldValue m_value;
-    bool m_isRefused = false; ///< what was typed last
+    bool m_isRefused = false; ///< the last input
     double m_stepsInOne;
     QLabel *m_label;
     QWidget *m_editor = nullptr;
     QLabel *m_unit;
     QToolButton *m_reset;
-    QLabel *m_message; ///< error, or otherwise note
+    QLabel *m_message; ///< error or note
     QString m_error;
     QString m_note;
 };

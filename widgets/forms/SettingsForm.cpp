@@ -105,7 +105,7 @@ void SettingsForm::setSettings(const AnalysisSettings &settings)
 {
     m_settings = settings;
     clearErrors();
-    QSet<QString> used; // sections of which something is held: the chosen detector's, not the others'
+    QSet<QString> used; // sections in use: only the selected detector's
     for (const auto &field : AnalysisSettings::fields()) {
         const QString name = QString::fromStdString(field.name);
         SettingRow *row = m_rows.value(name);
@@ -132,7 +132,7 @@ void SettingsForm::setHzPerSecondOfABinAFrame(double hzPerSecond)
             showSlope(name, std::get<double>(*field.get(m_settings)));
 }
 
-/// The unit it is given in, what an arrow goes on by, and what it is in the other unit.
+/// Shows the unit of a slope, its step, and its value in the other unit.
 void SettingsForm::showSlope(const QString &name, double slope)
 {
     SettingRow &row = *m_rows.value(name);

@@ -15,11 +15,11 @@ namespace faintline {
 class FormSection;
 class SettingRow;
 
-/// A form made from AnalysisSettings::fields(): nobody writes a widget for a setting.
+/// A form generated from AnalysisSettings::fields(), so that settings need no widgets of their own.
 ///
-/// One collapsible section per stage; a label in words, an editor of the field's kind, its unit; the field's sentence,
-/// range and default as tool tip; a bold label and a button to go back where the value differs from the default. Text
-/// that cannot be read is answered under the field and not emitted. Seldom-used fields are folded away under "More".
+/// One collapsible section per stage; a text label, an editor of the field's kind, its unit; the field's sentence,
+/// range and default as tool tip; a bold label and a reset button if the value differs from the default. Invalid input
+/// is reported under the field and not emitted. Seldom-used fields are folded under "More".
 class SettingsForm : public QWidget
 {
     Q_OBJECT
@@ -32,18 +32,18 @@ public:
     void setSettings(const AnalysisSettings &settings);
     const AnalysisSettings &settings() const { return m_settings; }
 
-    /// A sentence under one field, or under the form where there is no such field; empty takes it away.
+    /// Shows an error under a field, or under the form if there is no such field; an empty sentence removes it.
     void setError(const QString &name, const QString &sentence);
     void clearErrors();
 
-    /// What an automatic value came to, shown under the field: setNote("spectrogram.windowSeconds", "automatic: 0.5
+    /// Shows the result of an automatic value under the field: setNote("spectrogram.windowSeconds", "automatic: 0.5
     /// s").
     void setNote(const QString &name, const QString &note);
 
-    /// How many Hz/s one bin a frame is in what is open, shown beside slopes of either unit; 0 where nobody knows.
+    /// Slope in Hz/s of one bin per frame for the open source, shown beside slopes in either unit; 0 if unknown.
     void setHzPerSecondOfABinAFrame(double hzPerSecond);
 
-    /// Hides the stages that what is open does not go through.
+    /// Shows or hides a section; stages that the open source does not use are hidden.
     void setSectionShown(const QString &prefix, bool isShown);
     /// Scrolls to a field, unfolds its section and gives it the focus.
     void reveal(const QString &name);
@@ -53,7 +53,7 @@ public:
 
 signals:
     void settingEdited(const QString &name, const faintline::FieldValue &value);
-    /// "Reset all": the app sets the defaults.
+    /// "Reset all": the application restores the defaults.
     void resetRequested();
 
 private:
@@ -62,7 +62,7 @@ private:
     FormSection &section(const QString &prefix);
 
     AnalysisSettings m_settings;
-    double m_hzPerSecond = 0.0; ///< of one bin a frame
+    double m_hzPerSecond = 0.0; ///< of one bin per frame
     QMap<QString, SettingRow *> m_rows;
     QMap<QString, FormSection *> m_sections;
     QVBoxLayout *m_layout = nullptr;

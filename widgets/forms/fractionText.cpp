@@ -10,7 +10,7 @@ namespace {
 
     constexpr int largestDenominator = 30;
     constexpr double largestNumerator = 999.0; ///< 98761/8 is no easier to read than 12345.125
-    constexpr std::size_t longestDecimal = 8;  ///< letters; longer ones are fractions if they are any
+    constexpr std::size_t longestDecimal = 8;  ///< characters; longer decimals are written as fractions if possible
 
     QString textOf(double value)
     {

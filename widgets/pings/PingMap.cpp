@@ -29,7 +29,7 @@ PingMap::PingMap(const QString &heading, Viewport &viewport, QWidget *parent)
     m_pages->addWidget(m_polar);
     m_bar->attach(m_plane);
     QSizePolicy policy = m_bar->sizePolicy();
-    policy.setRetainSizeWhenHidden(true); // maps side by side stay as large as each other
+    policy.setRetainSizeWhenHidden(true); // maps side by side keep the same size
     m_bar->setSizePolicy(policy);
     auto *layout = new QHBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
@@ -141,7 +141,7 @@ void PingMap::follow()
     m_overlay->hasTracks = layers.testFlag(WaterfallView::TrackLayer);
     m_overlay->hasTruth = layers.testFlag(WaterfallView::TruthLayer);
     m_overlay->hasEvents = layers.testFlag(WaterfallView::EventLayer);
-    // The plane has its own cross hairs.
+    // The plane has its own crosshair.
     const auto &cursor = m_viewport.cursor();
     m_polar->overlay().cursor = cursor && layers.testFlag(WaterfallView::CursorLayer)
                                     ? std::optional(PingMarks::Place{cursor->seconds, cursor->hz})

@@ -13,7 +13,7 @@ class ColourBar;
 class PingOverlayItem;
 class PolarView;
 
-/// One ping, range × bearing: as a plane (B-scan) or from above, with its colour bar and marks.
+/// One ping, range × bearing: as a plane (B-scan) or from above, with colour bar and marks.
 class PingMap : public QWidget
 {
     Q_OBJECT
@@ -21,23 +21,23 @@ class PingMap : public QWidget
 public:
     using Axis = faintline::Axis;
 
-    /// `viewport`: range in the place of time, bearing in that of frequency; not owned.
+    /// `viewport`: range in place of time, bearing in place of frequency; not owned.
     PingMap(const QString &heading, Viewport &viewport, QWidget *parent = nullptr);
 
     WaterfallView *plane() const { return m_plane; }
     PolarView *polar() const { return m_polar; }
     bool isPolar() const;
 
-    /// The next ping; null shows the empty sentence.
+    /// Sets the next ping; null shows the empty sentence.
     void setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &bearing);
     void setMarks(const PingMarks &marks);
     void setSelectedTrack(int id);
     void setFaintTracks(const std::vector<int> &ids); ///< rejected ones
 
-    /// The track whose mark or tail lies under a place, as near as one can point; 0 where there is none.
+    /// The track whose mark or tail lies under a place, within pointing accuracy; 0 if there is none.
     int trackAt(const PingMarks::Place &place) const;
 
-    /// Whether the colours of the picture are keyed beside it.
+    /// Whether the colour bar is shown.
     void setColourBarShown(bool isShown);
 
 public slots:

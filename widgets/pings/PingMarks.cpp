@@ -13,7 +13,7 @@ namespace {
         return {grid.axes[0].value(double(cell / beams)), grid.axes[1].value(double(cell % beams))};
     }
 
-    /// The spans that cells centre ± half fill on an axis: two where they go over the end of a cyclic one.
+    /// The spans of cells centre ± half on an axis: two if they wrap around the end of a cyclic axis.
     std::vector<Span> spansOf(const Axis &axis, Index centre, Index half)
     {
         const auto span = [&](Index first, Index last) {
@@ -31,7 +31,7 @@ namespace {
         return {span(low, high)};
     }
 
-    /// Pings in a row up to this one in which something was kept from the detector for a track.
+    /// Number of consecutive pings up to this one with an inhibited box for a track.
     int pingsInhibited(const Analysis &analysis, int track, Index ping)
     {
         const auto isIn = [track](const auto &inhibitions) {

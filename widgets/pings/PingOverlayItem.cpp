@@ -34,7 +34,7 @@ struct PingOverlayItem::Canvas {
 
     QPointF at(const PingMarks::Place &place) const { return item.m_place(place, x, y); }
 
-    /// Small text on a dark plate beside a point, kept on the canvas.
+    /// Small text on a dark background beside a point, kept within the canvas.
     void label(const QPointF &beside, const QString &text, const QColor &colour) const
     {
         painter.setFont(Theme::plotFont());
@@ -92,7 +92,7 @@ bool PingOverlayItem::isFaint(int track) const
 
 void PingOverlayItem::drawBoxes(const Canvas &canvas) const
 {
-    // On a polar map a box is a piece of a ring: its sides are followed in steps.
+    // On a polar map a box is a sector of a ring: its sides are drawn in steps.
     constexpr int steps = 8;
     const auto between = [](const Span &span, int i) { return span.low + span.width() * i / steps; };
     canvas.painter.setBrush(QColor(255, 255, 255, 26));

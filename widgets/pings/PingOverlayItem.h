@@ -9,9 +9,8 @@
 
 namespace faintline {
 
-/// Draws the marks of a ping over its map: truth, tracks with their tails, detections, boxes kept from the detector,
-/// the cursor. Where a place lies on the canvas is the map's affair, so that one item serves the plane and the polar
-/// one.
+/// Draws the marks of a ping over its map: truth, tracks with their tails, detections, inhibited boxes, the cursor. The
+/// map supplies the canvas position of a place, so that one item serves both the plane and the polar map.
 class PingOverlayItem : public QwtPlotItem
 {
 public:
@@ -23,7 +22,8 @@ public:
 
     PingMarks marks;
     Theme::Colours colours;
-    /// Of the bearing axis where its ends lie apart on the canvas: lines over them are cut; 0: they do not.
+    /// Period of the bearing axis if its ends are apart on the canvas, so that lines across them are cut; 0: they are
+    /// not.
     double turn = 0.0;
     bool hasTracks = true;
     bool hasTruth = true;
@@ -31,7 +31,7 @@ public:
     bool hasConventional = false;
     bool hasEvents = true;
     int selectedTrack = 0;
-    std::vector<int> faintTracks;           ///< rejected ones: there, but not in the way
+    std::vector<int> faintTracks;           ///< rejected ones, drawn faintly
     std::optional<PingMarks::Place> cursor; ///< drawn as a small cross
 
     void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,

@@ -39,7 +39,7 @@ void PingViewports::placeCursors()
 
 void PingViewports::followSpans(Viewport &from)
 {
-    // A viewport without extents belongs to something that is not open any more.
+    // A viewport without extents belongs to a source that is no longer open.
     if (m_isFollowing || m_map.isEmpty() || m_rangeTime.isEmpty())
         return;
     const QScopedValueRollback following(m_isFollowing, true);

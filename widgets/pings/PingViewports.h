@@ -6,15 +6,14 @@
 
 namespace faintline {
 
-/// The three ways to look at a sonar's pings, on one range, one bearing and one time: whoever zooms or moves the cursor
-/// in one of them does so in all. In each `Viewport` the first axis stands in the place of time, the second one in that
-/// of frequency.
+/// Three views of a sonar's pings on common range, bearing and time axes: zooming or moving the cursor in one affects
+/// all. In each `Viewport` the first axis takes the place of time, the second that of frequency.
 class PingViewports : public QObject
 {
     Q_OBJECT
 
 public:
-    /// A place in one ping: seconds, and the units of the range and the bearing axis.
+    /// A position in one ping: seconds, and the units of the range and the bearing axis.
     struct Place {
         double seconds = 0.0;
         double range = 0.0;
@@ -22,7 +21,7 @@ public:
         bool operator==(const Place &) const = default;
     };
 
-    /// `rangeTime`: time × range, which other views share; not owned.
+    /// `rangeTime`: time × range, shared with other views; not owned.
     explicit PingViewports(Viewport &rangeTime, QObject *parent = nullptr);
 
     Viewport &map() { return m_map; } ///< range × bearing
@@ -32,7 +31,8 @@ public:
     const Viewport &rangeTime() const { return m_rangeTime; }
     const Viewport &bearingTime() const { return m_bearingTime; }
 
-    /// Another recording: shows all of it. The smallest spans bound zooming in, as in a Viewport.
+    /// Sets the extents of another recording and shows all of it. The smallest spans limit zooming in, as in a
+    /// Viewport.
     void setExtents(const Span &time, const Span &range, const Span &bearing, const Place &smallest);
 
     const Place &place() const { return m_place; }

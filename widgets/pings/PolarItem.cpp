@@ -19,7 +19,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr int nothing = -1; ///< where there is no cell
+    constexpr int nothing = -1; ///< no cell
 
 } // namespace
 
@@ -53,7 +53,7 @@ QImage PolarItem::image(const Span &x, const Span &y, const QSize &size) const
     const Axis &range = m_picture->time();
     const double perPixel = x.width() / size.width();
     const double cellsPerPixel = perPixel / range.step;
-    // Rings one pixel wide, from the first cell's near side on.
+    // Rings one pixel wide, starting at the first cell's near side.
     const int rings = std::max(1, int(std::ceil(double(range.count) / cellsPerPixel)));
     std::vector<std::uint8_t> bytes(std::size_t(rings) * std::size_t(m_bearing.count));
     rasterise(*m_picture, {0.0, cellsPerPixel, rings}, {0.0, 1.0, int(m_bearing.count)}, bytes);

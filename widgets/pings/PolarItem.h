@@ -14,10 +14,10 @@
 
 namespace faintline {
 
-/// A picture of range × bearing as seen from above: north up, bearings clockwise, x = r sin b, y = r cos b, in the
-/// units of the range.
+/// A picture of range × bearing seen from above: north up, bearings clockwise, x = r sin b, y = r cos b, in the unit of
+/// the range.
 ///
-/// Along a bearing every pixel holds the maximum of its ranges (`rasterise`), so no cell is lost. Cost: one look-up a
+/// Along a bearing every pixel holds the maximum of its ranges (`rasterise`), so no cell is lost. Cost: one lookup per
 /// pixel, some 10 ms for a million.
 class PolarItem : public QwtPlotItem
 {
@@ -27,7 +27,7 @@ public:
     /// `range` is the picture's own axis, `bearing` that of its cells, in degrees.
     void setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &bearing);
     void setColours(const ColourMap &map, const Span &range);
-    /// Pixels around those at or above this value are drawn in the contour's colour.
+    /// Pixels adjacent to values at or above this one are drawn in the contour's colour.
     void setContour(std::optional<double> value, QRgb colour);
     void setGround(const QColor &ground) { m_ground = ground; } ///< where there are no cells
 

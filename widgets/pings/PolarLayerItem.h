@@ -6,7 +6,7 @@
 
 namespace faintline {
 
-/// The layer that a LayerItem shows of a ping, as seen from above.
+/// The layer of a ping shown by a LayerItem, seen from above.
 class PolarLayerItem : public QwtPlotItem
 {
 public:

@@ -36,7 +36,7 @@ namespace {
         return {place.range * std::sin(place.bearing * degree), place.range * std::cos(place.bearing * degree)};
     }
 
-    /// The box around a sector of a ring, seen from above.
+    /// Bounding box of a ring sector, seen from above.
     QRectF boundsOf(const Span &range, const Span &bearing)
     {
         const double r = range.high;
@@ -52,7 +52,7 @@ namespace {
 
 } // namespace
 
-/// Rings at round ranges and a spoke every 30 degrees.
+/// Rings at round ranges, and a spoke every 30 degrees.
 class PolarView::GridItem : public QwtPlotItem
 {
 public:
@@ -170,7 +170,7 @@ void PolarView::followSpan()
         return;
     m_grid->longest = viewport->full().time.high;
     m_grid->nearest = viewport->full().time.low;
-    // As wide as high on the canvas, whatever the canvas's shape.
+    // The same scale on both axes, for any shape of the canvas.
     const QRectF box = boundsOf(viewport->time(), viewport->frequency());
     const double perPixel = 1.02 * std::max(box.width() / size.width(), box.height() / size.height());
     const double x = 0.5 * perPixel * size.width();

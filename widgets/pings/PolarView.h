@@ -9,11 +9,11 @@ namespace faintline {
 class PingOverlayItem;
 class PolarItem;
 
-/// A map of range × bearing from above, north up: another look at what a WaterfallView of the same picture shows. It
-/// follows that view's viewport, colours, contour and layers, and hands its own keys on to it.
+/// A map of range × bearing from above, north up: another view of a WaterfallView's picture. It follows that view's
+/// viewport, colours, contour and layers, and forwards key events to it.
 ///
-/// Mouse: Ctrl+wheel zooms about the pointer, click places the cursor. A sector wider than half a turn is shown all
-/// round.
+/// Mouse: Ctrl+wheel zooms about the pointer, click places the cursor. A sector wider than half a turn is shown as a
+/// full circle.
 class PolarView : public ThemedPlot
 {
     Q_OBJECT
@@ -22,7 +22,7 @@ public:
     explicit PolarView(WaterfallView &view, QWidget *parent = nullptr);
     ~PolarView() override;
 
-    /// After the view has a new picture.
+    /// Call after the view has a new picture.
     void followPicture();
     PingOverlayItem &overlay() { return *m_overlay; }
 

@@ -11,9 +11,9 @@
 
 namespace faintline {
 
-/// Goes through the pixels of a canvas seen from above that lie beyond the near side of a range axis and on its
-/// bearings (degrees): visit(pixel, distance from the near side in the range's unit, beam). `x` points east, `y` north;
-/// rows of pixels go southward.
+/// Visits the pixels of a canvas seen from above that lie beyond the near side of a range axis and on its bearings
+/// (degrees): visit(pixel, distance from the near side in the range's unit, beam). `x` points east, `y` north; rows of
+/// pixels go southward.
 template <class Visit>
 void visitPolar(const Span &x, const Span &y, const QSize &size, const Axis &range, const Axis &bearing, Visit visit)
 {

@@ -23,7 +23,7 @@ public:
     {
         const Theme::Colours &colours = Theme::colours(m_owner);
         const double share = m_owner.m_isWide ? 1.0 : 1.0 / double(m_owner.series().size());
-        constexpr double width = 0.8; // of a place
+        constexpr double width = 0.8; // relative to the place
         for (std::size_t s = 0; s < m_owner.series().size(); ++s) {
             const Series &series = m_owner.series()[s];
             for (std::size_t i = 0; i < series.values.size(); ++i) {

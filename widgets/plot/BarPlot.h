@@ -11,7 +11,7 @@ namespace faintline {
 
 class CurveKey;
 
-/// Bars of one or more kinds over whole numbers: beside each other, or one kind per place.
+/// Bars of one or more series over integers: side by side, or one series per place.
 class BarPlot : public MarkedPlot
 {
     Q_OBJECT
@@ -26,13 +26,13 @@ public:
 
     explicit BarPlot(QWidget *parent = nullptr);
 
-    /// `isWide`: every place bears a bar of one kind only, which gets the whole width.
+    /// `isWide`: each place has a bar of one series only, which gets the full width.
     void setBars(std::vector<Series> series, int first, bool isWide = false);
     const std::vector<Series> &series() const { return m_series; }
     int first() const { return m_first; }
-    /// A higher ordinate than the bars', to have a level line on the canvas.
+    /// Minimum height of the ordinate, to keep a level line on the canvas.
     void setLeastHeight(double height);
-    /// The place that is drawn bright; less than `first`: none.
+    /// The highlighted place; less than `first`: none.
     void setSelected(int place);
 
 signals:

@@ -32,7 +32,7 @@ namespace {
         return {std::min(a, b), std::max(a, b)};
     }
 
-    /// First cell of a pixel and how many it covers.
+    /// First cell of a pixel and number of cells.
     struct Cells {
         Index first;
         Index count;
@@ -47,7 +47,7 @@ namespace {
 
 } // namespace
 
-/// Paints the cells and what lies over them.
+/// Paints the cells and the overlays.
 class CellPicture::PictureItem : public QwtPlotItem
 {
 public:
@@ -61,7 +61,7 @@ public:
             return;
         const Span x = outline(m_owner.xAxis());
         const Span y = outline(m_owner.yAxis());
-        // On whole pixels: stretched by a fraction, the image would lose some of its own.
+        // Aligned to whole pixels, because fractional scaling would drop some of the image's.
         const QRect place = QRectF(QPointF(xMap.transform(x.low), yMap.transform(y.high)),
                                    QPointF(xMap.transform(x.high), yMap.transform(y.low)))
                                 .normalized()
@@ -106,7 +106,7 @@ private:
         for (const QPointF &point : path.points)
             points << QPointF(xMap.transform(point.x()), yMap.transform(point.y()));
         painter.setBrush(Qt::NoBrush);
-        // A dark seam below, so that the path is seen on bright cells too; dashes have what lies between them.
+        // A dark outline below makes the path visible on bright cells; dashes show the cells between them.
         for (const bool isSeam : {true, false}) {
             if (isSeam && path.kind == Path::Kind::Dashes)
                 continue;
@@ -132,7 +132,7 @@ private:
     }
 
     const CellPicture &m_owner;
-    mutable QImage m_image; ///< of the canvas's size; made again where that or the picture changes
+    mutable QImage m_image; ///< of the canvas's size; recreated when that or the picture changes
 };
 
 CellPicture::CellPicture(QWidget *parent)

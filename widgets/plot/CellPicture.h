@@ -12,10 +12,10 @@ namespace faintline {
 
 class CurveKey;
 
-/// A small picture of values on two axes with a colour bar, and paths and rings over it: a posterior law stage by
-/// stage, a scan.
+/// A small picture of values on two axes with a colour bar, and paths and rings over it, such as a posterior law by
+/// stage, or a scan.
 ///
-/// A pixel shows the largest of the cells it covers, so that a single bright one is seen.
+/// A pixel shows the largest of its cells, so that a single bright one remains visible.
 class CellPicture : public MarkedPlot
 {
     Q_OBJECT
@@ -31,8 +31,8 @@ public:
 
     explicit CellPicture(QWidget *parent = nullptr);
 
-    /// x.count × y.count values, y running fastest; `range`: the values at the ends of the colours; `title` with unit,
-    /// of the bar.
+    /// x.count × y.count values, with y varying fastest; `range`: values at the ends of the colour scale; `title`: of
+    /// the colour bar, with unit.
     void setPicture(const Axis &x, const Axis &y, std::vector<float> values, const Span &range, const QString &title);
     void setPaths(std::vector<Path> paths);
     void clear();

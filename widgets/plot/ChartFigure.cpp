@@ -15,7 +15,7 @@ namespace {
     constexpr QSize chartSize(760, 460);
     constexpr QSize leastPlotSize(760, 240);
 
-    /// What a plot draws in light colours, at least in a size for a page.
+    /// Records a plot in light colours, at least at page size.
     QPicture recorded(QWidget &plot)
     {
         const QSize before = plot.size();
@@ -89,7 +89,7 @@ void ChartFigure::layOut(QWidget *figure, const QString &caption)
     layout->addWidget(text, 0, Qt::AlignHCenter);
     text->setVisible(!caption.isEmpty());
     setAttribute(Qt::WA_DontShowOnScreen);
-    show(); // lays out what it holds
+    show(); // triggers the layout
     const int width = figure->width();
     setFixedSize(width, layout->hasHeightForWidth() ? layout->totalHeightForWidth(width) : layout->sizeHint().height());
 }

@@ -7,16 +7,16 @@ namespace faintline {
 
 class ChartPlot;
 
-/// A chart as it is printed: light, without what is there to be clicked, a caption below. A page of its own that is
-/// never seen on the screen; what is on the screen keeps its looks.
+/// A chart for printing: light colours, no controls, and a caption below. It is a separate widget that is never shown
+/// on the screen.
 class ChartFigure : public QWidget
 {
     Q_OBJECT
 
 public:
-    /// The curves that `chart` shows, drawn anew.
+    /// Redraws the curves that `chart` shows.
     ChartFigure(const ChartPlot &chart, const QString &caption);
-    /// Any other plot, recorded in light colours.
+    /// Records any other plot in light colours.
     ChartFigure(QWidget &plot, const QString &caption);
 
 private:

@@ -20,8 +20,8 @@ namespace faintline {
 
 namespace {
 
-    constexpr std::size_t mostBars = 24;    ///< more points than that: a band
-    constexpr std::size_t mostMarkers = 60; ///< more points than that: a line alone, or small points
+    constexpr std::size_t mostBars = 24;    ///< more points are drawn as a band
+    constexpr std::size_t mostMarkers = 60; ///< more points are drawn as a line only, or as small points
 
     constexpr std::array<QwtSymbol::Style, 8> symbols{QwtSymbol::Ellipse,   QwtSymbol::Rect,      QwtSymbol::Diamond,
                                                       QwtSymbol::UTriangle, QwtSymbol::DTriangle, QwtSymbol::Hexagon,
@@ -57,7 +57,7 @@ double ChartItems::ordinate(double y) const
     return m_chart.isLogarithmicY ? decadesOf(y) : y;
 }
 
-/// Colour and symbol: measured curves are counted, what belongs to one follows it; nothing for what belongs to none.
+/// Index of colour and symbol: that of the measured curve to which a curve belongs; nothing if it belongs to none.
 std::optional<std::size_t> ChartItems::styleOf(std::size_t curve) const
 {
     const auto countBefore = [this](std::size_t end) {
@@ -78,7 +78,7 @@ std::optional<std::size_t> ChartItems::styleOf(std::size_t curve) const
     return owner ? std::optional(countBefore(*owner)) : std::nullopt;
 }
 
-/// Points that belong to no measured curve are told from others of these.
+/// Symbols distinguish curves that belong to no measured curve.
 std::size_t ChartItems::symbolStyleOf(std::size_t curve) const
 {
     if (const auto style = styleOf(curve))
@@ -116,7 +116,7 @@ std::unique_ptr<QwtPlotCurve> ChartItems::curve(std::size_t index) const
     return item;
 }
 
-/// Above the points, or below those at the top: where there is room.
+/// Placed above the points, or below those near the top.
 std::vector<std::unique_ptr<QwtPlotMarker>> ChartItems::labels(std::size_t index) const
 {
     double highest = 0.0;

@@ -23,7 +23,7 @@ ChartKey::ChartKey(QWidget *parent) : QScrollArea(parent), m_content(new QWidget
 
 void ChartKey::setEntries(const std::vector<Entry> &entries)
 {
-    // While a curve grows, its box stays the same: whoever is about to press it must not lose it.
+    // While a curve grows, its box is kept, so that the user can press it.
     const bool isSame =
         std::equal(m_boxes.begin(), m_boxes.end(), entries.begin(), entries.end(),
                    [](const QCheckBox *box, const Entry &entry) { return box->text() == buttonText(entry.name); });
@@ -67,7 +67,7 @@ void ChartKey::setPrinted(bool isPrinted)
                                        : QString());
 }
 
-/// Beside the plot, or below it where that would take too much of its width and there is height to spare.
+/// Places the key beside the plot, or below it if it would take too much width and there is height to spare.
 void ChartKey::placeIn(QBoxLayout &row, const QSize &size)
 {
     int widest = 0;
@@ -80,7 +80,7 @@ void ChartKey::placeIn(QBoxLayout &row, const QSize &size)
     setMinimumSize(isBelow ? 0 : widest, isBelow ? heightBelow : 0);
     setMaximumSize(isBelow ? QWIDGETSIZE_MAX : widest, isBelow ? heightBelow : QWIDGETSIZE_MAX);
     const bool isNameless = m_boxes.size() == 1 && m_boxes.front()->text().isEmpty(); // the only one
-    constexpr int leastBeside = 170; // px: the curves are worth more than their names, which the read-out tells
+    constexpr int leastBeside = 170; // px: curves take precedence over their names, which the read-out also gives
     const bool hasRoom = isBelow || size.width() - widest >= leastBeside;
     setVisible(!m_boxes.empty() && !isNameless && hasRoom);
 }

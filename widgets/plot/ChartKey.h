@@ -11,8 +11,8 @@ class QVBoxLayout;
 
 namespace faintline {
 
-/// The key of a chart: a box for each curve, which shows and hides it. It stands beside the plot or below it, where
-/// there is room.
+/// The key of a chart, with a box for each curve that shows or hides it. It is placed beside the plot or below it,
+/// where there is room.
 class ChartKey : public QScrollArea
 {
     Q_OBJECT
@@ -28,10 +28,10 @@ public:
 
     void setEntries(const std::vector<Entry> &entries);
     void setShown(std::size_t entry, bool isShown);
-    /// As on paper: neither boxes to tick nor curves that are hidden.
+    /// Print mode: no boxes and no hidden curves.
     void setPrinted(bool isPrinted);
 
-    /// Gets its place in a row with the plot that fills a widget of that size.
+    /// Places the key in a row with the plot that fills a widget of that size.
     void placeIn(QBoxLayout &row, const QSize &size);
 
 signals:

@@ -13,7 +13,7 @@ namespace faintline {
 
 ChartMarks::ChartMarks()
 {
-    setZ(15.0); // below the curves, which they point at
+    setZ(15.0); // below the curves to which they point
 }
 
 void ChartMarks::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &, const QRectF &canvasRect) const

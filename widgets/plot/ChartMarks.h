@@ -9,14 +9,14 @@
 
 namespace faintline {
 
-/// A place on the x axis that has a name.
+/// A named position on the x axis.
 struct ChartMark {
     double x = 0.0;
     QString name;
     bool operator==(const ChartMark &) const = default;
 };
 
-/// Thin lines over all of a canvas's height, named at the top where the name before leaves room.
+/// Thin lines over the canvas's full height, named at the top if the previous name leaves room.
 class ChartMarks : public QwtPlotItem
 {
 public:

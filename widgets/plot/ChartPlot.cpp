@@ -45,7 +45,7 @@ namespace {
         return {*low, *high};
     }
 
-    /// A little air on both sides; a single value in the middle.
+    /// Adds a margin on both sides; a single value is centred.
     Span aired(Span span, double share)
     {
         const double air = span.high > span.low ? share * (span.high - span.low) : 0.5;
@@ -98,7 +98,7 @@ ChartPlot::ChartPlot(QWidget *parent)
 
 ChartPlot::~ChartPlot()
 {
-    m_plot->canvas()->removeEventFilter(this); // they outlive what the filter looks at
+    m_plot->canvas()->removeEventFilter(this); // they outlive objects that the filter uses
     m_plot->removeEventFilter(this);
 }
 
@@ -262,7 +262,7 @@ void ChartPlot::layAxes()
     const ChartItems items = this->items();
     std::vector<double> xs;
     std::vector<double> ys;
-    bool areShares = true; // probabilities get all of 0 … 1
+    bool areShares = true; // probabilities use all of 0 … 1
     for (std::size_t i = 0; i < m_chart.curves.size(); ++i) {
         for (const Curve::Point &point : m_chart.curves[i].points) {
             areShares = areShares && point.y >= 0.0 && point.y <= 1.0;
@@ -379,11 +379,11 @@ void ChartPlot::keyPressEvent(QKeyEvent *event)
 bool ChartPlot::eventFilter(QObject *watched, QEvent *event)
 {
     if (watched == m_plot && event->type() == QEvent::PaletteChange)
-        restyle(); // the plot gets a new theme's palette after the chart
+        restyle(); // the plot receives a new theme's palette after the chart
     if (watched != m_plot->canvas())
         return QWidget::eventFilter(watched, event);
-    // Labels take room by the ticks there are, and there are ticks for the room: where the two never agree, the third
-    // try stands.
+    // The width of labels depends on the ticks, and the ticks depend on the width. If this does not converge, the third
+    // attempt is used.
     constexpr int mostTries = 3;
     if (event->type() == QEvent::Resize && m_resizing < mostTries) {
         const QScopedValueRollback nested(m_resizing, m_resizing + 1);

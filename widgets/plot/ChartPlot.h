@@ -23,10 +23,10 @@ class CanvasSentence;
 class ChartItems;
 class ChartKey;
 
-/// A core `Chart` to look into, drawn as its `ChartItems`. Beside it the key, whose boxes show and hide curves; below
-/// it the value under the mouse in words.
+/// An interactive view of a core `Chart`, drawn with `ChartItems`. The key beside it has boxes that show and hide
+/// curves; the line below describes the value under the mouse.
 ///
-/// Click on a measured point, or arrow keys and Enter, emit `pointActivated`.
+/// A click on a measured point, or arrow keys and Enter, emit `pointActivated`.
 class ChartPlot : public QWidget
 {
     Q_OBJECT
@@ -35,30 +35,30 @@ public:
     explicit ChartPlot(QWidget *parent = nullptr);
     ~ChartPlot() override;
 
-    /// Replaces the chart; curves hidden by name stay hidden.
+    /// Replaces the chart; curves that were hidden by name stay hidden.
     void setChart(const Chart &chart);
     const Chart &chart() const { return m_chart; }
 
-    /// While there are no curves: what to do to get some.
+    /// Shown while there are no curves: how to get some.
     void setEmptySentence(const QString &sentence);
-    /// What a click on a point does, behind its value: "click to open one of its trials". Empty: points cannot be
-    /// clicked.
+    /// Describes the effect of a click on a point, after its value: "click to open one of its trials". Empty: points
+    /// cannot be clicked.
     void setInvitation(const QString &invitation);
 
-    /// As on paper: neither boxes to tick nor what is under the mouse.
+    /// Print mode: no boxes and no read-out.
     void setPrinted(bool isPrinted);
 
-    /// Places on the x axis with names, in ascending order. They move no axis.
+    /// Named positions on the x axis, in ascending order. They do not affect the axes.
     void setMarks(std::vector<ChartMark> marks);
     const std::vector<ChartMark> &marks() const { return m_marks->marks; }
 
-    /// The y axis holds this as well, so that charts side by side can have the same.
+    /// Includes this span in the y axis, so that charts side by side can have the same one.
     void setLeastOrdinates(std::optional<Span> span);
 
     bool isShown(std::size_t curve) const;
     void setShown(std::size_t curve, bool isShown);
 
-    /// Where a point is on the canvas.
+    /// Canvas position of a point.
     QPointF canvasPosition(std::size_t curve, std::size_t point) const;
     QwtPlot *plot() const { return m_plot; }
     QString readOut() const;
@@ -99,19 +99,19 @@ private:
     std::optional<Span> m_leastOrdinates;
     QSet<QString> m_hidden; ///< by name
     std::optional<Place> m_place;
-    int m_resizing = 0; ///< how deep in resizing of the canvas by what resizing it changed
+    int m_resizing = 0; ///< nesting depth of canvas resizing caused by its own layout
     QString m_invitation;
     bool m_isPrinted = false;
 
     QwtPlot *m_plot;
     QwtPlotGrid *m_grid;
-    QwtPlotMarker *m_ring; ///< around the point read out
+    QwtPlotMarker *m_ring; ///< around the point in the read-out
     ChartMarks *m_marks;
     CanvasSentence *m_sentence;
     QBoxLayout *m_row; ///< plot and key
     ChartKey *m_key;
     QLabel *m_readOut;
-    std::vector<QwtPlotItem *> m_curves;               ///< attached to the plot, as the details
+    std::vector<QwtPlotItem *> m_curves;               ///< attached to the plot, like the details
     std::vector<std::vector<QwtPlotItem *>> m_details; ///< intervals and labels of each curve
 };
 

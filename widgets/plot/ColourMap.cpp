@@ -11,8 +11,8 @@ namespace faintline {
 namespace {
 
     // Viridis, magma, inferno: S. van der Walt and N. Smith (2015, CC0); cividis: J. Nuñez, C. Anderton, R. Renslow,
-    // PLOS ONE 13(7), 2018; every 15th of their 256 colours, which is within 5 of 255 everywhere. Blue-red: C. Brewer's
-    // RdBu. Ice-fire: the same idea around a dark middle.
+    // PLOS ONE 13(7), 2018; every 15th of their 256 colours, accurate to 5 of 255 everywhere. Blue-red: C. Brewer's
+    // RdBu. Ice-fire: similar, with a dark middle.
     std::vector<ColourMap> makeMaps()
     {
         std::vector<ColourMap> maps;
@@ -92,7 +92,7 @@ QString ColourMap::next(const QString &name)
 
 QRgb ColourMap::at(double position) const
 {
-    const double index = position > 0.0 ? std::min(position, 1.0) * 255.0 : 0.0; // NaN is no number to round
+    const double index = position > 0.0 ? std::min(position, 1.0) * 255.0 : 0.0; // NaN cannot be rounded
     return m_entries[std::size_t(std::lround(index))];
 }
 

@@ -9,7 +9,7 @@
 
 namespace faintline {
 
-/// 256 colours from low to high, of even perceptual steps and readable without colour vision.
+/// 256 colours from low to high, perceptually uniform and readable without colour vision.
 class ColourMap
 {
 public:
@@ -18,10 +18,10 @@ public:
     static const QStringList &names();
     static const QString &defaultName();
 
-    /// The map of that name; the default one where the name is unknown.
+    /// The map of that name, or the default one if it is unknown.
     static const ColourMap &named(const QString &name);
 
-    /// The name after `name` in `names()`, round and round.
+    /// The name after `name` in `names()`, cyclically.
     static QString next(const QString &name);
 
     const QString &name() const { return m_name; }
@@ -30,7 +30,7 @@ public:
     /// The colour at 0 … 1, clamped; NaN has that of 0.
     QRgb at(double position) const;
 
-    /// `stops`: sRGB colours at equal distances, interpolated linearly.
+    /// `stops`: equidistant sRGB colours, interpolated linearly.
     ColourMap(QString name, const QList<QRgb> &stops);
 
 private:

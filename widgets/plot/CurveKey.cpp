@@ -29,7 +29,7 @@ void CurveKey::draw(QPainter *painter, const QwtScaleMap &, const QwtScaleMap &,
         widest = std::max(widest, metrics.horizontalAdvance(entry.name));
     const double line = std::ceil(metrics.height());
     const QSizeF size(std::ceil(widest) + sample + gap + 2 * margin, line * double(entries.size()) + 4.0);
-    if (size.width() > 0.75 * canvasRect.width()) { // the curves are worth more than their names
+    if (size.width() > 0.75 * canvasRect.width()) { // curves take precedence over their names
         painter->restore();
         return;
     }

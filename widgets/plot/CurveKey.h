@@ -9,7 +9,7 @@
 
 namespace faintline {
 
-/// The key to a plot's curves, in a corner of the canvas: a piece of each line and its name.
+/// The key to a plot's curves in a corner of the canvas: a sample of each line and its name.
 class CurveKey : public QwtPlotItem
 {
 public:

@@ -146,7 +146,7 @@ void ExceedancePlot::setUnit(Unit unit)
     emit unitChanged(unit);
 }
 
-/// The calibration itself leaves the simulated curve for the fitted tail where too few cells were counted.
+/// Whether enough cells were counted; below that the calibration uses the fitted tail instead of the simulated curve.
 bool ExceedancePlot::isCountedWell(std::size_t level) const
 {
     const double simulated = m_calibration->exceedance[level];
@@ -204,13 +204,13 @@ Span ExceedancePlot::natSpan() const
             --last;
         high = std::max({m_calibration->levels[last], m_calibration->anchorNats, low + 5.0});
         high += 8.0 / std::max(m_calibration->tailSlope, 0.05);
-        // Signals lie beyond: the threshold can be dragged among the faint ones, and the noise's curve keeps half of
-        // the width.
+        // Signals lie beyond: the threshold can be dragged to faint ones, while the noise curve keeps half of the
+        // width.
         const auto highest = std::find_if(m_counts.rbegin(), m_counts.rend(), [](double count) { return count > 0.0; });
         const double recorded = lowestNats + quarterNat * double(m_counts.rend() - highest);
         high = std::clamp(recorded, high, low + 2.0 * (high - low));
     }
-    // Room beyond the threshold, in steps, so that the scale does not follow every touch of it.
+    // Room beyond the threshold, in steps, so that the scale does not follow each small change.
     while (m_threshold > low + 0.85 * (high - low))
         high = low + 1.25 * (high - low);
     return {std::min(low, m_threshold - 1.0), high};

@@ -22,18 +22,18 @@ class CanvasSentence;
 class CurveKey;
 class LineLabel;
 
-/// Where the threshold is tuned: how often noise exceeds it, and what this recording does.
+/// Plot for tuning the threshold: how often noise exceeds it, and the values of this recording.
 ///
-/// Abscissa: the statistic in nats. Left ordinate, logarithmic: P(D > T) of a cell of noise (simulated for these
-/// settings, its exponential tail, a closed form where there is one, and the recording's own), or events on noise in
-/// false alarms per hour. Right ordinate: number of cells of this recording per quarter nat. The threshold line is
-/// dragged with the mouse (anywhere on the canvas) or moved with `,` and `.` by a quarter nat.
+/// Abscissa: the statistic in nats. Left ordinate, logarithmic: P(D > T) of a noise cell (simulated for these settings,
+/// its exponential tail, a closed form if there is one, and measured in the recording), or events on noise in false
+/// alarms per hour. Right ordinate: number of cells of this recording per quarter nat. The threshold line is dragged
+/// with the mouse (anywhere on the canvas) or moved with `,` and `.` by a quarter nat.
 class ExceedancePlot : public ThemedPlot
 {
     Q_OBJECT
 
 public:
-    /// How the threshold is spoken of; FalseAlarmsPerHour also changes the left ordinate.
+    /// Unit of the threshold; FalseAlarmsPerHour also changes the left ordinate.
     enum class Unit { Nats, PfaPerCell, FalseAlarmsPerHour };
     Q_ENUM(Unit)
 
@@ -46,20 +46,20 @@ public:
     void setHistogram(const std::vector<double> &counts);
     /// Points (nat, P(D > nat)) of a closed form; empty for none.
     void setClosedForm(const QPolygonF &points);
-    /// The same measured in a box of this recording that holds noise only; empty for none.
+    /// The same, measured in a box of this recording that holds only noise; empty for none.
     void setSelectionExceedance(const QPolygonF &points);
 
-    /// What the statistic is measured in: "nat" unless said otherwise.
+    /// Unit of the statistic, by default "nat".
     void setStatisticUnit(const QString &unit);
 
-    /// What is known of the noise of this recording: how many false alarms come for one of the calibration's noise, or
-    /// "more" or "fewer" where that was not counted.
+    /// False alarms on this recording's noise: ratio to those on the calibration's noise, or "more" or "fewer" if they
+    /// were not counted.
     struct OwnNoise {
         std::optional<double> ratio;
         QString words;
         bool operator==(const OwnNoise &) const = default;
     };
-    /// The label of the threshold says so beside the rate; an empty value takes it away.
+    /// Shown in the threshold's label beside the rate; an empty value removes it.
     void setOwnNoise(const OwnNoise &noise);
 
     double threshold() const { return m_threshold; }
@@ -67,7 +67,7 @@ public:
 
     /// The threshold in words, in the chosen unit: "14.2 nat", "Pfa 3·10⁻⁷ per cell", "0.8 false alarms/h".
     QString thresholdText() const;
-    /// What stands beside the line: the threshold, the rate on this recording's own noise, nats.
+    /// Label of the line: the threshold, the rate on this recording's own noise, nats.
     QString labelText() const;
 
     QSize sizeHint() const override { return {380, 260}; }
@@ -81,7 +81,7 @@ signals:
     void thresholdRequested(double nats); ///< live, while dragging
     void thresholdCommitted(double nats); ///< at release, or after a key
     void unitChanged(faintline::ExceedancePlot::Unit unit);
-    void contextMenuRequested(QMenu *menu); ///< about to be shown: others may add to it
+    void contextMenuRequested(QMenu *menu); ///< emitted before it is shown: others may add actions
 
 protected:
     void keyPressEvent(QKeyEvent *event) override;

@@ -19,8 +19,8 @@ namespace faintline {
 
 namespace {
 
-    constexpr double barWidth = 0.8; // of a place
-    constexpr double highest = 1.12; // of the ordinate, so that a number stands over a bar of 1
+    constexpr double barWidth = 0.8; // relative to the place
+    constexpr double highest = 1.12; // of the ordinate, to leave room for a number above a bar of 1
 
     double heightOf(const std::vector<double> &law, int change)
     {
@@ -30,7 +30,7 @@ namespace {
 
 } // namespace
 
-/// Paints the bars, a handle on each that can be dragged, and their heights in numbers where there is room.
+/// Paints the bars, a drag handle on each, and their heights in numbers if there is room.
 class LawPlot::BarItem : public QwtPlotItem
 {
 public:
@@ -150,7 +150,7 @@ void LawPlot::keyPressEvent(QKeyEvent *event)
                             : event->modifiers() & Qt::ControlModifier ? 0.001
                                                                        : 0.01;
         const double before = heightOf(m_law, m_selected);
-        // To whole steps, so that up and down again is where one was.
+        // Rounded to whole steps, so that up and down are inverse.
         const double after =
             std::clamp(std::round((before + sign * size) / size) * size, 0.0, m_selected == 0 ? 1.0 : 0.5);
         m_shown = withProbability(m_law, std::size_t(m_selected), after);
@@ -194,7 +194,7 @@ bool LawPlot::eventFilter(QObject *watched, QEvent *event)
         const double x = invTransform(QwtAxis::XBottom, static_cast<QMouseEvent *>(event)->position().x());
         select(int(std::lround(x)));
         m_isDragging = true;
-        m_grip = heightOf(m_law, m_selected) - yAt(); // a bar does not jump to where it was taken
+        m_grip = heightOf(m_law, m_selected) - yAt(); // avoids a jump of the bar to the pointer
     } else if (event->type() == QEvent::MouseMove && m_isDragging) {
         drag(yAt());
     } else if (event->type() == QEvent::MouseButtonRelease && m_isDragging) {

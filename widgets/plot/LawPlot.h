@@ -7,12 +7,11 @@
 
 namespace faintline {
 
-/// The law of a rate's change from frame to frame as bars, h(|δ|) over δ = -n … n, which can be dragged.
+/// The law of a rate's change from frame to frame as draggable bars, h(|δ|) over δ = -n … n.
 ///
-/// A bar and its mirror image move together and the others give way in proportion, so that it stays a law
-/// (withProbability); one more bar than the law has stands ready at either end, at 0. Mouse: drag a bar up or down,
-/// Escape lets it be. Keys: Left and Right choose a bar, Up and Down change it by 0.01, with Shift by 0.1, with Ctrl by
-/// 0.001.
+/// A bar and its mirror image move together and the others are scaled, so that the sum stays 1 (withProbability); there
+/// is one more bar than the law has at either end, at 0. Mouse: drag a bar up or down, Escape cancels. Keys: Left and
+/// Right select a bar, Up and Down change it by 0.01, with Shift by 0.1, with Ctrl by 0.001.
 class LawPlot : public MarkedPlot
 {
     Q_OBJECT
@@ -20,22 +19,22 @@ class LawPlot : public MarkedPlot
 public:
     explicit LawPlot(QWidget *parent = nullptr);
 
-    /// `mostChange`: no rate can change by more. What is being dragged is dropped.
+    /// `mostChange`: largest possible change of a rate. Cancels dragging.
     void setLaw(const std::vector<double> &law, int mostChange);
     void setEditable(bool isEditable);
     bool isEditable() const { return m_isEditable; }
 
-    /// The one shown: while a bar is dragged, the law that letting go would ask for.
+    /// The displayed law; while a bar is dragged, the law that releasing would request.
     const std::vector<double> &law() const { return m_shown; }
-    int selected() const { return m_selected; } ///< the change whose bar the keys move
+    int selected() const { return m_selected; } ///< the change whose bar responds to keys
     int reach() const;                          ///< largest change that has a bar
 
     QSize sizeHint() const override { return {240, 170}; }
     QSize minimumSizeHint() const override { return {150, 110}; }
 
 signals:
-    void lawDragged(const std::vector<double> &law);   ///< on its way
-    void lawRequested(const std::vector<double> &law); ///< let go, or by key
+    void lawDragged(const std::vector<double> &law);   ///< while dragging
+    void lawRequested(const std::vector<double> &law); ///< on release, or by key
 
 protected:
     void keyPressEvent(QKeyEvent *event) override;
@@ -55,7 +54,7 @@ private:
     std::vector<double> m_shown{1.0};
     int m_mostChange = 0;
     int m_selected = 0;
-    double m_grip = 0.0; ///< of a dragged bar: its height less the pointer's
+    double m_grip = 0.0; ///< height of a dragged bar minus the pointer's
     bool m_isDragging = false;
     bool m_isEditable = true;
     BarItem *m_item;

@@ -7,7 +7,7 @@
 
 namespace faintline {
 
-/// Words on a plate beside a vertical line, always wholly on the canvas.
+/// Text on a background beside a vertical line, always completely on the canvas.
 class LineLabel : public QwtPlotItem
 {
 public:

@@ -29,8 +29,8 @@ public:
         const Theme::Colours &colours = Theme::colours(m_owner);
         painter->save();
         painter->setFont(Theme::plotTitleFont());
-        double row = canvas.top()
-                     + m_owner.marksTop(); // words of upright lines, each a row lower, so that near ones do not meet
+        double row =
+            canvas.top() + m_owner.marksTop(); // texts of upright lines, each a row lower, so that they do not overlap
         for (const Mark &mark : m_owner.marks()) {
             painter->setPen(QPen(mark.isUpright ? colours.text : colours.threshold, 1.2,
                                  mark.isUpright ? Qt::DashLine : Qt::SolidLine));
@@ -101,9 +101,9 @@ void MarkedPlot::layAxes()
     const QSize size = canvas()->contentsRect().size();
     QwtScaleDiv x = linearScaleDiv(m_x, std::clamp(std::min(size.width() / 50, int(m_x.width())), 1, 12));
     QList<double> numbers = x.ticks(QwtScaleDiv::MajorTick);
-    if (numbers.isEmpty()) // a single place, of which the step is too wide
+    if (numbers.isEmpty()) // a single place, for which the step is too wide
         numbers << std::ceil(m_x.low);
-    if (numbers.size() == 1 || majorStep(x) <= 1.0) // whole numbers have nothing between them
+    if (numbers.size() == 1 || majorStep(x) <= 1.0) // integers have no minor ticks
         x = QwtScaleDiv(m_x.low, m_x.high, {}, {}, numbers);
     setAxisScaleDiv(QwtAxis::XBottom, x);
     setAxisScaleDiv(QwtAxis::YLeft, linearScaleDiv(m_y, std::clamp(size.height() / 30, 2, 10)));

@@ -12,19 +12,19 @@ namespace faintline {
 
 class CanvasSentence;
 
-/// What plots of a sequential test have in common: an abscissa of whole numbers, titles and spans, lines with words on
-/// them, a cursor that a click asks for, and a sentence while there is nothing to see. Follows the palette.
+/// Base class of plots for sequential tests: an integer abscissa, titles and spans, lines with texts, a cursor set by
+/// clicks, and a sentence while there is no data. Follows the palette.
 class MarkedPlot : public ThemedPlot
 {
     Q_OBJECT
 
 public:
-    /// A line across the canvas, at x (upright) or at y, and words beside it.
+    /// A line across the canvas at x (upright) or at y, with a text.
     struct Mark {
         double at = 0.0;
         bool isUpright = true;
         QString words;
-        bool isAbove = false; ///< of a level line: its words stand above it
+        bool isAbove = false; ///< for a level line: the text is above it
         bool operator==(const Mark &) const = default;
     };
 
@@ -36,16 +36,16 @@ public:
     const Span &ySpan() const { return m_y; }
     void setMarks(std::vector<Mark> marks);
     const std::vector<Mark> &marks() const { return m_marks; }
-    /// How far below the canvas's upper edge the words of upright lines begin.
+    /// Distance of the texts of upright lines from the canvas's upper edge.
     void setMarksTop(double pixels) { m_marksTop = pixels; }
     double marksTop() const { return m_marksTop; }
     void setCursor(std::optional<double> x);
     std::optional<double> cursor() const { return m_cursorAt; }
     void setEmptySentence(const QString &sentence);
-    /// Whether the sentence is shown, without axes.
+    /// Whether the sentence is shown instead of the axes.
     void setEmpty(bool isEmpty);
 
-    /// Without titles and numbers, for a small picture.
+    /// Whether titles and numbers are omitted, for a small picture.
     void setBare(bool isBare);
     bool isBare() const { return m_isBare; }
 
@@ -62,7 +62,7 @@ protected:
     bool eventFilter(QObject *watched, QEvent *event) override;
     void followCanvas() override { layAxes(); }
 
-    /// Colours may have changed; a class that adds some calls this one's first.
+    /// Called when colours may have changed; overrides call this implementation first.
     void restyle() override;
     /// A click on the canvas, in its pixels.
     virtual void clicked(const QPointF &canvas);

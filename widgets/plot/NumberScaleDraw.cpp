@@ -9,7 +9,12 @@ namespace faintline {
 
 QwtText NumberScaleDraw::label(double value) const
 {
-    return numberText(value / m_unit, decimalsFor(majorStep(scaleDiv()) / m_unit));
+    const int decimals = decimalsFor(majorStep(scaleDiv()) / m_unit);
+    QString text = numberText((value + m_origin) / m_unit, decimals);
+    while (m_isLogarithmic && text.contains(QLatin1Char('.'))
+           && (text.endsWith(QLatin1Char('0')) || text.endsWith(QLatin1Char('.'))))
+        text.chop(1);
+    return text;
 }
 
 QString NumberScaleDraw::widestLabel(const Span &full) const

@@ -51,7 +51,7 @@ StripPlot::StripPlot(const QString &ordinate, QWidget *parent)
 {
     m_sentence->text = tr("No data yet.");
     setAxisTitle(QwtAxis::YLeft, ordinate);
-    setAxisTitle(QwtAxis::YRight, QString(QChar::Nbsp)); // takes the room of a title
+    setAxisTitle(QwtAxis::YRight, QString(QChar::Nbsp)); // reserves the room of a title
     setAxisTitle(QwtAxis::XBottom, tr("Time (s)"));
     m_grid->attach(this);
     m_level->setLineStyle(QwtPlotMarker::HLine);
@@ -167,7 +167,7 @@ void StripPlot::readProfile()
         values[row] = float(m_profile->scale().value(m_profile->row(0, Index(row))[cell]));
     Axis time = m_profile->time();
     const auto frames = double(m_profile->framesPerRow(0));
-    time.first = time.value(0.5 * (frames - 1.0)); // a row stands for the middle of its frames
+    time.first = time.value(0.5 * (frames - 1.0)); // a row represents the middle of its frames
     time.step *= frames;
     time.count = m_profile->rowCount(0);
     setSeries(m_profileName, time, std::move(values), Side::Left);
@@ -224,16 +224,16 @@ void StripPlot::restyle()
     layAxes();
 }
 
-/// What a right axis would take, so that strips above each other end at the same time.
+/// Width of a right axis, so that strips above each other end at the same time.
 int StripPlot::widthOfRightAxis() const
 {
-    // Half a label of the time axis stands out into that room anyway.
+    // Half a label of the time axis extends into that room anyway.
     const int width = axisWidget(QwtAxis::YRight)->sizeHint().width() + int(plotLayout()->spacing());
     return std::max(width - axisWidget(QwtAxis::XBottom)->endBorderDist(), 0);
 }
 
-/// A curve that has an ordinate for itself lends it its colour; a key hides a part of the curves, so there is one only
-/// where it takes more.
+/// A curve with an ordinate of its own gives it its colour; since a key covers a part of the curves, it is only shown
+/// if needed.
 void StripPlot::nameCurves()
 {
     m_key->entries.clear();
@@ -280,7 +280,7 @@ void StripPlot::followSpan()
     setAxisScaleDiv(QwtAxis::XBottom, timeScaleDiv(span, std::clamp(pixels / (isClock ? 90 : 60), 1, 16)));
     updateOrdinate(Side::Left);
     updateOrdinate(Side::Right);
-    // Wide enough for most figures, so that the canvases of strips above each other have the same sides.
+    // Wide enough for most figures, so that the canvases of strips above each other are aligned.
     steadyAxes(*this, QStringLiteral("−0.000"), timeDraw.widestLabel(m_viewport ? m_viewport->full().time : span));
     const bool hasRight = isAxisVisible(QwtAxis::YRight) || m_series.empty();
     setContentsMargins(2, 4, 6 + (hasRight ? 0 : widthOfRightAxis()), 2);
@@ -306,7 +306,7 @@ void StripPlot::updateOrdinate(Side side)
         const double room = std::max(0.1 * span.width(), 0.05 * std::max(std::abs(span.middle()), 0.1));
         span = {span.low - room, span.high + room};
     }
-    if (side == Side::Left) // its name has room on one side of it
+    if (side == Side::Left) // its name fits on one side of it
         m_level->setLabelAlignment(Qt::AlignLeft
                                    | (m_levelValue > span.low + 0.7 * span.width() ? Qt::AlignBottom : Qt::AlignTop));
     setAxisScaleDiv(axisOf(side), linearScaleDiv(span, std::clamp(canvas()->contentsRect().height() / 26, 2, 8)));
@@ -377,7 +377,7 @@ void StripPlot::wheelEvent(QWheelEvent *event)
     event->accept();
 }
 
-/// High enough for the axis's title.
+/// High enough for the axis title.
 QSize StripPlot::minimumSizeHint() const
 {
     constexpr int least = 84;

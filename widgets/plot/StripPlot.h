@@ -23,8 +23,8 @@ struct StripSeries;
 
 /// Curves over time, linked with the waterfalls: ln K and the continued fraction, or the statistic at the cursor.
 ///
-/// Long curves are drawn by their minimum and maximum per pixel, so a peak of one frame is seen. Time runs from left to
-/// right. Wheel scrolls, Ctrl+wheel zooms in time, drag pans, click places the cursor.
+/// Long curves are drawn by their minimum and maximum per pixel, so that a peak of one frame is visible. Time runs from
+/// left to right. Wheel scrolls, Ctrl+wheel zooms in time, drag pans, click places the cursor.
 class StripPlot : public ThemedPlot
 {
     Q_OBJECT
@@ -38,22 +38,22 @@ public:
 
     void setViewport(Viewport *viewport);
 
-    /// Replaces the curve of that name. `values`: one per step of `time`. NaN leaves a gap.
+    /// Replaces the curve of that name. `values`: one per step of `time`; NaN leaves a gap.
     void setSeries(const QString &name, const Axis &time, std::vector<float> values, Side side = Side::Left);
     void removeSeries(const QString &name);
     void setLeftTitle(const QString &title);
     void setRightTitle(const QString &title);
 
-    /// The values of a picture along time at the cursor's frequency; follows the cursor by itself. Null for none.
+    /// Shows the values of a picture over time at the cursor's frequency and follows the cursor. Null for none.
     void setProfile(const QString &name, std::shared_ptr<const PeakPyramid> picture, const Axis &frequency);
 
-    /// A fixed ordinate instead of one that follows the visible values, such as 0 … 1 for a fraction.
+    /// A fixed ordinate instead of the visible range, such as 0 … 1 for a fraction.
     void setFixedScale(Side side, const Span &span);
 
     /// A horizontal line with a label, such as the threshold; NaN for none.
     void setLevel(double value, const QString &label);
 
-    /// Shades values of the left ordinate, such as where ln K stays on noise.
+    /// Shades a range of the left ordinate, such as that of ln K on noise.
     void setBand(const std::optional<Span> &band);
 
     void setEmptySentence(const QString &sentence);
@@ -94,7 +94,7 @@ private:
     std::optional<Span> m_band;
     CanvasSentence *m_sentence;
     CurveKey *m_key;
-    std::optional<double> m_dragLow; ///< visible time's start when the button went down
+    std::optional<double> m_dragLow; ///< start of the visible time at the mouse press
     QPointF m_dragStart;
     bool m_isPanning = false;
 };

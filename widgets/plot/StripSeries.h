@@ -15,7 +15,7 @@ class QwtPlotCurve;
 
 namespace faintline {
 
-/// One curve of a StripPlot and what it was made from.
+/// One curve of a StripPlot and its data.
 struct StripSeries {
     QString name;
     Axis time;
@@ -24,7 +24,7 @@ struct StripSeries {
     QwtPlotCurve *curve = nullptr;
     Span seen{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}; ///< visible values
 
-    /// The visible part: every value where there is room, otherwise lowest and highest of each pixel.
+    /// The visible part: every value if there is room, otherwise minimum and maximum of each pixel.
     QPolygonF points(const Span &span, int pixels);
 
 private:

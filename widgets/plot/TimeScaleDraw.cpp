@@ -14,7 +14,7 @@ QwtText TimeScaleDraw::label(double seconds) const
     const int decimals = decimalsFor(majorStep(scaleDiv()));
     if (m_startUnixSeconds) {
         constexpr double day = 86400.0;
-        const double digits = std::pow(10.0, decimals); // rounded first: 24:00:00 is 0:00:00
+        const double digits = std::pow(10.0, decimals); // rounded first: 24:00:00 becomes 0:00:00
         const double rounded = std::round((*m_startUnixSeconds + seconds) * digits) / digits;
         return clockText(rounded - day * std::floor(rounded / day), decimals, true);
     }

@@ -8,17 +8,17 @@
 
 namespace faintline {
 
-/// Labels in seconds, as h:min:s where the recording is long, or as the UTC time of day.
+/// Labels in seconds, in h:min:s for long recordings, or as UTC time of day.
 class TimeScaleDraw : public QwtScaleDraw
 {
 public:
     void setClock(bool isClock) { m_isClock = isClock; }
     bool isClock() const { return m_isClock; }
-    /// Of second 0, from 1970 on: labels are times of day from then on.
+    /// Time of second 0, since 1970; if set, labels are times of day.
     void setStartUnixSeconds(std::optional<double> start) { m_startUnixSeconds = start; }
     QwtText label(double seconds) const override;
 
-    /// Room for the longest label of a span, so that the canvas keeps its place while one scrolls.
+    /// The longest label of a span, for reserving room so that the canvas does not move while scrolling.
     QString widestLabel(const Span &full) const;
 
 private:

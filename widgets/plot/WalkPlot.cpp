@@ -19,7 +19,7 @@ namespace {
 
     constexpr double belowKey = 42.0;        ///< px
     constexpr double reach = 24.0;           ///< px from the mouse to a walk
-    constexpr std::size_t mostPoints = 4000; ///< of a walk that are drawn
+    constexpr std::size_t mostPoints = 4000; ///< maximum number of points drawn per walk
 
     bool isWrong(const WalkPlot::Walk &walk)
     {
@@ -32,7 +32,7 @@ namespace {
         return walk.hasTarget ? colours.curves[*walk.hasTarget ? 1 : 0] : colours.curves[2];
     }
 
-    /// H1 points up, H0 down; at the cut-off a square.
+    /// H1 points up, H0 down; a square marks the cut-off.
     void drawDecision(QPainter &painter, const QPointF &at, const WalkPlot::Walk &walk, const QColor &colour,
                       double radius)
     {
@@ -93,7 +93,7 @@ private:
             for (const QPointF &point : points)
                 painter.drawEllipse(point, 3.4, 3.4);
         }
-        // A walk may jump far beyond its boundary: its end is marked at the edge then.
+        // A walk may jump far beyond its boundary: its end is then marked at the edge.
         QPointF end = points.last();
         end.setY(std::clamp(end.y(), canvas.top() + 5.0, canvas.bottom() - 5.0));
         const double radius = isSelected ? 6.0 : 3.5;
@@ -147,7 +147,7 @@ void WalkPlot::layOut()
     const SprtBoundaries at = sprtBoundaries(m_settings);
     const double height = at.lnUpper - at.lnLower;
     constexpr int leastStages = 4;
-    constexpr int mostStages = 1000; // a later cut-off would leave the walks no room
+    constexpr int mostStages = 1000; // a later cut-off would compress the walks too much
     auto longest =
         std::size_t(std::max(leastStages, m_settings.cutOffStage <= mostStages ? m_settings.cutOffStage : 0));
     for (const Walk &walk : m_walks)
@@ -199,7 +199,7 @@ void WalkPlot::clicked(const QPointF &canvas)
     double shortest = reach;
     for (int walk = 0; walk < int(m_walks.size()); ++walk) {
         const auto stages = Index(m_walks[std::size_t(walk)].lnLambda.size());
-        // Only the stages beside the pointer can be near it.
+        // Only stages next to the pointer can be near it.
         const auto middle = Index(std::lround(invTransform(QwtAxis::XBottom, canvas.x())));
         for (Index stage = std::max<Index>(1, middle - 2); stage <= std::min(stages, middle + 2); ++stage) {
             const QPointF gap = position(walk, stage) - canvas;

@@ -10,10 +10,10 @@ namespace faintline {
 
 class CurveKey;
 
-/// ln Λ of sequential tests walking from 0 to one of their two boundaries: many runs faint, one of them bright, each
-/// hypothesis in a colour of its own, every decision marked, wrong ones ringed.
+/// ln Λ of sequential tests from 0 to one of the two boundaries: many runs drawn faintly, one highlighted, a colour for
+/// each hypothesis, decisions marked, wrong ones ringed.
 ///
-/// A click on a walk or Up and Down ask for another run.
+/// A click on a walk, or Up and Down, select another run.
 class WalkPlot : public MarkedPlot
 {
     Q_OBJECT
@@ -22,20 +22,20 @@ public:
     struct Walk {
         std::vector<double> lnLambda; ///< after stage 1, 2, …
         SprtDecision decision = SprtDecision::Undecided;
-        std::optional<bool> hasTarget; ///< nothing: not known, as in a recording
+        std::optional<bool> hasTarget; ///< nothing: unknown, as in a recording
         bool isForced = false;         ///< at the cut-off stage
     };
 
     explicit WalkPlot(QWidget *parent = nullptr);
 
-    /// Where the walks end, and how many stages a test of fixed size takes, if that is known.
+    /// Boundaries of the walks, and the number of stages of a test of fixed size, if known.
     void setTest(const SprtSettings &settings, std::optional<Index> fixedSize);
     void setWalks(std::vector<Walk> walks);
     const std::vector<Walk> &walks() const { return m_walks; }
     void setSelected(int walk); ///< -1: none
     int selected() const { return m_selected; }
 
-    /// Where a walk stands after a stage (1, 2, …) on the canvas, as it is drawn: never beyond its edge.
+    /// Canvas position of a walk after a stage (1, 2, …) as drawn, limited to the canvas.
     QPointF position(int walk, Index stage) const;
 
 signals:

@@ -12,7 +12,7 @@ namespace faintline {
 
 namespace {
 
-    /// In quotes, as names may hold commas.
+    /// In quotes, because names may contain commas.
     std::string quoted(QString name)
     {
         return "\"" + name.replace(QLatin1Char('"'), QStringLiteral("\"\"")).toStdString() + "\"";

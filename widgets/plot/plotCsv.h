@@ -6,8 +6,8 @@ class QwtPlot;
 
 namespace faintline {
 
-/// The points of a plot's visible curves as CSV, "curve,x,y", a row per point; curves without a title are numbered.
-/// `isLogarithmicY`: the ordinates are logarithms (base 10), and their numbers are written.
+/// The points of a plot's visible curves as CSV, "curve,x,y", one row per point; curves without a title are numbered.
+/// `isLogarithmicY`: the ordinates are base-10 logarithms and are written as numbers.
 std::string plotCsv(const QwtPlot &plot, bool isLogarithmicY);
 
 } // namespace faintline

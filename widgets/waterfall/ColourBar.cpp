@@ -23,7 +23,7 @@ namespace {
     constexpr double histogramWidth = 10.0;
     constexpr double leftMargin = 2.0;
     constexpr double barWidth = 13.0;
-    constexpr double topMargin = 26.0; ///< unit, and half a label
+    constexpr double topMargin = 26.0; ///< unit and half a label
     constexpr double bottomMargin = 12.0;
     constexpr double gripReach = 7.0;
     constexpr double smallestRange = 0.5;
@@ -118,7 +118,7 @@ void ColourBar::setMarker(std::optional<double> value)
 
 void ColourBar::chooseScale()
 {
-    // As much of the data as fits into the range and a half of it on either side.
+    // Fits as much of the data as possible into the range extended by half of it on either side.
     Span all = m_range;
     for (int byte = 1; byte < int(m_counts.size()); ++byte)
         if (m_counts[std::size_t(byte)] > 0.0)
@@ -127,7 +127,7 @@ void ColourBar::chooseScale()
     m_scale = {std::max(all.low, m_range.low - room) - edge, std::min(all.high, m_range.high + room) + edge};
 }
 
-/// The bar, its histogram, and the numbers beside it.
+/// Width of the bar, its histogram, and the numbers beside it.
 int ColourBar::usualWidth()
 {
     return 33 + int(std::lround(33.0 * Theme::plotScale()));
@@ -184,7 +184,7 @@ void ColourBar::paintHistogram(QPainter &painter) const
 {
     if (m_counts.empty())
         return;
-    // Density, not count: the bytes of the upper nats are wider than those of the lower ones. Fourth root, to see
+    // Density rather than count, because the bytes of high nats are wider than those of low ones. Fourth root, to show
     // tails.
     const QRectF bar = barRect();
     const std::vector<int> bytes = m_byteScale.ascending();

@@ -13,7 +13,7 @@
 
 namespace faintline {
 
-/// The legend of a waterfall: colours with their numbers and unit, how often each value occurs, and two ends to drag.
+/// The legend of a waterfall: colours with their numbers and unit, a histogram of the values, and two draggable ends.
 ///
 /// Keys: Up and Down move the white end, with Shift the black one. Double-click: automatic range.
 class ColourBar : public QWidget
@@ -23,9 +23,9 @@ class ColourBar : public QWidget
 public:
     explicit ColourBar(QWidget *parent = nullptr);
 
-    /// Shows and steers that view's range: the usual way, instead of all the setters and signals below.
+    /// Shows and controls that view's range; replaces the setters and signals below.
     void attach(WaterfallView *view);
-    /// The view with a bar on its right that is attached to it.
+    /// The view with an attached bar on its right.
     static QWidget *pane(WaterfallView *view);
 
     void setColourMap(const ColourMap &map);
@@ -74,12 +74,12 @@ private:
 
     const ColourMap *m_map;
     Span m_range{0.0, 1.0};
-    Span m_scale{0.0, 1.0}; ///< values at the widget's lower and upper end
+    Span m_scale{0.0, 1.0}; ///< values at the widget's lower and upper ends
     QString m_unit;
     ByteScale m_byteScale;
     std::vector<double> m_counts;
     std::optional<double> m_marker;
-    QPointer<WaterfallView> m_view; ///< the bar lies beside its canvas
+    QPointer<WaterfallView> m_view; ///< the bar is aligned with its canvas
     Grip m_grip = Grip::None;
     double m_gripValue = 0.0;
     Span m_gripRange;

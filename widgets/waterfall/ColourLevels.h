@@ -9,12 +9,10 @@
 
 namespace faintline {
 
-/// Which values a picture's first and last colours stand for, dB or nat: set by hand, or as the pixels on the screen
-/// suggest.
+/// The values of a picture's first and last colours, dB or nat: set by hand, or suggested by the displayed pixels.
 ///
-/// The pixels are counted for the whole picture at the zoom it is seen at, and zooms are told apart by powers of two in
-/// frequency and of four in time: while one zooms, colours change now and then, not all along; while one scrolls, not
-/// at all.
+/// The pixels are counted for the whole picture at the current zoom. Zoom levels differ by powers of two in frequency
+/// and of four in time, so that colours change only occasionally while zooming, and not at all while scrolling.
 class ColourLevels
 {
 public:
@@ -25,22 +23,23 @@ public:
 
     /// Number of pixels per byte of the picture's scale; nothing before the first count.
     const std::vector<double> &histogram() const { return m_histogram; }
-    /// Counts where a pixel covers so many frames and cells; whether that was another zoom, or picture, than the last.
+    /// Counts pixels that cover the given number of frames and cells; returns whether zoom level or picture differ from
+    /// the last count.
     bool count(const PeakPyramid &picture, double framesPerPixel, double cellsPerPixel);
-    void countAgain() { m_key = {-1, 0}; } ///< next time, as the picture is another
+    void countAgain() { m_key = {-1, 0}; } ///< forces a count of a new picture
     void clearHistogram() { m_histogram.clear(); }
 
-    /// `automaticRange` of the pixels counted; the range as it is where none were.
+    /// `automaticRange` of the counted pixels; the current range if none were counted.
     Span suggested(const ByteScale &scale, std::optional<double> threshold) const;
-    /// Levels moved by hand: at least ½ apart. Of differences zero stays in the middle of the colours; the end that was
-    /// moved takes the other one along.
+    /// Levels set by hand: at least ½ apart. For differences zero stays in the middle of the colours, so both ends move
+    /// together.
     Span byHand(double low, double high, const ByteScale *scale) const;
 
 private:
     Span m_range{-6.0, 14.0};
     bool m_isAutomatic = true;
     std::vector<double> m_histogram;
-    std::pair<int, Index> m_key{-1, 0}; ///< level and cells per pixel it was counted at
+    std::pair<int, Index> m_key{-1, 0}; ///< level and cells per pixel of the last count
 };
 
 } // namespace faintline

@@ -14,12 +14,12 @@ namespace faintline {
 
 namespace {
 
-    constexpr double reach = 9.0; ///< pixels from a vertex that still take hold of it
+    constexpr double reach = 9.0; ///< pixels within which a vertex can be grabbed
     constexpr double handleRadius = 4.5;
 
 } // namespace
 
-/// Draws it, with a dark seam so that it can be seen on any colour of the map.
+/// Draws the line with a dark outline, so that it is visible on any colour of the map.
 class HandLine::Item : public QwtPlotItem
 {
 public:
@@ -50,7 +50,7 @@ private:
 
 HandLine::HandLine(WaterfallView &view) : QObject(&view), m_view(view)
 {
-    (new Item(*this))->attach(&view); // the plot's from now on
+    (new Item(*this))->attach(&view); // owned by the plot
     view.canvas()->installEventFilter(this);
 }
 
@@ -85,7 +85,7 @@ void HandLine::removeLast()
     update();
 }
 
-/// A vertex at a time there is one of already takes its place.
+/// A new vertex at the time of an existing one replaces it.
 int HandLine::insert(const Viewport::Point &point)
 {
     const auto at = std::lower_bound(m_points.begin(), m_points.end(), point,
@@ -161,7 +161,7 @@ bool HandLine::eventFilter(QObject *watched, QEvent *event)
         m_held = -1;
         return true;
     case QEvent::ContextMenu:
-        return true; // the right button takes vertices away
+        return true; // the right button removes vertices
     default:
         break;
     }

@@ -8,25 +8,25 @@
 
 namespace faintline {
 
-/// A line drawn by hand over a waterfall: vertices in ascending time, straight between them.
+/// A polyline drawn by hand over a waterfall, with vertices in ascending time.
 ///
-/// While it is active, a press beside it makes a vertex and a press on a vertex takes hold of it; both follow the mouse
-/// until let go. A right click on a vertex takes it away. Wheel and keys still go to the view.
+/// While active, a press beside the line adds a vertex and a press on a vertex grabs it; both follow the mouse until it
+/// is released. A right-click on a vertex removes it. Wheel and keys still go to the view.
 class HandLine : public QObject
 {
     Q_OBJECT
 
 public:
-    /// `view`: outlives this.
+    /// `view` must outlive this.
     explicit HandLine(WaterfallView &view);
 
     bool isActive() const { return m_isActive; }
     void setActive(bool isActive);
 
     const std::vector<Viewport::Point> &points() const { return m_points; }
-    void setPoints(std::vector<Viewport::Point> points); ///< put in order of time
+    void setPoints(std::vector<Viewport::Point> points); ///< sorted by time
     void add(const Viewport::Point &point);
-    void removeLast(); ///< the vertex that was touched last
+    void removeLast(); ///< the vertex that was changed last
     void clear() { setPoints({}); }
 
 signals:

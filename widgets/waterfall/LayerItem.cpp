@@ -75,9 +75,9 @@ QRgb LayerItem::colourOf(std::size_t pixel) const
     if (m_layer == OutputLayer::Inhibited)
         return value > 0.0 ? clear(inhibitedColour, m_isOverlay ? 0.55 : 1.0)
                            : clear(qRgb(0, 0, 0), m_isOverlay ? 0.0 : 1.0);
-    if (isRate(m_layer) && m_picture->resetFraction[pixel] >= 1.0f) // all states begin anew here: none has won
+    if (isRate(m_layer) && m_picture->resetFraction[pixel] >= 1.0f) // all states were reset here: no rate has won
         return clear(noSlope, m_isOverlay ? 0.0 : 1.0);
-    // Where all rates looked for are 0, that is the middle of the colours, as in any other range.
+    // If all possible rates are 0, use the middle of the colours, as in any other range.
     const QRgb colour = mapOf(m_layer).at(m_range.isEmpty() ? 0.5 : (value - m_range.low) / m_range.width());
     if (!m_isOverlay)
         return clear(colour, 1.0);
@@ -100,6 +100,24 @@ const QImage &LayerItem::image() const
     return m_image;
 }
 
+/// The columns as they lie on a scale that is not linear, one for each pixel.
+QImage LayerItem::imageAlong(const QwtScaleMap &hz, const Span &pixels) const
+{
+    const QImage &from = image();
+    QImage result(std::max(int(std::ceil(pixels.width())), 1), from.height(), from.format());
+    result.fill(Qt::transparent);
+    for (int x = 0; x < result.width(); ++x) {
+        const double cell = std::floor(m_columns.position(hz.invTransform(pixels.low + x + 0.5)) + 0.5);
+        const auto column = int(Index(cell) / m_picture->perColumn - m_picture->firstColumn);
+        if (cell < 0.0 || column < 0 || column >= from.width())
+            continue;
+        for (int row = 0; row < from.height(); ++row)
+            reinterpret_cast<QRgb *>(result.scanLine(row))[x] =
+                reinterpret_cast<const QRgb *>(from.constScanLine(row))[column];
+    }
+    return result;
+}
+
 void LayerItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
                      const QRectF &canvasRect) const
 {
@@ -110,14 +128,19 @@ void LayerItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleM
     const QwtScaleMap &hzMap = m_isTimeVertical ? xMap : yMap;
     const double time0 = timeMap.transform(edge(m_rows, m_picture->firstRow * m_picture->perRow));
     const double time1 = timeMap.transform(edge(m_rows, (m_picture->firstRow + 1) * m_picture->perRow));
-    const double hz0 = hzMap.transform(edge(m_columns, m_picture->firstColumn * m_picture->perColumn));
-    const double hz1 = hzMap.transform(edge(m_columns, (m_picture->firstColumn + 1) * m_picture->perColumn));
+    const bool isLinear = !hzMap.transformation();
+    const Span canvas =
+        m_isTimeVertical ? Span{canvasRect.left(), canvasRect.right()} : Span{canvasRect.top(), canvasRect.bottom()};
+    const double hz0 =
+        isLinear ? hzMap.transform(edge(m_columns, m_picture->firstColumn * m_picture->perColumn)) : canvas.low;
+    const double hz1 =
+        isLinear ? hzMap.transform(edge(m_columns, (m_picture->firstColumn + 1) * m_picture->perColumn)) : hz0 + 1.0;
     const QTransform place = m_isTimeVertical ? QTransform(hz1 - hz0, 0.0, 0.0, time1 - time0, hz0, time0)
                                               : QTransform(0.0, hz1 - hz0, time1 - time0, 0.0, time0, hz0);
     painter->save();
     painter->setClipRect(canvasRect, Qt::IntersectClip);
     painter->setTransform(place, true);
-    painter->drawImage(0, 0, image());
+    painter->drawImage(0, 0, isLinear ? image() : imageAlong(hzMap, canvas));
     painter->restore();
 }
 
@@ -141,7 +164,7 @@ std::unique_ptr<QwtPlotItem> LayerItem::makeKey() const
     return std::make_unique<Key>(*this);
 }
 
-/// A strip of the colours with the values at its ends, above them what they are.
+/// Draws a strip of the colours with the values at its ends and its title above.
 void LayerItem::drawKey(QPainter *painter, const QRectF &canvas) const
 {
     painter->save();

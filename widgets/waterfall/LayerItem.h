@@ -17,9 +17,9 @@ namespace faintline {
 /// Draws a layer of the detector's output on a waterfall or the map of a ping, instead of the statistic or over it, and
 /// its key in a corner.
 ///
-/// Rates have a diverging map about 0, grey where every state was reset and none has won; ages and reset fractions one
-/// that grows, inhibited cells a colour of their own. Over the statistic a layer is as opaque as the statistic stands
-/// out of the noise, so that what is seen is where there is something to say.
+/// Rates use a diverging map about 0, with grey where all states were reset and no rate has won; ages and reset
+/// fractions use a sequential one, inhibited cells a colour of their own. Over the statistic, the opacity of a layer
+/// follows the height of the statistic above the noise, so that only relevant parts are visible.
 class LayerItem : public QwtPlotItem
 {
 public:
@@ -37,7 +37,7 @@ public:
     const Axis &columns() const { return m_columns; }
     const QImage &image() const; ///< columns × rows of the picture, premultiplied
 
-    /// `range`: values at the ends of the colours; `title`: what they are, with the unit; `divisor`: of that unit.
+    /// `range`: values at the ends of the colours; `title`: their name with unit; `divisor`: size of that unit.
     void setLayer(OutputLayer layer, const Span &range, const QString &title, double divisor);
     OutputLayer layer() const { return m_layer; }
     const Span &range() const { return m_range; }
@@ -50,7 +50,7 @@ public:
     void setTimeVertical(bool isVertical) { m_isTimeVertical = isVertical; }
     void setColours(const QColor &text, const QColor &plate);
 
-    /// The key, an item of its own that is drawn over all that is marked; it must not outlive this one.
+    /// The key, a separate item drawn over all marks; it must not outlive this one.
     std::unique_ptr<QwtPlotItem> makeKey() const;
 
     void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
@@ -59,6 +59,7 @@ public:
 private:
     class Key;
     QRgb colourOf(std::size_t pixel) const;
+    QImage imageAlong(const QwtScaleMap &hz, const Span &pixels) const;
     void drawKey(QPainter *painter, const QRectF &canvas) const;
 
     std::shared_ptr<const LayerPicture> m_picture;
@@ -73,7 +74,7 @@ private:
     bool m_isTimeVertical = true;
     QColor m_text;
     QColor m_plate;
-    mutable QImage m_image; ///< columns × rows; null: to be made
+    mutable QImage m_image; ///< columns × rows; null: not created yet
 };
 
 } // namespace faintline

@@ -198,7 +198,7 @@ void MarkedWaterfall::setRubber(const std::optional<Viewport::Box> &box)
     replot();
 }
 
-// ---- the cursor and what is measured -------------------------------------------------------------------------------
+// ---- cursor and measurements ---------------------------------------------------------------------------------------
 
 void MarkedWaterfall::followCursor()
 {
@@ -268,7 +268,7 @@ void MarkedWaterfall::setSidebands(bool isOn)
         return setSidebandSpacing(0.0);
     if (m_sidebandHz > 0.0)
         return;
-    constexpr double share = 1.0 / 14.0; // so that five fit on either side of a carrier in the middle
+    constexpr double share = 1.0 / 14.0; // so that five fit on either side of a centred carrier
     if (!viewport()->cursor())
         viewport()->setCursor({viewport()->time().middle(), viewport()->frequency().middle()});
     const double bins = std::max(std::round(share * viewport()->frequency().width() / frequencyAxis().step), 1.0);

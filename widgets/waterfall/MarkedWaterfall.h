@@ -13,9 +13,8 @@ namespace faintline {
 
 class OverlayItem;
 
-/// A picture with what is marked on it: events, tracks, truth, the threshold's contour, annotations, the cursor with
-/// its harmonics and sidebands, the measured box. What is said about a place is waterfallWords', what is drawn
-/// OverlayItem's.
+/// A picture with marks: events, tracks, truth, the threshold's contour, annotations, the cursor with its harmonics and
+/// sidebands, the measured box. waterfallWords gives the texts, OverlayItem draws.
 class MarkedWaterfall : public WaterfallPicture
 {
     Q_OBJECT
@@ -41,21 +40,21 @@ public:
     int selectedEvent() const { return m_selectedEvent; }
     bool isMeasuring() const { return m_isMeasuring; }
     bool hasHarmonics() const { return m_hasHarmonics; }
-    /// Of the sidebands around the cursor's frequency, Hz; 0: none are shown.
+    /// Spacing of the sidebands around the cursor's frequency, Hz; 0: none are shown.
     double sidebandSpacing() const { return m_sidebandHz; }
     std::optional<Sidebands> sidebands() const; ///< as shown
-    /// What is said about the sidebands: carrier, spacing, the level of each at the cursor's time.
+    /// Text for the sidebands: carrier, spacing, the level of each at the cursor's time.
     QString sidebandText() const;
     const QString &cursorNote() const { return m_cursorNote; }
-    /// What is said about the measured box.
+    /// Text for the measured box.
     QString selectionText() const;
     int eventAt(const QPointF &canvasPosition) const; ///< 0: none
 
 public slots:
     void setEvents(const std::vector<faintline::Event> &events);
-    /// `time`: of the frames the tracks were made from.
+    /// `time`: axis of the tracks' frames.
     void setTracks(const std::vector<faintline::Track> &tracks, const faintline::Axis &time);
-    /// Events and tracks that are followed live, drawn by how far they have come.
+    /// Events and tracks that are followed live, drawn according to their stage.
     void setLiveTracks(const std::vector<faintline::Event> &events,
                        const std::vector<std::shared_ptr<const faintline::Track>> &tracks, const faintline::Axis &time);
     void setTimes(const std::vector<faintline::OverlayTime> &times);
@@ -68,9 +67,9 @@ public slots:
     void setMeasuring(bool isOn);
     void setHarmonics(bool isOn);       ///< lines at the multiples of the cursor's frequency
     void setSidebandSpacing(double hz); ///< lines beside the cursor's frequency; 0: none
-    void setSidebands(bool isOn); ///< with a spacing that suits what is visible; a cursor is placed where there is none
-    void setCursorNote(const QString &note);    ///< what else is known of the cursor's place; in a corner
-    void setSelectionNote(const QString &note); ///< what else is known of the measured box; until it changes
+    void setSidebands(bool isOn); ///< uses a spacing that suits the visible part; places a cursor if there is none
+    void setCursorNote(const QString &note);    ///< additional text for the cursor, in a corner
+    void setSelectionNote(const QString &note); ///< additional text for the measured box, until that changes
     void moveCursorToPeak();                    ///< to the strongest cell nearby
     void setRubber(const std::optional<faintline::Viewport::Box> &box); ///< shown while a box is dragged
 
@@ -82,7 +81,7 @@ signals:
     /// The pointer is over a cell; `value` in dB or nat.
     void hovered(double seconds, double hz, double value);
     void hoverEnded();
-    /// `,` and `.`: so many steps of a quarter nat.
+    /// `,` and `.`: number of steps of a quarter nat.
     void thresholdStepRequested(int steps);
     void eventActivated(int id);
 

@@ -13,8 +13,8 @@ namespace faintline {
 namespace {
 
     constexpr double faintOpacity = 0.3;
-    constexpr std::size_t labelLimit = 40;   ///< more numbers than this at once say nothing
-    constexpr std::size_t bracketLimit = 80; ///< nor do more brackets
+    constexpr std::size_t labelLimit = 40;   ///< more numbers would be unreadable
+    constexpr std::size_t bracketLimit = 80; ///< as would more brackets
     const QColor seam(0, 0, 0, 150);
 
     QPen linePen(const QColor &colour, double width, Qt::PenStyle style = Qt::SolidLine)
@@ -25,7 +25,7 @@ namespace {
         return pen;
     }
 
-    /// Of a track: dashes where it may be nothing, thick while it is followed.
+    /// Pen of a track: dashed while provisional, thick while it is followed.
     QPen penOf(TrackStage stage, QPen pen)
     {
         if (stage == TrackStage::Provisional)
@@ -35,7 +35,7 @@ namespace {
         return pen;
     }
 
-    /// Four corners of a frame, which hide less of the picture than its sides.
+    /// Four corners of a frame, which cover less of the picture than its sides.
     QList<QLineF> corners(const QRectF &rect)
     {
         const double x = std::min(7.0, 0.4 * rect.width()), y = std::min(7.0, 0.4 * rect.height());
@@ -46,7 +46,7 @@ namespace {
 
 } // namespace
 
-/// Where and how to draw.
+/// Painter and scales.
 struct OverlayItem::Canvas {
     QPainter &painter;
     const QwtScaleMap &x;
@@ -76,7 +76,7 @@ struct OverlayItem::Canvas {
         return isTimeVertical ? QLineF(f, rect.top(), f, rect.bottom()) : QLineF(rect.left(), f, rect.right(), f);
     }
 
-    /// A line with its seam.
+    /// Draws a line with its outline.
     void stroke(const QList<QLineF> &lines, const QPen &pen) const
     {
         painter.setPen(QPen(seam, pen.widthF() + 2.0, Qt::SolidLine, Qt::SquareCap));
@@ -85,7 +85,7 @@ struct OverlayItem::Canvas {
         painter.drawLines(lines);
     }
 
-    /// Small text of one or more lines on a dark plate, kept on the canvas.
+    /// Draws small text of one or more lines on a dark background, kept within the canvas.
     void label(const QPointF &corner, const QString &text, const QColor &colour,
                const QColor &plate = QColor(0, 0, 0, 205), const QFont &font = Theme::plotFont()) const
     {
@@ -155,7 +155,7 @@ void OverlayItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScal
     drawSidebands(canvas);
     drawCursor(canvas);
     drawCursorNote(canvas);
-    drawSelection(canvas); // over the cursor, which would cross its figures out
+    drawSelection(canvas); // over the cursor, which would otherwise cross its figures
     if (hasEvents)
         drawEvents(canvas);
     painter->restore();
@@ -178,7 +178,7 @@ void OverlayItem::drawLines(const Canvas &canvas, const std::vector<OverlayLine>
     for (const OverlayLine &line : lines) {
         const QPen pen = penOf(line.stage, usual);
         canvas.painter.setOpacity(isFaint(line.id) ? faintOpacity : 1.0);
-        // The visible part with one point more at either end; a point a pixel is enough.
+        // The visible part with one more point at either end; one point per pixel is enough.
         const auto isBefore = [](const QPointF &point, double seconds) { return point.x() < seconds; };
         auto first = std::lower_bound(line.points.begin(), line.points.end(), visible.low, isBefore);
         auto last = std::lower_bound(first, line.points.end(), visible.high, isBefore);
@@ -251,7 +251,7 @@ void OverlayItem::drawBoxes(const Canvas &canvas, const std::vector<OverlayBox> 
 
 void OverlayItem::drawEvents(const Canvas &canvas) const
 {
-    // Where there are many in sight their brackets would hide what they mark: the tracks alone are clearer.
+    // If many events are visible, their brackets would hide what they mark; only the tracks are drawn then.
     const auto rectOfMark = [&](const OverlayMark &mark) {
         return frameOf(rectOf(mark.box, canvas.x, canvas.y, isTimeVertical));
     };
@@ -326,7 +326,7 @@ void OverlayItem::drawCursor(const Canvas &canvas) const
         return;
     QColor colour = colours.cursor;
     colour.setAlpha(210);
-    // The crossing itself stays free: that is the cell one wants to see.
+    // The crossing itself is left free, because it is the cell of interest.
     constexpr double gap = 9.0;
     const QLineF across = canvas.across(cursor->seconds), along = canvas.along(cursor->hz);
     const QPointF centre = isTimeVertical ? QPointF(along.x1(), across.y1()) : QPointF(across.x1(), along.y1());
@@ -337,7 +337,7 @@ void OverlayItem::drawCursor(const Canvas &canvas) const
                   linePen(colour, 1.0));
 }
 
-/// In the corner that the sidebands leave free.
+/// In the corner that is not used by the sidebands.
 void OverlayItem::drawCursorNote(const Canvas &canvas) const
 {
     if (cursor && !cursorNote.isEmpty())

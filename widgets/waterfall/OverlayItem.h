@@ -12,9 +12,9 @@
 
 namespace faintline {
 
-/// What is drawn over a waterfall: truth, tracks, events, the measured box, harmonics and sidebands, the cursor.
+/// Draws marks over a waterfall: truth, tracks, events, the measured box, harmonics and sidebands, the cursor.
 ///
-/// Every line has a dark seam, so it can be seen on any colour of the map.
+/// Every line has a dark outline, so that it is visible on any colour of the map.
 class OverlayItem : public QwtPlotItem
 {
 public:
@@ -28,14 +28,14 @@ public:
     std::vector<OverlayBox> boxes;
     std::vector<OverlayTime> times;
     std::vector<OverlayBox> areas; ///< of raised level, without a line
-    std::vector<int> faintEvents;  ///< rejected ones: there, but not in the way
+    std::vector<int> faintEvents;  ///< rejected ones, drawn faintly
     bool hasEvents = true, hasTracks = true, hasTruth = true;
     int selectedEvent = 0;
     std::optional<Viewport::Point> cursor;
     std::vector<double> harmonicsHz;
     std::optional<Sidebands> sidebands;
     QString sidebandText; ///< carrier, spacing and levels
-    QString cursorNote;   ///< what else is known of the cursor's place
+    QString cursorNote;   ///< additional text for the cursor
     std::optional<Viewport::Box> selection;
     QString selectionText;
     std::optional<Viewport::Box> rubber; ///< while a box is dragged
@@ -43,10 +43,10 @@ public:
     void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
               const QRectF &canvasRect) const override;
 
-    /// Where a box lies on the canvas.
+    /// Position of a box on the canvas.
     static QRectF rectOf(const Viewport::Box &box, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
                          bool isTimeVertical);
-    /// The frame drawn around an event: its box with some room, never too small to be hit.
+    /// The frame drawn around an event: its box with a margin, never too small to be clicked.
     static QRectF frameOf(const QRectF &rect);
 
 private:

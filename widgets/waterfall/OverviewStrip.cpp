@@ -97,12 +97,12 @@ QRectF OverviewStrip::boxRect() const
 {
     const QRectF rect = pictureRect();
     const double left = xOf(m_viewport->time().low), right = xOf(m_viewport->time().high);
-    // A sliver of a long recording must still be seen and taken hold of.
+    // The box of a small part of a long recording must remain visible and draggable.
     const double thin = std::max(6.0 - (right - left), 0.0) / 2.0;
     return {left - thin, rect.top(), right - left + 2.0 * thin, rect.height()};
 }
 
-/// Drawn when it is seen: whoever hands over a picture does not wait for it.
+/// Marks the picture for rendering when it is visible, so that the caller need not wait.
 void OverviewStrip::renew()
 {
     m_isStale = true;
@@ -119,7 +119,7 @@ void OverviewStrip::render()
         const QSize size(int(std::lround(rect.width() * ratio)), int(std::lround(rect.height() * ratio)));
         Viewport::Box box = WaterfallView::extents(m_picture->time(), m_frequency);
         if (m_viewport && m_viewport->full().time.high < box.time.high)
-            box.time = m_viewport->full().time; // nobody knows when it ends
+            box.time = m_viewport->full().time; // the end is not known
         const double frames = double(m_picture->frameCount()) / size.width();
         const double cells = double(m_frequency.count) / size.height();
         RasterItem raster;
@@ -227,7 +227,7 @@ void OverviewStrip::mousePressEvent(QMouseEvent *event)
         return;
     m_grip = gripAt(event->position());
     const double seconds = secondsAt(event->position().x());
-    if (m_grip == Grip::None) { // go there, and be held there
+    if (m_grip == Grip::None) { // move there and continue dragging
         m_viewport->pan(seconds - m_viewport->time().middle(), 0.0);
         m_grip = Grip::Box;
     }

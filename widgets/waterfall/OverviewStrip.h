@@ -15,11 +15,11 @@
 
 namespace faintline {
 
-/// The whole recording in one thin picture, time from left to right, with what is visible as a box.
+/// The whole recording in one thin picture, time from left to right, with the visible part as a box.
 ///
-/// Black and white level are its own: a pixel here is the maximum of many more cells than one of the waterfall's. Drag
+/// Has its own black and white levels, because a pixel is the maximum of many more cells than in the waterfall. Drag
 /// the box to scroll, its sides to zoom; click elsewhere to go there; wheel zooms in time; double-click shows all.
-/// Arrow keys scroll by a tenth of what is visible, + and - zoom.
+/// Arrow keys scroll by a tenth of the visible part, + and - zoom.
 class OverviewStrip : public QWidget
 {
     Q_OBJECT
@@ -30,7 +30,7 @@ public:
     void setViewport(Viewport *viewport);
     void setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency);
     void setColourMap(const ColourMap &map);
-    /// Marked along the lower edge.
+    /// Events are marked along the lower edge.
     void setEvents(const std::vector<Event> &events);
 
     QSize sizeHint() const override { return {800, 56}; }

@@ -17,7 +17,7 @@ namespace {
 
     constexpr int blockSize = 32; ///< of transposition
 
-    /// To 40 binary digits: what scrolls keeps the width of its pixels whatever the rounding of its ends.
+    /// Rounds to 40 binary digits, so that scrolling does not change the pixel width by rounding errors.
     double steadied(double step)
     {
         int exponent = 0;
@@ -33,22 +33,30 @@ namespace {
         return {std::round(first / step) * step, step, count};
     }
 
-    /// By how many pixels a row has moved; nothing where it has become another one.
+    /// The same on a logarithmic scale.
+    PixelRow logarithmicRow(const Span &span, int count, const Axis &axis)
+    {
+        const double step = steadied(std::log(span.high / span.low) / count);
+        const double first = std::log(span.low / axis.step);
+        return {std::round(first / step) * step, step, count, axis.position(0.0) + 0.5};
+    }
+
+    /// Number of pixels by which a row has moved; nothing if it is a different row.
     std::optional<int> shiftOf(const PixelRow &from, const PixelRow &to)
     {
-        if (from.step != to.step || from.count != to.count)
+        if (from.step != to.step || from.count != to.count || from.zero != to.zero)
             return {};
         const double shift = std::round(to.first / to.step) - std::round(from.first / from.step);
         return std::abs(shift) < to.count ? std::optional(int(shift)) : std::nullopt;
     }
 
-    /// `count` pixels of a row from its pixel `begin` on.
+    /// `count` pixels of a row, starting with its pixel `begin`.
     PixelRow part(const PixelRow &row, int begin, int count)
     {
-        return {(std::round(row.first / row.step) + begin) * row.step, row.step, count};
+        return {(std::round(row.first / row.step) + begin) * row.step, row.step, count, row.zero};
     }
 
-    /// Rows ↔ columns, by blocks that stay in the cache.
+    /// Transposes rows and columns, by blocks that fit into the cache.
     void transpose(const std::vector<std::uint8_t> &from, int rows, int columns, std::vector<std::uint8_t> &to)
     {
         to.resize(from.size());
@@ -62,7 +70,7 @@ namespace {
                         to[at(c, r, rows)] = from[at(r, c, columns)];
     }
 
-    /// The highest of each pixel's four neighbours.
+    /// The maximum of each pixel's four neighbours.
     void raiseNeighbours(const std::uint8_t *above, const std::uint8_t *here, const std::uint8_t *below,
                          std::vector<std::uint8_t> &highest)
     {
@@ -139,7 +147,7 @@ void RasterItem::updateBytes(const PixelRow &time, const PixelRow &cells) const
     m_imageKey.reset();
 }
 
-/// What was in sight before moves, what has come into sight is drawn: whole lines, then the sides of the others.
+/// Moves pixels that remain visible and draws new ones: whole lines, then the sides of the others.
 void RasterItem::scroll(const PixelRow &time, const PixelRow &cells, int down, int right) const
 {
     const int level = levelToRead(*m_picture, time, cells);
@@ -148,7 +156,8 @@ void RasterItem::scroll(const PixelRow &time, const PixelRow &cells, int down, i
     const int endKept = time.count - std::max(down, 0);
     const int width = cells.count - std::abs(right);
     for (int i = firstKept; i < endKept; ++i) {
-        const int row = down >= 0 ? i : firstKept + endKept - 1 - i; // what is still to be moved is not written over
+        const int row = down >= 0 ? i : firstKept + endKept - 1 - i; // the order avoids overwriting pixels that are
+                                                                     // still to be moved
         std::memmove(line(row) + std::max(-right, 0), line(row + down) + std::max(right, 0), std::size_t(width));
     }
     if (down != 0) {
@@ -209,7 +218,8 @@ QImage RasterItem::image(const Span &x, const Span &y, bool isUpward, const QSiz
     const Span &time = m_isTimeVertical ? y : x;
     const Span &frequency = m_isTimeVertical ? x : y;
     updateBytes(pixelRow(time, m_isTimeVertical ? size.height() : size.width(), m_time),
-                pixelRow(frequency, m_isTimeVertical ? size.width() : size.height(), m_frequency));
+                (m_isLogarithmic ? logarithmicRow
+                                 : pixelRow)(frequency, m_isTimeVertical ? size.width() : size.height(), m_frequency));
     const int contourByte = m_contour ? m_picture->scale().byte(*m_contour) : 256;
     paint({isUpward, m_isTimeVertical, m_map, m_range, contourByte, m_contourColour}, size);
     return m_image;

@@ -19,28 +19,29 @@ namespace faintline {
 
 /// Draws a PeakPyramid on a plot's axes.
 ///
-/// Two caches, each kept as long as its key holds: the bytes of the pixels (picture, axes, size) and the image made
-/// from them (colours, range, threshold). Dragging a range or a threshold so costs a table look-up per pixel. Pixels
-/// lie on a grid that is fixed in time and frequency, so a picture that scrolls does not flicker, and only what comes
-/// into sight is drawn; it is placed to the nearest half pixel.
+/// There are two caches, each valid while its key is unchanged: the bytes of the pixels (picture, axes, size) and the
+/// image made from them (colours, range, threshold). Dragging a range or a threshold thus costs one table lookup per
+/// pixel. Pixels lie on a grid that is fixed in time and frequency, so a scrolling picture does not flicker, and only
+/// newly visible parts are drawn; it is placed to the nearest half pixel.
 class RasterItem : public QwtPlotItem
 {
 public:
     RasterItem();
 
     void setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency);
-    /// A part of the frames of that time axis: drawn on the same pixels as a picture of all of them.
+    /// Shows a part of the frames of that time axis, on the same pixels as a picture of all of them.
     void setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency, const Axis &time);
     void setTimeVertical(bool isVertical) { m_isTimeVertical = isVertical; }
+    void setLogarithmic(bool isLogarithmic) { m_isLogarithmic = isLogarithmic; } ///< the frequency axis
     void setColours(const ColourMap &map, const Span &range);
-    /// Pixels around those at or above this value are drawn in the contour's colour.
+    /// Pixels adjacent to values at or above this one are drawn in the contour's colour.
     void setContour(std::optional<double> value, QRgb colour);
 
     void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
               const QRectF &canvasRect) const override;
 
-    /// The image of a canvas of so many device pixels. x (from left to right) and y are frequency and time where time
-    /// is vertical, time and frequency otherwise; `isUpward`: y grows towards the top.
+    /// The image of a canvas of the given number of device pixels. x (from left to right) and y are frequency and time
+    /// if time is vertical, time and frequency otherwise; `isUpward`: y grows towards the top.
     QImage image(const Span &x, const Span &y, bool isUpward, const QSize &size) const;
 
 private:
@@ -69,6 +70,7 @@ private:
     Axis m_frequency;
     Axis m_time;
     bool m_isTimeVertical = true;
+    bool m_isLogarithmic = false;
     const ColourMap *m_map;
     Span m_range{-6.0, 14.0};
     std::optional<double> m_contour;

@@ -14,14 +14,14 @@ struct Sidebands {
 
     double hz(int order) const { return carrierHz + order * spacingHz; }
 
-    /// The order whose line a frequency is next to: -5 … 5, 0 the carrier.
+    /// The order whose line is nearest to a frequency: -5 … 5, 0 the carrier.
     int nearestOrder(double hz) const
     {
         const double n = spacingHz > 0.0 ? std::round((hz - carrierHz) / spacingHz) : 0.0;
         return int(n < -orders ? -orders : n > orders ? +orders : n);
     }
 
-    /// The spacing that puts the line of an order other than 0 on a frequency.
+    /// The spacing that places the line of a non-zero order on a frequency.
     double spacingFor(int order, double hz) const { return std::abs((hz - carrierHz) / order); }
 
     bool operator==(const Sidebands &) const = default;

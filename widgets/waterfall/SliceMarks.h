@@ -13,7 +13,7 @@ namespace faintline {
 
 class WaterfallView;
 
-/// Marks on a slice through the states: a ring around the best one, diamonds on those that paths go through.
+/// Marks on a slice through the states: a ring around the best state, diamonds on states along paths.
 class SliceMarks : public QObject
 {
     Q_OBJECT
@@ -38,8 +38,8 @@ private:
 
     WaterfallView &m_view;
     std::optional<Best> m_best;
-    std::vector<Viewport::Point> m_paths; ///< rows in the place of seconds
-    std::vector<QwtPlotCurve *> m_rings;  ///< a dark seam, and the ring itself; the view's own
+    std::vector<Viewport::Point> m_paths; ///< rows in place of seconds
+    std::vector<QwtPlotCurve *> m_rings;  ///< a dark outline and the ring itself; owned by the view
     std::vector<QwtPlotCurve *> m_diamonds;
 };
 

@@ -15,14 +15,14 @@ namespace faintline {
 
 namespace {
 
-    constexpr double scrollShare = 0.1; ///< of what is visible, per notch of the wheel
+    constexpr double scrollShare = 0.1; ///< fraction of the visible part, per notch of the wheel
     constexpr double zoomPerNotch = 1.25;
-    constexpr double clickSlop = 4.0;     ///< pixels a click may wander
+    constexpr double clickSlop = 4.0;     ///< pixels that a click may move
     constexpr double sidebandReach = 5.0; ///< pixels
 
     double notchesOf(const QWheelEvent &event)
     {
-        // Some platforms turn the wheel's direction while Shift or Alt is held.
+        // Some platforms swap the wheel's direction while Shift or Alt is held.
         const QPoint delta = event.angleDelta();
         return (delta.y() != 0 ? delta.y() : delta.x()) / 120.0;
     }
@@ -134,13 +134,10 @@ void WaterfallMouse::hover(const QPointF &position)
         emit m_view.hoverEnded();
 }
 
-/// So that what was under the pointer when the drag began stays there.
+/// Keeps the point at which the drag began under the pointer.
 void WaterfallMouse::pan(const QPointF &position)
 {
-    const Viewport::Point from = m_view.pointAt(m_start), to = m_view.pointAt(position);
-    Viewport &viewport = *m_view.viewport();
-    viewport.pan(m_visible.time.low - (to.seconds - from.seconds) - viewport.time().low,
-                 m_visible.frequency.low - (to.hz - from.hz) - viewport.frequency().low);
+    m_view.viewport()->move(m_visible, m_view.pointAt(m_start), m_view.pointAt(position));
 }
 
 void WaterfallMouse::dragSideband(const QMouseEvent &event)
@@ -149,7 +146,7 @@ void WaterfallMouse::dragSideband(const QMouseEvent &event)
         std::max(m_view.sidebands()->spacingFor(m_order, pointOf(event).hz), m_view.frequencyAxis().step));
 }
 
-/// The sideband whose line is under the pointer; 0 where there is none, or the carrier.
+/// The sideband whose line is under the pointer; 0 for none or the carrier.
 int WaterfallMouse::sidebandAt(const QPointF &position) const
 {
     const auto lines = m_view.sidebands();
@@ -162,7 +159,7 @@ int WaterfallMouse::sidebandAt(const QPointF &position) const
                : 0;
 }
 
-/// Where the pointer is; with Ctrl the strongest cell near it.
+/// Position of the pointer; with Ctrl, of the strongest cell near it.
 Viewport::Point WaterfallMouse::pointOf(const QMouseEvent &event) const
 {
     const Viewport::Point point = m_view.pointAt(event.position());
@@ -180,14 +177,13 @@ Viewport::Box WaterfallMouse::draggedBox(const Viewport::Point &to) const
 
 void WaterfallMouse::scroll(Qt::Orientation direction, double notches)
 {
-    Viewport &viewport = *m_view.viewport();
     const bool isTime = (direction == Qt::Vertical) == m_view.isTimeVertical();
-    const Span span = isTime ? viewport.time() : viewport.frequency();
-    // The wheel away from oneself goes up or to the left; up is later with the newest on top, and higher in frequency.
+    // Turning the wheel away from the user moves up or left; up is later with the newest on top, and higher in
+    // frequency.
     const bool isNewestOnTop = m_view.orientation() == MarkedWaterfall::Orientation::NewestOnTop;
     const bool isUpward = direction == Qt::Vertical && (!isTime || isNewestOnTop);
-    const double shift = notches * scrollShare * span.width() * (isUpward ? 1.0 : -1.0);
-    viewport.pan(isTime ? shift : 0.0, isTime ? 0.0 : shift);
+    const double share = notches * scrollShare * (isUpward ? 1.0 : -1.0);
+    m_view.viewport()->scroll(isTime ? share : 0.0, isTime ? 0.0 : share);
 }
 
 void WaterfallMouse::turnWheel(const QWheelEvent &event)

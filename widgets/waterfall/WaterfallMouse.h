@@ -12,22 +12,22 @@ namespace faintline {
 
 class MarkedWaterfall;
 
-/// The mouse on a MarkedWaterfall. What a button that goes down begins is decided there and then:
+/// The mouse on a MarkedWaterfall. The action is chosen when a button is pressed:
 ///
 ///     middle              pan
 ///     left with Shift     a box to zoom to
 ///     left on a sideband  their spacing
 ///     left, measuring     the measured box
-///     left                a click that places the cursor or, once it has wandered, a pan
+///     left                a click that places the cursor or, once moved, a pan
 ///
-/// A double click activates an event. The wheel scrolls time, with Shift frequency; with Ctrl it zooms about the
-/// pointer, over an axis along that axis. With Ctrl every point goes to the strongest cell nearby.
+/// A double-click activates an event. The wheel scrolls time, with Shift frequency; with Ctrl it zooms about the
+/// pointer, over an axis along that axis. With Ctrl every point snaps to the strongest cell nearby.
 class WaterfallMouse : public QObject
 {
     Q_OBJECT
 
 public:
-    /// `view`: outlives this.
+    /// `view` must outlive this.
     explicit WaterfallMouse(MarkedWaterfall &view);
 
     void turnWheel(const QWheelEvent &event);
@@ -52,7 +52,7 @@ private:
     MarkedWaterfall &m_view;
     Drag m_drag = Drag::None;
     QPointF m_start;          ///< of the drag, canvas pixels
-    Viewport::Box m_visible;  ///< when it began
+    Viewport::Box m_visible;  ///< visible box when it began
     Viewport::Point m_origin; ///< of a box
     int m_order = 0;          ///< of the sideband
 };

@@ -10,6 +10,7 @@
 #include "widgets/waterfall/RasterItem.h"
 #include "widgets/waterfall/peakNear.h"
 
+#include <qwt_scale_engine.h>
 #include <qwt_scale_map.h>
 #include <qwt_text.h>
 
@@ -20,7 +21,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr double longSeconds = 600.0; ///< recordings from here on are labelled h:min:s
+    constexpr double longSeconds = 600.0; ///< longer recordings are labelled h:min:s
     constexpr double peakReach = 12.0;    ///< pixels
 
     bool measuresTime(const Axis &axis)
@@ -52,6 +53,7 @@ void WaterfallPicture::setViewport(Viewport *viewport)
     if (viewport) {
         connect(viewport, &Viewport::spanChanged, this, &WaterfallPicture::followSpan);
         connect(viewport, &Viewport::extentsChanged, this, &WaterfallPicture::restyle);
+        connect(viewport, &Viewport::scaleChanged, this, &WaterfallPicture::restyle);
     }
     restyle();
 }
@@ -176,9 +178,14 @@ QString WaterfallPicture::valueUnit() const
 
 void WaterfallPicture::setStatisticUnit(const QString &unit, const QString &heading)
 {
-    if (unit == m_statisticUnit && heading == m_heading)
-        return;
     m_statisticUnit = unit;
+    setHeading(heading);
+}
+
+void WaterfallPicture::setHeading(const QString &heading)
+{
+    if (heading == m_heading)
+        return;
     m_heading = heading;
     setAccessibleName(tr("%1 waterfall").arg(heading));
     restyle();
@@ -194,7 +201,7 @@ std::optional<double> WaterfallPicture::valueAt(double seconds, double hz) const
     const PeakPyramid &picture = finestPicture({seconds, seconds});
     const double frame = std::floor(picture.time().position(seconds) + 0.5);
     if (frame > double(picture.frameCount()))
-        return {}; // still to come
+        return {}; // not recorded yet
     const Index row = std::clamp<Index>(Index(frame) / picture.framesPerRow(0), 0, picture.rowCount(0) - 1);
     return picture.scale().value(picture.row(0, row)[std::size_t(m_frequency.nearest(hz))]);
 }
@@ -210,6 +217,11 @@ std::optional<Viewport::Point> WaterfallPicture::peakAround(const Viewport::Poin
     return faintline::peakNear(
         *m_picture, m_frequency,
         {around(a.seconds, b.seconds, point.seconds, row), around(a.hz, b.hz, point.hz, m_frequency.step)});
+}
+
+double WaterfallPicture::originHz() const
+{
+    return m_viewport && m_frequency.unit == "Hz" && !isLogarithmic() ? m_viewport->originHz() : 0.0;
 }
 
 Viewport::Box WaterfallPicture::full() const
@@ -274,9 +286,17 @@ void WaterfallPicture::restyle()
         setAxisTitle(timeAxis(), titleOf(m_picture->time()));
     }
     auto *hzDraw = new NumberScaleDraw;
-    hzDraw->setUnit(shownUnit(m_frequency).hz);
+    const double largestHz = std::max(std::abs(m_frequency.first), std::abs(m_frequency.last()));
+    const FrequencyUnit unit =
+        originHz() != 0.0 ? frequencyUnit(std::abs(originHz()) + largestHz) : shownUnit(m_frequency);
+    hzDraw->setUnit(unit.hz);
+    hzDraw->setOrigin(originHz());
+    hzDraw->setLogarithmic(isLogarithmic());
+    setAxisScaleEngine(timeAxis(), new QwtLinearScaleEngine);
+    setAxisScaleEngine(hzAxis(), isLogarithmic() ? static_cast<QwtScaleEngine *>(new QwtLogScaleEngine)
+                                                 : new QwtLinearScaleEngine);
     setAxisScaleDraw(hzAxis(), hzDraw);
-    setAxisTitle(hzAxis(), titleOf(m_frequency));
+    setAxisTitle(hzAxis(), originHz() != 0.0 ? tr("Radio frequency (%1)").arg(unit.name) : titleOf(m_frequency));
     for (const QwtAxisId axis : {timeAxis(), hzAxis()})
         setAxisVisible(axis, !isEmpty);
 
@@ -287,6 +307,7 @@ void WaterfallPicture::restyle()
     setTitle(title);
     Theme::style(*this);
     m_raster->setTimeVertical(isTimeVertical());
+    m_raster->setLogarithmic(isLogarithmic());
     m_sentence->colour = Theme::colours(*this).faintText;
     updateLayout(); // titles and scales of another size
     followSpan();
@@ -308,7 +329,10 @@ void WaterfallPicture::followSpan()
     const QwtScaleDiv timeDiv =
         m_timeDraw ? timeScaleDiv(time, timeTicks, m_startUnixSeconds.value_or(0.0)) : linearScaleDiv(time, timeTicks);
     setAxisScaleDiv(timeAxis(), m_orientation == Orientation::OldestOnTop ? timeDiv.inverted() : timeDiv);
-    setAxisScaleDiv(hzAxis(), linearScaleDiv(hz, std::clamp(across / (isTimeVertical() ? 60 : 42), 1, 12)));
+    const int hzSpacing = !isTimeVertical() ? 42 : originHz() != 0.0 ? 110 : 60;
+    const int hzTicks = std::clamp(across / hzSpacing, 1, 12);
+    setAxisScaleDiv(hzAxis(),
+                    isLogarithmic() ? logarithmicScaleDiv(hz, hzTicks) : linearScaleDiv(hz, hzTicks, originHz()));
 
     const QString timeLabel =
         m_timeDraw ? m_timeDraw->widestLabel(full().time) : m_numberDraw->widestLabel(full().time);

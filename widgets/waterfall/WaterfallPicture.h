@@ -21,11 +21,11 @@ class RasterItem;
 class TimeScaleDraw;
 
 /// A spectrogram, or a detector's statistic, over time and frequency; or over any two axes, such as a sonar's range and
-/// bearing: where the picture's own axis is no time, it is labelled as what it is.
+/// bearing, whose own names then label them.
 ///
-/// The picture is a PeakPyramid and keeps its maxima in time and frequency however far one zooms out; zoomed in, every
-/// cell is a plain rectangle. This class draws it in its colours along its axes; MarkedWaterfall adds what is marked on
-/// it, and WaterfallView what mouse and keyboard do.
+/// The picture is a PeakPyramid, which keeps its maxima in time and frequency at any zoom; when zoomed in, every cell
+/// is a plain rectangle. This class draws it with its colours and axes; MarkedWaterfall adds marks, and WaterfallView
+/// mouse and keyboard.
 class WaterfallPicture : public ThemedPlot
 {
     Q_OBJECT
@@ -34,38 +34,39 @@ public:
     enum class Orientation { NewestOnTop, OldestOnTop, LeftToRight };
     Q_ENUM(Orientation)
 
-    /// `heading`: what the picture shows, "Input" or "Statistic".
+    /// `heading`: name of the picture, "Input" or "Statistic".
     explicit WaterfallPicture(const QString &heading, QWidget *parent = nullptr);
 
     /// Shared with other views; not owned. The caller sets its extents (see `extents`).
     virtual void setViewport(Viewport *viewport);
     Viewport *viewport() const { return m_viewport; }
 
-    /// The picture and the axis of its cells. Null shows the empty sentence. The range stays unless it is automatic.
+    /// Sets the picture and the axis of its cells. Null shows the empty sentence. The range is kept unless it is
+    /// automatic.
     virtual void setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency);
-    /// The next one of a film, on the same axes: colours keep their range, so that what moves is the signal.
+    /// Sets the next picture of a sequence on the same axes; the colour range is kept, so that only the signal changes.
     virtual void setNextPicture(std::shared_ptr<const PeakPyramid> picture);
-    /// The same picture, which more has come to, and its close-up: colours keep their range. Cheap.
+    /// Sets the same picture with more frames, and its close-up; the colour range is kept. Cheap.
     void setGrownPicture(std::shared_ptr<const PeakPyramid> picture, std::shared_ptr<const PeakPyramid> closeup);
     const std::shared_ptr<const PeakPyramid> &picture() const { return m_picture; }
     const Axis &frequencyAxis() const { return m_frequency; }
 
-    /// A stretch of the picture in rows of fewer frames: shown in its place wherever it holds all that can be seen and
-    /// pixels are smaller than the picture's own rows. Another picture drops it.
+    /// A stretch of the picture with fewer frames per row: shown instead of it if it covers the visible part and pixels
+    /// are smaller than the picture's own rows. Another picture discards it.
     void setCloseup(std::shared_ptr<const PeakPyramid> closeup);
-    /// The picture, or its close-up where that is what can be seen.
+    /// The picture, or its close-up if that is shown.
     const std::shared_ptr<const PeakPyramid> &shownPicture() const { return m_shown; }
-    /// Of these two the one that tells most of that time.
+    /// The more detailed of these two for the given time.
     const PeakPyramid &finestPicture(const Span &time) const;
     double framesPerPixel() const; ///< as visible
 
-    /// The box all cells of a picture fill: half a cell beyond the outermost frames and bins.
+    /// The box that all cells of a picture fill: half a cell beyond the outermost frames and bins.
     static Viewport::Box extents(const Axis &time, const Axis &frequency);
 
-    /// UTC of second 0, from 1970 on: the axis then shows times of day; none: seconds.
+    /// UTC of second 0, since 1970: the axis then shows times of day; none: seconds.
     void setStartUnixSeconds(std::optional<double> start);
 
-    /// What stands on the canvas while there is no picture.
+    /// Sentence on the canvas while there is no picture.
     void setEmptySentence(const QString &sentence);
 
     Orientation orientation() const { return m_orientation; }
@@ -73,16 +74,17 @@ public:
     /// Values drawn in the map's first and last colour: dB or nat.
     const Span &range() const { return m_levels.range(); }
     bool isRangeAutomatic() const { return m_levels.isAutomatic(); }
-    /// The range the picture's values suggest at this zoom: noise dark, what stands out of it bright.
+    /// The range suggested by the picture's values at this zoom: noise dark, signals bright.
     Span automaticRange() const;
     /// Number of pixels per byte of the picture's scale, for the whole picture, or its close-up, at this zoom.
     const std::vector<double> &histogram() const { return m_levels.histogram(); }
     QString valueUnit() const; ///< "dB", or the statistic's
     bool hasTime() const;      ///< as the picture's own axis
-    /// What a statistic is measured in, "nat" unless said otherwise, and the heading that says so.
+    /// Unit of the statistic, by default "nat", and a heading that contains it.
     void setStatisticUnit(const QString &unit, const QString &heading);
+    void setHeading(const QString &heading);
 
-    /// The value of the cell there, at the finest level kept; nothing outside the picture.
+    /// Value of the cell, at the finest level stored; nothing outside the picture.
     std::optional<double> valueAt(double seconds, double hz) const;
     /// The strongest cell within a few pixels.
     std::optional<Viewport::Point> peakAround(const Viewport::Point &point) const;
@@ -92,6 +94,7 @@ public:
     /// Pixel on the canvas ↔ time and frequency.
     Viewport::Point pointAt(const QPointF &canvasPosition) const;
     QPointF positionOf(const Viewport::Point &point) const;
+    bool isLogarithmic() const { return m_viewport && m_viewport->isLogarithmic(); } ///< the frequency axis
     bool isTimeVertical() const { return m_orientation != Orientation::LeftToRight; }
     QwtAxisId timeAxis() const { return isTimeVertical() ? QwtAxis::YLeft : QwtAxis::XBottom; }
     QwtAxisId hzAxis() const { return isTimeVertical() ? QwtAxis::XBottom : QwtAxis::YLeft; }
@@ -106,10 +109,10 @@ public slots:
     void cycleColourMap();
     void setRange(double low, double high);
     void setAutomaticRange();
-    /// Moves the black or white level by so many steps of 1 dB or ½ nat.
+    /// Moves the black or white level by steps of 1 dB or ½ nat.
     void stepBlack(int steps);
     void stepWhite(int steps);
-    /// Of the statistic, in nats; NaN for none. Live while the threshold is dragged.
+    /// Threshold of the statistic in nats; NaN for none. Follows dragging.
     void setThreshold(double nats);
 
 signals:
@@ -123,12 +126,13 @@ signals:
 protected:
     void restyle() override;
     void followCanvas() override { followSpan(); }
-    /// What is drawn upon the axes is no longer what it was; draws it anew.
+    /// Called when the contents of the axes have changed; redraws them.
     virtual void updateContent();
 
     RasterItem &raster() { return *m_raster; }
 
 private:
+    double originHz() const; ///< of the frequency axis's labels
     Viewport::Box full() const;
     Viewport::Box visible() const;
     void followSpan();
@@ -147,8 +151,8 @@ private:
     std::optional<double> m_startUnixSeconds;
     RasterItem *m_raster;
     CanvasSentence *m_sentence;
-    TimeScaleDraw *m_timeDraw = nullptr;     ///< the plot's; null where the picture's own axis is not time,
-    NumberScaleDraw *m_numberDraw = nullptr; ///< and then this one
+    TimeScaleDraw *m_timeDraw = nullptr;     ///< owned by the plot; null if the picture's own axis is not time,
+    NumberScaleDraw *m_numberDraw = nullptr; ///< which then uses this one
     const ColourMap *m_colourMap;
     Orientation m_orientation = Orientation::NewestOnTop;
     ColourLevels m_levels;

@@ -10,11 +10,10 @@ namespace faintline {
 
 class WaterfallMouse;
 
-/// A marked picture that answers mouse and keyboard. Looking (zooming, colours, orientation) is the view's own affair
-/// and is told by signals that say `…Changed`; what touches the document is only asked for by signals that say
-/// `…Requested`.
+/// A marked picture with mouse and keyboard control. The view changes its own display (zoom, colours, orientation) and
+/// reports it with signals `…Changed`; changes of the document are requested with signals `…Requested`.
 ///
-/// What a button does is WaterfallMouse's, what a key or the context menu does waterfallCommands'.
+/// WaterfallMouse handles buttons, waterfallCommands keys and the context menu.
 class WaterfallView : public MarkedWaterfall
 {
     Q_OBJECT
@@ -24,7 +23,7 @@ public:
     ~WaterfallView() override;
 
 signals:
-    /// Emitted before the context menu opens: add actions to it. The point is where it was asked for.
+    /// Emitted before the context menu opens, so that actions can be added. The point is the position of the click.
     void contextMenuRequested(QMenu *menu, double seconds, double hz);
 
 protected:

@@ -11,9 +11,9 @@
 
 namespace faintline {
 
-// What an OverlayItem draws of events, tracks, areas and the truth.
+// Items that an OverlayItem draws for events, tracks, areas and the truth.
 
-/// How far a track has come, of those that are followed live: all others have ended.
+/// Stage of a track that is followed live; all others have ended.
 enum class TrackStage { Provisional, Confirmed, Ended };
 
 /// An event as a box with its number.
@@ -24,7 +24,7 @@ struct OverlayMark {
     TrackStage stage = TrackStage::Ended;
 };
 
-/// A box with a text: one that somebody drew, or an area of raised level.
+/// A box with a text: drawn by the user, or an area of raised level.
 struct OverlayBox {
     Viewport::Box box;
     QString text;
@@ -35,11 +35,11 @@ struct OverlayBox {
 struct OverlayLine {
     int id = 0;
     QPolygonF points;
-    QPolygonF band{}; ///< 5 % of the posterior forth, 95 % back, where it is known
+    QPolygonF band{}; ///< 5 % of the posterior forward, 95 % back, if known
     TrackStage stage = TrackStage::Ended;
 };
 
-/// A time, across the picture, from which something is different.
+/// A time, marked across the picture, from which settings differ.
 struct OverlayTime {
     double seconds = 0.0;
     QString text;
@@ -49,8 +49,7 @@ std::vector<OverlayLine> overlayLines(const std::vector<Track> &followed, const 
 std::vector<OverlayLine> overlayLines(const std::vector<TruthLine> &known);
 std::vector<OverlayBox> overlayBoxes(const std::vector<AreaEvent> &areas);
 TrackStage stageOf(const Event &event);
-/// Boxes around the events' tracks where there are any, otherwise along their straight lines; at least a bin and a
-/// frame wide.
+/// Boxes around the events' tracks if available, otherwise along their straight lines; at least a bin and a frame wide.
 std::vector<OverlayMark> overlayMarks(const std::vector<Event> &events, const std::vector<OverlayLine> &lines,
                                       double frameSeconds, double binHz);
 

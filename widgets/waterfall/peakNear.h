@@ -7,8 +7,8 @@
 
 namespace faintline {
 
-/// The middle of the strongest cell of a picture whose middle lies in a box; of equal ones the first. Nothing where the
-/// box holds none.
+/// Centre of the strongest cell of a picture whose centre lies in a box; the first of equal ones. Nothing if the box
+/// contains none.
 std::optional<Viewport::Point> peakNear(const PeakPyramid &picture, const Axis &frequency, const Viewport::Box &box);
 
 } // namespace faintline

@@ -16,7 +16,7 @@ namespace faintline {
 
 namespace {
 
-    /// Moves by whole cells and takes what is visible along.
+    /// Moves by whole cells and scrolls if necessary.
     void moveCursor(MarkedWaterfall &view, int right, int up, int cells)
     {
         Viewport &viewport = *view.viewport();
@@ -25,7 +25,7 @@ namespace {
         const bool isNewestOnTop = view.orientation() == MarkedWaterfall::Orientation::NewestOnTop;
         const int timeSteps = view.isTimeVertical() ? (isNewestOnTop ? up : -up) : right;
         const int hzSteps = view.isTimeVertical() ? right : up;
-        // From cell centre to cell centre, so that every key press reads another cell.
+        // From cell centre to cell centre, so that every key press selects another cell.
         const auto moved = [](const Axis &axis, Index count, double value, Index by) {
             const auto index = Index(std::lround(axis.position(value)));
             return axis.value(double(std::clamp<Index>(index + by, 0, count - 1)));
@@ -35,10 +35,9 @@ namespace {
         point.hz = moved(frequency, frequency.count, point.hz, hzSteps * cells);
         viewport.setCursor(point);
 
-        const auto beyond = [](const Span &span, double value) {
-            return value < span.low ? value - span.low : value > span.high ? value - span.high : 0.0;
-        };
-        viewport.pan(beyond(viewport.time(), point.seconds), beyond(viewport.frequency(), point.hz));
+        const auto within = [](const Span &span, double value) { return std::clamp(value, span.low, span.high); };
+        viewport.move(viewport.visible(), point,
+                      {within(viewport.time(), point.seconds), within(viewport.frequency(), point.hz)});
     }
 
     void clearMarks(MarkedWaterfall &view)
@@ -106,7 +105,7 @@ bool pressKey(MarkedWaterfall &view, const QKeyEvent &event)
 
 namespace {
 
-    /// Adds entries that act on a view.
+    /// Adds actions for a view.
     class Commands
     {
     public:
@@ -115,7 +114,7 @@ namespace {
         template <class Action>
         QAction *add(QMenu &menu, const QString &text, const QString &key, Action action) const
         {
-            // The key is text only: as a shortcut it would take the key from the view that has the focus.
+            // The key is text only: as a shortcut it would take the key from the focused view.
             QAction *added = menu.addAction(key.isEmpty() ? text : text + QLatin1Char('\t') + key);
             QObject::connect(added, &QAction::triggered, m_view, action);
             return added;
@@ -147,6 +146,16 @@ namespace {
             ->setEnabled(viewport && !viewport->showsAll());
         commands.add(menu, tr("Zoom back"), tr("Backspace"), [view] { view->viewport()->zoomBack(); })
             ->setEnabled(viewport && viewport->canZoomBack());
+    }
+
+    void addScale(QMenu &menu, MarkedWaterfall *view)
+    {
+        if (view->frequencyAxis().unit != "Hz" || !view->viewport())
+            return;
+        Commands(*view)
+            .check(menu, tr("Logarithmic frequency"), tr("Shift+L"), view->viewport()->isLogarithmic(),
+                   [view](bool isOn) { view->viewport()->setLogarithmic(isOn); })
+            ->setEnabled(view->viewport()->canBeLogarithmic());
     }
 
     void addOrientations(QMenu &menu, MarkedWaterfall *view)
@@ -203,6 +212,7 @@ void addCommands(QMenu &menu, MarkedWaterfall &shown)
     MarkedWaterfall *const view = &shown;
     addZooming(menu, view);
     menu.addSeparator();
+    addScale(menu, view);
     addOrientations(*menu.addMenu(tr("Orientation")), view);
     addColours(*menu.addMenu(tr("Colours")), view);
     Commands(shown).check(menu, tr("Automatic range"), QStringLiteral("A"), view->isRangeAutomatic(),

@@ -43,7 +43,7 @@ QString boxText(const WaterfallPicture &view, const Viewport::Box &box)
     if (view.picture() && view.picture()->frameCount() > 0 && frequency.count > 0) {
         const PeakPyramid &picture = view.finestPicture(box.time);
         Axis time = picture.time();
-        time.count = picture.frameCount(); // of a run in progress those there are
+        time.count = picture.frameCount(); // existing frames of a run in progress
         const auto [firstFrame, endFrame] = cellsOf(time, box.time);
         const auto [firstCell, endCell] = cellsOf(frequency, box.frequency);
         const BoxValues values = boxValues(picture, firstFrame, endFrame, firstCell, endCell);

@@ -6,33 +6,33 @@
 
 namespace faintline {
 
-/// One way to do a kernel's work.
+/// One implementation of a kernel.
 struct SpeedForm {
     std::string name;
-    double items = 1.0; ///< of the kernel's unit, in one run
+    double items = 1.0; ///< items per run, in the kernel's unit
     int threads = 1;
     std::function<void()> run;
 };
 
-/// One time to be compared with another: time per item of `slower` over time per item of `faster`.
+/// A ratio of two times: time per item of `slower` over time per item of `faster`.
 struct SpeedGoal {
     std::string faster;
     std::string slower;
-    double ratio = 1.0; ///< at least this
+    double ratio = 1.0; ///< required minimum
 };
 
-/// A number that says whether the fast form may be compared at all, such as its largest error.
+/// A precondition of the comparison, such as the largest error of the fast form.
 struct SpeedCheck {
     std::string what;
     double largest = 0.0;
     std::function<double()> measure;
 };
 
-/// An inner loop of the program and what it is compared with: the plain formula, array expressions, a sweep over the
-/// same memory, a bare library call. The first form is the program's own, through the interface its callers use.
+/// An inner loop of the program and its references: the plain formula, array expressions, a sweep over the same memory,
+/// a bare library call. The first form is the program's own, called through its usual interface.
 ///
-/// `make` allocates what the forms work on; they live as long as the answer and take it in turns, each going on where
-/// it stopped.
+/// `make` allocates the data of the forms; they live as long as its result and run alternately, each continuing from
+/// its last state.
 struct SpeedKernel {
     std::string name;
     std::string title;
@@ -42,12 +42,10 @@ struct SpeedKernel {
     std::vector<SpeedCheck> checks{};
 };
 
-/// All of them, in the order they are printed in. Goals are ratios on one machine in one run, so they say something on
-/// any.
+/// All kernels, in the order of output. Goals are ratios within one run on one machine, so they are meaningful on any.
 const std::vector<SpeedKernel> &speedKernels();
 
-/// The kernels of a name, or of all names that begin with it and a hyphen; all for "all". Throws Error naming what
-/// there is.
+/// The kernels with a name, or whose names begin with it and a hyphen; all for "all". Throws Error listing the names.
 std::vector<SpeedKernel> speedKernels(const std::string &name);
 
 } // namespace faintline

@@ -7,16 +7,16 @@ namespace faintline {
 
 struct SpeedKernel;
 
-/// Of the detectors: states a second.
+/// Kernels of the detectors: states per second.
 std::vector<SpeedKernel> recursionKernels();
-/// Of what is before them and beside them: spectra, noise, evidence.
+/// Kernels of spectra, noise and evidence.
 std::vector<SpeedKernel> signalKernels();
 
-/// Names of forms that more than one kernel has.
+/// Form names used by several kernels.
 inline const char *const ours = "faintline";
 inline const char *const twoThreads = "two threads";
 
-/// Powers of white noise, the same every time.
+/// Powers of white noise, the same in each run.
 std::vector<float> exponentials(std::size_t n);
 
 } // namespace faintline

@@ -10,10 +10,10 @@ namespace faintline {
 
 struct SpeedOptions {
     int rounds = 9;
-    double secondsPerForm = 0.03; ///< of each form in each round, at least one run
+    double secondsPerForm = 0.03; ///< per form and round, at least one run
 };
 
-/// What came out for one kernel.
+/// Result for one kernel.
 struct SpeedResult {
     std::string name;
     std::string title;
@@ -43,12 +43,12 @@ struct SpeedResult {
     bool meetsGoals() const;
 };
 
-/// Runs a kernel's forms in turns, round after round, so that whatever else the machine does meets all of them, and
-/// takes medians of the ratios within rounds. Times are the processor's own for a single thread, so that waiting for it
-/// does not count, and the clock's where two threads are compared with one.
+/// Runs a kernel's forms alternately, round by round, so that other load on the machine affects all of them, and takes
+/// medians of the ratios within rounds. A single thread is timed in processor time, so that waiting does not count; two
+/// threads compared with one are timed by the clock.
 SpeedResult measureSpeed(const SpeedKernel &kernel, const SpeedOptions &options, const RunContext &context = {});
 
-/// The widest vector instructions that this processor has and the program was made for.
+/// The widest vector instructions that both the processor and the program support.
 std::string instructionSet();
 
 std::string speedText(const SpeedResult &result);

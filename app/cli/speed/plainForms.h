@@ -10,11 +10,10 @@
 
 namespace faintline {
 
-// The recursion u = λ + max(ln K + max_m [ln P(n|m) + u(m)], 0), D = max over rates, written as one first would: what
-// the fast form is timed against and, at the same time, checked against. λ is y itself. For one or two axes with rates.
+// The recursion u = λ + max(ln K + max_m [ln P(n|m) + u(m)], 0), D = max over rates, in straightforward implementations
+// that serve as reference for speed and results of the fast form. λ is y itself. For one or two axes with rates.
 
-/// In double precision, state by state, predecessor by predecessor. Not for axes with a law that differs from cell to
-/// cell.
+/// In double precision, state by state, predecessor by predecessor. Not for axes whose law differs from cell to cell.
 class FormulaRecursion
 {
 public:
@@ -29,16 +28,16 @@ private:
                        const std::vector<KinematicAxis::Move> &alongSecond, Index row, Index column) const;
 
     StateSpace m_space;
-    using Moves = std::array<std::vector<std::vector<KinematicAxis::Move>>, 2>; ///< of each axis, by target rate
-    std::vector<Moves> m_moves;                                                 ///< of each phase
+    using Moves = std::array<std::vector<std::vector<KinematicAxis::Move>>, 2>; ///< for each axis, by target rate
+    std::vector<Moves> m_moves;                                                 ///< for each phase
     double m_lnK;
     std::vector<double> m_scores;
     std::vector<double> m_next;
-    Index m_frames = 0; ///< taken so far
+    Index m_frames = 0; ///< number taken
 };
 
-/// In single precision, as Eigen expressions over whole planes: the maximum of shifted arrays, whose margins hold what
-/// is not there (-∞) or what wraps round.
+/// In single precision, as Eigen expressions over whole planes: the maximum of shifted arrays, whose margins hold -∞ or
+/// wrapped values.
 class EigenRecursion
 {
 public:
@@ -55,7 +54,7 @@ private:
         std::array<Index, 2> shift;
         float weight;
     };
-    using Step = std::vector<std::vector<Source>>; ///< of each target plane
+    using Step = std::vector<std::vector<Source>>; ///< for each target plane
 
     auto inner(Plane &plane, std::array<Index, 2> shift) const
     {
@@ -69,17 +68,17 @@ private:
     std::array<Index, 2> m_cells{};
     std::array<bool, 2> m_cyclic{};
     std::array<Index, 2> m_margin{};
-    std::vector<std::vector<Step>> m_phases; ///< in each phase one axis after the other, or both at once
+    std::vector<std::vector<Step>> m_phases; ///< for each phase, one axis after the other, or both at once
     float m_lnK;
     std::vector<Plane> m_scores;
     std::vector<Plane> m_next;
-    Index m_frames = 0; ///< taken so far
+    Index m_frames = 0; ///< number taken
 };
 
-/// Reads, changes and writes every value once: what the memory alone costs.
+/// Reads, modifies and writes each value once: the cost of memory access alone.
 void sweep(std::span<float> values);
 
-/// u = e^λ Pu with P written out, the scaled form of the sum-product recursion: a matrix times a vector.
+/// u = e^λ Pu with an explicit matrix P, the scaled form of the sum-product recursion: a matrix-vector product.
 class DenseSumProduct
 {
 public:

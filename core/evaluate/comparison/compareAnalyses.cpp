@@ -79,7 +79,7 @@ namespace {
             }
         }
 
-        /// How long both follow one signal; nothing where these are two.
+        /// How long both follow one signal; empty if they are two signals.
         std::optional<double> sharedSeconds(const Path &a, const Path &b) const
         {
             const double from = std::max(a.start(), b.start()) - m_seconds;

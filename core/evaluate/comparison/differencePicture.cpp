@@ -10,14 +10,14 @@ namespace faintline {
 
 namespace {
 
-    constexpr double rarest = 700.0; ///< nat; smaller probabilities are none in double precision
+    constexpr double rarest = 700.0; ///< nat; smaller probabilities underflow in double precision
 
     bool isInNats(const Analysis &analysis)
     {
         return detectorUnits[analysis.settings.detector.index()] == "nat";
     }
 
-    /// m(D) of each byte of a statistic's picture.
+    /// m(D) for each byte value of a statistic's picture.
     std::array<float, 256> margins(const Analysis &analysis, bool isPlain)
     {
         const auto rarity = [&](double statistic) {
@@ -37,7 +37,7 @@ namespace {
         Index end = 0;
     };
 
-    /// Of every cell of `to`, the cells of `from` whose centres lie in it, or the nearest one.
+    /// For each cell of `to`, the cells of `from` whose centres lie in it, or the nearest one.
     std::vector<Range> cellsWithin(const Axis &from, const Axis &to)
     {
         std::vector<Range> ranges;
@@ -55,7 +55,7 @@ namespace {
         return ranges;
     }
 
-    /// The rows of a picture as an axis of time.
+    /// Time axis of a picture's rows.
     Axis rowsOf(const PeakPyramid &picture)
     {
         const auto frames = double(picture.framesPerRow(0));

@@ -118,16 +118,16 @@ namespace {
     constexpr Index frames = 6000;
     constexpr Index settling = 300;
     constexpr double wellCounted = 3e-5;
-    constexpr double tailBegin = 1e-3; ///< one decade and a half before
+    constexpr double tailBegin = 1e-3; ///< one and a half decades before
 
-    /// Cells of a law, by its quantiles: a table fine enough for what can be drawn. Beyond what thirty cells vouch for,
-    /// the law goes on as straight as it came.
+    /// Quantiles of a law as a table, fine enough for plots. Where fewer than thirty cells support it, the law is
+    /// continued linearly.
     class Quantiles
     {
     public:
         explicit Quantiles(const NoiseLaw &law)
         {
-            // Equal steps of -ln P, which is where an exponential law is straight.
+            // Equal steps of -ln P, in which an exponential law is linear.
             const double vouched = std::log(std::max<double>(double(law.count()), 100.0) / 30.0);
             const double slope =
                 (law.quantile(std::exp(-vouched)) - law.quantile(std::exp(-0.5 * vouched))) / (0.5 * vouched);
@@ -166,7 +166,7 @@ namespace {
         return wellCounted * std::exp(-slope * (threshold - level(wellCounted)));
     }
 
-    /// The threshold that P(D > T) = pfa asks for, the tail continued in the same way.
+    /// Threshold for P(D > T) = pfa, with the tail continued in the same way.
     double thresholdOf(std::vector<float> &statistic, double pfa)
     {
         std::sort(statistic.begin(), statistic.end(), std::greater<>());
@@ -185,8 +185,8 @@ namespace {
         return {{Axis{"frequency", "Hz", 0.0, 1.0, bins, false}}};
     }
 
-    /// K for cells without correlation: that of the recording's overlapping frames would let the statistic grow without
-    /// end.
+    /// K for uncorrelated cells: the value for the recording's overlapping frames would let the statistic grow without
+    /// bound.
     ResetRule ruleOf(const AnalysisSettings &settings)
     {
         const auto *smd = std::get_if<SmdSettings>(&settings.detector);

@@ -10,12 +10,12 @@
 
 namespace faintline {
 
-/// How the normalised noise of one band is distributed, beside the law that every threshold rests on:
+/// Distribution of the normalised noise of one band, compared with the law on which all thresholds are based:
 ///
 ///   P(y > t) = e^{-t},   mean 1
 ///
 /// Values are counted in steps of 2⁻¹⁰ up to 32, so a band of any length costs the same memory and the distance is
-/// known to 10⁻³.
+/// accurate to 10⁻³.
 class NoiseLaw
 {
 public:
@@ -27,16 +27,16 @@ public:
     std::int64_t count() const { return m_count; }
     double mean() const { return m_count > 0 ? m_sum / double(m_count) : 0.0; }
 
-    /// P(y > t), the share of the values counted.
+    /// P(y > t), the fraction of the counted values.
     double exceedance(double t) const;
 
     /// The t with P(y > t) = probability, linear within a step.
     double quantile(double probability) const;
 
-    /// Kolmogorov and Smirnov's distance: sup |P(y > t) - e^{-t}|.
+    /// Kolmogorov-Smirnov distance: sup |P(y > t) - e^{-t}|.
     double distance() const;
 
-    /// The distance's 95 % limit for `independent` values of the law itself: 1.358/√n (Smirnov 1948).
+    /// The 95 % limit of the distance for `independent` values of the law itself: 1.358/√n (Smirnov 1948).
     static double distanceLimit(double independent);
 
 private:
@@ -48,30 +48,31 @@ private:
     double m_sum = 0.0;
 };
 
-/// One band's law, and what it does to false alarms.
+/// One band's law, and its effect on false alarms.
 struct FittedBand {
     double low = 0.0; ///< position on the frames' last axis, in its unit
     double high = 0.0;
     NoiseLaw law;
-    double independent = 0.0; ///< values that overlap leaves independent: cells over k_t·k_f
+    double independent = 0.0; ///< equivalent number of independent values: cells over k_t·k_f
 
     bool fits() const { return law.distance() <= NoiseLaw::distanceLimit(independent); }
 };
 
-/// Which of the frames' values are looked at.
+/// Selection of the frames' values to examine.
 struct NoiseSample {
     int bands = 1;                   ///< of equal width
-    std::int64_t cells = 20'000'000; ///< about so many at most, in frames spread evenly
-    /// Cells at either end of the axis that are kept from the detector, too (where a real recording's spectrum overlaps
-    /// with its mirror image).
+    std::int64_t cells = 20'000'000; ///< approximate maximum, in evenly spread frames
+    /// Cells at either end of the axis to omit, as the detector does where a real recording's spectrum overlaps its
+    /// mirror image.
     Index leftOut = 0;
 };
 
-/// Counts frames' values band by band. `geometry`: how far overlap makes neighbours dependent. Throws Cancelled.
+/// Counts frames' values band by band. `geometry`: overlap that makes neighbours dependent. Throws Cancelled.
 std::vector<FittedBand> fitNoise(const NormalisedFrames &frames, const NoiseSample &sample,
                                  const FrameGeometry &geometry = {}, const RunContext &context = {});
 
-/// Of one detector's statistic at a threshold, per cell: as the exponential law has it, and as a band's own law has it.
+/// False-alarm probabilities per cell of a detector at a threshold: under the exponential law, and under a band's own
+/// law.
 struct MisfitPfa {
     double nominal = 0.0;
     double actual = 0.0;
@@ -79,11 +80,12 @@ struct MisfitPfa {
     double ratio() const { return nominal > 0.0 ? actual / nominal : 1.0; }
 };
 
-/// What the bands' misfits do to a false-alarm probability per cell, band by band: the detector runs on independent
-/// cells drawn from the band's law, and on cells of the exponential law made of the same random numbers; the threshold
-/// is the one that gives `pfa` on the latter, with K found there. Beyond 3·10⁻⁵ the exceedance continues with the slope
-/// of its last decade and a half, as the statistic's exponential tail does. Overlap's correlation is left out of both.
-/// Oracle: the energy detector, whose exceedance is the law's own. Cost: 1.6·10⁶ cells a band. Throws Error, Cancelled.
+/// Effect of the bands' misfits on a false-alarm probability per cell, band by band: the detector runs on independent
+/// cells drawn from the band's law, and on cells of the exponential law made from the same random numbers; the
+/// threshold is the one that gives `pfa` on the latter, with K determined there. Beyond 3·10⁻⁵ the exceedance is
+/// extrapolated with the slope of its last decade and a half, as the statistic's exponential tail. Correlation by
+/// overlap is ignored in both. Oracle: the energy detector, whose exceedance is the law's own. Cost: 1.6·10⁶ cells per
+/// band. Throws Error, Cancelled.
 std::vector<MisfitPfa> misfitPfa(std::span<const FittedBand> bands, const AnalysisSettings &settings, double pfa,
                                  const RunContext &context = {});
 

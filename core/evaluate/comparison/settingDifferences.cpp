@@ -10,7 +10,7 @@ namespace {
         return value ? formatFieldValue(*value) : std::string();
     }
 
-    /// Whether a field is one way to give the threshold, and not the one that counts.
+    /// Whether a field is a way to specify the threshold that is not in use.
     bool isIdle(const std::string &name, const DecideSettings &decide)
     {
         for (std::size_t i = 0; i < DecideSettings::byNames.size(); ++i)
@@ -19,7 +19,7 @@ namespace {
         return false;
     }
 
-    /// Whether only one of them holds the field, at its default: the choice of a detector says as much.
+    /// Whether only one side has the field, at its default: the choice of the detector implies it.
     bool goesWithoutSaying(const SettingDifference &difference)
     {
         const std::string &held = difference.a.empty() ? difference.b : difference.a;

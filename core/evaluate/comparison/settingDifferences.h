@@ -7,15 +7,15 @@
 
 namespace faintline {
 
-/// One setting in which two differ.
+/// One setting with different values in A and B.
 struct SettingDifference {
     FieldInfo field;
-    std::string a; ///< its value as text; empty where the settings do not hold it (another detector's)
+    std::string a; ///< value as text; empty if the settings do not hold it (another detector)
     std::string b;
 };
 
-/// The settings in which A and B differ, in the order of the table. Of the three by which a threshold can be given only
-/// those that count in A or B; of a detector that only one of them has chosen, only what was changed from its defaults.
+/// The settings in which A and B differ, in the order of the table. Of the three ways to specify a threshold, only
+/// those in use by A or B are listed; for a detector that only one of them uses, only changes from its defaults.
 std::vector<SettingDifference> settingDifferences(const AnalysisSettings &a, const AnalysisSettings &b);
 
 } // namespace faintline

@@ -6,7 +6,7 @@ namespace faintline {
 
 namespace {
 
-    /// Cells from a to b along an axis, the short way round on a cyclic one.
+    /// Cells from a to b along an axis, the shorter way round on a cyclic axis.
     Index offsetAlong(const Axis &axis, Index a, Index b)
     {
         Index offset = b - a;
@@ -19,7 +19,7 @@ namespace {
         return offset;
     }
 
-    /// Offsets of a point from a target along the axes; empty where the point does not lie on it.
+    /// Offsets of a point from a target along the axes; empty if the point is outside the gate.
     std::vector<Index> offsetsFrom(const TruthTarget &target, const TrackPoint &point, const Grid &grid,
                                    const std::vector<Index> &gate)
     {

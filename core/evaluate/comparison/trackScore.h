@@ -8,12 +8,12 @@
 
 namespace faintline {
 
-/// How one target was found and followed.
+/// How well one target was detected and followed.
 struct TargetScore {
     int tracks = 0;               ///< tracks that belong to it
     Index detectLatency = -1;     ///< pings from its first one to the first such track, counted from 1; -1: never
-    Index confirmLatency = -1;    ///< the same to the first such track's confirmation
-    std::vector<double> rmsCells; ///< root mean square error along each axis, cells, over all points that lie on it
+    Index confirmLatency = -1;    ///< the same up to the first such track's confirmation
+    std::vector<double> rmsCells; ///< root mean square error along each axis, cells, over all points on the target
     Index matchedPoints = 0;
     Index presentPings = 0; ///< pings in which it fills a cell
 
@@ -21,26 +21,25 @@ struct TargetScore {
     bool isConfirmed() const { return confirmLatency >= 0; }
 };
 
-/// Tracks against the truth.
+/// Result of comparing tracks with the truth.
 struct TrackScore {
     std::vector<TargetScore> targets; ///< in the truth's order
-    std::vector<int> targetOfTrack;   ///< for each track the target it belongs to, -1: a false track
+    std::vector<int> targetOfTrack;   ///< index of each track's target; -1: a false track
     int falseTracks = 0;
     int falseConfirmed = 0;
 };
 
-/// A track's point lies on a target if the target's cell in that frame is within `gateCells` of it along every axis. A
+/// A track's point lies on a target if the target's cell in that frame is within `gateCells` of it along each axis. A
 /// track belongs to the target on which most of its points from detection on lie (the lowest among equals), if these
-/// are at least half of its points in frames in which the target is there; otherwise it is false. Points after a
+/// are at least half of its points in frames in which the target is present; otherwise it is false. Points after a
 /// target's end do not count against its track.
 TrackScore scoreTracks(std::span<const Track> tracks, const PingTruth &truth, const Grid &grid,
                        const std::vector<Index> &gateCells);
 
-/// How many latencies are 1, 2, … `longest` pings; the last element counts the longer ones and those that never came
-/// (negative).
+/// Number of latencies of 1, 2, … `longest` pings; the last element counts longer ones and missed targets (negative).
 std::vector<int> latencyHistogram(std::span<const Index> latencies, Index longest);
 
-/// Share of targets found within 1, 2, … `longest` pings.
+/// Fraction of targets detected within 1, 2, … `longest` pings.
 std::vector<double> pdAgainstPings(std::span<const Index> latencies, Index longest);
 
 } // namespace faintline

@@ -12,13 +12,13 @@ struct Curve {
     enum class Kind {
         Measured, ///< simulated here: points joined by a line, with their interval
         Theory,   ///< a line
-        Paper     ///< read from a publication: hollow points
+        Paper     ///< from a publication: hollow points
     };
     struct Point {
         double x = 0.0;
         double y = 0.0;
-        Interval interval;   ///< low = high = 0 if there is no interval
-        std::string label{}; ///< written beside it; empty: nothing
+        Interval interval;   ///< low = high = 0 without an interval
+        std::string label{}; ///< displayed beside it; empty: none
     };
 
     std::string name;

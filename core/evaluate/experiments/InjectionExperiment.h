@@ -12,15 +12,15 @@ namespace faintline {
 
 /// Detection of known lines added to a real recording: Pd in this noise.
 ///
-/// A *trial* adds one line at a random time and frequency of the selection, away from all signals, and asks every
-/// detector whether its statistic exceeds its threshold within half a resolution cell of the line while it lasts; a
-/// detector that decides at the end of blocks, which stand where they do in the whole recording, also at the first end
-/// after the line. All trials count for all detectors.
+/// A *trial* adds one line at a random time and frequency of the selection, away from all signals, and tests for each
+/// detector whether its statistic exceeds its threshold within half a resolution cell of the line while it lasts; for a
+/// detector that decides at the end of blocks, which are placed as in the whole recording, also at the first end after
+/// the line. All trials count for all detectors.
 ///
-/// Signals are what the chain of any detector tracks at a thousandth of the false alarms asked for; they are kept from
-/// all detectors alike (y = 0). Thresholds give every detector the same number of false alarms in the rest of this
-/// recording (measuredThreshold), counted in blocks as long as a line and 12 resolution cells wide, on the same
-/// statistic that the trials are judged by.
+/// Everything that the chain of any detector tracks at a thousandth of the specified false-alarm rate counts as a
+/// signal and is removed for all detectors alike (y = 0). Thresholds give each detector the same number of false alarms
+/// in the rest of this recording (measuredThreshold), counted in blocks as long as a line and 12 resolution cells wide,
+/// with the statistic used in the trials.
 struct InjectionExperiment {
     std::string recording; ///< path, as text (base/fileName.h)
     bool iq = false;       ///< two channels as I and Q
@@ -33,7 +33,7 @@ struct InjectionExperiment {
     double wanderSeconds = 10.0;
     double falseAlarmsPerHour = 1.0;
     AnalysisSettings settings;                ///< selection, spectrogram and noise, the same for all detectors
-    std::vector<DetectorUnderTest> detectors; ///< their settings on top of these
+    std::vector<DetectorUnderTest> detectors; ///< their settings override these
 
     static const std::vector<Field<InjectionExperiment>> &fields();
     bool operator==(const InjectionExperiment &) const = default;
@@ -44,7 +44,7 @@ struct InjectionExperiment {
 InjectionExperiment injectionExperimentFromJson(const Json &json, const std::string &where);
 Json toJson(const InjectionExperiment &experiment);
 
-/// Of one detector: its model and itself on top of what all detectors share.
+/// Settings of one detector: its model and detector settings with all shared ones.
 AnalysisSettings settingsOf(const InjectionExperiment &experiment, std::size_t detector);
 
 } // namespace faintline

@@ -22,16 +22,16 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index framesBefore = 100; ///< for detectors to settle before the line begins
-    constexpr double cellsAside = 24.0; ///< of the band looked at, beyond the line's own travel
+    constexpr Index framesBefore = 100; ///< let the detectors settle before the line begins
+    constexpr double cellsAside = 24.0; ///< margin of the examined band beyond the range of the line
     constexpr double cellsOfBlock = 12.0;
-    constexpr double cellsToSignals = 2.0;  ///< of a line's path from the nearest one
-    constexpr double certainSignals = 1e-3; ///< of the false alarms asked for, where what is found is a signal
+    constexpr double cellsToSignals = 2.0;  ///< least distance of a line's path from the nearest signal
+    constexpr double certainSignals = 1e-3; ///< fraction of the requested false-alarm rate at which a detection is
+                                            ///< taken for a signal
     constexpr int attempts = 1000;
     constexpr float lowest = -std::numeric_limits<float>::infinity();
 
-    /// What the frames of a selection hold, its levels as its background has them: clicks are judged by a whole band
-    /// only.
+    /// Normalised frames of a selection, with the levels of its background: clicks are detected only in a whole band.
     std::shared_ptr<const NormalisedSpectrogram> framesOf(std::shared_ptr<const Spectrogram> spectrogram,
                                                           std::shared_ptr<const NoiseBackground> background,
                                                           NormaliserSettings noise)
@@ -40,7 +40,7 @@ namespace {
         return std::make_shared<NormalisedSpectrogram>(std::move(spectrogram), std::move(background), noise);
     }
 
-    /// Goes through all frames; take(frame, y) sees each.
+    /// Calls take(frame, y) for every frame.
     template <class Take>
     void forEachFrame(const NormalisedFrames &frames, const RunContext &context, const char *what, Take take)
     {
@@ -54,7 +54,7 @@ namespace {
         }
     }
 
-    /// What the detectors' chains track, with the boxes kept from them meanwhile.
+    /// Mask of everything that the detectors' chains track, including the boxes that were inhibited meanwhile.
     SignalMask signalsFoundBy(const std::vector<Analysis> &analyses, const RunContext &context)
     {
         const NormalisedFrames &frames = *analyses.front().frames;
@@ -83,14 +83,14 @@ namespace {
         return mask;
     }
 
-    /// The frames that a detector sees of a trial.
+    /// The frames of a trial that a detector sees.
     struct Look {
         Index first;
         Index last;
-        bool waits; ///< for the first block end after the line
+        bool waits; ///< until the first block end after the line
     };
 
-    /// The largest statistic of every detector in each block of the recording that is not signals through and through.
+    /// Largest statistic of every detector in each block of the recording that does not consist of signals alone.
     std::vector<std::vector<float>> blockMaxima(const std::vector<Analysis> &analyses, const SignalMask &mask,
                                                 Index blockFrames, Index blockBins, const RunContext &context)
     {
@@ -249,14 +249,14 @@ InjectionTrials::Made InjectionTrials::remake(int trial, double snrDb) const
     const double middle = line.startSeconds + 0.5 * line.durationSeconds;
     const double noisePower = std::exp(m_shared->background->lnPowerAt(middle, offsetHz + 0.5 * travel));
     injected.amplitude = toneAmplitude(snrDb, noisePower, double(spectrogram.windowSamples()), info.isComplex);
-    // The tone's phase and wander belong to the trial too.
+    // The tone's phase and wander are determined by the trial, too.
     const std::uint64_t own = seed * 1000003 + std::uint64_t(trial);
     const auto made = std::make_shared<InjectedRecording>(m_shared->recording, std::vector{injected},
                                                           m_experiment.settings.selection.channel, own);
     return {made, made->truth().lines.front()};
 }
 
-/// The detectors' look at the band around one trial's line.
+/// Runs the detectors on the band around one trial's line.
 class InjectionTrials::LineLook
 {
 public:
@@ -271,7 +271,7 @@ public:
         const Grid &grid = m_frames->grid();
         for (std::size_t d = 0; d < m_experiment.detectors.size(); ++d) {
             const AnalysisSettings settings = withSlopesInBins(settingsOf(m_experiment, d), m_shared.recording->info());
-            // Blocks stand where they do in the whole recording, and the one that the line ends in is waited for.
+            // Blocks are aligned as in the whole recording, and the block in which the line ends is completed.
             const Index block = framesPerDecision(settings.detector, frameGeometry(settings.spectrogram));
             const Index blockEnd =
                 block == 1 ? lastNeeded : std::min(time.count - 1, (lastNeeded / block + 1) * block - 1);
@@ -281,7 +281,7 @@ public:
         }
     }
 
-    /// The largest statistic of every detector on the line's path.
+    /// Largest statistic of every detector on the line's path.
     std::vector<float> largest()
     {
         const Axis &time = m_shared.spectrogram->time();
@@ -337,7 +337,7 @@ private:
         Index to;
     };
 
-    /// Where the line is looked for: on its path, and around its end afterwards.
+    /// Bins in which the line is searched for: its path, then the neighbourhood of its end.
     Bins pathAt(double seconds) const
     {
         const double binsPerCell = m_shared.spectrogram->binsPerCell();

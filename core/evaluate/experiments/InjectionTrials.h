@@ -11,24 +11,24 @@
 
 namespace faintline {
 
-/// What all trials of an experiment share: the recording, its background, the detectors' thresholds.
+/// Shared by all trials of an experiment: the recording, its background, the detectors' thresholds.
 class InjectionTrials
 {
 public:
-    /// Estimates the recording's noise, calibrates every detector, finds what signals there are and measures
-    /// thresholds. Throws Error, Cancelled.
+    /// Estimates the recording's noise, calibrates each detector, finds existing signals and measures thresholds.
+    /// Throws Error, Cancelled.
     InjectionTrials(const InjectionExperiment &experiment, RecordingPointer recording, const RunContext &context = {});
     ~InjectionTrials();
 
     /// The thresholds, one per detector.
     const std::vector<double> &thresholds() const { return m_thresholds; }
 
-    /// Does the given trials on context.threads threads; run = trial, noise = [detector][0] without the line, signal =
-    /// [detector][SNR][0] with it. Depends on nothing but the experiment and the recording.
+    /// Runs the given trials on context.threads threads; run = trial, noise = [detector][0] without the line, signal =
+    /// [detector][SNR][0] with it. Depends only on the experiment and the recording.
     std::vector<RunOutcome> run(const std::vector<int> &trials, const RunContext &context = {},
                                 const RunSink &sink = {}) const;
 
-    /// The recording with one trial's line in it, and the line's truth.
+    /// The recording with one trial's line, and the line's truth.
     struct Made {
         RecordingPointer recording;
         TruthLine truth;

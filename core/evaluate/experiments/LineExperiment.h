@@ -9,10 +9,10 @@
 
 namespace faintline {
 
-/// One detector of an experiment, by the settings that lead to it.
+/// A detector in an experiment, with its settings.
 struct DetectorUnderTest {
     std::string name;
-    AnalysisSettings settings; ///< model and detector count; the spectrogram is the experiment's
+    AnalysisSettings settings; ///< model and detector are used; the spectrogram is the experiment's
 
     bool operator==(const DetectorUnderTest &) const = default;
 };
@@ -23,9 +23,9 @@ Json toJson(const std::vector<DetectorUnderTest> &detectorsUnderTest);
 
 /// Detection of simulated lines in white noise, as in Billon 2005 section 5.
 ///
-/// A *run* is a field of `frames` × `bins` cells of noise alone and the same noise with one line in each of its blocks
-/// of `blockFrames` × `blockBins` cells. All lines of a run have the same SNR, duration and wander; onset, frequency
-/// and phase are random. Frequencies are measured in resolution cells 1/T_FT, times in windows T_FT.
+/// A *run* is a field of `frames` × `bins` cells of noise, evaluated alone and with one line in each of its blocks of
+/// `blockFrames` × `blockBins` cells. All lines of a run have the same SNR, duration and wander; onset, frequency and
+/// phase are random. Frequencies are in resolution cells 1/T_FT, times in windows T_FT.
 struct LineExperiment {
     int seed = 1;
     int runs = 20;
@@ -55,7 +55,7 @@ struct LineExperiment {
     int signalFrames() const;
 };
 
-/// Throws Error where lines do not fit into their blocks, or there is no SNR or detector.
+/// Throws Error if lines do not fit into their blocks, or there is no SNR or detector.
 void checkExperiment(const LineExperiment &experiment);
 
 /// {"kind": "lines", "snrDb": […], …, "detectors": [{"name": …, "settings": {"model.lowestSlope": 0, …}}]}; throws

@@ -13,12 +13,13 @@ namespace {
 
     using Complex = std::complex<float>;
 
-    /// Streams of one run: its noise, then where its signals lie; the signals' own wander and phase follow from Tone.
+    /// Random streams of one run: its noise and the positions of its signals; wander and phase of a signal come from
+    /// Tone.
     constexpr std::uint64_t streamsPerRun = 2;
 
     RecordingInfo recordingInfo(const LineExperiment &experiment)
     {
-        // One window lasts a second, so that Hz are resolution cells.
+        // One window lasts one second, so that Hz are resolution cells.
         RecordingInfo info;
         info.sampleRateHz = LineExperiment::windowSamples;
         info.isComplex = true;
@@ -28,7 +29,7 @@ namespace {
         return info;
     }
 
-    /// The bin where a signal is strongest, near where its frequency says.
+    /// The bin where a signal is strongest, near its nominal frequency.
     Index strongestBin(const LineExperiment &experiment, const std::vector<Complex> &signal, Index frame, double cells,
                        Index lowest)
     {
@@ -44,7 +45,7 @@ namespace {
         return best;
     }
 
-    /// Mean frequency, in cells, that a frame's window sees.
+    /// Mean frequency, in cells, over a frame's window.
     double meanFrequency(const TruthLine &truth, double windowStart)
     {
         constexpr int points = 8;
@@ -86,7 +87,7 @@ void FieldTransform::run(std::span<const float> samples, std::vector<Complex> &o
         }
         std::fill(input.begin() + std::ptrdiff_t(2 * m_window.size()), input.end(), 0.0f);
         m_fft.run(*m_buffer);
-        // The centre frequency stands in the middle of the axis.
+        // The centre frequency is in the middle of the axis.
         const auto spectrum = m_buffer->output();
         Complex *row = out.data() + frame * m_bins;
         const Index half = m_bins / 2;

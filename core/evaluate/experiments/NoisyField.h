@@ -10,22 +10,22 @@
 
 namespace faintline {
 
-// What a run of the experiment is made of, LineExperiment.h.
+// Data of one run of the experiment (LineExperiment.h).
 
-/// A line's true place in the field.
+/// True position of a line in the field.
 struct Place {
     Index firstFrame = 0;
     std::vector<Index> bins; ///< one per frame of its duration
 };
 
-/// The field of one run: noise, and unit-SNR signals to be added at any strength.
+/// The field of one run: noise, and unit-SNR signals that can be added at any strength.
 struct NoisyField {
     std::vector<std::complex<float>> noise;  ///< frames × bins
     std::vector<std::complex<float>> signal; ///< of SNR 1
     std::vector<Place> places;
 };
 
-/// Sliding transforms of interleaved complex samples, scaled to unit noise variance. One object per thread.
+/// Sliding transforms of interleaved complex samples, scaled to unit noise variance. Use one object per thread.
 class FieldTransform
 {
 public:
@@ -42,7 +42,7 @@ private:
     std::unique_ptr<Fft::Buffer> m_buffer;
 };
 
-/// The run's noise alone.
+/// Generates the run's noise only.
 void makeNoise(const LineExperiment &experiment, int run, FieldTransform &transform, NoisyField &field);
 
 NoisyField makeField(const LineExperiment &experiment, int run, FieldTransform &transform);

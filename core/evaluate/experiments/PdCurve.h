@@ -11,20 +11,20 @@
 
 namespace faintline {
 
-/// One estimate of a detection probability.
+/// An estimated detection probability.
 struct PdPoint {
     double snrDb = 0.0;
     double pd = 0.0;
     Interval interval;
-    std::int64_t trials = 0; ///< signals behind it
+    std::int64_t trials = 0; ///< number of signals
 };
 
-/// Billon's estimate at one false alarm per noise block in the mean (2005, section 5):
+/// Billon's estimate at a mean of one false alarm per noise block (2005, section 5):
 ///
 ///   Pd = (1/I²) Σᵢ Σⱼ [ D₁ᵢ > D₀ⱼ ]   per run, averaged over the runs; strictly greater
 ///
-/// D₁ᵢ the largest statistic on signal i, D₀ⱼ that of noise block j: every block's maximum serves as threshold once.
-/// The interval comes from the scatter of the runs (Wilson's, of the signals, where there are fewer than five).
+/// D₁ᵢ is the largest statistic on signal i, D₀ⱼ that of noise block j: each block's maximum serves as threshold once.
+/// The interval is computed from the scatter of the runs (with fewer than five runs, Wilson's for the signals).
 PdPoint pdAgainstBlocks(const LineExperiment &experiment, std::span<const RunOutcome> outcomes, std::size_t detector,
                         std::size_t snr);
 
@@ -43,7 +43,7 @@ struct RocPoint {
     Interval interval;
 };
 
-/// Pd against false alarms as the threshold falls, one point for every noise block's maximum that differs; ascending in
+/// Pd against false alarms for a decreasing threshold, one point per distinct maximum of a noise block; ascending in
 /// false alarms.
 std::vector<RocPoint> rocCurve(const LineExperiment &experiment, std::span<const RunOutcome> outcomes,
                                std::size_t detector, std::size_t snr);

@@ -16,7 +16,7 @@ namespace {
         return scene;
     }
 
-    /// All that makes a chain, without a run.
+    /// Everything that defines a chain, without running it.
     AnalysisPlan planOf(const PingExperiment &experiment)
     {
         AnalysisPlan plan;
@@ -30,7 +30,7 @@ namespace {
         return plan;
     }
 
-    /// A detector that has settled on noise, for every run to go on from.
+    /// A detector that has settled on noise; every run starts from its state.
     struct SettledDetector {
         ResetRule rule;
         std::shared_ptr<const DetectorState> state;

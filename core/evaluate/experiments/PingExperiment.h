@@ -9,10 +9,10 @@
 
 namespace faintline {
 
-/// The whole chain of Parsons' Figure 1 against known targets: independent runs, each with noise of its own, all of
-/// them from one field of settled noise.
+/// The whole chain of Parsons' Figure 1 on known targets: independent runs, each with its own noise, after a common
+/// field of settled noise.
 struct PingExperiment {
-    PingScene scene;           ///< run by run with another seed
+    PingScene scene;           ///< with another seed in each run
     AnalysisSettings settings; ///< one model, threshold in nats
     int runs = 12;
     int settlingPings = 200;

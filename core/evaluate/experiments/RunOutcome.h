@@ -5,10 +5,10 @@
 
 namespace faintline {
 
-/// What one run leaves behind: all that any estimate of Pd, Pfa or ROC needs.
+/// Result of one run: everything needed to estimate Pd, Pfa or ROC.
 struct RunOutcome {
     int run = 0;
-    /// [detector][block]: largest D on the noise alone.
+    /// [detector][block]: largest D on noise alone.
     std::vector<std::vector<float>> noise;
     /// [detector][SNR][signal]: largest D at the line's own frequency while it lasts.
     std::vector<std::vector<std::vector<float>>> signal;
@@ -16,7 +16,7 @@ struct RunOutcome {
     bool operator==(const RunOutcome &) const = default;
 };
 
-/// Called with every finished run, in any order, from one thread at a time.
+/// Called for each finished run, in any order, by one thread at a time.
 using RunSink = std::function<void(const RunOutcome &)>;
 
 } // namespace faintline

@@ -22,7 +22,7 @@ namespace faintline {
 namespace {
 
     constexpr double reachCells = 1.5; ///< of a track around its line
-    constexpr double bandMargin = 0.1; ///< of the band at either edge, kept free of lines
+    constexpr double bandMargin = 0.1; ///< fraction of the band at either edge that is kept free of lines
     constexpr double neverDetected = -std::numeric_limits<double>::infinity();
 
     const Field<AnalysisSettings> &parameterField(const std::string &parameter)
@@ -42,7 +42,7 @@ namespace {
         return int(value);
     }
 
-    /// How a track lies with the line.
+    /// Relation of a track to the line.
     enum class Bond { None, Touches, OnIt };
 
     Bond bondOf(const Track &track, const Analysis &analysis, const TruthLine &truth)
@@ -146,7 +146,7 @@ std::vector<double> sweepValues(const std::string &parameter, double from, doubl
     for (int i = 0; i < steps; ++i) {
         const double share = steps > 1 ? double(i) / (steps - 1) : 0.0;
         double value = isLogarithmic ? from * std::pow(to / from, share) : from + (to - from) * share;
-        // Nobody wants to read, or type, the digits that a division leaves behind.
+        // Rounds away the digits that a division leaves behind.
         const double scale = std::pow(10.0, 5.0 - std::ceil(std::log10(std::max(std::abs(value), 1e-300))));
         value = field.kind == FieldKind::Integer ? std::round(value)
                 : value == 0.0                   ? 0.0
@@ -234,7 +234,7 @@ RunOutcome sweepOutcome(int run, std::ptrdiff_t falseAlarms, double seconds, dou
 
 namespace {
 
-    /// As `settingsAt`, slopes in bins a frame of the window of that value.
+    /// Like `settingsAt`, with slopes in bins per frame for the window of that value.
     AnalysisSettings settingsOfTrial(const SweepExperiment &experiment, std::size_t value, const Recording *recording)
     {
         RecordingInfo info;
@@ -253,7 +253,7 @@ SweepTrials::SweepTrials(const SweepExperiment &experiment, RecordingPointer rec
                                                           + " s must be shorter than the recording, "
                                                           + formatNumber(m_recording->info().durationSeconds()) + " s");
     if (experiment.settings.spectrogram.windowSeconds == 0.0) {
-        // What is chosen for a recording must not change with the stretch that is looked at.
+        // What is chosen automatically must not depend on the stretch that a trial examines.
         RecordingInfo info;
         info.sampleRateHz = experiment.sampleRateHz;
         info.sampleCount = Index(experiment.trialSeconds() * experiment.sampleRateHz);
@@ -272,11 +272,11 @@ SweepTrials::SweepTrials(const SweepExperiment &experiment, RecordingPointer rec
     }
 }
 
-/// Where a trial's random numbers put its line: shares of what is possible.
+/// Random position of a trial's line, as fractions of the possible range.
 struct SweepTrials::Placement {
     double inBand;
     double inTime;
-    std::uint64_t seed; ///< noise, phase and wander belong to the trial
+    std::uint64_t seed; ///< of the trial: noise, phase and wander
 };
 
 SweepTrials::Made SweepTrials::remake(int run) const

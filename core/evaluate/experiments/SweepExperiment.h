@@ -13,30 +13,30 @@
 
 namespace faintline {
 
-/// What the values of one numeric setting are worth: the whole chain on known lines, value after value.
+/// Performance of the whole chain on known lines for different values of one numeric setting.
 ///
 /// A *trial* is a stretch of noise with one line in its middle, in simulated white noise or added to a recording:
-/// `marginSeconds` before it, the line, and `marginSeconds` after it. Every value is tried on the same trials, so that
-/// values differ by what they do and not by chance. A track that lies on the line, within 1.5 resolution cells, for
-/// half of its points while the line lasts has detected it; one that never touches it is a false alarm. In a recording
-/// everything that was there before counts as one, too.
+/// `marginSeconds` before it, the line, and `marginSeconds` after it. All values use the same trials, so that
+/// differences are not due to chance. A track detects the line if half of its points while the line lasts lie on it,
+/// within 1.5 resolution cells; a track that never touches it is a false alarm. In a recording, existing signals also
+/// count as false alarms.
 ///
-/// Runs cycle through the values: run = trial · values + value, so half of the runs give half of the trials of every
+/// Runs cycle through the values: run = trial · values + value, so half of the runs give half of the trials of each
 /// value.
 struct SweepExperiment {
     std::string recording; ///< path; empty: simulated white noise
     bool iq = false;       ///< two channels as I and Q
     int seed = 1;
-    int trials = 40;    ///< of every value
+    int trials = 40;    ///< per value
     double snrDb = 0.0; ///< in a rectangular window of the settings' T_FT, over the noise at the line's place
     double durationSeconds = 20.0;
     double driftHzPerSecond = 0.0;
     double wanderHz = 0.0;
     double wanderSeconds = 10.0;
     double marginSeconds = 20.0;
-    double sampleRateHz = 1000.0; ///< of simulated noise
-    AnalysisSettings settings;    ///< all but the parameter
-    std::string parameter;        ///< a setting that is a number: "model.snr"
+    double sampleRateHz = 1000.0; ///< for simulated noise
+    AnalysisSettings settings;    ///< all settings except the parameter
+    std::string parameter;        ///< a numeric setting: "model.snr"
     std::vector<double> values;
 
     static const std::vector<Field<SweepExperiment>> &fields();
@@ -48,14 +48,14 @@ struct SweepExperiment {
     int trialOf(int run) const { return run / int(values.size()); }
 };
 
-/// `steps` values from `from` to `to`, evenly spaced or by equal factors; whole where the setting is, without repeats.
-/// Throws Error.
+/// `steps` values from `from` to `to`, evenly spaced or at a constant ratio; integers if the setting is one, without
+/// duplicates. Throws Error.
 std::vector<double> sweepValues(const std::string &parameter, double from, double to, int steps, bool isLogarithmic);
 
 /// Whether a setting can be swept: it holds one number.
 bool isSweepable(const FieldInfo &field);
 
-/// The settings with one value. Throws Error where they cannot be so.
+/// The settings with one of the values. Throws Error if they are invalid.
 AnalysisSettings settingsAt(const SweepExperiment &experiment, std::size_t value);
 
 /// Throws Error naming the key.
@@ -67,42 +67,42 @@ void checkExperiment(const SweepExperiment &experiment);
 SweepExperiment sweepExperimentFromJson(const Json &json, const std::string &where);
 Json toJson(const SweepExperiment &experiment);
 
-/// What one run of a sweep leaves behind, as a RunOutcome: noise = {{false alarms, seconds looked at}}, signal =
-/// {{{seconds from the line's start to its detection}}}, -∞ where it was missed.
+/// Result of one run of a sweep as a RunOutcome: noise = {{false alarms, observed seconds}}, signal = {{{seconds from
+/// the line's start to its detection}}}, -∞ if it was missed.
 RunOutcome sweepOutcome(int run, std::ptrdiff_t falseAlarms, double seconds, double latencySeconds);
 
-/// What all runs of a sweep share: the recording, and a calibration for each value.
+/// Shared by all runs of a sweep: the recording, and a calibration for each value.
 class SweepTrials
 {
 public:
-    /// `recording` may be null where noise is simulated. Calibrates every value. Throws Error, Cancelled.
+    /// `recording` may be null for simulated noise. Calibrates each value. Throws Error, Cancelled.
     SweepTrials(const SweepExperiment &experiment, RecordingPointer recording, const RunContext &context = {});
 
     /// The thresholds, one per value.
     const std::vector<double> &thresholds() const { return m_thresholds; }
 
-    /// Does the given runs on context.threads threads. Depends on nothing but the experiment and the recording.
+    /// Executes the given runs on context.threads threads. Depends only on the experiment and the recording.
     std::vector<RunOutcome> run(const std::vector<int> &runs, const RunContext &context = {},
                                 const RunSink &sink = {}) const;
 
-    /// One trial made again: the recording with its line, and the line's truth. The settings select the stretch.
+    /// One trial regenerated: the recording with its line, and the line's truth. The settings select the stretch.
     struct Made {
         RecordingPointer recording;
         TruthLine truth;
-        AnalysisSettings settings; ///< with the value of the run
+        AnalysisSettings settings; ///< with the run's value
     };
     Made remake(int run) const;
 
-    /// Processor seconds for an hour of recording, value by value (measureCost): not the same twice.
+    /// Processor seconds per hour of recording, value by value (measureCost); varies between calls.
     std::vector<double> costs(const RunContext &context = {}) const;
 
 private:
     struct Placement;
-    LineSettings lineAt(const Placement &placement) const; ///< from the beginning of its stretch
+    LineSettings lineAt(const Placement &placement) const; ///< relative to the start of its stretch
     Made simulate(const LineSettings &line, const Placement &placement, const AnalysisSettings &settings) const;
     Made inject(LineSettings line, const Placement &placement, const AnalysisSettings &settings) const;
 
-    SweepExperiment m_experiment; ///< its window's length known
+    SweepExperiment m_experiment; ///< with known window length
     RecordingPointer m_recording;
     std::vector<double> m_thresholds;
 };

@@ -63,7 +63,7 @@ namespace {
             Curve curve{lines.detectors[d].name, Curve::Kind::Measured, {}};
             for (const RocPoint &point : rocCurve(lines, campaign.outcomes, d, snr)) {
                 if (!std::isfinite(point.falseAlarmsPerBlock) || point.falseAlarmsPerBlock <= 0.0)
-                    continue; // the lowest and highest threshold have no place on a logarithmic axis
+                    continue; // the lowest and the highest threshold cannot be drawn on a logarithmic axis
                 curve.points.push_back({point.falseAlarmsPerBlock, point.pd, point.interval});
                 low = std::min(low, point.falseAlarmsPerBlock);
                 high = std::max(high, point.falseAlarmsPerBlock);
@@ -76,7 +76,7 @@ namespace {
                     theoryAgainstFalseAlarms(lines, detectorUnderTest.name, lines.snrDb[snr], low, high));
     }
 
-    /// On a recording: how often the path without the line exceeds a threshold, against how often it does with it.
+    /// For recordings: rate at which the path without the line exceeds a threshold, against the rate with the line.
     void addInjected(Chart &chart, const Campaign &campaign, const InjectionExperiment &injection, std::size_t snr)
     {
         for (std::size_t d = 0; d < injection.detectors.size(); ++d) {
@@ -105,7 +105,7 @@ namespace {
         }
     }
 
-    /// The detector of the campaign that works as the current settings do.
+    /// The detector of the campaign that equals the current settings.
     std::optional<std::size_t> detectorLike(const Campaign &campaign, const AnalysisSettings &current)
     {
         if (campaign.outcomes.empty() || std::holds_alternative<SweepExperiment>(campaign.experiment))
@@ -123,7 +123,7 @@ namespace {
                + ", T = " + formatNumber(std::round(100.0 * threshold) / 100.0);
     }
 
-    /// Of all values of the runs' lists, the share above a threshold.
+    /// Number of values above a threshold, and of all values, in the runs' lists.
     template <class ListOf>
     std::pair<std::int64_t, std::int64_t> countAbove(const Campaign &campaign, double threshold, ListOf listOf)
     {
@@ -171,7 +171,7 @@ std::optional<Curve> operatingPoint(const Campaign &campaign, std::size_t snr, c
     const auto [above, all] =
         countAbove(campaign, threshold,
                    [&](const RunOutcome &outcome) -> const std::vector<float> & { return outcome.noise[*detector]; });
-    // None above, or all, has no place on a logarithmic axis: half a block away from it.
+    // None or all cannot be drawn on a logarithmic axis: half a block is added or subtracted.
     const double share = std::clamp(double(above), 0.5, double(all) - 0.5) / double(all);
     const bool isInBlocks = std::holds_alternative<LineExperiment>(campaign.experiment);
     return Curve{nameAt(campaign, *detector, threshold),

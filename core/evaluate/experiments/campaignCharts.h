@@ -10,31 +10,32 @@ namespace faintline {
 
 /// Pd against SNR, one measured curve per detector with its 95 % intervals.
 ///
-/// Lines in simulated noise are judged at one false alarm per noise block (`pdAgainstBlocks`). Where Marcum's Q holds,
-/// for a line of constant frequency and amplitude and an integrator of its duration n, a theory curve follows the
-/// integrator's:
+/// Lines in simulated noise are evaluated at one false alarm per noise block (`pdAgainstBlocks`). Where Marcum's Q
+/// holds, for a line of constant frequency and amplitude and an integrator of its duration n, a theory curve follows
+/// that of the integrator:
 ///
 ///   Pd = Q_n(T),   P_fa(T) = n / cells of a block
 ///
 /// with n looks, one per window, and as many independent cells as windows × resolution cells.
 ///
-/// For a sweep: Pd against its parameter (sweepCurve.h). Source: Billon 2005, section 5. Curves stand in the order of
-/// the detectors, so that curve i < detectors is detector i.
+/// For a sweep: Pd against its parameter (sweepCurve.h). Source: Billon 2005, section 5. Curves are in the order of the
+/// detectors, so that curve i < detectors is detector i.
 Chart pdChart(const Campaign &campaign);
 
 /// Pd against false alarms per block, or per trial's path for lines injected into a recording, at one SNR: measured on
-/// the outcomes there are, with the same theory.
+/// the available outcomes, with the same theory.
 Chart rocChart(const Campaign &campaign, std::size_t snr);
 
-/// Where a threshold puts the detector that has the given model and detector settings: on the chart of Pd against SNR
-/// its Pd at that threshold, SNR by SNR, dashed; on the ROC the one point that belongs to it, hollow. Nothing where no
-/// detector of the campaign has these settings, or nothing has been measured.
+/// Operating point of the detector with the given model and detector settings at a threshold: on the chart of Pd
+/// against SNR its Pd for each SNR, dashed; on the ROC a single point, hollow. Nothing if no detector of the campaign
+/// has these settings, or nothing has been measured.
 std::optional<Curve> pdAtOperatingPoint(const Campaign &campaign, const AnalysisSettings &current, double threshold);
 std::optional<Curve> operatingPoint(const Campaign &campaign, std::size_t snr, const AnalysisSettings &current,
                                     double threshold);
 
-/// The threshold that a trial of the campaign is shown with: the calibrated one, or where every block's maximum is one
-/// in turn, that of one false alarm per block in the mean (exceeded by a share 1 - 1/e of the blocks).
+/// The threshold with which a trial of the campaign is displayed: the calibrated one, or, if each block's maximum
+/// serves as threshold in turn, that of one false alarm per block on average (exceeded by a fraction 1 - 1/e of the
+/// blocks).
 double shownThreshold(const Campaign &campaign, std::size_t detector);
 
 } // namespace faintline

@@ -17,7 +17,7 @@ struct CurvePoint {
     double pd = 0.0;
     Interval interval;
     std::int64_t trials = 0;
-    std::optional<double> threshold; ///< nothing where every noise block's maximum is one
+    std::optional<double> threshold; ///< nothing if each noise block's maximum serves as threshold
 };
 
 /// The curves of a campaign, detector by detector, in the order of its SNRs.

@@ -15,7 +15,7 @@ namespace faintline {
 
 namespace {
 
-    /// Where the experiment's detectors come from, once K is known.
+    /// Description of one of the experiment's detectors, once K is known.
     struct Recipe {
         MarkovModel model;
         DetectorSettings detector;
@@ -27,8 +27,8 @@ namespace {
         return {{Axis{"frequency", "cells", 0.0, 1.0 / experiment.binsPerCell, experiment.bins(), false}}};
     }
 
-    /// Fields of the experiment's own noise, of runs that no experiment reaches, to find K on: longer than its runs
-    /// where a detector would not settle in those.
+    /// Fields of the experiment's noise with numbers that no run uses, for the calibration of K. They are longer than
+    /// the runs if a detector would not settle within those.
     std::vector<NormalisedFramesPointer> calibrationNoise(LineExperiment experiment, const RunContext &context)
     {
         constexpr int fields = 4;
@@ -75,8 +75,8 @@ namespace {
         return {double(experiment.stepsPerWindow), double(experiment.binsPerCell)};
     }
 
-    /// Lines begin at random in their noise blocks, a detector's own blocks at random in the run: by the golden ratio,
-    /// so that few runs already have all phases.
+    /// Phase of a detector's blocks within the run. Lines begin at random in their noise blocks; the golden ratio
+    /// covers all phases within few runs.
     Index blockPhase(int run, Index framesPerBlock)
     {
         const double turns = 0.6180339887498949 * (run + 1);
@@ -97,7 +97,7 @@ namespace {
 
     constexpr float lowest = -std::numeric_limits<float>::infinity();
 
-    /// One run's field before all detectors.
+    /// Runs all detectors on the field of one run.
     class Run
     {
     public:
@@ -130,7 +130,7 @@ namespace {
 
         Index blockedFrames() const { return Index(m_experiment.blocksInTime()) * m_experiment.blockFrames; }
 
-        /// Runs all detectors over the field's frames; look(detector, frame, statistic) sees each.
+        /// Runs all detectors over the field's frames and calls look(detector, frame, statistic) for each.
         template <class Look>
         void detect(float amplitude, Index frames, Look look) const
         {
@@ -146,7 +146,7 @@ namespace {
             }
         }
 
-        /// On the noise alone.
+        /// On noise alone.
         Largest largestInBlocks() const
         {
             Largest result = lowestOfAll();
@@ -161,8 +161,8 @@ namespace {
             return result;
         }
 
-        /// A detector that decides at the end of blocks is read at the first one after the line, too, one resolution
-        /// cell to either side of where that ended: at the latest, a block after it. In the frames between it says -∞.
+        /// A detector that decides at the end of blocks is also read at the first block end after the line, at most one
+        /// block later, within one resolution cell of the line's end. In the frames between, its value is -∞.
         Largest largestOnLines(float amplitude) const
         {
             Largest result = lowestOfAll();
@@ -194,7 +194,7 @@ namespace {
         const std::vector<Recipe> &m_recipes;
         NoisyField m_field;
         std::size_t m_signals;
-        std::vector<Index> m_waits; ///< of each detector, for its next decision
+        std::vector<Index> m_waits; ///< frames until each detector's next decision
     };
 
 } // namespace

@@ -11,18 +11,18 @@
 
 namespace faintline {
 
-/// The reset rule of every detector of the experiment, K found on the experiment's own noise (default for those without
-/// one).
+/// The reset rule of each detector of the experiment, with K determined on the experiment's own noise (default for
+/// detectors without one).
 std::vector<ResetRule> calibratedResets(const LineExperiment &experiment, const RunContext &context = {});
 
-/// Does the given runs, on context.threads threads; the answer is in the order of `runs` and depends on nothing but the
+/// Executes the given runs on context.threads threads; the result is in the order of `runs` and depends only on the
 /// experiment. K of sequential Markov detectors is calibrated first. Throws Error, Cancelled.
 std::vector<RunOutcome> runExperiment(const LineExperiment &experiment, const std::vector<int> &runs,
                                       const RunContext &context = {}, const RunSink &sink = {});
 
-/// One signal of one run made again, by itself.
+/// One signal of one run, regenerated alone.
 struct LineTrial {
-    /// Its block, y with noise of mean 1; bins as frequency in cells, frames as windows.
+    /// Its block, y with noise of mean 1; the axes are frequency in cells and time in windows.
     std::shared_ptr<const FrameArray> frames;
     Index firstFrame = 0;    ///< of the line, in the block
     std::vector<Index> path; ///< its bin in the block, one per frame of its duration

@@ -9,7 +9,7 @@ namespace faintline {
 
 namespace {
 
-    /// Ready-made frames know neither windows nor resolution cells: lengths are restated in frames and bins.
+    /// Precomputed frames have no windows or resolution cells: lengths are converted to frames and bins.
     DetectorSettings inFrames(DetectorSettings detector, const LineExperiment &lines)
     {
         if (auto *integrator = std::get_if<IntegratorSettings>(&detector))

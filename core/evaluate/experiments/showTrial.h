@@ -11,7 +11,7 @@
 
 namespace faintline {
 
-/// One trial of a campaign: a signal of a run, or the one line of an injection's trial (signal 0).
+/// One trial of a campaign: a signal of a run, or the only line of an injection trial (signal 0).
 struct TrialPlace {
     int run = 0;
     int signal = 0;
@@ -19,14 +19,13 @@ struct TrialPlace {
     bool operator==(const TrialPlace &) const = default;
 };
 
-/// A point of a campaign's curves: which detector, at which of the experiment's SNRs.
+/// A point of a campaign's curves: a detector and one of the experiment's SNRs.
 struct CampaignPoint {
     std::size_t detector = 0;
     std::size_t snr = 0;
 };
 
-/// The trials behind a point of a campaign's curve, in order, and whether the campaign's statistic exceeds the
-/// threshold shown.
+/// A trial of a point, and whether the campaign's statistic exceeds the displayed threshold.
 struct TrialOutcome {
     TrialPlace place;
     double statistic = 0.0;
@@ -34,16 +33,16 @@ struct TrialOutcome {
 };
 std::vector<TrialOutcome> trialsOf(const Campaign &campaign, const CampaignPoint &point);
 
-/// A trial made again and put through the whole chain, to be looked at.
+/// A regenerated trial after the whole chain, for display.
 struct ShownTrial {
     std::shared_ptr<const Analysis> analysis;
     Truth truth;
 };
 
-/// Makes the very trial behind a point again, with the detector's settings, the campaign's own ln K and the threshold
-/// of `shownThreshold`. A simulated line comes with its block alone, one window T_FT a second long, one resolution cell
-/// a hertz wide; an injected one in the whole selection. `trials`: of an injection, as prepared; null otherwise. Throws
-/// Error, Cancelled.
+/// Regenerates the trial behind a point, with the detector's settings, the campaign's own ln K and the threshold of
+/// `shownThreshold`. A simulated line comes with its block only, with a window T_FT of one second and a resolution cell
+/// of one hertz; an injected one with the whole selection. `trials`: prepared trials of an injection, null otherwise.
+/// Throws Error, Cancelled.
 ShownTrial showTrial(const Campaign &campaign, const InjectionTrials *trials, const CampaignPoint &point,
                      const TrialPlace &place, const RunContext &context = {});
 

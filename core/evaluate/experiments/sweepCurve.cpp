@@ -7,9 +7,9 @@ namespace faintline {
 
 namespace {
 
-    constexpr double unseen = 0.7; ///< events: the median of what a count of none leaves open, ln 2
+    constexpr double unseen = 0.7; ///< events: median of the posterior after a count of zero, ln 2
 
-    /// Whether values ascend by factors rather than by steps.
+    /// Whether values increase by factors rather than by steps.
     bool isLogarithmic(const std::vector<double> &values)
     {
         if (values.size() < 3 || std::any_of(values.begin(), values.end(), [](double value) { return value <= 0.0; }))
@@ -87,7 +87,7 @@ Chart sweepChart(const Campaign &campaign, SweepMeasure measure)
         chart.title = "Latency";
         chart.yLabel = "start to detection (s)";
     }
-    Curve curve{{}, Curve::Kind::Measured, {}}; // the only one needs no name
+    Curve curve{{}, Curve::Kind::Measured, {}}; // a single curve needs no name
     for (const SweepPoint &point : sweepCurve(campaign)) {
         if (measure == SweepMeasure::Pd)
             curve.points.push_back({point.value, point.pd, point.pdInterval});
@@ -108,7 +108,7 @@ Chart tradeOffChart(const Campaign &campaign)
 {
     const auto &experiment = std::get<SweepExperiment>(campaign.experiment);
     Chart chart{"Trade-off of " + experiment.parameter, "false alarms per hour", "Pd", true, false, {}};
-    Curve curve{{}, Curve::Kind::Measured, {}}; // the only one needs no name
+    Curve curve{{}, Curve::Kind::Measured, {}}; // a single curve needs no name
     for (const SweepPoint &point : sweepCurve(campaign)) {
         const Curve::Point shown{shownFalseAlarms(point), point.pd, point.pdInterval, formatNumber(point.value)};
         const auto same = std::find_if(curve.points.begin(), curve.points.end(), [&](const Curve::Point &other) {
@@ -118,7 +118,7 @@ Chart tradeOffChart(const Campaign &campaign)
             curve.points.push_back(shown);
             continue;
         }
-        same->label += ", " + shown.label; // one on top of the other: they share a label
+        same->label += ", " + shown.label; // coincident points share a label
         curve.points.push_back({shown.x, shown.y, shown.interval});
     }
     if (!curve.points.empty())

@@ -12,41 +12,41 @@
 
 namespace faintline {
 
-/// One number of a publication beside ours.
+/// A published number and ours.
 struct ReproducedCell {
     std::string row;
     std::string column;
-    std::optional<double> paper;     ///< as printed; nothing where the publication leaves the cell empty
-    double paperError = 0.0;         ///< standard error of the paper's figure, where it can be told
-    std::optional<double> reference; ///< from an independent program or a closed form: what ours is judged by
+    std::optional<double> paper;     ///< as printed; nothing if the publication leaves the cell empty
+    double paperError = 0.0;         ///< standard error of the published number, if known
+    std::optional<double> reference; ///< from an independent program or a closed form; the basis of the check
     double tolerance = 0.0;          ///< largest |ours - reference|
     double ours = 0.0;
     Interval interval; ///< 95 %, of ours; empty (low = high) for exact values
 
     int judgedTogether = 1; ///< cells of the same table or figure
-    int runs = 0;           ///< whose scatter the interval is made of: their number counts where they are few; 0: many
+    int runs = 0;           ///< number of runs on which the interval is based, relevant if few; 0: many
 
     bool isJudged() const { return reference.has_value(); }
-    /// The interval that holds for all cells judged together, in twenty seeds: it leaves out the reference of one of
-    /// them by chance once in twenty times (Bonferroni; Student's law where a scatter of few runs makes it).
+    /// The interval for all cells judged together in twenty seeds: by chance it excludes the reference of one of them
+    /// once in twenty times (Bonferroni; Student's law for a scatter from few runs).
     Interval jointInterval() const;
-    /// Ours is as near to the reference as the tolerance says, or the joint interval holds the reference.
+    /// Whether ours is within the tolerance of the reference, or the joint interval contains the reference.
     bool isInside() const;
-    /// ours - paper, in standard errors of the difference; nothing without a paper's figure or where neither error is
+    /// ours - paper, in standard errors of the difference; nothing without a published number or if neither error is
     /// known.
     std::optional<double> z() const;
 };
 
-/// A table or figure of a publication, made again.
+/// A reproduced table or figure of a publication.
 struct Reproduction {
     std::string name;     ///< "billon:table1"
-    std::string title;    ///< what it shows, with the source
-    std::string quantity; ///< what the cells hold: "Pd", "ASN (stages)"
+    std::string title;    ///< subject and source
+    std::string quantity; ///< quantity of the cells: "Pd", "ASN (stages)"
     std::vector<ReproducedCell> cells;
     std::vector<Chart> charts;
-    std::vector<std::string> notes; ///< known misfits, conventions, what the reader should know
+    std::vector<std::string> notes; ///< known deviations, conventions, remarks
 
-    bool isInside() const; ///< every judged cell is
+    bool isInside() const; ///< whether all judged cells are
 };
 
 struct ReproduceOptions {
@@ -54,14 +54,14 @@ struct ReproduceOptions {
     std::uint64_t seed = 1;
 };
 
-/// A table or figure that can be made.
+/// A table or figure that can be reproduced.
 struct Reproducible {
     std::string name;
     std::string title;
     std::function<Reproduction(const ReproduceOptions &, const RunContext &)> run;
 };
 
-/// Tells every cell how many are judged together.
+/// Sets the number of cells judged together in each cell.
 void judgeTogether(Reproduction &reproduction);
 
 } // namespace faintline

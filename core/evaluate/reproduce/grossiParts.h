@@ -9,24 +9,24 @@
 
 namespace faintline {
 
-// What the parts of Grossi's and Lops' reproduction (reproduceGrossi.h) share, one figure a file.
+// Shared by the parts of the reproduction of Grossi and Lops (reproduceGrossi.h), one file per figure.
 
 Reproducible grossiStages();       ///< Figure 2
 Reproducible grossiTrajectories(); ///< Figure 3
 Reproducible grossiRadar();        ///< Figure 4
 
-/// Deviations of the walks' steps, in cells; the last is the uniform law.
+/// Standard deviations of the walks' steps, in cells; the last is the uniform law.
 constexpr std::array<double, 5> walkDeviations{0.5, 1.0, 2.0, 5.0, std::numeric_limits<double>::infinity()};
 
 std::string deviationName(double deviation);
 
-/// A number of stages as published, with its standard error.
+/// A published number of stages with its standard error.
 struct PublishedAsn {
     double value;
     double error;
 };
 
-/// A number as published.
+/// A published number.
 struct Published {
     double value;
     double error;    ///< standard error
@@ -45,10 +45,10 @@ struct PublishedFrequency {
     double rounding;
 };
 
-/// Standard error of a frequency; where none or all succeeded, that of one that did not.
+/// Standard error of a frequency; if none or all succeeded, as if one had not.
 double frequencyError(double p, double trials);
 
-/// Four standard errors of the difference, and what rounding hides.
+/// Four standard errors of the difference, plus the rounding error.
 double toleranceOf(double referenceError, double ourError, double rounding);
 
 ReproducedCell measuredCell(std::string row, std::string column, const Estimate &ours, const Published &reference);
@@ -58,7 +58,7 @@ ReproducedCell frequencyCell(std::string row, std::string column, const TrialCou
 
 Index reducedTrials(Index full, const ReproduceOptions &options);
 
-/// A number in a sentence, by a format of printf.
+/// Formats a number in printf style, for a sentence.
 std::string inFormat(const char *format, double value);
 
 } // namespace faintline

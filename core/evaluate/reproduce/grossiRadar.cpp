@@ -11,7 +11,7 @@ namespace faintline {
 namespace {
 
     struct RadarReference {
-        std::optional<double> snrDb; ///< nothing: noise only
+        std::optional<double> snrDb; ///< empty: noise only
         PublishedAsn stages;
         double variation;
         double acceptH1;
@@ -41,7 +41,7 @@ namespace {
         return scanModel(scene, 12.0);
     }
 
-    /// The figure under way.
+    /// Figure under construction.
     class RadarFigure
     {
     public:
@@ -96,7 +96,7 @@ namespace {
             m_acceptance.points.push_back({*reference.snrDb, m_made.cells.back().ours, m_made.cells.back().interval});
         }
 
-        /// The noise power estimated from neighbours.
+        /// With the noise power estimated from neighbouring cells.
         void addAveraged()
         {
             m_study.actualSnr.reset();
@@ -141,8 +141,8 @@ namespace {
             m_made.notes.push_back(
                 "ASN peaks at " + formatNumber(peak->x) + " dB, " + inFormat("%.2f", peak->y) + " stages against "
                 + inFormat("%.2f", m_noiseStages)
-                + " on noise: half-way between noise and the design SNR ln Λ drifts nowhere, and the cut-off ends what "
-                  "would hang. A test designed at each actual SNR has no such peak; it saturates at the cut-off and "
+                + " on noise: half-way between noise and the design SNR ln Λ has no drift, and only the cut-off ends "
+                  "the test. A test designed at each actual SNR has no such peak; it saturates at the cut-off and "
                   "falls.");
             m_made.notes.push_back("The publication's cell averaging is not described: sliding means of the 32 or 16 "
                                    "neighbours in range are shown, with the exact likelihood ratio of such a quotient. "

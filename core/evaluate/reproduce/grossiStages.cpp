@@ -78,7 +78,7 @@ namespace {
         return {name, Curve::Kind::Theory, {{0.0, level, {}}, {1.0, level, {}}}};
     }
 
-    /// The figure under way: H0 first, then H1.
+    /// Figure under construction: H0 first, then H1.
     class StagesFigure
     {
     public:
@@ -147,7 +147,7 @@ namespace {
             const auto trials = double(m_study.trials);
             ReproducedCell counted = frequencyCell(row, isTarget ? "β counted" : "α counted", {wrong, m_study.trials},
                                                    {isTarget ? 8.63e-4 : 6.08e-4, 400000.0, 1e-6});
-            // Few are counted: the tolerance goes by the expected number, not by what happened to come.
+            // The counts are small: the tolerance follows from the expected number, not from the observed one.
             counted.tolerance = toleranceOf(frequencyError(*counted.reference, 400000.0),
                                             frequencyError(*counted.reference, trials), 1.0 / trials);
             m_made.cells.push_back(std::move(counted));
@@ -167,7 +167,7 @@ namespace {
             m_made.notes.push_back(
                 "σ, in cells, is the walk's discretised Gaussian step, rows renormalised on the line; the start is the "
                 "row of the middle cell. "
-                "α ≤ 1/γ1 and β ≤ γ0 hold for any law; the wanted 1e-3 is not used up because of the overshoot.");
+                "α ≤ 1/γ1 and β ≤ γ0 hold for any law; the specified 1e-3 is not reached because of the overshoot.");
         }
 
         const ReproduceOptions &m_options;

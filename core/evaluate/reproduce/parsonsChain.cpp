@@ -13,7 +13,7 @@ namespace {
     constexpr int chainRuns = 12;
     constexpr int vanishPing = 45;
 
-    /// What the chain of an independent program did in twelve runs, for one model and SNR.
+    /// Results of the chain of an independent program in twelve runs, for one model and SNR.
     struct ChainCase {
         std::string preset;
         double snrDb = 0.0;
@@ -32,7 +32,7 @@ namespace {
         return cases;
     }
 
-    /// A keeps its rates, B weaves in range; both vanish after 45 of the 60 pings.
+    /// Target A keeps its rates, B weaves in range; both vanish after 45 of the 60 pings.
     PingScene chainScene(const ChainCase &wanted)
     {
         PingScene scene;
@@ -88,7 +88,7 @@ namespace {
                 if (own.isConfirmed())
                     confirm.push_back(double(own.confirmLatency));
             }
-            // As well or better: judged from below only, all runs at the top.
+            // As good or better: judged from below only, up to the number of runs.
             const double reference = share * (target == 0 ? wanted.confirmedSteady : wanted.confirmedWeaving);
             const double best = runs;
             ReproducedCell cell = cellOf(row, name + "confirmed of " + std::to_string(runs), confirmed);

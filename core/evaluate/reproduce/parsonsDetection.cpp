@@ -41,7 +41,8 @@ namespace {
         std::vector<DetectionCurve> curves;
     };
 
-    /// Four targets in one field that move by three range cells and one beam a ping, from places of the field's own.
+    /// Four targets in one field that move by three range cells and one beam per ping, with random start positions of
+    /// the field.
     PingScene targetScene(std::uint64_t seed, int chain, int field, double snrDb)
     {
         PingScene scene = noiseScene(seed + 1000003u * std::uint64_t(1 + chain * fieldsPerChain + field), targetPings);
@@ -74,7 +75,7 @@ namespace {
                     first[i] = ping + 1;
             }
             if (std::find(first.begin(), first.end(), 0) == first.end())
-                break; // all have: later pings add nothing
+                break; // all have crossed: later pings add nothing
         }
         return first;
     }
@@ -176,7 +177,7 @@ namespace {
 
     const DetectionFigure &figure5()
     {
-        // The last curve's last value is a bound, < 0.15: judged as 0.05 ± 0.10.
+        // The last value of the last curve is a bound, < 0.15: compared with 0.05 ± 0.10.
         static const DetectionFigure figure{"parsons:figure5",
                                             "Parsons 2008, Figure 5: Pd against pings, manoeuvring model",
                                             "manoeuvring",

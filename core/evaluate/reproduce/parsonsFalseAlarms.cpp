@@ -18,13 +18,13 @@ namespace {
 
     constexpr double wantedPfa = 1e-4;
 
-    /// What a figure of false alarms is measured by.
+    /// Parameters of a figure of false alarms.
     struct FalseAlarmFigure {
         std::string name;
         std::string title;
         std::string motion;
         int pings = 800;     ///< after settling
-        int countEvery = 20; ///< pings apart, so that what is counted is nearly independent
+        int countEvery = 20; ///< pings between counts, so that the counts are nearly independent
         double paperThreshold = 0.0;
         double referenceThreshold = 0.0;
         double thresholdTolerance = 0.0;
@@ -32,12 +32,12 @@ namespace {
         double referenceK = 0.0;
         double toleranceK = 0.0;
         std::vector<double> levels;       ///< thresholds …
-        std::vector<double> referencePfa; ///< … and the Pfa per cell there, by an independent program
+        std::vector<double> referencePfa; ///< … and their Pfa per cell according to an independent program
     };
 
-    constexpr int blocks = 10; ///< of the counted pings: their scatter gives the errors
+    constexpr int blocks = 10; ///< of counted pings: their scatter gives the errors
 
-    /// The statistic's exceedances on settled noise.
+    /// Exceedances of the statistic on settled noise.
     struct NoiseRun {
         double lnK = 0.0;
         double resetFraction = 0.0;
@@ -113,7 +113,7 @@ namespace {
         return double(end - descending.begin()) / cells;
     }
 
-    /// The threshold that a share of the counted cells exceeds.
+    /// Threshold exceeded by the fraction pfa of the counted cells.
     double thresholdOf(const std::vector<float> &descending, double cells, double pfa)
     {
         const auto rank = std::size_t(std::llround(pfa * cells));
@@ -129,13 +129,13 @@ namespace {
         return values;
     }
 
-    /// P(D > T) of a cell whose states each follow Lindley's recursion, were they independent.
+    /// P(D > T) of a cell if its states followed Lindley's recursion independently.
     double lindleyPerCell(double threshold, double lnK, double states)
     {
         return std::min(1.0, states * lindleyExceedance(threshold, lnK));
     }
 
-    /// A quick run has a quarter of the pings, so tolerances double.
+    /// A quick run has a quarter of the pings, so that the tolerances double.
     double widened(double tolerance, const ReproduceOptions &options)
     {
         return tolerance * (options.quick ? 2.0 : 1.0);
@@ -171,7 +171,7 @@ namespace {
                     figure.paperThreshold));
         if (!isNonManoeuvring(figure))
             return;
-        // The tail is exponential: from 1e-4 on along Lindley's slope.
+        // The tail is exponential: beyond 1e-4 it follows Lindley's slope.
         const double slope = 1.0 - lindleySigma(run.lnK);
         made.cells.push_back(
             printed(cellOf("threshold", "Pfa 1e-7, along Lindley's slope", threshold + std::log(1e3) / slope), 43.0));
@@ -211,7 +211,7 @@ namespace {
                     return exceedance(block, cells, level);
                 }));
             ReproducedCell cell = cellOf("Pfa per cell", "T = " + formatNumber(level), pfa, interval);
-            // Fewer than a hundred crossings come in too few clusters for an error to be told: printed, not judged.
+            // Fewer than a hundred crossings form too few clusters for an error estimate: printed, not judged.
             if (pfa * run.cells >= 100.0)
                 cell = judged(cell, figure.referencePfa[i], fourErrors(interval));
             made.cells.push_back(cell);

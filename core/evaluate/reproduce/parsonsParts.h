@@ -12,13 +12,13 @@
 
 namespace faintline {
 
-// What the parts of Parsons' reproduction (reproduceParsons.h) share, one part a file.
+// Shared by the parts of the reproduction of Parsons (reproduceParsons.h), one file per part.
 
 std::vector<Reproducible> parsonsChain();       ///< Figure 1
 std::vector<Reproducible> parsonsFalseAlarms(); ///< Figures 2 and 3
 std::vector<Reproducible> parsonsDetection();   ///< Figures 4 and 5
 
-constexpr int settlingPings = 200; ///< before anything is counted
+constexpr int settlingPings = 200; ///< before counting starts
 
 /// Parsons' simulated sonar without targets, `pings` pings long.
 inline PingScene noiseScene(std::uint64_t seed, int pings)
@@ -29,7 +29,7 @@ inline PingScene noiseScene(std::uint64_t seed, int pings)
     return scene;
 }
 
-/// Our figure, then what it is judged by and what the paper printed.
+/// Our number; `judged` adds its reference, `printed` the published number.
 inline ReproducedCell cellOf(std::string row, std::string column, double ours, Interval interval = {})
 {
     ReproducedCell cell;
@@ -53,7 +53,7 @@ inline ReproducedCell printed(ReproducedCell cell, double paper)
     return cell;
 }
 
-/// Tolerance for one of two runs of equal length: 4·√2 standard errors.
+/// Tolerance for the difference of two runs of equal length: 4·√2 standard errors.
 inline double fourErrors(const Interval &interval)
 {
     return 4.0 * std::numbers::sqrt2 * (interval.high - interval.low) / (2.0 * 1.959963984540054);

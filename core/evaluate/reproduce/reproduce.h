@@ -7,10 +7,10 @@
 
 namespace faintline {
 
-/// All tables and figures that can be made, in the order of publication.
+/// All reproducible tables and figures, in the order of publication.
 const std::vector<Reproducible> &reproducibles();
 
-/// The one of that name; throws Error naming all.
+/// The table or figure of that name; throws Error listing all names.
 const Reproducible &reproducible(std::string_view name);
 
 } // namespace faintline

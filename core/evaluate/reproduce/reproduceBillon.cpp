@@ -16,11 +16,11 @@ namespace {
 
     constexpr int runs = 60;
     constexpr int quickRuns = 12;
-    constexpr double tolerance = 0.04; ///< what 20 runs allow
+    constexpr double tolerance = 0.04; ///< appropriate for 20 runs
     constexpr double paperSignals = 90.0;
-    constexpr double none = -1.0; ///< a cell the table leaves empty
+    constexpr double none = -1.0; ///< a cell that is empty in the table
 
-    /// One row of a table: a detector, the paper's figures and those of an independent program with 3000 signals a
+    /// One row of a table: a detector, the paper's values and those of an independent program with 3000 signals per
     /// cell.
     struct Row {
         std::string detector;
@@ -28,7 +28,7 @@ namespace {
         std::vector<double> reference;
     };
 
-    /// What changes along a table's columns.
+    /// Parameter that varies along a table's columns.
     enum class Sweep { Snr, Wander };
 
     struct Table {
@@ -37,7 +37,7 @@ namespace {
         Sweep sweep;
         std::vector<double> columns;
         double durationWindows;
-        double snrDb; ///< where the wander is swept
+        double snrDb; ///< constant where the wander is swept
         std::vector<Row> rows;
     };
 

@@ -7,8 +7,8 @@
 namespace faintline {
 
 /// Figures 2 to 4 of Grossi and Lops 2006: stages against knowledge of the trajectory, correct trajectories, and the
-/// radar case. The publication's figures give no numbers; references are an independent program's with their standard
-/// errors, or exact.
+/// radar case. The publication's figures give no numbers; references are exact or come from an independent program,
+/// with their standard errors.
 std::vector<Reproducible> grossiReproducibles();
 
 } // namespace faintline

@@ -15,7 +15,7 @@ namespace {
 
     constexpr Index mostStages = 2000;
     constexpr double mostCells = 0x1p20;
-    constexpr int firstLook = 1 << 24; ///< numbers of the survey's runs begin here
+    constexpr int firstLook = 1 << 24; ///< first run number of the survey
 
     KinematicAxis spatialAxis(const char *name, Index cells, const ScanScene &scene)
     {
@@ -36,7 +36,7 @@ namespace {
         return scene;
     }
 
-    /// Of the scene's streams: the two hypotheses do not share their noise.
+    /// Stream of the scene: the two hypotheses do not share their noise.
     int streamOf(const ScanRun &run)
     {
         return 2 * run.number + (run.hasTarget ? 1 : 0);

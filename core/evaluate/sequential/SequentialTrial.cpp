@@ -10,7 +10,7 @@ SequentialTrial::SequentialTrial(const SequentialStudy &study, const TrajectoryS
     : m_study(&study), m_sampler(&sampler), m_noise(study.seed, 2 * std::uint64_t(trial)),
       m_target(study.seed, 2 * std::uint64_t(trial) + 1), m_frameCells(study.model.reduction.frameCells())
 {
-    // Whole blocks of four random words at a time, about 256 cells or a frame.
+    // Whole blocks of four random words at a time, about 256 cells, or one frame.
     m_bufferFrames =
         m_frameCells % 4 == 0 ? std::max<Index>(1, 256 / m_frameCells) : 4 * std::max<Index>(1, 64 / m_frameCells);
     m_used = m_bufferFrames;

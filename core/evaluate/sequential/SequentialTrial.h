@@ -9,14 +9,13 @@
 
 namespace faintline {
 
-/// One trial of a study: its frames and its truth, as `simulate` had them.
+/// One trial of a study: its frames and its truth, as in `simulate`.
 class SequentialTrial
 {
 public:
     SequentialTrial(const SequentialStudy &study, const TrajectorySampler &sampler, Index trial);
 
-    /// The next stage's frame, folded cell by folded cell, each a block of the model's cells. Valid until the next
-    /// call.
+    /// The next stage's frame, one block of the model's cells per folded cell. Valid until the next call.
     std::span<const float> next();
 
     Index state() const { return m_state; }   ///< of the target in the last frame

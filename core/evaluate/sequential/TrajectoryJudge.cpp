@@ -56,7 +56,7 @@ std::vector<Index> TrajectoryJudge::readTrial(Index number, Index stages)
     return truth;
 }
 
-/// The cell of a state; where every axis is folded, the cell on those: a line of which nothing is known.
+/// Cell of a state. If every axis is folded, the cell on the folded axes: for a line about which nothing is known.
 Index TrajectoryJudge::position(Index state, Index folded) const
 {
     return isAllFolded() ? folded : m_study.model.markov.space.cellOf(state);

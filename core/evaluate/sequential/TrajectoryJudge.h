@@ -8,7 +8,7 @@
 
 namespace faintline {
 
-/// Estimates the trajectory of an accepted trial and holds it against the truth. One object per thread.
+/// Estimates the trajectory of an accepted trial and compares it with the truth. Use one object per thread.
 class TrajectoryJudge
 {
 public:
@@ -30,8 +30,8 @@ private:
     const SequentialStudy &m_study;
     const TrajectorySampler &m_sampler;
     MapEstimator m_map;
-    std::vector<double> m_lambda; ///< stages × cells: of the best of the cells that are folded into one
-    std::vector<Index> m_best;    ///< which that is
+    std::vector<double> m_lambda; ///< stages × cells: λ of the best among the cells folded into one
+    std::vector<Index> m_best;    ///< index of that cell
 };
 
 } // namespace faintline

@@ -51,7 +51,7 @@ namespace {
         return (bound.isOfTarget ? withTarget : onNoise) + bound.name;
     }
 
-    /// Where the test is designed for the true SNR: with one design a target's bounds are a short dash there.
+    /// Bound for designs at the true SNR; with a single design, a target's bounds are a short dash there.
     Curve boundCurve(const std::vector<ScanPoint> &points, const Bound &bound)
     {
         constexpr double halfDashDb = 0.6;

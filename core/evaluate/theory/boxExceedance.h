@@ -7,10 +7,10 @@
 
 namespace faintline {
 
-/// The share of cells in a box of a statistic's picture whose D exceeds a level, level by level of the picture's scale
-/// (a quarter of a unit), down to the last level that ten cells exceed: what noise does in this recording, where the
-/// box holds nothing else. Frames begin … end-1 and cells begin … end-1 of the last axis. Looks at no more than 2·10⁶
-/// cells, in rows spread evenly. Empty for an empty box, and where frames have been merged: the picture then holds
+/// Fraction of cells in a box of a statistic's picture whose D exceeds a level, for each level of the picture's scale
+/// (a quarter of a unit) down to the last level that ten cells exceed; this is the behaviour of noise in this recording
+/// if the box holds nothing else. Frames begin … end-1 and cells begin … end-1 of the last axis. Examines at most 2·10⁶
+/// cells, in evenly spread rows. Empty for an empty box, and if frames have been merged, because the picture then holds
 /// maxima.
 std::vector<ExceedancePoint> boxExceedance(const PeakPyramid &statistic, Index beginFrame, Index endFrame,
                                            Index beginCell, Index endCell);

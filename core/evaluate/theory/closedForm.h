@@ -12,8 +12,8 @@ struct ExceedancePoint {
     double probability = 0.0;
 };
 
-/// P(D > T) of a cell of noise where it is known without simulating, for T from the lowest level worth drawing up to
-/// where it falls below 10⁻¹⁵; empty where it is not.
+/// P(D > T) of a noise cell where it is known in closed form, from the lowest T worth drawing to where it falls below
+/// 10⁻¹⁵; empty otherwise.
 ///
 ///   energy       e^{-T}                                       for any overlap: one cell's law
 ///   integrator   gamma law of n looks (pfaOfMeanPower)        of a boxcar of n windows without overlap in time
@@ -21,8 +21,7 @@ struct ExceedancePoint {
 ///                                                             ln K < -1 fixed: D is Lindley's L before ln K is added,
 ///                                                             T ≥ -ln K
 ///
-/// Bins beside one another may overlap: the law is that of one cell. That the noise background is estimated is left
-/// out.
+/// Adjacent bins may overlap: the law is that of one cell. The error of the estimated noise background is ignored.
 std::vector<ExceedancePoint> closedFormExceedance(const AnalysisSettings &settings, const Calibration &calibration);
 
 } // namespace faintline

@@ -27,7 +27,7 @@ namespace {
         case SQLITE_NOTADB:
             throw Error(path, "is not an SQLite database");
         case SQLITE_CORRUPT:
-        case SQLITE_INTERRUPT: // by countSteps
+        case SQLITE_INTERRUPT: // from countSteps
             throw Error(path, "is a damaged SQLite database");
         case SQLITE_BUSY:
         case SQLITE_LOCKED:
@@ -52,7 +52,7 @@ namespace {
         return code ? 0 : std::int64_t(bytes);
     }
 
-    /// SQLite gives a meaning to names such as ":memory:"; a whole path has none but its own.
+    /// SQLite treats names such as ":memory:" specially, but no absolute path.
     std::string wholePath(const std::string &path)
     {
         std::error_code code;
@@ -172,7 +172,7 @@ void Sqlite::Close::operator()(sqlite3 *database) const
 
 Sqlite::Sqlite(const std::string &path, Access access, std::chrono::milliseconds patience) : m_path(path)
 {
-    // Who only reads may have to roll back what a killed program left, and so to write.
+    // A reader may have to roll back the transaction of a killed program, and therefore to write.
     const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE;
     sqlite3 *database = nullptr;
     const int code =
@@ -193,7 +193,7 @@ Sqlite::Sqlite(const std::string &path, Access access, std::chrono::milliseconds
     if (access == Access::Write)
         return;
     execute("PRAGMA query_only = ON");
-    // All exports of a survey together take some hundred steps a row, and a row takes some ten bytes.
+    // All exports of a survey together take some hundred steps per row, and a row takes about ten bytes.
     m_steps = std::make_unique<std::int64_t>(20 + bytesOf(path) / 10'000);
     sqlite3_progress_handler(database, million, countSteps, m_steps.get());
 }

@@ -54,9 +54,9 @@ public:
     int columnCount() const;
     bool isNull(int column) const;
     std::int64_t integer(int column) const;
-    double number(int column) const; ///< NaN of NULL
+    double number(int column) const; ///< NaN for NULL
     std::optional<double> optionalNumber(int column) const;
-    std::string text(int column) const; ///< empty of NULL
+    std::string text(int column) const; ///< empty for NULL
 
     void reset();
 
@@ -99,8 +99,8 @@ public:
 
     /// Waits for other programs as long as `goesOn` answers true, and asks it every 20 ms.
     void waitWhile(std::function<bool()> goesOn);
-    /// The first bytes of the file, as they are on the disk, and how many there are. Read through the connection: who
-    /// closes a file of their own takes all locks of the process from it (POSIX).
+    /// Reads the first bytes of the file from disk and returns their number. Uses the connection, because closing a
+    /// separate descriptor would release all locks of the process (POSIX).
     std::size_t readBeginning(std::span<std::byte> out);
 
     const std::string &path() const { return m_path; }

@@ -30,7 +30,7 @@ namespace {
 
     constexpr const char *otherTables = "is not a survey: its tables differ from those in docs/reference/survey.md";
 
-    /// A number of a row, finite.
+    /// A finite number of a row.
     double number(const SqliteStatement &row, int column, const std::string &path)
     {
         const double value = row.number(column);
@@ -66,7 +66,7 @@ SurveyDatabase::SurveyDatabase(const std::string &path, Sqlite::Access access, s
     m_origin = readOrigin();
 }
 
-/// Before the first transaction: to read a database with a write-ahead log, as another program may have it, changes it.
+/// Call before the first transaction: reading a database with a write-ahead log, left by another program, changes it.
 void SurveyDatabase::checkHeader()
 {
     std::array<std::byte, 72> header{};
@@ -87,7 +87,7 @@ void SurveyDatabase::check()
     if (const auto format = m_database.integer("PRAGMA user_version"); format != surveyFormat)
         throw Error(path(), "is a survey in format " + std::to_string(format) + "; this program reads format "
                                 + std::to_string(surveyFormat));
-    // What SQLite adds by itself: indexes of what is unique, and statistics for queries.
+    // Objects that SQLite adds itself: indexes for unique columns, and statistics for queries.
     SqliteStatement objects =
         m_database.prepare("SELECT coalesce(sql, '') FROM sqlite_schema WHERE NOT (type = 'index' AND sql IS NULL) "
                            "AND NOT (type = 'table' AND name IN ('sqlite_stat1', 'sqlite_stat4')) ORDER BY rowid");
@@ -225,7 +225,7 @@ void SurveyDatabase::put(const SurveyOutcome &outcome)
 {
     const SurveyRecording &r = outcome.recording;
     const std::string stored = storedPath(r.file.path, path());
-    const std::string whole = textFromFileName(r.file.path); // as it was stored before the database lay above it
+    const std::string whole = textFromFileName(r.file.path); // stored so before the database was in a folder above it
     for (const SurveyTable &one : surveyTables())
         m_database
             .prepare("DELETE FROM " + one.name + " WHERE recording IN (SELECT id FROM recordings WHERE path IN (?, ?))")
@@ -263,7 +263,7 @@ void SurveyDatabase::setModified(std::int64_t recording, const SurveyFile &file)
 void SurveyDatabase::setReview(const std::string &recording, const Event &event, Verdict verdict,
                                const std::string &note)
 {
-    // Numbers of recordings change when some are added.
+    // The numbers of recordings change when recordings are added.
     SqliteStatement there = m_database.prepare("SELECT recordings.id FROM events JOIN recordings ON recordings.id = "
                                                "recording WHERE path IN (?, ?) AND event = ? AND t_onset = ? "
                                                "AND f = ?");

@@ -11,10 +11,11 @@ namespace faintline {
 
 /// A survey of recordings in one SQLite file. `writeSurvey` creates one.
 ///
-/// The constructor checks that the file is a survey, and leaves one that is not as it was. The tables must be exactly those of
-/// `surveySchema`, so that an untrusted file can contain neither triggers nor views. Paths below the folder of the
+/// The constructor checks that the file is a survey, and does not change other files. The tables must be exactly those
+/// of `surveySchema`, so that an untrusted file can contain neither triggers nor views. Paths below the folder of the
 /// database are relative to it. Every call throws Error with the name of the database if it is damaged, contains
 /// invalid values, or cannot be written. For one thread at a time; other programs may read the file while a survey adds
+/// to it.
 /// to it.
 class SurveyDatabase
 {
@@ -47,7 +48,7 @@ public:
     void setUnfinished();
     /// Replaces all rows of the same path; its reviews are deleted.
     void put(const SurveyOutcome &outcome);
-    /// Of a file whose date has changed, but not its content.
+    /// For a file whose date has changed, but not its content.
     void setModified(std::int64_t recording, const SurveyFile &file);
     /// Between begin and commit: stores a person's verdict on an event that was read before. Throws Error if the survey
     /// no longer has the event.

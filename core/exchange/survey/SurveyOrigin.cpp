@@ -15,7 +15,7 @@ namespace {
         return origin.settings == "{}" ? "the defaults" : origin.settings;
     }
 
-    /// "spectrogram.windowSeconds = 0.5, here 1": the first in which settings differ.
+    /// "spectrogram.windowSeconds = 0.5, here 1": the first setting that differs.
     std::string firstDifference(const SurveyOrigin &there, const SurveyOrigin &wanted)
     {
         const auto differences =

@@ -19,20 +19,20 @@ namespace faintline {
 
 namespace {
 
-    /// A recording that is to be looked at.
+    /// A recording to be analysed.
     struct Task {
         SurveyFile file;
-        std::int64_t known = 0; ///< its number in the database, where it was analysed before
+        std::int64_t known = 0; ///< its number in the database if it was analysed before
         std::string knownHash;
     };
 
-    /// What became of it; no outcome: its content has not changed.
+    /// Result of a task; no outcome: the content has not changed.
     struct Result {
         Task task;
         std::optional<SurveyOutcome> outcome;
 
-        /// It was analysed before, and now it, or the second of its files, cannot be read, for example on a disk that
-        /// is not mounted.
+        /// The recording was analysed before, and now it or the second of its files cannot be read, for example on a
+        /// disk that is not mounted.
         bool isAway() const
         {
             return outcome && !outcome->recording.isAnalysed() && task.known
@@ -48,7 +48,7 @@ namespace {
         return {task, surveyRecording(task.file, settings, context)};
     }
 
-    /// Threads that do tasks in order, each one task at a time; whoever made them takes the results. They end with the
+    /// Threads that carry out tasks in order, one at a time each. The owner takes the results; the threads end with the
     /// object.
     class Workers
     {
@@ -65,7 +65,7 @@ namespace {
         Workers(const Workers &) = delete;
         Workers &operator=(const Workers &) = delete;
 
-        /// The results that are there, or come within a time.
+        /// The results that are available, or become available within `patience`.
         std::vector<Result> take(std::chrono::milliseconds patience)
         {
             std::unique_lock lock(m_guard);
@@ -73,7 +73,7 @@ namespace {
             return std::exchange(m_results, {});
         }
 
-        /// How much of the tasks in work is done, in tasks.
+        /// Completed part of the tasks in progress, in tasks.
         double inWork() const
         {
             double sum = 0.0;
@@ -83,7 +83,7 @@ namespace {
         }
 
     private:
-        /// The first task has all threads to itself: it calibrates, and the others find its calibration.
+        /// The first task has all threads to itself: it calibrates, and the others use its calibration.
         void work(std::size_t own, int threads, int jobs)
         {
             if (own > 0)
@@ -127,10 +127,10 @@ namespace {
         std::mutex m_guard;
         std::condition_variable m_arrived;
         std::vector<Result> m_results;
-        std::vector<std::jthread> m_threads; // last: they end before the rest goes
+        std::vector<std::jthread> m_threads; // destroyed first
     };
 
-    /// The recordings of the shard that the database does not have as they are now.
+    /// The recordings of the shard that the database does not contain in their present state.
     std::vector<Task> tasksOf(const SurveyRun &run, SurveyDatabase &database, int &kept)
     {
         std::map<std::string, SurveyRecording> known;
@@ -172,12 +172,13 @@ namespace {
     {
         SurveyTally tally;
         using Clock = std::chrono::steady_clock;
-        constexpr std::size_t mostPending = 50; // recordings that a kill may cost; each commit waits for the disk
+        constexpr std::size_t mostPending = 50; // recordings lost if the program is killed; each commit waits for the
+                                                // disk
         Workers workers(tasks, run.settings, run.jobs, context);
         std::vector<Result> pending;
         auto committed = Clock::now();
         for (std::size_t done = 0; done < tasks.size();) {
-            const bool isStopped = context.stop.stop_requested(); // what has come until now is still kept
+            const bool isStopped = context.stop.stop_requested(); // earlier results are still stored
             for (Result &result : workers.take(std::chrono::milliseconds(100))) {
                 ++done;
                 if (!result.outcome)
@@ -219,7 +220,7 @@ SurveyTally carryOutSurvey(const SurveyRun &run, const std::string &out, const R
     if (!isThere(out))
         beginSurvey(origin, out);
     SurveyDatabase database(out, Sqlite::Access::Write);
-    database.connection().waitWhile([&] { return !context.stop.stop_requested(); }); // for an export, for instance
+    database.connection().waitWhile([&] { return !context.stop.stop_requested(); }); // for example for an export
     checkOrigin(database.origin(), origin, out);
     int kept = 0;
     const std::vector<Task> tasks = tasksOf(run, database, kept);
@@ -229,7 +230,7 @@ SurveyTally carryOutSurvey(const SurveyRun &run, const std::string &out, const R
         database.setUnfinished();
         SurveyTally tally = analyseAll(tasks, run, database, context, warn);
         tally.kept += kept;
-        database.lock(); // nobody's review falls between the reading and the new file
+        database.lock(); // no review may be stored between the reading and the new file
         writeSurvey({&database}, origin, out);
         return tally;
     } catch (const Error &) {

@@ -28,7 +28,7 @@ namespace {
 
     const std::string standard = "https://raw.githubusercontent.com/tdwg/camtrap-dp/1.0.2/";
 
-    /// Of observations.csv, in the order of its schema.
+    /// Columns of observations.csv in the order of the schema.
     const std::vector<std::string> observationColumns{"observationID",
                                                       "deploymentID",
                                                       "mediaID",
@@ -58,7 +58,7 @@ namespace {
                                                       "observationTags",
                                                       "observationComments"};
 
-    /// A table of the standard, as a file: columns that are not set stay empty.
+    /// A table of the standard as a file; columns that are not set stay empty.
     class Table
     {
     public:
@@ -91,7 +91,7 @@ namespace {
         AtomicFile m_file;
     };
 
-    /// A recording with its names in the package.
+    /// A recording and its names in the package.
     struct Medium {
         SurveyRecording recording;
         std::string path;
@@ -105,7 +105,7 @@ namespace {
         double end = -std::numeric_limits<double>::infinity();
     };
 
-    /// The standard has whole seconds.
+    /// The standard requires whole seconds.
     std::string wholeSeconds(double unixSeconds)
     {
         return formatUtc(std::floor(unixSeconds));
@@ -245,7 +245,8 @@ namespace {
                                          {"encoding", "utf-8"},
                                          {"schema", standard + name + "-table-schema.json"}});
         json["profile"] = standard + "camtrap-dp-profile.json";
-        json["created"] = formatUtc(double(status.st_mtim.tv_sec)); // of the survey: the export says nothing new
+        json["created"] = formatUtc(double(status.st_mtim.tv_sec)); // date of the survey, to which the export adds
+                                                                    // nothing
         json["title"] = "Survey of recordings by Faintline " + survey.origin().version;
         json["contributors"] = Json::array({{{"title", "Faintline " + survey.origin().version}}});
         json["project"] = {{"title", "Survey of recordings"},

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-    /// Each after a comma; what is not known is empty.
+    /// Each number after a comma; unknown ones are empty.
     std::string cells(std::initializer_list<double> numbers)
     {
         std::string text;

@@ -85,7 +85,7 @@ std::vector<std::string> findRecordings(const std::vector<std::string> &names, b
             throw Error(name, "there is no such file or folder");
         if (fs::is_directory(status))
             search.folder(wholePath(name));
-        else if (!fs::is_regular_file(status)) // a pipe would be waited for
+        else if (!fs::is_regular_file(status)) // opening a pipe would block
             throw Error(name, "is neither a file nor a folder");
         else
             found.insert(wholePath(!raw && SigmfRecording::isNamedSo(name) ? SigmfRecording::metaPath(name) : name));

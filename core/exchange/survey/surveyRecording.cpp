@@ -28,7 +28,7 @@ namespace {
         if (settings.open.rawType.empty() && SigmfRecording::isNamedSo(path))
             try {
                 return {SigmfRecording::metaPath(path), SigmfRecording::dataPath(path)};
-            } catch (const Error &) { // opening it will say why
+            } catch (const Error &) { // reported when it is opened
                 return {path};
             }
         if (hasEnding(path, ".npy") && std::filesystem::exists(gridPathOf(path)))

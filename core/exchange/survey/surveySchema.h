@@ -6,29 +6,29 @@
 
 namespace faintline {
 
-/// What the header of the file says: PRAGMA application_id and user_version.
+/// Header fields of the file: PRAGMA application_id and user_version.
 inline constexpr std::int64_t surveyApplicationId = 0x4674'6c6e; // "Ftln"
 inline constexpr std::int64_t surveyFormat = 1;
 
-/// The statements that make the tables of a survey, in order (docs/reference/survey.md).
+/// The statements that create the tables of a survey, in order (docs/reference/survey.md).
 const std::vector<std::string> &surveySchema();
 
 /// A table whose rows belong to recordings.
 struct SurveyTable {
     std::string name;
-    std::string columns; ///< after that of the recording
+    std::string columns; ///< following that of the recording
     std::string order;   ///< of its rows
 
     /// "INSERT INTO …", with a question mark for the recording and each of the columns.
     std::string insertion() const;
-    /// "SELECT columns …" of one recording, in order.
+    /// "SELECT columns …" for one recording, in order.
     std::string query() const;
 };
 const std::vector<SurveyTable> &surveyTables();
-/// The one of that name, which must be there.
+/// The table of that name, which must exist.
 const SurveyTable &surveyTable(const std::string &name);
 
-/// The columns of a recording after its number and path.
+/// The columns of a recording after its id and path.
 extern const std::string surveyRecordingColumns;
 
 /// "INSERT INTO NAME(COLUMNS) VALUES (?, ?, …)"

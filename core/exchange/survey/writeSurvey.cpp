@@ -14,7 +14,7 @@ namespace faintline {
 
 namespace {
 
-    /// Copies the rows of a query, each with the number of its recording before it.
+    /// Copies the rows of a query, each preceded by the number of its recording.
     void copyRows(SqliteStatement &from, SqliteStatement &to, std::int64_t recording)
     {
         while (from.next()) {
@@ -25,7 +25,7 @@ namespace {
         }
     }
 
-    /// The database that is being filled.
+    /// Fills the new database.
     class Filling
     {
     public:
@@ -48,7 +48,7 @@ namespace {
                 m_insertions.push_back(m_out.prepare(table.insertion()));
         }
 
-        /// The next recording: its rows in another database, and its path as this one has it.
+        /// Adds the next recording: its rows from another database, and its path relative to the new one.
         void add(Sqlite &from, std::int64_t there, const std::string &path)
         {
             ++m_id;
@@ -70,11 +70,11 @@ namespace {
     private:
         Sqlite m_out;
         std::optional<SqliteStatement> m_recording;
-        std::vector<SqliteStatement> m_insertions; ///< of the tables, in their order
+        std::vector<SqliteStatement> m_insertions; ///< one per table, in their order
         std::int64_t m_id = 0;
     };
 
-    /// A recording's place in one of several databases.
+    /// Position of a recording in one of several databases.
     struct Place {
         SurveyDatabase *part;
         std::int64_t id;
@@ -92,7 +92,7 @@ namespace {
         return places;
     }
 
-    /// Throws where there are shards of a survey but not all of them.
+    /// Throws Error if some but not all shards of a survey are present.
     void checkShards(const std::set<std::string> &shards, const std::string &out)
     {
         for (const std::string &shard : shards) {
@@ -106,7 +106,7 @@ namespace {
         }
     }
 
-    /// Reviews are a person's work, which a merge cannot make again.
+    /// Reviews are a person's work, which a merge cannot reproduce.
     void checkHasNoReviews(const std::string &path)
     {
         std::error_code code;

@@ -1,0 +1,104 @@
+#include "app/cli/printSummary.h"
+
+#include "analysis/advice.h"
+#include "analysis/chooseWindow.h"
+#include "analysis/events.h"
+#include "analysis/falseAlarmWords.h"
+#include "analysis/noiseLaw.h"
+#include "analysis/regulation.h"
+#include "analysis/subtractLines.h"
+#include "base/oneLine.h"
+#include "detect/SumDetector.h"
+#include "detect/makeDetector.h"
+#include "detect/statisticDecimals.h"
+
+#include <cstdio>
+
+namespace faintline::cli {
+
+namespace {
+
+    void printThreshold(const Analysis &analysis)
+    {
+        const DetectorSettings &detector = analysis.settings.detector;
+        const std::string unit(statisticUnit(detector));
+        std::printf("ln K %.4f (%.1f %% of noise states continued%s), threshold %.2f %s", analysis.calibration->lnK,
+                    100.0 * analysis.calibration->continuedFraction,
+                    isScoreOfPaths(detector) ? "" : ", of the detector that guides the tracks", analysis.threshold,
+                    unit.c_str());
+        const double perHour = analysis.calibration->eventRateAt(analysis.threshold) * analysis.cellFramesPerHour;
+        std::printf(": %.3g false alarms per hour on noise, %s\n", perHour,
+                    falseAlarmWords(perHour, analysis.calibration->rateUncertaintyAt(analysis.threshold)).c_str());
+    }
+
+    void printWarnings(const Analysis &analysis)
+    {
+        if (const std::vector<Index> dragged = draggedFrames(analysis); !dragged.empty())
+            std::printf("warning: ln K left its noise band %.3f … %.3f in %zu frame(s), the first at %.6g s; strong "
+                        "signals lower it\n",
+                        analysis.lnKBand.low(), analysis.lnKBand.high(), dragged.size(),
+                        analysis.time().value(double(dragged.front())));
+        if (const auto law = checkNoiseLaw(analysis); law && !law->isFollowed())
+            std::printf("warning: %s\n", law->warning().c_str());
+        for (const Advice &advice : advise(analysis))
+            std::printf("note: %s%s%s\n", advice.sentence.c_str(), advice.remedy.empty() ? "" : "; ",
+                        advice.remedy.c_str());
+    }
+
+    void printEvent(const Analysis &analysis, const Event &e)
+    {
+        const DetectorSettings &detector = analysis.settings.detector;
+        std::printf("%5d  %.6g … %.6g s, detected at %.6g s, at", e.id, e.onsetSeconds, e.endSeconds, e.detectSeconds);
+        for (std::size_t axis = 0; axis < e.position.size(); ++axis)
+            std::printf(" %.8g %s", e.position[axis], oneLine(analysis.grid().axes[axis].unit).c_str());
+        for (std::size_t axis = 0; axis < e.position.size(); ++axis)
+            std::printf(", %s%.3g %s/s", axis == 0 ? "drift " : "", e.ratesPerSecond[axis],
+                        oneLine(analysis.grid().axes[axis].unit).c_str());
+        std::printf(", %.*f %s%s%s%s", statisticDecimals(detector), e.statistic,
+                    std::string(statisticUnit(detector)).c_str(), e.isConfirmed ? "" : ", not confirmed",
+                    e.isOpen ? ", present at the end" : "",
+                    analysis.isBank() ? (e.model == 0 ? ", non-manoeuvring" : ", manoeuvring") : "");
+        if (analysis.longer && trackOfId(analysis.tracks, e.id)->windowSeconds > 0.0)
+            std::printf(", found with a window of %.4g s", e.windowSeconds);
+        if (e.isSubtracted)
+            std::printf(", subtracted");
+        std::printf("\n");
+    }
+
+    void printAreas(const Analysis &analysis)
+    {
+        const std::vector<AreaEvent> areas = areaEvents(analysis);
+        if (areas.empty())
+            return;
+        std::printf("%zu area(s) of raised level without a line\n", areas.size());
+        const std::string unit = oneLine(analysis.grid().axes.back().unit);
+        for (const AreaEvent &area : areas)
+            std::printf("       %.6g … %.6g s, %.8g … %.8g %s, %.1f dB or more above the noise\n", area.onsetSeconds,
+                        area.endSeconds, area.low, area.high, unit.c_str(), area.levelDb);
+    }
+
+} // namespace
+
+void printSummary(const Analysis &analysis)
+{
+    const Axis &time = analysis.time();
+    const std::vector<Event> found = events(analysis);
+    std::printf("%td frames of %td cells, %s s per frame\n", time.count, analysis.grid().size(),
+                formatNumber(time.step).c_str());
+    if (analysis.choice)
+        std::printf("%s\n", windowChoiceWords(*analysis.choice).c_str());
+    if (const std::string words = subtractionWords(analysis); !words.empty())
+        std::printf("%s\n", words.c_str());
+    printThreshold(analysis);
+    printWarnings(analysis);
+    std::printf("%zu event(s)\n", found.size());
+    for (const Event &event : found)
+        printEvent(analysis, event);
+    if (!analysis.explainedByNoise.empty())
+        std::printf("%zu path(s) above the threshold not reported: cells this strong, or runs of them, are common in "
+                    "this recording's noise\n",
+                    analysis.explainedByNoise.size());
+    printAreas(analysis);
+}
+
+} // namespace faintline::cli
