@@ -2,6 +2,7 @@
 
 #include "base/Error.h"
 #include "base/Field.h"
+#include "base/oneLine.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +37,7 @@ std::vector<CadenceEvent> findCadence(const std::vector<TopHits> &observations, 
         throw Error("a cadence", "needs at least two observations, alternately on and off target");
     for (const TopHits &each : observations)
         if (!each.startUnixSeconds)
-            throw Error(each.source, "does not give its start time (MJD), which a cadence requires");
+            throw Error(oneLine(each.source), "does not give its start time (MJD), which a cadence requires");
     const TopHits &first = observations.front();
     std::vector<CadenceEvent> events;
     for (const TopHit &hit : first.hits) {

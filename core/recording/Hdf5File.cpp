@@ -192,7 +192,8 @@ namespace {
             && H5Tget_member_index(type, "i") == 1) {
             Handle real(H5Tget_member_type(type, 0), H5Tclose);
             const Handle imaginary(H5Tget_member_type(type, 1), H5Tclose);
-            if (isNumber(real) && H5Tequal(real, imaginary) > 0)
+            const auto end = std::max(H5Tget_member_offset(type, 0), H5Tget_member_offset(type, 1)) + H5Tget_size(real);
+            if (isNumber(real) && H5Tequal(real, imaginary) > 0 && end <= H5Tget_size(type)) // else it is read beyond
                 return real.release();
         }
         throw Error(where, "does not hold numbers of at most 64 bits");
