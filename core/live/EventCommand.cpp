@@ -19,7 +19,7 @@ namespace {
 
     constexpr std::size_t mostRunning = 16;
 
-    /// Signals as a program expects them: this one's threads have some of them blocked.
+    /// Resets signal handling for the child: this program's threads block some signals.
     class FreshSignals
     {
     public:
@@ -62,7 +62,7 @@ namespace {
 
 EventCommand::~EventCommand()
 {
-    forgetEnded(); // what still runs is left to itself
+    forgetEnded(); // programs still running are not terminated
 }
 
 void EventCommand::forgetEnded()

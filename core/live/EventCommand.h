@@ -9,11 +9,11 @@
 
 namespace faintline {
 
-/// Runs a program for each of many events, without a shell and without waiting for it: its arguments are those given
-/// and, last, the event's line.
+/// Runs a program for each event, without a shell and without waiting for it to exit. The event's line is appended to
+/// the given arguments.
 ///
-/// At most 16 run at a time; calls beyond that are left out and counted. Their input is empty, their output goes where
-/// this program's errors go. Used by one thread at a time.
+/// At most 16 run at a time; further calls are skipped and counted. Standard input is empty; the output goes to this
+/// program's standard error. Not thread-safe.
 class EventCommand
 {
 public:
@@ -23,7 +23,7 @@ public:
     EventCommand(const EventCommand &) = delete;
     EventCommand &operator=(const EventCommand &) = delete;
 
-    /// Throws Error where there is no such program.
+    /// Throws Error if the program cannot be started.
     void run(const std::string &line);
 
     Index leftOutCount() const { return m_leftOutCount; }

@@ -73,7 +73,7 @@ void EventFollower::followTrackers(Index frame)
     }
     if (!still.empty())
         m_lastId = std::max(m_lastId, still.rbegin()->first);
-    for (const auto &[id, open] : m_open) { // neither there nor ended: another one follows the same
+    for (const auto &[id, open] : m_open) { // neither tracked nor ended: another track follows the same signal
         if (still.contains(id))
             continue;
         Event event;
@@ -96,7 +96,7 @@ void EventFollower::takeEnded()
     }
 }
 
-/// Whether one that it could continue has not come to the joined ones yet.
+/// Whether a track that this one could continue has not been joined yet.
 bool EventFollower::isBlocked(const Track &track) const
 {
     for (const auto &[id, open] : m_open)
@@ -127,7 +127,7 @@ void EventFollower::joinWhatCan()
     }
 }
 
-/// Whether a track in progress, one that has ended, or one that begins at `firstOnset` or later may continue it.
+/// Whether a track in progress, an ended one, or one starting at `firstOnset` or later may continue this track.
 bool EventFollower::mayGoOn(const Track &track, Index firstOnset) const
 {
     const auto reaches = [&](Index detectFrame, Index onsetFrame) {

@@ -10,40 +10,40 @@
 
 namespace faintline {
 
-/// What has become of an event.
+/// A change in the state of an event.
 struct EventChange {
     enum class State {
         Provisional, ///< the statistic has exceeded the threshold
-        Confirmed,   ///< its track is, by track.confirmNats and track.confirmFrames
-        Updated,     ///< it goes on, or has ended and may still be continued
-        Final        ///< nothing of it changes any more
+        Confirmed,   ///< track confirmed by track.confirmNats and track.confirmFrames
+        Updated,     ///< in progress, or ended but may still be continued
+        Final        ///< no longer changes
     };
 
     State state = State::Provisional;
-    Event event;               ///< as far as it is known; of a track in progress, position and statistic of now
-    std::optional<int> partOf; ///< final: it goes on as that event
-    bool isWithdrawn = false;  ///< final: another track turned out to follow the same signal
+    Event event;               ///< as known so far; for a track in progress, the current position and statistic
+    std::optional<int> partOf; ///< final: continues as the event with this number
+    bool isWithdrawn = false;  ///< final: another track follows the same signal
 };
 
-/// Follows a chain's tracks from frame to frame and tells what becomes of each, under the number it was detected with.
+/// Follows a chain's tracks from frame to frame and reports each change under the number assigned at detection.
 ///
-/// Every number is told of as provisional first and as final last. A track becomes final when it has ended and no track
-/// in progress or to come can continue it (joinTracks): what is final are the events of a run over a file with the same
-/// samples. Memory: the tracks in progress and those that may still be continued, and the final events.
+/// Each number is reported first as provisional and last as final. A track becomes final when it has ended and no
+/// current or future track can continue it (joinTracks). The final events equal those of a run over a file with the
+/// same samples. Memory holds the tracks in progress, those that may still be continued, and the final events.
 class EventFollower
 {
 public:
     using Sink = std::function<void(const EventChange &)>;
 
-    /// Tells of a track in progress every `updateFrames` frames. `plan` and `chain` outlive this.
+    /// Reports a track in progress every `updateFrames` frames. `plan` and `chain` must outlive this object.
     EventFollower(const AnalysisPlan &plan, DetectionChain &chain, Index updateFrames, Sink sink);
 
-    /// After the chain's update with this frame.
+    /// Call after the chain has been updated with this frame.
     void take(Index frame);
-    /// After the chain's end.
+    /// Call after the chain has finished.
     void finish();
 
-    /// All that are final, by onset, then frequency: what `events` gives of a run over the same samples.
+    /// All final events, by onset, then frequency; the same as `events` returns for a run over the same samples.
     std::vector<Event> finalEvents() const;
 
 private:
@@ -71,8 +71,8 @@ private:
     Index m_updateFrames;
     Sink m_sink;
     std::map<int, Open> m_open;   ///< tracks in progress, by number
-    std::map<int, Track> m_ended; ///< that may continue one that has not ended yet
-    std::vector<Track> m_joined;  ///< that may be continued
+    std::map<int, Track> m_ended; ///< may continue one that has not ended yet
+    std::vector<Track> m_joined;  ///< may still be continued
     std::vector<Event> m_final;
     int m_lastId = 0;
 };

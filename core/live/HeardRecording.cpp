@@ -44,7 +44,7 @@ void WrittenSamples::read(int channel, Index first, std::span<float> out) const
         readStored(channel, piece);
 }
 
-/// The file that a sample is in, and of so many samples those that are in it, too.
+/// The file that holds a sample; reduces `count` to the samples that lie in the same file.
 std::pair<std::shared_ptr<const FileBytes>, WrittenSamples::File> WrittenSamples::fileOf(Index stored,
                                                                                          Index &count) const
 {

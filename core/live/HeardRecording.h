@@ -13,7 +13,7 @@
 
 namespace faintline {
 
-/// Where a recorder has put the samples that it has written so far: in which files, and where in time. Thread-safe.
+/// Maps the samples that a recorder has written so far to files and to positions in time. Thread-safe.
 class WrittenSamples
 {
 public:
@@ -22,24 +22,24 @@ public:
     {
     }
 
-    // Of the recorder:
+    // Called by the recorder:
     void beginFile(std::string dataPath);
-    /// So many samples, from one place in time on, are in the file.
+    /// Adds `count` samples, written to the current file, that start at position `inTime`.
     void add(Index inTime, Index count);
 
     const StreamFormat &format() const { return m_format; }
     double startUnixSeconds() const { return m_startUnixSeconds; }
-    /// Behind the last sample, in time.
+    /// Position in time after the last sample.
     Index end() const;
-    /// One channel's samples as floats: 0 in gaps and where nothing is yet. Throws Error where a file fails.
+    /// One channel's samples as floats; 0 in gaps and where not yet written. Throws Error if reading fails.
     void read(int channel, Index first, std::span<float> out) const;
-    /// Whether none of these samples, of those that are there, lies in a gap.
+    /// Whether no sample in this range, as far as it is written, lies in a gap.
     bool isWhole(Index first, Index count) const;
 
 private:
     struct File {
         std::string path;
-        Index firstStored; ///< of all files' samples
+        Index firstStored; ///< counted over all files
     };
     struct Piece {
         Index stored;
@@ -55,16 +55,16 @@ private:
     Stretches m_stretches;
     Index m_stored = 0;
     std::vector<File> m_files;
-    mutable std::shared_ptr<const FileBytes> m_open; ///< the one that was read last
+    mutable std::shared_ptr<const FileBytes> m_open; ///< file read last
 };
 
-/// A recording that is being written, read from its files: the window looks back at it, and plays it, meanwhile.
+/// A recording that is still being written, read from its files so that the window can display and play it.
 ///
-/// The same samples and gaps as the file has in the end, as far as they are written. Thread-safe.
+/// Has the same samples and gaps as the finished file, as far as written. Thread-safe.
 class HeardRecording final : public Recording
 {
 public:
-    /// So many samples of it, or, without a number, `endlessSamples`, of which those to come read as 0.
+    /// Spans `samples` samples. By default it spans `endlessSamples`; samples not yet written read as 0.
     explicit HeardRecording(std::shared_ptr<const WrittenSamples> written, std::optional<Index> samples = {});
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;

@@ -9,7 +9,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr std::chrono::milliseconds patience{50}; ///< how long a request to stop may have to wait
+    constexpr std::chrono::milliseconds patience{50}; ///< maximum delay of a stop request
     constexpr std::chrono::seconds diskInterval{5};
     constexpr double diskWarningSeconds = 600.0;
 
@@ -79,12 +79,12 @@ void Hearing::take(Heard heard)
 {
     using Kind = ListenNotice::Kind;
     if (m_position > 0)
-        m_missing += heard.lostSamples; // before the first sample there is no time yet
+        m_missing += heard.lostSamples; // time starts with the first sample
     if (heard.incident == Heard::Incident::Gone)
         tell(Kind::Gone, 0, heard.words);
     if (heard.incident == Heard::Incident::Back) {
         tell(Kind::Back, m_missing, heard.words);
-        m_clock.restart(); // by which the gap was measured
+        m_clock.restart(); // the gap was measured with it
     }
     if (heard.incident == Heard::Incident::Lost)
         tell(Kind::Lost, heard.lostSamples, heard.words);
@@ -100,7 +100,7 @@ void Hearing::take(Heard heard)
         return;
     }
     if (m_overflown > 0)
-        tell(Kind::Overflow, m_overflown, "The analysis fell behind; what came meanwhile was left out.");
+        tell(Kind::Overflow, m_overflown, "The analysis fell behind; samples were lost.");
     if (m_missing > 0) {
         m_buffer.pushGap(m_missing);
         if (m_recorder)
@@ -143,15 +143,15 @@ void Hearing::record(std::span<const std::byte> bytes)
     watchDisk();
     try {
         m_recorder->write(bytes);
-    } catch (const Error &error) { // listening goes on
+    } catch (const Error &error) { // listening continues
         noteFiles();
         m_recorder.reset();
         m_isRecordedWhole = false;
-        tell(ListenNotice::Kind::RecordingFailed, 0, std::string("The recording ends here: ") + error.what());
+        tell(ListenNotice::Kind::RecordingFailed, 0, std::string("Recording stopped: ") + error.what());
     }
 }
 
-/// With samples that have just come. A source that waits has no clock of its own.
+/// Called when samples have arrived. A source that can wait has no clock of its own.
 void Hearing::watchClock(Index samples)
 {
     if (m_source.isPatient())

@@ -16,29 +16,29 @@
 
 namespace faintline {
 
-/// The thread that hears a source: to disk first, then to the buffer, every sample at its place in time.
+/// The thread that reads a source, writes each sample to disk and then to the buffer, at its position in time.
 class Hearing
 {
 public:
     using Tell = std::function<void(ListenNotice)>;
 
-    /// Begins. `source`, `buffer` outlive this; `tell` is called from the thread.
+    /// Starts the thread. `source`, `buffer` and `settings` must outlive this object; the thread calls `tell`.
     Hearing(SampleSource &source, StreamBuffer &buffer, const ListenSettings &settings, std::stop_token stop,
             Tell tell);
     ~Hearing() { finish(); }
 
-    /// Stops it and waits for its end. What is known is final after that.
+    /// Stops the thread and waits for it to end. Results are final after that.
     void finish();
 
-    /// The first sample's time, once there is one.
+    /// Time of the first sample; empty before it arrives.
     std::optional<double> startUnixSeconds() const;
     Index lostCount() const { return m_lostCount; }
     bool isRecordedWhole() const { return m_isRecordedWhole; }
     const std::vector<std::string> &files() const { return m_files; }
     const std::string &whole() const { return m_whole; }
-    /// What is being recorded, once there is a sample of it; null where nothing is.
+    /// The recording in progress; null before its first sample or if nothing is recorded.
     std::shared_ptr<const WrittenSamples> written() const;
-    /// What the source failed with; null where it did not.
+    /// The exception that the source threw, or null.
     std::exception_ptr failure() const { return m_failure; }
 
 private:
@@ -61,10 +61,10 @@ private:
     std::unique_ptr<SigmfRecorder> m_recorder;
     std::optional<double> m_start;
     std::shared_ptr<const WrittenSamples> m_written;
-    mutable std::mutex m_startMutex; ///< of these two
-    Index m_position = 0;            ///< in time, of the next sample
-    Index m_missing = 0;             ///< samples lost since the last ones that were heard
-    Index m_overflown = 0;           ///< of them, for want of room
+    mutable std::mutex m_startMutex; ///< guards m_start and m_written
+    Index m_position = 0;            ///< position in time of the next sample
+    Index m_missing = 0;             ///< samples lost since the last ones received
+    Index m_overflown = 0;           ///< of these, lost because the buffer was full
     std::atomic<Index> m_lostCount = 0;
     SourceClock m_clock;
     bool m_isRecordedWhole = true;

@@ -6,11 +6,11 @@
 
 namespace faintline {
 
-/// A source whose channels are taken in pairs, as I and Q. One that is complex already stays as it is.
+/// Combines pairs of a source's channels into I/Q. Leaves a complex source unchanged.
 class IqSource final : public SampleSource
 {
 public:
-    /// Throws Error of an odd number of channels.
+    /// Throws Error if the number of channels is odd.
     explicit IqSource(std::unique_ptr<SampleSource> source);
 
     const StreamFormat &format() const override { return m_format; }

@@ -8,24 +8,24 @@
 
 namespace faintline {
 
-/// How a source is listened to.
+/// Settings of a live run.
 struct ListenSettings {
-    /// Its background is causal, whatever is set; a window of 0 is one for an hour's recording.
+    /// The background is always causal; a window of 0 s is replaced by that for a recording of one hour.
     AnalysisSettings analysis;
-    std::string recordPath; ///< .sigmf-meta of the recording to be made; empty: none
+    std::string recordPath; ///< .sigmf-meta of the recording to write; empty: none
     RotationSettings rotation;
     double updateSeconds = 10.0; ///< between two reports of an event in progress
-    /// Of samples that wait to be analysed; at most 4 MiB of a source that waits.
+    /// Capacity for samples waiting to be analysed; at most 4 MiB for a source that can wait.
     std::size_t bufferBytes = std::size_t(64) << 20;
 };
 
-/// Something that happened to the samples, not in them.
+/// An incident in the stream or in its recording, as opposed to a detected event.
 struct ListenNotice {
     enum class Kind { Started, Lost, Overflow, Gone, Back, Drift, DiskSpace, RecordingFailed, Refused, Stopped };
 
     Kind kind = Kind::Started;
-    Index sample = 0;      ///< where in time, from the first sample on, gaps included
-    Index sampleCount = 0; ///< how many it is about: those that were lost, by which clocks differ
+    Index sample = 0;      ///< position since the first sample, gaps included
+    Index sampleCount = 0; ///< samples lost, or by which the clocks differ
     std::string words;     ///< one sentence
 };
 

@@ -13,7 +13,7 @@ namespace {
 
     constexpr std::size_t mostTracks = 256;
     constexpr std::size_t mostPoints = 512;
-    constexpr Index shortestInterval = 64; ///< of checkpoints, in frames
+    constexpr Index shortestInterval = 64; ///< between checkpoints, in frames
 
     Axis from(Axis time, Index frame)
     {
@@ -30,7 +30,7 @@ namespace {
         return names;
     }
 
-    /// Half of the points, the first and the last among them.
+    /// Half of the points, including the first and the last.
     void thinOut(std::vector<TrackPoint> &points)
     {
         std::size_t kept = 0;
@@ -40,7 +40,7 @@ namespace {
         points.resize(kept);
     }
 
-    /// A track is followed beyond its end, which is known only then.
+    /// Tracks are followed past their end, which becomes known only later.
     std::shared_ptr<Track> endingAt(Track track, Index frame)
     {
         while (track.points.size() > 1 && track.points.back().frame > frame)
@@ -59,8 +59,7 @@ LiveHistory::Picture::Picture(const Axis &axis, Index cells, ByteScale::Kind kin
 
 Index LiveHistory::singleFrames(Index cells)
 {
-    constexpr Index bytesACell =
-        4; // 1.33, of three times as many frames: twice in the older picture, once in the other
+    constexpr Index bytesACell = 4; // 1.33 × 3: twice as many frames in `older`, once in `younger`
     return std::max<Index>(1, Index(memoryShares::picture) / (bytesACell * cells));
 }
 
@@ -88,7 +87,7 @@ void LiveHistory::take(const AnalysisPlan &plan)
         return;
     m_input = std::make_unique<Picture>(plan.time(), plan.grid().size(), ByteScale::Kind::PowerDb);
     m_statistic = std::make_unique<Picture>(plan.time(), plan.grid().size(), ByteScale::Kind::ScoreNats);
-    m_tracks.clear(); // whose points are on other frames
+    m_tracks.clear(); // their points refer to other frames
 }
 
 void LiveHistory::beginStates(const AnalysisPlan &plan, Index from)
@@ -108,12 +107,12 @@ void LiveHistory::keepState(const ListenFrame &frame)
     const auto state = frame.chain.state();
     if (!state)
         return;
-    if (m_checkpoints.use_count() > 1) // a view has them
+    if (m_checkpoints.use_count() > 1) // shared with a view
         m_checkpoints = std::make_shared<Checkpoints<ChainState>>(*m_checkpoints);
     m_checkpoints->keep(next, state, state->bytes());
 }
 
-/// A plan that came later has no beginning at frame 0, but states at even distances.
+/// A later plan does not start at frame 0; its states are evenly spaced.
 Index LiveHistory::goesBackTo() const
 {
     if (m_heldFrom == 0)
@@ -125,7 +124,7 @@ Index LiveHistory::goesBackTo() const
 void LiveHistory::markChange(const AnalysisPlan &plan, double seconds)
 {
     AnalysisSettings after = plan.settings;
-    after.selection.fromSeconds = m_plan->settings.selection.fromSeconds; // where it began anew, nobody set
+    after.selection.fromSeconds = m_plan->settings.selection.fromSeconds; // the restart time is not a user's setting
     if (std::vector<std::string> fields = changedFields(m_plan->settings, after); !fields.empty())
         m_changes.push_back({seconds, std::move(fields), plan.threshold});
 }
@@ -148,7 +147,7 @@ void LiveHistory::follow(const HmmTracker &tracker, const ListenFrame &frame)
     std::shared_ptr<Track> &track = m_tracks[tracker.track().id + frame.idsBefore];
     if (!track)
         track = std::make_shared<Track>(tracker.track());
-    else if (track.use_count() > 1) // a view has it, for which it stays as it is
+    else if (track.use_count() > 1) // shared with a view, which must not change
         track = std::make_shared<Track>(*track);
     track->id = tracker.track().id + frame.idsBefore;
     track->points.push_back({frame.number, tracker.cell(), 0, 0.0});
@@ -213,7 +212,7 @@ std::shared_ptr<const Analysis> analysisSoFar(const LiveView &view)
     auto analysis = std::make_shared<Analysis>();
     static_cast<AnalysisPlan &>(*analysis) = *view.plan;
     const Spectrogram &live = *view.plan->frames->spectrogram();
-    // Frames that are there, and no others.
+    // Only frames that exist.
     const Index samples = live.firstSample() + (view.time.count - 1) * live.hopSamples() + live.windowSamples();
     analysis->recording = std::make_shared<HeardRecording>(view.written, samples);
     for (NormalisedFramesPointer &line : analysis->lines)

@@ -11,44 +11,44 @@
 
 namespace faintline {
 
-/// Settings of a live run that hold from a time on.
+/// A change of a live run's settings.
 struct SettingsChange {
     double seconds = 0.0;
-    std::vector<std::string> fields; ///< that changed, "stage.name"
-    double threshold = 0.0;          ///< nat, from then on
+    std::vector<std::string> fields; ///< changed fields, "stage.name"
+    double threshold = 0.0;          ///< new threshold, nat
 };
 
-/// What there is to be seen of a live run so far: a value, which shares with the run all but the newest rows.
+/// The state of a live run so far, for display. A value that shares all but the newest rows with the run.
 struct LiveView {
-    std::shared_ptr<const AnalysisPlan> plan;                  ///< in force
-    Axis time;                                                 ///< of its frames so far
-    std::shared_ptr<const PeakPyramid> input, statistic;       ///< all of these, merged to rows where they are many
-    std::shared_ptr<const PeakPyramid> newInput, newStatistic; ///< the newest of these, single
-    std::shared_ptr<const std::vector<Event>> events;          ///< by onset, then frequency; those in progress are open
-    std::vector<std::shared_ptr<const Track>> tracks;          ///< of the newest events, their points thinned out
+    std::shared_ptr<const AnalysisPlan> plan;                  ///< currently in use
+    Axis time;                                                 ///< of the frames so far
+    std::shared_ptr<const PeakPyramid> input, statistic;       ///< all frames; long runs are merged into rows
+    std::shared_ptr<const PeakPyramid> newInput, newStatistic; ///< newest frames, unmerged
+    std::shared_ptr<const std::vector<Event>> events;          ///< by onset, then frequency; in progress: open
+    std::vector<std::shared_ptr<const Track>> tracks;          ///< of the newest events, decimated
     std::vector<SettingsChange> changes;
-    std::shared_ptr<const WrittenSamples> written; ///< what is being recorded; null: nothing
-    Index goesBackTo = 0;                          ///< the first frame that can be gone through again under the plan
+    std::shared_ptr<const WrittenSamples> written; ///< recording in progress; null: none
+    Index goesBackTo = 0;                          ///< first frame from which the chain can be rerun with the plan
     std::shared_ptr<const Checkpoints<ChainState>> checkpoints; ///< of the chain
-    std::chrono::steady_clock::time_point heardAt;              ///< when the last sample of the newest frame came
+    std::chrono::steady_clock::time_point heardAt;              ///< arrival of the newest frame's last sample
     Index lostCount = 0;                                        ///< samples
 
     bool isEmpty() const { return !plan; }
 };
 
-/// A live run so far as an analysis, from its recording: what it has of pictures, and what it takes to read frames and
-/// to go through the chain again, from where the plan holds. Tracks, counts and what there is for each frame it has
-/// not. Null where nothing is recorded. Reads nothing; its frames are read, as any, on a worker.
+/// The live run so far as an analysis of its recording. It has the pictures and can read frames and rerun the chain
+/// from where the plan took effect, but has no tracks, counts or per-frame data. Null if nothing is recorded. Reads
+/// nothing itself; call frame reads on a worker, as usual.
 std::shared_ptr<const Analysis> analysisSoFar(const LiveView &view);
 
-/// Collects what a live run tells, for `view`. Used by one thread.
+/// Collects the output of a live run for `view`. Not thread-safe.
 ///
-/// Memory: 64 MiB a picture and as much of its end, however long the run; 256 tracks of up to 512 points; all events;
-/// states to go back to, 64 MiB of the noise and 32 MiB of the chain.
+/// Memory: 64 MiB per picture and the same for its newest frames, however long the run; 256 tracks of up to 512 points;
+/// all events; checkpoints, 64 MiB for the noise and 32 MiB for the chain.
 class LiveHistory
 {
 public:
-    // What ListenSinks tell of:
+    // Called from the ListenSinks:
     void take(std::shared_ptr<const WrittenSamples> written) { m_written = std::move(written); }
     void take(const AnalysisPlan &plan);
     void take(const ListenFrame &frame);
@@ -56,18 +56,18 @@ public:
 
     LiveView view() const;
 
-    /// Frames of the end that are kept single at least, once there are so many.
+    /// Minimum number of newest frames kept unmerged, once that many exist.
     static Index singleFrames(Index cells);
 
 private:
-    /// A picture of everything, and two of the newest frames: when the younger is full, the older one has as many
-    /// again, and goes.
+    /// A picture of all frames, and two of the newest. When `younger` is full it replaces `older`, which by then holds
+    /// twice as many frames.
     struct Picture {
         Picture(const Axis &time, Index cells, ByteScale::Kind kind);
         void append(std::span<const float> frame);
 
         Axis time;
-        Index fullFrames; ///< of the younger
+        Index fullFrames; ///< capacity of `younger`
         PeakPyramid all;
         PeakPyramid older;
         PeakPyramid younger;
@@ -84,11 +84,11 @@ private:
     std::unique_ptr<Picture> m_input;
     std::unique_ptr<Picture> m_statistic;
     std::map<int, Event> m_events;
-    mutable std::shared_ptr<const std::vector<Event>> m_told; ///< of these; null: they have changed
+    mutable std::shared_ptr<const std::vector<Event>> m_told; ///< snapshot of m_events; null: out of date
     std::map<int, std::shared_ptr<Track>> m_tracks;
     std::vector<SettingsChange> m_changes;
     std::shared_ptr<const WrittenSamples> m_written;
-    Index m_heldFrom = 0; ///< frame from which on the plan is in force
+    Index m_heldFrom = 0; ///< first frame that uses the plan
     std::shared_ptr<Checkpoints<ChainState>> m_checkpoints;
     std::chrono::steady_clock::time_point m_heardAt{};
     Index m_lostCount = 0;

@@ -15,7 +15,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr std::size_t readBytes = std::size_t(1) << 16; ///< as many as a pipe holds
+    constexpr std::size_t readBytes = std::size_t(1) << 16; ///< capacity of a pipe
     constexpr std::ptrdiff_t nothingYet = -1;
 
 } // namespace
@@ -23,7 +23,7 @@ namespace {
 PipeSource::PipeSource(const std::string &path, const std::optional<StreamFormat> &raw, const std::stop_token &stop)
     : m_path(path == "-" ? "standard input" : path), m_isOwned(path != "-")
 {
-    // A FIFO is opened before anybody writes to it.
+    // Open a FIFO before it has a writer.
     m_descriptor = m_isOwned ? ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC) : STDIN_FILENO;
     if (m_descriptor < 0)
         throw Error(m_path, std::string("cannot be opened: ") + std::strerror(errno));
@@ -62,7 +62,7 @@ PipeSource::~PipeSource()
         ::close(m_descriptor);
 }
 
-/// As many bytes as there are; 0: no more will come.
+/// Reads the bytes available; 0: end of the stream.
 std::ptrdiff_t PipeSource::readSome(std::span<std::byte> bytes, std::chrono::milliseconds patience)
 {
     pollfd wanted{m_descriptor, POLLIN, 0};

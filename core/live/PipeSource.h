@@ -9,15 +9,15 @@
 
 namespace faintline {
 
-/// Standard input ("-"), a FIFO or any file, from its beginning to its end, which comes when its last writer closes it.
+/// Reads standard input ("-"), a FIFO or a file to its end, which for a FIFO is when its last writer closes it.
 ///
-/// With a WAV header of any length, or bare samples of a format that is known. A last sample that is cut in the middle
-/// is left out.
+/// The stream has a WAV header, with any length field, or is raw samples of a known format. An incomplete last sample
+/// is dropped.
 class PipeSource final : public SampleSource
 {
 public:
-    /// `raw`: the format of bare samples; none: a WAV header comes first, and is waited for until it is there or `stop`
-    /// is asked for (Cancelled). Throws Error.
+    /// `raw`: format of raw samples. If empty, waits for a WAV header until it is complete or `stop` is requested
+    /// (Cancelled). Throws Error.
     PipeSource(const std::string &path, const std::optional<StreamFormat> &raw, const std::stop_token &stop = {});
     ~PipeSource() override;
     PipeSource(const PipeSource &) = delete;
@@ -35,7 +35,7 @@ private:
     bool m_isOwned = false;
     bool m_isPacked24 = false;
     StreamFormat m_format;
-    std::vector<std::byte> m_rest; ///< of a sample that is not whole yet
+    std::vector<std::byte> m_rest; ///< of an incomplete sample
 };
 
 } // namespace faintline

@@ -12,16 +12,16 @@ namespace faintline {
 
 namespace {
 
-    constexpr double crossings = 16.0; ///< of the kernel, to either side
-    constexpr Index kernelSteps = 512; ///< between two of them
+    constexpr double crossings = 16.0; ///< zero crossings of the kernel on each side
+    constexpr Index kernelSteps = 512; ///< points per crossing
     constexpr double transition = 0.95;
     constexpr double meanLevel = 0.1;
     constexpr double besideHz = 300.0;
-    constexpr double levelSeconds = 10.0; ///< of what was before, of a recording that is being made
+    constexpr double levelSeconds = 10.0; ///< preceding time that sets the level of a recording in progress
     constexpr double farBehindSeconds = 2.0;
     constexpr double behindSeconds = 0.5;
 
-    /// sinc under a Hann window, from its middle on.
+    /// Right half of a Hann-windowed sinc.
     std::vector<float> halfKernel()
     {
         std::vector<float> kernel(std::size_t(crossings * double(kernelSteps)) + 2, 0.0f);
@@ -60,7 +60,7 @@ Index PlayedSound::behindBy(Index sample) const
     return behind < farBehindSeconds ? 0 : Index((behind - behindSeconds) / m_settings.speed * m_deviceRate);
 }
 
-/// From stretches all over what is played, or was heard before.
+/// From samples spread over the interval played or, live, over the preceding seconds.
 double PlayedSound::measuredGain() const
 {
     constexpr Index stretches = 16;
@@ -113,7 +113,7 @@ void PlayedSound::render(Index first, std::span<float> out) const
     }
 }
 
-/// Samples of one pass from `first` on; `number`: of the first one in all passes, for the tone's phase.
+/// Samples of one pass from `first` on; `number`: index of the first one over all passes, for the tone's phase.
 void PlayedSound::renderPass(Index first, Index number, std::span<float> out) const
 {
     const RecordingInfo &info = m_recording->info();

@@ -9,20 +9,20 @@
 
 namespace faintline {
 
-/// How a stretch of a recording is played.
+/// How an interval of a recording is played.
 struct PlaySettings {
     double fromSeconds = 0.0;
     double toSeconds = 0.0;
-    double speed = 1.0; ///< of time, and so of all frequencies but toneHz
+    double speed = 1.0; ///< scales time, and so all frequencies except toneHz
     bool loops = false;
-    double toneHz = 0.0; ///< where 0 Hz of I/Q samples is heard, at any speed
-    /// Of a recording that is being made: up to where it can be played by now, s; any thread asks. Empty: all of it.
+    double toneHz = 0.0; ///< audio frequency of 0 Hz in I/Q, at any speed
+    /// For a recording in progress: the time up to which it can be played, s; called from any thread. Empty: all of it.
     std::function<double()> endSeconds{};
 };
 
-/// The samples a sound device gets for a stretch of a recording: resampled (32 crossings of a windowed sinc, band-limited to
-/// what both rates hold), the real part of I/Q, at -20 dB of full scale in the mean and cut off at full scale.
-/// Thread-safe; samples are a pure function of their number.
+/// The samples sent to a sound device: the interval resampled (32 crossings of a windowed sinc, band-limited to the
+/// lower Nyquist frequency), the real part of I/Q, at a mean level of -20 dB re full scale, clipped. Thread-safe;
+/// samples are a pure function of their index.
 class PlayedSound
 {
 public:
@@ -33,13 +33,13 @@ public:
     bool loops() const { return m_settings.loops; }
     /// Samples of one pass.
     Index length() const { return m_length; }
-    /// Samples from number `first` ≥ 0 on; 0 after the end of the only pass.
+    /// Fills `out` with samples from index `first` ≥ 0 on; 0 after the end unless looping.
     void render(Index first, std::span<float> out) const;
-    /// Whether the recording has grown far enough for the samples before this one.
+    /// Whether the recording is long enough to compute this sample.
     bool isThere(Index sample) const;
-    /// How many samples have to be left out from this one on, where the recording has run away from what is played.
+    /// Number of samples to skip from this one on because playback lags too far behind the recording.
     Index behindBy(Index sample) const;
-    /// The recording's time that a sample comes from; of one after the end the end.
+    /// Time in the recording of a sample, at most the end.
     double secondsAt(Index sample) const;
 
 private:
@@ -52,14 +52,14 @@ private:
     int m_channel;
     PlaySettings m_settings;
     double m_deviceRate;
-    double m_step;   ///< recording's samples a device's sample
-    double m_cutoff; ///< of the recording's half rate
+    double m_step;   ///< recording samples per device sample
+    double m_cutoff; ///< as a fraction of the recording's Nyquist frequency
     Index m_length;
     std::vector<float> m_kernel;
     double m_gain;
 };
 
-/// A line with 300 Hz to either side, as I/Q in which it stays at 0 Hz: to be played with toneHz.
+/// The band of ±300 Hz around a line, as I/Q with the line at 0 Hz, for playback with toneHz.
 RecordingPointer lineToPlay(const RecordingPointer &recording, int channel, const FrequencyCurve &line);
 
 } // namespace faintline

@@ -10,7 +10,7 @@ namespace faintline {
 namespace {
 
     constexpr double aheadSeconds = 0.3;
-    constexpr Index renderedSamples = 2048; ///< at once
+    constexpr Index renderedSamples = 2048; ///< rendered at a time
     constexpr std::chrono::milliseconds askingInterval{5};
 
     StreamFormat formatFor(const SoundDevice &device)
@@ -60,7 +60,7 @@ Index Player::leaveOut(Index samples)
     return samples;
 }
 
-/// In the device's thread: what is ready, on every channel, and silence where that is not enough.
+/// Called in the device's thread: copies the rendered samples to every channel and pads with silence.
 void Player::give(std::span<std::byte> block)
 {
     const auto channels = std::size_t(m_format.channelCount);

@@ -13,21 +13,21 @@
 
 namespace faintline {
 
-/// Plays a stretch of a recording on a sound device, from its making to its end. Of a recording that is being made, it
-/// waits in silence for what is not there yet, and is that much later from then on; where it is two seconds behind,
-/// because the device's clock is slower than the source's, it leaves some out.
+/// Plays an interval of a recording on a sound device, from construction to destruction. If the recording is still in
+/// progress, plays silence until the next samples exist, which delays the rest by as much. If playback lags by two
+/// seconds because the device's clock is slower than the source's, skips samples.
 class Player
 {
 public:
-    /// `device`: as findSoundDevice takes it. Throws Error{where, …} where there is none.
+    /// `device`: as in findSoundDevice. Throws Error{where, …} if no device matches.
     Player(RecordingPointer recording, int channel, const PlaySettings &settings, const std::string &device,
            const std::string &where);
 
-    /// The recording's time that is heard now.
+    /// Time in the recording that is being heard.
     double positionSeconds() const;
-    /// Whether all of it has been heard.
+    /// Whether playback has finished.
     bool isOver() const;
-    /// Why nothing is heard any more: the device is gone, or the recording cannot be read.
+    /// Why playback stopped: the device is gone, or the recording cannot be read.
     std::optional<std::string> failure() const;
 
 private:
@@ -41,12 +41,12 @@ private:
     PlayedSound m_sound;
     mutable std::mutex m_mutex;
     std::condition_variable_any m_changed;
-    std::deque<float> m_ready; ///< that the device has not taken yet
-    Index m_givenCount = 0;    ///< samples that it has
-    Index m_leftOut = 0;       ///< samples, because the recording had run away
+    std::deque<float> m_ready; ///< rendered, not yet taken by the device
+    Index m_givenCount = 0;    ///< samples taken by the device
+    Index m_leftOut = 0;       ///< samples skipped to catch up with the recording
     std::string m_failure;
     std::jthread m_rendering;
-    SoundStream m_stream; ///< last: its thread uses what is above
+    SoundStream m_stream; ///< last: its thread uses the members above
 };
 
 } // namespace faintline

@@ -22,9 +22,9 @@ namespace {
     constexpr std::size_t readBytes = std::size_t(1) << 17;
     constexpr std::chrono::seconds askingInterval{1};
     constexpr std::chrono::milliseconds firstPatience{3000};
-    constexpr std::chrono::milliseconds laterPatience{150}; ///< twice: a request to stop waits as long
+    constexpr std::chrono::milliseconds laterPatience{150}; ///< used twice; delays a stop request by as much
 
-    /// Fills all of it, or answers false.
+    /// Fills the whole span, or returns false.
     bool readWhole(int socket, std::span<std::byte> bytes, std::chrono::milliseconds patience)
     {
         while (!bytes.empty()) {
@@ -66,13 +66,13 @@ bool RtlTcpSource::connect(std::chrono::milliseconds patience, std::string &reas
     if (m_socket < 0)
         return false;
     constexpr std::string_view magic = "RTL0";
-    std::array<std::byte, 12> greeting{}; // then the tuner's type and its number of gains
+    std::array<std::byte, 12> greeting{}; // "RTL0", tuner type, number of gains
     const bool isRtl = readWhole(m_socket, greeting, patience)
                        && std::equal(magic.begin(), magic.end(), greeting.begin(),
                                      [](char c, std::byte b) { return static_cast<char>(b) == c; });
     if (isRtl && sendAll())
         return true;
-    reason = isRtl ? "it takes no commands" : "it does not greet as rtl_tcp does";
+    reason = isRtl ? "it takes no commands" : "it does not identify itself as rtl_tcp";
     ::close(std::exchange(m_socket, -1));
     return false;
 }
@@ -98,7 +98,7 @@ Heard RtlTcpSource::lose(const std::string &why)
     ::close(std::exchange(m_socket, -1));
     m_rest.clear();
     Heard heard;
-    if (!std::exchange(m_isBack, false)) { // else it is told of already
+    if (!std::exchange(m_isBack, false)) { // otherwise already reported
         heard.incident = Heard::Incident::Gone;
         heard.words = "The receiver is gone: " + why + ".";
     }

@@ -10,7 +10,7 @@
 
 namespace faintline {
 
-/// What a receiver behind rtl_tcp is set to.
+/// Settings of an rtl_tcp receiver.
 struct ReceiverSettings {
     double frequencyHz = 0.0;
     double sampleRateHz = 0.0;
@@ -18,15 +18,15 @@ struct ReceiverSettings {
     int correctionPpm = 0;
 };
 
-/// I/Q of eight bits from an rtl_tcp server, whose receiver is set as asked for.
+/// 8-bit I/Q from an rtl_tcp server, whose receiver is configured as requested.
 ///
 /// Commands are five bytes, a number and a big-endian value: 1 frequency, 2 sample rate, 3 gain mode, 4 gain in tenths
-/// of a decibel, 5 correction in ppm. A server that goes away is asked for again every second; the gap is as long as
-/// the clock says, for rtl_tcp counts nothing. Source: rtl_tcp.c of librtlsdr.
+/// of a decibel, 5 correction in ppm. If the server disconnects, the source tries to reconnect every second. rtl_tcp
+/// does not count samples, so the length of the gap is measured by the clock. Source: rtl_tcp.c of librtlsdr.
 class RtlTcpSource final : public SampleSource
 {
 public:
-    /// `address`: "HOST" or "HOST:PORT", 1234 unless it is given. Throws Error where no such server answers.
+    /// `address`: "HOST" or "HOST:PORT", default port 1234. Throws Error if no rtl_tcp server answers.
     RtlTcpSource(const std::string &address, const ReceiverSettings &settings);
     ~RtlTcpSource() override;
     RtlTcpSource(const RtlTcpSource &) = delete;
@@ -47,10 +47,10 @@ private:
     ReceiverSettings m_settings;
     StreamFormat m_format;
     int m_socket = -1;
-    std::vector<std::byte> m_rest; ///< of a sample
+    std::vector<std::byte> m_rest; ///< of an incomplete sample
     std::optional<Clock::time_point> m_last;
     Clock::time_point m_asked{};
-    bool m_isBack = false; ///< connected again, and nothing came yet
+    bool m_isBack = false; ///< reconnected, but no samples yet
 };
 
 } // namespace faintline

@@ -9,29 +9,29 @@
 
 namespace faintline {
 
-/// What samples come as. Channels are interleaved.
+/// Format of a stream. Channels are interleaved.
 struct StreamFormat {
     SampleType type;
     double sampleRateHz = 0.0;
     int channelCount = 1;
-    double centreHz = 0.0; ///< frequency that 0 Hz of the samples stands for
+    double centreHz = 0.0; ///< absolute frequency of 0 Hz in the samples
     std::string origin;    ///< "pipe, WAV", "rtl_tcp localhost:1234" …
 
     Index frameBytes() const { return type.sampleBytes() * channelCount; } ///< one sample of every channel
 };
 
-/// What was heard of a source since it was last asked.
+/// Data received from a source since the last call.
 struct Heard {
     enum class Incident { None, Lost, Gone, Back };
 
     std::vector<std::byte> bytes;       ///< whole samples of all channels
-    Index lostSamples = 0;              ///< that are missing before these
-    Incident incident = Incident::None; ///< worth telling
+    Index lostSamples = 0;              ///< missing before these samples
+    Incident incident = Incident::None; ///< to be reported
     std::string words;                  ///< what happened, one sentence
-    bool isOver = false;                ///< nothing comes any more
+    bool isOver = false;                ///< end of the stream
 };
 
-/// Where samples come from while they are made: a pipe, a socket, a receiver. Used by one thread.
+/// A source of live samples: a pipe, a socket, a receiver. Not thread-safe.
 class SampleSource
 {
 public:
@@ -39,11 +39,11 @@ public:
 
     virtual const StreamFormat &format() const = 0;
 
-    /// What came, after at most `patience`; may be nothing. A source that goes away is no error: it says so, and what
-    /// was missed when it is back. Throws Error where it cannot be used at all.
+    /// Returns the samples received, possibly none, after at most `patience`. An interruption is not an error: it is
+    /// reported, and on return the number of samples missed. Throws Error if the source cannot be used at all.
     virtual Heard hear(std::chrono::milliseconds patience) = 0;
 
-    /// Whether it waits until it is heard, as a pipe does; a receiver's samples are lost instead.
+    /// Whether the source waits to be read, as a pipe does; a receiver loses samples instead.
     virtual bool isPatient() const { return false; }
 };
 

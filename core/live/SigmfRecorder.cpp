@@ -21,7 +21,7 @@ namespace {
     constexpr std::string_view metaEnding = ".sigmf-meta";
     constexpr std::string_view dataEnding = ".sigmf-data";
     constexpr std::string_view listEnding = ".timeline";
-    constexpr Index mostCaptures = 10000; ///< of a file, whose metadata is written anew with each
+    constexpr Index mostCaptures = 10000; ///< per file; each one rewrites the metadata
 
 } // namespace
 
@@ -129,7 +129,7 @@ void SigmfRecorder::write(std::span<const std::byte> bytes)
     if (bytes.empty())
         return;
     rotateIfDue();
-    if (m_isAfterGap) { // before its samples: whoever reads the file knows of the gap when they are there
+    if (m_isAfterGap) { // before the samples, so that a reader knows of the gap
         if (m_written == 0)
             m_captures.clear();
         m_captures.push_back({m_written, m_position});

@@ -11,42 +11,40 @@
 
 namespace faintline {
 
-/// When a recorder begins another file; 0: never.
+/// When a recorder starts a new file; 0: never.
 struct RotationSettings {
     double largestBytes = 0.0;
     double longestSeconds = 0.0;
 };
 
-/// Writes what is heard to a SigMF recording while it is heard, so that a program that is killed leaves all that was
-/// written.
+/// Writes a live stream to a SigMF recording. If the program is killed, everything written so far remains readable.
 ///
-/// The samples go to NAME.sigmf-data as they came, at once. NAME.sigmf-meta is there from the beginning and complete at
-/// any time: its captures say where samples are missing, one entry for each stretch that was heard without a gap, with
-/// core:sample_start (in the file), core:global_index (in time, gaps included) and core:datetime. Rotation begins
-/// NAME-2, NAME-3 … at the next gap or delivery, and NAME.timeline lists them all. Reading it again, SigmfRecording
-/// puts the gaps back where they were.
+/// Samples are written unchanged and at once to NAME.sigmf-data. NAME.sigmf-meta exists from the start and is valid at
+/// any time: its captures mark missing samples, with one entry per gapless stretch: core:sample_start (in the file),
+/// core:global_index (in time, gaps included) and core:datetime. Rotation starts NAME-2, NAME-3 … at the next gap or
+/// delivery; NAME.timeline lists all files. SigmfRecording restores the gaps on reading.
 class SigmfRecorder
 {
 public:
-    /// `path` ends in .sigmf-meta or .sigmf-data; neither may exist yet. Throws Error.
+    /// `path` ends in .sigmf-meta or .sigmf-data; neither file may exist. Throws Error.
     SigmfRecorder(const std::string &path, const StreamFormat &format, const RotationSettings &rotation,
                   double startUnixSeconds);
     ~SigmfRecorder();
     SigmfRecorder(const SigmfRecorder &) = delete;
     SigmfRecorder &operator=(const SigmfRecorder &) = delete;
 
-    /// Whole samples that come next. Throws Error where they cannot be written: what was written before is sound.
+    /// Appends whole samples. Throws Error if they cannot be written; samples written earlier remain valid.
     void write(std::span<const std::byte> bytes);
-    /// So many samples that were not heard.
+    /// Leaves a gap of `samples` samples.
     void skip(Index samples);
 
-    /// How long the disk still takes what comes, s.
+    /// Time until the disk is full, s.
     double secondsLeft() const;
 
-    const std::vector<std::string> &files() const { return m_files; } ///< the metadata of each
-    /// What to open all of it by: the metadata, or of several files their list.
+    const std::vector<std::string> &files() const { return m_files; } ///< metadata of each file
+    /// File that opens the whole recording: the metadata, or the list if there are several.
     std::string whole() const;
-    /// The same while it is being written.
+    /// The recording so far, readable during writing.
     std::shared_ptr<const WrittenSamples> written() const { return m_writtenSamples; }
 
 private:
@@ -66,7 +64,7 @@ private:
     RotationSettings m_rotation;
     double m_startUnixSeconds;
     int m_descriptor = -1;
-    Index m_position = 0;  ///< in time, of the next sample
+    Index m_position = 0;  ///< position in time of the next sample
     Index m_fileStart = 0; ///< position of the file's first sample
     Index m_written = 0;   ///< samples in the file
     bool m_isAfterGap = true;

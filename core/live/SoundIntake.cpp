@@ -16,7 +16,7 @@ void SoundIntake::put(std::span<const std::byte> block, Index lostBefore)
         const std::lock_guard lock(m_mutex);
         (m_filled.empty() ? m_lostBefore : m_lostAfter) += lostBefore;
         if (m_lostAfter > 0 || m_filled.size() + block.size() > m_capacity)
-            m_lostAfter += std::ssize(block) / m_frameBytes; // one loss at a time, until these are taken
+            m_lostAfter += std::ssize(block) / m_frameBytes; // one loss at a time, until these samples are taken
         else
             m_filled.insert(m_filled.end(), block.begin(), block.end());
     }

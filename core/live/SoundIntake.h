@@ -10,18 +10,18 @@
 
 namespace faintline {
 
-/// Where a device's thread leaves samples for the one that hears them. The former never waits: what does not fit is
-/// lost, and counted at its place.
+/// Passes samples from a device's thread to the reading thread. The device's thread never blocks; samples that do not
+/// fit are dropped and counted at their position.
 class SoundIntake
 {
 public:
-    /// `frameBytes`: of one sample of every channel.
+    /// `frameBytes`: size of one sample of all channels.
     SoundIntake(Index frameBytes, std::size_t capacity);
 
-    /// Of the device's thread: samples that come next, after so many that it lost itself.
+    /// Called by the device's thread: appends samples, preceded by `lostBefore` that the device itself dropped.
     void put(std::span<const std::byte> block, Index lostBefore = 0);
 
-    /// What came up to the next loss, with the loss before it; after at most `patience`, and then it may be nothing.
+    /// Samples up to the next loss, with the loss before them; waits at most `patience` and may return none.
     Heard take(std::chrono::milliseconds patience);
 
 private:
@@ -31,8 +31,8 @@ private:
     std::condition_variable m_came;
     std::vector<std::byte> m_filled;
     std::vector<std::byte> m_taken;
-    Index m_lostBefore = 0; ///< the first of those that are filled in
-    Index m_lostAfter = 0;  ///< the last of them, so far
+    Index m_lostBefore = 0; ///< lost before the samples in m_filled
+    Index m_lostAfter = 0;  ///< lost after them, so far
 };
 
 } // namespace faintline

@@ -34,7 +34,7 @@ namespace {
         return format;
     }
 
-    /// Samples that did not come while the clock went on.
+    /// Samples missing according to the clock.
     Index missedSince(Clock::time_point last, double rate, Index came)
     {
         const double elapsed = std::chrono::duration<double>(Clock::now() - last).count();
@@ -69,7 +69,7 @@ bool SoundSource::openAgain()
     m_asked = Clock::now();
     try {
         open();
-    } catch (const Error &) { // it is not back yet
+    } catch (const Error &) { // not back yet
     }
     return m_stream != nullptr;
 }

@@ -10,22 +10,22 @@
 
 namespace faintline {
 
-/// What a sound device is asked for.
+/// Requested settings of a sound device.
 struct SoundSettings {
     std::string device = "default"; ///< name, or part of one (findSoundDevice)
-    SampleType type;                ///< of 32 or 16 bits; floats hold all that any card gives
+    SampleType type;                ///< 32 or 16 bits; float holds the full range of any card
     double sampleRateHz = 0.0;      ///< 0: the device's own
     int channelCount = 0;           ///< 0: the device's, at most two
 };
 
-/// A sound card, or what a sound server has in its place.
+/// A sound card, or a device of a sound server.
 ///
-/// What is not heard in time is lost, to the sample; what the device itself drops is as long as the clock says. A device
-/// that goes away is asked for again every second, by its name.
+/// Samples not read in time are lost and counted exactly; the length of a loss in the device itself is measured by the
+/// clock. If the device disappears, the source tries to reopen it by name every second.
 class SoundSource final : public SampleSource
 {
 public:
-    /// Throws Error where there is no such device.
+    /// Throws Error if there is no such device.
     explicit SoundSource(const SoundSettings &settings);
 
     const StreamFormat &format() const override { return m_format; }
@@ -41,8 +41,8 @@ private:
     SoundDevice m_device;
     StreamFormat m_format;
     SoundIntake m_intake;
-    std::unique_ptr<SoundStream> m_stream;   ///< null while there is no device; after what its thread uses
-    std::optional<Clock::time_point> m_last; ///< when samples came
+    std::unique_ptr<SoundStream> m_stream;   ///< null without a device; declared after the members its thread uses
+    std::optional<Clock::time_point> m_last; ///< arrival of the last samples
     Clock::time_point m_asked{};
     bool m_isGone = false;
 };

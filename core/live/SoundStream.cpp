@@ -16,8 +16,8 @@ namespace {
     using Clock = std::chrono::steady_clock;
 
     constexpr double blocksPerSecond = 50.0;
-    constexpr unsigned outputBlocks = 5; ///< that wait at the device
-    constexpr int mostFailures = 8;      ///< in a row, until the device counts as gone
+    constexpr unsigned outputBlocks = 5; ///< queued at the device
+    constexpr int mostFailures = 8;      ///< consecutive, until the device is considered gone
     constexpr std::chrono::milliseconds stillness{500};
 
     RtAudio::Api apiOf(SoundDevice::System system)
@@ -42,10 +42,10 @@ namespace {
             return RTAUDIO_SINT32;
         if (name == "rf32_le")
             return RTAUDIO_FLOAT32;
-        throw Error(where, name + " is no sample type of a sound device; expected ri16_le, ri32_le or rf32_le");
+        throw Error(where, name + " is not a sample type of sound devices; expected ri16_le, ri32_le or rf32_le");
     }
 
-    /// "RtApiPulse::callbackEvent: audio read error, Connection terminated.." as a user may read it.
+    /// Removes the function name from "RtApiPulse::callbackEvent: audio read error, Connection terminated..".
     std::string withoutPlace(std::string words)
     {
         if (words.starts_with("RtApi"))
@@ -54,7 +54,7 @@ namespace {
         return words;
     }
 
-    /// Its number now; devices come and go.
+    /// The device's current number; numbers change as devices come and go.
     unsigned indexOf(RtAudio &audio, const SoundDevice &device, SoundDirection direction, const std::string &where)
     {
         const unsigned count = mayAskRtAudio(apiOf(device.system)) ? audio.getDeviceCount() : 0;
@@ -64,12 +64,12 @@ namespace {
                 && (direction == SoundDirection::In ? info.inputChannels : info.outputChannels) > 0)
                 return i;
         }
-        throw Error(where, "the sound device " + device.name + " is not there", Error::Kind::Failure);
+        throw Error(where, "the sound device " + device.name + " was not found", Error::Kind::Failure);
     }
 
 } // namespace
 
-/// All that the device's thread uses; it outlives the stream where the device hangs.
+/// State used by the device's thread; outlives the stream if the device hangs.
 struct SoundStream::Running {
     Running(RtAudio::Api api, Exchange given) : audio(api), exchange(std::move(given)) {}
 
@@ -78,7 +78,7 @@ struct SoundStream::Running {
     bool isSound();
 
     RtAudio audio;
-    std::mutex mutex; ///< of what follows
+    std::mutex mutex; ///< guards the members below
     Exchange exchange;
     std::string failure;
     int failuresInARow = 0;
@@ -93,7 +93,7 @@ struct SoundStream::Running {
 
 namespace {
 
-    /// RtAudio tells of failures in the thread they happen in, but not of which stream.
+    /// RtAudio reports a failure in the thread where it occurs, but not for which stream.
     thread_local void *streamOfThread = nullptr;
 
 } // namespace
@@ -108,7 +108,7 @@ void SoundStream::Running::noteFailure(RtAudioError::Type /*type*/, const std::s
     running.failure = withoutPlace(words);
 }
 
-/// Whether what the device gave, or took, since the last call was sound.
+/// Whether the device has worked without error since the last call.
 bool SoundStream::Running::isSound()
 {
     failuresInARow = std::exchange(hasFailed, false) ? failuresInARow + 1 : 0;
@@ -127,7 +127,7 @@ int SoundStream::Running::call(void *out, void *in, unsigned samples, double /*t
     const bool isSound = running.isSound();
     if (running.failuresInARow >= mostFailures || !running.exchange)
         return 2;
-    // RtAudio calls before it reads: the first block in was never filled, and one after a failure holds the last one's.
+    // RtAudio calls back before reading: the first input block is unfilled, and one after a failure repeats the last.
     if (in && (std::exchange(running.isFirst, false) || !isSound)) {
         running.isAfterLoss = running.isAfterLoss || !isSound;
         return 0;
@@ -176,7 +176,7 @@ SoundStream::~SoundStream()
         if (running->audio.isStreamOpen())
             running->audio.closeStream();
     };
-    // Closing waits for the device, and one that hangs would be waited for without end.
+    // Closing waits for the device, forever if it hangs.
     if (Clock::now() - lastCall > stillness)
         std::thread(close).detach();
     else

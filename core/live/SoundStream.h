@@ -12,25 +12,25 @@
 
 namespace faintline {
 
-/// A sound device that runs, by RtAudio: takes or gives blocks of a fiftieth of a second from its beginning to its end.
+/// A running sound device (RtAudio). Exchanges blocks of 20 ms from construction to destruction.
 class SoundStream
 {
 public:
-    /// Called for each block in a thread of the sound system, which does not wait: the block's samples came in, or are to
-    /// be filled in. `isAfterLoss`: the device dropped some before these.
+    /// Called for each block in a thread of the sound system and must not wait. `block` is the input samples, or output
+    /// samples to fill in. `isAfterLoss`: the device dropped samples before this block.
     using Exchange = std::function<void(std::span<std::byte> block, bool isAfterLoss)>;
 
-    /// `format`: signed integers of 16 or 32 bits or floats of 32, of this machine's byte order. Throws Error.
+    /// `format`: 16- or 32-bit signed integers or 32-bit floats, in native byte order. Throws Error.
     SoundStream(const SoundDevice &device, SoundDirection direction, const StreamFormat &format, Exchange exchange,
                 const std::string &where);
-    /// No exchange is called after it.
+    /// Does not call the exchange afterwards.
     ~SoundStream();
     SoundStream(const SoundStream &) = delete;
     SoundStream &operator=(const SoundStream &) = delete;
 
-    /// Why the device gives or takes nothing any more; none while it does.
+    /// Why the device stopped; empty while it is running.
     std::optional<std::string> failure() const;
-    /// Time from a sample's exchange to its sound, at most, s; of an output.
+    /// Maximum delay from a sample's exchange to its playback, s; output only.
     double outputDelaySeconds() const;
 
 private:

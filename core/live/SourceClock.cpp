@@ -9,7 +9,7 @@ namespace faintline {
 namespace {
 
     constexpr double intervalSeconds = 10.0;
-    constexpr double leastSeconds = 0.1; ///< of a departure that is told of
+    constexpr double leastSeconds = 0.1; ///< smallest departure reported
 
 } // namespace
 

@@ -6,7 +6,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index pieceSamples = 1 << 15; ///< that are kept together
+    constexpr Index pieceSamples = 1 << 15; ///< stored together
 
 } // namespace
 
@@ -29,7 +29,7 @@ void StreamBuffer::push(std::vector<std::byte> bytes)
         m_heldBytes += bytes.size();
         const bool goesOn = !m_pieces.empty() && m_pieces.back().first + m_pieces.back().count == m_length
                             && m_pieces.back().count + count <= pieceSamples;
-        if (goesOn) { // many small ones would cost more than they hold
+        if (goesOn) { // many small pieces would cost more than they hold
             Piece &last = m_pieces.back();
             last.bytes.insert(last.bytes.end(), bytes.begin(), bytes.end());
             last.count += count;
@@ -95,7 +95,7 @@ std::chrono::steady_clock::time_point StreamBuffer::heardAt(Index position) cons
                                             [=](const Piece &each) { return each.first + each.count < position; });
     if (piece == m_pieces.end())
         return std::chrono::steady_clock::now();
-    // Those of a piece came one after the other.
+    // The samples of a piece arrived at the sample rate.
     const double later = double(std::max<Index>(0, piece->first + piece->count - position)) / m_format.sampleRateHz;
     return piece->heardAt
            - std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(later));

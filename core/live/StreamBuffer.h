@@ -15,43 +15,43 @@
 
 namespace faintline {
 
-/// What was heard and is still needed, between the thread that hears and the one that analyses.
+/// Holds received samples that are still needed, between the receiving and the analysing thread.
 ///
-/// Positions are samples in time from the first one on: what was lost keeps its place, as a gap. At most `capacity`
-/// bytes are held; a source that waits is made to, of another the rest is lost.
+/// Positions count samples in time from the first; lost samples appear as gaps. Holds at most `capacity` bytes: a
+/// source that can wait is made to, and other sources lose the rest.
 class StreamBuffer
 {
 public:
     StreamBuffer(const StreamFormat &format, std::size_t capacity);
 
-    // Of the thread that hears:
+    // Called by the receiving thread:
 
-    /// Whether so many bytes go in now, or within `patience`.
+    /// Whether `bytes` bytes fit now or within `patience`.
     bool hasRoom(std::size_t bytes, std::chrono::milliseconds patience);
-    /// Whole samples of all channels, which come next in time.
+    /// Appends whole samples of all channels.
     void push(std::vector<std::byte> bytes);
-    /// So many samples that were not heard come next.
+    /// Appends a gap of `samples` samples.
     void pushGap(Index samples);
-    /// Nothing comes any more.
+    /// Marks the end of the stream.
     void end();
-    /// Holds at least so much from now on.
+    /// Raises the capacity to at least `capacity` bytes.
     void widen(std::size_t capacity);
 
-    // Of the thread that analyses:
+    // Called by the analysing thread:
 
-    /// Waits until all samples before this position are there or known to be lost; false where they will not be.
+    /// Waits until all samples before this position have arrived or are known to be lost; false if they never will.
     bool waitFor(Index position, const std::stop_token &stop = {}) const;
-    /// The samples in time so far, and whether that is all.
+    /// Length in time so far, gaps included, and whether it is final.
     Index length() const;
     bool isEnded() const;
-    /// When the sample before a position came, or those around the gap that it lies in; of one that is held or yet to
-    /// come.
+    /// Arrival time of the sample before a position or, in a gap, of those around it. The sample must not have been
+    /// released.
     std::chrono::steady_clock::time_point heardAt(Index position) const;
-    /// Samples before a position will not be asked for any more.
+    /// Releases the samples before a position.
     void release(Index position);
     /// One channel's samples as floats; 0 in gaps.
     void read(int channel, Index first, Index count, std::span<float> out) const;
-    /// Whether none of these samples lies in a gap.
+    /// Whether no sample in this range lies in a gap.
     bool isWhole(Index first, Index count) const;
 
     const StreamFormat &format() const { return m_format; }
@@ -68,7 +68,7 @@ private:
     std::size_t m_capacity;
     mutable std::mutex m_mutex;
     mutable std::condition_variable_any m_changed;
-    std::deque<Piece> m_pieces; ///< ascending; between two of them lies a gap
+    std::deque<Piece> m_pieces; ///< ascending; discontinuities are gaps
     std::size_t m_heldBytes = 0;
     Index m_length = 0;
     bool m_isEnded = false;

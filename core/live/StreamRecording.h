@@ -8,9 +8,9 @@
 
 namespace faintline {
 
-/// What passes through a buffer, as a recording: samples that were released read as 0.
+/// A buffer's stream as a recording; released samples read as 0.
 ///
-/// Its length is `endlessSamples` unless the stream ended before it was made. Floats are taken to lie within 2^±30.
+/// Its length is `endlessSamples` unless the stream ended before construction. Floats are assumed to lie within 2^±30.
 class StreamRecording final : public Recording
 {
 public:

@@ -21,7 +21,7 @@ namespace {
     constexpr std::size_t mostAtOnce = std::size_t(1) << 18;
     constexpr int receiveBytes = 8 << 20;
     constexpr std::chrono::seconds silence{1};
-    constexpr double clockSeconds = 0.25; ///< by which clock and numbers may differ
+    constexpr double clockSeconds = 0.25; ///< tolerance between clock and sequence numbers
     constexpr std::uint64_t mostLate = 64;
     constexpr double longestLossSeconds = 3600.0; ///< without a silence
 
@@ -58,7 +58,7 @@ UdpSource::~UdpSource()
     ::close(m_socket);
 }
 
-/// Samples that are missing before a datagram of that number; sets m_isLate where it comes too late.
+/// Number of samples missing before a datagram with this number; sets m_isLate if it arrives too late.
 Index UdpSource::lostBefore(std::uint64_t number, Index samples)
 {
     const std::uint64_t mask = m_numbers.bytes == 8 ? ~std::uint64_t(0) : (std::uint64_t(1) << 8 * m_numbers.bytes) - 1;
@@ -76,10 +76,10 @@ Index UdpSource::lostBefore(std::uint64_t number, Index samples)
         m_expected = expected;
         return 0;
     }
-    return m_isGone ? std::max<Index>(0, Index(std::llround(elapsed)) - samples) : 0; // it began anew
+    return m_isGone ? std::max<Index>(0, Index(std::llround(elapsed)) - samples) : 0; // the sender restarted
 }
 
-/// One datagram; false where there is none, or where it has to wait because of a loss before it.
+/// Receives one datagram; false if there is none, or if it must wait because of a loss before it.
 bool UdpSource::receive(Heard &heard)
 {
     alignas(cmsghdr) std::byte control[CMSG_SPACE(sizeof(std::uint32_t))];
@@ -127,7 +127,7 @@ bool UdpSource::receive(Heard &heard)
     next.bytes.assign(content.begin(), content.end());
     next.lostSamples = lost;
     next.incident = isBack ? Heard::Incident::Back : Heard::Incident::Lost;
-    next.words = isBack ? "The sender is back." : std::to_string(lost) + " samples were lost on the way.";
+    next.words = isBack ? "The sender is back." : std::to_string(lost) + " samples were lost in transit.";
     if (heard.bytes.empty()) {
         heard = std::move(next);
         return true;

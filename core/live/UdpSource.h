@@ -10,7 +10,7 @@
 
 namespace faintline {
 
-/// Where a datagram has its number, counted from one to the next: in so many bytes at its beginning.
+/// Sequence number of a datagram: its first `bytes` bytes, incremented by one per datagram.
 struct SequenceNumbers {
     int bytes = 0; ///< 0: datagrams are not numbered
     bool isBigEndian = false;
@@ -19,17 +19,16 @@ struct SequenceNumbers {
 /// "u16be", "u32le" …; empty: none. Throws Error.
 SequenceNumbers parseSequenceNumbers(std::string_view name);
 
-/// Bare samples in UDP datagrams, whole ones in each.
+/// Raw samples in UDP datagrams, each holding whole samples.
 ///
-/// Where datagrams are numbered, the samples of those that are missing are lost at their place; a datagram that comes
-/// later than its successor stays lost, and one that is more than an hour ahead is of a sender that began anew.
-/// Otherwise only what this machine drops is known, by the datagram. After a second of silence the sender is gone; when
-/// it is back, the gap is as long as its numbers say, if the clock agrees within a quarter of a second, else as the
-/// clock says.
+/// With sequence numbers, missing datagrams become gaps at their position; one that arrives after its successor stays
+/// lost, and one more than an hour ahead means that the sender restarted. Without numbers, only datagrams dropped by
+/// this machine are known. After one second of silence the sender is considered gone. On return the gap follows from
+/// the sequence numbers if the clock agrees within 0.25 s, otherwise from the clock.
 class UdpSource final : public SampleSource
 {
 public:
-    /// `address`: "PORT", on all of this machine's addresses, or "ADDRESS:PORT". Throws Error.
+    /// `address`: "PORT", on all addresses of this machine, or "ADDRESS:PORT". Throws Error.
     UdpSource(const std::string &address, const StreamFormat &format, SequenceNumbers numbers = {});
     ~UdpSource() override;
     UdpSource(const UdpSource &) = delete;
@@ -49,11 +48,11 @@ private:
     SequenceNumbers m_numbers;
     int m_socket = -1;
     std::optional<std::uint64_t> m_expected; ///< number of the next datagram
-    std::uint32_t m_dropped = 0;             ///< datagrams, as the kernel counts
-    std::optional<Clock::time_point> m_last; ///< when one came
+    std::uint32_t m_dropped = 0;             ///< datagrams, as counted by the kernel
+    std::optional<Clock::time_point> m_last; ///< arrival of the last datagram
     bool m_isGone = false;
-    bool m_isLate = false; ///< the datagram just read belongs before what was heard
-    Heard m_next;          ///< what was read behind a loss
+    bool m_isLate = false; ///< the last datagram arrived after its successor
+    Heard m_next;          ///< data read after a loss
     std::vector<std::byte> m_datagram;
 };
 

@@ -7,12 +7,12 @@
 
 namespace faintline {
 
-// What a listener tells, one JSON object a line.
+// Output of `listen`: one JSON object per line.
 
-/// {"event": 7, "state": "provisional", "t": …, …}: the event's number, which stays; its state (provisional, confirmed,
-/// updated, final); then the members of `eventJson`, in s from the first sample and Hz, of a track in progress without
-/// its drift, t_end the present; "utc" of t_detect where `startUnixSeconds` is known. A final one that is no event of
-/// its own has "part_of", the number it goes on as, or "withdrawn".
+/// {"event": 7, "state": "provisional", "t": …, …}: the event's number, which never changes; its state (provisional,
+/// confirmed, updated, final); then the members of `eventJson`, in s from the first sample and Hz. For a track in
+/// progress the drift is omitted and t_end is the present. "utc" of t_detect is given if `startUnixSeconds` is known. A
+/// final event that is not an event of its own has "part_of", the number that it continues as, or "withdrawn".
 std::string eventLine(const EventChange &change, const Grid &grid, std::optional<double> startUnixSeconds);
 
 /// {"notice": "lost", "t": …, "sample": …, "samples": …, "message": "…"}.

@@ -21,9 +21,9 @@ namespace {
 
     using Clock = std::chrono::steady_clock;
 
-    constexpr std::chrono::milliseconds lastWork{250}; ///< for what was heard before a request to stop
+    constexpr std::chrono::milliseconds lastWork{250}; ///< for samples received before a stop request
 
-    /// Frames that a stream of a format is cut into, before any of it is there.
+    /// Layout of the frames of a stream of this format, before any samples exist.
     RecordingInfo endlessInfo(const StreamFormat &format)
     {
         RecordingInfo info;
@@ -35,7 +35,7 @@ namespace {
         return info;
     }
 
-    /// One run from its first block on.
+    /// A run from its first block of noise on.
     class Listening
     {
     public:
@@ -58,7 +58,7 @@ namespace {
             try {
                 if (makePlan())
                     analyse();
-            } catch (const Cancelled &) { // before there was anything to analyse with
+            } catch (const Cancelled &) { // before the analysis could start
                 m_result.isAnalysedToTheEnd = false;
             }
             m_hearing.finish();
@@ -76,12 +76,12 @@ namespace {
     private:
         std::size_t bufferBytes() const
         {
-            constexpr std::size_t enough = std::size_t(4) << 20; // of a source that waits
+            constexpr std::size_t enough = std::size_t(4) << 20; // for a source that can wait
             return std::max(m_source.isPatient() ? std::min(enough, m_settings.bufferBytes) : m_settings.bufferBytes,
                             bytesFor(m_settings.analysis));
         }
 
-        /// What settings need: the first block as a whole.
+        /// Settings need the whole first block.
         std::size_t bytesFor(const AnalysisSettings &settings) const
         {
             constexpr std::size_t blocks = 3;
@@ -97,17 +97,17 @@ namespace {
                 m_sinks.notice(notice, m_format);
         }
 
-        /// False where the stream ended before a window's length was there.
+        /// False if the stream ended before one window was complete.
         bool makePlan()
         {
             AnalysisPlan &plan = m_result.plan;
             const AnalysisSettings &settings = plan.settings;
             const double window = settings.spectrogram.windowSeconds * m_format.sampleRateHz;
             if (m_buffer->isEnded() && double(m_buffer->length()) < std::floor(window))
-                return false; // it was over at once: there is nothing to lay out frames over
+                return false; // the stream was empty, so there are no frames
             const auto endless = std::make_shared<StreamRecording>(m_buffer, std::nullopt);
             const Spectrogram geometry(endless, settings.spectrogram, settings.selection);
-            // It takes seconds the first time: meanwhile the first block comes in.
+            // The first time this takes seconds, during which the first block arrives.
             (void)calibrateBand(settings, geometry, m_context);
             const Index first = geometry.firstSample();
             m_buffer->waitFor(first + CausalSpectrogram::samplesOfFirstBlock(geometry, settings.noise));
@@ -153,7 +153,7 @@ namespace {
             sortEvents(m_result.events);
         }
 
-        /// The chain of the plan, from the next frame on.
+        /// Starts the plan's chain at the next frame.
         void begin()
         {
             const AnalysisPlan &plan = m_result.plan;
@@ -203,7 +203,7 @@ namespace {
                     {frame, m_y, m_statistic, *m_chain, m_buffer->heardAt(end), m_hearing.lostCount(), m_idsBefore});
         }
 
-        /// Takes up settings that were asked for and are calibrated by now. Answers which frame comes next.
+        /// Applies requested settings once calibrated. Returns the number of the next frame.
         Index followWish(Index frame)
         {
             if (const auto wish = m_sinks.wish()) {
@@ -226,17 +226,17 @@ namespace {
         void refuse(const Error &error)
         {
             tell({ListenNotice::Kind::Refused, m_buffer->length(), 0,
-                  std::string("Listening goes on with the settings before: ") + error.what()});
+                  std::string("Listening continues with the previous settings: ") + error.what()});
         }
 
         void tellTooLate()
         {
             tell({ListenNotice::Kind::Refused, m_buffer->length(), 0,
-                  "Listening ended before the changed settings were in force: its events are those of the settings "
-                  "before."});
+                  "Listening ended before the changed settings took effect; its events are those of the previous "
+                  "settings."});
         }
 
-        /// Calibrates for other settings beside the run, which takes seconds the first time. The newest wish wins.
+        /// Calibrates new settings while the run continues; the first time this takes seconds. The newest request wins.
         void prepare(const AnalysisSettings &settings)
         {
             const auto endless = std::make_shared<StreamRecording>(m_buffer, std::nullopt);
@@ -264,7 +264,7 @@ namespace {
             }
             const Spectrogram &before = *next.frames->spectrogram();
             next.settings = settings;
-            // Frames from the next sample on.
+            // Frames start at the next sample.
             next.settings.selection.fromSeconds =
                 double(before.firstSample() + frame * before.hopSamples()) / m_format.sampleRateHz;
             const auto spectrogram =
@@ -273,7 +273,7 @@ namespace {
             m_buffer->waitFor(spectrogram->firstSample()
                               + CausalSpectrogram::samplesOfFirstBlock(*spectrogram, settings.noise));
             if (m_buffer->length() < spectrogram->firstSample() + spectrogram->windowSamples()) {
-                tellTooLate(); // it ended meanwhile
+                tellTooLate(); // the stream has ended in the meantime
                 return frame;
             }
             normalisePlan(next, spectrogram, m_context);
@@ -285,7 +285,7 @@ namespace {
             return 0;
         }
 
-        /// Another threshold on the same chain lets the tracks go on; all else begins anew.
+        /// A new threshold on the same chain keeps the tracks; any other change restarts the chain.
         void changeChain(AnalysisPlan next)
         {
             AnalysisSettings sameThreshold = next.settings;
@@ -299,11 +299,11 @@ namespace {
             m_result.plan = std::move(next);
             const auto chain = makeChain(m_result.plan);
             chain->setState(*state);
-            *m_chain = std::move(*chain); // which the follower knows
+            *m_chain = std::move(*chain); // assigned in place: the follower refers to it
             tellPlan();
         }
 
-        /// Whether a stop was asked for some time ago.
+        /// Whether a stop was requested some time ago.
         bool isLate()
         {
             if (!m_context.stop.stop_requested())
@@ -319,19 +319,19 @@ namespace {
         const RunContext &m_context;
         StreamFormat m_format;
         ListenResult m_result;
-        std::mutex m_mutex; ///< of the sinks
+        std::mutex m_mutex; ///< guards the sinks
         std::optional<Clock::time_point> m_stopped;
-        SelectionSettings m_framesOf; ///< as asked for, of the plan's frames
+        SelectionSettings m_framesOf; ///< selection requested for the plan's frames
         std::unique_ptr<DetectionChain> m_chain;
         std::optional<EventFollower> m_follower;
         int m_lastId = 0;
-        int m_idsBefore = 0; ///< numbers that events of former chains have
+        int m_idsBefore = 0; ///< event numbers used by earlier chains
         std::vector<float> m_y;
         std::vector<float> m_statistic;
         std::shared_ptr<StreamBuffer> m_buffer;
-        Hearing m_hearing; ///< it begins at once
+        Hearing m_hearing; ///< starts at once
         std::stop_source m_preparing;
-        std::future<AnalysisSettings> m_prepared; ///< last: it ends first
+        std::future<AnalysisSettings> m_prepared; ///< last: destroyed first
     };
 
 } // namespace

@@ -16,60 +16,59 @@
 
 namespace faintline {
 
-/// A frame that the chain has taken.
+/// A frame that the chain has processed.
 struct ListenFrame {
-    Index number = 0; ///< in the plan's frames
+    Index number = 0; ///< index among the plan's frames
     std::span<const float> y;
     std::span<const float> statistic;
     const DetectionChain &chain;
-    std::chrono::steady_clock::time_point heardAt; ///< when the last of its samples came
-    Index lostCount = 0;                           ///< samples so far
-    int idsBefore = 0;                             ///< an event's number is its track's and this
+    std::chrono::steady_clock::time_point heardAt; ///< arrival of its last sample
+    Index lostCount = 0;                           ///< samples lost so far
+    int idsBefore = 0;                             ///< offset from a track's number to its event's
 };
 
-/// What a listener is told while it happens, and may ask for. Called from two threads, never at the same time.
+/// Callbacks of a live run. Called from two threads, but never at the same time.
 struct ListenSinks {
-    /// `plan` is that of the run.
+    /// `plan`: the current plan.
     std::function<void(const EventChange &change, const AnalysisPlan &plan)> event;
     std::function<void(const ListenNotice &notice, const StreamFormat &format)> notice;
-    /// Before the first plan, where something is recorded.
+    /// Called before the first plan if the stream is recorded.
     std::function<void(std::shared_ptr<const WrittenSamples> written)> recording{};
-    /// Before the first frame, and again where changed settings are in force: what all that follows is made with.
+    /// Called before the first frame and whenever new settings take effect, with the plan for all that follows.
     std::function<void(const AnalysisPlan &plan)> plan{};
     std::function<void(const ListenFrame &frame)> frame{};
-    /// Asked for before each frame: settings to go on with as soon as they are calibrated; none: as before.
+    /// Called before each frame: returns settings to switch to once they are calibrated, or nothing.
     std::function<std::optional<AnalysisSettings>()> wish{};
 };
 
-/// What is known at the end.
+/// Result of a live run.
 struct ListenResult {
-    AnalysisPlan plan;                      ///< no frames where there was not a window's length
-    std::vector<Event> events;              ///< all, as `events` gives them of a run over the recording that was made
-    std::optional<double> startUnixSeconds; ///< of the first sample, by the machine's clock
-    Index sampleCount = 0;                  ///< in time, gaps included
+    AnalysisPlan plan;                      ///< without frames if the stream was shorter than a window
+    std::vector<Event> events;              ///< all, identical to a run over the recording
+    std::optional<double> startUnixSeconds; ///< of the first sample, by this machine's clock
+    Index sampleCount = 0;                  ///< gaps included
     Index lostCount = 0;
-    bool isAnalysedToTheEnd = true; ///< else the recording has more than was analysed
+    bool isAnalysedToTheEnd = true; ///< false: the end of the recording was not analysed
     bool isRecordedWhole = true;
-    std::vector<std::string> files; ///< recordings' metadata
-    std::string recording;          ///< to open all of it by: the metadata, or the list of several; empty: none
+    std::vector<std::string> files; ///< metadata of the recordings
+    std::string recording;          ///< opens all: the metadata, or the list if there are several; empty: none
 };
 
-/// Listens until the source is over, the selection's end is reached, or the context's stop is asked for, which is no
-/// error: within half a second what is there is analysed and written.
+/// Runs until the source ends, the selection's end is reached, or the context requests a stop. A stop is not an error:
+/// what has been received is analysed and written within half a second.
 ///
-/// recording: source → SigMF on disk; analysis: source → buffer → frames over a causal background → chain → events,
-/// frame by frame. Both have the same samples at the same places, and the frames and the chain are those of `analyse`:
-/// the events are those of that recording with the same settings. Memory: the buffer, a block of noise, and what the
-/// chain holds; it does not grow with time. Throws Error where the source or the settings cannot be used, or a pipe
-/// fails.
+/// Recording: source → SigMF on disk. Analysis: source → buffer → frames over a causal background → chain → events,
+/// frame by frame. Both have the same samples at the same positions, and frames and chain are those of `analyse`, so
+/// the events equal those of the recording with the same settings. Memory does not grow with time: it is the buffer, a
+/// block of noise and the chain's state. Throws Error if the source or the settings cannot be used, or a pipe fails.
 ///
-/// Settings that change on the way hold from a frame on. Another threshold lets tracks go on; another detector or model
-/// begins anew with the next frame, and other frames with the next sample, whose background needs a first block again.
-/// Events keep their numbers, and none has that of another. The result's plan is the last one.
+/// Settings can change during a run. A new threshold keeps the tracks. A new detector or model restarts the chain at
+/// the next frame; new frame settings restart at the next sample and need a first block of noise again. Event numbers
+/// are kept and never reused. The result's plan is the last one.
 ListenResult listen(SampleSource &source, const ListenSettings &settings, const ListenSinks &sinks,
                     const RunContext &context = {});
 
-/// The settings that a run with these has on a stream of that format: causal, with a window, slopes in bins a frame.
+/// The settings that a live run uses on a stream of this format: causal, with a window, slopes in bins per frame.
 AnalysisSettings settingsForListening(AnalysisSettings settings, const StreamFormat &format);
 
 } // namespace faintline

@@ -19,7 +19,7 @@ namespace {
         });
     }
 
-    /// A PulseAudio server that says what its default devices are.
+    /// Whether a PulseAudio server reports its default devices.
     bool hasPulseDefaults()
     {
         const std::unique_ptr<pa_mainloop, decltype(&pa_mainloop_free)> loop(pa_mainloop_new(), &pa_mainloop_free);

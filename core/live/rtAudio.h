@@ -6,12 +6,12 @@
 
 namespace faintline {
 
-/// To be held while RtAudio lists or opens devices: its list of PulseAudio's is one for all threads.
+/// Hold while RtAudio lists or opens devices: its list of PulseAudio devices is shared by all threads.
 std::mutex &rtAudioMutex();
 
-/// Whether RtAudio may be asked for the devices of a sound system. It keeps the old ones of a PulseAudio server that has
-/// gone, reads through a null pointer where one has no default device, and lets ALSA write to standard error where there
-/// is no card.
+/// Whether RtAudio can safely list the devices of a sound system. It keeps stale devices after a PulseAudio server
+/// exits, dereferences a null pointer if the server has no default device, and lets ALSA write to standard error if
+/// there is no card.
 bool mayAskRtAudio(RtAudio::Api api);
 
 } // namespace faintline

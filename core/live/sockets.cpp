@@ -19,7 +19,7 @@ namespace {
 
     using Addresses = std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)>;
 
-    /// Of a number; the library would take it modulo 65536.
+    /// Rejects port numbers beyond 65535, which the library would take modulo 65536.
     bool isPort(const std::string &text)
     {
         unsigned port = 0;
@@ -30,7 +30,7 @@ namespace {
     Addresses resolve(const HostAndPort &address, int type, int flags, std::string &reason)
     {
         if (!isPort(address.port)) {
-            reason = "a port lies in 1 … 65535";
+            reason = "the port must lie in 1 … 65535";
             return {nullptr, &::freeaddrinfo};
         }
         addrinfo wanted = {};

@@ -5,18 +5,18 @@
 
 namespace faintline {
 
-/// The two parts of "HOST:PORT", "[ADDRESS]:PORT", or of a part alone.
+/// The parts of "HOST:PORT" or "[ADDRESS]:PORT", or of one part alone.
 struct HostAndPort {
     std::string host; ///< may be empty
     std::string port;
 };
-/// `port`: what it is where none is given; empty: it has to be given, and stands alone where no host is.
+/// `port`: default port. If empty, a port is required and may be given without a host.
 HostAndPort parseHostAndPort(const std::string &text, const std::string &port);
 
-/// A UDP socket that hears a port of this machine. Throws Error.
+/// Opens a UDP socket on a local port. Throws Error.
 int openUdp(const std::string &address);
 
-/// A TCP connection, which does not block; -1, with the reason, where there is none within `patience`.
+/// Opens a non-blocking TCP connection; returns -1, with the reason, if it fails or takes longer than `patience`.
 int connectTcp(const HostAndPort &address, std::chrono::milliseconds patience, std::string &reason);
 
 } // namespace faintline

@@ -36,7 +36,7 @@ namespace {
                     devices.push_back({asked.system, info.name, int(info.inputChannels), int(info.outputChannels),
                                        double(info.preferredSampleRate), info.isDefaultInput, info.isDefaultOutput});
             }
-        } catch (const RtAudioError &) { // one that does not answer has none
+        } catch (const RtAudioError &) { // a system that does not answer has none
         }
     }
 

@@ -30,7 +30,7 @@ namespace {
                           [](char c, std::byte b) { return static_cast<char>(b) == c; });
     }
 
-    /// From a chunk "fmt ".
+    /// Parses a "fmt " chunk.
     WavHeader headerOf(std::span<const std::byte> fmt, const std::string &where)
     {
         constexpr std::uint32_t pcm = 1;

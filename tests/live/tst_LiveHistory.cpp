@@ -326,7 +326,7 @@ void tst_LiveHistory::tellsOfSettingsThatCameTooLate()
     other.decide.falseAlarmsPerHour = 5.0;
     const auto live = run(scene(60.0), settings(), 59.74, other);
     QCOMPARE(live->refusals.size(), std::size_t(1));
-    QVERIFY2(live->refusals[0].starts_with("Listening ended before the changed settings were in force"),
+    QVERIFY2(live->refusals[0].starts_with("Listening ended before the changed settings took effect"),
              live->refusals[0].c_str());
     QVERIFY(live->history.view().changes.empty());
     QCOMPARE(live->result.plan.settings.decide.falseAlarmsPerHour, 60.0);

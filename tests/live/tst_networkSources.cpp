@@ -292,7 +292,7 @@ void tst_networkSources::mistakes()
         (void)!::send(client, "HTTP/1.1 400", 12, 0);
         ::close(client);
     });
-    QVERIFY(contains(errorOf([&] { RtlTcpSource(server.address(), {1e8, 1e6, {}, 0}); }), "does not greet"));
+    QVERIFY(contains(errorOf([&] { RtlTcpSource(server.address(), {1e8, 1e6, {}, 0}); }), "does not identify itself"));
     QVERIFY(contains(errorOf([] { RtlTcpSource("127.0.0.1:1", {1e8, 1e6, {}, 0}); }), "no receiver answers"));
 }
 
