@@ -10,8 +10,8 @@ namespace faintline {
 
 namespace {
 
-    constexpr double most = 1.5;         ///< of what coinciding members explain
-    constexpr Index framesLookedAt = 64; ///< of the time that both tracks have in common
+    constexpr double most = 1.5;         ///< times the statistic that coinciding members explain
+    constexpr Index framesLookedAt = 64; ///< sampled from the time common to both tracks
 
     class Members
     {
@@ -23,7 +23,7 @@ namespace {
         {
         }
 
-        /// Share of the members of one track in the band that coincide with members of another, where both go on.
+        /// Share of a track's in-band members that coincide with members of another track while both last.
         double sharedBy(const Track &track, const Track &other) const
         {
             const Index first = std::max(track.points.front().frame, other.points.front().frame);
@@ -66,7 +66,7 @@ namespace {
         double m_near;      ///< Hz
     };
 
-    /// Whether nothing is left of a statistic over what a stronger track's members explain of it.
+    /// Whether a stronger track's members fully explain a statistic.
     bool isExplained(double statistic, double explained, double threshold)
     {
         return explained > 0.0 && (statistic <= most * explained || statistic - explained < threshold);

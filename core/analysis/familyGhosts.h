@@ -6,12 +6,12 @@
 
 namespace faintline {
 
-/// Without the tracks that stronger ones account for: of a family, every track whose members coincide with some of a
-/// stronger one's, at half or twice its fundamental for instance, and whose statistic is no more than these explain.
+/// Removes the tracks of a family that stronger ones account for: their members coincide with some of a stronger
+/// track's, for example at half or twice its fundamental, and their statistic does not exceed what these explain.
 ///
-/// A share s of coinciding members has the share s of the signal's evidence at most; what exceeds 1.5·s of the stronger
-/// track's statistic, and s of it by the threshold, is a signal of its own. The rest keeps its order and gets new
-/// numbers. Nothing happens where no family is set. Precondition: of a family, frames of a spectrogram.
+/// A share s of coinciding members carries at most E = s times the stronger track's statistic. A track is a signal of
+/// its own if it exceeds 1.5·E and lies at least the threshold above E. The remaining tracks keep their order and are
+/// renumbered. Does nothing if no family is set. Precondition: a family needs spectrogram frames.
 std::vector<Track> withoutGhosts(const AnalysisPlan &plan, std::vector<Track> tracks);
 
 } // namespace faintline

@@ -13,17 +13,17 @@ namespace faintline {
 
 namespace {
 
-    constexpr double mostOfLines = 0.01;  ///< of strong lines that noise may make a family of
+    constexpr double mostOfLines = 0.01;  ///< share of strong lines that noise may turn into a family
     constexpr Index longest = 65536;      ///< frames of a track
     constexpr double floorMargin = 2.0;   ///< as in track/explanation.h
-    constexpr double lineHalfWidth = 1.0; ///< resolution cells in which a line is one
+    constexpr double lineHalfWidth = 1.0; ///< resolution cells that a line occupies
     constexpr std::size_t blockBytes = std::size_t(1) << 20;
     constexpr std::size_t batchBytes = std::size_t(16) << 20;
     constexpr float notObserved = std::numeric_limits<float>::quiet_NaN();
 
-    /// What the members hold in the cells around a track.
+    /// The members' power in the cells around a track.
     struct Neighbourhood {
-        PathStrip strip;      ///< where; without y
+        PathStrip strip;      ///< the cells; without y
         std::vector<float> y; ///< frames × cells × members × channels
     };
 
@@ -55,7 +55,7 @@ namespace {
             return around;
         }
 
-        /// Fills in y of all: one pass over their frames.
+        /// Fills in y for all tracks in one pass over their frames.
         void read(std::span<Neighbourhood> all, const RunContext &context) const
         {
             const Index end = m_analysis.time().count;
@@ -74,7 +74,7 @@ namespace {
             }
         }
 
-        /// Whether more than one member is needed to explain a track.
+        /// Whether it takes more than one member to explain a track.
         bool isFamily(const Neighbourhood &around)
         {
             setLnK(around.strip);
@@ -163,7 +163,7 @@ namespace {
             return strip;
         }
 
-        /// A member in a frame and a channel: where it is strongest.
+        /// The peak of a member in one frame and channel.
         struct Line {
             Index bin = 0;
             float power = 1.0f;
@@ -198,7 +198,7 @@ namespace {
             return float(1.0 + floorMargin * double(line.power - 1.0f) * leakage);
         }
 
-        /// The score that noise of all members but one reaches once for a hundred lines that are this one.
+        /// The score that noise in all members but this one reaches once per hundred strong lines in this member.
         double leastWithout(std::size_t member, const PathStrip &strip) const
         {
             const double cellsPerBin = familyCellsPerBin(m_family);
@@ -215,7 +215,7 @@ namespace {
         const Spectrogram &m_spectrogram;
         const Axis &m_band; ///< of the members
         std::size_t m_channels;
-        std::size_t m_values; ///< of a cell
+        std::size_t m_values; ///< per cell
         BothWaysModel m_model;
     };
 

@@ -22,7 +22,7 @@ namespace {
                         "lies outside the picture");
     }
 
-    /// Reads the members' power in one cell of a family after the other.
+    /// Reads the members' power in successive cells of a family.
     class MemberReader
     {
     public:
@@ -37,7 +37,7 @@ namespace {
         std::vector<double> hzAt(Index cell) const { return memberFrequencies(m_family, m_axis.value(double(cell))); }
         const FamilySettings &family() const { return m_family; }
 
-        /// y of each member, channel by channel; NaN where it was not observed.
+        /// y of each member, channel by channel; NaN if not observed.
         std::vector<float> at(const PathCell &place)
         {
             const Axis &band = m_channels.front()->grid().axes.back();
@@ -70,7 +70,7 @@ namespace {
         return teeth;
     }
 
-    /// Adds one frame to all members, whose power in it is `y`.
+    /// Adds one frame with member powers `y` to all members.
     void addFrame(std::vector<FamilyTooth> &teeth, std::vector<float> y, const MemberReader &reader,
                   const Likelihood &likelihood)
     {

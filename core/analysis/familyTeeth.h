@@ -8,15 +8,15 @@
 
 namespace faintline {
 
-/// What one member of a family brought along a path, in one channel where several are added.
+/// The contribution of one family member to a path; per channel if several channels are summed.
 struct FamilyTooth {
-    double member = 0.0;    ///< the multiple, or the distance in Hz
-    double hz = 0.0;        ///< where it lies at the path's end
-    int channel = -1;       ///< of the recording; -1 where there is only one
-    Index frames = 0;       ///< of the path in which it lay inside the band and was observed
-    double meanPower = 0.0; ///< mean y over these frames, 1 on noise; 0 without any
-    /// Σ over these frames of λ(y of all members) - λ(y of the others), nat: what the path would have less without it.
-    /// Negative: without it, it would have more.
+    double member = 0.0;    ///< the multiple, or the offset in Hz
+    double hz = 0.0;        ///< its frequency at the path's end
+    int channel = -1;       ///< of the recording; -1 if there is only one
+    Index frames = 0;       ///< of the path in which it was in the band and observed
+    double meanPower = 0.0; ///< mean y over these frames, 1 on noise; 0 if there are none
+    /// Σ over these frames of λ(y of all members) - λ(y of the others), nat: the score that the path would lose without
+    /// this member. Negative if the path would gain.
     double evidence = 0.0;
 
     bool isSeen() const { return evidence > 0.0; }
@@ -24,17 +24,17 @@ struct FamilyTooth {
 };
 
 /// The members of the analysis's family along a path of its frames, in the order of the settings, each in all channels
-/// that are added; of no family, the line in each of several channels; none without either. λ is that of its model
-/// number `model`.
+/// that are summed. Without a family: the line in each of several channels, or nothing for a single one. λ is that of
+/// the family's model number `model`.
 ///
-/// Members in common carry the evidence, so their parts do not add up to it: where any of two would do, each one's is
-/// small. In a frame in which a member is the only one observed its part is all of λ. Throws Error for frames or cells
-/// that do not exist, Cancelled. Cost: one transform a frame. Oracle: y of an analysis without a family, gamma
+/// The evidence is joint, so the contributions do not add up to it: where either of two members would suffice, each
+/// contributes little. In a frame where only one member is observed, it contributes all of λ. Throws Error if frames or
+/// cells do not exist, Cancelled. Cost: one transform per frame. Oracle: y of an analysis without a family, gamma
 /// functions of Boost.Math.
 std::vector<FamilyTooth> familyTeeth(const Analysis &analysis, std::span<const PathCell> path, std::size_t model = 0,
                                      const RunContext &context = {});
 
-/// The same along the path that an explanation found.
+/// The same, along the path found by an explanation.
 std::vector<FamilyTooth> familyTeeth(const Analysis &analysis, const Explanation &explanation,
                                      const RunContext &context = {});
 

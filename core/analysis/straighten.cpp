@@ -13,7 +13,7 @@ namespace faintline {
 
 namespace {
 
-    /// Where an event's line is looked at, which is `multiple` times the curve.
+    /// Time and band in which an event's line, `multiple` times the curve, is examined.
     Stretch stretchOf(const Analysis &analysis, const Event &event, const FrequencyCurve &curve, double multiple)
     {
         constexpr double leastCells = 40.0;

@@ -11,39 +11,39 @@
 
 namespace faintline {
 
-/// How a line is made constant.
+/// Method that makes a line's frequency constant.
 enum class Straightening {
-    Shift,   ///< the whole band moves with it (StraightenedRecording)
-    Resample ///< time is stretched with it, so that all its multiples stay as well (ResampledRecording)
+    Shift,   ///< shift the whole band with the line (StraightenedRecording)
+    Resample ///< stretch time, which keeps all multiples constant too (ResampledRecording)
 };
 inline constexpr std::array<std::string_view, 2> straighteningNames{"shift", "resample"};
 
-/// Of a name. Throws Error.
+/// Parses a name. Throws Error.
 Straightening straighteningOf(std::string_view name);
 
-/// Resampling where the analysis looked for harmonics of a fundamental, else a shift.
+/// Resample if the analysis searched for harmonics of a fundamental, else Shift.
 Straightening usualStraightening(const AnalysisPlan &plan);
 
 struct StraightenChoice {
-    double smoothingSeconds = 0.0;     ///< as smoothFrequency has it
-    std::optional<double> targetHz;    ///< by default the track's mean frequency
-    std::optional<Straightening> kind; ///< by default the usual one
+    double smoothingSeconds = 0.0;     ///< as in smoothFrequency
+    std::optional<double> targetHz;    ///< default: the track's mean frequency
+    std::optional<Straightening> kind; ///< default: as the analysis suggests
 };
 
-/// A recording straightened along an event's track, and where its line is looked at before and after: over the event's
-/// duration, in a band of twice what the line crosses, or 40 of its spectrum's cells to either side. Of harmonics that
-/// are resampled the line is the family's first member, of others the fundamental.
+/// A recording straightened along an event's track, and the regions in which to examine the line before and after: over
+/// the event's duration, in a band of twice the range that the line crosses, or 40 cells of its spectrum on either
+/// side. The line is the family's first member for resampled harmonics, otherwise the fundamental.
 struct Straightened {
     RecordingPointer recording; ///< the analysis's channel
-    FrequencyCurve curve;       ///< the track's, smooth
-    double targetHz;            ///< where that is now
+    FrequencyCurve curve;       ///< the smoothed track
+    double targetHz;            ///< its frequency after straightening
     Straightening kind;
     Stretch before; ///< in the analysis's recording
-    Stretch after;  ///< in this one, around its target
+    Stretch after;  ///< in `recording`, around the target
 };
 
-/// Makes the line of one of an analysis's events constant. Throws Error where the analysis is of ready-made frames, and
-/// as smoothFrequency, StraightenedRecording and ResampledRecording do.
+/// Makes the line of an event constant. Throws Error if the analysis is of ready-made frames, and as smoothFrequency,
+/// StraightenedRecording and ResampledRecording do.
 Straightened straightened(const Analysis &analysis, const Event &event, const StraightenChoice &choice = {});
 
 } // namespace faintline

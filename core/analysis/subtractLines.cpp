@@ -16,7 +16,7 @@ namespace faintline {
 namespace {
 
     constexpr double endWindows = 4.0;
-    constexpr double smoothedWindows = 4.0; ///< a wander of this period is halved, in windows
+    constexpr double smoothedWindows = 4.0; ///< variations of this period are halved, in windows
 
     double meanLevel(const Track &track)
     {
@@ -26,8 +26,8 @@ namespace {
         return track.smoothed.empty() ? 0.0 : sum / double(track.smoothed.size());
     }
 
-    /// Without its ends, where windows hold less of the line than of its abrupt beginning or of noise; as smooth as it
-    /// is beside them, it goes on straight there.
+    /// Removes the track's ends, whose windows hold less of the line than of its abrupt onset or of noise. The curve is
+    /// later extended straight from the rest.
     Track middleOf(const Track &track, Index endFrames)
     {
         const Index cut = std::min(endFrames, std::ssize(track.points) / 4);
@@ -73,7 +73,7 @@ std::vector<LinePath> pathsOf(const AnalysisPlan &plan, std::vector<Track> track
 
 RecordingPointer restOf(const AnalysisPlan &plan, std::vector<Track> tracks, const RunContext &context)
 {
-    constexpr std::uint64_t seed = 4711; // of noise that only has to differ from the recording's own
+    constexpr std::uint64_t seed = 4711; // the noise only has to differ from the recording's own
     const SurrogateRecording noise(*plan.frames->spectrogram(), plan.background, seed);
     return std::make_shared<ResidualRecording>(plan.recording, plan.settings.selection.channel,
                                                pathsOf(plan, std::move(tracks)), &noise, context);

@@ -15,7 +15,7 @@ namespace {
     constexpr std::size_t mostOrder = 5;
     constexpr double mostPartial = 0.995;
     constexpr int searchBits = 10;
-    constexpr int cycles = 2; ///< through all partial correlations of an order
+    constexpr int cycles = 2; ///< passes over all partial correlations of an order
 
     /// -2 ln L of the restricted likelihood.
     double restricted(const CorrelatedErrors &errors, Eigen::VectorXd r, Eigen::MatrixXd J)

@@ -6,13 +6,13 @@
 
 namespace faintline {
 
-/// Errors of a sequence in which neighbours are alike: an autoregressive process of a low order p, stationary within
-/// stretches and independent from one stretch to the next.
+/// Correlated errors of a sequence: an autoregressive process of a low order p, stationary within stretches and
+/// independent between stretches.
 ///
-/// It is given by its partial correlations κ_1 … κ_p, each within -1 … 1, which any stationary process has. The
-/// recursion of Levinson and Durbin makes of them the best predictors of an error from the k before it, k ≤ p, and what
-/// variance they leave, v_k = Π_{i≤k} (1 - κ_i²). Whitening takes the prediction off each value and divides by √v_k:
-/// W with WᵀW = P⁻¹, P the matrix of correlations, exactly, from the first value of each stretch on.
+/// It is parametrised by its partial correlations κ_1 … κ_p, each within -1 … 1, as any stationary process can be. The
+/// Levinson-Durbin recursion turns them into the best predictors of an error from the k before it, k ≤ p, and the
+/// variance that remains, v_k = Π_{i≤k} (1 - κ_i²). Whitening subtracts the prediction from each value and divides by
+/// √v_k: W with WᵀW = P⁻¹, P the correlation matrix, exact from the first value of each stretch.
 class CorrelatedErrors
 {
 public:
@@ -22,22 +22,22 @@ public:
     std::size_t order() const { return m_predictors.size() - 1; }
     /// W·values, in place; one value per point.
     void whiten(Eigen::Ref<Eigen::VectorXd> values) const;
-    /// Points without correlation that tell as much of a constant: 1ᵀP⁻¹1.
+    /// Number of uncorrelated points equally informative about a constant: 1ᵀP⁻¹1.
     double effectiveCount() const;
     /// ln |P|.
     double logDeterminant() const;
 
 private:
-    std::vector<std::size_t> m_known;              ///< values before each in its stretch, at most p
-    std::vector<std::vector<double>> m_predictors; ///< of k = 0 … p values before; the nearest first
+    std::vector<std::size_t> m_known;              ///< preceding values in the stretch, at most p
+    std::vector<std::vector<double>> m_predictors; ///< from k = 0 … p preceding values; nearest first
     std::vector<double> m_variances;
 };
 
-/// The errors that residuals r of a fit with derivatives J (a column per parameter) are likeliest to come from.
+/// Maximum-likelihood errors for the residuals r of a fit with derivatives J (one column per parameter).
 ///
-/// Partial correlations maximise the restricted likelihood, in which what the parameters took out of the residuals
-/// does not count:  -2 ln L = (n - p_J) ln RSS + ln|P| + ln|JᵀP⁻¹J|,  the scale maximised out. The order, at most 5, is
-/// that of the least Akaike criterion, -2 ln L + 2·order. Source: Patterson and Thompson 1971; Akaike 1974.
+/// The partial correlations maximise the restricted likelihood, which ignores what the parameters removed from the
+/// residuals:  -2 ln L = (n - p_J) ln RSS + ln|P| + ln|JᵀP⁻¹J|,  with the scale maximised out. The order, at most 5,
+/// minimises the Akaike criterion, -2 ln L + 2·order. Source: Patterson and Thompson 1971; Akaike 1974.
 CorrelatedErrors likeliestErrors(const Eigen::VectorXd &r, const Eigen::MatrixXd &J, const std::vector<char> &isFirst);
 
 } // namespace faintline

@@ -14,8 +14,8 @@ namespace {
 
     using Dual = Eigen::AutoDiffScalar<Eigen::Vector4d>;
 
-    // Beyond them a curve differs from that at the limit by less than a computer's precision, or v from c by less than
-    // a thousandth.
+    // Beyond these limits, a curve differs from that at the limit by less than machine precision, or v from c by less
+    // than a thousandth.
     constexpr double leastLogitSpeed = -40.0;
     constexpr double mostLogitSpeed = 7.0;
     constexpr double mostLogTime = 14.0;
@@ -25,7 +25,7 @@ namespace {
         return 1.0 / (1.0 + std::exp(-x));
     }
 
-    /// A coordinate with its derivative by itself, which is 0 beyond its limits.
+    /// A coordinate with its derivative with respect to itself, 0 beyond its limits.
     Dual limited(const DopplerCoordinates &x, int number, double low, double high)
     {
         Eigen::Vector4d derivative = Eigen::Vector4d::Zero();
@@ -33,7 +33,7 @@ namespace {
         return {std::clamp(x[number], low, high), derivative};
     }
 
-    /// β and T = R/v in the problem's span of time, heard = t0 + R/c: what the shape of the curve depends on.
+    /// β and T = R/v in units of the problem's time span, heard = t0 + R/c: these determine the shape of the curve.
     struct Shape {
         Dual beta, time, heard;
 
@@ -55,7 +55,7 @@ namespace {
         }
     };
 
-    /// What Eigen's optimiser calls. `held` < 0 holds nothing.
+    /// Functor for Eigen's optimiser. `held` < 0: all coordinates are free.
     class Reduced : public Eigen::DenseFunctor<double>
     {
     public:
@@ -64,7 +64,7 @@ namespace {
         {
         }
 
-        /// All coordinates from the free ones.
+        /// All coordinates, given the free ones.
         DopplerCoordinates full(const Eigen::VectorXd &free) const
         {
             DopplerCoordinates x;
@@ -128,7 +128,7 @@ namespace {
         Eigen::VectorXd free = functor.freeOf(from);
         optimiser.minimize(free);
         DopplerCoordinates x = functor.full(free);
-        x[1] = std::clamp(x[1], leastLogitSpeed, mostLogitSpeed); // the next search begins where there are slopes
+        x[1] = std::clamp(x[1], leastLogitSpeed, mostLogitSpeed); // start the next search where derivatives are nonzero
         x[2] = std::clamp(x[2], -mostLogTime, mostLogTime);
         return x;
     }
@@ -140,7 +140,7 @@ namespace {
         return *middle;
     }
 
-    /// Which points follow a gap.
+    /// Flags the points that follow a gap.
     std::vector<char> firstsOf(const std::vector<DopplerPoint> &points)
     {
         constexpr double gap = 4.0; // typical steps

@@ -13,49 +13,48 @@ namespace faintline {
 /// The four parameters of a pass, in the order of their coordinates.
 enum class DopplerParameter { RestHz, Speed, Range, Closest };
 
-/// Coordinates in which a fit is well conditioned: all around 1, any of them allowed, and with little correlation where
-/// the pass is seen. F and S are middle and span of the track's frequencies, M and L of its times.
+/// Coordinates in which a fit is well conditioned: all near 1, unbounded, and weakly correlated where the pass is
+/// observed. F and S are the centre and span of the track's frequencies, M and L those of its times.
 ///
 ///   x0 = (f0 - F)/S,  x1 = ln(β/(1 - β)) with β = v/c,  x2 = ln(T/L) with T = R/v,  x3 = (t0 + R/c - M)/L
 using DopplerCoordinates = Eigen::Vector4d;
 
-/// Weighted residuals of a track's points under a pass, whitened where their errors are correlated.
+/// Weighted residuals of a track's points for a pass, whitened if their errors are correlated.
 ///
-/// Profiles hold one parameter and minimise over the others. The parameter's own coordinate z takes the place of that
-/// of the same number: z0 = x0, z1 = x1, z2 = ln(R/(c·L)), z3 = (t0 - M)/L.
+/// Profiles hold one parameter and minimise over the others. The parameter's own coordinate z replaces the coordinate
+/// of the same index: z0 = x0, z1 = x1, z2 = ln(R/(c·L)), z3 = (t0 - M)/L.
 class DopplerProblem
 {
 public:
     DopplerProblem(const std::vector<DopplerPoint> &points, double propagation);
 
-    std::size_t count() const { return m_points.size(); } ///< of points that take part
+    std::size_t count() const { return m_points.size(); } ///< number of points in the fit
     double spanSeconds() const { return m_spanSeconds; }
 
     DopplerPass passOf(const DopplerCoordinates &x) const;
     DopplerCoordinates coordinatesOf(const DopplerPass &pass) const;
     double ownCoordinate(DopplerParameter parameter, const DopplerCoordinates &x) const;
-    /// The parameter itself, in its unit.
+    /// Value of the parameter, in its unit.
     double valueOf(DopplerParameter parameter, double ownCoordinate) const;
-    /// The inverse of a value, f0 ≥ 0.
+    /// Coordinate of a value, f0 ≥ 0.
     double coordinateOfRest(double hz) const { return (hz - m_middleHz) / m_spanHz; }
 
-    /// The same problem with other points on the same coordinates, their errors not correlated.
+    /// The same problem with other points in the same coordinates and uncorrelated errors.
     DopplerProblem with(std::vector<DopplerPoint> points) const;
 
-    /// Estimates the correlation of the errors from the residuals of a pass. Stretches end at gaps of four steps.
-    /// Errors that seem to cancel, so that n_eff is above 1.5 n, are taken as independent: few residuals look so by
-    /// chance.
+    /// Estimates the correlation of the errors from the residuals of a pass. Gaps of four steps end a stretch. Errors
+    /// that appear to cancel, with n_eff above 1.5 n, are treated as independent: few residuals look so by chance.
     void estimateCorrelation(const DopplerCoordinates &x);
     const CorrelatedErrors &errors() const { return m_errors; }
 
-    /// Whitened (measured - fitted)/deviation and, where wanted, its derivatives by x.
+    /// Whitened (measured - fitted)/deviation and, if requested, its derivatives with respect to x.
     Eigen::VectorXd residuals(const DopplerCoordinates &x, Eigen::MatrixXd *derivatives = nullptr) const;
     double cost(const DopplerCoordinates &x) const { return residuals(x).squaredNorm(); }
 
-    /// The least cost of a straight line f = a + b·t in place of a pass.
+    /// Minimum cost of a straight line f = a + b·t instead of a pass.
     double straightLineCost() const;
 
-    /// The nearest minimum of the cost, by Levenberg and Marquardt (Eigen): over all coordinates, or over those of
+    /// The nearest local minimum of the cost, by Levenberg-Marquardt (Eigen): over all coordinates, or over those of
     /// three parameters while one is held at its own coordinate.
     DopplerCoordinates minimum(const DopplerCoordinates &from) const;
     DopplerCoordinates minimum(const DopplerCoordinates &from, DopplerParameter held, double ownCoordinate) const;

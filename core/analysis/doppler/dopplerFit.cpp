@@ -20,9 +20,9 @@ namespace {
     constexpr int parameterCount = 4;
     constexpr double outlierDeviations = 4.0;
     constexpr double normalFromMedian = 1.4826; ///< standard deviation over the median of the magnitude
-    constexpr double leastScale = 1e-3;         ///< errors below this share of those given are rounding
+    constexpr double leastScale = 1e-3;         ///< smaller errors, relative to those given, are rounding
     constexpr double coverage = 0.9;
-    constexpr double doubtfulCoverage = 0.99; ///< of the region of all four where no bend is seen
+    constexpr double doubtfulCoverage = 0.99; ///< of the joint region of all four if no bend is detected
     constexpr int mostRounds = 12;
     constexpr std::size_t startCount = 3;
     constexpr int mostWhitenings = 2;
@@ -58,7 +58,7 @@ namespace {
         return residuals;
     }
 
-    /// Points that are too far off a pass to take part.
+    /// Points too far from a pass to be included.
     std::vector<char> outliersOf(const std::vector<DopplerPoint> &points, const std::vector<double> &residuals)
     {
         std::vector<double> magnitudes;
@@ -82,7 +82,7 @@ namespace {
         return kept;
     }
 
-    /// A fit on its way: which points are out, how errors are correlated, and the pass.
+    /// State of the iteration: excluded points, error correlation, and the pass.
     struct Settling {
         std::vector<char> isOut;
         DopplerProblem problem;
@@ -90,7 +90,7 @@ namespace {
         std::vector<DopplerCoordinates> others{}; ///< minima from other starts
     };
 
-    /// Fits, leaves out, fits again, until the same points stay out.
+    /// Alternates fitting and outlier removal until the excluded points no longer change.
     void leaveOutliersOut(Settling &settling, const std::vector<DopplerPoint> &points, double propagation)
     {
         for (int round = 0; round < mostRounds; ++round) {
@@ -104,7 +104,7 @@ namespace {
         }
     }
 
-    /// The best of the fits from several starts; outliers count by their distance, not its square.
+    /// The best fit from several starts; outliers count by absolute, not squared distance.
     Settling settled(const std::vector<DopplerPoint> &points, double propagation)
     {
         const DopplerProblem whole(points, propagation);
@@ -130,8 +130,8 @@ namespace {
         return best;
     }
 
-    /// Whether the points are surely no straight line. If they may be one, a small pass somewhere fits the errors, and
-    /// the likelihood of single parameters does not have its usual law.
+    /// Whether the points clearly deviate from a straight line. If they do not, a small pass somewhere fits the errors,
+    /// and the likelihood of single parameters does not follow its usual law.
     bool isSurelyBent(const Settling &settling, const DopplerOptimum &optimum)
     {
         constexpr double deviations = 5.0;
@@ -154,7 +154,7 @@ namespace {
         return optimum;
     }
 
-    /// The other minima, and at several speeds those of passes long before and after.
+    /// The other minima, and those of passes long before and after at several speeds.
     std::vector<DopplerCoordinates> minimaElsewhere(const Settling &settling, const std::vector<DopplerPoint> &points,
                                                     double propagation)
     {

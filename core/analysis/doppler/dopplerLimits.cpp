@@ -14,24 +14,24 @@ namespace {
     constexpr std::array parameters{DopplerParameter::RestHz, DopplerParameter::Speed, DopplerParameter::Range,
                                     DopplerParameter::Closest};
     constexpr double growth = 1.6;
-    constexpr double accuracy = 2e-3; ///< of a limit, in first steps
-    constexpr double betterBy = 1e-6; ///< relative: what is no rounding
+    constexpr double accuracy = 2e-3; ///< of a limit, in units of the first step
+    constexpr double betterBy = 1e-6; ///< relative: more than rounding
     constexpr int mostOptima = 4;
 
-    /// How far a cost lies outside of the optimum's region, in standard deviations.
+    /// Distance of a cost from the optimum's region, in standard deviations; positive: outside.
     double excessOf(double cost, const DopplerOptimum &optimum)
     {
         const double above = cost - optimum.cost;
         return std::copysign(std::sqrt(std::abs(above) / optimum.variance), above) - optimum.critical;
     }
 
-    /// A place that lies inside of the likelihood's region.
+    /// A point inside the likelihood region.
     struct Inside {
         DopplerCoordinates x;
         double excess = 0.0; ///< at most 0
     };
 
-    /// One parameter's profile around an optimum. What it comes upon inside, it adds to what all have found.
+    /// One parameter's profile around an optimum. Shares the inside points that it finds with the others.
     class Profile
     {
     public:
@@ -42,7 +42,7 @@ namespace {
         {
         }
 
-        /// The farthest place that is known to lie inside, -1 or 1.
+        /// The farthest point known to lie inside, on side -1 or 1.
         Inside farthest(int direction) const
         {
             return *std::max_element(m_found.begin(), m_found.end(), [&](const Inside &a, const Inside &b) {
@@ -50,13 +50,13 @@ namespace {
             });
         }
 
-        /// Whether a limit's coordinate leaves something outside.
+        /// Whether a known inside point lies beyond a limit's coordinate.
         bool isPassed(double limit, int direction) const
         {
             return direction * (ownOf(farthest(direction)) - limit) > 2.0 * accuracy * m_step;
         }
 
-        /// The limit on one side in the parameter's own coordinate; nothing if it is open.
+        /// The limit on one side in the parameter's own coordinate; empty if open.
         std::optional<double> limit(int direction)
         {
             const double end = endOf(direction);
@@ -77,7 +77,7 @@ namespace {
     private:
         double ownOf(const Inside &place) const { return m_problem.ownCoordinate(m_parameter, place.x); }
 
-        /// How far a value lies outside, in standard deviations; x is the nearest solution, and becomes its own.
+        /// Distance of a value outside, in standard deviations; x is the nearest solution and is updated to its own.
         double excess(double own, DopplerCoordinates &x)
         {
             x = m_problem.minimum(x, m_parameter, own);
@@ -106,7 +106,7 @@ namespace {
             return 0.5 * (low + high);
         }
 
-        /// As far as the limit would be if the residuals were linear in the coordinates.
+        /// Distance of the limit if the residuals were linear in the coordinates.
         double firstStep() const
         {
             Eigen::MatrixXd J;
@@ -162,8 +162,8 @@ namespace {
         bool isKnown = false;
     };
 
-    /// Follows all profiles, and those again beyond whose limits another one has come: a bent region has places that a
-    /// profile does not get to from the optimum.
+    /// Follows all profiles, and repeats those whose limits another profile has passed: a curved region has points that
+    /// a profile does not reach from the optimum.
     std::vector<Limit> followed(const DopplerProblem &problem, const DopplerOptimum &optimum,
                                 std::vector<Inside> &found)
     {

@@ -11,7 +11,7 @@ namespace {
     constexpr double suspiciousScale = 3.0;
     constexpr double fewPoints = 10.0;
 
-    /// Four digits are more than any of these numbers is known to.
+    /// Four digits exceed the accuracy of all these numbers.
     std::string shown(double value)
     {
         char digits[32];
@@ -19,7 +19,7 @@ namespace {
         return digits;
     }
 
-    /// Least-squares slope of the points that took part, Hz/s, over its standard error.
+    /// Least-squares slope of the points in the fit divided by its standard error.
     double riseInErrors(const DopplerFit &fit, const std::vector<DopplerPoint> &points)
     {
         double n = 0.0, t = 0.0, f = 0.0, tt = 0.0, tf = 0.0, ff = 0.0;
@@ -41,7 +41,7 @@ namespace {
         return slope / std::sqrt(rest / ((n - 2.0) * varianceT));
     }
 
-    /// When the closest approach was heard, for all its interval says, beside the track's time.
+    /// Position of the closest approach as heard, over its whole interval, relative to the track's time.
     struct Heard {
         bool mayBeBefore, mayBeIn, mayBeAfter;
 
@@ -74,7 +74,7 @@ namespace {
         return "It may be earlier or later.";
     }
 
-    /// v²/R of a slow source from the mean slope of the fitted curve, which a straight fall tells.
+    /// v²/R of a slow source from the mean slope of the fitted curve, known from a linear fall.
     std::string accelerationText(const DopplerFit &fit, const std::vector<DopplerPoint> &points)
     {
         const double first = receivedHz(fit.pass, fit.propagation, points.front().seconds);

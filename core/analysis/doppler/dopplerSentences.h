@@ -7,8 +7,8 @@
 
 namespace faintline {
 
-/// What a fit cannot tell, most important first: what is open and why, what speaks against a straight pass, and what
-/// one sensor never tells.
+/// Limitations of a fit, most important first: open intervals and their reasons, evidence against a straight pass, and
+/// what one sensor can never tell.
 std::vector<std::string> dopplerSentences(const DopplerFit &fit, const std::vector<DopplerPoint> &points);
 
 } // namespace faintline

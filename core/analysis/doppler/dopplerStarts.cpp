@@ -10,8 +10,8 @@ namespace {
 
     constexpr std::size_t mostPoints = 60;
     constexpr double speedFactors[]{1.0, 1.3, 1.8, 3.0, 6.0, 15.0};
-    constexpr double timeFactors[]{0.003, 0.01, 0.03, 0.1, 0.25, 0.6, 1.5, 4.0, 10.0}; ///< R/v over the track's length
-    constexpr double heardStep = 0.125; ///< in the track's length, from one before its middle to one after
+    constexpr double timeFactors[]{0.003, 0.01, 0.03, 0.1, 0.25, 0.6, 1.5, 4.0, 10.0}; ///< R/v in track lengths
+    constexpr double heardStep = 0.125; ///< in track lengths, from one before its middle to one after
     constexpr double mostBeta = 0.95;
 
     std::vector<DopplerPoint> evenly(const std::vector<DopplerPoint> &points)
@@ -23,7 +23,7 @@ namespace {
         return some;
     }
 
-    /// The least v/c whose pass spans the points.
+    /// The smallest v/c whose pass spans the points.
     double leastBeta(const std::vector<DopplerPoint> &points)
     {
         std::vector<double> hz;
@@ -52,7 +52,7 @@ namespace {
         pass.restHz = medianOf(ratios);
     }
 
-    /// When the closest approach is heard.
+    /// When the closest approach is heard, relative to the points.
     enum class When { Any, Before, After };
 
     bool isHeard(When when, const DopplerPass &pass, const std::vector<DopplerPoint> &points, double propagation)

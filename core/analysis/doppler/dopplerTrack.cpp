@@ -10,7 +10,7 @@ namespace faintline {
 
 namespace {
 
-    /// The ends of a model's slopes, bins per frame.
+    /// Limits of a model's slopes, bins per frame.
     struct Slopes {
         double lowest = 0.0, highest = 0.0;
 
@@ -29,7 +29,7 @@ namespace {
         }
     };
 
-    /// A short piece beside a steep one is likely a path that has lost its line.
+    /// In a short piece next to a steep one, the path has probably lost its line.
     void dropShortPieces(std::vector<char> &isSteep)
     {
         constexpr std::ptrdiff_t least = 16;
@@ -43,7 +43,7 @@ namespace {
         }
     }
 
-    /// Which points lie within two frames of where the path, or its mean slope over four frames, is at the limit.
+    /// Flags points within two frames of where the path, or its mean slope over four frames, is at the limit.
     std::vector<char> steepPoints(const StateSpace &space, const Axis &axis, const Track &track)
     {
         constexpr std::ptrdiff_t reach = 2;
@@ -63,7 +63,7 @@ namespace {
         return isSteep;
     }
 
-    /// Standard deviation of a point's place, in cells; nothing where the signal is not present.
+    /// Standard deviation of a point's position, in cells; empty if the signal is absent.
     std::optional<double> deviationOf(const Track &track, std::size_t point)
     {
         constexpr float leastPresence = 0.5f;

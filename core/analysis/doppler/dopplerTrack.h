@@ -10,22 +10,21 @@ namespace faintline {
 /// A track's frequencies for `fitDopplerPass`.
 struct DopplerTrack {
     std::vector<DopplerPoint> points; ///< by time
-    Index steepCount = 0;             ///< points that were left out because the model could not follow faster
-    double steepestHzPerSecond = 0.0; ///< the fastest fall that the model follows
+    Index steepCount = 0;             ///< points excluded because the model cannot follow faster
+    double steepestHzPerSecond = 0.0; ///< steepest fall that the model can follow
 };
 
 /// A track's absolute frequencies: those of its frames plus `centreHz`.
 ///
-/// Of a track that was looked at from both ends: the smoothed path where the signal is present (probability ½ or more),
-/// with SmoothedPoint::deviation. Of another: the cells of the path, rounded, so with a standard deviation of 1/√12
-/// cell. Where the path is as steep as the model allows (85 %), and two frames to either side, the line may be drifting
-/// faster than the path can: these points are left out, and what is shorter than 16 frames beside them. A path that
-/// lags behind a pass looks like a slower and nearer one.
-/// Throws Error where the frames have more axes than frequency.
+/// For a smoothed track: the smoothed path where the signal is present (probability ½ or more), with
+/// SmoothedPoint::deviation. Otherwise: the cells of the path, whose rounding has a standard deviation of 1/√12 cell.
+/// Where the path is as steep as the model allows (85 %), and two frames on either side, the line may drift faster than
+/// the path can follow: these points are excluded, as are adjoining pieces shorter than 16 frames. A path that lags
+/// behind a pass mimics a slower and nearer one. Throws Error if the frames have axes other than frequency.
 DopplerTrack dopplerTrack(const AnalysisPlan &plan, const Track &track, double centreHz);
 
-/// Several tracks of one pass, such as before and after a closest approach that was too fast to follow. Throws Error
-/// where they overlap in time.
+/// Several tracks of one pass, such as before and after a closest approach that was too fast to follow. Throws Error if
+/// they overlap in time.
 DopplerTrack joined(const std::vector<DopplerTrack> &tracks);
 
 } // namespace faintline
