@@ -8,9 +8,9 @@
 
 namespace faintline {
 
-/// Arrays of so many bytes and more go back to the system as they are let go, for as long as the program runs. By
-/// itself the C library raises that limit to 32 MiB, and what lies between the arrays that are kept grows to a third of
-/// all memory, and goes on growing.
+/// Arrays of at least `bytes` bytes return their memory to the system when freed, for the rest of the run. By default
+/// the C library raises this threshold to 32 MiB, and the holes between live arrays grow to a third of all memory and
+/// beyond.
 inline void keepNoHoles(int bytes)
 {
 #ifdef __GLIBC__
