@@ -16,7 +16,7 @@ namespace {
 
     constexpr double largestMultiple = 64.0;
 
-    /// The smallest distance between two members; ∞ of one.
+    /// The smallest distance between two members; ∞ for a single one.
     double closest(std::vector<double> members)
     {
         std::sort(members.begin(), members.end());
@@ -157,8 +157,8 @@ FamilyMap FamilyMap::onRing(const FamilySettings &settings, Index bins, double b
     const auto [least, most] = std::minmax_element(members.begin(), members.end());
     const Index own = bins / channels;
     const bool fits = !isHarmonic && 2.0 * (*most - *least) * binsPerHz < double(own);
-    // Otherwise each member has a stretch to itself, or noise would be added to itself where two of them meet. Channels
-    // lie in a row: a member beyond the end of one goes on in the next, so that all of them together close.
+    // Otherwise each member gets its own section, because noise would be added to itself where two meet. Channels lie
+    // in a row: a member that runs past the end of one continues in the next, so the whole ring closes.
     const auto cells = fits ? own : Index(double(own) / ringBands(map.m_settings));
     map.m_frequency = {"frequency", "Hz", 0.0, 1.0, cells, true};
     const Axis ring{"frequency", "Hz", 0.0, 1.0, bins, true};
@@ -177,7 +177,7 @@ FamilyMap FamilyMap::onRing(const FamilySettings &settings, Index bins, double b
 
 namespace {
 
-    /// powerOfSum, whose law is looked up once for neighbours of as many members.
+    /// powerOfSum with one table lookup for adjacent cells with the same number of members.
     class PowerOfSum
     {
     public:
@@ -193,7 +193,7 @@ namespace {
         const LooksLaw *m_law = nullptr;
     };
 
-    /// Values of every cell that are being put together, and how many of them were observed.
+    /// Accumulated values of every cell, and how many were observed.
     struct Gathered {
         std::span<float> values;
         std::vector<std::uint16_t> counts;
@@ -221,7 +221,7 @@ namespace {
                         add(cell, y[std::size_t(places[cell])], combine);
         }
 
-        /// Brings what so many of them gave to the law of one cell.
+        /// Transforms each accumulated value to the law of a single cell.
         template <class Law>
         void finish(Law law)
         {
@@ -244,7 +244,7 @@ void FamilyMap::apply(std::span<const float> y, std::span<float> out) const
     all.finish(PowerOfSum());
 }
 
-/// Of every member what all channels have of it together, and of these the largest.
+/// Combines all channels of each member, then takes the largest.
 void FamilyMap::applyInTurn(std::span<const float> y, std::span<float> out) const
 {
     const auto larger = [](float a, float b) { return std::max(a, b); };
@@ -295,7 +295,7 @@ NormalisedFramesPointer familyFrames(const std::vector<NormalisedFramesPointer> 
     if (settings.isNone() && channels.size() == 1)
         return first;
     const Spectrogram *spectrogram = first->spectrogram();
-    // Where no members are looked for elsewhere, the ends of the band are the detector's to exclude.
+    // Without a family, the detector excludes the ends of the band.
     const bool innerOnly = !settings.isNone() && spectrogram && spectrogram->hasRealEnds();
     return std::make_shared<FamilyFrames>(
         channels, FamilyMap(settings, first->grid().axes.back(), innerOnly, int(channels.size())));

@@ -14,10 +14,10 @@ namespace faintline {
 namespace {
 
     constexpr double largestStretch = 8.0;
-    constexpr double passed = 0.94; ///< of half the rate
+    constexpr double passed = 0.94; ///< fraction of half the rate
     constexpr Index blockSamples = 8192;
 
-    /// sinc under Kaiser's window, on one side, linear between points.
+    /// One side of a Kaiser-windowed sinc, interpolated linearly.
     class Kernel
     {
     public:
@@ -118,7 +118,7 @@ void ResampledRecording::readBlock(Index first, std::span<float> out) const
     m_base->read(m_channel, begin, end - begin, base);
     for (std::size_t n = 0; n < count; ++n) {
         const double seconds = baseSecondsOf(double(first + Index(n)) / rate);
-        const double width = passed * std::min(1.0, m_curve.at(seconds) / m_toHz); // of the band, in half the rate
+        const double width = passed * std::min(1.0, m_curve.at(seconds) / m_toHz); // relative to half the rate
         const double centre = seconds * rate - double(begin);
         const double reach = Kernel::crossings / width;
         std::array<double, 2> sum{};

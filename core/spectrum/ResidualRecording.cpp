@@ -7,7 +7,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr double neighbourCells = 8.0; ///< beyond, a line takes nothing of another's amplitude
+    constexpr double neighbourCells = 8.0; ///< lines further apart do not affect each other's amplitude
     constexpr Index run = LineFit::silentSamples;
     constexpr std::string_view subtracting = "subtracting lines";
 

@@ -5,17 +5,17 @@
 
 namespace faintline {
 
-/// A recording less strong lines of one of its channels: each is fitted with its amplitude and phase (LineFit) and
-/// subtracted, the strongest first, so that what lies beside it is heard. Other channels stay as they are.
+/// A recording minus strong lines of one of its channels. Each line is fitted in amplitude and phase (LineFit) and
+/// subtracted, the strongest first, to reveal weaker signals nearby. Other channels are unchanged.
 ///
-/// A fit P takes the noise within half a cell of its line, too. With noise w like the recording's own
-/// (SurrogateRecording) what is fitted is the difference from that, x - P(x - w): the noise is white where it was,
-/// without a hole, which the background beside it would be lower for. Thread-safe; samples are a pure function of
-/// (recording, paths, noise, index).
+/// A fit P also removes the noise within half a cell of its line. With noise w like the recording's own
+/// (SurrogateRecording), the difference from it is fitted instead, x - P(x - w): the noise remains white, without a
+/// notch that would lower the background nearby. Thread-safe; samples are a pure function of (recording, paths, noise,
+/// index).
 class ResidualRecording final : public Recording
 {
 public:
-    /// `paths`: by falling strength; `noise`: as long as the recording, of one channel; null for none. Reads the
+    /// `paths`: in order of decreasing strength; `noise`: as long as the recording, one channel; null: none. Reads the
     /// samples along each path. Throws Cancelled.
     ResidualRecording(RecordingPointer base, int channel, std::vector<LinePath> paths, const Recording *noise = nullptr,
                       const RunContext &context = {});

@@ -14,7 +14,7 @@ namespace {
 
     constexpr Index blockSamples = 8192;
 
-    /// Positive frequencies twice, negative ones not, over the length.
+    /// Doubles positive frequencies, removes negative ones, divides by the length.
     std::vector<float> analyticGains()
     {
         constexpr std::size_t half = blockSamples / 2;
@@ -64,10 +64,10 @@ void StraightenedRecording::read(int /*channel*/, Index first, Index count, std:
     });
 }
 
-/// Of interleaved samples: a → a·e^(-iθ), θ = 2π (∫ f dt - f0·t), exact every few samples and linear between them.
+/// For interleaved samples: a → a·e^(-iθ), θ = 2π (∫ f dt - f0·t), exact every few samples and linear between them.
 void StraightenedRecording::turn(Index first, std::span<float> samples) const
 {
-    constexpr Index linear = 32; // samples, from multiples of it on, so that no value depends on where a read begins
+    constexpr Index linear = 32; // samples; aligned to multiples, so that no value depends on where a read begins
     const auto cyclesAt = [&](Index n) {
         const double seconds = double(n) / m_info.sampleRateHz;
         return m_curve.cyclesAt(seconds) - m_toHz * (seconds - m_curve.time().first);
@@ -91,7 +91,7 @@ void StraightenedRecording::turn(Index first, std::span<float> samples) const
     }
 }
 
-/// Adds a block's share to real samples from `first` on. Turning and the second window may change places.
+/// Adds a block's contribution to real samples from `first` on. Rotation and the second window commute.
 void StraightenedRecording::addBlock(Index block, Index first, std::span<float> out) const
 {
     const Index begin = m_filter.beginOf(block);

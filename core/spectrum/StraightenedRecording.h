@@ -8,19 +8,18 @@
 
 namespace faintline {
 
-/// A recording shifted in frequency, from moment to moment, so that what runs along a curve f(t) stays at one
-/// frequency:
+/// A recording shifted in frequency over time, so that a line along a curve f(t) stays at one frequency:
 ///
 ///   s(t) = Re{ a(t)·e^(-2πi ∫ (f - f0) dt) },   a = x + i·H{x}
 ///
-/// H: Hilbert transform, block by block (BlockFilter); of I/Q samples a = x, and s is complex. The phase is a
-/// continuous function of the curve alone. The whole band moves with the line, so noise stays what it was; what comes
-/// within |f - f0| of 0 Hz or half the rate is folded there. Thread-safe; samples are a pure function of (recording,
-/// curve, index).
+/// H: Hilbert transform, block by block (BlockFilter). For I/Q samples a = x, and s is complex. The phase is a
+/// continuous function of the curve alone. The whole band moves with the line, so the noise is unchanged; components
+/// within |f - f0| of 0 Hz or half the rate are aliased. Thread-safe; samples are a pure function of (recording, curve,
+/// index).
 class StraightenedRecording final : public Recording
 {
 public:
-    /// `toHz`: f0. Throws Error unless it lies in the recording's band.
+    /// `toHz`: f0. Throws Error if it lies outside the recording's band.
     StraightenedRecording(RecordingPointer base, int channel, const FrequencyCurve &curve, double toHz);
 
     const FrequencyCurve &curve() const { return m_curve; }
@@ -39,7 +38,7 @@ private:
     FrequencyCurve m_curve;
     double m_toHz;
     BlockFilter m_filter;
-    std::vector<float> m_gains; ///< of the analytic signal
+    std::vector<float> m_gains; ///< of the analytic signal's filter
 };
 
 } // namespace faintline

@@ -27,7 +27,7 @@ const LooksLaw &lawOfSum(std::size_t members)
 {
     struct Law {
         std::once_flag isMade;
-        std::optional<LooksLaw> law; // a table, made where it is first needed
+        std::optional<LooksLaw> law; // a table, computed on first use
     };
     static std::array<Law, mostSummed> laws;
     Law &law = laws[members - 1];

@@ -8,13 +8,13 @@
 
 namespace faintline {
 
-// A family member by member: what FamilyMap takes together.
+// The individual members of a family that FamilyMap combines.
 
 /// The bins of a band in which the members of a family at `hz` lie, in the order of the settings; -1: outside.
-/// `innerOnly` as FamilyMap has it.
+/// `innerOnly` as in FamilyMap.
 std::vector<Index> memberBins(const FamilySettings &settings, double hz, const Axis &band, bool innerOnly);
 
-/// y of the family from y of its members, each in all channels, as FamilyMap has it. NaN: not observed, so not a
+/// y of the family from y of its members, each in all channels, as in FamilyMap. NaN: not observed, so not counted as a
 /// member. Thread-safe.
 float familyPower(FamilySettings::Present present, std::span<const float> members, std::size_t channels = 1);
 
