@@ -8,7 +8,7 @@ namespace {
 
     constexpr int pullMs = 33;
 
-    /// Others have samples that are none: a clock's departure, seconds left on a disk.
+    /// Whether sampleCount counts lost samples; otherwise it is a clock departure or seconds of disk space.
     bool isLoss(ListenNotice::Kind kind)
     {
         using Kind = ListenNotice::Kind;
@@ -44,7 +44,7 @@ void LiveRun::start(OpenSource open, const ListenSettings &settings)
     m_pull.start();
     m_runner.start(
         [this, open = std::move(open), settings, shared = m_shared, stop = m_stop.get_token()](RunContext context) {
-            context.stop = stop; // stopping is no reason to drop the result
+            context.stop = stop; // keep the result when stopped
             context.progress = {};
             return listenNow(open, settings, *shared, context);
         });
@@ -104,7 +104,7 @@ void LiveRun::change(const AnalysisSettings &settings)
     m_shared->wish = settings;
 }
 
-/// Of what came meanwhile only the newest is shown, however slow the window is.
+/// Skips to the newest state, however slow the window is.
 void LiveRun::deliver()
 {
     LiveView view;

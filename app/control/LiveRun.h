@@ -15,22 +15,22 @@
 
 namespace faintline {
 
-/// Listens to a source on a worker and hands over, some thirty times a second, what there is to be seen.
+/// Listens to a source on a worker thread and delivers views of the run about thirty times a second.
 class LiveRun : public QObject
 {
     Q_OBJECT
 
 public:
-    /// Makes the source, on the worker. Throws Error, Cancelled.
+    /// Opens the source; called on the worker. Throws Error, Cancelled.
     using OpenSource = std::function<std::unique_ptr<SampleSource>(const std::stop_token &)>;
 
-    /// What is known besides the pictures.
+    /// State of the run, apart from the pictures.
     struct State {
-        std::optional<StreamFormat> format; ///< none: the source has not answered yet
-        QString recording;                  ///< its metadata; in the end, of several files, their list
+        std::optional<StreamFormat> format; ///< empty until the source has answered
+        QString recording;                  ///< its metadata; at the end, the list if there are several files
         Index lostCount = 0;                ///< samples
         int gapCount = 0;
-        double blockSeconds = 0.0; ///< that are heard before the first frame
+        double blockSeconds = 0.0; ///< of noise received before the first frame
         bool isStopping = false;
     };
 
@@ -38,9 +38,9 @@ public:
     ~LiveRun() override;
 
     void start(OpenSource open, const ListenSettings &settings);
-    /// Ends it soon: what was heard is written and analysed first.
+    /// Stops soon, after writing and analysing what was received.
     void stop();
-    /// To be in force as soon as it is calibrated.
+    /// Takes effect once calibrated.
     void change(const AnalysisSettings &settings);
 
     bool isRunning() const { return m_runner.isRunning(); }
@@ -51,11 +51,11 @@ signals:
     void grew(const faintline::LiveView &view);
     void noticed(const faintline::ListenNotice &notice);
     void failed(const faintline::Error &error);
-    /// Always the last one, after `failed` too.
+    /// Always emitted last, even after `failed`.
     void ended();
 
 private:
-    /// What the worker and the window's thread share.
+    /// State shared by the worker and the window's thread.
     struct Shared {
         std::mutex mutex;
         LiveHistory history;

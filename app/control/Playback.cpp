@@ -17,8 +17,8 @@ namespace {
 
     constexpr int interval = 33; // ms
     constexpr double toneHz = 700.0;
-    constexpr double behindSeconds = 0.2;  // of a live run, for what comes late
-    constexpr double longestSeconds = 1e9; // it is played to its end
+    constexpr double behindSeconds = 0.2;  // behind a live run, to absorb late deliveries
+    constexpr double longestSeconds = 1e9; // long enough to play to the end
     constexpr double speeds[]{0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0};
 
     QAction *addChoice(QMenu &menu, QActionGroup &group, const QString &text, bool isChecked)
@@ -91,7 +91,7 @@ void Playback::playOn()
         stop();
 }
 
-/// The box; without one from the cursor, unless that is at its end, to the end of what is visible.
+/// The box, or else from the cursor, unless it is at the end, to the end of the visible part.
 PlaySettings Playback::stretch() const
 {
     const Viewport &viewport = m_document.viewport();
@@ -143,7 +143,7 @@ Span Playback::band() const
     return m_document.box() ? m_document.box()->frequency : m_document.viewport().frequency();
 }
 
-/// A line is heard where the event that is chosen was last, or at the cursor; it may walk a little.
+/// A line is followed at the selected event's last frequency, or at the cursor; it may wander slightly.
 Playback::LiveChoice Playback::liveChoice() const
 {
     constexpr double stepHz = 20.0;
@@ -270,7 +270,7 @@ bool Playback::startLive()
     return isHearing;
 }
 
-/// Nobody is told that it ended: what shows that it plays goes on to.
+/// Does not report an end, so that the window keeps showing that it plays.
 void Playback::goOnSoundless()
 {
     m_isPlaying = false;
@@ -305,7 +305,7 @@ void Playback::followLive()
         return stop();
     const LiveChoice wanted = liveChoice();
     if (std::exchange(m_wanted, wanted) == wanted
-        && wanted != *m_liveChoice) // one that stays, not every step of a zoom
+        && wanted != *m_liveChoice) // only once the choice is stable, not at every step of a zoom
         return playOn();
     const auto &written = *m_document.live().written;
     emit delayChanged(double(written.end()) / written.format().sampleRateHz - m_player->positionSeconds());

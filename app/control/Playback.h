@@ -20,52 +20,52 @@ namespace faintline {
 
 class Document;
 
-/// Plays what is looked at as sound, and has the cursor follow it: the measured box, or from the cursor to the end of
-/// what is visible. Where the cursor is put meanwhile, it plays on from there.
+/// Plays the displayed recording as sound, with the cursor following: the measured box, or from the cursor to the end
+/// of the visible part. If the cursor is moved, playback continues from there.
 ///
-/// Or plays what is listened to, as it comes: all of it, a band or a line, from the recording that is being written.
-/// The cursor stays then, and how far the sound is behind is told.
+/// Also plays a live run: all of it, a band or a line, from the recording in progress. The cursor then stays where it
+/// is, and the delay of the sound is reported.
 class Playback : public QObject
 {
     Q_OBJECT
 
 public:
     enum class What {
-        Recording, ///< all of it
-        Band,      ///< of the box, or what is visible
-        Line       ///< of the chosen event, or at the cursor, which is heard at 700 Hz
+        Recording, ///< the whole band
+        Band,      ///< of the box, or else the visible band
+        Line       ///< of the selected event, or at the cursor; heard at 700 Hz
     };
     using ChooseEvent = std::function<std::optional<Event>()>;
 
     Playback(Document &document, ChooseEvent chooseEvent, QObject *parent = nullptr);
 
-    /// What is played, how fast, and whether again and again.
+    /// Selects what is played, how fast, and whether in a loop.
     void addActionsTo(QMenu &menu);
     void setWhat(What what);
     void setSpeed(double speed);
     void setLooping(bool isLooping);
 
-    /// From `start` on, also while the curve of an event's line is being computed, which sound waits for.
+    /// True from `start` on, including while sound waits for the curve of an event's line to be computed.
     bool isPlaying() const { return m_isPlaying; }
-    /// Whether it plays; false, with `failed`, where no sound is to be had.
+    /// Returns false and emits `failed` if no sound is available.
     bool start();
-    /// The same of what is listened to.
+    /// The same for the live run.
     bool startLive();
     void stop();
 
 signals:
     void playingChanged(bool isPlaying);
-    void hearingChanged(bool isHearing); ///< what is listened to
-    void delayChanged(double seconds);   ///< of it
+    void hearingChanged(bool isHearing); ///< the live run
+    void delayChanged(double seconds);   ///< of the live run
     void failed(const faintline::Error &error);
-    /// After `failed`, of what `start` had said yes to: the cursor may go on alone.
+    /// Emitted after `failed` if `start` had returned true: the cursor may continue without sound.
     void soundless();
 
 private:
-    /// What is played of a live run: a change of it begins anew.
+    /// What is played of a live run; a change restarts playback.
     struct LiveChoice {
         What what = What::Recording;
-        Span band; ///< of the box, or what is visible; of a line its frequency
+        Span band; ///< of the box, or else the visible one; for a line, its frequency
         bool operator==(const LiveChoice &) const = default;
     };
 
@@ -96,9 +96,9 @@ private:
     double m_speed = 1.0;
     bool m_isLooping = false;
     std::unique_ptr<Player> m_player;
-    std::optional<LiveChoice> m_liveChoice; ///< none: what is played is no live run
+    std::optional<LiveChoice> m_liveChoice; ///< empty: not playing a live run
     LiveChoice m_wanted;
-    double m_shownSeconds = 0.0; ///< where the cursor was put last
+    double m_shownSeconds = 0.0; ///< last cursor position set
     bool m_isPlaying = false;
     QTimer m_timer;
     JobRunner m_line; ///< computes the curve of an event's line; last, so that it ends first
