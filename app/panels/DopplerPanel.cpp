@@ -34,7 +34,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr int leftColumns = 1; ///< of the table
+    constexpr int leftColumns = 1; ///< left-aligned columns of the table
 
     struct Medium {
         const char *name;
@@ -168,7 +168,7 @@ void DopplerPanel::takeMedium()
         m_propagation->setValue(speed.toDouble());
 }
 
-/// Nothing of a source that was open before stays.
+/// Clears everything from the previous source.
 void DopplerPanel::clear()
 {
     const QSignalBlocker quiet(m_centre);
@@ -177,7 +177,7 @@ void DopplerPanel::clear()
     say(tr("Select an event to fit the pass of a source to its track."));
 }
 
-/// Whether it is asked for, and what the recording says of it; a value that was typed since stays.
+/// Shows the field for the centre frequency if needed, with the recording's value; a value typed since is kept.
 void DopplerPanel::takeCentre()
 {
     const auto analysis = m_document.lineAnalysis();
@@ -189,7 +189,7 @@ void DopplerPanel::takeCentre()
     m_centre->setValue(*known);
 }
 
-/// Why there is no fit.
+/// Shows why there is no fit.
 void DopplerPanel::say(const QString &sentence)
 {
     m_runner.cancel();
@@ -212,7 +212,7 @@ void DopplerPanel::follow()
 
 void DopplerPanel::fit()
 {
-    m_save->setEnabled(false); // until what is saved is of what is selected
+    m_save->setEnabled(false); // until the result belongs to the selection
     const auto analysis = m_document.lineAnalysis();
     if (!analysis)
         return say(m_document.analysis() ? tr("A Doppler fit needs frames on frequency.")
@@ -257,7 +257,7 @@ void DopplerPanel::show(const DopplerReport &report)
         notes << QString::fromStdString(note);
     m_notes->setText(notes.join(QLatin1Char('\n')));
     std::vector<Chart> charts = dopplerCharts(report);
-    charts[0].curves.back().kind = Curve::Kind::Measured; // over the points, in a colour of its own
+    charts[0].curves.back().kind = Curve::Kind::Measured; // over the points, in its own colour
     m_frequencies->setChart(charts[0]);
     m_residuals->setChart(charts[1]);
     m_save->setEnabled(true);

@@ -22,11 +22,11 @@ class EventTable;
 class Provenance;
 class VisibilityWatcher;
 
-/// The pass of a source that the selected event's track tells of: rest frequency, speed, closest range and its time
-/// with their 90 % intervals, the residuals, and what the track of one sensor does not tell.
+/// Fits the pass of a source to the selected event's track: rest frequency, speed, closest range and its time with
+/// their 90 % intervals, the residuals, and what the track of one sensor cannot determine.
 ///
-/// Several selected events are taken as pieces of one pass; without a selection the strongest event is fitted. Worked
-/// out while it is seen; the newest selection wins.
+/// Several selected events are treated as pieces of one pass; without a selection the strongest event is fitted.
+/// Computed while visible; the newest selection wins.
 class DopplerPanel : public QWidget
 {
     Q_OBJECT
@@ -44,7 +44,7 @@ public:
     QDoubleSpinBox *propagation() const { return m_propagation; }
     QDoubleSpinBox *centre() const { return m_centre; }
 
-    /// By the path's ending: .json, or .csv with the points.
+    /// The extension selects the format: .json, or .csv with the points.
     void saveTo(const QString &path);
 
     QSize sizeHint() const override { return {720, 340}; }
@@ -72,8 +72,8 @@ private:
     QFormLayout *m_form;
     QComboBox *m_medium;
     QDoubleSpinBox *m_propagation;
-    QDoubleSpinBox *m_centre;     ///< shown of I/Q
-    bool m_isCentreKnown = false; ///< the recording's was taken
+    QDoubleSpinBox *m_centre;     ///< shown for I/Q
+    bool m_isCentreKnown = false; ///< the recording's value has been entered
     QPushButton *m_save;
     QLabel *m_sentence;
     QTableWidget *m_table;

@@ -29,10 +29,10 @@ namespace {
     constexpr int refreshMs = 500;
     constexpr double megabyte = 1e6;
     constexpr double gigabyte = 1e9;
-    constexpr double littleTime = 3600.0; ///< s that a disk takes
-    constexpr double littleSpace = 1e9;   ///< bytes, of a source whose rate is not known yet
+    constexpr double littleTime = 3600.0; ///< s of remaining disk time
+    constexpr double littleSpace = 1e9;   ///< bytes, if the rate is not yet known
 
-    /// `none`: what 0 is called.
+    /// `none`: text shown for 0.
     QDoubleSpinBox *limitBox(const QString &unit, double largest, const QString &none)
     {
         auto *box = new QDoubleSpinBox;
@@ -87,7 +87,7 @@ QFormLayout *ListenDialog::recordForm()
     m_folder->setText(QDir(QStandardPaths::writableLocation(QStandardPaths::HomeLocation))
                           .filePath(QStringLiteral("Faintline recordings")));
     m_folder->setObjectName(QStringLiteral("folder"));
-    m_folder->setToolTip(tr("All that is heard is recorded here, as SigMF; the folder is made where there is none"));
+    m_folder->setToolTip(tr("Folder for the recording (SigMF); created if it does not exist"));
     auto *browse = new QToolButton;
     browse->setText(tr("Browse…"));
     connect(browse, &QToolButton::clicked, this, [this] {
@@ -106,8 +106,7 @@ QFormLayout *ListenDialog::recordForm()
     limits->addWidget(m_largest, 1);
     m_longest->setObjectName(QStringLiteral("longest"));
     m_largest->setObjectName(QStringLiteral("largest"));
-    const QString tip =
-        tr("Another file begins after so long, or so much; a list (.timeline) opens all of them as one");
+    const QString tip = tr("Start a new file at this duration or size; a list (.timeline) opens all files as one");
     for (QWidget *box : {m_longest, m_largest})
         box->setToolTip(tip);
     auto *limitLabel = new QLabel(tr("&New file after"));
@@ -159,7 +158,7 @@ void ListenDialog::accept()
         if (folder().isEmpty())
             throw Error(tr("Record into").toStdString(), tr("is empty; give a folder").toStdString());
         if (!QDir().mkpath(folder()))
-            throw Error(pathBytes(folder()), tr("is no folder that can be made").toStdString());
+            throw Error(pathBytes(folder()), tr("cannot be created").toStdString());
         m_source = form().source();
         QDialog::accept();
     } catch (const Error &error) {

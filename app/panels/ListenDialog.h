@@ -14,8 +14,7 @@ class QStackedWidget;
 
 namespace faintline {
 
-/// Asks what to listen to, into which folder it is recorded, and when another file begins; says how much the disk
-/// takes.
+/// Asks for the source, the folder to record into, and when to start a new file; shows how much time the disk has left.
 class ListenDialog : public QDialog
 {
     Q_OBJECT
@@ -23,12 +22,12 @@ class ListenDialog : public QDialog
 public:
     explicit ListenDialog(QWidget *parent = nullptr);
 
-    const LiveRun::OpenSource &source() const { return m_source; } ///< once accepted
+    const LiveRun::OpenSource &source() const { return m_source; } ///< valid once accepted
     QString folder() const;
     RotationSettings rotation() const;
     QString diskWords() const;
 
-    void accept() override; ///< stays where something is missing, and says what
+    void accept() override; ///< if something is missing, reports it and stays open
 
 private:
     QFormLayout *recordForm();

@@ -30,7 +30,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr double lowestDb = -15.0; ///< drawn; a spectrum's zeros lie anywhere below
+    constexpr double lowestDb = -15.0; ///< lowest level drawn; nulls of a spectrum may lie far below
     constexpr double fewestFrames = 2.0, mostFrames = 4096.0, usualFrames = 32.0; ///< of smoothing
 
     QDoubleSpinBox *number(double low, double high, double value, int decimals, const QString &suffix)
@@ -62,7 +62,7 @@ namespace {
         return chart;
     }
 
-    /// Whether one would overwrite the other: by any name of the file, and of SigMF by either of its two files.
+    /// Whether one would overwrite the other, under any name of the file and either file of SigMF.
     bool isSameRecording(const QString &a, const QString &b)
     {
         const auto wholeOf = [](const QString &path) {
@@ -155,7 +155,7 @@ void StraightenDialog::connectInputs()
     connect(&m_preview, &JobRunner::finished, this, &StraightenDialog::settled);
     connect(&m_preview, &JobRunner::failed, this, [this](const Error &error) {
         for (ChartPlot *chart : {m_before, m_after})
-            chart->setChart({}); // they are of other numbers
+            chart->setChart({}); // outdated by changed inputs
         say(error);
     });
     connect(&m_writer, &JobRunner::progressed, this,
@@ -217,7 +217,7 @@ void StraightenDialog::follow()
     });
 }
 
-/// What the target is where nobody has set it.
+/// Shows the default target unless it is already known.
 void StraightenDialog::showTarget(double hz)
 {
     if (m_usualTarget)
@@ -281,7 +281,7 @@ void StraightenDialog::writeTo(const QString &path)
     });
 }
 
-/// Says beside the file what it was made from.
+/// Records the file's origin in a file beside it.
 void StraightenDialog::finish(const QString &path)
 {
     const StraightenChoice chosen = choice();

@@ -19,14 +19,14 @@ class ChartPlot;
 class Document;
 class Provenance;
 
-/// The recording straightened along an event's track, as a file: where the line goes, how much its track is smoothed,
-/// and the spectrum of the line's duration before and after.
+/// Writes the recording straightened along an event's track: target frequency, smoothing of the track, and the spectrum
+/// over the line's duration before and after.
 class StraightenDialog : public QDialog
 {
     Q_OBJECT
 
 public:
-    /// Of an event of the document's analysis. Precondition: that is of a recording.
+    /// For an event of the document's analysis. Precondition: it analyses a recording.
     StraightenDialog(const Document &document, const Event &event, Provenance &provenance, QWidget *parent = nullptr);
 
     bool isBusy() const { return m_preview.isRunning() || m_writer.isRunning(); }
@@ -38,11 +38,11 @@ public:
     ChartPlot &before() { return *m_before; }
     ChartPlot &after() { return *m_after; }
 
-    /// Its kind by the extension, as writeRecording has it.
+    /// The extension selects the format, as in writeRecording.
     void writeTo(const QString &path);
 
 signals:
-    void settled(); ///< the spectra are those of the inputs, or the sentence says why not; or a file is written, or not
+    void settled(); ///< spectra are current or the sentence says why not; or writing has ended
     void written(const QString &path);
 
 private:
@@ -51,7 +51,7 @@ private:
         LineSpectrum before, after;
     };
 
-    /// What was not changed is left out, so that the file is the command line's.
+    /// Omits unchanged values, so that the file equals that of the command line.
     StraightenChoice choice() const;
     void buildInputs();
     void buildLayout();
@@ -66,11 +66,11 @@ private:
 
     std::shared_ptr<const Analysis> m_analysis;
     Event m_event;
-    QString m_path; ///< of the recording; empty where it is no file
+    QString m_path; ///< of the recording; empty if it is not a file
     Provenance &m_provenance;
     QDoubleSpinBox *m_target;
     QDoubleSpinBox *m_smoothing;
-    std::optional<double> m_usualTarget; ///< what the boxes held at first; the target after the first preview
+    std::optional<double> m_usualTarget; ///< default values; the target after the first preview
     double m_usualSmoothing = 0.0;
     QComboBox *m_method;
     QComboBox *m_type;
@@ -79,7 +79,7 @@ private:
     ChartPlot *m_after;
     QProgressBar *m_progress;
     QPushButton *m_write;
-    JobRunner m_preview; ///< the runners last, so that their jobs end first
+    JobRunner m_preview; ///< runners last, so that their jobs end first
     JobRunner m_writer;
 };
 

@@ -54,7 +54,7 @@ namespace {
         };
     }
 
-    /// The format of samples that come without a header.
+    /// Form for the format of samples without a header.
     struct RawFormat {
         QComboBox *type = sampleTypeBox();
         QDoubleSpinBox *rate = hertzBox(48000.0, 1e-6, 1e12);
@@ -81,7 +81,7 @@ namespace {
                     0.0,
                     {}};
         }
-        /// None while the type is being typed.
+        /// Empty while the type is incomplete.
         std::optional<double> bytesPerSecond() const
         {
             try {

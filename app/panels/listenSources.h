@@ -11,17 +11,17 @@
 
 namespace faintline {
 
-/// Asks for what one kind of source needs to be known.
+/// Form for the settings of one kind of source.
 class ListenSourceForm : public QWidget
 {
 public:
-    /// As filled in. Throws Error of what is missing or wrong.
+    /// The source as filled in. Throws Error if a value is missing or wrong.
     virtual LiveRun::OpenSource source() const = 0;
-    /// What a second of it takes on the disk; none: its header or its device will tell.
+    /// Bytes per second on disk; empty: known only from the header or the device.
     virtual std::optional<double> bytesPerSecond() const = 0;
 };
 
-/// A kind of source that the window can listen to. Another one is another row of the table.
+/// A kind of source that the window can listen to. To add one, add a row to the table.
 struct ListenSourceKind {
     QString name;
     std::function<ListenSourceForm *()> makeForm;
