@@ -21,7 +21,7 @@ namespace faintline {
 namespace {
 
     constexpr int refreshMs = 250;
-    constexpr int delayTicks = 8; ///< over which the longest delay is taken
+    constexpr int delayTicks = 8; ///< over which the maximum delay is taken
 
 } // namespace
 

@@ -11,8 +11,8 @@ class QToolButton;
 
 namespace faintline {
 
-/// Above the pictures while something is listened to: what it is, the time in UTC, what was lost, what the disk still
-/// takes, how far the picture and the sound are behind; and buttons to hear it, to hold the picture and to stop.
+/// Bar above the pictures during a live run: the source, UTC, lost samples, disk time left, and the delay of picture
+/// and sound; with buttons to hear it, to hold the picture and to stop.
 class LiveBar : public QWidget
 {
     Q_OBJECT
@@ -20,12 +20,12 @@ class LiveBar : public QWidget
 public:
     LiveBar(Document &document, LiveRun &run, QWidget *parent = nullptr);
 
-    /// A frame was painted so long after its last sample was heard.
+    /// Notes the delay from a frame's last sample to its painting.
     void setDelay(double seconds);
-    /// Whether what comes in is played, and how far the sound is behind it.
+    /// Whether the live input is played, and the delay of the sound.
     void setHearing(bool isHearing);
     void setSoundDelay(double seconds) { m_soundDelay = seconds; }
-    double longestDelay() const { return m_longestDelay; } ///< of the last seconds
+    double longestDelay() const { return m_longestDelay; } ///< maximum over the last seconds
     QString text() const;
 
 signals:
@@ -46,7 +46,7 @@ private:
     QTimer m_refresh;
     double m_longestDelay = 0.0;
     double m_soundDelay = 0.0;
-    double m_delayBefore = 0.0; ///< of the second before
+    double m_delayBefore = 0.0; ///< of the previous second
     int m_ticks = 0;
 };
 

@@ -30,10 +30,10 @@ namespace faintline {
 namespace {
 
     constexpr int playerInterval = 33; // ms
-    constexpr int playerSteps = 600;   // to play what is visible
+    constexpr int playerSteps = 600;   // to play the visible part
 
-    constexpr Index framesInSight = 600;     // of a live picture at first: about a pixel each
-    constexpr Index longestColouring = 8192; // frames by which a live picture's colours are chosen
+    constexpr Index framesInSight = 600;     // initially in a live picture: about a pixel each
+    constexpr Index longestColouring = 8192; // frames used to choose a live picture's colours
 
     QString orientationName(WaterfallView::Orientation orientation)
     {
@@ -61,7 +61,7 @@ namespace {
             to.setLayer(layer, from.layers().testFlag(layer));
     }
 
-    /// How fast the tracked line under a point drifts, in Hz/s; nothing where no track passes.
+    /// Drift rate of the tracked line at a point, Hz/s; empty if there is no track.
     std::optional<double> slopeAt(const Analysis &analysis, const Viewport::Point &point)
     {
         const Axis &time = analysis.time();
@@ -78,7 +78,7 @@ namespace {
         return {};
     }
 
-    /// `isRest`: of what is left without the strong lines.
+    /// `isRest`: the strong lines are subtracted.
     QString inputHeading(bool isRest)
     {
         return isRest ? Workbench::tr("Input, strong lines subtracted (dB over noise)")
@@ -106,12 +106,11 @@ Workbench::Workbench(Document &document, QWidget *parent)
         splitter->setChildrenCollapsible(false);
     for (QwtPlot *plot : std::initializer_list<QwtPlot *>{m_input, m_output, m_statistic, m_regulation})
         plot->setSizePolicy(QSizePolicy::Expanding,
-                            QSizePolicy::Expanding); // Qwt's own would never shrink below the hint
+                            QSizePolicy::Expanding); // Qwt's default never shrinks below the hint
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(m_rows);
-    setMinimumHeight(
-        220); // of the pictures: the curves' own would keep a window small enough to hide them from becoming so
+    setMinimumHeight(220); // pictures only: with the curves' height the window could not shrink enough to hide them
 
     m_regulation->setRightTitle(tr("resets"));
     m_regulation->setFixedScale(StripPlot::Side::Right, {0.0, 1.0});
@@ -137,7 +136,7 @@ Workbench::Workbench(Document &document, QWidget *parent)
     });
     m_output->canvas()->installEventFilter(this);
     connect(&document, &Document::picturesGrew, this, &Workbench::showPictures);
-    m_closeup = new Closeup(document, *m_input, *m_output, this); // follows what these follow, after them
+    m_closeup = new Closeup(document, *m_input, *m_output, this); // connected after the pictures
     whenInUse(m_closeup, &Closeup::settled, &Workbench::readCursor);
     m_player.setInterval(playerInterval);
     connect(&m_player, &QTimer::timeout, this, &Workbench::play);
@@ -205,7 +204,7 @@ void Workbench::showAnalysis()
     m_statistic->setEmptySentence(tr("Click a picture to plot D at that frequency over time."));
 
     followExtents(analysis.time(), frequency);
-    m_output->setThreshold(analysis.threshold); // before the picture: the automatic range takes it into account
+    m_output->setThreshold(analysis.threshold); // before the picture: the automatic range depends on it
     m_input->setHeading(inputHeading(analysis.unsubtracted != nullptr));
     m_input->setPicture(analysis.input, frequency);
     showStatistic();
@@ -227,7 +226,7 @@ void Workbench::showAnalysis()
 void Workbench::showPictures(const PicturesSoFar &pictures)
 {
     followExtents(pictures.time, pictures.frequency);
-    // The quick look has all of the recording, what has been gone through has all of the detail.
+    // The quick look covers the whole recording; the processed part has full detail.
     const Axis &time = pictures.time;
     const double reached = pictures.input ? time.value(double(pictures.input->frameCount()) - 0.5)
                                           : -std::numeric_limits<double>::infinity();
@@ -238,7 +237,7 @@ void Workbench::showPictures(const PicturesSoFar &pictures)
         m_output->setEmptySentence(tr("The statistic appears here after the noise has been estimated."));
 }
 
-/// The newest frames of what is heard. Colours are chosen again whenever there is twice as much to choose them by.
+/// Shows the newest live frames. Colours are chosen again whenever the frames to choose from have doubled.
 void Workbench::showLive()
 {
     const LiveView &live = m_document.live();
@@ -270,7 +269,7 @@ void Workbench::showLive()
     m_isToBePainted = true;
 }
 
-/// It is read anew a few times a second, for as long as there is a cursor to read it at.
+/// Updated a few times a second while there is a cursor.
 bool Workbench::isStripDue()
 {
     constexpr qint64 stripMs = 200;
@@ -280,7 +279,7 @@ bool Workbench::isStripDue()
     return true;
 }
 
-/// Those in sight, of what may be a day's.
+/// Only the visible ones, of possibly a day's.
 void Workbench::showLiveTracks()
 {
     const LiveView &live = m_document.live();
@@ -300,7 +299,7 @@ void Workbench::showLiveTracks()
         view->setLiveTracks(events, tracks, time);
 }
 
-/// At first there is room for some frames, which fill it.
+/// Initially leaves room for some frames, which then fill it.
 void Workbench::growExtents(const LiveView &live)
 {
     const Viewport::Box full = WaterfallView::extents(live.time, live.plan->grid().axes.back());
@@ -347,7 +346,7 @@ bool Workbench::eventFilter(QObject *watched, QEvent *event)
     return Bench::eventFilter(watched, event);
 }
 
-/// Above the output; its colour bar is the statistic's, a layer in its place has a key of its own.
+/// Title of the output; its colour bar is the statistic's, a layer shown instead has its own key.
 void Workbench::showHeading()
 {
     const bool isStatistic = m_layers->layer() == OutputLayer::Statistic || m_layers->isOverlay();
@@ -362,7 +361,7 @@ void Workbench::showHeading()
     m_statistic->setLeftTitle(tr("D (%1)").arg(unit));
 }
 
-/// The analysis's, or what changed settings make of the visible part of it in the meantime.
+/// The analysis's, or the preview of the visible part with changed settings.
 void Workbench::showStatistic()
 {
     if (!m_document.analysis())
@@ -383,7 +382,7 @@ void Workbench::showThreshold()
 void Workbench::showEvents()
 {
     if (!m_document.analysis())
-        return; // live ones come with their pictures
+        return; // live events arrive with their pictures
     const std::vector<Event> events = m_document.shownEvents();
     const std::vector<Track> tracks = m_document.shownTracks();
     for (WaterfallView *view : {m_input, m_output}) {

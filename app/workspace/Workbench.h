@@ -16,7 +16,7 @@ class Closeup;
 class OutputLayers;
 class StripPlot;
 
-/// The pictures: input and statistic side by side on one viewport, each with its colour bar; curves along time below.
+/// The pictures: input and statistic side by side on one viewport, each with its colour bar; time curves below.
 class Workbench : public Bench
 {
     Q_OBJECT
@@ -31,7 +31,7 @@ public:
     QWidget *firstView() const override { return m_output; }
     QString firstViewName() const override { return QStringLiteral("output"); }
     bool hasReadOut() const override { return false; }
-    bool eventFilter(QObject *watched, QEvent *event) override; ///< when a live picture is painted
+    bool eventFilter(QObject *watched, QEvent *event) override; ///< detects when a live picture is painted
     QString hint() const override;
 
     Place place() const override;
@@ -47,7 +47,7 @@ public:
     void cycleOrientation() override { m_output->cycleOrientation(); }
     void cycleColourMap() override { m_output->cycleColourMap(); }
     void setAutomaticRange() override;
-    /// Labels frequencies as radio frequencies where the recording has a centre frequency.
+    /// Labels frequencies as radio frequencies if the recording has a centre frequency.
     void setRadioAxis(bool isOn);
     bool isRadioAxis() const { return m_isRadioAxis; }
 
@@ -65,12 +65,12 @@ protected:
     void showEvents() override;
     void readCursor() override;
 
-    /// The curves give way where there is little height: the pictures come first.
+    /// Hides the curves if the window is too low; the pictures have priority.
     void resizeEvent(QResizeEvent *event) override;
 
 signals:
     void readingChanged(const faintline::ReadOut::Reading &reading);
-    /// A live picture is on the screen, so long after the last sample of its newest frame was heard.
+    /// A live picture was painted this long after the last sample of its newest frame.
     void livePainted(double secondsLater);
 
 private:
@@ -100,11 +100,11 @@ private:
     QSplitter *m_pictures;
     QSplitter *m_rows;
     QTimer m_player;
-    bool m_isFirstAnalysis = true; ///< of what is open
+    bool m_isFirstAnalysis = true; ///< of the open source
     bool m_isFirstPicture = true;
-    QElapsedTimer m_stripAge;                       ///< of a live run's
+    QElapsedTimer m_stripAge;                       ///< of a live run's curve
     std::shared_ptr<const AnalysisPlan> m_livePlan; ///< of the live picture shown
-    Index m_colouredFrames = 0;                     ///< it had when its colours were chosen
+    Index m_colouredFrames = 0;                     ///< number of frames when its colours were chosen
     bool m_isToBePainted = false;
     bool m_isRadioAxis = false;
 };
