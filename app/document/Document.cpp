@@ -16,7 +16,7 @@ namespace {
 
 } // namespace
 
-/// The program's only undo command: two values of what is open and its settings.
+/// The program's only undo command: holds source and settings before and after.
 class Document::Edit : public QUndoCommand
 {
 public:
@@ -46,7 +46,7 @@ private:
     State m_before;
     State m_after;
     QString m_field;
-    int m_gesture; ///< 0: of none
+    int m_gesture; ///< 0: none
 };
 
 Document::Document(QObject *parent) : QObject(parent)
@@ -212,7 +212,7 @@ void Document::setShownThreshold(double nats)
 std::vector<Event> Document::shownEvents() const
 {
     if (m_live.events)
-        return *m_live.events; // each as its threshold decided
+        return *m_live.events; // each by the threshold at its time
     std::vector<Event> result;
     std::copy_if(m_events.begin(), m_events.end(), std::back_inserter(result),
                  [this](const Event &event) { return isShown(event); });
