@@ -103,13 +103,13 @@ MainWindow::MainWindow(std::unique_ptr<QSettings> memory, const QString &recover
 MainWindow::~MainWindow()
 {
     m_live->disconnect(this);
-    m_controller.disconnect(this); // what is still running ends after the widgets are gone
+    m_controller.disconnect(this); // running jobs end after the widgets are destroyed
     m_document.disconnect(this);
     m_comparer.disconnect();
     m_check.disconnect();
     m_experiments.disconnect();
     m_sequentialTests.disconnect();
-    for (QDockWidget *dock : findChildren<QDockWidget *>()) // which outlive the document, and then are hidden
+    for (QDockWidget *dock : findChildren<QDockWidget *>()) // they outlive the document and are then hidden
         disconnect(dock, &QDockWidget::visibilityChanged, nullptr, nullptr);
     m_trials.reset();
 }
@@ -161,7 +161,7 @@ void MainWindow::showAnalysis()
 
 void MainWindow::showPlan(const AnalysisPlan &analysis)
 {
-    const Axis &frequency = analysis.grid().axes.front(); // of pings: the range
+    const Axis &frequency = analysis.grid().axes.front(); // for pings: the range
     m_readOut->setResolution(analysis.time().step, frequency.step);
     m_readOut->setFrequencyName(frequencyName(analysis.settings.family));
     const QString unit = statisticUnit(analysis.settings);
@@ -210,7 +210,7 @@ void MainWindow::showFailure(const Error &error)
         return showWelcome();
     if (m_document.analysis())
         return;
-    // Opened, but it could not be analysed: whoever changes the settings needs the form.
+    // Opened but not analysable: the form is needed to change the settings.
     bench().setEmptySentence(tr("No analysis with these settings."));
     m_threshold->setCalibration({}, 0.0);
     m_events->setEvents({});
@@ -219,7 +219,7 @@ void MainWindow::showFailure(const Error &error)
 
 void MainWindow::closeEvent(QCloseEvent *event)
 {
-    if (m_live->isRunning()) { // what was heard is written and analysed first
+    if (m_live->isRunning()) { // received samples are written and analysed first
         event->ignore();
         const bool isSure = m_isLeaving || !m_isAsking
                             || QMessageBox::question(this, tr("Listening"), tr("Stop listening and close the window?"))
@@ -244,7 +244,7 @@ void MainWindow::saveLayout()
     if (m_pages->currentWidget() == m_welcome || m_presentAction->isChecked())
         return;
     const ViewState view = m_workbench->viewState();
-    WindowMemory::Layout layout = m_memory.layout(); // of the bench that is not seen as it was
+    WindowMemory::Layout layout = m_memory.layout(); // keeps the layout of the hidden bench
     (&bench() == m_pings ? layout.pingSplitters : layout.splitters) = bench().saveSplitters();
     layout.geometry = saveGeometry();
     layout.panels = saveState();
@@ -351,7 +351,7 @@ void MainWindow::showDoppler()
     m_panels->show(m_doppler);
 }
 
-/// As sound; without it the cursor moves all the same. Live, the picture goes on.
+/// Plays sound; without sound only the cursor moves. In a live run the picture continues.
 void MainWindow::setPlaying(bool isPlaying)
 {
     const bool isLive = m_document.isLive();
@@ -377,7 +377,7 @@ void MainWindow::showEquation()
 {
     const QString name = currentView(*this, *this);
     const QString detector = QString::fromLatin1(detectorNames[m_document.settings().detector.index()].data());
-    // Where the first view is a map, input and output are maps, too.
+    // If the first view is a map, input and output are maps, too.
     const bool isMap = bench().firstViewName() == QLatin1String("map")
                        && (name == QLatin1String("input") || name == QLatin1String("output"));
     m_equation->toggle(equationOf(isMap ? QStringLiteral("map") : name, detector), m_lessons->widgetNamed(name));

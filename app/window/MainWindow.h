@@ -37,24 +37,24 @@ class ScenarioCard;
 class SessionSaver;
 class TrialViewer;
 
-/// The window: it puts the panels in their places and connects them to the document and its controller.
+/// The main window: arranges the panels and connects them to the document and its controller.
 class MainWindow : public QMainWindow, public WindowParts
 {
     Q_OBJECT
 
 public:
-    /// `memory`: where recent files and the window's layout are kept; null keeps nothing. `recoveryFolder`: where
-    /// unsaved work is.
+    /// `memory`: stores recent files and the window's layout; null: stores nothing. `recoveryFolder`: holds unsaved
+    /// work.
     explicit MainWindow(std::unique_ptr<QSettings> memory = {}, const QString &recoveryFolder = {},
                         QWidget *parent = nullptr);
     ~MainWindow() override;
 
-    /// Opens a recording, a scenario or a session. Asks only what the file itself cannot tell.
+    /// Opens a recording, a scenario or a session. Asks only for what the file does not contain.
     void open(const QString &path, const OpenOptions &options = {}, const AnalysisController::Adjust &adjust = {});
     void openNow(const QString &path, const OpenOptions &options = {},
                  const AnalysisController::Adjust &adjust = {}) override;
     void showWelcome();
-    /// Offers unsaved work that a program left behind when it died.
+    /// Offers to restore unsaved work left by a crash.
     void offerRecovery();
 
     TrialViewer &trials() { return *m_trials; }
@@ -63,8 +63,8 @@ public:
 
     void openScans(const ScanTest &test) override;
 
-    /// Listens to a source, recording into a folder, in files of limited length, with these settings or those of what
-    /// is open, which makes room. In the end the recording is open.
+    /// Listens to a source and records into a folder, in files of limited length, with these settings or those of the
+    /// open document, which is closed. At the end the recording is opened.
     void listenTo(LiveRun::OpenSource source, const QString &folder,
                   const std::optional<AnalysisSettings> &settings = {}, const RotationSettings &rotation = {});
     LiveRun &live() { return *m_live; }
@@ -83,7 +83,7 @@ public:
     void showCompare();
     void showSweep();
 
-    /// Off: nobody is there to answer a dialog.
+    /// Off: shows no dialogs.
     void setAsking(bool isAsking);
 
 signals:
@@ -119,7 +119,7 @@ private:
     void connectSurvey();
     void connectLive();
     void connectEvaluation();
-    /// An action that makes sense only while a recording is shown.
+    /// An action that is available only while a recording is shown.
     QAction *addViewAction(QMenu &menu, const QString &text, const QKeySequence &key, std::function<void()> action);
 
     void showWorkbench();
@@ -128,8 +128,8 @@ private:
     void showLive(const LiveView &view);
     void tellNotice(const ListenNotice &notice);
     void endLive();
-    void listen(); ///< asks to what
-    /// Whether what is open may be left: nothing is listened to, and unsaved work may be lost (SessionSaver::mayLose).
+    void listen(); ///< asks for the source
+    /// Whether the document may be closed: no live run, and unsaved work may be lost (SessionSaver::mayLose).
     bool mayLeave(const QString &what, const std::function<void()> &next);
     void showEvents();
     void showHint();
@@ -139,14 +139,14 @@ private:
     void showFailure(const Error &error);
     void offerIq();
     void openScenario(ScenarioCard *card);
-    /// What needs no recording gets the window to itself, until there is one.
+    /// Gives the whole window to a panel that needs no recording, until one is opened.
     void showAlone(QWidget *panel, const QString &title, const QString &hint);
     void chooseFile();
     void chooseFolder();
     void chooseRawFile();
     void openDropped(const QStringList &files);
     void openTogether(const QStringList &files); ///< as one recording
-    /// The file that is so many after the one that is open, with the same settings.
+    /// Opens the file `by` places after the current one, with the same settings.
     void goToFile(int by);
     void showWritten(const QString &path);
     void exportReport();
@@ -155,7 +155,7 @@ private:
     void showExperiment(int id);
     void setTheme(Theme::Kind kind);
     void about();
-    void showEquation(); ///< of the view one is at
+    void showEquation(); ///< of the current view
 
     void fillRecentMenu();
     void saveLayout();
@@ -169,10 +169,10 @@ private:
     SessionSaver *m_saver = nullptr;
     LiveRun *m_live = nullptr;
     LiveBar *m_liveBar = nullptr;
-    ListenDialog *m_listenDialog = nullptr; ///< remembers what was filled in
-    Index m_overviewFrames = 0;             ///< live, that the overview shows
-    std::optional<Error> m_liveTrouble;     ///< the last one, of the run
-    bool m_isLeaving = false;               ///< closed once listening has ended
+    ListenDialog *m_listenDialog = nullptr; ///< remembers its entries
+    Index m_overviewFrames = 0;             ///< live frames shown by the overview
+    std::optional<Error> m_liveTrouble;     ///< last error of the live run
+    bool m_isLeaving = false;               ///< close once the live run has ended
     QString m_recoveryFolder;
     QStackedWidget *m_pages = nullptr;
     ReportWriter *m_report = nullptr;

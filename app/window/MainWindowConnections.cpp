@@ -1,4 +1,4 @@
-// What follows what in the window: what the document, its controller and the views say, and who hears it.
+// Signal connections of the main window: document, controller and views.
 
 #include "app/window/MainWindow.h"
 
@@ -74,14 +74,14 @@ void MainWindow::connectDocument()
     connect(gestures, &GestureWatcher::began, &m_document, &Document::beginGesture);
     connect(gestures, &GestureWatcher::ended, &m_document, &Document::endGesture);
     connect(&m_document, &Document::opened, this, [this] {
-        if (!m_live->isRunning()) // what was said of the run holds
+        if (!m_live->isRunning()) // messages of the live run remain valid
             m_messages->dismiss();
         if (m_document.recording()) {
             m_readOut->setStartUnixSeconds(m_document.recording()->info().startUnixSeconds);
             m_readOut->setCentreHz(m_document.recording()->info().centreHz);
         }
         m_overview->setPicture(nullptr, {});
-        // Nothing of what was open before stays under the new name.
+        // Clear everything from the previous document.
         m_events->setEvents({});
         m_events->filter()->clear();
         for (Bench *one : std::initializer_list<Bench *>{m_workbench, m_pings})
@@ -216,7 +216,7 @@ void MainWindow::connectViews()
 void MainWindow::connectSurvey()
 {
     connect(m_survey, &SurveyPanel::eventReached, this, [this](int id) {
-        m_panels->show(m_survey); // the first recording brings the panels of a recording in its place
+        m_panels->show(m_survey); // the first recording replaces it with the panels of a recording
         emit m_events->eventActivated(id);
     });
     connect(m_survey, &SurveyPanel::opened, this, [this] {
@@ -244,7 +244,7 @@ void MainWindow::connectEvaluation()
     connect(m_sequential, &SequentialPanel::failed, this, &MainWindow::showError);
     auto *dock = static_cast<QDockWidget *>(m_sequential->parentWidget());
     connect(dock->toggleViewAction(), &QAction::toggled, this, [this, dock] {
-        if (dock->isHidden() && m_pages->isHidden() && !m_panels->isRearranging()) // it was all there was
+        if (dock->isHidden() && m_pages->isHidden() && !m_panels->isRearranging()) // it was the only panel
             showWelcome();
     });
     connect(m_trials.get(), &TrialViewer::failed, this, &MainWindow::showError);
@@ -253,7 +253,7 @@ void MainWindow::connectEvaluation()
     connect(m_experimentList, &ExperimentsPanel::failed, this, &MainWindow::showError);
     connect(m_experimentList, &ExperimentsPanel::showRequested, this, &MainWindow::showExperiment);
     connect(&m_experiments, &Experiments::changed, this, [this](int id) {
-        // A reproduction shows itself when it is done; curves grow where they are.
+        // Show a finished reproduction; curves update in place.
         if (const Experiments::Entry *entry = m_experiments.entry(id);
             entry->state == Experiments::State::Done && entry->reproduction)
             showExperiment(id);

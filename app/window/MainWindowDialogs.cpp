@@ -1,4 +1,4 @@
-// What is asked before something is computed.
+// Dialogs shown before a computation.
 
 #include "app/window/MainWindow.h"
 

@@ -1,4 +1,4 @@
-// How something gets into the window: files, scenarios, lessons, unsaved work.
+// Opening files, scenarios, lessons and unsaved work.
 
 #include "app/window/MainWindow.h"
 
@@ -83,7 +83,7 @@ void MainWindow::offerRecovery()
                             tr("of %1 can be restored; the program ended unexpectedly.").arg(when), tr("Restore"),
                             [this, session = left.first()] {
                                 m_welcome->stop();
-                                // What was left behind goes when it is kept again.
+                                // Discard the old recovery file once it is saved again.
                                 connect(
                                     m_recovery, &Recovery::kept, this, [session] { Recovery::discard(session); },
                                     Qt::SingleShotConnection);
@@ -116,7 +116,7 @@ void MainWindow::showAlone(QWidget *panel, const QString &title, const QString &
     m_welcome->stop();
     m_messages->dismiss();
     if (m_document.isEmpty()) {
-        m_pages->hide(); // the panel gets its room
+        m_pages->hide(); // makes room for the panel
         setWindowTitle(title);
         m_hint->setText(hint);
     }
@@ -198,10 +198,10 @@ void MainWindow::goToFile(int by)
     const auto next = [this, path] {
         AnalysisSettings settings = m_document.settings();
         settings.selection.fromSeconds = settings.selection.toSeconds =
-            0.0; // a part of one recording is none of another
+            0.0; // a selection does not carry over to another recording
         openNow(path, m_document.source().options, [settings](AnalysisSettings &opened) { opened = settings; });
     };
-    // The settings go along: only what was said about events could be lost.
+    // The settings are kept: only annotations could be lost.
     if (m_document.annotations().isEmpty() || mayLeave(tr("opening something else"), next))
         next();
 }

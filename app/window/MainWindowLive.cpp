@@ -1,4 +1,4 @@
-// Listening: what is heard is a document whose recording is being written.
+// Live runs: the document's recording is still being written.
 
 #include "app/window/MainWindow.h"
 
@@ -22,7 +22,7 @@ namespace {
 
     constexpr double updateSeconds = 1.0; ///< between two reports of an event in progress
 
-    /// But for what belongs to a recording's own time, or is known at its end.
+    /// Resets settings that refer to a recording's own time or need its end.
     ListenSettings listenSettings(const AnalysisSettings &analysis)
     {
         ListenSettings settings;
@@ -84,7 +84,7 @@ void MainWindow::listen()
 void MainWindow::listenTo(LiveRun::OpenSource source, const QString &folder,
                           const std::optional<AnalysisSettings> &analysis, const RotationSettings &rotation)
 {
-    const bool hasSettings = m_document.recording() != nullptr; // those of ready-made frames say nothing of samples
+    const bool hasSettings = m_document.recording() != nullptr; // settings of ready-made frames do not apply to samples
     ListenSettings settings = listenSettings(analysis      ? *analysis
                                              : hasSettings ? m_document.settings()
                                                            : AnalysisSettings());
@@ -101,10 +101,10 @@ void MainWindow::listenTo(LiveRun::OpenSource source, const QString &folder,
     showWorkbench();
     m_liveBar->show();
     m_hint->setText(
-        tr("All that is heard is recorded from the first sample on; the pictures begin when the noise is known."));
+        tr("Recording began with the first sample; the pictures appear when the noise has been estimated."));
 }
 
-/// The recording exists from its first samples on, the first picture comes a block of noise later.
+/// The recording exists from its first samples; the first picture appears after a block of noise.
 void MainWindow::showLive(const LiveView &view)
 {
     if (!m_document.isLive()) {
@@ -121,7 +121,7 @@ void MainWindow::showLive(const LiveView &view)
         showTitle();
         showHint();
     }
-    if (isFirst || view.time.count >= m_overviewFrames + m_overviewFrames / 64 + 1) { // it shows all, which costs
+    if (isFirst || view.time.count >= m_overviewFrames + m_overviewFrames / 64 + 1) { // it shows all, which is costly
         m_overviewFrames = view.time.count;
         m_overview->setPicture(view.input, view.plan->grid().axes.back());
     }
@@ -152,9 +152,9 @@ void MainWindow::endLive()
     m_document.endLive();
     if (std::exchange(m_isLeaving, false) && close())
         return;
-    if (!fileExists(recording)) // nothing was heard
+    if (!fileExists(recording)) // nothing was received
         return showWelcome();
-    if (m_liveTrouble) // opening takes messages away
+    if (m_liveTrouble) // opening dismisses messages
         connect(
             &m_document, &Document::opened, this, [this] { showError(*m_liveTrouble); }, Qt::SingleShotConnection);
     m_controller.open(recording, {}, [settings, wasLive](AnalysisSettings &opened) {

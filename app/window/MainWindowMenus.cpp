@@ -1,4 +1,4 @@
-// The window's menus and its tool bar: every action there is, with its key.
+// Menus and tool bar of the main window: all actions with their keys.
 
 #include "app/window/MainWindow.h"
 
@@ -46,14 +46,14 @@ void MainWindow::buildMenus()
     buildReproduceMenu();
     buildHelpMenu();
     nameWhatHolds();
-    // A hidden menu's shortcuts do nothing; the window's do, and a presentation has no menu.
+    // Shortcuts of a hidden menu do not work, so add the actions to the window for presentations.
     for (const QAction *menu : menuBar()->actions())
         for (QAction *action : menu->menu()->actions())
             if (action != m_playAction)
                 addAction(action);
 }
 
-/// What only holds other widgets and can have the focus is called as the panel it is in.
+/// Names focusable container widgets after the panel that contains them.
 void MainWindow::nameWhatHolds()
 {
     for (QWidget *widget : findChildren<QWidget *>()) {
@@ -197,7 +197,7 @@ void MainWindow::addPresentation(QMenu &menu)
     m_presentAction = addViewAction(menu, tr("&Presentation"), Qt::Key_F5, {});
     m_presentAction->setCheckable(true);
     connect(m_presentAction, &QAction::toggled, m_panels, &Panels::setPresenting);
-    // Escape leaves a presentation, and stops what runs only otherwise.
+    // Escape leaves a presentation; otherwise it stops the running job.
     auto *leave = new QAction(tr("Leave the presentation"), this);
     addAction(leave);
     connect(leave, &QAction::triggered, this, [this] { m_presentAction->setChecked(false); });
@@ -293,7 +293,7 @@ void MainWindow::buildDetectMenu()
     connect(m_playback, &Playback::playingChanged, m_playAction, &QAction::setChecked);
     for (Bench *one : std::initializer_list<Bench *>{m_workbench, m_pings})
         connect(one, &Bench::playingChanged, m_playAction, &QAction::setChecked);
-    // Space also presses the button that has the focus: only over the pictures does it play.
+    // Space also presses the focused button, so it plays only in the pictures.
     m_playAction->setShortcutContext(Qt::WidgetWithChildrenShortcut);
     m_workbench->addAction(m_playAction);
     m_pings->addAction(m_playAction);

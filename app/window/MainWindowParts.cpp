@@ -1,4 +1,4 @@
-// What the window consists of, and where it stands.
+// Parts of the main window and their layout.
 
 #include "app/window/MainWindow.h"
 
@@ -58,7 +58,7 @@ void MainWindow::buildCentre()
     m_pages->addWidget(m_workbench);
     m_pings = new PingBench(m_document, m_workbench->layers());
     m_pages->addWidget(m_pings);
-    // What is not seen must not keep a small window from showing what is.
+    // Hidden parts must not enforce a minimum size.
     const auto measureCurrent = [this](int current) {
         for (int i = 0; i < m_pages->count(); ++i) {
             const auto policy = i == current ? QSizePolicy::Expanding : QSizePolicy::Ignored;
@@ -70,7 +70,7 @@ void MainWindow::buildCentre()
 
     auto *centre = new QWidget;
     auto *layout = new QVBoxLayout(centre);
-    layout->setSizeConstraint(QLayout::SetMaximumSize); // while the pages are hidden, a panel gets their room
+    layout->setSizeConstraint(QLayout::SetMaximumSize); // while the pages are hidden, a panel uses their space
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
     m_liveBar = new LiveBar(m_document, *m_live);
@@ -126,7 +126,7 @@ void MainWindow::buildDocks()
 {
     using Place = Panels::Place;
     m_panels->add(QStringLiteral("pipelineDock"), tr("Pipeline"), m_pipeline, Place::Left);
-    // The threshold above the events it decides about: one sees both while dragging.
+    // The threshold is above the events so that both are visible while dragging.
     m_panels->add(QStringLiteral("thresholdDock"), tr("Threshold"),
                   new ThresholdPanel(*m_threshold, m_controller, m_check), Place::RightTop);
     m_panels->add(QStringLiteral("eventsDock"), tr("Events"), m_events, Place::RightBottom);
@@ -135,7 +135,7 @@ void MainWindow::buildDocks()
     m_panels->add(QStringLiteral("noiseFitDock"), tr("Noise fit"), m_noiseFit, Place::RightBottom);
     m_panels->add(QStringLiteral("statesDock"), tr("States"), m_states, Place::RightBottom);
     m_panels->add(QStringLiteral("handDock"), tr("By hand"), m_handLine, Place::RightBottom);
-    m_handLine->parentWidget()->hide(); // until it is asked for
+    m_handLine->parentWidget()->hide(); // until requested
     m_panels->add(QStringLiteral("evaluateDock"), tr("Pd and ROC"), m_evaluate, Place::Bottom);
     m_panels->add(QStringLiteral("spectrumDock"), tr("Spectrum"), m_spectrum, Place::Bottom);
     m_panels->add(QStringLiteral("dopplerDock"), tr("Doppler fit"), m_doppler, Place::Bottom);
