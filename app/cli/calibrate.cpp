@@ -37,7 +37,7 @@ namespace {
         return json;
     }
 
-    /// What the calibration comes to in an hour of a recording.
+    /// The calibration applied to a recording: threshold and false alarms per hour.
     Json onRecording(const Calibration &calibration, const AnalysisSettings &settings, const Spectrogram &spectrogram)
     {
         const double cellFramesPerHour = cellFramesInAnHour(settings.family, spectrogram);
@@ -53,7 +53,7 @@ namespace {
                   calibration.eventRateAt(nats - half) * cellFramesPerHour}}};
     }
 
-    /// `threshold`: the one that the counts correct, nat.
+    /// `threshold`: the threshold that the counts correct, nat.
     Json toJson(const SurrogateCount &count, double threshold)
     {
         return {{"runs", count.runs},

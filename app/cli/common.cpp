@@ -181,7 +181,7 @@ void checkOutputs(const std::vector<std::string> &paths)
         if (!path->empty()) {
             if (std::find(paths.begin(), path, *path) != path)
                 throw Error(*path, "is given for two outputs");
-            const AtomicFile probe(*path); // goes without a trace
+            const AtomicFile probe(*path); // removed again without a trace
         }
 }
 

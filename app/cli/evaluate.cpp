@@ -83,7 +83,7 @@ namespace {
         bool cost = false;
     };
 
-    /// Which of the experiment's SNRs the ROC is drawn at: the given one, else the middle one.
+    /// The experiment's SNR at which the ROC is drawn: the given one, else the middle one.
     std::size_t rocSnr(const Experiment &experiment, const EvaluateOptions &options)
     {
         const std::vector<double> snrs = snrsOf(experiment);
@@ -108,7 +108,7 @@ namespace {
             writeTextFile(options.roc, chartSvg(rocChart(campaign, rocSnr(campaign.experiment, options))));
     }
 
-    /// Curve, or with --shard the runs of the shard; an interrupted run is resumed.
+    /// The curve or, with --shard, the runs of the shard; resumes an interrupted run.
     void carryOutToFile(const Experiment &experiment, const std::vector<int> &runs, const EvaluateOptions &options,
                         const RunContext &context)
     {
@@ -140,7 +140,7 @@ namespace {
         const auto *sweep = std::get_if<SweepExperiment>(&experiment);
         if (options.cost && !sweep)
             throw Error("--cost", "requires an experiment of kind \"sweep\"");
-        rocSnr(experiment, options); // fails before the runs, not after them
+        rocSnr(experiment, options); // fail before the runs, not after
         const Shard shard = options.shard.empty() ? Shard{} : shardFrom(options.shard);
         const std::vector<int> runs = runsOfShard(experiment, shard.index, shard.count);
         if (!options.out.empty()) {

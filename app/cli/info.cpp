@@ -184,7 +184,7 @@ void addDescribe(CLI::App &app, Common &)
                         field.sentence.c_str());
         }
         if (!any)
-            settingField(*name); // says which is the nearest
+            settingField(*name); // its error names the nearest setting
         if (name->empty())
             for (const Preset &preset : presets())
                 std::printf("preset %s\n    %s\n", preset.name.c_str(), preset.sentence.c_str());

@@ -43,7 +43,7 @@ namespace {
         bool listsDevices = false;
     };
 
-    /// Where lines of JSON go: standard output or the end of a file, each at once.
+    /// Writes JSON lines to standard output or appends them to a file, each at once.
     class LineFile
     {
     public:
@@ -64,7 +64,7 @@ namespace {
             m_isSound = std::fflush(m_file) == 0 && m_isSound;
         }
 
-        /// Throws where any of it could not be written; of standard output the program tells at its end.
+        /// Throws if a line could not be written; the program checks standard output when it ends.
         void check() const
         {
             if (!m_isSound && m_file != stdout)
@@ -121,7 +121,7 @@ namespace {
             ReceiverSettings receiver = options.receiver;
             receiver.sampleRateHz = open.rawRateHz;
             receiver.gainDb = options.gainDb;
-            constexpr double most = 4294967295.0; // in the four bytes of a command
+            constexpr double most = 4294967295.0; // commands have four bytes
             if (!(receiver.frequencyHz > 0.0) || !(receiver.sampleRateHz > 0.0 && receiver.sampleRateHz <= most))
                 throw Error("--rtl-tcp", "requires --frequency and --raw-rate, both in Hz and below 2^32");
             return std::make_unique<RtlTcpSource>(options.rtlTcp, receiver);
@@ -140,7 +140,7 @@ namespace {
         return std::make_unique<PipeSource>(options.analysis.file, raw, stop);
     }
 
-    /// The line of JSON at the beginning: what is listened to, and how.
+    /// The first JSON line: the source and the settings.
     std::string startedLine(const StreamFormat &format, const AnalysisSettings &settings)
     {
         Json line;
@@ -182,17 +182,17 @@ namespace {
         if (!result.plan.frames)
             words += "; " + endedEarly(format);
         if (!result.isAnalysedToTheEnd)
-            words += "; not all that was heard was analysed before the end";
+            words += "; the end of the input was not analysed";
         if (command && command->leftOutCount() > 0)
             words += "; " + std::to_string(command->leftOutCount())
-                     + " call(s) of --on-event were left out, because 16 were running";
+                     + " call(s) of --on-event were skipped because 16 were running";
         lines.write(noticeLine({ListenNotice::Kind::Stopped, result.sampleCount, result.lostCount, words}, format));
         lines.check();
         if (!options.events.empty()) {
             if (!result.plan.frames)
                 throw Error(options.events, "was not written: " + endedEarly(format), Error::Kind::Failure);
             const bool isCsv = options.events.ends_with(".csv");
-            // A disk may take longer than a request to stop is patient.
+            // A disk may take longer than the time allowed for a stop.
             writeTextFile(options.events,
                           isCsv ? eventsCsv(result.plan, result.events) : eventsJson(result.plan, result.events),
                           Durability::Program);
@@ -207,20 +207,20 @@ namespace {
         if (options.listsDevices)
             return listDevices();
         if (common.read || common.written)
-            throw Error("listen", "what was heard cannot be replayed; detect in its recording");
+            throw Error("listen", "a live run cannot be replayed; use 'detect' on its recording");
         if (!options.events.empty() && !options.events.ends_with(".csv") && !options.events.ends_with(".json"))
             throw Error(options.events, "the file name must end in .csv or .json");
         checkOutputs({options.events});
         keepNoHoles(128 << 10); // frames too
         AnalysisOptions analysis = options.analysis;
-        analysis.file.clear(); // it can be read once
+        analysis.file.clear(); // it can be read only once
         ListenSettings settings;
         settings.analysis = analysis.settings();
         settings.recordPath = options.record;
         settings.rotation = {options.rotateMegabytes * 1e6, options.rotateMinutes * 60.0};
         settings.updateSeconds = options.updateSeconds;
         RunContext context = common.context();
-        context.progress = {}; // there is no end to be nearer to
+        context.progress = {}; // a stream has no known end
         try {
             std::unique_ptr<SampleSource> source = sourceOf(options, common.stop);
             if (options.analysis.open.iq)
@@ -245,10 +245,10 @@ void addListen(CLI::App &app, Common &common)
               "Append the changes of events, one JSON object a line, to a file; without it they go to standard output");
     addOutput(*command, common, "--events", options->events, "Write the final events at the end: .csv or .json");
     addOutput(*command, common, "--record", options->record,
-              "Record all that is heard, with its gaps: .sigmf-meta; an existing file is not overwritten");
-    command->add_option("--rotate-megabytes", options->rotateMegabytes, "Begin another recording after so many MB")
+              "Record the input with its gaps: .sigmf-meta; an existing file is not overwritten");
+    command->add_option("--rotate-megabytes", options->rotateMegabytes, "Start a new recording after this many MB")
         ->check(inRange(0.0, 1e9));
-    command->add_option("--rotate-minutes", options->rotateMinutes, "Begin another recording after so many minutes")
+    command->add_option("--rotate-minutes", options->rotateMinutes, "Start a new recording after this many minutes")
         ->check(inRange(0.0, 1e6));
     command->add_option("--update", options->updateSeconds, "Time between two reports of an event in progress, s")
         ->check(inRange(0.1, 1e6))

@@ -42,7 +42,7 @@ namespace {
         return text;
     }
 
-    /// How far the line stands out in one spectrum of its duration, before and after.
+    /// Level of the line above its surroundings in one spectrum of its duration, before and after.
     std::string heights(const Recording &before, const Straightened &straight, const RunContext &context)
     {
         const double was = lineHeight(before, straight.before, context.part(0.0, 0.4)).db;
@@ -56,7 +56,7 @@ namespace {
         return text;
     }
 
-    /// The recording without the event's line, which every channel has with an amplitude and phase of its own.
+    /// The recording without the event's line, fitted in amplitude and phase in each channel.
     RecordingPointer withoutEvent(const RecordingPointer &recording, const Analysis &analysis, int id,
                                   const RunContext &context)
     {
