@@ -46,7 +46,7 @@ public:
     void setLooping(bool isLooping);
 
     /// True from `start` on, including while sound waits for the curve of an event's line to be computed.
-    bool isPlaying() const { return m_isPlaying; }
+    bool isPlaying() const { return m_isPlaying || m_liveChoice; }
     /// Returns false and emits `failed` if no sound is available.
     bool start();
     /// The same for the live run.

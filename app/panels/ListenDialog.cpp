@@ -47,8 +47,8 @@ namespace {
 
 ListenDialog::ListenDialog(QWidget *parent)
     : QDialog(parent), m_kind(new QComboBox), m_forms(new QStackedWidget), m_folder(new QLineEdit),
-      m_largest(limitBox(tr(" MB"), 1e9, tr("any size"))), m_longest(limitBox(tr(" min"), 1e6, tr("any time"))),
-      m_disk(plainLabel()), m_trouble(plainLabel())
+      m_largest(limitBox(tr(" MB"), 1e9, tr("no size limit"))),
+      m_longest(limitBox(tr(" min"), 1e6, tr("no time limit"))), m_disk(plainLabel()), m_trouble(plainLabel())
 {
     setWindowTitle(tr("Listen"));
     for (const ListenSourceKind &kind : listenSourceKinds()) {

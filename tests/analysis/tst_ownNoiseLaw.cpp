@@ -187,7 +187,7 @@ void tst_ownNoiseLaw::aSteadyLineIsNoNoise()
 void tst_ownNoiseLaw::aFewFramesTellNothing()
 {
     std::vector<float> y = noise();
-    y.resize(127 * cells);
+    y.resize(63 * cells);
     const FrameArray frames = framesOf(std::move(y));
     QVERIFY(OwnNoiseLaw(frames, {}, 2.0, 1.0, {}).isAsAssumed());
 }

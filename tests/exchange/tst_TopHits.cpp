@@ -227,9 +227,9 @@ void tst_TopHits::badTables_data()
     QTest::newRow("few columns") << head + "001 1 2 3\n"
                                  << "line 2: is not a row of a table of hits";
     QTest::newRow("words") << head + "a b c d e f g h i j k l\n"
-                           << "line 2: is no line";
+                           << "line 2: is not a row";
     QTest::newRow("infinite") << head + "1 inf 1 1 1 1 1 1 1 1 1 1\n"
-                              << "line 2: is no line";
+                              << "line 2: is not a row";
     QTest::newRow("a long line") << head + QByteArray(100000, '1') << "is not a table of at most a million hits";
 }
 
