@@ -250,11 +250,10 @@ void tst_dopplerFit::coverage()
         for (std::size_t k = 0; k < counts.size(); ++k)
             counts[k] += inside[k] ? 1 : 0;
     }
-    for (std::size_t k = 0; k < counts.size(); ++k) {
-        const double share = double(counts[k]) / passes;
-        qInfo("%s: %.2f %% of %d intervals", names[k], 100.0 * share, passes);
-        QVERIFY2(std::abs(share - 0.9) <= tolerance, names[k]);
-    }
+    for (std::size_t k = 0; k < counts.size(); ++k)
+        qInfo("%s: %.2f %% of %d intervals", names[k], 100.0 * counts[k] / passes, passes);
+    for (std::size_t k = 0; k < counts.size(); ++k)
+        QVERIFY2(std::abs(double(counts[k]) / passes - 0.9) <= tolerance, names[k]);
 }
 
 void tst_dopplerFit::outliersAreLeftOut()

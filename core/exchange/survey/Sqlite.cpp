@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <new>
 #include <thread>
 #include <utility>
 
@@ -23,7 +22,7 @@ namespace {
             throw Error(path, "was replaced by another program while it was in use", Error::Kind::Failure);
         switch (code & 0xff) {
         case SQLITE_NOMEM:
-            throw std::bad_alloc();
+            throw Error(path, "is a damaged SQLite database, or needs more memory than is available");
         case SQLITE_NOTADB:
             throw Error(path, "is not an SQLite database");
         case SQLITE_CORRUPT:
