@@ -37,7 +37,7 @@ LiveBar::LiveBar(Document &document, LiveRun &run, QWidget *parent)
     m_hear->setToolTip(tr("Play what comes in: all of it, the band of the box, or a line (Detect > Play what)"));
     m_hear->setFocusPolicy(Qt::TabFocus);
     connect(m_hear, &QToolButton::toggled, this, &LiveBar::hearingRequested);
-    m_hold->setToolTip(tr("Hold the picture while listening goes on, or go back to the newest frames (Space, End)"));
+    m_hold->setToolTip(tr("Hold the picture while listening continues, or go back to the newest frames (Space, End)"));
     m_hold->setFocusPolicy(Qt::TabFocus);
     m_stop->setText(tr("Stop"));
     m_stop->setToolTip(tr("Stop listening and open the recording"));
@@ -80,7 +80,7 @@ void LiveBar::setHearing(bool isHearing)
 QString LiveBar::pictureWords() const
 {
     if (!m_document.viewport().isFollowing())
-        return tr("held; listening goes on");
+        return tr("held; listening continues");
     return tr("picture %1 behind the sound").arg(secondsText(std::max(m_longestDelay, m_delayBefore), 0.01));
 }
 

@@ -1,6 +1,6 @@
 #include "live/HeardRecording.h"
 
-#include "recording/endless.h"
+#include "live/streamInfo.h"
 
 #include <algorithm>
 
@@ -79,15 +79,8 @@ void WrittenSamples::readStored(int channel, const Piece &piece) const
 HeardRecording::HeardRecording(std::shared_ptr<const WrittenSamples> written, std::optional<Index> samples)
     : m_written(std::move(written))
 {
-    const StreamFormat &format = m_written->format();
-    m_info.path = format.origin;
-    m_info.container = "stream";
-    m_info.sampleType = format.type.name();
-    m_info.sampleRateHz = format.sampleRateHz;
+    m_info = streamInfo(m_written->format());
     m_info.sampleCount = samples.value_or(endlessSamples);
-    m_info.channelCount = format.channelCount;
-    m_info.isComplex = format.type.isComplex;
-    m_info.centreHz = format.centreHz;
     m_info.startUnixSeconds = m_written->startUnixSeconds();
 }
 

@@ -7,7 +7,7 @@
 #include "base/Error.h"
 #include "live/Hearing.h"
 #include "live/StreamRecording.h"
-#include "recording/endless.h"
+#include "live/streamInfo.h"
 #include "spectrum/CausalSpectrogram.h"
 
 #include <algorithm>
@@ -22,18 +22,6 @@ namespace {
     using Clock = std::chrono::steady_clock;
 
     constexpr std::chrono::milliseconds lastWork{250}; ///< for samples received before a stop request
-
-    /// Layout of the frames of a stream of this format, before any samples exist.
-    RecordingInfo endlessInfo(const StreamFormat &format)
-    {
-        RecordingInfo info;
-        info.path = format.origin;
-        info.sampleRateHz = format.sampleRateHz;
-        info.sampleCount = endlessSamples;
-        info.channelCount = format.channelCount;
-        info.isComplex = format.type.isComplex;
-        return info;
-    }
 
     /// A run from its first block of noise on.
     class Listening
@@ -339,7 +327,7 @@ namespace {
 AnalysisSettings settingsForListening(AnalysisSettings settings, const StreamFormat &format)
 {
     settings.noise.causal = true;
-    RecordingInfo hour = endlessInfo(format);
+    RecordingInfo hour = streamInfo(format);
     hour.sampleCount = Index(std::llround(3600.0 * format.sampleRateHz));
     if (settings.spectrogram.windowSeconds == 0.0)
         settings.spectrogram.windowSeconds = Spectrogram::automaticWindowSeconds(hour);
