@@ -110,10 +110,10 @@ def pipe(cli, folder, hours):
     if process.wait() != 0:
         fail("listen failed")
     share = hourly[-1][3] / (3600 * hours)
-    print(f"{100 * share:.2f} % of a core; largest in the last hour {100 * (hourly[-1][1] / hourly[0][1] - 1):+.2f} % of the first's")
+    print(f"{100 * share:.2f} % of a core; largest in the last hour {100 * (hourly[-1][1] / hourly[0][1] - 1):+.2f} % of the first's", flush=True)
+    compare(cli, folder)
     if share > 0.03 or hourly[-1][1] > 1.01 * hourly[0][1]:
         fail("too much memory or time")
-    compare(cli, folder)
 
 
 def paced(seconds, isIq, send):

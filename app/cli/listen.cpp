@@ -173,6 +173,8 @@ namespace {
             lines.write(line);
             if (command)
                 command->run(line);
+            if (change.state == EventChange::State::Final)
+                returnHoles(); // between the events that are kept to the end, where its track was
         };
         sinks.notice = [&](const ListenNotice &notice, const StreamFormat &) {
             lines.write(noticeLine(notice, format));
