@@ -59,7 +59,9 @@ namespace {
     CLI::App *addRender(CLI::App &program, RenderOptions &options, std::string &size)
     {
         CLI::App *command = program.add_subcommand("render", "Write a picture of the window or of one of its views");
-        command->add_option("source", options.source, "Recording, scenario or lesson (.json) or session (.faintline)")
+        command
+            ->add_option("source", options.source,
+                         "Recording, scenario, lesson or experiment (.json) or session (.faintline)")
             ->required();
         command->add_option("--out", options.out, "Picture to write (.png); with several views, each name is appended")
             ->required();

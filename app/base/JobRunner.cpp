@@ -1,15 +1,13 @@
 #include "app/base/JobRunner.h"
 
+#include "base/keepNoHoles.h"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <exception>
 #include <new>
 #include <utility>
-
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 namespace faintline {
 
@@ -18,14 +16,6 @@ namespace {
     constexpr std::chrono::milliseconds progressInterval(40);
     constexpr std::chrono::milliseconds longJob(500);
     constexpr std::chrono::milliseconds restAfterJob(300);
-
-    /// The C library keeps what a job's threads freed for those threads, which for an hour of recording are 170 MiB.
-    void giveBackMemory()
-    {
-#ifdef __GLIBC__
-        malloc_trim(0);
-#endif
-    }
 
     int threadCount()
     {
@@ -90,7 +80,7 @@ void JobRunner::work(const std::stop_token &quit)
         // then.
         if (owesMemory && !m_wake.wait_for(lock, quit, restAfterJob, isAsked) && !quit.stop_requested()) {
             lock.unlock();
-            giveBackMemory();
+            returnHoles();
             lock.lock();
             owesMemory = false;
         }

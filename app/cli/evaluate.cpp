@@ -50,11 +50,7 @@ namespace {
 
     void printCosts(const SweepExperiment &sweep, const RunContext &context)
     {
-        OpenOptions options;
-        options.iq = sweep.iq;
-        const SweepTrials trials(
-            sweep, sweep.recording.empty() ? nullptr : openRecording(fileNameFromText(sweep.recording), options),
-            context);
+        const SweepTrials trials(sweep, openRecordingOf(sweep), context);
         const std::vector<double> seconds = trials.costs(context);
         std::printf("processor time per hour of recording\n");
         for (std::size_t i = 0; i < seconds.size(); ++i)

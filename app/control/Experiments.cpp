@@ -146,8 +146,9 @@ void Experiments::startCampaign(const Entry &entry)
             QMetaObject::invokeMethod(
                 this, [this, id, outcome] { addOutcome(id, outcome); }, Qt::QueuedConnection);
         };
+        const RecordingPointer noise = recording ? recording : openRecordingOf(campaign.experiment);
         if (const auto *injection = std::get_if<InjectionExperiment>(&campaign.experiment)) {
-            const auto trials = std::make_shared<const InjectionTrials>(*injection, recording, context.part(0.0, 0.3));
+            const auto trials = std::make_shared<const InjectionTrials>(*injection, noise, context.part(0.0, 0.3));
             QMetaObject::invokeMethod(
                 this,
                 [this, id, trials] {
@@ -159,7 +160,7 @@ void Experiments::startCampaign(const Entry &entry)
                 Qt::QueuedConnection);
             trials->run(openRuns(campaign), context.part(0.3, 1.0), sink);
         } else if (const auto *sweep = std::get_if<SweepExperiment>(&campaign.experiment)) {
-            const SweepTrials trials(*sweep, recording, context.part(0.0, 0.3));
+            const SweepTrials trials(*sweep, noise, context.part(0.0, 0.3));
             QMetaObject::invokeMethod(
                 this,
                 [this, id, thresholds = trials.thresholds()] {

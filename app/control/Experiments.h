@@ -45,7 +45,7 @@ public:
 
     explicit Experiments(QObject *parent = nullptr);
 
-    /// Appends a campaign to the queue; an injection needs the recording. Returns its id.
+    /// Appends a campaign to the queue, with the recording if it is open already. Returns its id.
     int start(const QString &name, const Experiment &experiment, RecordingPointer recording = {});
     int start(const Reproducible &reproducible, const ReproduceOptions &options);
     /// Adds results from elsewhere: runs of a campaign, or the points of a curve.

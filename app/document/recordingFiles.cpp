@@ -72,7 +72,7 @@ QString openFilter()
     }
     patterns << QStringLiteral("*.timeline");
     return QStringList{tr("Recordings (%1)").arg(patterns.join(QLatin1Char(' '))), tr("Sessions (*.faintline)"),
-                       tr("Surveys (*.sqlite)"), tr("Scenarios and lessons (*.json)"), tr("All files (*)")}
+                       tr("Surveys (*.sqlite)"), tr("Scenarios, lessons and experiments (*.json)"), tr("All files (*)")}
         .join(QStringLiteral(";;"));
 }
 

@@ -3,6 +3,7 @@
 #include "app/base/filePath.h"
 #include "app/document/Provenance.h"
 #include "base/fileName.h"
+#include "base/json.h"
 #include "exchange/CampaignFile.h"
 #include "exchange/writeReproduction.h"
 #include "widgets/base/labelText.h"
@@ -138,6 +139,35 @@ void ExperimentsPanel::followSelection()
     m_cancel->setEnabled(entry && entry->isOpen());
     m_remove->setEnabled(entry);
     m_export->setEnabled(entry && !entry->isOpen() && (entry->runsDone() > 0 || entry->reproduction));
+}
+
+bool ExperimentsPanel::isExperiment(const QString &path)
+{
+    const std::string file = pathBytes(path);
+    try {
+        if (hasEnding(file, ".jsonl"))
+            return isCampaignFile(file);
+        if (hasEnding(file, ".csv"))
+            return isCurveFile(file);
+        if (!hasEnding(file, ".json"))
+            return false;
+        const Json json = readJsonFile(file);
+        return json.is_object() && (json.contains("detectors") || json.contains("parameter"));
+    } catch (const Error &) {
+        return false; // reported when it is opened
+    }
+}
+
+void ExperimentsPanel::open(const QString &path)
+{
+    const std::string file = pathBytes(path);
+    try {
+        emit showRequested(hasEnding(file, ".json")
+                               ? m_experiments.start(fileLabel(path), experimentFromJson(readJsonFile(file), file))
+                               : importFile(path));
+    } catch (const Error &error) {
+        emit failed(error);
+    }
 }
 
 int ExperimentsPanel::importFile(const QString &path)

@@ -19,6 +19,10 @@ class ExperimentsPanel : public QWidget
 public:
     explicit ExperimentsPanel(Experiments &experiments, QWidget *parent = nullptr);
 
+    /// Whether a file holds an experiment, the runs of a campaign or a curve of Pd.
+    static bool isExperiment(const QString &path);
+    /// Starts the experiment, or imports its results; ends with `showRequested` or `failed`.
+    void open(const QString &path);
     /// Imports the runs of a campaign or the points of a curve; returns the experiment's id. Throws Error.
     int importFile(const QString &path);
     /// Exports a campaign's curve or a reproduction's tables and pictures, depending on the entry. Throws Error.

@@ -120,7 +120,8 @@ void SweepPanel::measureCost(const Experiments::Entry &entry)
     m_meter.start([this, sweep = std::get<SweepExperiment>(entry.campaign->experiment),
                    recording = entry.recording](const RunContext &context) -> JobRunner::Delivery {
         const Chart chart =
-            costChart(sweep, SweepTrials(sweep, recording, context.part(0.0, 0.1)).costs(context.part(0.1, 1.0)));
+            costChart(sweep, SweepTrials(sweep, recording ? recording : openRecordingOf(sweep), context.part(0.0, 0.1))
+                                 .costs(context.part(0.1, 1.0)));
         return [this, chart] { m_cost->setChart(chart); };
     });
 }

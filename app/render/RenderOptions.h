@@ -14,7 +14,7 @@ namespace faintline {
 
 /// Options of `faintline render`.
 struct RenderOptions {
-    std::string source; ///< recording, scenario or session
+    std::string source; ///< recording, scenario, session or experiment
     std::string out;    ///< PNG; with several views, their names are inserted before the extension
     std::vector<std::string> views{"window"};
     QSize size{1600, 1000};

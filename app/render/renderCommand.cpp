@@ -6,8 +6,10 @@
 #include "app/document/scanScenario.h"
 #include "app/lessons/LessonGuide.h"
 #include "app/panels/ComparePanel.h"
+#include "app/panels/ExperimentsPanel.h"
 #include "app/panels/SequentialPanel.h"
 #include "app/panels/SurveyPanel.h"
+#include "app/panels/SweepPanel.h"
 #include "app/panels/WhyPanel.h"
 #include "app/render/settleViews.h"
 #include "app/views/ReportWriter.h"
@@ -157,6 +159,24 @@ namespace {
             throw *failure;
     }
 
+    /// An experiment that is carried out, or results that are read; the curves are complete at the end.
+    void openExperiment(MainWindow &window, const RenderOptions &options)
+    {
+        for (const std::string &view : options.views)
+            if (view != "window" && view != "pd" && view != "sweep")
+                throw Error("--view " + view, "requires a recording; views of experiments are window, pd, sweep");
+        if (!options.settings.empty() || !options.preset.empty() || !options.part.assignments().empty())
+            throw Error("--set", "cannot be combined with an experiment, which has its own settings");
+        std::optional<Error> failure;
+        QObject::connect(&window.experimentList(), &ExperimentsPanel::failed, &window,
+                         [&](const Error &error) { failure = error; });
+        window.sweep().setMeasuringCost(false);
+        window.open(pathText(options.source));
+        if (failure)
+            throw *failure;
+        settleExperiments(window);
+    }
+
     void testSelection(MainWindow &window, const std::vector<std::string> &views)
     {
         for (const char *view : {"stopping", "scan", "asn", "prior", "sectors"})
@@ -250,6 +270,8 @@ namespace {
         const Document &document = window.document();
         if (SurveyPanel::isSurvey(pathText(options.source)))
             return {{"version", FAINTLINE_VERSION}, {"survey", textFromFileName(options.source)}};
+        if (!window.experiments().entries().empty() && document.isEmpty())
+            return {{"version", FAINTLINE_VERSION}, {"experiment", textFromFileName(options.source)}};
         if (document.isEmpty())
             return {{"version", FAINTLINE_VERSION},
                     {"sequential", writeFields(window.sequentialTests().test(), ScanTest::fields())}};
@@ -330,6 +352,8 @@ void render(const RenderOptions &options)
         testScans(window, options);
     } else if (SurveyPanel::isSurvey(pathText(options.source))) {
         openSurvey(window, options);
+    } else if (ExperimentsPanel::isExperiment(pathText(options.source))) {
+        openExperiment(window, options);
     } else {
         const AnalysisSettings settings = openAndSettle(window, options);
         if (has(options.views, "compare") || !options.presetA.empty() || !options.settingsA.empty())

@@ -49,16 +49,21 @@ namespace {
 
 } // namespace
 
+void settleExperiments(MainWindow &window)
+{
+    waitForExperiments(window);
+    for (const Experiments::Entry &entry : window.experiments().entries())
+        if (entry.state == Experiments::State::Failed)
+            throw Error("experiment", entry.failure.toStdString(), Error::Kind::Failure);
+}
+
 void measureCurves(MainWindow &window)
 {
     constexpr int runs = 2;
     window.evaluation().form().setQuick(
         runs, {QStringLiteral("SMD 5 slopes"), QStringLiteral("3 of 4"), QStringLiteral("integrator")}, -5, 3, 2);
     window.evaluation().start();
-    waitForExperiments(window);
-    const Experiments::Entry *entry = window.experiments().entry(window.evaluation().shown());
-    if (entry->state == Experiments::State::Failed)
-        throw Error("experiment", entry->failure.toStdString(), Error::Kind::Failure);
+    settleExperiments(window);
 }
 
 void sweepThreshold(MainWindow &window)

@@ -9,6 +9,8 @@ class MainWindow;
 /// Each function fills a view of the window as a user would, and waits until all work is done; the result is the same
 /// from run to run. Throws Error if the source does not support the view.
 
+/// Waits for the end of all experiments.
+void settleExperiments(MainWindow &window);
 /// Runs a small experiment on lines like those of the papers and shows its curves.
 void measureCurves(MainWindow &window);
 /// Runs a small sweep of the threshold.

@@ -303,12 +303,12 @@ void MainWindow::showExperiment(int id)
     }
     if (entry->reproducible)
         return;
-    if (entry->campaign && std::holds_alternative<SweepExperiment>(entry->campaign->experiment)) {
-        m_sweep->show(id);
-        return m_panels->show(m_sweep);
-    }
-    m_evaluate->show(id);
-    m_panels->show(m_evaluate);
+    const bool isSweep = entry->campaign && std::holds_alternative<SweepExperiment>(entry->campaign->experiment);
+    isSweep ? m_sweep->show(id) : m_evaluate->show(id);
+    QWidget *panel = isSweep ? static_cast<QWidget *>(m_sweep) : m_evaluate;
+    if (!m_document.isEmpty())
+        return m_panels->show(panel);
+    showAlone(panel, tr("%1 — Faintline").arg(entry->name), tr("The curves grow while the experiment runs."));
 }
 
 void MainWindow::showWhy()

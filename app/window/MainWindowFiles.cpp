@@ -11,6 +11,7 @@
 #include "app/document/scanScenario.h"
 #include "app/lessons/Lesson.h"
 #include "app/lessons/LessonGuide.h"
+#include "app/panels/ExperimentsPanel.h"
 #include "app/panels/OpenOptionsDialog.h"
 #include "app/panels/SequentialPanel.h"
 #include "app/panels/SurveyPanel.h"
@@ -36,6 +37,8 @@ void MainWindow::open(const QString &path, const OpenOptions &options, const Ana
 {
     if (SurveyPanel::isSurvey(path))
         return m_survey->open(path);
+    if (ExperimentsPanel::isExperiment(path))
+        return m_experimentList->open(path);
     if (const bool isOfScans = isScanScenario(path); isOfScans || isLesson(path)) {
         try {
             return isOfScans ? openScans(readScanTest(path)) : startLesson(readLesson(path));

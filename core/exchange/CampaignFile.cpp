@@ -28,7 +28,7 @@ namespace {
 
     constexpr int fileVersion = 1;
     constexpr const char *versionKey = "faintlineCampaign";
-    constexpr const char *curveHead = "detector,snr_db,pd,pd_low,pd_high,trials,threshold";
+    constexpr std::string_view curveHead = "detector,snr_db,pd,pd_low,pd_high,trials,threshold";
 
     std::string headOf(const Campaign &campaign)
     {
@@ -189,7 +189,7 @@ namespace {
     CurvePoint pointFrom(std::string_view line, const std::string &where)
     {
         constexpr double mostTrials = 1e15;
-        const Error refusal(where, std::string("must be ") + curveHead);
+        const Error refusal(where, "must be " + std::string(curveHead));
         CurvePoint point;
         std::size_t quote = line.starts_with('"') ? 1 : line.size();
         for (; quote < line.size(); ++quote) {
@@ -291,6 +291,14 @@ bool isCampaignFile(const std::string &path)
     std::string beginning(64, '\0');
     file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
     return beginning.find(versionKey) != std::string::npos;
+}
+
+bool isCurveFile(const std::string &path)
+{
+    std::ifstream file(path);
+    std::string beginning(curveHead.size(), '\0');
+    file.read(beginning.data(), std::ssize(beginning));
+    return beginning == curveHead;
 }
 
 void writeCurve(const Campaign &campaign, const std::string &path)

@@ -19,6 +19,9 @@ Campaign readCampaign(const std::string &path);
 /// Whether the file's first line identifies a campaign.
 bool isCampaignFile(const std::string &path);
 
+/// Whether the file's first line is that of a curve of Pd (writeCurve).
+bool isCurveFile(const std::string &path);
+
 /// Writes detection probabilities as CSV: detector, snr_db, pd, pd_low, pd_high (95 %), trials, threshold. For a sweep:
 /// parameter, value, pd, pd_low, pd_high, trials, false_alarms, hours, false_alarms_per_hour and its interval,
 /// latency_s and its interval (empty if nothing was detected), threshold.

@@ -83,6 +83,12 @@ private slots:
         scans.write(
             R"({"kind": "scans", "azimuthCells": 1, "elevationCells": 1, "rangeCells": 20, "dopplerCells": 4,
                "stages": 12})");
+        QFile experiment(path("experiment.json"));
+        QVERIFY(experiment.open(QIODevice::WriteOnly));
+        experiment.write(R"({"kind": "lines", "runs": 2, "frames": 60, "blockFrames": 30, "blockBins": 30,
+                             "durationWindows": 10, "snrDb": [3, 6, 9],
+                             "detectors": [{"name": "3 of 4", "settings": {"detector.kind": "pOfN"}}]})");
+        experiment.close();
         QFile text(path("text.wav"));
         QVERIFY(text.open(QIODevice::WriteOnly));
         text.write("This is no sound.");
@@ -334,6 +340,22 @@ private slots:
         QVERIFY(pixelsOf(path("s.png")) != pixelsOf(path("u.png")));
     }
 
+    void curvesOfAnExperiment()
+    {
+        const QStringList asPd{"--view", "pd", "--size", "1000x500", "--out"};
+        for (const QString &name : {QString("p1.png"), QString("p2.png")})
+            QCOMPARE(run(QStringList{"render", path("experiment.json")} + asPd + QStringList{path(name)}).error,
+                     QByteArray());
+        QVERIFY(bytesOf(path("p1.png")) == bytesOf(path("p2.png")));
+        QFile curve(path("curve.csv"));
+        QVERIFY(curve.open(QIODevice::WriteOnly));
+        curve.write(
+            "detector,snr_db,pd,pd_low,pd_high,trials,threshold\n\"x\",3,0.5,0.4,0.6,99,\n\"x\",6,0.9,0.8,0.95,99,\n");
+        curve.close();
+        QCOMPARE(run(QStringList{"render", path("curve.csv")} + asPd + QStringList{path("c.png")}).error, QByteArray());
+        QVERIFY(pixelsOf(path("c.png")) != pixelsOf(path("p1.png")));
+    }
+
     void mistakesAreOneLineAndTwo_data()
     {
         QTest::addColumn<QStringList>("arguments");
@@ -368,6 +390,11 @@ private slots:
         QTest::newRow("step of a scene") << QStringList{"render", scene, "--out", out, "--step", "1"} << "--step";
         QTest::newRow("setting of a lesson")
             << QStringList{"render", lesson, "--out", out, "--set", "model.snr=1"} << "--set";
+        const QString experiment = path("experiment.json");
+        QTest::newRow("setting of an experiment")
+            << QStringList{"render", experiment, "--out", out, "--set", "model.snr=1"} << "--set";
+        QTest::newRow("waterfall of an experiment")
+            << QStringList{"render", experiment, "--out", out, "--view", "input"} << "input";
         QTest::newRow("option") << QStringList{"render", scene, "--out", out, "--moon"} << "--moon";
         QTest::newRow("folder") << QStringList{"render", scene,     "--out", path("no/such/folder.png"),
                                                "--size", "1200x700"}

@@ -17,18 +17,12 @@ namespace {
 
     InjectionTrials trialsOf(const InjectionExperiment &experiment, const RunContext &context)
     {
-        OpenOptions options;
-        options.iq = experiment.iq;
-        return InjectionTrials(experiment, openRecording(fileNameFromText(experiment.recording), options), context);
+        return InjectionTrials(experiment, openRecordingOf(experiment), context);
     }
 
     SweepTrials trialsOf(const SweepExperiment &experiment, const RunContext &context)
     {
-        if (experiment.recording.empty())
-            return SweepTrials(experiment, nullptr, context);
-        OpenOptions options;
-        options.iq = experiment.iq;
-        return SweepTrials(experiment, openRecording(fileNameFromText(experiment.recording), options), context);
+        return SweepTrials(experiment, openRecordingOf(experiment), context);
     }
 
     bool inRunOrder(const RunOutcome &a, const RunOutcome &b)
@@ -91,6 +85,21 @@ std::vector<DetectorUnderTest> detectorsOf(const Experiment &experiment)
                                      return detectors;
                                  },
                                  [](const auto &one) { return one.detectors; }},
+                      experiment);
+}
+
+RecordingPointer openRecordingOf(const Experiment &experiment)
+{
+    const auto open = [](const auto &one) {
+        OpenOptions options;
+        options.iq = one.iq;
+        return openRecording(fileNameFromText(one.recording), options);
+    };
+    return std::visit(Overloaded{[](const LineExperiment &) { return RecordingPointer(); },
+                                 [&](const SweepExperiment &sweep) {
+                                     return sweep.recording.empty() ? RecordingPointer() : open(sweep);
+                                 },
+                                 open},
                       experiment);
 }
 

@@ -33,6 +33,9 @@ void setSeed(Experiment &experiment, int seed);
 std::vector<double> snrsOf(const Experiment &experiment);
 std::vector<DetectorUnderTest> detectorsOf(const Experiment &experiment);
 
+/// Opens the recording that an experiment names; null if its noise is simulated. Throws Error.
+RecordingPointer openRecordingOf(const Experiment &experiment);
+
 /// An experiment with the runs done so far: a part of a campaign, or all of it.
 struct Campaign {
     Experiment experiment;
