@@ -20,6 +20,7 @@
 #include "exchange/readAnnotations.h"
 #include "exchange/writeEvents.h"
 #include "exchange/writeReviewed.h"
+#include "recording/truthBeside.h"
 #include "spectrum/noiseMean.h"
 
 #include <CLI/CLI.hpp>
@@ -61,7 +62,7 @@ namespace {
         return other;
     }
 
-    /// Simulated pings know their targets: what was found of them.
+    /// What was found of known targets.
     void printScore(const Analysis &analysis, const PingTruth &truth)
     {
         const TrackScore score = scoreTracks(analysis.tracks, truth, analysis.grid(), {3, 1});
@@ -143,7 +144,7 @@ namespace {
         AnalysisSettings settings;
         RecordingPointer recording;
         NormalisedFramesPointer frames;
-        std::optional<PingTruth> truth; ///< of simulated pings
+        PingTruth truth; ///< of simulated pings, or beside recorded ones
         std::vector<Annotation> annotations;
     };
 
@@ -167,11 +168,14 @@ namespace {
         input.settings = options.analysis.settings();
         if (!options.frames.empty()) {
             input.frames = readFrames(options.frames, options.grid);
+            input.truth = pingTruthBeside(options.frames, input.frames->grid());
         } else if (const auto pings = openPings(options.analysis.file)) {
             input.frames = pings;
             input.truth = pings->truth();
         } else {
             input.frames = options.analysis.frames(input.settings, context);
+            if (input.frames)
+                input.truth = pingTruthBeside(options.analysis.file, input.frames->grid());
         }
         if (!input.frames && options.analysis.file.empty())
             throw Error("detect", "needs a recording, or --frames with ready-made frames");
@@ -277,13 +281,13 @@ namespace {
         if (areFramesGiven)
             if (const std::string warning = noiseMeanWarning(*input.frames); !warning.empty())
                 std::printf("%s\n", warning.c_str());
-        if (input.truth)
-            printScore(analysis, *input.truth);
+        if (!input.truth.targets.empty())
+            printScore(analysis, input.truth);
         if (analysis.grid().isSpectrum())
             return;
         std::printf("conventional detector: %zu track(s)\n", analysis.conventional.size());
-        if (input.truth)
-            printScore(conventionally(analysis), *input.truth);
+        if (!input.truth.targets.empty())
+            printScore(conventionally(analysis), input.truth);
     }
 
     void detect(DetectOptions options, const Common &common)

@@ -8,6 +8,7 @@
 #include "recording/AudioRecording.h"
 #include "recording/RawRecording.h"
 #include "recording/SimulatedRecording.h"
+#include "recording/truthBeside.h"
 #include "spectrum/SimulatedPings.h"
 
 namespace faintline {
@@ -53,8 +54,12 @@ namespace {
             opened.recording = recording;
         } else if (source.options.rawType.empty() && holdsFrames(pathBytes(source.path))) {
             opened.frames = readStack(source.path);
+            opened.pingTruth = pingTruthBeside(pathBytes(source.path), opened.frames->grid());
+            if (opened.frames->grid().isSpectrum())
+                opened.truth = truthBeside(pathBytes(source.path));
         } else {
             opened.recording = openRecording(pathBytes(source.path), source.options);
+            opened.truth = truthBeside(pathBytes(source.path));
         }
         opened.source = std::move(source);
         return opened;

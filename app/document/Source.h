@@ -45,9 +45,9 @@ struct Source {
 struct OpenedSource {
     Source source;
     RecordingPointer recording;
-    Truth truth; ///< for simulated recordings and injected lines
+    Truth truth; ///< of a simulated recording, of a file beside it, and injected lines
     NormalisedFramesPointer frames{};
-    PingTruth pingTruth{}; ///< for simulated pings
+    PingTruth pingTruth{}; ///< of simulated pings, or of a file beside them
 
     const FrameKind &kind() const { return frames ? frameKindOf(frames->grid()) : lineFrames(); }
 };

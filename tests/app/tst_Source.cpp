@@ -2,6 +2,8 @@
 #include "app/panels/OpenOptionsDialog.h"
 
 #include "base/Error.h"
+#include "recording/SimulatedRecording.h"
+#include "recording/writeRecording.h"
 #include "support/errors.h"
 
 #include <QComboBox>
@@ -46,6 +48,21 @@ private slots:
         const std::string said = test::errorOf([&] { sourceOf(path); });
         QVERIFY2(said.starts_with(path.toStdString()), said.c_str());
         QVERIFY2(test::contains(said, "moon"), said.c_str());
+    }
+
+    void linesBesideARecordingAreItsTruth()
+    {
+        const SimulatedRecording simulated(
+            *sourceOf(file("g.json", R"({"sampleRateHz": 100, "durationSeconds": 10, "lines": [{"frequencyHz": 20}]})"))
+                 .scene);
+        const QString path = m_folder.filePath("g.wav");
+        writeRecording(simulated, path.toStdString());
+        QVERIFY(openSource(sourceOf(path)).truth.lines.empty());
+        file("g.truth.json", QByteArray::fromStdString(toJson(simulated.truth()).dump()));
+        QCOMPARE(openSource(sourceOf(path)).truth, simulated.truth());
+        file("g.truth.json", R"({"lines": [{"moon": 1}]})");
+        const std::string said = test::errorOf([&] { openSource(sourceOf(path)); });
+        QVERIFY2(test::contains(said, "g.truth.json") && test::contains(said, "moon"), said.c_str());
     }
 
     void linesAreAddedToRecordingsOnlyAndNotWithoutEnd()

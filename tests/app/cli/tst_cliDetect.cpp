@@ -265,9 +265,9 @@ void tst_cliDetect::pingsFromAScene()
     QVERIFY2(info.out.contains("range         90 cells of 10 m, 3000 … 3890 m")
                  && info.out.contains("target 1      12 dB, constant, pings 4 … 29"),
              info.out.data());
-    QCOMPARE(run({"simulate", "pings.json", "--out", "P.npy", "--truth", "P.json"}).code, 0);
+    QCOMPARE(run({"simulate", "pings.json", "--out", "P.npy", "--truth", "P.truth.json"}).code, 0);
     QCOMPARE(readNumPy(pathOf("P.npy")).shape, (std::vector<Index>{30, 90, 8}));
-    const Json truth = parseJson(content("P.json").toStdString(), "truth");
+    const Json truth = parseJson(content("P.truth.json").toStdString(), "truth");
     QCOMPARE(truth["targets"][0]["cell"].size(), std::size_t(26));
     // From the scene and from the frames written: the same events, byte for byte.
     const QStringList settings{"--preset", "sonar", "--set", "decide.thresholdNats=20"};
@@ -282,6 +282,18 @@ void tst_cliDetect::pingsFromAScene()
     for (const auto &event : numbersOf(content("a.csv"))) // 20 m and 9° in 40 s
         isFound = isFound || (event[8] == 1.0 && std::abs(event[10] - 0.5) < 0.1 && std::abs(event[11] - 0.225) < 0.1);
     QVERIFY2(isFound, content("a.csv").data());
+    // The targets of the scene, and of the truth beside the frames.
+    const auto scoreOf = [&](const QString &file) {
+        const QByteArray summary = run(QStringList{"detect", file, "--summary"} + settings).out;
+        return summary.mid(summary.indexOf("target 1: detected"));
+    };
+    QVERIFY2(scoreOf("P.npy").contains("false tracks:"), scoreOf("P.npy").data());
+    QCOMPARE(scoreOf("P.npy"), scoreOf("pings.json"));
+    writeBytes(pathOf("P.truth.json"),
+               R"({"targets": [{"rangeMetres": [3000], "bearingDegrees": [0], "cell": [720]}]})");
+    const Outcome beyond = run(QStringList{"detect", "P.npy", "--summary"} + settings);
+    QCOMPARE(beyond.code, 2);
+    QVERIFY2(beyond.err.contains("P.truth.json: has a target beyond the 720 cells"), beyond.err.data());
     // The same cell is explained of the scene and of its frames.
     const QStringList cell{"--time", "960", "--range", "3400", "--bearing", "0", "--json"};
     const Outcome why = run(QStringList{"explain", "pings.json"} + cell + settings);
