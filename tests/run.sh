@@ -9,7 +9,7 @@ fail() {
     exit 1
 }
 
-sh cmake/setup.sh parallel slurm-wlm python3-h5py bitshuffle || exit 1 # campaigns and readers are tried with them
+sh cmake/setup.sh parallel slurm-wlm python3-h5py bitshuffle xvfb openbox xdotool || exit 1 # campaigns, readers and walks are tried with them
 [ -f build/build.ninja ] || cmake --preset release || fail "configuring"
 cmake --build build || fail "the build"
 ctest --test-dir build --output-on-failure -j2 "$@"

@@ -101,7 +101,8 @@ void LessonPanel::setStep(const Lesson &lesson, int step)
 void LessonPanel::setLarge(bool isLarge)
 {
     constexpr int largeWidth = 500; // about thirty characters per line
-    setMinimumWidth(isLarge ? largeWidth : 0);
+    constexpr int mostPercent = 30; // of the window: on a small screen pictures and settings must fit beside it
+    setMinimumWidth(isLarge ? std::min(largeWidth, window()->width() * mostPercent / 100) : 0);
     if (std::exchange(m_isLarge, isLarge) == isLarge || m_step < 0)
         return;
     const int chosen = choice();

@@ -22,6 +22,7 @@
 #include "app/workspace/Workbench.h"
 #include "base/AtomicFile.h"
 #include "widgets/base/labelText.h"
+#include "widgets/plot/WalkPlot.h"
 
 #include <QDir>
 #include <QFileDialog>
@@ -112,13 +113,14 @@ void MainWindow::openScans(const ScanTest &test)
     showAlone(m_sequential, tr("Radar scans — Faintline"),
               tr("Click a walk to follow that test. J and L step through its stages."));
     m_sequential->start(test);
+    m_sequential->walk().setFocus(); // for J and L
 }
 
 void MainWindow::showAlone(QWidget *panel, const QString &title, const QString &hint)
 {
     m_welcome->stop();
     m_messages->dismiss();
-    if (m_document.isEmpty()) {
+    if (m_document.isEmpty() || m_pages->currentWidget() == m_welcome) {
         m_pages->hide(); // makes room for the panel
         setWindowTitle(title);
         m_hint->setText(hint);

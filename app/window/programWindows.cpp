@@ -4,9 +4,25 @@
 #include "app/document/Recovery.h"
 #include "app/window/MainWindow.h"
 
+#include <QScreen>
+
 #include <algorithm>
 
 namespace faintline {
+
+namespace {
+
+    /// A window that is larger than its screen takes all of the screen.
+    void fitScreen(QWidget &window)
+    {
+        const QSize room = window.screen()->availableSize();
+        if (window.size().boundedTo(room) == window.size())
+            return;
+        window.resize(window.size().boundedTo(room));
+        window.setWindowState(window.windowState() | Qt::WindowMaximized);
+    }
+
+} // namespace
 
 std::vector<std::unique_ptr<MainWindow>> programWindows(const std::vector<std::string> &files,
                                                         const OpenOptions &options)
@@ -15,6 +31,7 @@ std::vector<std::unique_ptr<MainWindow>> programWindows(const std::vector<std::s
     std::vector<std::unique_ptr<MainWindow>> windows;
     for (std::size_t i = 0; i < std::max<std::size_t>(1, files.size()); ++i) {
         windows.push_back(std::make_unique<MainWindow>(WindowMemory::programStore(), Recovery::programFolder()));
+        fitScreen(*windows.back());
         if (i < files.size())
             windows.back()->open(pathText(files[i]), options);
         windows.back()->show();
