@@ -12,6 +12,7 @@
 #include "widgets/plot/ChartPlot.h"
 #include "widgets/plot/WalkPlot.h"
 
+#include <QComboBox>
 #include <QFileDialog>
 #include <QKeyEvent>
 #include <QLabel>
@@ -107,6 +108,8 @@ SequentialPanel::SequentialPanel(Document &document, SequentialTests &tests, QWi
     layout->setSpacing(0);
     layout->addWidget(buildLeft());
     layout->addLayout(right, 1);
+    for (QComboBox *list : m_tabs->findChildren<QComboBox *>())
+        list->installEventFilter(this);
     connectTests();
     connect(&document, &Document::analysisChanged, this, &SequentialPanel::followDocument);
     connect(&document, &Document::opened, this, &SequentialPanel::followDocument);
@@ -422,24 +425,44 @@ void SequentialPanel::showSectors()
 
 // ---- keys and files -------------------------------------------------------------------------------------------------
 
+namespace {
+
+    /// J: -1, L: 1, other events: 0.
+    int stepOf(const QEvent &event)
+    {
+        if (event.type() != QEvent::KeyPress && event.type() != QEvent::ShortcutOverride)
+            return 0;
+        const auto &key = static_cast<const QKeyEvent &>(event);
+        if (key.modifiers() != Qt::NoModifier)
+            return 0;
+        return key.key() == Qt::Key_L ? 1 : key.key() == Qt::Key_J ? -1 : 0;
+    }
+
+} // namespace
+
 /// Within the panel, J and L step through stages rather than the recording's frames.
 bool SequentialPanel::event(QEvent *event)
 {
-    if (event->type() == QEvent::ShortcutOverride) {
-        const auto *key = static_cast<QKeyEvent *>(event);
-        if (key->modifiers() == Qt::NoModifier && (key->key() == Qt::Key_J || key->key() == Qt::Key_L)) {
-            event->accept();
-            return true;
-        }
-    }
-    return QWidget::event(event);
+    if (event->type() != QEvent::ShortcutOverride || stepOf(*event) == 0)
+        return QWidget::event(event);
+    event->accept();
+    return true;
 }
 
 void SequentialPanel::keyPressEvent(QKeyEvent *event)
 {
-    if (event->modifiers() == Qt::NoModifier && (event->key() == Qt::Key_J || event->key() == Qt::Key_L))
-        return m_tests.setStage(m_tests.stage() + (event->key() == Qt::Key_L ? 1 : -1));
+    if (const int step = stepOf(*event); step != 0)
+        return m_tests.setStage(m_tests.stage() + step);
     QWidget::keyPressEvent(event);
+}
+
+/// A list that has the focus would search for an entry of that letter.
+bool SequentialPanel::eventFilter(QObject *watched, QEvent *event)
+{
+    if (event->type() != QEvent::KeyPress || stepOf(*event) == 0)
+        return QWidget::eventFilter(watched, event);
+    m_tests.setStage(m_tests.stage() + stepOf(*event));
+    return true;
 }
 
 std::string SequentialPanel::provenance(const View &view) const

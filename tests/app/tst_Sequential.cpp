@@ -16,6 +16,7 @@
 #include "widgets/plot/ChartPlot.h"
 #include "widgets/plot/WalkPlot.h"
 
+#include <QComboBox>
 #include <QDockWidget>
 #include <QFile>
 #include <QFileInfo>
@@ -264,6 +265,11 @@ void tst_Sequential::jAndLStepStages()
     QCOMPARE(tests().stage(), stages);
     QVERIFY(m_window->document().viewport().cursor() == cursor);
     panel().slider().setValue(1);
+    QCOMPARE(tests().stage(), Index(1));
+    auto *axes = panel().trajectory().findChild<QComboBox *>(); // which has the focus when its page is shown
+    QTest::keyClick(axes, Qt::Key_L);
+    QCOMPARE(tests().stage(), Index(2));
+    QTest::keyClick(axes, Qt::Key_J);
     QCOMPARE(tests().stage(), Index(1));
     m_window->workbench().output()->setFocus();
     QTest::keyClick(m_window->workbench().output(), Qt::Key_L);

@@ -94,6 +94,8 @@ void testScans(Walk &walk)
     walk.clickTab("Trajectory and scan");
     walk.waitUntil("the scan", [&] { return walk.window().sequential().trajectory().isVisible(); });
     walk.takePicture("radar-scan");
+    walk.hand.press("l");
+    walk.waitUntil("a stage later", [&] { return walk.window().sequentialTests().stage() == stage; });
     walk.clickTab("Sectors");
     walk.waitUntil("sectors", [&] { return walk.window().sequential().sectorsPage()->isVisible(); });
 }
