@@ -221,6 +221,29 @@ namespace {
 
 } // namespace
 
+int openingStep(const Lesson &lesson, int step)
+{
+    while (lesson.steps[std::size_t(step)].open.isEmpty())
+        --step;
+    return step;
+}
+
+std::vector<LessonStep> stepsSinceOpening(const Lesson &lesson, int step)
+{
+    return {lesson.steps.begin() + openingStep(lesson, step), lesson.steps.begin() + step + 1};
+}
+
+AnalysisSettings settingsAfter(const std::vector<LessonStep> &steps, AnalysisSettings settings)
+{
+    for (const LessonStep &step : steps) {
+        if (!step.preset.empty())
+            settings = preset(step.preset).settings;
+        for (const auto &[name, value] : step.settings)
+            settingField(name).set(settings, value);
+    }
+    return settings;
+}
+
 Lesson lessonFromJson(const std::string &text, const QString &path)
 {
     const Json json = parseJson(text, pathBytes(path));
