@@ -18,7 +18,8 @@ namespace faintline {
 namespace {
 
     constexpr qint64 largestLesson = 1 << 20;
-    constexpr const char *ownLessons[]{"cell", "p-of-n", "reset", "choosing-h", "manoeuvre", "when-to-stop"};
+    constexpr const char *ownLessons[]{"cell",      "p-of-n",     "reset",     "choosing-h",  "thresholds",
+                                       "cfar-loss", "real-noise", "manoeuvre", "when-to-stop"};
 
     std::string textOf(const QString &path)
     {
