@@ -18,7 +18,8 @@ namespace faintline {
 namespace {
 
     constexpr qint64 largestLesson = 1 << 20;
-    constexpr const char *ownLessons[]{"cell", "p-of-n", "reset", "choosing-h", "manoeuvre", "when-to-stop"};
+    constexpr const char *ownLessons[]{"cell",      "p-of-n",     "reset",     "choosing-h",  "thresholds",
+                                       "cfar-loss", "real-noise", "manoeuvre", "when-to-stop"};
 
     std::string textOf(const QString &path)
     {
@@ -220,6 +221,29 @@ namespace {
     }
 
 } // namespace
+
+int openingStep(const Lesson &lesson, int step)
+{
+    while (lesson.steps[std::size_t(step)].open.isEmpty())
+        --step;
+    return step;
+}
+
+std::vector<LessonStep> stepsSinceOpening(const Lesson &lesson, int step)
+{
+    return {lesson.steps.begin() + openingStep(lesson, step), lesson.steps.begin() + step + 1};
+}
+
+AnalysisSettings settingsAfter(const std::vector<LessonStep> &steps, AnalysisSettings settings)
+{
+    for (const LessonStep &step : steps) {
+        if (!step.preset.empty())
+            settings = preset(step.preset).settings;
+        for (const auto &[name, value] : step.settings)
+            settingField(name).set(settings, value);
+    }
+    return settings;
+}
 
 Lesson lessonFromJson(const std::string &text, const QString &path)
 {

@@ -63,6 +63,13 @@ struct Lesson {
     std::vector<LessonStep> steps;
 };
 
+/// The step that opened what the given step shows.
+int openingStep(const Lesson &lesson, int step);
+/// From that step up to the given one.
+std::vector<LessonStep> stepsSinceOpening(const Lesson &lesson, int step);
+/// The settings that these steps make of those of a source just opened.
+AnalysisSettings settingsAfter(const std::vector<LessonStep> &steps, AnalysisSettings settings);
+
 /// Throws Error that names the key.
 Lesson lessonFromJson(const std::string &text, const QString &path);
 Lesson readLesson(const QString &path);

@@ -1,6 +1,8 @@
 #include "app/lessons/LessonGuide.h"
 
 #include "app/base/MessageBar.h"
+#include "app/base/filePath.h"
+#include "app/document/Session.h"
 #include "app/document/scanScenario.h"
 #include "app/lessons/LessonPanel.h"
 #include "app/lessons/PointerFrame.h"
@@ -11,14 +13,21 @@
 #include "app/views/WindowViews.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
+#include "base/AtomicFile.h"
 #include "widgets/base/ReadOut.h"
 #include "widgets/forms/SettingsForm.h"
 #include "widgets/plot/StripPlot.h"
 
+#include <QDateTime>
+#include <QDir>
 #include <QDockWidget>
+#include <QFileDialog>
+#include <QFileInfo>
 #include <QMainWindow>
 #include <QTabWidget>
+#include <QUrl>
 
+#include <algorithm>
 #include <utility>
 
 namespace faintline {
@@ -30,15 +39,16 @@ namespace {
     /// Words a shown lesson's panel has room for, as a share of the window.
     constexpr int panelPercent = 22;
 
-    AnalysisSettings settingsAfter(const std::vector<LessonStep> &steps, AnalysisSettings settings)
+    double nowUnixSeconds()
     {
-        for (const LessonStep &step : steps) {
-            if (!step.preset.empty())
-                settings = preset(step.preset).settings;
-            for (const auto &[name, value] : step.settings)
-                settingField(name).set(settings, value);
-        }
-        return settings;
+        return double(QDateTime::currentSecsSinceEpoch());
+    }
+
+    /// As many digits as a learner's page needs.
+    std::string roughly(const FieldValue &value)
+    {
+        const auto *number = std::get_if<double>(&value);
+        return number ? QString::number(*number, 'g', 5).toStdString() : formatFieldValue(value);
     }
 
 } // namespace
@@ -59,14 +69,22 @@ LessonGuide::LessonGuide(QMainWindow &window, WindowParts &parts)
     });
     m_watch.setInterval(watchMs);
     connect(&m_watch, &QTimer::timeout, this, &LessonGuide::check);
-    connect(m_panel, &LessonPanel::backRequested, this, [this] { goTo(m_step - 1); });
-    connect(m_panel, &LessonPanel::nextRequested, this, [this] { goTo(m_step + 1); });
+    connect(m_panel, &LessonPanel::backRequested, this, [this] { goTo(m_isAtEnd ? m_step : m_step - 1); });
+    connect(m_panel, &LessonPanel::nextRequested, this, &LessonGuide::goOn);
+    connect(m_panel, &LessonPanel::saveRequested, this, &LessonGuide::saveAnswers);
+    connect(m_panel, &LessonPanel::answered, this, [this](int choice) {
+        if (auto &answer = m_answers.steps[std::size_t(m_step)]; answer.choice < 0) {
+            answer.choice = choice;
+            answer.choiceUnixSeconds = nowUnixSeconds();
+        }
+    });
     connect(m_panel, &LessonPanel::leaveRequested, this, &LessonGuide::leave);
 }
 
 void LessonGuide::start(const Lesson &lesson, int step)
 {
     m_lesson = lesson;
+    m_answers.steps.assign(lesson.steps.size(), {});
     m_opened.clear();
     goTo(step);
     emit runningChanged(isRunning());
@@ -76,13 +94,11 @@ void LessonGuide::goTo(int step)
 {
     if (step < 0)
         return;
-    if (step >= int(m_lesson.steps.size())) {
-        leave();
-        return emit finished();
-    }
+    if (step >= int(m_lesson.steps.size()))
+        return end();
     m_watch.stop(); // until a condition has to be watched
     m_step = step;
-    m_isReady = m_isRevealed = false;
+    m_isReady = m_isRevealed = m_isAtEnd = false;
     m_frame->pointAt(nullptr);
     m_panel->setStep(m_lesson, step);
     m_panel->setWaiting(true);
@@ -90,37 +106,97 @@ void LessonGuide::goTo(int step)
     m_watch.start();
 }
 
-int LessonGuide::openingStep() const
+void LessonGuide::goOn()
 {
-    int opening = m_step;
-    while (m_lesson.steps[std::size_t(opening)].open.isEmpty())
-        --opening;
-    return opening;
+    if (!m_isAtEnd)
+        return goTo(m_step + 1);
+    if (const auto next = following())
+        emit lessonRequested(*next);
 }
 
-/// Those since something was opened, up to the present one.
-std::vector<LessonStep> LessonGuide::stepsNow() const
+void LessonGuide::end()
 {
-    return {m_lesson.steps.begin() + openingStep(), m_lesson.steps.begin() + m_step + 1};
+    m_isAtEnd = true;
+    m_frame->pointAt(nullptr);
+    const auto next = following();
+    m_panel->setEnd(m_lesson, m_answers, next ? lessons()[std::size_t(*next)].title : QString());
+    emit finished(m_lesson.path);
+}
+
+/// The lesson after this one; none after the last and after those that are not bundled.
+std::optional<int> LessonGuide::following() const
+{
+    const auto &all = lessons();
+    const auto own =
+        std::find_if(all.begin(), all.end(), [&](const Lesson &each) { return each.path == m_lesson.path; });
+    if (own == all.end() || own + 1 == all.end())
+        return {};
+    return int(own + 1 - all.begin());
+}
+
+void LessonGuide::saveAnswers(const QString &learner)
+{
+    const QString name = QFileInfo(m_lesson.path).completeBaseName() + QStringLiteral("-answers.html");
+    const QString path = pathOf(QFileDialog::getSaveFileUrl(
+        &m_window, tr("Save answers"), QUrl::fromLocalFile(QDir::home().filePath(name)), tr("Web pages (*.html)")));
+    if (path.isEmpty())
+        return;
+    try {
+        writeAnswers(path, learner);
+        emit written(path);
+    } catch (const Error &error) {
+        emit failed(error);
+    }
+}
+
+void LessonGuide::writeAnswers(const QString &path, const QString &learner) const
+{
+    writeTextFile(pathBytes(path), answersHtml(m_lesson, m_answers, learner));
+}
+
+/// The measures of the task's conditions as they are now.
+void LessonGuide::recordTask()
+{
+    auto &answer = m_answers.steps[std::size_t(m_step)];
+    if (std::exchange(answer.isDone, true))
+        return;
+    answer.doneUnixSeconds = nowUnixSeconds();
+    for (const LessonCondition *condition : {&now().until, &now().thenFacts})
+        for (const LessonCondition::Part &part : condition->parts)
+            if (const auto value = lessonMeasure(m_parts, part.measure))
+                answer.measured.emplace_back(part.measure, roughly(*value));
+}
+
+/// Of the source that this lesson opened, before its own settings.
+AnalysisSettings LessonGuide::settingsAtOpening() const
+{
+    return isSessionPath(m_opened) ? readSession(m_opened).settings : firstSettings(m_parts.document().openedSource());
+}
+
+bool LessonGuide::isOpen(const QString &path) const
+{
+    const Document &document = m_parts.document();
+    return document.source().path == path || document.sessionPath() == path;
 }
 
 /// Opens the source and applies the settings that the step needs; `check` notices when the window has settled.
 void LessonGuide::set()
 {
-    const QString path = m_lesson.steps[std::size_t(openingStep())].open;
+    const QString path = m_lesson.steps[std::size_t(openingStep(m_lesson, m_step))].open;
     Document &document = m_parts.document();
     if (isScanScenario(path)) {
         m_opened = path;
         setScans(path);
-    } else if (m_opened != path || document.source().path != path) {
-        m_parts.openNow(
-            path, {}, [steps = stepsNow()](AnalysisSettings &settings) { settings = settingsAfter(steps, settings); });
+    } else if (m_opened != path || !isOpen(path)) {
+        m_parts.openNow(path, {}, [steps = stepsSinceOpening(m_lesson, m_step)](AnalysisSettings &settings) {
+            settings = settingsAfter(steps, settings);
+        });
         m_opened = path;
         if (!m_parts.controller().isBusy()) // the user keeps the open document, or the source cannot be opened
             leave();
     } else {
         const bool wasSaved = !document.isModified();
-        document.edit(settingsAfter(stepsNow(), firstSettings(document.openedSource())),
+        document.edit(settingsAfter(stepsSinceOpening(m_lesson, m_step), settingsAtOpening()),
                       tr("Lesson: %1").arg(now().title));
         if (wasSaved)
             document.undoStack().setClean(); // changes made by a lesson need not be saved
@@ -149,9 +225,11 @@ void LessonGuide::check()
     if (!isRunning() || isBusy())
         return;
     const bool isOfScans = isScanScenario(m_opened);
-    if (!isOfScans && m_parts.document().source().path != m_opened)
+    if (!isOfScans && !isOpen(m_opened))
         return leave(); // another document is open now
     showPanel();
+    if (m_isAtEnd)
+        return;
     if (!m_isReady && !std::exchange(m_isRevealed, true))
         return reveal(widgetNamed(now().point));
     if (!m_isReady) {
@@ -161,8 +239,10 @@ void LessonGuide::check()
         emit ready();
     }
     m_frame->follow();
-    if (!m_panel->isDone() && !now().until.isEmpty() && holds(m_parts, now().until))
+    if (!m_panel->isDone() && !now().until.isEmpty() && holds(m_parts, now().until)) {
         m_panel->setDone(true);
+        recordTask();
+    }
 }
 
 /// Scrolls the step's subject into view.
@@ -243,7 +323,7 @@ void LessonGuide::showPanel()
 void LessonGuide::present(bool isPresenting)
 {
     m_panel->setLarge(isPresenting);
-    if (isRunning() && isPresenting && m_isReady) {
+    if (isRunning() && isPresenting && m_isReady && !m_isAtEnd) {
         for (const QString &name : now().show)
             reveal(widgetNamed(name));
         reveal(widgetNamed(now().point));
@@ -259,6 +339,7 @@ void LessonGuide::leave()
     if (!isRunning())
         return;
     m_step = -1;
+    m_isAtEnd = false;
     m_opened.clear();
     m_watch.stop();
     m_frame->pointAt(nullptr);

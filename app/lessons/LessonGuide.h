@@ -1,6 +1,7 @@
 #pragma once
 
-#include "app/lessons/Lesson.h"
+#include "app/lessons/LessonAnswers.h"
+#include "base/Error.h"
 
 #include <QObject>
 #include <QTimer>
@@ -19,6 +20,8 @@ class PointerFrame;
 /// front, highlights the relevant part, and watches until the learner has completed the task. It uses only actions that
 /// are available to the user.
 ///
+/// After the last step a page tells what was answered and done, saves it for a teacher, and leads to the next lesson.
+///
 /// Each step begins with the lesson's settings up to it, regardless of the learner's changes, so that its text applies.
 class LessonGuide : public QObject
 {
@@ -29,9 +32,13 @@ public:
 
     void start(const Lesson &lesson, int step = 0);
     bool isRunning() const { return m_step >= 0; }
+    bool isAtEnd() const { return m_isAtEnd; } ///< the page after the last step is shown
     bool isReady() const { return m_isReady; } ///< the window shows the state of the step
     int step() const { return m_step; }
     const Lesson &lesson() const { return m_lesson; }
+    const LessonAnswers &answers() const { return m_answers; }
+    /// Writes them as an HTML page. Throws Error.
+    void writeAnswers(const QString &path, const QString &learner) const;
     LessonPanel &panel() { return *m_panel; }
     QDockWidget *dock() { return m_dock; }
     PointerFrame &frame() { return *m_frame; }
@@ -46,15 +53,23 @@ public slots:
     void check(); ///< checks whether the task is done
 
 signals:
-    void ready(); ///< the step is set up
-    void finished();
+    void ready();                       ///< the step is set up
+    void finished(const QString &path); ///< of the lesson
+    void lessonRequested(int lesson);   ///< the next one: its number in `lessons()`
+    void written(const QString &path);  ///< the answers
+    void failed(const faintline::Error &error);
     void runningChanged(bool isRunning);
 
 private:
     const LessonStep &now() const { return m_lesson.steps[std::size_t(m_step)]; }
-    int openingStep() const; ///< the step that opened the current recording
-    std::vector<LessonStep> stepsNow() const;
+    AnalysisSettings settingsAtOpening() const;
+    bool isOpen(const QString &path) const;
     void set();
+    void end();
+    void goOn();
+    std::optional<int> following() const;
+    void saveAnswers(const QString &learner);
+    void recordTask();
     void setScans(const QString &path);
     void arrange();
     void showPanel();
@@ -64,7 +79,9 @@ private:
     QMainWindow &m_window;
     WindowParts &m_parts;
     Lesson m_lesson;
+    LessonAnswers m_answers;
     int m_step = -1;
+    bool m_isAtEnd = false;
     QString m_opened; ///< opened by this lesson, and still open
     bool m_isReady = false;
     bool m_isRevealed = false; ///< whether the highlighted widget was revealed before it is framed

@@ -26,18 +26,29 @@ LessonList::LessonList(QWidget *parent) : QWidget(parent)
     grid->addWidget(title, 0, 0, 1, columns);
     int number = 0;
     for (const Lesson &lesson : lessons()) {
-        auto *button = new QPushButton(tr("%1  %2").arg(number + 1).arg(lesson.title));
+        auto *button = new QPushButton;
         button->setFlat(true);
         button->setStyleSheet(QStringLiteral("text-align: left; padding: 3px 0px;"));
         button->setCursor(Qt::PointingHandCursor);
         button->setToolTip(lesson.sentence);
         button->setAccessibleDescription(lesson.sentence);
         connect(button, &QPushButton::clicked, this, [this, number] { emit chosen(number); });
+        m_buttons.push_back(button);
         grid->addWidget(button, 1 + number / columns, number % columns, Qt::AlignLeft);
         ++number;
     }
     for (int column = 0; column < columns; ++column)
         grid->setColumnStretch(column, 1);
+    setDone({});
+}
+
+void LessonList::setDone(const QStringList &paths)
+{
+    for (std::size_t i = 0; i < m_buttons.size(); ++i) {
+        const Lesson &lesson = lessons()[i];
+        const bool isDone = paths.contains(lesson.path);
+        m_buttons[i]->setText(tr("%1  %2").arg(isDone ? QStringLiteral("✓") : QString::number(i + 1), lesson.title));
+    }
 }
 
 } // namespace faintline

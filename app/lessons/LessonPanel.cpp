@@ -7,6 +7,7 @@
 #include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QLineEdit>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QRadioButton>
@@ -94,8 +95,17 @@ void LessonPanel::setStep(const Lesson &lesson, int step)
 {
     m_lesson = lesson;
     m_step = step;
-    m_isDone = false;
+    m_isDone = m_isAtEnd = false;
     fill();
+}
+
+void LessonPanel::setEnd(const Lesson &lesson, const LessonAnswers &answers, const QString &next)
+{
+    m_lesson = lesson;
+    m_answers = answers;
+    m_following = next;
+    m_isAtEnd = true;
+    fillEnd();
 }
 
 void LessonPanel::setLarge(bool isLarge)
@@ -105,6 +115,8 @@ void LessonPanel::setLarge(bool isLarge)
     setMinimumWidth(isLarge ? std::min(largeWidth, window()->width() * mostPercent / 100) : 0);
     if (std::exchange(m_isLarge, isLarge) == isLarge || m_step < 0)
         return;
+    if (m_isAtEnd)
+        return fillEnd();
     const int chosen = choice();
     const bool wasDone = m_isDone;
     fill();
@@ -117,61 +129,123 @@ void LessonPanel::setLarge(bool isLarge)
     showState();
 }
 
-void LessonPanel::fill()
+void LessonPanel::setButtonFonts()
 {
-    const LessonStep &step = m_lesson.steps[std::size_t(m_step)];
-    const int count = int(m_lesson.steps.size());
     m_title->setText(m_lesson.title);
     m_title->setFont(Theme::boldFont(m_isLarge ? largeSize : plainSize));
-    m_place->setText(tr("Step %1 of %2").arg(m_step + 1).arg(count));
     m_place->setFont(Theme::font(m_isLarge ? 20 : 12));
     for (QPushButton *button : {m_back, m_next, m_leave})
         button->setFont(Theme::font(m_isLarge ? 20 : 13));
-    m_progress->setRange(0, count);
-    m_progress->setValue(m_step + 1);
-    m_next->setText(m_step + 1 == count ? tr("F&inish") : tr("Ne&xt"));
-    m_back->setEnabled(m_step > 0);
+}
 
+/// An empty page; `showPage` puts it in place of the present one.
+QVBoxLayout *LessonPanel::newPage()
+{
     m_choices = nullptr;
     m_why = m_task = m_then = nullptr;
+    m_learner = nullptr;
+    m_save = nullptr;
     auto *page = new QWidget;
     auto *column = new QVBoxLayout(page);
     column->setContentsMargins(0, 4, 6, 4);
     column->setSpacing(m_isLarge ? 12 : 9);
+    return column;
+}
+
+void LessonPanel::showPage(QVBoxLayout &column)
+{
+    column.addStretch(1);
+    m_area->setWidget(column.parentWidget());
+    m_area->verticalScrollBar()->setValue(0);
+}
+
+void LessonPanel::fill()
+{
+    const LessonStep &step = m_lesson.steps[std::size_t(m_step)];
+    const int count = int(m_lesson.steps.size());
+    setButtonFonts();
+    m_place->setText(tr("Step %1 of %2").arg(m_step + 1).arg(count));
+    m_progress->setRange(0, count);
+    m_progress->setValue(m_step + 1);
+    m_next->setText(m_step + 1 == count ? tr("F&inish") : tr("Ne&xt"));
+    m_next->show();
+    m_leave->setText(tr("Leave"));
+    m_back->setEnabled(m_step > 0);
+
+    QVBoxLayout *column = newPage();
     column->addWidget(paragraph(step.title, true));
     column->addWidget(paragraph(step.text));
-    if (step.question) {
-        column->addWidget(paragraph(step.question->text, true));
-        m_choices = new QButtonGroup(page);
-        for (int i = 0; i < step.question->choices.size(); ++i) {
-            auto *button = new QRadioButton;
-            auto *words = paragraph(step.question->choices[i]);
-            words->setTextInteractionFlags(Qt::NoTextInteraction);
-            words->setBuddy(button);
-            button->setAccessibleName(step.question->choices[i]);
-            button->setFont(font(false));
-            button->setFixedHeight(QFontMetrics(font(false)).height()); // beside the first line
-            m_choices->addButton(button, i);
-            column->addWidget(choiceRow(button, words));
-        }
-        m_why = paragraph({});
-        m_why->hide();
-        column->addWidget(m_why);
-        connect(m_choices, &QButtonGroup::idClicked, this, [this](int chosen) {
-            showAnswer(chosen);
-            emit answered(chosen);
-        });
-    }
+    if (step.question)
+        fillQuestion(*step.question, *column);
     if (!step.task.isEmpty()) {
         m_task = paragraph({}, true);
         m_then = paragraph(step.then);
         column->addWidget(m_task);
         column->addWidget(m_then);
     }
-    column->addStretch(1);
-    m_area->setWidget(page);
-    m_area->verticalScrollBar()->setValue(0);
+    showPage(*column);
     showState();
+}
+
+void LessonPanel::fillQuestion(const LessonQuestion &question, QVBoxLayout &column)
+{
+    column.addWidget(paragraph(question.text, true));
+    m_choices = new QButtonGroup(column.parentWidget());
+    for (int i = 0; i < question.choices.size(); ++i) {
+        auto *button = new QRadioButton;
+        auto *words = paragraph(question.choices[i]);
+        words->setTextInteractionFlags(Qt::NoTextInteraction);
+        words->setBuddy(button);
+        button->setAccessibleName(question.choices[i]);
+        button->setFont(font(false));
+        button->setFixedHeight(QFontMetrics(font(false)).height()); // beside the first line
+        m_choices->addButton(button, i);
+        column.addWidget(choiceRow(button, words));
+    }
+    m_why = paragraph({});
+    m_why->hide();
+    column.addWidget(m_why);
+    connect(m_choices, &QButtonGroup::idClicked, this, [this](int chosen) {
+        showAnswer(chosen);
+        emit answered(chosen);
+    });
+}
+
+void LessonPanel::fillEnd()
+{
+    setButtonFonts();
+    m_place->setText(tr("Finished"));
+    m_progress->setValue(m_progress->maximum());
+    m_back->setEnabled(true);
+    m_next->setText(tr("Ne&xt lesson"));
+    m_next->setVisible(!m_following.isEmpty());
+    m_next->setDefault(true);
+    m_leave->setText(tr("Close"));
+
+    QVBoxLayout *column = newPage();
+    const auto [right, questions] = m_answers.questions(m_lesson);
+    const auto [done, tasks] = m_answers.tasks(m_lesson);
+    column->addWidget(paragraph(tr("End of the lesson"), true));
+    if (questions > 0)
+        column->addWidget(
+            paragraph(tr("Questions answered right at the first choice: %1 of %2").arg(right).arg(questions)));
+    if (tasks > 0)
+        column->addWidget(paragraph(tr("Tasks done: %1 of %2").arg(done).arg(tasks)));
+    if (!m_following.isEmpty())
+        column->addWidget(paragraph(tr("Next lesson: %1").arg(m_following)));
+    column->addWidget(paragraph(tr("To hand in your answers, enter your name and save them as a page.")));
+    m_learner = new QLineEdit(m_learnerName);
+    m_learner->setFont(font(false));
+    m_learner->setMaxLength(200);
+    m_learner->setPlaceholderText(tr("Your name"));
+    m_learner->setAccessibleName(tr("Your name"));
+    m_save = new QPushButton(tr("&Save answers…"));
+    m_save->setFont(font(false));
+    column->addWidget(m_learner);
+    column->addWidget(m_save, 0, Qt::AlignLeft);
+    showPage(*column);
+    connect(m_learner, &QLineEdit::textChanged, this, [this](const QString &name) { m_learnerName = name; });
+    connect(m_save, &QPushButton::clicked, this, [this] { emit saveRequested(m_learnerName); });
 }
 
 int LessonPanel::choice() const
@@ -205,7 +279,7 @@ void LessonPanel::setWaiting(bool isWaiting)
 
 void LessonPanel::showState()
 {
-    if (m_step < 0)
+    if (m_step < 0 || m_isAtEnd)
         return;
     const LessonStep &step = m_lesson.steps[std::size_t(m_step)];
     const Theme::Colours &colours = Theme::colours(*this);

@@ -1,15 +1,17 @@
 #pragma once
 
-#include "app/lessons/Lesson.h"
+#include "app/lessons/LessonAnswers.h"
 
 #include <QWidget>
 
 class QAbstractButton;
 class QButtonGroup;
 class QLabel;
+class QLineEdit;
 class QProgressBar;
 class QPushButton;
 class QScrollArea;
+class QVBoxLayout;
 
 namespace faintline {
 
@@ -26,12 +28,15 @@ public:
     explicit LessonPanel(QWidget *parent = nullptr);
 
     void setStep(const Lesson &lesson, int step);
+    /// The page after the last step. `next`: title of the lesson that follows; empty: none.
+    void setEnd(const Lesson &lesson, const LessonAnswers &answers, const QString &next);
     void setDone(bool isDone);       ///< the task
     void setWaiting(bool isWaiting); ///< while the window is not ready
     /// Large text, for presentations.
     void setLarge(bool isLarge);
 
     int step() const { return m_step; }
+    bool isAtEnd() const { return m_isAtEnd; }
     int choice() const; ///< -1: none yet
     bool isDone() const { return m_isDone; }
     QString text() const; ///< all visible text, for tests and screen readers
@@ -40,6 +45,8 @@ public:
     QPushButton *next() const { return m_next; }
     QPushButton *leave() const { return m_leave; }
     QButtonGroup *choices() const { return m_choices; }
+    QLineEdit *learner() const { return m_learner; } ///< at the end; null before
+    QPushButton *save() const { return m_save; }
 
     QSize sizeHint() const override { return {310, 420}; }
 
@@ -48,12 +55,18 @@ signals:
     void nextRequested();
     void leaveRequested();
     void answered(int choice);
+    void saveRequested(const QString &learner); ///< of the answers
 
 protected:
     void changeEvent(QEvent *event) override;
 
 private:
     void fill();
+    void fillQuestion(const LessonQuestion &question, QVBoxLayout &column);
+    void fillEnd();
+    QVBoxLayout *newPage();
+    void showPage(QVBoxLayout &column);
+    void setButtonFonts();
     void showAnswer(int choice);
     void showState();
     QLabel *paragraph(const QString &text, bool isBold = false);
@@ -64,6 +77,10 @@ private:
     bool m_isDone = false;
     bool m_isWaiting = false;
     bool m_isLarge = false;
+    bool m_isAtEnd = false;
+    LessonAnswers m_answers;
+    QString m_following;   ///< title of the next lesson
+    QString m_learnerName; ///< kept from lesson to lesson
 
     QLabel *m_title;
     QLabel *m_place;
@@ -76,6 +93,8 @@ private:
     QLabel *m_why = nullptr;
     QLabel *m_task = nullptr;
     QLabel *m_then = nullptr;
+    QLineEdit *m_learner = nullptr;
+    QPushButton *m_save = nullptr;
 };
 
 } // namespace faintline

@@ -32,6 +32,14 @@ namespace {
         };
     }
 
+    /// A measure of the document once it has an analysis.
+    Measure ofDocument(double (*f)(const Document &))
+    {
+        return [f](WindowParts &window) -> Value {
+            return window.document().analysis() ? Value(f(window.document())) : std::nullopt;
+        };
+    }
+
     template <class F>
     Measure ofCursor(F f)
     {
@@ -122,6 +130,51 @@ namespace {
         double peak = 0.0; ///< largest statistic of them
         std::optional<double> seconds;
     };
+
+    /// Number of the track's points that are near the truth's line.
+    int pointsAlong(const Document &document, const Track &track, std::size_t line)
+    {
+        const Grid &grid = document.analysis()->grid();
+        return int(std::count_if(track.points.begin(), track.points.end(), [&](const TrackPoint &point) {
+            const auto cell = truthCell(document, line, point.frame);
+            return cell && isNear(grid, *cell, point.cell);
+        }));
+    }
+
+    bool isAlong(const Document &document, const Track &track, std::size_t line)
+    {
+        return 2 * pointsAlong(document, track, line) > std::ssize(track.points);
+    }
+
+    std::size_t lineCount(const Document &document)
+    {
+        return std::max(document.truth().lines.size(), document.pingTruth().targets.size());
+    }
+
+    /// Lines or targets that at least one shown track follows.
+    double linesFound(const Document &document)
+    {
+        const std::vector<Track> tracks = document.shownTracks();
+        double found = 0.0;
+        for (std::size_t line = 0; line < lineCount(document); ++line)
+            found += std::any_of(tracks.begin(), tracks.end(),
+                                 [&](const Track &track) { return isAlong(document, track, line); });
+        return found;
+    }
+
+    /// Shown tracks that have less than a quarter of their points along any line: the rest of a line that was found
+    /// late or followed too long is no false alarm.
+    double falseEvents(const Document &document)
+    {
+        double count = 0.0;
+        for (const Track &track : document.shownTracks()) {
+            int along = 0;
+            for (std::size_t line = 0; line < lineCount(document); ++line)
+                along = std::max(along, pointsAlong(document, track, line));
+            count += 4 * along < std::ssize(track.points);
+        }
+        return count;
+    }
 
     Following following(const Document &document, std::size_t line)
     {
@@ -240,6 +293,8 @@ namespace {
             {"aboveTwice", ofAnalysis(shareAboveTwice)},
             {"threshold", [](WindowParts &window) -> Value { return window.document().shownThreshold(); }},
             {"events", [](WindowParts &window) -> Value { return double(window.document().shownEvents().size()); }},
+            {"events.false", ofDocument(falseEvents)},
+            {"lines.found", ofDocument(linesFound)},
             {"peak", [](WindowParts &window) -> Value { return peak(window, window.document()); }},
             {"resetFraction",
              ofAnalysis([](const Analysis &analysis) { return 1.0 - mean(analysis.continuedFraction); })},

@@ -106,6 +106,7 @@ private:
     void addFrequencyActions(QMenu &menu);
     void addLayerMenu(QMenu &menu);
     void addPresentation(QMenu &menu);
+    void addLessonMenu(QMenu &menu);
     void addThemeMenu(QMenu &menu);
     void buildDetectMenu();
     void buildReviewMenu();
@@ -135,6 +136,7 @@ private:
     void showHint();
     void showTitle();
     void startLesson(const Lesson &lesson);
+    void saveLesson(bool isNew); ///< what is shown, as a new lesson or a further step
     void showError(const Error &error);
     void showFailure(const Error &error);
     void offerIq();

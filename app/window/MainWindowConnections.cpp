@@ -162,6 +162,10 @@ void MainWindow::connectViews()
     connect(m_welcome, &WelcomePage::scansChosen, this, [this] { open(radarScenarioPath()); });
     connect(m_lessonList, &LessonList::chosen, this,
             [this](int lesson) { startLesson(lessons()[std::size_t(lesson)]); });
+    connect(m_lessons, &LessonGuide::lessonRequested, this,
+            [this](int lesson) { startLesson(lessons()[std::size_t(lesson)]); });
+    connect(m_lessons, &LessonGuide::written, this, &MainWindow::showWritten);
+    connect(m_lessons, &LessonGuide::failed, this, &MainWindow::showError);
     connect(m_presentAction, &QAction::toggled, this,
             [](bool isPresenting) { Theme::setPlotScale(isPresenting ? 1.5 : 1.0); });
     connect(m_presentAction, &QAction::toggled, m_lessons, &LessonGuide::present);

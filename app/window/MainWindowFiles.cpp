@@ -11,6 +11,7 @@
 #include "app/document/scanScenario.h"
 #include "app/lessons/Lesson.h"
 #include "app/lessons/LessonGuide.h"
+#include "app/lessons/writeLesson.h"
 #include "app/panels/ExperimentsPanel.h"
 #include "app/panels/OpenOptionsDialog.h"
 #include "app/panels/SequentialPanel.h"
@@ -57,6 +58,30 @@ void MainWindow::startLesson(const Lesson &lesson)
     const auto next = [this, lesson] { m_lessons->start(lesson); };
     if (mayLeave(tr("starting the lesson"), next))
         next();
+}
+
+void MainWindow::saveLesson(bool isNew)
+{
+    const QString filter = tr("Lessons (*.json)");
+    const QString beside = m_document.source().path;
+    const QUrl start =
+        QUrl::fromLocalFile(beside.startsWith(QLatin1Char(':')) ? QDir::home().filePath(QStringLiteral("lesson.json"))
+                                                                : nameBeside(beside, QStringLiteral("-lesson.json")));
+    const QString path =
+        pathOf(isNew ? QFileDialog::getSaveFileUrl(this, tr("New lesson from what is shown"), start, filter)
+                     : QFileDialog::getOpenFileUrl(this, tr("Add what is shown to a lesson"),
+                                                   start.adjusted(QUrl::RemoveFilename), filter));
+    if (path.isEmpty())
+        return;
+    try {
+        (isNew ? writeNewLesson : addLessonStep)(*this, path);
+    } catch (const Error &error) {
+        return showError(error);
+    }
+    m_messages->showMessage(MessageBar::Kind::Notice, tr("Lesson"),
+                            tr("Written to %1; its titles and texts are to be edited there.")
+                                .arg(labelText(pathBytes(absolutePath(path)), longestPath)),
+                            tr("Start"), [this, path] { open(path); });
 }
 
 void MainWindow::openNow(const QString &path, const OpenOptions &options, const AnalysisController::Adjust &adjust)

@@ -11,6 +11,7 @@
 #include "app/document/scenarios.h"
 #include "app/help/KeysOverlay.h"
 #include "app/lessons/LessonGuide.h"
+#include "app/lessons/LessonList.h"
 #include "app/panels/ComparePanel.h"
 #include "app/panels/EvaluatePanel.h"
 #include "app/panels/ExperimentsPanel.h"
@@ -354,13 +355,34 @@ void MainWindow::buildHelpMenu()
         {QKeySequence(Qt::Key_F1), QKeySequence(Qt::Key_Question), QKeySequence(Qt::SHIFT | Qt::Key_Question)});
     menu->addAction(tr("&Equation of this view"), QKeySequence(Qt::SHIFT | Qt::Key_F1), this,
                     &MainWindow::showEquation);
-    QMenu *lessonMenu = menu->addMenu(tr("&Lessons"));
-    for (const Lesson &lesson : lessons())
-        lessonMenu->addAction(lesson.title, this, [this, &lesson] { startLesson(lesson); })
-            ->setToolTip(lesson.sentence);
+    addLessonMenu(*menu);
     menu->addAction(tr("&Find a command…"), QKeySequence(Qt::CTRL | Qt::Key_K), this,
                     [this] { m_palette->open(menuBar()->actions()); });
     menu->addAction(tr("&About Faintline"), this, &MainWindow::about);
+}
+
+void MainWindow::addLessonMenu(QMenu &menu)
+{
+    QMenu *all = menu.addMenu(tr("&Lessons"));
+    for (const Lesson &lesson : lessons())
+        all->addAction(lesson.title, this, [this, &lesson] { startLesson(lesson); })->setToolTip(lesson.sentence);
+    const auto tick = [this, actions = all->actions()] {
+        const QStringList done = m_memory.doneLessons();
+        m_lessonList->setDone(done);
+        for (std::size_t i = 0; i < lessons().size(); ++i) {
+            const Lesson &lesson = lessons()[i];
+            actions[qsizetype(i)]->setText((done.contains(lesson.path) ? QStringLiteral("✓ ") : QString())
+                                           + lesson.title);
+        }
+    };
+    tick();
+    all->addSeparator();
+    addViewAction(*all, tr("&New lesson from what is shown…"), {}, [this] { saveLesson(true); });
+    addViewAction(*all, tr("&Add what is shown to a lesson…"), {}, [this] { saveLesson(false); });
+    connect(m_lessons, &LessonGuide::finished, this, [this, tick](const QString &path) {
+        m_memory.addDoneLesson(path);
+        tick();
+    });
 }
 
 QAction *MainWindow::addViewAction(QMenu &menu, const QString &text, const QKeySequence &key,

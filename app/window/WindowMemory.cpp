@@ -11,6 +11,7 @@ namespace {
     constexpr int mostRecent = 10;
     const QString recentKey = QStringLiteral("recent");
     const QString classesKey = QStringLiteral("classes");
+    const QString lessonsKey = QStringLiteral("lessons");
     const QString themeKey = QStringLiteral("view/theme");
     const QString colourMapKey = QStringLiteral("view/colourMap");
     const QString orientationKey = QStringLiteral("view/orientation");
@@ -59,6 +60,20 @@ void WindowMemory::setClassNames(const QStringList &names)
 {
     if (m_store)
         m_store->setValue(classesKey, names);
+}
+
+QStringList WindowMemory::doneLessons() const
+{
+    return m_store ? m_store->value(lessonsKey).toStringList() : QStringList();
+}
+
+void WindowMemory::addDoneLesson(const QString &path)
+{
+    QStringList paths = doneLessons();
+    if (!m_store || paths.contains(path))
+        return;
+    paths.append(path);
+    m_store->setValue(lessonsKey, paths);
 }
 
 WindowMemory::Layout WindowMemory::layout() const

@@ -40,6 +40,10 @@ public:
     QStringList classNames() const;
     void setClassNames(const QStringList &names);
 
+    /// Paths of the lessons that were gone through to their end.
+    QStringList doneLessons() const;
+    void addDoneLesson(const QString &path);
+
     Layout layout() const;
     void setLayout(const Layout &layout);
 

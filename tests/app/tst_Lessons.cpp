@@ -2,12 +2,15 @@
 // before the learner's act, which is done by mouse and keys, and done after it.
 
 #include "app/lessons/LessonGuide.h"
+#include "app/lessons/LessonList.h"
 #include "app/lessons/LessonPanel.h"
 #include "app/lessons/PointerFrame.h"
 #include "app/lessons/lessonMeasures.h"
+#include "app/lessons/writeLesson.h"
 #include "app/openWindow.h"
 #include "app/panels/ScanTestForm.h"
 #include "app/panels/SequentialPanel.h"
+#include "app/panels/WhyPanel.h"
 #include "app/welcome/WelcomePage.h"
 #include "app/window/CommandPalette.h"
 #include "app/workspace/PingBench.h"
@@ -19,6 +22,7 @@
 #include "widgets/waterfall/WaterfallView.h"
 
 #include <QAbstractScrollArea>
+#include <QAbstractSpinBox>
 #include <QButtonGroup>
 #include <QComboBox>
 #include <QDockWidget>
@@ -27,6 +31,7 @@
 #include <QMap>
 #include <QMenuBar>
 #include <QPushButton>
+#include <QRegularExpression>
 
 #include <qwt_scale_widget.h>
 
@@ -73,6 +78,13 @@ void enter(QWidget *editor, const QString &value)
         QTest::keyClick(line, Qt::Key_Return);
         return;
     }
+    if (auto *number = qobject_cast<QAbstractSpinBox *>(editor)) {
+        number->setFocus();
+        number->selectAll();
+        QTest::keyClicks(number, value);
+        QTest::keyClick(number, Qt::Key_Return);
+        return;
+    }
     auto *box = qobject_cast<QComboBox *>(editor);
     QVERIFY(box);
     box->setFocus();
@@ -117,6 +129,13 @@ const QMap<QString, Act> &acts()
         {"reset 4", setting("smd.reset", "calibrated")},
         {"choosing-h 2", setting("model.slopeChange", "0.34, 0.33")},
         {"choosing-h 3", [](MainWindow &window) { clickAt(*window.workbench().output(), 60.0, 250.0); }},
+        {"thresholds 1", setting("decide.thresholdNats", "12")},
+        {"thresholds 2", setting("decide.thresholdNats", "5")},
+        {"cfar-loss 2", setting("noise.halfWidthCells", "3")},
+        {"real-noise 2",
+         [](MainWindow &window) {
+             QTest::keyClick(window.findChild<SettingsForm *>()->editor("noise.followLevel"), Qt::Key_Space);
+         }},
         {"manoeuvre 1",
          [](MainWindow &window) {
              window.pingBench().output()->plane()->setFocus();
@@ -150,11 +169,19 @@ private slots:
     void mistakesAreNamed();
     void everyLessonIsTrueAndCanBeDone_data();
     void everyLessonIsTrueAndCanBeDone();
+    void answersAreHandedInAsAPage();
+    void theEndLeadsToTheNextLessonAndTicksThisOne();
+    void whatIsShownBecomesALesson_data();
+    void whatIsShownBecomesALesson();
     void backGoesBackAndUndoUndoes();
     void openingSomethingElseLeaves();
     void presentedItIsLargerAndStays();
     void presentedTheStepKeepsItsPanel();
+    void escapeLeavesAPresentationFromAnyField();
     void menuPaletteAndWelcomePageOfferThem();
+
+private:
+    QTemporaryDir m_folder;
 };
 
 void tst_Lessons::mistakesAreNamed_data()
@@ -249,8 +276,175 @@ void tst_Lessons::everyLessonIsTrueAndCanBeDone()
         }
         QTest::mouseClick(panel.next(), Qt::LeftButton);
     }
+    QVERIFY(guide.isAtEnd() && panel.isAtEnd() && !guide.frame().isVisible());
+    QCOMPARE(guide.answers().questions(lesson).reached, guide.answers().questions(lesson).all);
+    QCOMPARE(guide.answers().tasks(lesson).reached, guide.answers().tasks(lesson).all);
+    QCOMPARE(panel.next()->isVisible(), number + 1 < int(lessons().size()));
+    QTest::mouseClick(panel.leave(), Qt::LeftButton);
     QVERIFY(!guide.isRunning());
-    QVERIFY(!panel.isVisible() && !guide.frame().isVisible());
+    QVERIFY(!panel.isVisible());
+}
+
+/// The first choice and the first time count; Back returns from the end to the last step.
+void tst_Lessons::answersAreHandedInAsAPage()
+{
+    const auto window = newWindow();
+    LessonGuide &guide = window->lessonGuide();
+    LessonPanel &panel = guide.panel();
+    const QString path = writeFile(m_folder, "mine.json", R"({"title": "Yes <or> no", "sentence": "s", "steps": [
+        {"title": "One", "text": "t", "open": "scene.json", "settings": {"decide.thresholdNats": 12},
+         "ask": {"question": "Is it?", "choices": ["yes & no", "no"], "answer": 1, "why": "w"},
+         "do": "Set the threshold to 20 nat.", "until": {"decide.thresholdNats": 20}, "thenFacts": {"threshold": 20}},
+        {"title": "Two", "text": "t", "ask": {"question": "Or not?", "choices": ["a", "b"], "answer": 0, "why": "w"}}]})");
+    QVERIFY(QFile::copy(":/lessons/scenes/line-that-ends.json", m_folder.filePath("scene.json")));
+    window->open(path);
+    QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
+    QTest::mouseClick(panel.choices()->button(0), Qt::LeftButton);
+    QTest::mouseClick(panel.choices()->button(1), Qt::LeftButton);
+    window->controller().edit("decide.thresholdNats", 20.0, "Change the threshold");
+    QTRY_VERIFY_WITH_TIMEOUT(panel.isDone(), patience);
+    QTest::mouseClick(panel.next(), Qt::LeftButton);
+    QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
+    QTest::mouseClick(panel.next(), Qt::LeftButton);
+    QVERIFY(guide.isAtEnd());
+    QVERIFY2(panel.text().contains("0 of 2") && panel.text().contains("1 of 1"), qPrintable(panel.text()));
+    QVERIFY(!panel.next()->isVisible()); // no bundled lesson follows
+
+    QTest::keyClicks(panel.learner(), "Ada <L>");
+    QSignalSpy asked(&panel, &LessonPanel::saveRequested);
+    disconnect(&panel, &LessonPanel::saveRequested, &guide, nullptr); // it asks for a file
+    QTest::mouseClick(panel.save(), Qt::LeftButton);
+    QCOMPARE(asked.value(0).value(0).toString(), QString("Ada <L>"));
+    const QString page = m_folder.filePath("answers.html");
+    guide.writeAnswers(page, asked.value(0).value(0).toString());
+    QFile file(page);
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    const QString html = QString::fromUtf8(file.readAll());
+    for (const char *needed :
+         {"<h1>Yes &lt;or&gt; no</h1>", "Ada &lt;L&gt;", "yes &amp; no", "wrong: the answer is “no”", "not answered",
+          "decide.thresholdNats = 20, threshold = 20", "<td>done</td>", "0 of 2", "1 of 1"})
+        QVERIFY2(html.contains(QString::fromUtf8(needed)), needed);
+    QCOMPARE(html.count(QRegularExpression("<td>20\\d\\d-\\d\\d-\\d\\dT\\d\\d:\\d\\d:\\d\\dZ</td>")), 2);
+
+    QTest::mouseClick(panel.back(), Qt::LeftButton);
+    QVERIFY(!panel.isAtEnd());
+    QCOMPARE(guide.step(), 1);
+}
+
+void tst_Lessons::theEndLeadsToTheNextLessonAndTicksThisOne()
+{
+    const auto memory = [this] {
+        return std::make_unique<QSettings>(m_folder.filePath("memory.ini"), QSettings::IniFormat);
+    };
+    const auto ticks = [](MainWindow &window) {
+        QStringList ticked;
+        for (const QPushButton *each : window.findChild<LessonList *>()->findChildren<QPushButton *>())
+            if (each->text().startsWith(QStringLiteral("✓")))
+                ticked << each->text();
+        for (const QAction *each : window.findChildren<QAction *>())
+            if (each->text().startsWith(QStringLiteral("✓")))
+                ticked << each->text();
+        return ticked;
+    };
+    {
+        const auto window = newWindow({1400, 900}, memory());
+        LessonGuide &guide = window->lessonGuide();
+        QCOMPARE(ticks(*window), QStringList());
+        const auto &reset = lessons()[2];
+        guide.start(reset, int(reset.steps.size()) - 1);
+        QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
+        QTest::mouseClick(guide.panel().next(), Qt::LeftButton);
+        QVERIFY(guide.panel().text().contains(lessons()[3].title));
+        QTest::mouseClick(guide.panel().next(), Qt::LeftButton);
+        QTRY_VERIFY_WITH_TIMEOUT(guide.isReady() && !guide.isAtEnd(), patience);
+        QCOMPARE(guide.lesson().title, lessons()[3].title);
+        QCOMPARE(guide.step(), 0);
+    }
+    const auto again = newWindow({1400, 900}, memory());
+    const QStringList ticked = ticks(*again);
+    QCOMPARE(ticked.size(), 2); // in the list and in the menu
+    for (const QString &text : ticked)
+        QVERIFY2(text.contains(lessons()[2].title), qPrintable(text));
+}
+
+/// What is written opens as a lesson, and shows the same.
+void tst_Lessons::whatIsShownBecomesALesson_data()
+{
+    QTest::addColumn<QString>("open");
+    QTest::addColumn<bool>("isInjected");
+    QTest::addColumn<QStringList>("files");
+    const QString bundled = ":/lessons/scenes/line-that-ends.json";
+    QTest::newRow("bundled scene") << bundled << false << QStringList{"new-scene.json", "new.json"};
+    QTest::newRow("own scene") << "own.json" << false << QStringList{"new.json", "own.json"};
+    QTest::newRow("added line") << bundled << true << QStringList{"new-scene.faintline", "new.json"};
+}
+
+void tst_Lessons::whatIsShownBecomesALesson()
+{
+    QFETCH(QString, open);
+    QFETCH(bool, isInjected);
+    QFETCH(QStringList, files);
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("new.json");
+    if (!open.startsWith(':')) {
+        QVERIFY(QFile::copy(":/lessons/scenes/line-that-ends.json", folder.filePath(open)));
+        open = folder.filePath(open);
+    }
+    const auto window = newWindow();
+    Document &document = window->document();
+    QVERIFY(openAndSettle(*window, open, [](AnalysisSettings &settings) {
+        for (const auto &[name, value] : lessons()[2].steps.front().settings)
+            settingField(name).set(settings, value);
+    }));
+    if (isInjected) {
+        window->controller().inject(
+            {.snrDb = 9.0, .startSeconds = 20.0, .durationSeconds = 60.0, .frequencyHz = 700.0});
+        QVERIFY(settle(*window));
+    }
+    document.viewport().zoomTo({20.0, 80.0}, {300.0, 500.0});
+    document.viewport().setCursor({60.0, 400.0});
+    auto *dock = window->findChild<QDockWidget *>("whyDock");
+    dock->show();
+    dock->raise();
+    QTRY_VERIFY(window->why().isVisible() && !window->why().visibleRegion().isEmpty());
+    writeNewLesson(*window, path);
+    const AnalysisSettings first = document.settings();
+    const auto firstBox = document.viewport().visible();
+
+    window->controller().edit("decide.thresholdNats", 30.0, "Change the threshold");
+    QVERIFY(settle(*window));
+    document.viewport().showAll();
+    document.viewport().setCursor({10.0, 100.0});
+    if (!isInjected && open.startsWith(':')) // otherwise what is open is no file; saved twice it would be another scene
+        QVERIFY(openAndSettle(*window, folder.filePath("new-scene.json"),
+                              [after = document.settings()](AnalysisSettings &settings) { settings = after; }));
+    document.viewport().setCursor({10.0, 100.0});
+    if (!isInjected)
+        addLessonStep(*window, path);
+    const AnalysisSettings second = document.settings();
+    QCOMPARE(QDir(folder.path()).entryList(QDir::Files, QDir::Name), files);
+
+    const Lesson lesson = readLesson(path);
+    QCOMPARE(lesson.steps.size(), isInjected ? 1u : 2u);
+    QVERIFY(lesson.steps.front().facts.parts.size() >= 7);
+    QVERIFY(lesson.steps.front().show.contains("why"));
+    const auto again = newWindow();
+    again->open(path);
+    QTRY_VERIFY_WITH_TIMEOUT(again->lessonGuide().isReady(), patience);
+    QVERIFY(again->document().settings() == first);
+    QVERIFY(again->why().isVisible());
+    QCOMPARE(again->document().viewport().visible(), firstBox);
+    QCOMPARE(again->document().viewport().cursor(), std::optional(Viewport::Point{60.0, 400.0}));
+    QCOMPARE(failure(*again, lesson.steps.front().facts), std::string());
+    if (isInjected)
+        return;
+    QVERIFY(lesson.steps.back().open.isEmpty());
+    again->lessonGuide().goTo(1);
+    QTRY_VERIFY_WITH_TIMEOUT(again->lessonGuide().isReady(), patience);
+    QVERIFY(again->document().settings() == second);
+    QVERIFY(again->document().viewport().showsAll());
+    QCOMPARE(again->document().viewport().cursor(), std::optional(Viewport::Point{10.0, 100.0}));
+    QCOMPARE(failure(*again, lesson.steps.back().facts), std::string());
 }
 
 void tst_Lessons::backGoesBackAndUndoUndoes()
@@ -348,6 +542,25 @@ void tst_Lessons::presentedTheStepKeepsItsPanel()
     QVERIFY(!window->findChild<QDockWidget *>("thresholdDock")->isVisible());
     guide.leave();
     QTest::keyClick(window.get(), Qt::Key_F5);
+}
+
+void tst_Lessons::escapeLeavesAPresentationFromAnyField()
+{
+    const auto window = newWindow();
+    LessonGuide &guide = window->lessonGuide();
+    guide.start(readLesson(":/lessons/reset.json"), 1);
+    QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
+    for (int place = 0; place < 3; ++place) {
+        QTest::keyClick(window.get(), Qt::Key_F5);
+        QVERIFY(!window->menuBar()->isVisible());
+        QWidget *places[]{window->findChild<SettingsForm *>()->editor("smd.lnK"), guide.panel().choices()->button(0),
+                          window->workbench().output()};
+        QWidget *focus = places[place];
+        focus->setFocus();
+        QTest::keyClick(focus, Qt::Key_Escape);
+        QVERIFY2(window->menuBar()->isVisible(), qPrintable(QString::number(place)));
+        QVERIFY(guide.isRunning() && guide.panel().isVisible());
+    }
 }
 
 void tst_Lessons::menuPaletteAndWelcomePageOfferThem()
