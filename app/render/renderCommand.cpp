@@ -132,20 +132,22 @@ namespace {
             explainCursor(window);
     }
 
-    void checkViewsOfScans(const std::vector<std::string> &views)
+    /// A source that is no recording has few views; throws Error if another one is requested.
+    void offerOnly(const std::vector<std::string> &offered, const char *ofWhat, const std::vector<std::string> &views)
     {
         for (const std::string &view : views)
-            if (view != "window" && !isOf(WindowView::Of::Scans, view))
-                throw Error("--view " + view, "requires a recording; views of radar scans are window, sequential, "
-                                              "walk, stopping, posterior, scan, asn, prior, sectors");
+            if (!has(offered, view.c_str())) {
+                std::string all;
+                for (const std::string &one : offered)
+                    all += (all.empty() ? "" : ", ") + one;
+                throw Error("--view " + view, std::string("requires a recording; views of ") + ofWhat + " are " + all);
+            }
     }
 
     /// The table of a survey.
     void openSurvey(MainWindow &window, const RenderOptions &options)
     {
-        for (const std::string &view : options.views)
-            if (view != "window" && !isOf(WindowView::Of::Survey, view))
-                throw Error("--view " + view, "requires a recording; views of surveys are window, survey");
+        offerOnly({"window", "survey"}, "surveys", options.views);
         QEventLoop loop;
         std::optional<Error> failure;
         QObject::connect(&window.survey(), &SurveyPanel::failed, &loop, [&](const Error &error) {
@@ -162,9 +164,7 @@ namespace {
     /// An experiment that is carried out, or results that are read; the curves are complete at the end.
     void openExperiment(MainWindow &window, const RenderOptions &options)
     {
-        for (const std::string &view : options.views)
-            if (view != "window" && view != "pd" && view != "sweep")
-                throw Error("--view " + view, "requires a recording; views of experiments are window, pd, sweep");
+        offerOnly({"window", "pd", "sweep"}, "experiments", options.views);
         if (!options.settings.empty() || !options.preset.empty() || !options.part.assignments().empty())
             throw Error("--set", "cannot be combined with an experiment, which has its own settings");
         std::optional<Error> failure;
@@ -348,7 +348,8 @@ void render(const RenderOptions &options)
     } else if (options.step) {
         throw Error("--step " + std::to_string(*options.step), "requires a lesson; " + options.source + " is not one");
     } else if (isScanScenario(pathText(options.source))) {
-        checkViewsOfScans(options.views);
+        offerOnly({"window", "sequential", "walk", "stopping", "posterior", "scan", "asn", "prior", "sectors"},
+                  "radar scans", options.views);
         testScans(window, options);
     } else if (SurveyPanel::isSurvey(pathText(options.source))) {
         openSurvey(window, options);
