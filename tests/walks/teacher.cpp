@@ -102,6 +102,13 @@ void goThrough(Walk &walk)
     goOn(walk, 3);
     dragLaw(walk);
     walk.click("Finish");
+    walk.waitUntil("the results", [&] { return guide(walk).panel().text().contains("Tasks done: 2 of 2"); });
+    walk.takePicture("teacher-end");
+    walk.click("Next lesson");
+    walk.click("Discard"); // the law that was dragged
+    walk.waitUntil("the next lesson",
+                   [&] { return guide(walk).isReady() && guide(walk).panel().text().contains("A careful threshold"); });
+    walk.click("Leave");
     walk.waitUntil("no lesson", [&] { return !guide(walk).isRunning() && !guide(walk).dock()->isVisible(); });
 }
 
