@@ -39,7 +39,7 @@ namespace {
         const QString rate = kind.rates.size() == 1 ? kind.rates.front() : LawPanel::tr("either rate");
         const QString unit = perBin == 1 ? kind.cellsPerFrame
                                          : QStringLiteral("1/%1 %2").arg(QString::number(perBin), kind.cellPerFrame);
-        return LawPanel::tr("Change of %1 from %2 to %2 (%3)").arg(rate, kind.frame, unit);
+        return LawPanel::tr("Change of %1 (%2)").arg(rate, unit);
     }
 
     QString perSecond(double rate, const QString &unit)
@@ -91,9 +91,7 @@ std::vector<LawPanel::Law> LawPanel::lawsOf(const Analysis &analysis) const
         return {
             {{}, tr("Rates do not change from %1 to %1 (%2)").arg(kind.frame, kind.cellsPerFrame), {1.0}, 0, rates}};
     const std::vector<KinematicAxis> &axes = turningSpace(analysis).axes();
-    const auto title = [&](const QString &rate) {
-        return tr("Change of %1 per %2 (%3)").arg(rate, kind.frame, kind.cellsPerFrame);
-    };
+    const auto title = [&](const QString &rate) { return tr("Change of %1 (%2)").arg(rate, kind.cellsPerFrame); };
     return {{QStringLiteral("model.rangeRateChange"), title(kind.rates[0]), model.rangeRateChange,
              axes[0].rateCount - 1, 1},
             {QStringLiteral("model.bearingRateChange"), title(kind.rates[1]), model.bearingRateChange,
