@@ -154,7 +154,7 @@ void tst_steadyLines::aChangeOfTheThresholdAsksAgain()
     const auto second = analyseInChosenWindow(recording, settings, {}, first.get());
     QVERIFY(second->longer->frames == first->longer->frames);
     QCOMPARE(ofLongerWindow(*second).size(), std::size_t(1));
-    const Event &event = ofLongerWindow(*second).front();
+    const Event event = ofLongerWindow(*second).front();
     // Counted from the threshold of the window shown.
     QVERIFY(std::abs((event.statistic - second->threshold)
                      - (ofLongerWindow(*first).front().statistic - first->threshold)

@@ -56,7 +56,8 @@ bool isInPlace(const Heard &heard, Index &position, Index &lost)
 std::vector<float> floatsOf(const std::vector<std::byte> &bytes)
 {
     std::vector<float> values(bytes.size() / sizeof(float));
-    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(float));
+    if (!values.empty())
+        std::memcpy(values.data(), bytes.data(), values.size() * sizeof(float));
     return values;
 }
 
