@@ -45,9 +45,9 @@ struct Source {
 struct OpenedSource {
     Source source;
     RecordingPointer recording;
-    Truth truth; ///< of a simulated recording, of a file beside it, and injected lines
+    Truth truth; ///< of a simulated recording, or in a file beside a recording; with the lines added
     NormalisedFramesPointer frames{};
-    PingTruth pingTruth{}; ///< of simulated pings, or of a file beside them
+    PingTruth pingTruth{}; ///< of simulated pings, or in a file beside pings
 
     const FrameKind &kind() const { return frames ? frameKindOf(frames->grid()) : lineFrames(); }
 };

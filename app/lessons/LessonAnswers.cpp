@@ -86,11 +86,8 @@ std::string answersHtml(const Lesson &lesson, const LessonAnswers &answers, cons
     const auto [done, tasks] = answers.tasks(lesson);
     page += QStringLiteral("<p>Learner: %1</p>\n<p>Questions answered right at the first choice: %2 of %3. Tasks done: "
                            "%4 of %5.</p>\n<table>\n")
-                .arg(learner.toHtmlEscaped())
-                .arg(right)
-                .arg(questions)
-                .arg(done)
-                .arg(tasks);
+                .arg(learner.toHtmlEscaped(), QString::number(right), QString::number(questions), QString::number(done),
+                     QString::number(tasks)); // at once: a name may hold %2
     page += row({QStringLiteral("Step"), QStringLiteral("Question or task"),
                  QStringLiteral("Choice or measured values"), QStringLiteral("Result"), QStringLiteral("Time (UTC)")},
                 QStringLiteral("th"));

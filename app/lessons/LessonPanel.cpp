@@ -129,7 +129,7 @@ void LessonPanel::setLarge(bool isLarge)
     showState();
 }
 
-void LessonPanel::setButtonFonts()
+void LessonPanel::fillHead()
 {
     m_title->setText(m_lesson.title);
     m_title->setFont(Theme::boldFont(m_isLarge ? largeSize : plainSize));
@@ -163,7 +163,7 @@ void LessonPanel::fill()
 {
     const LessonStep &step = m_lesson.steps[std::size_t(m_step)];
     const int count = int(m_lesson.steps.size());
-    setButtonFonts();
+    fillHead();
     m_place->setText(tr("Step %1 of %2").arg(m_step + 1).arg(count));
     m_progress->setRange(0, count);
     m_progress->setValue(m_step + 1);
@@ -213,7 +213,7 @@ void LessonPanel::fillQuestion(const LessonQuestion &question, QVBoxLayout &colu
 
 void LessonPanel::fillEnd()
 {
-    setButtonFonts();
+    fillHead();
     m_place->setText(tr("Finished"));
     m_progress->setValue(m_progress->maximum());
     m_back->setEnabled(true);

@@ -66,7 +66,7 @@ private:
     void fillEnd();
     QVBoxLayout *newPage();
     void showPage(QVBoxLayout &column);
-    void setButtonFonts();
+    void fillHead();
     void showAnswer(int choice);
     void showState();
     QLabel *paragraph(const QString &text, bool isBold = false);

@@ -7,6 +7,7 @@
 #include "app/lessons/LessonGuide.h"
 #include "app/panels/ComparePanel.h"
 #include "app/panels/ExperimentsPanel.h"
+#include "app/panels/NoiseFitPanel.h"
 #include "app/panels/SequentialPanel.h"
 #include "app/panels/SurveyPanel.h"
 #include "app/panels/SweepPanel.h"
@@ -130,6 +131,8 @@ namespace {
             throw *failure;
         if (!window.why().visibleRegion().isEmpty())
             explainCursor(window);
+        if (!window.noiseFit().visibleRegion().isEmpty())
+            measureNoise(window);
     }
 
     /// A source that is no recording has few views; throws Error if another one is requested.

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -208,7 +209,11 @@ namespace {
                 break;
             rest = rest.substr(comma + 1);
         }
-        if (values.size() != 6 || !values[0] || !values[1] || !values[2] || !values[3]
+        const auto isProbability = [](const std::optional<double> &value) {
+            return value && *value >= 0.0 && *value <= 1.0;
+        };
+        if (values.size() != 6 || !values[0] || !std::isfinite(*values[0])
+            || !std::all_of(values.begin() + 1, values.begin() + 4, isProbability)
             || !(values[4] && *values[4] >= 0.0 && *values[4] <= mostTrials))
             throw refusal;
         point.snrDb = *values[0];
@@ -325,6 +330,8 @@ std::vector<CurvePoint> readCurve(const std::string &path)
     std::vector<CurvePoint> curve;
     for (int number = 2; std::getline(file, line); ++number)
         curve.push_back(pointFrom(line, path + ", line " + std::to_string(number)));
+    if (curve.empty())
+        throw Error(path, "holds no points of a curve");
     return curve;
 }
 
