@@ -18,7 +18,8 @@ struct Span {
     Span within(const Span &full, double smallest = 0.0) const
     {
         const double size = std::min(std::max(width(), smallest), full.width());
-        const double start = std::clamp(middle() - 0.5 * size, full.low, full.high - size);
+        const double latest = std::max(full.low, full.high - size); // rounding may put the difference below full.low
+        const double start = std::clamp(middle() - 0.5 * size, full.low, latest);
         return {start, start + size};
     }
 
