@@ -133,27 +133,27 @@ bool HandLine::eventFilter(QObject *watched, QEvent *event)
 {
     if (!m_isActive || !m_view.viewport() || !m_view.picture())
         return QObject::eventFilter(watched, event);
-    const auto *mouse = static_cast<QMouseEvent *>(event);
+    const auto mouse = [event] { return static_cast<QMouseEvent *>(event); };
     switch (event->type()) {
     case QEvent::MouseButtonPress:
     case QEvent::MouseButtonDblClick:
-        if (mouse->button() == Qt::RightButton) {
-            m_last = vertexAt(mouse->position());
+        if (mouse()->button() == Qt::RightButton) {
+            m_last = vertexAt(mouse()->position());
             removeLast();
             return true;
         }
-        if (mouse->button() != Qt::LeftButton)
+        if (mouse()->button() != Qt::LeftButton)
             break;
         m_view.setFocus(Qt::MouseFocusReason);
-        m_held = vertexAt(mouse->position());
+        m_held = vertexAt(mouse()->position());
         if (m_held < 0)
-            m_held = insert(m_view.pointAt(mouse->position()));
-        move(mouse->position());
+            m_held = insert(m_view.pointAt(mouse()->position()));
+        move(mouse()->position());
         return true;
     case QEvent::MouseMove:
         if (m_held < 0)
             break;
-        move(mouse->position());
+        move(mouse()->position());
         return true;
     case QEvent::MouseButtonRelease:
         if (m_held < 0)
