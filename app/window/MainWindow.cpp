@@ -102,6 +102,7 @@ MainWindow::MainWindow(std::unique_ptr<QSettings> memory, const QString &recover
 
 MainWindow::~MainWindow()
 {
+    hide(); // panels hide while what they show still exists
     m_live->disconnect(this);
     m_controller.disconnect(this); // running jobs end after the widgets are destroyed
     m_document.disconnect(this);
@@ -109,8 +110,6 @@ MainWindow::~MainWindow()
     m_check.disconnect();
     m_experiments.disconnect();
     m_sequentialTests.disconnect();
-    for (QDockWidget *dock : findChildren<QDockWidget *>()) // they outlive the document and are then hidden
-        disconnect(dock, &QDockWidget::visibilityChanged, nullptr, nullptr);
     m_trials.reset();
 }
 
@@ -190,9 +189,9 @@ void MainWindow::showHint()
 
 void MainWindow::showTitle()
 {
-    const QString path = m_document.sessionPath().isEmpty() ? m_document.source().path : m_document.sessionPath();
+    const QString path = m_document.sessionPath().isEmpty() ? m_document.sourcePath() : m_document.sessionPath();
     const QString name =
-        path.isEmpty() ? m_document.source().name() : distinctLabel(absolutePath(path), m_memory.recent());
+        path.isEmpty() ? m_document.sourceName() : distinctLabel(absolutePath(path), m_memory.recent());
     setWindowTitle(m_document.isEmpty() ? tr("Faintline") : tr("%1[*] — Faintline").arg(name));
     setWindowModified(m_document.isModified());
 }
@@ -277,7 +276,7 @@ void MainWindow::setAsking(bool isAsking)
 void MainWindow::exportReport()
 {
     const QString path = QFileDialog::getSaveFileName(this, tr("Export report"),
-                                                      nameBeside(m_document.source().path, QStringLiteral(".html")),
+                                                      nameBeside(m_document.sourcePath(), QStringLiteral(".html")),
                                                       tr("Report (*.html)"));
     if (!path.isEmpty())
         m_report->write(path);
