@@ -15,6 +15,7 @@ private slots:
     void startsWithAll();
     void zoomKeepsThePointInPlace();
     void everythingStaysInside();
+    void roundingKeepsTheStartInside();
     void zoomsInToTheSmallest();
     void backspaceGoesBack();
     void aRunOfWheelNotchesIsOneStep();
@@ -63,6 +64,15 @@ void tst_Viewport::everythingStaysInside()
     QCOMPARE(m_view.frequency().low, 1000.0);
     m_view.zoomAt(0.001, {50.0, 1500.0});
     QVERIFY(m_view.showsAll());
+}
+
+void tst_Viewport::roundingKeepsTheStartInside()
+{
+    const Span full{0.1, 0.1 + 0.7};
+    QVERIFY(full.high - full.width() < full.low); // what makes the case one
+    const Span all = Span{-3.0, 5.0}.within(full);
+    QCOMPARE(all.low, full.low);
+    QCOMPARE(all.width(), full.width());
 }
 
 void tst_Viewport::zoomsInToTheSmallest()
