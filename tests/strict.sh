@@ -9,7 +9,7 @@ set -eu
 
 cd "$(dirname "$0")/.."
 threaded="parallel Recursion advance Smd Fft AudioRecording analyse previewStatistic outputLayers StateReplay closeup bandCalibration Campaign
-    SweepExperiment SequentialStudy JobRunner durability killed cliStreams"
+    SweepExperiment simulate JobRunner durability killed cliStreams listen LiveHistory networkSources SoundSource SourceClock"
 
 usage() {
     sed -n '2,/^set -eu/s/^# //p' "$0"
