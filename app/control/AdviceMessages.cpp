@@ -29,7 +29,7 @@ void AdviceMessages::tell()
     m_told.insert(QString::fromStdString(next->name));
     const QString remedy = capitalised(QString::fromStdString(next->remedy));
     m_messages.showMessage(
-        MessageBar::Kind::Notice, m_document.source().name(), QString::fromStdString(next->sentence) + QLatin1Char('.'),
+        MessageBar::Kind::Notice, m_document.sourceName(), QString::fromStdString(next->sentence) + QLatin1Char('.'),
         remedy, [this, remedy, settings = m_check.remedied(*next)] { m_controller.setSettings(settings, remedy); });
 }
 

@@ -4,6 +4,8 @@
 #include "analysis/knownCalibration.h"
 #include "analysis/scaledInjection.h"
 #include "analysis/slopeUnit.h"
+#include "app/base/filePath.h"
+#include "session/Session.h"
 #include "spectrum/noiseMean.h"
 
 #include <algorithm>
@@ -91,8 +93,8 @@ void AnalysisController::open(const QString &path, const OpenOptions &options, c
 void AnalysisController::reopen(const OpenOptions &options)
 {
     open(
-        m_document.source().path, options,
-        [now = m_document.settings()](AnalysisSettings &settings) { settings = now; }, m_document.annotations());
+        m_document.sourcePath(), options, [now = m_document.settings()](AnalysisSettings &settings) { settings = now; },
+        m_document.annotations());
 }
 
 void AnalysisController::adopt(const OpenedSource &opened, std::shared_ptr<const Analysis> analysis)
@@ -278,16 +280,23 @@ void AnalysisController::recover(const QString &path)
 
 AnalysisController::Opening AnalysisController::openNow(const QString &path, const OpenOptions &options)
 {
-    if (!isSessionPath(path)) {
-        OpenedSource opened = openSource(sourceOf(path, options));
+    const std::string name = pathBytes(path);
+    if (!isSessionPath(name)) {
+        OpenedSource opened = openSource(sourceAt(path, options));
         const AnalysisSettings settings = firstSettings(opened);
         const QString warning =
             opened.source.isStack() ? QString::fromStdString(noiseMeanWarning(*opened.frames)) : QString();
         return {std::move(opened), settings, {}, {}, warning};
     }
-    const Session session = readSession(path);
-    return {openSource(session.source), session.settings,   session.view, path,
-            recordingMismatch(session), session.annotations};
+    const Session session = readSession(name);
+    OpenedSource opened = openSource(session.source);
+    kindOf(opened); // throws for frames that cannot be shown
+    return {std::move(opened),
+            session.settings,
+            viewFromJson(session.view, name),
+            path,
+            QString::fromStdString(recordingMismatch(session)),
+            session.annotations};
 }
 
 void AnalysisController::deliver(const Opening &opening)
@@ -296,7 +305,7 @@ void AnalysisController::deliver(const Opening &opening)
     m_pendingView = opening.view;
     m_document.setOpened(opening.opened, opening.settings, opening.sessionPath, opening.annotations);
     if (!opening.warning.isEmpty())
-        emit warned(m_document.source().name(), opening.warning);
+        emit warned(m_document.sourceName(), opening.warning);
     startAnalysis();
 }
 

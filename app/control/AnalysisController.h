@@ -3,7 +3,7 @@
 #include "analysis/previewStatistic.h"
 #include "app/base/JobRunner.h"
 #include "app/document/Document.h"
-#include "app/document/Session.h"
+#include "app/document/ViewState.h"
 
 #include <QObject>
 

@@ -358,7 +358,7 @@ void EventReviews::writeProvenance(const QString &path, bool isOfTracks)
 void EventReviews::askForImport()
 {
     const QString path =
-        QFileDialog::getOpenFileName(m_window, tr("Import annotations"), QFileInfo(m_document.source().path).path(),
+        QFileDialog::getOpenFileName(m_window, tr("Import annotations"), QFileInfo(m_document.sourcePath()).path(),
                                      tr("Annotations (*.txt *.sigmf-meta *.csv *.json);;All files (*)"));
     if (path.isEmpty())
         return;
@@ -373,7 +373,7 @@ void EventReviews::askForExport()
 {
     const QString path = QFileDialog::getSaveFileName(
         m_window, tr("Export events and annotations"),
-        nameBeside(m_document.source().path, QStringLiteral("-events.csv")),
+        nameBeside(m_document.sourcePath(), QStringLiteral("-events.csv")),
         tr("Table (*.csv);;JSON (*.json);;Raven selection table (*.selections.txt);;Audacity labels (*.txt);;SigMF "
            "annotations (*.sigmf-meta)"));
     if (path.isEmpty())
@@ -388,7 +388,7 @@ void EventReviews::askForExport()
 void EventReviews::askForTracks()
 {
     const QString path = QFileDialog::getSaveFileName(
-        m_window, tr("Export tracks"), nameBeside(m_document.source().path, QStringLiteral("-tracks.csv")),
+        m_window, tr("Export tracks"), nameBeside(m_document.sourcePath(), QStringLiteral("-tracks.csv")),
         tr("Table (*.csv);;JSON (*.json)"));
     if (path.isEmpty())
         return;

@@ -2,7 +2,8 @@
 
 #include "analysis/Review.h"
 #include "analysis/analyse.h"
-#include "app/document/Source.h"
+#include "app/base/filePath.h"
+#include "app/document/sourceAt.h"
 #include "live/LiveHistory.h"
 #include "widgets/base/Viewport.h"
 
@@ -33,9 +34,11 @@ public:
 
     bool isEmpty() const { return !m_opened.recording && !m_opened.frames; }
     const Source &source() const { return m_opened.source; }
+    QString sourcePath() const { return pathText(m_opened.source.path); }
+    QString sourceName() const { return nameOf(m_opened.source); }            ///< for titles
     const RecordingPointer &recording() const { return m_opened.recording; }  ///< null if ready-made frames are open
     const NormalisedFramesPointer &frames() const { return m_opened.frames; } ///< null if a recording is open
-    const FrameKind &frameKind() const { return m_opened.kind(); }
+    const FrameKind &frameKind() const { return kindOf(m_opened); }
     const PingTruth &pingTruth() const { return m_opened.pingTruth; }
     const Truth &truth() const { return m_opened.truth; }
     const OpenedSource &openedSource() const { return m_opened; }

@@ -1,12 +1,11 @@
 #include "app/document/Provenance.h"
 
 #include "app/base/filePath.h"
-#include "app/document/Session.h"
 #include "base/AtomicFile.h"
 #include "recording/openRecording.h"
+#include "session/Session.h"
 
-#include <QFileInfo>
-
+#include <filesystem>
 #include <utility>
 
 namespace faintline {
@@ -15,9 +14,9 @@ std::string provenanceOf(const Source &source, const AnalysisSettings &settings,
                          std::string hash)
 {
     if (!source.isSimulated() && hash.empty())
-        hash = recordingHash(pathBytes(source.path));
-    Json json =
-        parseJson(sessionText({source, hash, settings, {}, annotations}, QFileInfo(source.path).path()), "session");
+        hash = recordingHash(source.path);
+    const std::string folder = std::filesystem::path(source.path).parent_path().string();
+    Json json = parseJson(sessionText({source, hash, settings, Json::object(), annotations}, folder), "session");
     json.erase("view");
     json["version"] = FAINTLINE_VERSION;
     return json.dump(2) + "\n";
@@ -46,7 +45,7 @@ void Provenance::answer()
         const Source &source = m_requests.front().source;
         if (!source.isSimulated() && source.path != m_hashed) {
             m_runner.start([this, path = source.path](const RunContext &) -> JobRunner::Delivery {
-                std::string hash = recordingHash(pathBytes(path));
+                std::string hash = recordingHash(path);
                 return [this, path, hash = std::move(hash)] {
                     m_hashed = path;
                     m_hash = hash;

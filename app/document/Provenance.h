@@ -42,7 +42,7 @@ private:
 
     const Document &m_document;
     std::vector<Request> m_requests;
-    QString m_hashed; ///< path of the recording
+    std::string m_hashed; ///< path of the recording
     std::string m_hash;
     JobRunner m_runner; ///< last, so that its job ends first
 };

@@ -1,5 +1,8 @@
 #include "app/document/Recovery.h"
 
+#include "app/base/filePath.h"
+#include "session/Session.h"
+
 #include <QDir>
 #include <QFile>
 #include <QStandardPaths>
@@ -79,13 +82,15 @@ void Recovery::keep()
         m_lock->setStaleLockTime(0);
         m_lock->tryLock();
     }
-    const QString source = m_document.source().path;
+    const QString source = m_document.sourcePath();
     if (source != m_hashed)
         m_hash.clear();
-    const Session session{m_document.source(), m_hash, m_document.settings(), m_view(), m_document.annotations()};
+    const Session session{m_document.source(), m_hash, m_document.settings(), toJson(m_view()),
+                          m_document.annotations()};
     m_runner.start([this, source, session](const RunContext &) -> JobRunner::Delivery {
-        writeSession(m_path, session);
-        std::string hash = session.recordingHash.empty() ? readSession(m_path).recordingHash : session.recordingHash;
+        const std::string path = pathBytes(m_path);
+        writeSession(path, session);
+        std::string hash = session.recordingHash.empty() ? readSession(path).recordingHash : session.recordingHash;
         return [this, source, hash = std::move(hash)] {
             m_hashed = source;
             m_hash = hash;

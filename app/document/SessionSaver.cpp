@@ -1,6 +1,7 @@
 #include "app/document/SessionSaver.h"
 
 #include "app/base/filePath.h"
+#include "session/Session.h"
 #include "widgets/base/labelText.h"
 
 #include <QFileDialog>
@@ -26,20 +27,20 @@ void SessionSaver::save()
 
 void SessionSaver::saveAs()
 {
-    const QString suggested = nameBeside(m_document.source().path, QStringLiteral(".faintline"));
+    const QString suggested = nameBeside(m_document.sourcePath(), QStringLiteral(".faintline"));
     const QString path =
         QFileDialog::getSaveFileName(m_window, tr("Save session"), suggested, tr("Sessions (*.faintline)"));
     if (path.isEmpty())
         m_afterSaving = nullptr;
     else
-        saveTo(isSessionPath(path) ? path : path + QStringLiteral(".faintline"));
+        saveTo(isSessionPath(pathBytes(path)) ? path : path + QStringLiteral(".faintline"));
 }
 
 void SessionSaver::saveTo(const QString &path)
 {
-    const Session session{m_document.source(), {}, m_document.settings(), m_view(), m_document.annotations()};
+    const Session session{m_document.source(), {}, m_document.settings(), toJson(m_view()), m_document.annotations()};
     m_runner.start([this, path, session](const RunContext &) -> JobRunner::Delivery {
-        writeSession(path, session);
+        writeSession(pathBytes(path), session);
         return [this, path, settings = session.settings, annotations = session.annotations] {
             if (settings == m_document.settings() && annotations == m_document.annotations())
                 m_document.setSaved(path);
@@ -55,7 +56,7 @@ bool SessionSaver::mayLose(const QString &what, std::function<void()> next)
     QMessageBox::StandardButton answer = QMessageBox::Discard;
     if (m_isAsking && m_document.isModified()) {
         const QString question =
-            tr("Save the settings for %1 as a session before %2?").arg(m_document.source().name(), what);
+            tr("Save the settings for %1 as a session before %2?").arg(m_document.sourceName(), what);
         answer =
             QMessageBox::question(m_window, tr("Unsaved settings"), asHtml(question),
                                   QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);

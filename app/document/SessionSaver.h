@@ -2,7 +2,7 @@
 
 #include "app/base/JobRunner.h"
 #include "app/document/Document.h"
-#include "app/document/Session.h"
+#include "app/document/ViewState.h"
 
 #include <functional>
 

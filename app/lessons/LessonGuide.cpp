@@ -2,7 +2,6 @@
 
 #include "app/base/MessageBar.h"
 #include "app/base/filePath.h"
-#include "app/document/Session.h"
 #include "app/document/scanScenario.h"
 #include "app/lessons/LessonPanel.h"
 #include "app/lessons/PointerFrame.h"
@@ -14,6 +13,7 @@
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
 #include "base/AtomicFile.h"
+#include "session/Session.h"
 #include "widgets/base/ReadOut.h"
 #include "widgets/forms/SettingsForm.h"
 #include "widgets/plot/StripPlot.h"
@@ -170,13 +170,14 @@ void LessonGuide::recordTask()
 /// Of the source that this lesson opened, before its own settings.
 AnalysisSettings LessonGuide::settingsAtOpening() const
 {
-    return isSessionPath(m_opened) ? readSession(m_opened).settings : firstSettings(m_parts.document().openedSource());
+    return isSessionPath(pathBytes(m_opened)) ? readSession(pathBytes(m_opened)).settings
+                                              : firstSettings(m_parts.document().openedSource());
 }
 
 bool LessonGuide::isOpen(const QString &path) const
 {
     const Document &document = m_parts.document();
-    return document.source().path == path || document.sessionPath() == path;
+    return document.sourcePath() == path || document.sessionPath() == path;
 }
 
 /// Opens the source and applies the settings that the step needs; `check` notices when the window has settled.

@@ -1,7 +1,6 @@
 #include "app/lessons/writeLesson.h"
 
 #include "app/base/filePath.h"
-#include "app/document/Session.h"
 #include "app/lessons/Lesson.h"
 #include "app/lessons/lessonMeasures.h"
 #include "app/views/WindowParts.h"
@@ -9,6 +8,7 @@
 #include "app/workspace/Bench.h"
 #include "base/AtomicFile.h"
 #include "base/json.h"
+#include "session/Session.h"
 
 #include <QDir>
 #include <QDockWidget>
@@ -33,7 +33,7 @@ namespace {
             return false;
         if (!source.isSimulated())
             return true;
-        const Source there = sourceOf(path);
+        const Source there = sourceAt(path);
         return there.scene == source.scene && there.pings == source.pings;
     }
 
@@ -51,8 +51,8 @@ namespace {
     QString sourceFile(const Document &document, const QString &lesson)
     {
         const Source &source = document.source();
-        if (holds(source.path, source))
-            return absolutePath(source.path);
+        if (const QString path = document.sourcePath(); holds(path, source))
+            return absolutePath(path);
         if (source.isSimulated() && source.injections.empty()) {
             const QString path = freeName(lesson, QStringLiteral(".json"));
             const Json scene = source.pings ? toJson(*source.pings) : toJson(*source.scene);
@@ -60,7 +60,7 @@ namespace {
             return path;
         }
         const QString path = freeName(lesson, QStringLiteral(".faintline"));
-        writeSession(path, {source, {}, firstSettings(document.openedSource()), {}});
+        writeSession(pathBytes(path), {source, {}, firstSettings(document.openedSource())});
         return path;
     }
 
@@ -195,14 +195,14 @@ void addLessonStep(WindowParts &window, const QString &path)
     const Lesson lesson = readLesson(path);
     const int last = int(lesson.steps.size()) - 1;
     const QString opened = absolutePath(lesson.steps[std::size_t(openingStep(lesson, last))].open);
-    const bool isSession = isSessionPath(opened) && absolutePath(document.sessionPath()) == opened;
+    const bool isSession = isSessionPath(pathBytes(opened)) && absolutePath(document.sessionPath()) == opened;
     const bool isSame =
-        isSession || (absolutePath(document.source().path) == opened && holds(opened, document.source()));
+        isSession || (absolutePath(document.sourcePath()) == opened && holds(opened, document.source()));
     const std::string title = "Step " + std::to_string(last + 2);
     Json step;
     if (isSame) {
         const AnalysisSettings first =
-            isSession ? readSession(opened).settings : firstSettings(document.openedSource());
+            isSession ? readSession(pathBytes(opened)).settings : firstSettings(document.openedSource());
         step = stepOf(window, title, settingsAfter(stepsSinceOpening(lesson, last), first));
     } else {
         step =

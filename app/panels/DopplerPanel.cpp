@@ -266,7 +266,7 @@ void DopplerPanel::show(const DopplerReport &report)
 void DopplerPanel::ask()
 {
     const QString path = QFileDialog::getSaveFileName(
-        this, tr("Save fit"), nameBeside(m_document.source().path, QStringLiteral("-doppler.json")),
+        this, tr("Save fit"), nameBeside(m_document.sourcePath(), QStringLiteral("-doppler.json")),
         tr("Fit (*.json);;Points and residuals (*.csv)"));
     if (!path.isEmpty())
         saveTo(path);

@@ -118,9 +118,9 @@ void EvaluatePanel::start()
     const bool isInRecording = m_form->isInRecording();
     if (isInRecording && !m_document.recording())
         return emit failed(Error("experiment", "needs an open recording to which lines can be added"));
-    const QString source = m_document.source().name();
+    const QString source = m_document.sourceName();
     show(isInRecording ? m_experiments.start(tr("In %1: %2").arg(source, m_form->name()),
-                                             m_form->injection(m_document.source().path), m_document.recording())
+                                             m_form->injection(m_document.sourcePath()), m_document.recording())
                        : m_experiments.start(m_form->name(), m_form->lines()));
 }
 

@@ -107,7 +107,7 @@ void PipelinePanel::showRecording()
         return m_recording->setText(tr("Nothing is open."));
     const QString words = m_document.frames() ? summary(*m_document.frames()) : summary(m_document.recording()->info());
     m_recording->setText(
-        QStringLiteral("<b>%1</b><br>%2").arg(m_document.source().name().toHtmlEscaped(), words.toHtmlEscaped()));
+        QStringLiteral("<b>%1</b><br>%2").arg(m_document.sourceName().toHtmlEscaped(), words.toHtmlEscaped()));
 }
 
 void PipelinePanel::showSettings()

@@ -273,7 +273,7 @@ void SequentialPanel::startOnSelection()
     const Axis &time = analysis->time();
     const Axis &frequency = analysis->grid().axes.back();
     SequentialTests::Selection selection;
-    selection.name = m_document.source().name();
+    selection.name = m_document.sourceName();
     selection.frames = analysis->frames;
     selection.model = analysis->settings.model;
     selection.firstFrame = time.nearest(visible.time.low + 0.5 * time.step);

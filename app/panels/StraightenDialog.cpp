@@ -83,7 +83,7 @@ namespace {
 
 StraightenDialog::StraightenDialog(const Document &document, const Event &event, Provenance &provenance,
                                    QWidget *parent)
-    : QDialog(parent), m_analysis(document.analysis()), m_event(event), m_path(document.source().path),
+    : QDialog(parent), m_analysis(document.analysis()), m_event(event), m_path(document.sourcePath()),
       m_provenance(provenance), m_method(new QComboBox), m_type(new QComboBox), m_sentence(plainLabel()),
       m_before(new ChartPlot), m_after(new ChartPlot), m_progress(new QProgressBar),
       m_write(new QPushButton(tr("&Write recording…")))

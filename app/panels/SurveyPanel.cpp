@@ -148,7 +148,7 @@ void SurveyPanel::activate(const QModelIndex &index)
     const QString path = pathText(m_model->recordings()[row.recording].file.path);
     const int event = row.event.event.id;
     const SurveySettings &settings = m_model->settings();
-    if (absolutePath(m_document.source().path) == path && m_document.settings() == settings.analysis
+    if (absolutePath(m_document.sourcePath()) == path && m_document.settings() == settings.analysis
         && m_document.analysis())
         return emit eventReached(event);
     m_wanted = {path, event};
@@ -159,7 +159,7 @@ void SurveyPanel::activate(const QModelIndex &index)
 void SurveyPanel::reach()
 {
     const auto wanted = std::exchange(m_wanted, {}); // also where the recording could not be opened
-    if (wanted.event != 0 && m_document.analysis() && absolutePath(m_document.source().path) == wanted.path)
+    if (wanted.event != 0 && m_document.analysis() && absolutePath(m_document.sourcePath()) == wanted.path)
         emit eventReached(wanted.event);
 }
 

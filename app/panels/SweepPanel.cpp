@@ -62,7 +62,7 @@ void SweepPanel::followDocument()
     if (const auto &analysis = m_document.analysis(); analysis && analysis->recording)
         if (const Spectrogram *spectrogram = analysis->frames->spectrogram())
             windowSeconds = spectrogram->windowSeconds();
-    m_form->setCurrent(m_document.usedSettings(), m_document.recording() ? m_document.source().path : QString(),
+    m_form->setCurrent(m_document.usedSettings(), m_document.recording() ? m_document.sourcePath() : QString(),
                        windowSeconds);
 }
 

@@ -3,7 +3,7 @@
 #include "analysis/CalibrationStore.h"
 #include "app/base/filePath.h"
 #include "app/document/Provenance.h"
-#include "app/document/Session.h"
+#include "app/document/ViewState.h"
 #include "app/panels/SequentialPanel.h"
 #include "app/panels/TrajectoryPage.h"
 #include "app/render/readPicture.h"
@@ -14,6 +14,7 @@
 #include "base/oneLine.h"
 #include "base/readingJson.h"
 #include "base/wholeNumber.h"
+#include "session/Session.h"
 
 #include <QDir>
 #include <QFileInfo>
@@ -125,7 +126,7 @@ PictureOrigin originOf(const QImage &picture, const ReplayOptions &options, cons
         origin.options.out = QDir(folder).filePath(QStringLiteral("picture.png")).toStdString();
         writeTextFile(origin.options.source, session.dump(2) + "\n");
         try {
-            readSession(pathText(origin.options.source));
+            viewFromJson(readSession(origin.options.source).view, origin.options.source);
         } catch (const Error &error) { // of a file of which nobody knows
             throw Error(options.picture, "has an invalid provenance: "
                                              + std::string(error.what()).substr(origin.options.source.size() + 2));

@@ -91,7 +91,7 @@ void ReportWriter::write(const QString &path)
     if (m_document.analysis()->calibration->isFirstEstimate)
         return emit failed(firstEstimateError());
     ReportMaterial material;
-    material.title = m_document.source().name().toStdString();
+    material.title = m_document.sourceName().toStdString();
     material.version = FAINTLINE_VERSION;
     material.events = m_document.shownEvents();
     material.annotations = m_document.annotations();

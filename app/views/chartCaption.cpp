@@ -71,7 +71,7 @@ QString captionOf(const Document &document)
 {
     if (document.isEmpty())
         return joined({});
-    return joined(QStringList{document.source().name()} + partsOf(Json::parse(settingsToJson(document.settings()))));
+    return joined(QStringList{document.sourceName()} + partsOf(Json::parse(settingsToJson(document.settings()))));
 }
 
 QString captionOf(const Experiments::Entry &entry)

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "analysis/analyse.h"
-#include "app/document/Source.h"
 #include "app/document/scenarios.h"
+#include "app/document/sourceAt.h"
 #include "app/welcome/Card.h"
 #include "widgets/base/Viewport.h"
 

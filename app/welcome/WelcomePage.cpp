@@ -144,7 +144,7 @@ void WelcomePage::startNext()
         return m_scanCard->hasResult() ? emit settled() : startScans();
     m_runner.start(
         [this, card = *next, path = (*next)->scenario().path](const RunContext &context) -> JobRunner::Delivery {
-            const OpenedSource opened = openSource(sourceOf(path));
+            const OpenedSource opened = openSource(sourceAt(path));
             const auto analysis = analyse(opened, firstSettings(opened), context);
             return [this, card, opened, analysis] {
                 card->setResult(opened, analysis);

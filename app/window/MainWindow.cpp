@@ -275,9 +275,8 @@ void MainWindow::setAsking(bool isAsking)
 
 void MainWindow::exportReport()
 {
-    const QString path = QFileDialog::getSaveFileName(this, tr("Export report"),
-                                                      nameBeside(m_document.sourcePath(), QStringLiteral(".html")),
-                                                      tr("Report (*.html)"));
+    const QString path = QFileDialog::getSaveFileName(
+        this, tr("Export report"), nameBeside(m_document.sourcePath(), QStringLiteral(".html")), tr("Report (*.html)"));
     if (!path.isEmpty())
         m_report->write(path);
 }

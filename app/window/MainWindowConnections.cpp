@@ -85,13 +85,13 @@ void MainWindow::connectDocument()
         m_events->setEvents({});
         m_events->filter()->clear();
         for (Bench *one : std::initializer_list<Bench *>{m_workbench, m_pings})
-            one->setEmptySentence(tr("Estimating the noise of %1 …").arg(m_document.source().name()));
+            one->setEmptySentence(tr("Estimating the noise of %1 …").arg(m_document.sourceName()));
         if (m_pages->currentWidget() != m_welcome)
             showWorkbench();
         m_iqAction->setChecked(m_document.source().options.iq);
         m_workbench->setPlaying(false);
         m_pings->setPlaying(false);
-        const QString path = m_document.sessionPath().isEmpty() ? m_document.source().path : m_document.sessionPath();
+        const QString path = m_document.sessionPath().isEmpty() ? m_document.sourcePath() : m_document.sessionPath();
         if (!path.isEmpty() && !path.startsWith(QLatin1Char(':')))
             m_memory.addRecent(path);
         offerIq();

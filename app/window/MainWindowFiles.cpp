@@ -63,7 +63,7 @@ void MainWindow::startLesson(const Lesson &lesson)
 void MainWindow::saveLesson(bool isNew)
 {
     const QString filter = tr("Lessons (*.json)");
-    const QString beside = m_document.source().path;
+    const QString beside = m_document.sourcePath();
     const QUrl start =
         QUrl::fromLocalFile(beside.startsWith(QLatin1Char(':')) ? QDir::home().filePath(QStringLiteral("lesson.json"))
                                                                 : nameBeside(beside, QStringLiteral("-lesson.json")));
@@ -218,9 +218,9 @@ void MainWindow::openTogether(const QStringList &files)
 
 void MainWindow::goToFile(int by)
 {
-    const QString path = m_files.neighbour(m_document.source().path, by);
+    const QString path = m_files.neighbour(m_document.sourcePath(), by);
     if (path.isEmpty()) {
-        m_messages->showMessage(MessageBar::Kind::Notice, m_document.source().name(),
+        m_messages->showMessage(MessageBar::Kind::Notice, m_document.sourceName(),
                                 by > 0 ? tr("This is the last recording of its folder.")
                                        : tr("This is the first recording of its folder."));
         return;
@@ -251,7 +251,7 @@ void MainWindow::offerIq()
     const bool isPossible = !m_document.source().scene && !info.isComplex && info.channelCount % 2 == 0;
     m_iqAction->setVisible(isPossible || options.iq);
     if (isPossible && info.channelCount == 2)
-        m_messages->showMessage(MessageBar::Kind::Notice, m_document.source().name(),
+        m_messages->showMessage(MessageBar::Kind::Notice, m_document.sourceName(),
                                 tr("Two channels; showing the first. Treat them as I/Q?"), tr("Treat as I/Q"),
                                 [this] { m_iqAction->trigger(); });
 }

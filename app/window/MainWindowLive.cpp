@@ -109,7 +109,7 @@ void MainWindow::showLive(const LiveView &view)
 {
     if (!m_document.isLive()) {
         try {
-            m_document.setOpened(openSource(sourceOf(m_live->state().recording)), view.plan->settings);
+            m_document.setOpened(openSource(sourceAt(m_live->state().recording)), view.plan->settings);
         } catch (const Error &error) {
             showError(error);
             return m_live->stop();

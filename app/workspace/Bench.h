@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/document/Document.h"
-#include "app/document/Session.h"
+#include "app/document/ViewState.h"
 
 #include <QWidget>
 

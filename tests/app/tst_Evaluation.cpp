@@ -1,6 +1,7 @@
 // The evaluation side from outside: an experiment is started, grows, is cancelled, looked into; a line is injected and
 // taken out again.
 
+#include "app/base/filePath.h"
 #include "app/openWindow.h"
 #include "app/panels/EvaluatePanel.h"
 #include "app/panels/ExperimentForm.h"
@@ -10,6 +11,7 @@
 #include "app/window/TrialViewer.h"
 #include "app/window/TrialWindow.h"
 #include "app/workspace/Workbench.h"
+#include "session/Session.h"
 #include "widgets/plot/ChartPlot.h"
 
 #include <QFile>
@@ -97,7 +99,7 @@ void tst_Evaluation::aPointOpensItsTrials()
     QCOMPARE(window->document().truth().lines.size(), std::size_t(1));
     QVERIFY(!window->document().shownEvents().empty());
     // What was open stays open.
-    QCOMPARE(m_window->document().source().name(), QString("scene.json"));
+    QCOMPARE(m_window->document().sourceName(), QString("scene.json"));
     const QString first = window->windowTitle();
     emit window->stepRequested(1, false);
     QVERIFY(opened.wait(patience));
@@ -222,8 +224,8 @@ void tst_Evaluation::aLineIsInjectedAndUndone()
 
     // A session keeps it.
     const QString path = m_folder.filePath("injected.faintline");
-    writeSession(path, {document.source(), {}, document.settings(), {}});
-    const OpenedSource again = openSource(readSession(path).source);
+    writeSession(pathBytes(path), {document.source(), {}, document.settings()});
+    const OpenedSource again = openSource(readSession(pathBytes(path)).source);
     QCOMPARE(again.truth, document.truth());
     std::vector<float> a(1000), b(1000);
     document.recording()->read(0, 15000, 1000, a);

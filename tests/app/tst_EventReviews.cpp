@@ -3,11 +3,11 @@
 #include "app/control/EventReviews.h"
 
 #include "app/base/filePath.h"
-#include "app/document/Session.h"
 #include "app/openWindow.h"
 #include "app/workspace/Workbench.h"
 #include "exchange/readAnnotations.h"
 #include "exchange/writeEvents.h"
+#include "session/Session.h"
 #include "support/recordings.h"
 #include "widgets/events/EventModel.h"
 #include "widgets/events/EventTable.h"
@@ -288,7 +288,8 @@ private slots:
         QCOMPARE(found->note, std::string("a fan in the next room"));
 
         const QString session = m_folder.filePath("s.faintline");
-        writeSession(session, {document().source(), {}, document().settings(), {}, document().annotations()});
+        writeSession(pathBytes(session),
+                     {document().source(), {}, document().settings(), Json::object(), document().annotations()});
         const Annotations kept = document().annotations();
         document().undoStack().setClean();
         m_window->open(session);

@@ -1,12 +1,13 @@
 #include "app/base/MessageBar.h"
 #include "app/base/distinctLabels.h"
+#include "app/base/filePath.h"
 #include "app/control/EventReviews.h"
-#include "app/document/Session.h"
 #include "app/document/recordingFiles.h"
 #include "app/openWindow.h"
 #include "app/views/WindowViews.h"
 #include "recording/SimulatedRecording.h"
 #include "recording/writeRecording.h"
+#include "session/Session.h"
 #include "widgets/events/EventTable.h"
 
 #include <QDir>
@@ -73,7 +74,7 @@ private slots:
         window->eventTable().filter()->setText("stat>5");
         QTest::keyClick(window.get(), Qt::Key_PageDown, Qt::ControlModifier);
         QVERIFY(settle(*window));
-        QCOMPARE(window->document().source().path, path("night 10.wav"));
+        QCOMPARE(window->document().sourcePath(), path("night 10.wav"));
         const AnalysisSettings &settings = window->document().settings();
         QCOMPARE(settings.spectrogram.windowSeconds, 0.5);
         QCOMPARE(settings.selection.highHz, 80.0);
@@ -83,7 +84,7 @@ private slots:
         QVERIFY(window->messages().text().contains("This is the last recording of its folder."));
         QTest::keyClick(window.get(), Qt::Key_PageUp, Qt::ControlModifier);
         QVERIFY(settle(*window));
-        QCOMPARE(window->document().source().path, path("night 2.wav"));
+        QCOMPARE(window->document().sourcePath(), path("night 2.wav"));
     }
 
     void ofSeveralDroppedNoneIsLost()
@@ -96,14 +97,14 @@ private slots:
         QDropEvent event(QPointF(50.0, 50.0), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
         QCoreApplication::sendEvent(window.get(), &event);
         QVERIFY(settle(*window));
-        QCOMPARE(window->document().source().path, path("night 10.wav"));
+        QCOMPARE(window->document().sourcePath(), path("night 10.wav"));
         QTRY_VERIFY(window->messages().text().contains("2 files"));
         const auto buttons = window->messages().findChildren<QToolButton *>();
         QVERIFY(std::any_of(buttons.begin(), buttons.end(),
                             [](const QToolButton *button) { return button->text() == "Open as one recording"; }));
         QTest::keyClick(window.get(), Qt::Key_PageDown, Qt::ControlModifier);
         QVERIFY(settle(*window));
-        QCOMPARE(window->document().source().path, path("site 2/night 2.wav"));
+        QCOMPARE(window->document().sourcePath(), path("site 2/night 2.wav"));
     }
 
     void listsAreRelativeToTheirFolder()
@@ -129,12 +130,12 @@ private slots:
         QCOMPARE(window->document().recording()->info().sampleCount, Index(24000));
         QVERIFY(!window->document().recording()->isWhole(0, 24000));
         QCOMPARE(window->windowTitle(), QString("site 3[*] — Faintline"));
-        writeSession(path("site 3.faintline"),
-                     {window->document().source(), {}, window->document().settings(), {}, {}});
-        const Session session = readSession(path("site 3.faintline"));
-        QCOMPARE(recordingMismatch(session), QString());
+        writeSession(pathBytes(path("site 3.faintline")),
+                     {window->document().source(), {}, window->document().settings()});
+        const Session session = readSession(pathBytes(path("site 3.faintline")));
+        QCOMPARE(recordingMismatch(session), std::string());
         writeRecording(SimulatedRecording(scene), path("site 3/20260101_000200.wav").toStdString());
-        QVERIFY(!recordingMismatch(session).isEmpty());
+        QVERIFY(!recordingMismatch(session).empty());
     }
 
     void titlesOfOneNameTellTheFolder()

@@ -77,7 +77,7 @@ void tst_Live::showsAndRecords()
     QTRY_VERIFY_WITH_TIMEOUT(document.isCurrent() && !window->controller().isBusy(), patience);
     QVERIFY(!document.isLive());
     QVERIFY(window->liveBar().isHidden());
-    QCOMPARE(document.source().path, recording);
+    QCOMPARE(document.sourcePath(), recording);
     QVERIFY(document.settings().noise.causal);
 
     ListenSettings same;
@@ -160,7 +160,7 @@ void tst_Live::recordsInSeveralFiles()
     feeder.allowAll();
     QTRY_VERIFY_WITH_TIMEOUT(!document.isLive() && document.isCurrent() && settle(*window), patience);
     QCOMPARE(QDir(folder.path()).entryList({QStringLiteral("*.sigmf-meta")}).size(), 4);
-    QVERIFY(document.source().path.endsWith(QStringLiteral(".timeline")));
+    QVERIFY(document.sourcePath().endsWith(QStringLiteral(".timeline")));
     QCOMPARE(document.recording()->info().sampleCount, Index(120'000));
     QVERIFY(document.shownEvents().size() >= 4);
 }

@@ -1,12 +1,14 @@
 // The window from outside: what a person does, and what is to be seen then.
 
 #include "app/base/MessageBar.h"
+#include "app/base/filePath.h"
 #include "app/help/KeysOverlay.h"
 #include "app/openWindow.h"
 #include "app/views/WindowViews.h"
 #include "app/welcome/ScenarioCard.h"
 #include "app/welcome/WelcomePage.h"
 #include "app/workspace/Workbench.h"
+#include "session/Session.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/plot/ExceedancePlot.h"
 
@@ -502,7 +504,7 @@ private slots:
     {
         auto window = this->window();
         QVERIFY(openAndSettle(*window, path("tone.wav")));
-        writeSession(path("s.faintline"), {window->document().source(), {}, window->document().settings(), {}});
+        writeSession(pathBytes(path("s.faintline")), {window->document().source(), {}, window->document().settings()});
         QVERIFY(openAndSettle(*window, path("s.faintline")));
         QVERIFY(window->windowTitle().startsWith("s.faintline"));
 

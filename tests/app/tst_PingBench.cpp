@@ -1,6 +1,7 @@
 // A sonar's pings in the window: opened, stepped through, saved and reopened.
 
 #include "app/base/MessageBar.h"
+#include "app/base/filePath.h"
 #include "app/control/OutputLayers.h"
 #include "app/openWindow.h"
 #include "app/panels/LatencyPanel.h"
@@ -13,6 +14,7 @@
 #include "app/workspace/Workbench.h"
 #include "exchange/ModelFile.h"
 #include "exchange/NumPy.h"
+#include "session/Session.h"
 #include "spectrum/SimulatedPings.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/pings/PingMap.h"
@@ -89,7 +91,7 @@ private slots:
     {
         Theme::apply(Theme::Kind::Light);
         writeFile(m_folder, "pings.json", scene);
-        const SimulatedPings pings(*sourceOf(path("pings.json")).pings);
+        const SimulatedPings pings(*sourceAt(path("pings.json")).pings);
         std::vector<float> y(std::size_t(pings.time().count * pings.grid().size()));
         pings.read(0, pings.time().count, y);
         NumPyWriter stack(path("stack.npy").toStdString(), {24, 120, 8});
@@ -352,10 +354,10 @@ private slots:
         Session session;
         session.source = w->document().source();
         session.settings = w->document().settings();
-        session.view = bench.viewState();
-        writeSession(path("s.faintline"), session);
+        session.view = toJson(bench.viewState());
+        writeSession(pathBytes(path("s.faintline")), session);
 
-        const Session back = readSession(path("s.faintline"));
+        const Session back = readSession(pathBytes(path("s.faintline")));
         QVERIFY(back.source.pings);
         QCOMPARE(*back.source.pings, *session.source.pings);
         QVERIFY(openAndSettle(*w, path("s.faintline")));
@@ -369,9 +371,9 @@ private slots:
     void aStackInASessionIsKnownByItsHash()
     {
         Session session;
-        session.source = sourceOf(path("stack.npy"));
-        writeSession(path("stack.faintline"), session);
-        const Session back = readSession(path("stack.faintline"));
+        session.source = sourceAt(path("stack.npy"));
+        writeSession(pathBytes(path("stack.faintline")), session);
+        const Session back = readSession(pathBytes(path("stack.faintline")));
         QVERIFY(back.source.isStack());
         QCOMPARE(back.recordingHash.size(), std::size_t(64));
         QVERIFY(openSource(back.source).frames);

@@ -1,8 +1,10 @@
 // Unsaved work survives: kept while it is unsaved, found again after the program was killed.
 
 #include "app/base/MessageBar.h"
+#include "app/base/filePath.h"
 #include "app/document/Recovery.h"
 #include "app/openWindow.h"
+#include "session/Session.h"
 
 #include <QApplication>
 #include <QFile>
@@ -56,7 +58,7 @@ int editUntilKilled(const QString &scene, const QString &recoveryFolder)
         do {
             if (!kept.wait(patience))
                 return 1;
-        } while (readSession(kept.last()[0].toString()).settings.decide.falseAlarmsPerHour != version);
+        } while (readSession(pathBytes(kept.last()[0].toString())).settings.decide.falseAlarmsPerHour != version);
         std::printf("%d\n", version);
         std::fflush(stdout);
     }
@@ -83,7 +85,7 @@ void tst_Recovery::keptAsLongAsItIsUnsaved()
     window->controller().edit("model.snr", 0.7, "SNR");
     QVERIFY(kept.wait(patience));
     const QString session = kept[0][0].toString();
-    QCOMPARE(readSession(session).settings, window->document().settings());
+    QCOMPARE(readSession(pathBytes(session)).settings, window->document().settings());
     QVERIFY2(Recovery::leftBehind(folder.filePath("recovery")).isEmpty(), "of a program that still runs");
     window->document().undoStack().undo();
     QVERIFY(!QFile::exists(session));
@@ -148,7 +150,7 @@ void tst_Recovery::editsSurviveKillsAtAnyMoment()
 
         const QStringList left = Recovery::leftBehind(recovery);
         QCOMPARE(left.size(), 1);
-        const double recovered = readSession(left.front()).settings.decide.falseAlarmsPerHour;
+        const double recovered = readSession(pathBytes(left.front())).settings.decide.falseAlarmsPerHour;
         QVERIFY2(recovered == version || recovered == version + 1, qPrintable(QString::number(recovered)));
         Recovery::discard(left.front());
     }

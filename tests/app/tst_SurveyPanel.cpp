@@ -95,7 +95,7 @@ private slots:
         QSignalSpy reached(&panel(), &SurveyPanel::eventReached);
         emit table().activated(table().model()->index(0, 0));
         QTRY_COMPARE_WITH_TIMEOUT(reached.count(), 1, patience);
-        QCOMPARE(m_window->document().source().path, m_folder.filePath("b.wav"));
+        QCOMPARE(m_window->document().sourcePath(), m_folder.filePath("b.wav"));
         QVERIFY(m_window->document().settings() == m_settings.analysis);
         QCOMPARE(m_window->eventTable().selectedEvent(), reached.front().front().toInt());
         QVERIFY(m_window->workbench().isVisible() && panel().isVisible());
@@ -113,7 +113,7 @@ private slots:
         const auto last = table().model()->rowCount() - 1;
         emit table().activated(table().model()->index(last, 0));
         QTRY_COMPARE_WITH_TIMEOUT(reached.count(), 3, patience);
-        QCOMPARE(m_window->document().source().path, m_folder.filePath("a.wav"));
+        QCOMPARE(m_window->document().sourcePath(), m_folder.filePath("a.wav"));
     }
 
     void reviewsAreWrittenToTheFile()
@@ -167,7 +167,7 @@ private slots:
         QVERIFY(settle(*m_window));
         QVERIFY(QFile::rename(recording + ".away", recording));
         QVERIFY(openAndSettle(*m_window, recording));
-        QCOMPARE(m_window->document().source().path, recording);
+        QCOMPARE(m_window->document().sourcePath(), recording);
         QVERIFY(m_window->document().analysis());
         QCOMPARE(reached.count(), 0);
     }

@@ -1,8 +1,10 @@
 // Two hundred random edits of all kinds, undone and redone; sessions that are the same bytes however often they are
 // saved.
 
+#include "app/base/filePath.h"
 #include "app/document/Document.h"
-#include "app/document/Session.h"
+#include "app/document/ViewState.h"
+#include "session/Session.h"
 
 #include <QFile>
 #include <QTemporaryDir>
@@ -134,7 +136,7 @@ class tst_Undo : public QObject
         if (scene.open(QIODevice::WriteOnly))
             scene.write(R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": []})");
         scene.close();
-        return openSource(sourceOf(path));
+        return openSource(sourceAt(path));
     }
 
 private slots:
@@ -188,10 +190,11 @@ private slots:
             edits.editOnce(document);
             const QString first = m_folder.filePath("first.faintline");
             const QString second = m_folder.filePath("second.faintline");
-            writeSession(first, {document.source(), {}, document.settings(), view, document.annotations()});
-            const Session back = readSession(first);
+            writeSession(pathBytes(first),
+                         {document.source(), {}, document.settings(), toJson(view), document.annotations()});
+            const Session back = readSession(pathBytes(first));
             QVERIFY(back.settings == document.settings() && back.annotations == document.annotations());
-            writeSession(second, back);
+            writeSession(pathBytes(second), back);
             QVERIFY(!bytesOf(first).isEmpty());
             QCOMPARE(bytesOf(second), bytesOf(first));
         }

@@ -3,7 +3,6 @@
 #include "app/base/MessageBar.h"
 #include "app/base/filePath.h"
 #include "app/control/EventReviews.h"
-#include "app/document/Session.h"
 #include "app/lessons/LessonGuide.h"
 #include "app/openWindow.h"
 #include "app/panels/ExperimentsPanel.h"
@@ -16,6 +15,7 @@
 #include "exchange/openFrames.h"
 #include "recording/SimulatedRecording.h"
 #include "recording/writeRecording.h"
+#include "session/Session.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/waterfall/WaterfallView.h"
 
@@ -219,8 +219,8 @@ void tst_hostileNames::reviewsOfASessionAreHarmless()
 {
     const std::string recording = writeLine(pathOfName("reviewed.wav"));
     Session session;
-    session.source = sourceOf(pathText(recording));
-    Json json = parseJson(sessionText(session, m_folder.path()), "session");
+    session.source = sourceAt(pathText(recording));
+    Json json = parseJson(sessionText(session, pathBytes(m_folder.path())), "session");
     json["recording"].erase("sha256");
     json["annotations"] = {{"boxes",
                             {{{"seconds", {0.5, 1.5}},
@@ -386,7 +386,7 @@ void tst_hostileNames::bytesThatAreNoTextAreOpened()
         QVERIFY2(window->document().analysis(), qPrintable(window->messages().text()));
         QVERIFY(isHarmless(window->windowTitle()));
         QVERIFY(!window->windowTitle().contains(QChar(QChar::highSurrogate(0x10fe80))));
-        writeSession(pathText(session), {window->document().source(), {}, window->document().settings(), {}, {}});
+        writeSession(session, {window->document().source(), {}, window->document().settings()});
         QVERIFY(std::filesystem::exists(session));
     }
     const QStringList recent = WindowMemory(std::make_unique<QSettings>(memory, QSettings::IniFormat)).recent();

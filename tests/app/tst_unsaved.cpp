@@ -1,8 +1,9 @@
 // What is asked before unsaved work is lost, and what happens after each answer.
 
-#include "app/document/Session.h"
+#include "app/base/filePath.h"
 #include "app/lessons/LessonGuide.h"
 #include "app/openWindow.h"
+#include "session/Session.h"
 
 #include <QAbstractButton>
 #include <QApplication>
@@ -45,7 +46,7 @@ private:
         QSignalSpy ready(&m_window->lessonGuide(), &LessonGuide::ready);
         return ready.wait(patience);
     }
-    QString recording() const { return m_window->document().source().name(); }
+    QString recording() const { return m_window->document().sourceName(); }
 
     QTemporaryDir m_folder;
     QString m_scene, m_other, m_lesson, m_second;
@@ -146,7 +147,7 @@ void tst_unsaved::savedFirst()
     m_window->open(m_lesson);
     QVERIFY(waitForLesson());
     QCOMPARE(m_questions, 1);
-    QCOMPARE(readSession(session).settings.decide.falseAlarmsPerHour, 3.0);
+    QCOMPARE(readSession(pathBytes(session)).settings.decide.falseAlarmsPerHour, 3.0);
     QCOMPARE(recording(), QStringLiteral("other.json"));
     QVERIFY(m_window->lessonGuide().isRunning());
 }
@@ -163,7 +164,7 @@ void tst_unsaved::closingAsks()
     m_window->close();
     QTRY_VERIFY(!m_window->isVisible());
     QCOMPARE(m_questions, 2);
-    QCOMPARE(readSession(m_folder.filePath("closed.faintline")).settings.decide.falseAlarmsPerHour, 3.0);
+    QCOMPARE(readSession(pathBytes(m_folder.filePath("closed.faintline"))).settings.decide.falseAlarmsPerHour, 3.0);
 }
 
 QTEST_MAIN(tst_unsaved)

@@ -34,6 +34,7 @@
 #include "recording/bitshuffle.h"
 #include "recording/openRecording.h"
 #include "recording/timeInName.h"
+#include "session/Session.h"
 #include "spectrum/SimulatedPings.h"
 
 #include <algorithm>
@@ -329,6 +330,13 @@ void readWords(const Input &input)
         std::abort();
 }
 
+/// Sessions and what recovery leaves. What was read is written as something that can be read.
+void readSessions(const Input &input)
+{
+    parseJson(sessionText(readSession(input.path), std::filesystem::path(input.path).parent_path().string()),
+              "what was written");
+}
+
 void readNames(const Input &input)
 {
     if (fileNameFromText(textFromFileName(input.text)) != input.text)
@@ -366,6 +374,8 @@ const std::vector<Parser> &faintline::fuzz::parsers()
          [](const Input &input) { SimulatedRecording(lineSceneFromJson(parseJson(input.text, "scene"))); }},
         {"pingScene", ".json",
          [](const Input &input) { SimulatedPings(pingSceneFromJson(parseJson(input.text, "scene"))); }},
+        {"source", ".json", [](const Input &input) { sourceOf(input.path); }},
+        {"session", ".faintline", readSessions},
         {"scanScene", ".json", [](const Input &input) { scanSceneFromJson(parseJson(input.text, "scene")); }},
         {"truth", ".json", [](const Input &input) { truthFromJson(parseJson(input.text, "truth")); }},
         {"pingTruth", ".json", [](const Input &input) { pingTruthFromJson(parseJson(input.text, "truth")); }},

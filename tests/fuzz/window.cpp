@@ -4,12 +4,13 @@
 
 #include "app/base/filePath.h"
 #include "app/document/Provenance.h"
-#include "app/document/Session.h"
+#include "app/document/ViewState.h"
 #include "app/document/scanScenario.h"
 #include "app/lessons/Lesson.h"
 #include "app/render/readPicture.h"
 #include "app/render/replayPicture.h"
 #include "base/oneLine.h"
+#include "session/Session.h"
 #include "widgets/base/labelText.h"
 
 #include <QFileInfo>
@@ -24,11 +25,10 @@ using faintline::fuzz::Parser;
 
 namespace {
 
-/// Sessions and what recovery leaves. What was read is written as something that can be read.
-void readSessions(const Input &input)
+/// What the window adds to a session.
+void readView(const Input &input)
 {
-    const QString path = pathText(input.path);
-    parseJson(sessionText(readSession(path), QFileInfo(path).path()), "what was written");
+    toJson(viewFromJson(readSession(input.path).view, input.path));
 }
 
 /// What stands in a picture, without the picture's own bytes, whose checksums hide it.
@@ -62,10 +62,9 @@ void showTexts(const Input &input)
 const std::vector<Parser> &faintline::fuzz::parsers()
 {
     static const std::vector<Parser> all{
-        {"session", ".faintline", readSessions},
+        {"view", ".faintline", readView},
         {"lesson", ".json", [](const Input &input) { lessonFromJson(input.text, QStringLiteral("lesson.json")); }},
         {"scans", ".json", [](const Input &input) { readScanTest(pathText(input.path)); }},
-        {"source", ".json", [](const Input &input) { sourceOf(pathText(input.path)); }},
         {"picture", ".png", [](const Input &input) { scaleOf(readPicture(pathText(input.path))); }},
         {"pictureOrigin", ".txt", readOrigins},
         {"labels", ".txt", showTexts},

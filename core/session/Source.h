@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/analyse.h"
-#include "app/document/FrameKind.h"
+#include "base/json.h"
 #include "recording/InjectedRecording.h"
 #include "recording/LineScene.h"
 #include "recording/PingScene.h"
@@ -11,17 +11,17 @@
 #include "recording/openRecording.h"
 #include "spectrum/NormalisedFrames.h"
 
-#include <QString>
-
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace faintline {
 
 /// Origin of samples or frames: a file and how to read it, or a scene to simulate.
 struct Source {
-    QString path;                     ///< of the recording, the stack of frames (.npy) or the scenario
+    std::string path;                 ///< of the recording, the stack of frames (.npy) or the scene
     OpenOptions options;              ///< of a recording
     std::optional<LineScene> scene;   ///< set: simulated
     std::optional<PingScene> pings{}; ///< set: a sonar's pings, simulated
@@ -34,11 +34,11 @@ struct Source {
     };
     std::vector<Injection> injections{};
 
-    /// Name for window titles: the file's label.
-    QString name() const;
     bool isSimulated() const { return scene || pings; }
     /// Whether it is a stack of ready-made frames, a NumPy file.
     bool isStack() const;
+    /// Whether it opens as a recording, not as frames.
+    bool hasSamples() const;
 };
 
 /// An opened source: a recording, or frames ready for the detector.
@@ -48,19 +48,19 @@ struct OpenedSource {
     Truth truth; ///< of a simulated recording, or in a file beside a recording; with the lines added
     NormalisedFramesPointer frames{};
     PingTruth pingTruth{}; ///< of simulated pings, or in a file beside pings
-
-    const FrameKind &kind() const { return frames ? frameKindOf(frames->grid()) : lineFrames(); }
 };
 
-/// The source that a path denotes: a scenario for a JSON file, frames for a NumPy file, otherwise a recording. Throws
-/// Error.
-Source sourceOf(const QString &path, const OpenOptions &options = {});
+/// The source that a path denotes: a scene for a JSON file, otherwise a file that is not read yet. Throws Error.
+Source sourceOf(const std::string &path, const OpenOptions &options = {});
 
-/// Opens or simulates. Throws Error.
+/// The source of a scene's JSON, which `path` names. Throws Error.
+Source sourceOfScene(const Json &scene, const std::string &path);
+
+/// Opens or simulates, with the truth beside the file. Throws Error.
 OpenedSource openSource(const Source &source);
 
-/// Initial settings for a source.
-AnalysisSettings firstSettings(const OpenedSource &opened);
+/// Only the samples, with the lines added. Throws Error for frames.
+RecordingPointer openSamples(const Source &source);
 
 /// Runs the pipeline on an opened source.
 std::shared_ptr<const Analysis> analyse(const OpenedSource &opened, const AnalysisSettings &settings,
@@ -70,8 +70,5 @@ std::shared_ptr<const Analysis> analyse(const OpenedSource &opened, const Analys
 
 /// The open source with one more line. Throws Error.
 OpenedSource withInjection(const OpenedSource &opened, const Source::Injection &injection);
-
-/// Whether a file holds raw samples whose type and rate must be specified before it can be opened.
-bool needsRawOptions(const QString &path, const OpenOptions &options);
 
 } // namespace faintline

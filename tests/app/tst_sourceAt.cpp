@@ -1,4 +1,4 @@
-#include "app/document/Source.h"
+#include "app/document/sourceAt.h"
 #include "app/panels/OpenOptionsDialog.h"
 
 #include "base/Error.h"
@@ -13,7 +13,7 @@
 
 using namespace faintline;
 
-class tst_Source : public QObject
+class tst_sourceAt : public QObject
 {
     Q_OBJECT
 
@@ -31,11 +31,11 @@ class tst_Source : public QObject
 private slots:
     void aJsonFileIsAScenario()
     {
-        const Source source = sourceOf(
+        const Source source = sourceAt(
             file("a.json",
                  R"({"kind": "lines", "sampleRateHz": 100, "durationSeconds": 10, "lines": [{"frequencyHz": 20}]})"));
         QVERIFY(source.scene);
-        QCOMPARE(source.name(), "a.json");
+        QCOMPARE(nameOf(source), "a.json");
         const OpenedSource opened = openSource(source);
         QCOMPARE(opened.recording->info().sampleCount, Index(1000));
         QCOMPARE(opened.truth.lines.size(), std::size_t(1));
@@ -45,7 +45,7 @@ private slots:
     {
         const QString path =
             file("b.json", R"({"kind": "lines", "sampleRateHz": 100, "durationSeconds": 10, "moon": 1})");
-        const std::string said = test::errorOf([&] { sourceOf(path); });
+        const std::string said = test::errorOf([&] { sourceAt(path); });
         QVERIFY2(said.starts_with(path.toStdString()), said.c_str());
         QVERIFY2(test::contains(said, "moon"), said.c_str());
     }
@@ -53,27 +53,27 @@ private slots:
     void linesBesideARecordingAreItsTruth()
     {
         const SimulatedRecording simulated(
-            *sourceOf(file("g.json", R"({"sampleRateHz": 100, "durationSeconds": 10, "lines": [{"frequencyHz": 20}]})"))
+            *sourceAt(file("g.json", R"({"sampleRateHz": 100, "durationSeconds": 10, "lines": [{"frequencyHz": 20}]})"))
                  .scene);
         const QString path = m_folder.filePath("g.wav");
         writeRecording(simulated, path.toStdString());
-        QVERIFY(openSource(sourceOf(path)).truth.lines.empty());
+        QVERIFY(openSource(sourceAt(path)).truth.lines.empty());
         file("g.truth.json", QByteArray::fromStdString(toJson(simulated.truth()).dump()));
-        QCOMPARE(openSource(sourceOf(path)).truth, simulated.truth());
+        QCOMPARE(openSource(sourceAt(path)).truth, simulated.truth());
         file("g.truth.json", R"({"lines": [{"moon": 1}]})");
-        const std::string said = test::errorOf([&] { openSource(sourceOf(path)); });
+        const std::string said = test::errorOf([&] { openSource(sourceAt(path)); });
         QVERIFY2(test::contains(said, "g.truth.json") && test::contains(said, "moon"), said.c_str());
     }
 
     void linesAreAddedToRecordingsOnlyAndNotWithoutEnd()
     {
         const Source::Injection line{{{3.0, 0.5, 0.0, 0.0, 20.0}, 0.1}, 0, 1};
-        Source source = sourceOf(file("f.json", R"({"kind": "lines", "sampleRateHz": 100, "durationSeconds": 10})"));
+        Source source = sourceAt(file("f.json", R"({"kind": "lines", "sampleRateHz": 100, "durationSeconds": 10})"));
         source.injections.assign(2, line);
         QCOMPARE(openSource(source).truth.lines.size(), std::size_t(2));
         source.injections.assign(1001, line);
         QVERIFY_THROWS_EXCEPTION(Error, openSource(source));
-        source = sourceOf(file("g.json", R"({"kind": "pings", "pings": 3, "rangeCells": 10, "beams": 4})"));
+        source = sourceAt(file("g.json", R"({"kind": "pings", "pings": 3, "rangeCells": 10, "beams": 4})"));
         source.injections = {line};
         QVERIFY_THROWS_EXCEPTION(Error, openSource(source));
     }
@@ -94,7 +94,7 @@ private slots:
         QCOMPARE(dialog.options().rawType, std::string("cu8"));
         dialog.findChild<QDoubleSpinBox *>()->setValue(8.0);
         OpenOptions options = dialog.options();
-        const OpenedSource opened = openSource(sourceOf(path, options));
+        const OpenedSource opened = openSource(sourceAt(path, options));
         QVERIFY(opened.recording->info().isComplex);
         QCOMPARE(opened.recording->info().durationSeconds(), 1.0);
         dialog.findChild<QComboBox *>()->setCurrentText("moon"); // refused in words, not by a crash
@@ -102,5 +102,5 @@ private slots:
     }
 };
 
-QTEST_MAIN(tst_Source)
-#include "tst_Source.moc"
+QTEST_MAIN(tst_sourceAt)
+#include "tst_sourceAt.moc"

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "base/json.h"
+#include "widgets/base/Viewport.h"
+
+#include <QString>
+
+#include <optional>
+
+namespace faintline {
+
+/// View state: saved with a session, without influence on any result.
+struct ViewState {
+    std::optional<Viewport::Box> visible; ///< nothing: everything
+    std::optional<Viewport::Point> cursor;
+    QString orientation; ///< "newestOnTop", "oldestOnTop", "leftToRight"; empty: unchanged
+    QString colourMap;
+    bool isLogarithmic = false; ///< the frequency axis
+    bool isRadioAxis = false;   ///< frequencies are labelled with the centre frequency added
+
+    // For sonar pings, where the frequency above is the range.
+    std::optional<Span> bearing{}; ///< visible
+    std::optional<double> cursorBearing{};
+    bool isPolar = false;
+};
+
+/// As a session keeps it.
+Json toJson(const ViewState &view);
+
+/// Throws Error naming `where` and the key.
+ViewState viewFromJson(const Json &json, const std::string &where);
+
+} // namespace faintline

@@ -1,0 +1,47 @@
+#include "app/document/sourceAt.h"
+
+#include "app/base/filePath.h"
+#include "base/json.h"
+#include "recording/AudioRecording.h"
+#include "recording/RawRecording.h"
+
+namespace faintline {
+
+namespace {
+
+    constexpr qint64 largestScenario = 1 << 20;
+
+} // namespace
+
+Source sourceAt(const QString &path, const OpenOptions &options)
+{
+    const std::string name = pathBytes(path);
+    if (!path.startsWith(QLatin1String(":/")))
+        return sourceOf(name, options);
+    return sourceOfScene(parseJson(readBeginning(path, largestScenario).toStdString(), name), name);
+}
+
+QString nameOf(const Source &source)
+{
+    return fileLabel(pathText(source.path));
+}
+
+const FrameKind &kindOf(const OpenedSource &opened)
+{
+    return opened.frames ? frameKindOf(opened.frames->grid(), opened.source.path) : lineFrames();
+}
+
+AnalysisSettings firstSettings(const OpenedSource &opened)
+{
+    const std::string &name = kindOf(opened).preset;
+    return name.empty() ? AnalysisSettings() : preset(name).settings;
+}
+
+bool needsRawOptions(const QString &path, const OpenOptions &options)
+{
+    const std::string name = pathBytes(path);
+    return options.rawType.empty() && !(options.rawRateHz > 0.0) && isRegularFile(path) && rawTypeOfExtension(name)
+           && !AudioRecording::recognises(name);
+}
+
+} // namespace faintline

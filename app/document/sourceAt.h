@@ -1,0 +1,25 @@
+#pragma once
+
+#include "app/document/FrameKind.h"
+#include "session/Source.h"
+
+#include <QString>
+
+namespace faintline {
+
+/// The source that a path of the window denotes, which may be a scene in the program's resources (":/…"). Throws Error.
+Source sourceAt(const QString &path, const OpenOptions &options = {});
+
+/// Name for window titles: the file's label.
+QString nameOf(const Source &source);
+
+/// Throws Error if the window cannot show such frames.
+const FrameKind &kindOf(const OpenedSource &opened);
+
+/// Initial settings for a source.
+AnalysisSettings firstSettings(const OpenedSource &opened);
+
+/// Whether a file holds raw samples whose type and rate must be specified before it can be opened.
+bool needsRawOptions(const QString &path, const OpenOptions &options);
+
+} // namespace faintline

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "analysis/AnalysisSettings.h"
+#include "analysis/Review.h"
+#include "base/json.h"
+#include "session/Source.h"
+
+#include <string>
+
+namespace faintline {
+
+/// A session file (.faintline): settings, source and annotations, but no results. The recording is named relative to
+/// the session's folder and identified by its hash; a scene is included in full.
+struct Session {
+    Source source;
+    std::string recordingHash; ///< empty for a scene
+    AnalysisSettings settings;
+    Json view = Json::object(); ///< how the window displays it; kept, but not interpreted here
+    Annotations annotations{};
+};
+
+/// Whether a path names a session.
+bool isSessionPath(const std::string &path);
+
+/// Throws Error naming the file and the key.
+Session readSession(const std::string &path);
+
+/// The source in a session's or a provenance's "recording", with its path relative to `folder`. Throws Error naming the
+/// key, Json::exception.
+Source sourceFromJson(const Json &recording, const std::string &folder);
+
+/// The text of a session file, with the recording's path relative to `folder`.
+std::string sessionText(const Session &session, const std::string &folder);
+
+/// Computes the recording's hash if none is given, and writes the file completely or not at all. Throws Error.
+void writeSession(const std::string &path, Session session);
+
+/// Why the recording on disk differs from the one of the session; empty if it does not. Throws Error if it cannot be
+/// read.
+std::string recordingMismatch(const Session &session);
+
+} // namespace faintline
