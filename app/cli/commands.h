@@ -7,10 +7,12 @@
 #include "base/RunContext.h"
 #include "base/Shard.h"
 #include "recording/openRecording.h"
+#include "session/Session.h"
 #include "spectrum/SimulatedPings.h"
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -54,12 +56,21 @@ struct AnalysisOptions {
     void addMoreTo(CLI::App &command, Common &common);
     void checkMore() const; ///< throws if there are further files without --timeline
     std::vector<std::string> names() const;
+    /// The session that FILE names, if it does: its settings come before the other options.
+    std::optional<Session> namedSession() const;
+    /// The session's, or the file itself. Throws Error if the recording is no longer that of the session.
+    Source source() const;
     AnalysisSettings settings() const;
     RecordingPointer recording() const;
     /// The frames of a file that is not a recording: simulated pings, a stack (FILE.npy), power over time and
     /// frequency; null for other files. Converts slopes in the settings to bins per frame.
     NormalisedFramesPointer frames(AnalysisSettings &settings, const RunContext &context) const;
     std::vector<std::string> inputs() const; ///< all input files; a SigMF recording has two
+
+private:
+    void checkSession() const;
+
+    const Common *m_common = nullptr;
 };
 
 void addInfo(CLI::App &app, Common &common);
@@ -86,11 +97,11 @@ void addCadence(CLI::App &app, Common &common);
 void runCommandLine(const std::vector<std::string> &arguments, Common common);
 void addBench(CLI::App &app, Common &common);
 
-/// The simulated pings of a scene file of kind "pings"; nothing for other files.
-std::shared_ptr<const SimulatedPings> openPings(const std::string &path);
+/// The source of a session, or the file itself.
+Source sourceIn(const std::string &path, const OpenOptions &options);
 
-/// Opens a recording file, or simulates one from a scene's JSON file.
-RecordingPointer openAny(const std::string &path, const OpenOptions &options);
+/// The pings of a simulated sonar; null for other sources.
+std::shared_ptr<const SimulatedPings> pingsOf(const Source &source);
 
 /// Options for input and output files. Every file that a command writes must be declared with the second function,
 /// because only then does a replay, which may run untrusted commands, redirect it.

@@ -5,7 +5,6 @@
 #include "base/AtomicFile.h"
 #include "base/json.h"
 #include "exchange/openFrames.h"
-#include "recording/SimulatedRecording.h"
 #include "recording/Timeline.h"
 #include "recording/openTogether.h"
 
@@ -66,8 +65,8 @@ CLI::Option *addOutput(CLI::App &command, Common &common, const std::string &nam
 void AnalysisOptions::addTo(CLI::App &command, Common &common)
 {
     addInput(command, common, "FILE", file,
-             "Recording (WAV, FLAC, SigMF …), a folder or a list (.timeline) of files that form one recording, or a "
-             "scene to simulate (.json)")
+             "Recording (WAV, FLAC, SigMF …), a folder or a list (.timeline) of files that form one recording, a "
+             "scene to simulate (.json), or a session (.faintline) with its recording and settings")
         ->required();
     addSettingsTo(command, common);
 }
@@ -97,6 +96,7 @@ void AnalysisOptions::checkMore() const
 
 void AnalysisOptions::addSettingsTo(CLI::App &command, Common &common)
 {
+    m_common = &common;
     addInput(command, common, "--session", session, "Session or settings file to start from");
     command.add_option("--preset", preset, "Named settings to start from (see 'describe')");
     command.add_option("--set", assignments, "A setting, name=value; may be repeated")
@@ -111,16 +111,53 @@ void AnalysisOptions::addSettingsTo(CLI::App &command, Common &common)
     command.add_option("--raw-header", open.rawHeaderBytes, "Bytes before the first sample of a raw file");
 }
 
+std::optional<Session> AnalysisOptions::namedSession() const
+{
+    if (!isSessionPath(file))
+        return std::nullopt;
+    checkSession();
+    Session named = readSession(file);
+    if (m_common->read && !named.source.isSimulated())
+        named.source.path = m_common->read(named.source.path);
+    return named;
+}
+
+void AnalysisOptions::checkSession() const
+{
+    if (!session.empty())
+        throw Error("--session", "is not allowed with a session as FILE");
+    if (asTimeline)
+        throw Error("--timeline", "is not allowed with a session as FILE");
+    if (open.iq || !open.rawType.empty() || open.rawRateHz > 0.0)
+        throw Error(file, "is a session, which says how its recording is read; leave out --iq and --raw-…");
+}
+
+Source AnalysisOptions::source() const
+{
+    const std::optional<Session> named = namedSession();
+    if (!named)
+        return sourceOf(file, open);
+    if (!recordingMismatch(*named).empty())
+        throw Error(named->source.path, "has changed since " + file
+                                            + " was saved; save the session again, or take only its settings: detect "
+                                              "RECORDING --session SESSION");
+    return named->source;
+}
+
 AnalysisSettings AnalysisOptions::settings() const
 {
     AnalysisSettings settings;
+    const std::optional<Session> named = namedSession();
+    const Source from = named ? named->source : sourceOf(file, open);
+    if (named)
+        settings = named->settings;
     if (!session.empty()) {
         const Json json = readJsonFile(session);
         settings = settingsFromJson(json.contains("settings") ? json["settings"].dump() : json.dump(), session);
     }
     if (!preset.empty())
         settings = faintline::preset(preset).settings;
-    else if (session.empty() && openPings(file))
+    else if (session.empty() && !named && from.pings)
         settings = faintline::preset("sonar").settings;
     if (channel >= 0)
         setSetting(settings, "selection.channel", std::to_string(channel));
@@ -132,7 +169,7 @@ AnalysisSettings AnalysisOptions::settings() const
             throw Error("--set " + assignment, "must be name=value, such as spectrogram.windowSeconds=0.5");
         setSetting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
     }
-    if (settings.model.slopeUnit != SlopeUnit::BinsPerFrame && !file.empty() && !holdsFrames(file) && !openPings(file))
+    if (settings.model.slopeUnit != SlopeUnit::BinsPerFrame && !file.empty() && from.hasSamples())
         settings = withSlopesInBins(settings, recording()->info());
     checkSettings(settings);
     return settings;
@@ -140,26 +177,31 @@ AnalysisSettings AnalysisOptions::settings() const
 
 RecordingPointer AnalysisOptions::recording() const
 {
-    return asTimeline ? openTogether(names(), open) : openAny(file, open);
+    return asTimeline ? openTogether(names(), open) : openSamples(source());
 }
 
 NormalisedFramesPointer AnalysisOptions::frames(AnalysisSettings &settings, const RunContext &context) const
 {
-    if (const auto pings = openPings(file))
+    const Source from = source();
+    if (const auto pings = pingsOf(from))
         return pings;
-    const bool areSamples = !open.rawType.empty() || !more.empty();
-    const NormalisedFramesPointer frames =
-        areSamples ? nullptr : openFrames(file, {settings.selection, settings.noise}, context);
-    if (frames)
-        settings = withSlopesInBins(settings, *frames);
+    if (from.hasSamples() || !more.empty())
+        return nullptr;
+    const NormalisedFramesPointer frames = openFrames(from.path, {settings.selection, settings.noise}, context);
+    settings = withSlopesInBins(settings, *frames);
     return frames;
 }
 
 std::vector<std::string> AnalysisOptions::inputs() const
 {
-    std::vector<std::string> files =
-        file.empty() ? std::vector<std::string>() : filesBehind(names(), !open.rawType.empty());
-    files.push_back(session);
+    if (file.empty())
+        return {session};
+    const std::optional<Session> named = namedSession();
+    if (named && named->source.isSimulated())
+        return {file};
+    std::vector<std::string> files = named ? filesBehind({named->source.path}, !named->source.options.rawType.empty())
+                                           : filesBehind(names(), !open.rawType.empty());
+    files.push_back(named ? file : session);
     return files;
 }
 
@@ -185,28 +227,15 @@ void checkOutputs(const std::vector<std::string> &paths)
         }
 }
 
-std::shared_ptr<const SimulatedPings> openPings(const std::string &path)
+Source sourceIn(const std::string &path, const OpenOptions &options)
 {
-    if (!path.ends_with(".json"))
-        return nullptr;
-    const Json json = readJsonFile(path);
-    return isPingScene(json) ? inFile(path, [&] { return std::make_shared<SimulatedPings>(pingSceneFromJson(json)); })
-                             : nullptr;
+    return isSessionPath(path) ? readSession(path).source : sourceOf(path, options);
 }
 
-RecordingPointer openAny(const std::string &path, const OpenOptions &options)
+std::shared_ptr<const SimulatedPings> pingsOf(const Source &source)
 {
-    if (options.rawType.empty() && holdsFrames(path))
-        throw Error(
-            path,
-            "holds frames (time and frequency), not samples; use it with 'detect', 'explain', 'compare' or 'info'");
-    if (path.ends_with(".json")) {
-        const Json json = readJsonFile(path);
-        if (isPingScene(json))
-            throw Error(path, "is a scene of sonar pings, not a recording; use it with 'detect', 'simulate' or 'info'");
-        return inFile(path, [&] { return std::make_shared<SimulatedRecording>(lineSceneFromJson(json)); });
-    }
-    return openRecording(path, options);
+    return source.pings ? inFile(source.path, [&] { return std::make_shared<SimulatedPings>(*source.pings); })
+                        : nullptr;
 }
 
 } // namespace faintline::cli

@@ -103,20 +103,16 @@ namespace {
         return file.model;
     }
 
-    /// The events, each with what the annotations say of it.
-    void writeJudged(const Analysis &analysis, const std::vector<Annotation> &boxes, const DetectOptions &options)
-    {
-        const std::vector<Event> found = events(analysis);
-        const JudgedByBoxes judged = judgeByBoxes({}, analysis, found, boxes);
-        writeReviewed(analysis, found, {judged.reviews, {}}, options.events);
-        if (options.summary)
-            std::printf("%zu annotation(s), %d event(s) reviewed by them\n", boxes.size(), judged.judged);
-    }
-
     /// The files that are asked for.
     std::vector<std::string> outputsOf(const DetectOptions &options)
     {
         return {options.events, options.tracks, options.statistic, options.conventional, options.hits};
+    }
+
+    /// Whether the events are written with their reviews, as the window does.
+    bool writesReviews(const DetectOptions &options)
+    {
+        return !options.annotations.empty() || isSessionPath(options.analysis.file);
     }
 
     void checkOptions(const DetectOptions &options)
@@ -125,7 +121,7 @@ namespace {
         if (!options.annotations.empty() && options.events.empty())
             throw Error("--annotations", "requires --events");
         if (!options.events.empty())
-            options.annotations.empty() ? checkEventsPath(options.events) : checkReviewedPath(options.events);
+            writesReviews(options) ? checkReviewedPath(options.events) : checkEventsPath(options.events);
         if (!options.tracks.empty())
             checkTracksPath(options.tracks);
         if (!options.conventional.empty())
@@ -144,19 +140,21 @@ namespace {
         AnalysisSettings settings;
         RecordingPointer recording;
         NormalisedFramesPointer frames;
-        PingTruth truth; ///< of simulated pings, or beside recorded ones
-        std::vector<Annotation> annotations;
+        PingTruth truth;                 ///< of simulated pings, or beside recorded ones
+        Annotations reviewed;            ///< in a session
+        std::vector<Annotation> boxes{}; ///< that are given as annotations
     };
 
     /// What a table of hits says of where they come from.
     Observation observationOf(const DetectInput &input, const DetectOptions &options)
     {
         Observation observation;
-        observation.name = std::filesystem::path(options.analysis.file).filename().string();
+        const std::string path = options.analysis.source().path;
+        observation.name = std::filesystem::path(path).filename().string();
         if (input.recording) {
             observation.startUnixSeconds = input.recording->info().startUnixSeconds;
             observation.centreHz = input.recording->info().centreHz;
-        } else if (const auto power = options.analysis.file.empty() ? nullptr : openPower(options.analysis.file)) {
+        } else if (const auto power = path.empty() ? nullptr : openPower(path)) {
             observation.startUnixSeconds = power->info().startUnixSeconds;
         }
         return observation;
@@ -166,16 +164,18 @@ namespace {
     {
         DetectInput input;
         input.settings = options.analysis.settings();
+        if (const std::optional<Session> session = options.analysis.namedSession())
+            input.reviewed = session->annotations;
         if (!options.frames.empty()) {
             input.frames = readFrames(options.frames, options.grid);
             input.truth = pingTruthBeside(options.frames, input.frames->grid());
-        } else if (const auto pings = openPings(options.analysis.file)) {
+        } else if (const auto pings = pingsOf(options.analysis.source())) {
             input.frames = pings;
             input.truth = pings->truth();
         } else {
             input.frames = options.analysis.frames(input.settings, context);
             if (input.frames)
-                input.truth = pingTruthBeside(options.analysis.file, input.frames->grid());
+                input.truth = pingTruthBeside(options.analysis.source().path, input.frames->grid());
         }
         if (!input.frames && options.analysis.file.empty())
             throw Error("detect", "needs a recording, or --frames with ready-made frames");
@@ -185,8 +185,7 @@ namespace {
             return input;
         if (input.frames && !input.frames->grid().isSpectrum())
             throw Error("--annotations", "requires frames on frequency only; these frames have more than one axis");
-        input.annotations =
-            readAnnotations(options.annotations, input.recording ? input.recording->info() : RecordingInfo());
+        input.boxes = readAnnotations(options.annotations, input.recording ? input.recording->info() : RecordingInfo());
         return input;
     }
 
@@ -250,6 +249,22 @@ namespace {
         return chosen;
     }
 
+    /// With reviews, where there are any: those of the session, then those of the annotations.
+    void writeEventsOf(const Analysis &analysis, const DetectInput &input, const DetectOptions &options)
+    {
+        if (!writesReviews(options))
+            return writeEvents(analysis, options.events);
+        const std::vector<Event> found = events(analysis);
+        Annotations reviewed = input.reviewed;
+        if (!options.annotations.empty()) {
+            const JudgedByBoxes judged = judgeByBoxes(std::move(reviewed.reviews), analysis, found, input.boxes);
+            reviewed.reviews = judged.reviews;
+            if (options.summary)
+                std::printf("%zu annotation(s), %d event(s) reviewed by them\n", input.boxes.size(), judged.judged);
+        }
+        writeReviewed(analysis, found, reviewed, options.events);
+    }
+
     void write(const Analysis &analysis, const DetectInput &input, const DetectOptions &options, const Common &common,
                std::optional<NumPyWriter> &writer)
     {
@@ -257,10 +272,8 @@ namespace {
         inputs.insert(inputs.end(), {options.frames, options.grid, options.model, options.annotations});
         CommitTogether files;
         writeProvenance(common, inputs, outputsOf(options));
-        if (!options.annotations.empty())
-            writeJudged(analysis, input.annotations, options);
-        else if (!options.events.empty())
-            writeEvents(analysis, options.events);
+        if (!options.events.empty())
+            writeEventsOf(analysis, input, options);
         if (!options.tracks.empty())
             writeTracks(analysis, options.tracks);
         if (!options.conventional.empty())

@@ -145,21 +145,22 @@ void addInfo(CLI::App &app, Common &)
     command->add_option("--raw-type", options->open.rawType, "Sample type of a raw file, as in SigMF");
     command->add_option("--raw-rate", options->open.rawRateHz, "Sample rate of a raw file, Hz")->check(isRawRate());
     command->callback([options] {
-        if (const auto pings = openPings(options->file)) {
+        const Source source = sourceIn(options->file, options->open);
+        if (const auto pings = pingsOf(source)) {
             if (options->json)
                 std::printf("%s\n", toJson(pings->scene()).dump(2, ' ', true).c_str());
             else
                 print(*pings, options->file);
             return;
         }
-        if (const auto power = options->open.rawType.empty() ? openPower(options->file) : nullptr) {
+        if (const auto power = !source.hasSamples() ? openPower(source.path) : nullptr) {
             if (options->json)
                 std::printf("%s\n", toJson(power->info()).dump(2, ' ', true).c_str());
             else
                 print(power->info());
             return;
         }
-        const RecordingPointer recording = openAny(options->file, options->open);
+        const RecordingPointer recording = openSamples(source);
         if (options->json)
             std::printf("%s\n", toJson(recording->info()).dump(2, ' ', true).c_str());
         else

@@ -2,23 +2,17 @@
 
 #include "analysis/Review.h"
 #include "analysis/analyse.h"
-#include "analysis/chooseWindow.h"
-#include "analysis/slopeUnit.h"
 #include "analysis/straighten.h"
 #include "base/fileName.h"
 #include "base/readingJson.h"
-#include "base/wholeNumber.h"
 #include "exchange/CampaignFile.h"
-#include "exchange/openFrames.h"
 #include "exchange/writeDoppler.h"
 #include "exchange/writeEvents.h"
 #include "exchange/writeReviewed.h"
-#include "recording/InjectedRecording.h"
-#include "recording/SimulatedRecording.h"
 #include "recording/Timeline.h"
 #include "recording/openRecording.h"
 #include "recording/writeRecording.h"
-#include "spectrum/SimulatedPings.h"
+#include "session/Session.h"
 
 #include <filesystem>
 #include <numeric>
@@ -29,12 +23,6 @@ namespace faintline::cli {
 namespace fs = std::filesystem;
 
 namespace {
-
-    /// The one of the two that is there.
-    struct Opened {
-        RecordingPointer recording;
-        NormalisedFramesPointer frames;
-    };
 
     /// The file that the provenance tells of by name and hash.
     std::string find(const Json &source, const WindowExport &table)
@@ -54,52 +42,14 @@ namespace {
         return path;
     }
 
-    RecordingPointer withInjections(RecordingPointer base, const Json &injections)
-    {
-        const std::string where = "recording.injected";
-        std::vector<InjectedLine> lines;
-        for (const Json &one : injections) {
-            lines.emplace_back();
-            readFields(one.at("line"), LineSettings::fields(), lines.back().line, where);
-            lines.back().amplitude = one.at("amplitude");
-        }
-        checkInjections(lines, base->info(), where);
-        for (std::size_t i = 0; i < lines.size(); ++i)
-            base = std::make_shared<InjectedRecording>(base, std::vector{lines[i]},
-                                                       wholeNumber(injections[i], where, "channel", 0),
-                                                       wholeNumber(injections[i], where, "seed", std::uint64_t(1)));
-        return base;
-    }
-
-    Opened open(const WindowExport &table)
-    {
-        const Json &source = table.provenance.at("recording");
-        if (source.contains("scenario") && isPingScene(source["scenario"]))
-            return {nullptr, std::make_shared<SimulatedPings>(pingSceneFromJson(source["scenario"]))};
-        const Json injections = source.value("injected", Json::array());
-        if (source.contains("scenario"))
-            return {
-                withInjections(std::make_shared<SimulatedRecording>(lineSceneFromJson(source["scenario"])), injections),
-                nullptr};
-        const std::string path = find(source, table);
-        if (const NormalisedFramesPointer frames = openFrames(path))
-            return {nullptr, frames};
-        OpenOptions options;
-        options.iq = source.value("iq", false);
-        options.rawType = source.value("rawType", std::string());
-        options.rawRateHz = source.value("rawRateHz", 0.0);
-        options.rawChannels = wholeNumber(source, "recording", "rawChannels", 1);
-        options.rawHeaderBytes = wholeNumber(source, "recording", "rawHeaderBytes", Index(0));
-        return {withInjections(openRecording(path, options), injections), nullptr};
-    }
-
     std::shared_ptr<const Analysis> analysed(const WindowExport &table, const RunContext &context)
     {
-        const Opened opened = open(table);
-        const AnalysisSettings settings = settingsFromJson(table.provenance.at("settings").dump(), "settings");
-        return opened.frames ? analyse(opened.frames, settings, context)
-                             : analyseInChosenWindow(opened.recording,
-                                                     withSlopesInBins(settings, opened.recording->info()), context);
+        const Json &recording = table.provenance.at("recording");
+        Source source = sourceFromJson(recording, {});
+        if (!source.isSimulated())
+            source.path = find(recording, table);
+        return analyse(openSource(source), settingsFromJson(table.provenance.at("settings").dump(), "settings"),
+                       context);
     }
 
     void remakeEvents(const WindowExport &table, const std::string &out, const RunContext &context)
