@@ -18,8 +18,8 @@ namespace faintline {
 namespace {
 
     constexpr qint64 largestLesson = 1 << 20;
-    constexpr const char *ownLessons[]{"cell",      "p-of-n",     "reset",     "choosing-h",  "thresholds",
-                                       "cfar-loss", "real-noise", "manoeuvre", "when-to-stop"};
+    constexpr const char *ownLessons[]{"cell",       "p-of-n",    "reset",      "choosing-h", "assumed-snr",
+                                       "thresholds", "cfar-loss", "real-noise", "manoeuvre",  "when-to-stop"};
 
     std::string textOf(const QString &path)
     {
@@ -189,16 +189,23 @@ namespace {
         }
     }
 
+    /// Relative to the lesson's folder; empty if it is not given.
+    QString fileAt(const Json &object, const char *key, const std::string &where, const QDir &folder)
+    {
+        const std::string file = textAt(object, key, where);
+        return file.empty() ? QString() : QDir::cleanPath(folder.filePath(QString::fromStdString(file)));
+    }
+
     LessonStep stepOf(const Json &object, const std::string &where, const QDir &folder)
     {
         checkKeys(object, where,
-                  {"title", "text", "open", "preset", "settings", "show", "zoom", "cursor", "point", "facts", "ask",
-                   "do", "until", "then", "thenFacts"});
+                  {"title", "text", "open", "preset", "settings", "experiment", "show", "zoom", "cursor", "point",
+                   "facts", "ask", "do", "until", "then", "thenFacts"});
         LessonStep step;
         step.title = sentenceAt(object, "title", where, true);
         step.text = sentenceAt(object, "text", where, true);
-        if (const std::string open = textAt(object, "open", where); !open.empty())
-            step.open = QDir::cleanPath(folder.filePath(QString::fromStdString(open)));
+        step.open = fileAt(object, "open", where, folder);
+        step.experiment = fileAt(object, "experiment", where, folder);
         step.preset = textAt(object, "preset", where);
         if (!step.preset.empty())
             preset(step.preset);

@@ -31,7 +31,8 @@ struct LessonStep {
     std::string preset;
     /// In addition to those of the steps since a source was opened.
     std::vector<std::pair<std::string, FieldValue>> settings;
-    QStringList show; ///< views brought to the front
+    QString experiment; ///< run and shown; empty: none
+    QStringList show;   ///< views brought to the front
     std::optional<Span> zoomSeconds, zoomHz;
     bool showsAll = false;
     std::optional<double> cursorSeconds, cursorHz, cursorRange, cursorBearing;
@@ -49,7 +50,7 @@ struct LessonStep {
 ///
 ///     { "title": "…", "sentence": "…", "steps": [
 ///         { "title": "…", "text": "…", "open": "scene.json", "preset": "sonar", "settings": {"detector.kind": "pOfN"},
-///           "show": ["why"], "zoom": {"seconds": [10, 30], "hz": [100, 200]} or "all",
+///           "experiment": "pd.json", "show": ["why"], "zoom": {"seconds": [10, 30], "hz": [100, 200]} or "all",
 ///           "cursor": {"seconds": 20, "hz": 150}, "point": "output", "facts": {"events": 1},
 ///           "ask": {"question": "…", "choices": ["…", "…"], "answer": 1, "why": "…"},
 ///           "do": "…", "until": {"threshold": [null, 12]}, "then": "…", "thenFacts": {"events": [2, null]} } ] }

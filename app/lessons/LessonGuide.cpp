@@ -6,6 +6,7 @@
 #include "app/lessons/LessonPanel.h"
 #include "app/lessons/PointerFrame.h"
 #include "app/lessons/lessonMeasures.h"
+#include "app/panels/ExperimentsPanel.h"
 #include "app/panels/PipelinePanel.h"
 #include "app/panels/SequentialPanel.h"
 #include "app/views/WindowParts.h"
@@ -86,6 +87,7 @@ void LessonGuide::start(const Lesson &lesson, int step)
     m_lesson = lesson;
     m_answers.steps.assign(lesson.steps.size(), {});
     m_opened.clear();
+    m_experiments.clear();
     goTo(step);
     emit runningChanged(isRunning());
 }
@@ -216,9 +218,22 @@ void LessonGuide::setScans(const QString &path)
     }
 }
 
+/// Runs the step's experiment, unless this lesson has done so, and shows its curves.
+void LessonGuide::showExperiment()
+{
+    if (now().experiment.isEmpty())
+        return;
+    int &id = m_experiments[now().experiment];
+    if (m_parts.experiments().entry(id))
+        emit m_parts.experimentList().showRequested(id);
+    else
+        id = m_parts.experimentList().open(now().experiment);
+}
+
 bool LessonGuide::isBusy() const
 {
-    return m_parts.controller().isBusy() || m_parts.sequentialTests().isBusy();
+    const auto *experiment = m_parts.experiments().entry(m_experiments.value(now().experiment));
+    return m_parts.controller().isBusy() || m_parts.sequentialTests().isBusy() || (experiment && experiment->isOpen());
 }
 
 void LessonGuide::check()
@@ -231,8 +246,10 @@ void LessonGuide::check()
     showPanel();
     if (m_isAtEnd)
         return;
-    if (!m_isReady && !std::exchange(m_isRevealed, true))
+    if (!m_isReady && !std::exchange(m_isRevealed, true)) {
+        showExperiment();
         return reveal(widgetNamed(now().point));
+    }
     if (!m_isReady) {
         arrange();
         m_isReady = true;

@@ -3,6 +3,7 @@
 #include "app/lessons/LessonAnswers.h"
 #include "base/Error.h"
 
+#include <QMap>
 #include <QObject>
 #include <QTimer>
 
@@ -71,6 +72,7 @@ private:
     void saveAnswers(const QString &learner);
     void recordTask();
     void setScans(const QString &path);
+    void showExperiment();
     void arrange();
     void showPanel();
     void reveal(QWidget *widget);
@@ -82,7 +84,8 @@ private:
     LessonAnswers m_answers;
     int m_step = -1;
     bool m_isAtEnd = false;
-    QString m_opened; ///< opened by this lesson, and still open
+    QString m_opened;                 ///< opened by this lesson, and still open
+    QMap<QString, int> m_experiments; ///< started by this lesson: ids by path
     bool m_isReady = false;
     bool m_isRevealed = false; ///< whether the highlighted widget was revealed before it is framed
     QDockWidget *m_dock;

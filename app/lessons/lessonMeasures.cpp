@@ -1,5 +1,6 @@
 #include "app/lessons/lessonMeasures.h"
 
+#include "app/panels/EvaluatePanel.h"
 #include "app/panels/WhyPanel.h"
 #include "app/views/WindowParts.h"
 #include "app/views/WindowViews.h"
@@ -228,6 +229,28 @@ namespace {
         return std::regex_match(name, pattern);
     }
 
+    // ---- experiments ------------------------------------------------------------------------------------------------
+
+    const std::regex &pdPattern()
+    {
+        static const std::regex pattern("pd\\.([1-9][0-9]?)\\.([1-9][0-9]?)");
+        return pattern;
+    }
+
+    /// "pd.2.3": of the second detector at the third SNR of the experiment whose curves are shown, once it is complete.
+    Value pdMeasure(WindowParts &window, const std::string &name)
+    {
+        std::smatch parts;
+        const Experiments::Entry *shown = window.experiments().entry(window.evaluation().shown());
+        if (!shown || !shown->campaign || shown->isOpen() || !std::regex_match(name, parts, pdPattern()))
+            return {};
+        const std::size_t snrs = snrsOf(shown->campaign->experiment).size();
+        const std::size_t detector = std::stoul(parts[1]) - 1, snr = std::stoul(parts[2]) - 1;
+        const std::vector<CurvePoint> curve = pdCurve(*shown->campaign);
+        const std::size_t point = detector * snrs + snr;
+        return snr < snrs && point < curve.size() ? Value(curve[point].pd) : std::nullopt;
+    }
+
     // ---- sequential tests -------------------------------------------------------------------------------------------
 
     Measure meanStages(bool hasTarget)
@@ -378,6 +401,8 @@ Value lessonMeasure(WindowParts &window, const std::string &name)
         return found->second(window);
     if (isLineMeasure(name))
         return lineMeasure(window, name);
+    if (std::regex_match(name, pdPattern()))
+        return pdMeasure(window, name);
     if (begins(name, "view.")) {
         const QWidget *view = window.views().named(QString::fromStdString(name.substr(5)));
         return view && view->isVisible() && !view->visibleRegion().isEmpty() ? 1.0 : 0.0;
@@ -390,7 +415,8 @@ Value lessonMeasure(WindowParts &window, const std::string &name)
 void checkMeasure(const std::string &name, const std::string &where)
 {
     const bool isView = begins(name, "view.") && WindowViews::names().contains(QString::fromStdString(name.substr(5)));
-    if (isView || measures().contains(name) || isLineMeasure(name) || testField(name))
+    if (isView || measures().contains(name) || isLineMeasure(name) || std::regex_match(name, pdPattern())
+        || testField(name))
         return;
     try {
         settingField(name);

@@ -158,15 +158,21 @@ bool ExperimentsPanel::isExperiment(const QString &path)
     }
 }
 
-void ExperimentsPanel::open(const QString &path)
+int ExperimentsPanel::open(const QString &path)
 {
+    constexpr qint64 largestExperiment = 64 << 20;
     const std::string file = pathBytes(path);
     try {
-        emit showRequested(hasEnding(file, ".json")
-                               ? m_experiments.start(fileLabel(path), experimentFromJson(readJsonFile(file), file))
-                               : importFile(path));
+        const auto start = [&] {
+            const Json json = parseJson(readBeginning(path, largestExperiment).toStdString(), file);
+            return m_experiments.start(fileLabel(path), experimentFromJson(json, file));
+        };
+        const int id = hasEnding(file, ".json") ? start() : importFile(path);
+        emit showRequested(id);
+        return id;
     } catch (const Error &error) {
         emit failed(error);
+        return 0;
     }
 }
 

@@ -21,8 +21,9 @@ public:
 
     /// Whether a file holds an experiment, the runs of a campaign or a curve of Pd.
     static bool isExperiment(const QString &path);
-    /// Starts the experiment, or imports its results; ends with `showRequested` or `failed`.
-    void open(const QString &path);
+    /// Starts the experiment, also one of the resources, or imports its results; ends with `showRequested` or `failed`.
+    /// Returns the experiment's id, 0 if it failed.
+    int open(const QString &path);
     /// Imports the runs of a campaign or the points of a curve; returns the experiment's id. Throws Error.
     int importFile(const QString &path);
     /// Exports a campaign's curve or a reproduction's tables and pictures, depending on the entry. Throws Error.

@@ -40,7 +40,7 @@ void MainWindow::open(const QString &path, const OpenOptions &options, const Ana
     if (SurveyPanel::isSurvey(path))
         return m_survey->open(path);
     if (ExperimentsPanel::isExperiment(path))
-        return m_experimentList->open(path);
+        return void(m_experimentList->open(path));
     if (const bool isOfScans = isScanScenario(path); isOfScans || isLesson(path)) {
         try {
             return isOfScans ? openScans(readScanTest(path)) : startLesson(readLesson(path));

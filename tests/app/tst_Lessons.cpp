@@ -129,6 +129,7 @@ const QMap<QString, Act> &acts()
         {"reset 4", setting("smd.reset", "calibrated")},
         {"choosing-h 2", setting("model.slopeChange", "0.34, 0.33")},
         {"choosing-h 3", [](MainWindow &window) { clickAt(*window.workbench().output(), 60.0, 250.0); }},
+        {"assumed-snr 1", setting("model.snr", "0.063")},
         {"thresholds 1", setting("decide.thresholdNats", "12")},
         {"thresholds 2", setting("decide.thresholdNats", "5")},
         {"cfar-loss 2", setting("noise.halfWidthCells", "3")},
@@ -200,6 +201,8 @@ void tst_Lessons::mistakesAreNamed_data()
     QTest::newRow("key") << step(R"(, "moon": 1)") << QByteArray("steps[0].moon");
     QTest::newRow("setting") << step(R"(, "settings": {"smd.moon": 1})") << QByteArray("smd.moon");
     QTest::newRow("value") << step(R"(, "settings": {"model.snr": -3})") << QByteArray("model.snr");
+    QTest::newRow("point of a curve") << step(R"(, "facts": {"pd.0.1": 1})") << QByteArray("facts.pd.0.1");
+    QTest::newRow("experiment") << step(R"(, "experiment": 1)") << QByteArray("steps[0].experiment");
     QTest::newRow("measure") << step(R"(, "facts": {"moon": 1})") << QByteArray("facts.moon");
     QTest::newRow("bounds") << step(R"(, "facts": {"events": [3, 1]})") << QByteArray("facts.events");
     QTest::newRow("widget") << step(R"(, "point": "moon")") << QByteArray("moon");
