@@ -20,6 +20,8 @@ namespace {
     /// Pixels; in a narrower window all panels share one column, which leaves room for the pictures.
     constexpr int twoColumnsFrom = 1500;
     constexpr int narrowestColumn = 268;
+    /// Height that a panel at the bottom leaves to the pictures.
+    constexpr int leastPictures = 350;
 
     Qt::DockWidgetArea areaOf(Panels::Place place)
     {
@@ -126,11 +128,12 @@ void Panels::show(QWidget *panel)
         raiseFromBottom(dock, 36);
 }
 
-/// Gives a dock at the bottom `percent` of the window's height.
+/// Gives a dock at the bottom `percent` of the window's height, or what the pictures leave.
 void Panels::raiseFromBottom(QDockWidget *dock, int percent)
 {
     m_window.layout()->activate();
-    m_window.resizeDocks({dock}, {m_window.height() * percent / 100}, Qt::Vertical);
+    const int room = m_window.centralWidget()->height() + dock->height() - leastPictures;
+    m_window.resizeDocks({dock}, {std::min(m_window.height() * percent / 100, room)}, Qt::Vertical);
 }
 
 QStringList Panels::layoutNames()

@@ -515,8 +515,8 @@ void Workbench::resizeEvent(QResizeEvent *event)
 
 void Workbench::showStrips()
 {
-    constexpr int enoughForOne = 340;
-    constexpr int enoughForBoth = 520;
+    constexpr int enoughForOne = 460; // the pictures keep 350
+    constexpr int enoughForBoth = 570;
     m_statistic->setVisible(height() >= enoughForOne);
     m_regulation->setVisible(height() >= enoughForBoth && !m_document.isLive());
 }

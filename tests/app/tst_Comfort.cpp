@@ -198,8 +198,9 @@ private slots:
             QCoreApplication::processEvents();
             QCOMPARE(m_window->size(), size); // nothing forces it wider
             for (const WaterfallView *view : {m_window->workbench().input(), m_window->workbench().output()})
-                QVERIFY2(view->canvas()->width() >= canvas,
-                         qPrintable(layout + QStringLiteral(": %1").arg(view->canvas()->width())));
+                QVERIFY2(
+                    view->canvas()->width() >= canvas && view->height() >= 350,
+                    qPrintable(layout + QStringLiteral(": %1, %2").arg(view->canvas()->width()).arg(view->height())));
         }
         m_window->findChild<Panels *>()->takeLayout(Panels::layoutNames().first());
     }
