@@ -109,6 +109,16 @@ void EvaluatePanel::followDocument()
 void EvaluatePanel::followForm()
 {
     m_column->setStartable(m_form->obstacle().isEmpty());
+    if (const Experiments::Entry *entry = m_experiments.entry(m_shown))
+        m_column->compare(*entry, ofForm());
+}
+
+/// The experiment that the form would start.
+Experiment EvaluatePanel::ofForm() const
+{
+    if (m_form->isInRecording())
+        return m_form->injection(m_document.source().path);
+    return m_form->lines();
 }
 
 void EvaluatePanel::start()
@@ -147,6 +157,7 @@ void EvaluatePanel::follow(int id)
     if (id != m_shown || !entry)
         return;
     m_column->showState(*entry);
+    m_column->compare(*entry, ofForm());
     showPd(*entry);
     showRoc(*entry);
 }

@@ -30,6 +30,7 @@ public:
 
     /// The experiment whose curves are shown; 0: none.
     int shown() const { return m_shown; }
+    StartColumn &column() { return *m_column; }
     void show(int id);
 
     QSize sizeHint() const override { return {900, 300}; }
@@ -45,6 +46,7 @@ signals:
 private:
     void followDocument();
     void followForm();
+    Experiment ofForm() const;
     void follow(int id);
     void showPd(const Experiments::Entry &entry);
     void showRoc(const Experiments::Entry &entry);

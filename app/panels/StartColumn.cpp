@@ -1,5 +1,8 @@
 #include "app/panels/StartColumn.h"
 
+#include "app/panels/experimentWords.h"
+#include "widgets/base/labelText.h"
+
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QProgressBar>
@@ -14,7 +17,7 @@ namespace faintline {
 
 StartColumn::StartColumn(QWidget *form, const QString &progressName, const QString &startToolTip, QWidget *parent)
     : QWidget(parent), m_start(new QPushButton(tr("Start"))), m_cancel(new QPushButton(tr("Cancel"))),
-      m_progress(new QProgressBar), m_state(new QLabel)
+      m_progress(new QProgressBar), m_state(new QLabel), m_note(plainLabel())
 {
     constexpr int usualWidth = 330;
     auto *area = new QScrollArea;
@@ -31,6 +34,9 @@ StartColumn::StartColumn(QWidget *form, const QString &progressName, const QStri
     m_state->setTextFormat(Qt::PlainText);
     m_state->setWordWrap(true);
     m_state->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    m_note->setWordWrap(true);
+    m_note->setContentsMargins(8, 6, 8, 2);
+    m_note->hide();
     m_cancel->setEnabled(false);
     m_start->setToolTip(startToolTip);
 
@@ -47,6 +53,7 @@ StartColumn::StartColumn(QWidget *form, const QString &progressName, const QStri
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
+    layout->addWidget(m_note);
     layout->addWidget(area, 1);
     layout->addLayout(buttons);
     layout->addLayout(status);
@@ -64,7 +71,23 @@ void StartColumn::clearState()
 {
     m_progress->setValue(0);
     m_state->clear();
+    m_note->clear();
+    m_note->hide();
     m_cancel->setEnabled(false);
+}
+
+void StartColumn::compare(const Experiments::Entry &shown, const std::optional<Experiment> &ofForm)
+{
+    const bool isOther = shown.imported || (shown.campaign && ofForm != shown.campaign->experiment);
+    const QString values = shown.campaign ? experimentWords(shown.campaign->experiment) : tr("imported curves");
+    m_note->setText(isOther ? tr("Shown: %1 (%2). The form below is for a new experiment.").arg(shown.name, values)
+                            : QString());
+    m_note->setVisible(isOther);
+}
+
+QString StartColumn::note() const
+{
+    return m_note->text();
 }
 
 void StartColumn::showState(const Experiments::Entry &entry)

@@ -4,6 +4,8 @@
 
 #include <QWidget>
 
+#include <optional>
+
 class QLabel;
 class QProgressBar;
 class QPushButton;
@@ -20,7 +22,10 @@ public:
 
     void setStartable(bool isStartable);
     void showState(const Experiments::Entry &entry);
-    void clearState(); ///< nothing is shown
+    /// Says what is shown if it is not what the form would start. `ofForm`: nothing if the form is incomplete.
+    void compare(const Experiments::Entry &shown, const std::optional<Experiment> &ofForm);
+    QString note() const; ///< what `compare` says; empty: nothing
+    void clearState();    ///< nothing is shown
 
 signals:
     void startRequested();
@@ -31,6 +36,7 @@ private:
     QPushButton *m_cancel;
     QProgressBar *m_progress;
     QLabel *m_state;
+    QLabel *m_note;
 };
 
 } // namespace faintline

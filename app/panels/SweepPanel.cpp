@@ -26,6 +26,7 @@ SweepPanel::SweepPanel(const Document &document, Experiments &experiments, QWidg
 
     connect(m_column, &StartColumn::startRequested, this, &SweepPanel::start);
     connect(m_column, &StartColumn::cancelRequested, this, &SweepPanel::cancel);
+    connect(m_form, &SweepForm::changed, this, &SweepPanel::followForm);
     connect(&experiments, &Experiments::changed, this, &SweepPanel::follow);
     connect(&experiments, &Experiments::removed, this, [this](int id) {
         if (id == m_shown)
@@ -66,6 +67,22 @@ void SweepPanel::followDocument()
                        windowSeconds);
 }
 
+void SweepPanel::followForm()
+{
+    if (const Experiments::Entry *entry = m_experiments.entry(m_shown))
+        m_column->compare(*entry, ofForm());
+}
+
+/// The sweep that the form would start; nothing if the form is incomplete.
+std::optional<Experiment> SweepPanel::ofForm() const
+{
+    try {
+        return m_form->experiment();
+    } catch (const Error &) {
+        return {}; // the form says why
+    }
+}
+
 void SweepPanel::start()
 {
     try {
@@ -101,6 +118,7 @@ void SweepPanel::follow(int id)
         || !std::holds_alternative<SweepExperiment>(entry->campaign->experiment))
         return;
     m_column->showState(*entry);
+    m_column->compare(*entry, ofForm());
     showCharts(*entry);
     if (entry->state == Experiments::State::Done && m_isMeasuringCost && m_costOf != id)
         measureCost(*entry);

@@ -33,6 +33,7 @@ public:
 
     /// The displayed sweep; 0: none.
     int shown() const { return m_shown; }
+    StartColumn &column() { return *m_column; }
     void show(int id);
 
     /// Costs vary between runs; turn off where a picture must be reproducible.
@@ -51,6 +52,8 @@ signals:
 private:
     void buildCharts();
     void followDocument();
+    void followForm();
+    std::optional<Experiment> ofForm() const;
     void follow(int id);
     void showCharts(const Experiments::Entry &entry);
     void measureCost(const Experiments::Entry &entry);

@@ -8,6 +8,7 @@
 #include "app/panels/ExperimentsPanel.h"
 #include "app/panels/NoiseFitPanel.h"
 #include "app/panels/ReproductionPanel.h"
+#include "app/panels/StartColumn.h"
 #include "app/window/TrialViewer.h"
 #include "app/window/TrialWindow.h"
 #include "app/workspace/Workbench.h"
@@ -75,6 +76,12 @@ void tst_Evaluation::anExperimentGrowsAndEnds()
     QVERIFY(shown().state == Experiments::State::Done);
     QCOMPARE(shown().runsDone(), 3);
     QVERIFY(changed.count() >= 2);
+    QCOMPARE(m_window->evaluation().column().note(), QString()); // it is the form's own
+    fillForm(4);
+    const QString note = m_window->evaluation().column().note();
+    QVERIFY2(note.contains("3 runs, 0 … 3 dB, 100 T_FT, seed 1"), qPrintable(note));
+    fillForm(3);
+    QCOMPARE(m_window->evaluation().column().note(), QString());
     const Chart &chart = m_window->evaluation().pd().chart();
     QCOMPARE(chart.curves.size(), std::size_t(3)); // two measured, Marcum's Q
     QCOMPARE(chart.curves[0].points.size(), std::size_t(2));

@@ -1,4 +1,5 @@
 #include "app/openWindow.h"
+#include "app/panels/StartColumn.h"
 #include "app/panels/SweepForm.h"
 #include "app/panels/SweepPanel.h"
 #include "widgets/plot/ChartPlot.h"
@@ -48,6 +49,10 @@ private slots:
         const Experiments::Entry *entry = window.experiments().entry(panel.shown());
         QCOMPARE(entry->state, Experiments::State::Done);
         QCOMPARE(entry->runsDone(), 12);
+        QCOMPARE(panel.column().note(), QString()); // it is the form's own
+        panel.form().setRange(6.0, 15.0, 3, false);
+        QVERIFY2(panel.column().note().contains("decide.thresholdNats = 5 … 15, 4 trials, 3 dB, 10 s, seed 1"),
+                 qPrintable(panel.column().note()));
         QCOMPARE(panel.tradeOff().chart().curves.front().points.size(), std::size_t(3));
         QTRY_COMPARE(panel.cost().chart().curves.size(), std::size_t(1));
 
