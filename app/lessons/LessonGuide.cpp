@@ -347,7 +347,7 @@ void LessonGuide::present(bool isPresenting)
         reveal(widgetNamed(now().point));
         if (auto *below = m_window.findChild<QDockWidget *>(QStringLiteral("pipelineDock"));
             below && below->isVisible())
-            m_window.resizeDocks({m_dock, below}, {5, 1}, Qt::Vertical);
+            m_window.resizeDocks({m_dock, below}, {2, 1}, Qt::Vertical);
         m_frame->follow();
     }
 }

@@ -1,5 +1,7 @@
 #include "app/window/Panels.h"
 
+#include "app/window/scaleText.h"
+
 #include <QAction>
 #include <QChildEvent>
 #include <QDockWidget>
@@ -7,6 +9,7 @@
 #include <QMainWindow>
 #include <QMenuBar>
 #include <QScopedValueRollback>
+#include <QScreen>
 #include <QStatusBar>
 #include <QTabBar>
 #include <QToolBar>
@@ -22,6 +25,8 @@ namespace {
     constexpr int narrowestColumn = 268;
     /// Height that a panel at the bottom leaves to the pictures.
     constexpr int leastPictures = 350;
+    /// Size of a panel's text in presentations; on smaller screens the pictures need the room.
+    constexpr double presentedText = 1.4;
 
     Qt::DockWidgetArea areaOf(Panels::Place place)
     {
@@ -199,6 +204,9 @@ void Panels::setPresenting(bool isPresenting)
     m_window.menuBar()->setVisible(!isPresenting);
     m_window.statusBar()->setVisible(!isPresenting);
     m_window.setWindowState(m_window.windowState().setFlag(Qt::WindowFullScreen, isPresenting));
+    const int width = std::max(m_window.width(), m_window.screen()->size().width()); // full screen comes later
+    for (const Entry &entry : m_entries)
+        scaleText(*entry.dock, isPresenting && width >= twoColumnsFrom ? presentedText : 1.0);
     if (!isPresenting)
         m_window.restoreState(m_beforePresenting);
 }

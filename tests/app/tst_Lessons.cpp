@@ -178,6 +178,7 @@ private slots:
     void openingSomethingElseLeaves();
     void presentedItIsLargerAndStays();
     void presentedTheStepKeepsItsPanel();
+    void presentedTheFormIsLarger();
     void escapeLeavesAPresentationFromAnyField();
     void menuPaletteAndWelcomePageOfferThem();
 
@@ -546,6 +547,31 @@ void tst_Lessons::presentedTheStepKeepsItsPanel()
     QVERIFY(!window->findChild<QDockWidget *>("thresholdDock")->isVisible());
     guide.leave();
     QTest::keyClick(window.get(), Qt::Key_F5);
+}
+
+/// On a large screen: also a label that becomes bold. Afterwards everything is as before.
+void tst_Lessons::presentedTheFormIsLarger()
+{
+    const auto window = newWindow({1920, 1080});
+    LessonGuide &guide = window->lessonGuide();
+    guide.start(readLesson(":/lessons/reset.json"), 1);
+    QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
+    auto *form = window->findChild<SettingsForm *>();
+    const auto sizes = [&] {
+        std::vector<int> all;
+        for (const QWidget *widget : form->findChildren<QWidget *>())
+            if (widget->inherits("QLabel") || widget->inherits("QAbstractSpinBox") || widget->inherits("QComboBox"))
+                all.push_back(widget->font().pixelSize());
+        return all;
+    };
+    const std::vector<int> plain = sizes();
+    QTest::keyClick(window.get(), Qt::Key_F5);
+    QVERIFY(std::ranges::min(sizes()) >= 17);
+    window->controller().edit("smd.lnK", 1.0, "Change ln K");
+    QVERIFY(settle(*window));
+    QVERIFY(std::ranges::min(sizes()) >= 17);
+    QTest::keyClick(window.get(), Qt::Key_F5);
+    QCOMPARE(sizes(), plain);
 }
 
 void tst_Lessons::escapeLeavesAPresentationFromAnyField()

@@ -261,7 +261,8 @@ void SettingRow::setValue(const FieldValue &value)
         edit->setCursorPosition(0);
     }
     m_reset->setVisible(value != m_default);
-    m_label->setFont(value == m_default ? Theme::font() : Theme::boldFont());
+    const int size = m_label->font().pixelSize(); // larger in presentations
+    m_label->setFont(value == m_default ? Theme::font(size) : Theme::boldFont(size));
 }
 
 void SettingRow::setError(const QString &sentence)
