@@ -1,5 +1,5 @@
-// Finds a path through evidence of one's own: any log-likelihood ratios on any grid, here a spot that moves over a line
-// of 100 cells.
+// Finds a path through custom evidence: any log-likelihood ratios on any grid, here a spot that moves along a row of
+// 100 cells.
 #include "base/Random.h"
 #include "detect/Smd.h"
 
@@ -12,7 +12,7 @@ using namespace faintline;
 
 int main()
 {
-    // From one of three velocities to the same with probability 0.8, to each next one with 0.1; frames hold λ as it is.
+    // Three velocities, kept with probability 0.8, changed to a neighbouring one with 0.1 each. Frames contain λ.
     KinematicAxis axis;
     axis.name = "x";
     axis.cells = 100;
@@ -27,7 +27,7 @@ int main()
     Index best = 0;
     for (Index frame = 0; frame < 60; ++frame) {
         for (float &value : lambda)
-            value = float(random.normal() - 0.5); // of noise in the mean below 0
+            value = float(random.normal() - 0.5); // noise: mean below 0
         lambda[std::size_t(20 + frame)] += 1.5f;  // the spot
         detector.update(lambda, statistic);
         best = std::max_element(statistic.begin(), statistic.end()) - statistic.begin();

@@ -1,4 +1,4 @@
-// How well detectors find lines of one's own kind: Pd against SNR, with intervals.
+// Detection probability of several detectors for lines with given properties: Pd against SNR, with intervals.
 #include "evaluate/experiments/campaignCurve.h"
 #include "evaluate/experiments/peers.h"
 
@@ -10,7 +10,7 @@ using namespace faintline;
 
 int main()
 {
-    // Lines of 50 windows that wander by half a resolution cell, 18 of them in each run's field of noise.
+    // Lines of 50 windows that wander by half a resolution cell, 18 of them in the noise of each run.
     LineExperiment experiment;
     experiment.runs = 4;
     experiment.durationWindows = 50.0;

@@ -1,4 +1,4 @@
-// Samples a target's cells until a sequential test is sure whether a target is there.
+// Observes range cells until a sequential test has decided whether they contain a target.
 #include "base/Random.h"
 #include "base/logmath.h"
 #include "detect/Sprt.h"
@@ -10,7 +10,7 @@ using namespace faintline;
 
 int main()
 {
-    // 50 range cells, a target moves by at most one of them a scan; 7 dB, fluctuating; errors of 1 in 1000.
+    // 50 range cells; a fluctuating target of 7 dB moves by at most one cell per scan; error probabilities 0.001.
     KinematicAxis range;
     range.name = "range";
     range.cells = 50;

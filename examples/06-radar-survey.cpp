@@ -1,4 +1,4 @@
-// A radar looks into one sector after the other, into each until it is sure. Most are empty and are left early.
+// A radar observes one sector after the other, each until its test decides. Most sectors are empty and take few scans.
 #include "evaluate/sequential/ScanTest.h"
 #include "evaluate/sequential/simulate.h"
 
@@ -8,7 +8,7 @@ using namespace faintline;
 
 int main()
 {
-    // What may be there: a target of 10 dB in 3 × 3 × 40 cells, at most one cell on each scan, its Doppler unknown.
+    // Possible target: 10 dB, in 3 × 3 × 40 cells, moving by at most one cell per scan, with unknown Doppler.
     const ScanScene scene{.rangeCells = 40, .dopplerCells = 8, .stages = 30, .snrDb = 10.0, .seed = 11};
     SequentialStudy study;
     study.model = scanModel(scene, scene.snrDb);

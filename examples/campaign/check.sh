@@ -1,6 +1,6 @@
 #!/bin/sh
-# What the README says, with two shards: they give the curve of one run, and one that was lost is found missing and made again.
-# check.sh FAINTLINE-CLI FOLDER [sequential, parallel or slurm]. 77: cannot be tried here.
+# Test of the README's commands: two shards give the curve of a single run, and a missing shard is reported and computed again.
+# check.sh FAINTLINE-CLI FOLDER [sequential, parallel or slurm]. Exit code 77: cannot be run here.
 set -eu
 
 export FAINTLINE_CLI=$1
@@ -13,7 +13,7 @@ mkdir -p "$folder"
 
 mergeMissesTheSecond() {
     if sh "$here/merge.sh" 2 "$folder" 2>"$folder/message"; then
-        echo "a lost shard went unnoticed" >&2
+        echo "a missing shard was not reported" >&2
         exit 1
     fi
     grep -q 'shards 2 of 2' "$folder/message"

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Puts the N shards in a folder together: merge.sh N FOLDER writes FOLDER/curve.csv, the same bytes as without shards.
+# Merges the N shards in a folder: merge.sh N FOLDER writes FOLDER/curve.csv, the same bytes as without shards.
 set -eu
 
 [ $# -eq 2 ] || { echo "error: merge.sh: needs N FOLDER" >&2; exit 2; }
@@ -11,7 +11,7 @@ while [ "$i" -le "$n" ]; do
     i=$((i + 1))
 done
 if [ -n "$missing" ]; then
-    echo "error: merge.sh: lost in $folder, start them again: shards$missing of $n" >&2
+    echo "error: merge.sh: missing in $folder; run them again: shards$missing of $n" >&2
     exit 2
 fi
 exec "${FAINTLINE_CLI:-faintline-cli}" evaluate merge "$@" --out "$folder/curve.csv"

@@ -1,6 +1,6 @@
 #!/bin/sh
-# One Slurm node of one's own, for trying job arrays: node.sh start FOLDER, then SLURM_CONF=FOLDER/slurm.conf; node.sh stop FOLDER.
-# 77: there is no Slurm here, or it cannot be started.
+# A Slurm cluster of one node, for testing job arrays: node.sh start FOLDER, then SLURM_CONF=FOLDER/slurm.conf; node.sh stop FOLDER.
+# Exit code 77: Slurm is not installed or cannot be started.
 set -eu
 
 folder=$(realpath -m "$2")

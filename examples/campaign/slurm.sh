@@ -6,7 +6,7 @@
 #SBATCH --time=04:00:00
 #SBATCH --requeue
 # A campaign as a job array, one shard a task: EXPERIMENT=… FOLDER=… sbatch --export=ALL slurm.sh, from this folder. Afterwards merge.sh
-# says which shards were lost, if any; sbatch --array=7,23 slurm.sh starts those again. The number of shards is then kept in SHARDS.
+# lists missing shards; sbatch --array=7,23 slurm.sh runs those again. SHARDS must then contain the total number of shards.
 set -eu
 
 exec sh "${SLURM_SUBMIT_DIR:?is set by Slurm: start this with sbatch}/shard.sh" "${EXPERIMENT:?names no experiment}" \

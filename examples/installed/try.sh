@@ -1,5 +1,5 @@
 #!/bin/sh
-# Installs the core's library and headers, and builds and runs an example against them: try.sh CMAKE BUILD FOLDER
+# Installs the core's library and headers, then builds and runs an example with them: try.sh CMAKE BUILD FOLDER
 set -eu
 cmake=$1 build=$2 folder=$3
 here=$(cd "$(dirname "$0")" && pwd)

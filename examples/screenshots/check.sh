@@ -1,10 +1,10 @@
 #!/bin/sh
-# Draws the sessions and scenarios of a folder and compares the pictures with those that are expected.
+# Renders the sessions and scenarios of a folder and compares the pictures with the expected ones.
 #
-#   check.sh SESSIONS EXPECTED [OUT]     exit code 1 where a pixel differs; OUT/index.html shows where
-#   check.sh --accept SESSIONS EXPECTED  what is drawn now is expected from now on
+#   check.sh SESSIONS EXPECTED [OUT]     exit code 1 if a pixel differs; OUT/report/index.html shows where
+#   check.sh --accept SESSIONS EXPECTED  accepts the current pictures as the expected ones
 #
-# FAINTLINE is the program, "faintline" if not told otherwise; VIEWS what is drawn, "window,events".
+# Environment: FAINTLINE is the program (default "faintline"), VIEWS the views to render (default "window,events").
 set -eu
 
 accept=false

@@ -1,5 +1,5 @@
 #!/bin/sh
-# What ctest runs: try.sh PROGRAM FOLDER
+# Test of check.sh, run by ctest: try.sh PROGRAM FOLDER
 set -eu
 FAINTLINE=$1
 export FAINTLINE
@@ -11,7 +11,7 @@ sh "$here/check.sh" --accept "$2/sessions" "$2/expected"
 sh "$here/check.sh" "$2/sessions" "$2/expected" "$2/out"
 mv "$2/expected/faint-drifting-line-events.png" "$2/expected/faint-drifting-line-window.png"
 if sh "$here/check.sh" "$2/sessions" "$2/expected" "$2/out" 2>"$2/error"; then
-    echo "a changed picture was let through" >&2
+    echo "a changed picture was not reported" >&2
     exit 1
 fi
 grep -q "2 of 2 picture(s) differ" "$2/error"

@@ -1,15 +1,16 @@
-"""Track-before-detect for what is too faint to see.
+"""Track-before-detect for signals too faint to see in single frames.
 
     import faintline as fl
 
     recording = fl.open("recording.wav")
     result = fl.detect(recording, false_alarms_per_hour=1)
-    result.events                    # a structured array, a record an event
+    result.events                    # a structured array, one record per event
     result.tracks[0].t, result.tracks[0].f
     result.statistic, result.input   # frames x cells
     result.explain(6.0, 71.0).steps  # why there is a detection, term by term
 
-The same settings on the same recording give the same bytes as faintline-cli and the window. Every refusal is a faintline.Error.
+The same settings on the same recording give the same bytes as faintline-cli and the window. Invalid input raises
+faintline.Error.
 """
 
 from ._error import Error
@@ -55,7 +56,7 @@ __all__ = [
     "viterbi",
 ]
 
-for _name in __all__:  # help() and pickles name them as they are called
+for _name in __all__:  # so that help() and pickle use the public name
     _object = globals()[_name]
     if isinstance(_object, type):
         _object.__module__ = __name__

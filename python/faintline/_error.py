@@ -1,8 +1,8 @@
-"""The one exception that Faintline raises for what a user can put right."""
+"""The exception that Faintline raises for invalid input and failures."""
 
 
 class Error(Exception):
-    """A refusal one can act on: what went wrong, where, and why or what would be accepted instead.
+    """An error with its location, its reason, and what would be accepted instead.
 
     Attributes
     ----------
@@ -13,9 +13,9 @@ class Error(Exception):
     what : str
         Both in one line, ``where: why``, as the command line shows it.
     is_mistake : bool
-        True where the user can put it right (the command line ends with 2), False where the machine failed (1).
+        True if the input is invalid (exit code 2 of the command line), False if the machine failed (1).
     field : str
-        The full name of the setting that is wrong, as ``describe`` lists it; empty where it is none.
+        The full name of the invalid setting, as ``describe`` lists it; empty if the error is not about a setting.
     """
 
     def __init__(self, where: str, why: str, is_mistake: bool = True, field: str = ""):
