@@ -6,7 +6,7 @@
 
 namespace faintline::python {
 
-/// A track as Python holds it: one of an analysis's, which it keeps alive.
+/// Python object for a track of an analysis, which it keeps alive.
 struct HeldTrack {
     std::shared_ptr<const Analysis> analysis;
     std::size_t number = 0;

@@ -9,7 +9,7 @@
 
 namespace faintline::python {
 
-/// A detection as Python holds it. Whole arrays are made when they are first asked for, and then kept.
+/// Python object for a detection result. Whole arrays are computed on first access, and then kept.
 class Result
 {
 public:
@@ -23,11 +23,11 @@ public:
 
     using Values = std::shared_ptr<const std::vector<float>>;
 
-    /// y of frames × cells. Throws Error where that is more than 2³¹ values.
+    /// y of frames × cells. Throws Error if that is more than 2³¹ values.
     Values input(const RunOptions &options);
-    /// D of frames × cells, by a second run of the detector: what the command line writes with --statistic.
+    /// D of frames × cells, by a second run of the detector, as the command line writes it with --statistic.
     Values statistic(const RunOptions &options);
-    /// The same, frame by frame into a sink: for who has no memory for all of it.
+    /// The same, frame by frame into a sink, if it does not fit into memory.
     void streamStatistic(const StatisticSink &sink, const RunContext &context) const;
 
 private:

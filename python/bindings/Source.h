@@ -13,32 +13,32 @@
 
 namespace faintline::python {
 
-/// A recording as Python holds it: with the truth where it was simulated.
+/// Python object for a recording, with the truth if it was simulated.
 struct HeldRecording {
     RecordingPointer recording;
-    Json truth; ///< null where it is not known
-    /// Arguments with which the command line opens the same; none of what is in memory.
+    Json truth; ///< null if unknown
+    /// Arguments with which the command line opens the same source; empty for sources in memory.
     std::vector<std::string> arguments{};
 };
 
-/// Frames as Python holds them.
+/// Python object for frames.
 struct HeldFrames {
     NormalisedFramesPointer frames;
     Json truth;
-    bool isPings = false; ///< a sonar's, whose settings start from the preset "sonar"
-    /// Of a file of power, which settings take a part of and normalise anew.
+    bool isPings = false; ///< sonar pings; their settings start from the preset "sonar"
+    /// For a file of power, from which settings select a part, which is normalised again.
     std::shared_ptr<const PowerFrames> power{};
-    std::vector<std::string> arguments{}; ///< as a recording's
+    std::vector<std::string> arguments{}; ///< as for a recording
 };
 
-/// Opens what a path names: a recording, ready-made frames, or a scene to simulate. Throws Error.
+/// Opens a file: a recording, ready-made frames, or a scene to simulate. Throws Error.
 pybind11::object openSource(const std::string &path, const pybind11::kwargs &options = {});
 
-/// A recording or frames from samples or frames in an array. Throws Error.
+/// Creates a recording or frames from an array. Throws Error.
 HeldRecording recordingOfArray(const pybind11::object &samples, double rateHz, double centreHz);
 HeldFrames framesOfArray(const pybind11::object &values, const pybind11::object &axes, const pybind11::object &time);
 
-/// What a scene describes, as a recording or as frames.
+/// Simulates a scene as a recording or as frames.
 pybind11::object simulatedSource(const Json &scene, const std::string &where, int seed = -1);
 
 } // namespace faintline::python

@@ -9,7 +9,7 @@
 
 namespace faintline::python {
 
-/// A read-only array over values that `owner` keeps alive: nothing is copied.
+/// A read-only array view of values that `owner` keeps alive, without a copy.
 template <class T>
 pybind11::array_t<T> viewOf(std::shared_ptr<const void> owner, const T *values,
                             const std::vector<pybind11::ssize_t> &shape)
@@ -21,7 +21,7 @@ pybind11::array_t<T> viewOf(std::shared_ptr<const void> owner, const T *values,
     return array;
 }
 
-/// The same over a vector that it takes over.
+/// The same for a vector, of which it takes ownership.
 template <class T>
 pybind11::array_t<T> arrayOf(std::vector<T> values, const std::vector<pybind11::ssize_t> &shape)
 {
@@ -43,7 +43,7 @@ struct Column {
     pybind11::array values;
 };
 
-/// Columns of equal length as one structured array, a record a row.
+/// Columns of equal length as one structured array, one record per row.
 pybind11::array tableOf(const std::vector<Column> &columns);
 
 /// A column of text.

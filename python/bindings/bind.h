@@ -4,7 +4,7 @@
 
 namespace faintline::python {
 
-/// Each adds what its name says to the module; classes that others name come first.
+/// Each function adds one part to the module. Classes that others refer to come first.
 void bindErrors(pybind11::module_ &module);
 void bindAxis(pybind11::module_ &module);
 void bindRecording(pybind11::module_ &module);

@@ -39,9 +39,9 @@ namespace {
 
 void bindAxis(py::module_ &module)
 {
-    py::class_<Axis>(module, "Axis", R"(One sampled dimension: cell i lies at first + i*step, in the axis's unit.
+    py::class_<Axis>(module, "Axis", R"(A sampled dimension: cell i lies at first + i*step, in the axis's unit.
 
-On a cyclic axis the cell after the last one is the first one, as of a sonar's bearings.)")
+On a cyclic axis, such as a sonar's bearings, the cell after the last one is the first one.)")
         .def(py::init(&makeAxis), py::arg("name"), py::arg("count"), py::kw_only(), py::arg("unit") = "",
              py::arg("first") = 0.0, py::arg("step") = 1.0, py::arg("cyclic") = false)
         .def_readonly("name", &Axis::name)

@@ -85,16 +85,17 @@ namespace {
 
 void bindDetect(py::module_ &module)
 {
-    module.def("detect", &detect, py::arg("x"), py::arg("rate") = py::none(), py::kw_only(), py::arg("centre_hz") = 0.0,
-               py::arg("preset") = py::none(), py::arg("settings") = py::none(), py::arg("threads") = 0,
-               py::arg("progress") = py::none(),
-               R"(Finds lines in a recording, or signals in ready-made frames: the same bytes as faintline-cli detect.
+    module.def(
+        "detect", &detect, py::arg("x"), py::arg("rate") = py::none(), py::kw_only(), py::arg("centre_hz") = 0.0,
+        py::arg("preset") = py::none(), py::arg("settings") = py::none(), py::arg("threads") = 0,
+        py::arg("progress") = py::none(),
+        R"(Finds lines in a recording, or signals in ready-made frames; gives the same bytes as faintline-cli detect.
 
 x: a Recording, Frames, a path, or samples in an array of shape (samples,) or (samples, channels), complex for I/Q; an array needs rate (Hz).
 preset: a name of faintline.presets(). settings: a dict by full names, {"spectrogram.windowSeconds": 0.5}. Keywords: the same by a setting's
-own name in snake case, window_seconds=0.5, false_alarms_per_hour=1, where only one setting has that name (faintline.describe() lists both). A
-window that is left open is chosen by the recording.
-threads: 0 for as many as the machine has; never changes a byte. progress: called as progress(fraction, what) about ten times a second.
+short name in snake case, window_seconds=0.5, false_alarms_per_hour=1, if only one setting has that name (faintline.describe() lists both). If
+no window is set, it is chosen for the recording.
+threads: 0 for as many as the machine has; results do not depend on it. progress: called as progress(fraction, what) about ten times a second.
 
 Returns a Result. Raises Error for settings out of range and for recordings without a usable sample; KeyboardInterrupt stops it.)");
 }

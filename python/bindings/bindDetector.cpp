@@ -153,36 +153,35 @@ namespace {
 
 void bindDetector(py::module_ &module)
 {
-    py::class_<StreamDetector>(
-        module, "Detector",
-        R"(The recursion by itself, for streams and for likelihoods of one's own: frames in, statistic out.
+    py::class_<StreamDetector>(module, "Detector",
+                               R"(The recursion alone, for streams and for custom likelihoods: frames in, statistic out.
 
     u(n, t) = λ(n, t) + max(ln K + max over m of [ln P(n|m) + u(m, t-1)], 0),    D(t, cell) = max over rates
 
 grid: an Axis, or a list of them, slowest first.
-model: a dict, or the path of a JSON file: "axes", a law for each axis of the grid (keys rates, ratesPerCell, rateChange, step, round,
-transition, renormalised); "likelihood", {"kind": "rice", "r0": 0.5}, "exponential" or "linear" of power whose noise has mean 1, or where it is
-left out {"kind": "given"}: frames hold log-likelihood ratios λ themselves, any finite numbers, NaN where nothing was observed; "reset",
+model: a dict, or the path of a JSON file: "axes", one law for each axis of the grid (keys rates, ratesPerCell, rateChange, step, round,
+transition, renormalised); "likelihood", {"kind": "rice", "r0": 0.5}, "exponential" or "linear", for power whose noise has mean 1, by
+default {"kind": "given"}: frames contain log-likelihood ratios λ themselves, any finite numbers, NaN for cells that were not observed; "reset",
 {"law": "fixed", "lnK": -0.5}, "half", "mean" or "none"; "semiring", "max" or "sum".
 
-Source: Billon 2005, section 3. One object for each thread. Raises Error naming the key.)")
+Source: Billon 2005, section 3. Use one object per thread. Raises Error with the name of the key.)")
         .def(py::init(&makeDetector), py::arg("grid"), py::arg("model"))
         .def(
             "update", &StreamDetector::update, py::arg("frame"), py::kw_only(), py::arg("threads") = 1,
             py::arg("progress") = py::none(),
-            R"(Takes one frame, an array of the grid's shape, or several with one more axis before; returns the statistic, float32 of that shape.
+            R"(Processes one frame, an array of the grid's shape, or several along an additional first axis; returns the statistic, float32 of that shape.
 
-Frame by frame or many at once, and on any number of threads: the same bytes. Raises Error for a shape or a value that does not fit.)")
+The result does not depend on the number of frames per call or on the number of threads. Raises Error for an invalid shape or value.)")
         .def_property_readonly("axes", &StreamDetector::axes)
-        .def_property_readonly("frames", &StreamDetector::frames, "Frames taken so far.")
+        .def_property_readonly("frames", &StreamDetector::frames, "Number of frames processed.")
         .def_property_readonly("scores", &StreamDetector::scores,
                                "Scores of all states, float32 of shape (rates…, cells…), nat above background.")
         .def_property_readonly(
             "ln_k", [](const StreamDetector &self) { return self.regulation().lnK; },
-            "What the reset law gave for the last frame, nat.")
+            "ln K of the last frame, by the reset law, nat.")
         .def_property_readonly(
             "continued_fraction", [](const StreamDetector &self) { return self.regulation().continuedFraction; },
-            "Of the states, those whose path went on in the last frame rather than being reset.");
+            "Fraction of the states whose path was continued in the last frame instead of being reset.");
 }
 
 } // namespace faintline::python

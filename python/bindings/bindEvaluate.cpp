@@ -102,14 +102,14 @@ void bindEvaluate(py::module_ &module)
 {
     module.def("evaluate", &evaluate, py::arg("experiment"), py::kw_only(), py::arg("seed") = -1,
                py::arg("out") = py::none(), py::arg("threads") = 0, py::arg("progress") = py::none(),
-               R"(Monte-Carlo detection probability of an experiment.
+               R"(Estimates the detection probability of an experiment by Monte Carlo simulation.
 
 experiment: a dict, or the path of a JSON file, as faintline-cli evaluate takes it: {"kind": "lines", "snrDb": [-3, 0, 3], "runs": 8, …}, of kind
-lines, injection or sweep. seed: in place of the experiment's own. out: a .csv to write the curve to; what has been done is kept beside it
-while it runs, so that a later call goes on from there.
+lines, injection or sweep. seed: in place of the experiment's. out: a .csv to write the curve to; completed runs are stored beside it,
+so that a later call resumes an interrupted experiment.
 
-Returns a structured array with a record a point: detector, snr_db, pd, pd_low, pd_high (95 % interval), trials, threshold; of a sweep: value, pd,
-pd_low, pd_high, trials, false_alarms_per_hour and its interval, latency_s, threshold. Raises Error naming the key.)");
+Returns a structured array with one record per point: detector, snr_db, pd, pd_low, pd_high (95 % interval), trials, threshold; for a sweep: value, pd,
+pd_low, pd_high, trials, false_alarms_per_hour and its interval, latency_s, threshold. Raises Error with the name of the key.)");
 }
 
 } // namespace faintline::python

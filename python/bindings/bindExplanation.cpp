@@ -72,17 +72,18 @@ namespace {
 void bindExplanation(py::module_ &module)
 {
     py::class_<HeldExplanation>(module, "Explanation",
-                                "Why a cell has the statistic it has: the best path that ends there, term by term.")
-        .def_property_readonly("time", member(&Explanation::seconds), "Of the frame, s.")
-        .def_property_readonly("position", member(&Explanation::position), "Of the cell, one number for each axis.")
+                                "Explains the statistic of a cell: the best path that ends there, term by term.")
+        .def_property_readonly("time", member(&Explanation::seconds), "Time of the frame, s.")
+        .def_property_readonly("position", member(&Explanation::position),
+                               "Position of the cell, one number for each axis.")
         .def_property_readonly("statistic", member(&Explanation::statistic),
                                "Sum of all terms and the offset, nat above background.")
         .def_property_readonly("displayed", member(&Explanation::displayed),
-                               "What Result.statistic has there, in the detector's unit.")
-        .def_property_readonly("threshold", member(&Explanation::threshold), "In the detector's unit.")
+                               "Value of Result.statistic there, in the detector's unit.")
+        .def_property_readonly("threshold", member(&Explanation::threshold), "Threshold, in the detector's unit.")
         .def_property_readonly("offset", member(&Explanation::offset), "nat that all states are given alike.")
         .def_property_readonly("is_tracked", member(&Explanation::isTracked),
-                               "A tracker follows this cell; its path goes on without reset.")
+                               "Whether a tracker follows this cell; its path is continued without reset.")
         .def_property_readonly("is_explained_by_noise", member(&Explanation::isExplainedByNoise),
                                "On a path that is not reported: cells this strong, or runs of them, are common in "
                                "the recording's noise.")
@@ -91,10 +92,10 @@ void bindExplanation(py::module_ &module)
             "Why the path begins where it does: 'beginning', 'background' or 'forgotten' (a track took over what came "
             "before).")
         .def_property_readonly("steps", &steps,
-                               R"(The path from its last reset on, a structured array with a record a frame.
+                               R"(The path since its last reset, a structured array with one record per frame.
 
-t (s), f (Hz; on several axes one field for each) and rate (cells a frame), then the terms in nat: llr (λ), ln_transition (ln P), ln_k, their
-running sum, and runner_up_margin, how far behind the second best way into the step was (inf: there was no other).)")
+t (s), f (Hz; with several axes one field for each) and rate (cells per frame), then the terms in nat: llr (λ), ln_transition (ln P), ln_k, their
+running sum, and runner_up_margin, the margin over the second best predecessor (inf: there is no other).)")
         .def("__repr__", &textOf);
 }
 

@@ -101,26 +101,26 @@ HeldFrames framesOfArray(const py::object &given, const py::object &axes, const 
 
 void bindFrames(py::module_ &module)
 {
-    py::class_<HeldFrames>(module, "Frames", R"(Frames of normalised power on a grid: what a detector takes.
+    py::class_<HeldFrames>(module, "Frames", R"(Frames of normalised power on a grid, the input of a detector.
 
-Frames(y, axes=None, time=None) makes them of an array y of shape (frames, cells…): power over mean noise power, so noise has mean 1;
-finite and not negative, NaN where nothing was observed. axes: one Axis for each cell axis; time: seconds from frame to frame, or an Axis.
-Raises Error for other values and for axes that do not fit.)")
+Frames(y, axes=None, time=None) creates them from an array y of shape (frames, cells…): power over mean noise power, so noise has mean 1;
+finite and not negative, NaN for cells that were not observed. axes: one Axis per cell axis; time: seconds from frame to frame, or an Axis.
+Raises Error for other values and for axes of a different size.)")
         .def(py::init(&framesOfArray), py::arg("y"), py::arg("axes") = py::none(), py::arg("time") = py::none())
         .def_property_readonly(
             "axes", [](const HeldFrames &self) { return self.frames->grid().axes; }, "The cells' axes, slowest first.")
         .def_property_readonly(
-            "time", [](const HeldFrames &self) { return self.frames->time(); }, "The frames' axis, s.")
+            "time", [](const HeldFrames &self) { return self.frames->time(); }, "The time axis, s.")
         .def_property_readonly("shape",
                                [](const HeldFrames &self) {
                                    return py::tuple(py::cast(shapeOf(*self.frames, self.frames->time().count)));
                                })
         .def_property_readonly(
             "truth", [](const HeldFrames &self) { return pythonFromJson(self.truth); },
-            "Of simulated pings: where the targets really are, a dict; otherwise None.")
+            "Truth of simulated pings: positions of the targets, a dict; otherwise None.")
         .def("__len__", [](const HeldFrames &self) { return self.frames->time().count; })
         .def("read", &readFramesOf, py::arg("first") = 0, py::arg("count") = py::none(),
-             "Frames first … first+count-1, fewer at the end: float32 of shape (frames, cells…).")
+             "Returns frames first … first+count-1, fewer at the end: float32 of shape (frames, cells…).")
         .def("__repr__", &textOf);
 }
 

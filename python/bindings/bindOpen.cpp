@@ -87,14 +87,14 @@ void bindOpen(py::module_ &module)
                        : openSource(pathFromPython(path), options);
         },
         py::arg("path"),
-        R"(Opens a recording or ready-made frames, by content; reads no more than headers.
+        R"(Opens a recording or ready-made frames, by content; reads only headers.
 
 path: audio (WAV, FLAC, …), SigMF, GWOSC strain (.hdf5), raw samples (give raw_type, such as "ci16_le", and raw_rate in Hz), a NumPy file of normalised frames
 (.npy, axes in NAME.grid.json beside it), power over time and frequency (sigproc .fil, filterbank .h5), or a scene to simulate (.json).
-A folder, a list of names (.timeline) or a Python list of them is one recording: its files in the order of their time stamps, gaps not observed.
-Options: iq=True takes two channels as I and Q; raw_type, raw_rate, raw_channels, raw_header (bytes before the samples).
+A folder, a list of names (.timeline) or a Python list of names is one recording: its files in the order of their time stamps, gaps not observed.
+Options: iq=True treats two channels as I and Q; raw_type, raw_rate, raw_channels, raw_header (bytes before the samples).
 
-Returns a Recording, or Frames, normalised, where time and frequency are in the file already. Raises Error with the path, what is wrong and what would
+Returns a Recording, or normalised Frames if the file contains power over time and frequency. Raises Error with the path, the reason and what would
 be accepted.)");
 }
 

@@ -45,7 +45,7 @@ namespace {
         return kinematicAxisFromJson(json, where);
     }
 
-    /// Log-likelihoods and the law that paths through them obey.
+    /// Log-likelihoods and the transition law of paths.
     struct Lattice {
         StateSpace space;
         std::vector<double> lambda;  ///< frames × cells
@@ -58,8 +58,9 @@ namespace {
         std::vector<double> lambda(logLikelihood.data(), logLikelihood.data() + logLikelihood.size());
         for (double &value : lambda) {
             if (value == std::numeric_limits<double>::infinity())
-                throw Error("loglik", "holds +inf; log-likelihoods are below that, -inf for what cannot be, NaN where "
-                                      "nothing was observed");
+                throw Error("loglik",
+                            "contains +inf; log-likelihoods must be finite, -inf for impossible cells, or NaN "
+                            "for cells that were not observed");
             if (std::isnan(value))
                 value = 0.0;
         }
@@ -74,7 +75,7 @@ namespace {
             return std::vector<double>(states, 1.0 / double(states));
         const auto array = DoubleArray::ensure(given);
         if (!array || (std::size_t(array.size()) != states && std::size_t(array.size()) != cells))
-            throw Error("initial", "must hold the probability of each of the " + std::to_string(cells)
+            throw Error("initial", "must contain the probability of each of the " + std::to_string(cells)
                                        + " cells, or of each of the " + std::to_string(states) + " states");
         std::vector<double> initial(states);
         const auto size = std::size_t(array.size());
@@ -82,7 +83,7 @@ namespace {
         for (std::size_t n = 0; n < states; ++n)
             initial[n] = array.data()[n % size] * share;
         if (!std::all_of(initial.begin(), initial.end(), [](double p) { return p >= 0.0 && p <= 1.0; }))
-            throw Error("initial", "holds a value that is no probability");
+            throw Error("initial", "contains a value that is not a probability");
         return initial;
     }
 
@@ -105,7 +106,7 @@ namespace {
         return lattice;
     }
 
-    /// The most probable path, as Python sees it.
+    /// The most probable path, as returned to Python.
     struct Path {
         py::array cells;
         py::array rates;
@@ -146,7 +147,7 @@ namespace {
             map = estimator.estimate(lattice.frames, evidence, context);
         });
         if (!std::isfinite(map.lnScore))
-            throw Error("log-likelihoods and law", "leave no path that has a probability above 0");
+            throw Error("log-likelihoods and law", "allow no path with a probability above 0");
         return pathOf(lattice, map);
     }
 
@@ -179,40 +180,41 @@ namespace {
                 posterior.lnEvidence};
     }
 
-    constexpr const char *viterbiText = R"(The most probable path through log-likelihoods whose transitions obey a law.
+    constexpr const char *viterbiText =
+        R"(Finds the most probable path through log-likelihoods with a given transition law.
 
     F(t, n) = loglik(t, n) + max over m of [F(t-1, m) + ln P(n|m)],    F(0, n) = loglik(0, n) + ln initial(n)
 
-loglik: shape (frames, cells…), log-likelihoods or ratios of them; -inf for what cannot be, NaN where nothing was observed.
-law: how a state moves along the cells, a dict, on several axes a list of them: {"rates": [-1, 0, 1], "rateChange": [h0, h1]}, states of cell and
-rate, r' = r ± i with probability h_i, moved by the mean of the rates ("ratesPerCell": q for rates in 1/q cell a frame); or {"step": [q0, q1]}, a
-random walk; "cyclic": True for an axis that wraps; "renormalised": True where moves off the ends leave their probability to the others, which is
-otherwise lost; or a matrix P(from, to).
+loglik: shape (frames, cells…), log-likelihoods or ratios of them; -inf for impossible cells, NaN for cells that were not observed.
+law: the motion of a state along the cells, a dict, with several axes a list of dicts: {"rates": [-1, 0, 1], "rateChange": [h0, h1]}, states of cell and
+rate, r' = r ± i with probability h_i, moved by the mean of the rates ("ratesPerCell": q for rates in 1/q cell per frame); or {"step": [q0, q1]}, a
+random walk; "cyclic": True for an axis that wraps; "renormalised": True to distribute the probability of moves off the ends over the others instead of
+losing it; or a matrix P(from, to).
 initial: probability of every cell, or of every state (rates…, cells…); None for uniform.
 
-Returns a Path: cells, int64 of shape (frames,), on several axes (frames, axes); rates, cells a frame; score, ln of the path's probability with
-its evidence. Ties: the lowest state. In double precision; the law is never written out as a matrix, so a frame costs states × moves.
-Source: Viterbi 1967; Grossi and Lops 2006, Algorithm 3.2. Raises Error where no path is possible.)";
+Returns a Path: cells, int64 of shape (frames,), with several axes (frames, axes); rates, cells per frame; score, ln of the path's probability with
+its evidence. Ties: the lowest state. In double precision; the law is never expanded to a matrix, so a frame costs states × moves.
+Source: Viterbi 1967; Grossi and Lops 2006, Algorithm 3.2. Raises Error if no path is possible.)";
 
     constexpr const char *forwardBackwardText =
-        R"(Where a target has been, given all frames: the posterior of every cell of every frame.
+        R"(Computes the posterior of every cell in every frame, given all frames.
 
 loglik, law, initial: as for faintline.viterbi.
 
-Returns a Posterior: p, float64 of the shape of loglik, each frame adding up to 1; p_states, the same of every state (frames, rates…, cells…);
-log_evidence, ln of the sum over all paths. In logarithms throughout. Source: Baum and others 1970. Raises Error where no path is possible.)";
+Returns a Posterior: p, float64 of the shape of loglik, with a sum of 1 in each frame; p_states, the same for every state (frames, rates…, cells…);
+log_evidence, ln of the sum over all paths. Computed in logarithms. Source: Baum and others 1970. Raises Error if no path is possible.)";
 
 } // namespace
 
 void bindPaths(py::module_ &module)
 {
     py::class_<Path>(module, "Path", "The most probable path (faintline.viterbi).")
-        .def_readonly("cells", &Path::cells, "int64 of shape (frames,), on several axes (frames, axes).")
-        .def_readonly("rates", &Path::rates, "Cells a frame, float64 of the same shape.")
+        .def_readonly("cells", &Path::cells, "int64 of shape (frames,), with several axes (frames, axes).")
+        .def_readonly("rates", &Path::rates, "Cells per frame, float64 of the same shape.")
         .def_readonly("score", &Path::score, "ln of the path's probability with its evidence.");
     py::class_<HeldPosterior>(module, "Posterior",
-                              "Where a target has been, given all frames (faintline.forward_backward).")
-        .def_readonly("p", &HeldPosterior::cells, "float64 of shape (frames, cells…); each frame adds up to 1.")
+                              "Posterior of the position, given all frames (faintline.forward_backward).")
+        .def_readonly("p", &HeldPosterior::cells, "float64 of shape (frames, cells…) with a sum of 1 in each frame.")
         .def_readonly("p_states", &HeldPosterior::states, "float64 of shape (frames, rates…, cells…).")
         .def_readonly("log_evidence", &HeldPosterior::logEvidence, "ln of the sum over all paths.");
     module.def("viterbi", &viterbi, py::arg("loglik"), py::arg("law"), py::kw_only(), py::arg("initial") = py::none(),

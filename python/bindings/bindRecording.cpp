@@ -111,9 +111,9 @@ HeldRecording recordingOfArray(const py::object &given, double rateHz, double ce
 void bindRecording(py::module_ &module)
 {
     py::class_<HeldRecording>(module, "Recording",
-                              R"(A recording: random access to its samples, without holding them in memory.
+                              R"(A recording with random access to its samples, which are not held in memory.
 
-faintline.open and faintline.simulate make one, or Recording(samples, rate) from an array of shape (samples,) or (samples, channels).
+Created by faintline.open, faintline.simulate, or as Recording(samples, rate) from an array of shape (samples,) or (samples, channels).
 Complex samples are I/Q. Signed integers are scaled to ±1 at full scale, floats keep their unit. Single-precision arrays are not copied.)")
         .def(py::init(&recordingOfArray), py::arg("samples"), py::arg("rate"), py::arg("centre_hz") = 0.0)
         .def_property_readonly("path",
@@ -124,24 +124,24 @@ Complex samples are I/Q. Signed integers are scaled to ±1 at full scale, floats
         .def_property_readonly("channels", info(&RecordingInfo::channelCount))
         .def_property_readonly("is_complex", info(&RecordingInfo::isComplex), "True for I/Q.")
         .def_property_readonly("centre_hz", info(&RecordingInfo::centreHz),
-                               "Frequency that 0 Hz of the samples stands for, Hz.")
+                               "Frequency to which 0 Hz of the samples corresponds, Hz.")
         .def_property_readonly("start", info(&RecordingInfo::startUnixSeconds),
-                               "UTC of the first sample, s after 1970, or None.")
-        .def_property_readonly("notes", info(&RecordingInfo::notes), "What was repaired or assumed while opening.")
+                               "UTC of the first sample, seconds since 1970, or None.")
+        .def_property_readonly("notes", info(&RecordingInfo::notes), "Repairs and assumptions made on opening.")
         .def_property_readonly(
             "duration", [](const HeldRecording &self) { return self.recording->info().durationSeconds(); }, "s")
         .def_property_readonly(
             "truth", [](const HeldRecording &self) { return pythonFromJson(self.truth); },
-            "Of a simulated recording: where its lines really are, a dict; otherwise None.")
-        .def("__len__", info(&RecordingInfo::sampleCount), "Samples per channel.")
+            "Truth of a simulated recording: its lines, a dict; otherwise None.")
+        .def("__len__", info(&RecordingInfo::sampleCount), "Number of samples per channel.")
         .def("read", &readSamples, py::arg("first") = 0, py::arg("count") = py::none(), py::arg("channel") = 0,
-             R"(Samples first … first+count-1 of one channel, fewer at the end: float32, or complex64 of I/Q.
+             R"(Returns samples first … first+count-1 of one channel, fewer at the end: float32, or complex64 for I/Q.
 
-Samples that are not finite read as 0. Raises Error for a channel or a first sample that is not there.)")
+Samples that are not finite read as 0. Raises Error if the channel or the first sample does not exist.)")
         .def(
             "save", &save, py::arg("path"), py::kw_only(), py::arg("type") = "float32", py::arg("threads") = 0,
             py::arg("progress") = py::none(),
-            R"(Writes the recording, the kind by the extension: .wav, .flac, .w64, .aiff, .caf, .au, or a SigMF pair (.sigmf-meta).
+            R"(Writes the recording in the format of the extension: .wav, .flac, .w64, .aiff, .caf, .au, or a SigMF pair (.sigmf-meta).
 
 type is "float32" or "int16" (clipped at ±1). The file appears only when it is complete. Raises Error.)")
         .def("__repr__", &textOf);

@@ -115,75 +115,76 @@ namespace {
 
 void bindResult(py::module_ &module)
 {
-    py::class_<Result, std::shared_ptr<Result>>(
-        module, "Result", "What faintline.detect has found. Immutable; arrays it hands out are read-only.")
+    py::class_<Result, std::shared_ptr<Result>>(module, "Result",
+                                                "Result of faintline.detect. Immutable; its arrays are read-only.")
         .def_property_readonly(
             "events", [](const Result &self) { return eventArray(*self.analysis()); },
-            R"(The detected signals, a structured array with a record an event, ordered by onset, then frequency.
+            R"(The detected signals, a structured array with one record per event, ordered by onset, then frequency.
 
-Fields as the columns of the command line's CSV: event, t_onset, t_detect, t_end (s), f (Hz at detection; on several axes one field for each),
-drift_hz_per_s, statistic (unit: statistic_unit), confirmed, open, and where tracks were looked at from both ends snr_db, band_hz,
-noise_probability, window_s. Fields of f are offsets from the recording's centre_hz.)")
+Fields as the columns of the command line's CSV: event, t_onset, t_detect, t_end (s), f (Hz at detection; with several axes one field for each),
+drift_hz_per_s, statistic (unit: statistic_unit), confirmed, open, and, if tracks had a second pass, snr_db, band_hz,
+noise_probability, window_s. f is an offset from the recording's centre_hz.)")
         .def_property_readonly(
             "areas", [](const Result &self) { return areaArray(*self.analysis()); },
-            R"(Where the level was raised and no line stood out: bursts, clouds, hums. A structured array, ordered by onset.
+            R"(Areas of raised level without a line: bursts, clouds, hums. A structured array, ordered by onset.
 
-Fields: t_onset, t_end (s), f_low, f_high (Hz), level_db (at least so much above the noise, 1 dB or more).)")
+Fields: t_onset, t_end (s), f_low, f_high (Hz), level_db (minimum level above the noise, 1 dB or more).)")
         .def_property_readonly("tracks", &tracks, "A Track for each event, in order of detection.")
         .def_property_readonly(
             "input",
             [](Result &self) {
                 return wholeArray(self, self.input({0, py::none()}));
             },
-            R"(Normalised power, float32 of shape (frames, cells…): noise has mean 1, NaN was not observed.
+            R"(Normalised power, float32 of shape (frames, cells…): noise has mean 1, NaN denotes cells that were not observed.
 
-Computed when it is first asked for, then kept by the result; the array is a view of that. Raises Error for more than 2**31 values.)")
+Computed on first access, then kept by the result; the array is a view of it. Raises Error for more than 2**31 values.)")
         .def_property_readonly(
             "statistic",
             [](Result &self) {
                 return wholeArray(self, self.statistic({0, py::none()}));
             },
-            R"(The detector's statistic, float32 of shape (frames, cells…), in statistic_unit; -inf where nothing was decided.
+            R"(The detector's statistic, float32 of shape (frames, cells…), in statistic_unit; -inf where no decision was made.
 
-Computed by a second run of the detector when it is first asked for, then kept by the result; the array is a view of that. The same values as
+Computed by a second run of the detector on first access, then kept by the result; the array is a view of it. The values are those of
 the command line's --statistic. Raises Error for more than 2**31 values.)")
         .def_property_readonly(
             "time", [](const Result &self) { return self.analysis()->time(); },
-            "The frames' axis: middle of each window, s.")
+            "The time axis: middle of each window, s.")
         .def_property_readonly(
             "axes", [](const Result &self) { return self.analysis()->grid().axes; }, "The cells' axes, slowest first.")
         .def_property_readonly(
             "frequency", [](const Result &self) { return self.analysis()->grid().axes.back(); },
-            "The last axis; Hz of a recording.")
+            "The last axis; Hz for recordings.")
         .def_property_readonly(
-            "threshold", [](const Result &self) { return self.analysis()->threshold; }, "In statistic_unit.")
+            "threshold", [](const Result &self) { return self.analysis()->threshold; }, "Threshold, in statistic_unit.")
         .def_property_readonly(
             "statistic_unit",
             [](const Result &self) { return std::string(statisticUnit(self.analysis()->settings.detector)); })
         .def_property_readonly(
             "ln_k", [](const Result &self) { return self.analysis()->calibration->lnK; },
             "Calibrated ln K: bonus for continuing a path instead of restarting it, nat.")
-        .def_property_readonly("false_alarms_per_hour", &falseAlarmsPerHour, "On noise, at the threshold.")
+        .def_property_readonly("false_alarms_per_hour", &falseAlarmsPerHour,
+                               "False alarms per hour on noise at the threshold.")
         .def_property_readonly(
             "settings",
             [](const Result &self) {
                 return pythonFromJson(parseJson(settingsToJson(self.analysis()->settings, false), "settings"));
             },
-            "All settings in use, a dict by full names; the window is the one that was chosen.")
+            "All settings in use, a dict by full names, with the chosen window.")
         .def_property_readonly("window_choice", &windowChoice,
-                               "Why this window, where it was left to the recording; otherwise None.")
+                               "Reason for the window if it was chosen automatically; otherwise None.")
         .def(
             "explain", &explainAt, py::arg("time"), py::kw_only(), py::arg("progress") = py::none(),
-            R"(Why a cell has the statistic it has: explain(time, frequency), on several axes explain(time, position, position, …).
+            R"(Explains the statistic of a cell: explain(time, frequency), with several axes explain(time, position, position, …).
 
-time in s, frequency in Hz (the last axis's unit); the nearest frame and cell are taken. Returns an Explanation. Raises Error for a time
-outside of the recording.)")
+time in s, frequency in Hz (the last axis's unit); the nearest frame and cell are used. Returns an Explanation. Raises Error for a time
+outside the recording.)")
         .def("save", &save, py::kw_only(), py::arg("events") = py::none(), py::arg("tracks") = py::none(),
              py::arg("statistic") = py::none(), py::arg("progress") = py::none(),
-             R"(Writes what the command line writes, byte for byte, the kind by the extension.
+             R"(Writes the same files as the command line, byte for byte, in the format of the extension.
 
 events: .csv, .json, .txt (Audacity labels) or .sigmf-meta; tracks: .csv or .json; statistic: .npy. Files appear together when all are
-complete. Beside each, if the source is a file, stands NAME.provenance.json, with which faintline-cli replay makes it again. Raises Error.)")
+complete. If the source is a file, NAME.provenance.json is written beside each, from which faintline-cli replay reproduces it. Raises Error.)")
         .def("__repr__", &textOf);
 }
 

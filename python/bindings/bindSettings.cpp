@@ -59,9 +59,9 @@ void bindSettings(py::module_ &module)
 {
     module.def(
         "describe", &describe, py::arg("beginning") = "",
-        R"(Every setting whose full name begins so: a list of dicts with name, keyword (None where only the full name is unambiguous), unit,
-default, minimum, maximum, choices and meaning. Raises Error, with the nearest names, where there is none.)");
-    module.def("presets", &presetSentences, "The named settings to start from: a dict of names and what they are for.");
+        R"(All settings whose full name has this prefix: a list of dicts with name, keyword (None where only the full name is unambiguous), unit,
+default, minimum, maximum, choices and meaning. Raises Error, with the nearest names, if there is none.)");
+    module.def("presets", &presetSentences, "The presets: a dict of names and descriptions.");
 }
 
 } // namespace faintline::python

@@ -80,14 +80,15 @@ namespace {
 
 void bindTrack(py::module_ &module)
 {
-    py::class_<HeldTrack>(module, "Track", R"(One detected signal, followed from its onset to its end, a point a frame.
+    py::class_<HeldTrack>(module, "Track",
+                          R"(One detected signal, followed from its onset to its end, with one point per frame.
 
-f05, f95, p_present and snr_db are those of the look from both ends (forward and backward); NaN of tracks that were not looked at so:
-of frames on several axes, of the linear likelihood, and with both_ways=False.)")
-        .def_property_readonly("id", member(&Track::id), "As in events['event'].")
+f05, f95, p_present and snr_db come from the second pass (forward and backward). They are NaN for tracks without one:
+for frames with several axes, for the linear likelihood, and with both_ways=False.)")
+        .def_property_readonly("id", member(&Track::id), "Number of the event, as in events['event'].")
         .def_property_readonly("t", &times, "Times of the points, s.")
         .def_property_readonly("f", &lastPositions,
-                               "Positions along the last axis, below one cell where that is known; Hz of a recording.")
+                               "Positions along the last axis, to a fraction of a cell if known; Hz for recordings.")
         .def_property_readonly("position", &positions, "Positions on all axes, float64 of shape (points, axes).")
         .def_property_readonly(
             "statistic",
@@ -103,19 +104,20 @@ of frames on several axes, of the linear likelihood, and with both_ways=False.)"
             "95 % of the position's posterior.")
         .def_property_readonly("p_present",
                                smoothed([](const SmoothedPoint &p, const Axis &) { return double(p.presence); }),
-                               "Probability that the signal is there.")
+                               "Probability that the signal is present.")
         .def_property_readonly(
             "snr_db", smoothed([](const SmoothedPoint &p, const Axis &) { return dbFromRatio(double(p.level)); }),
             "Mean power along the path over the noise's in one frame, dB.")
         .def_property_readonly("t_onset", seconds(&Track::onsetFrame), "s")
         .def_property_readonly("t_detect", seconds(&Track::detectFrame),
-                               "Where the statistic first exceeded the threshold, s.")
+                               "Time at which the statistic first exceeded the threshold, s.")
         .def_property_readonly("t_end", seconds(&Track::endFrame), "s")
         .def_property_readonly("peak_statistic", member(&Track::peakStatistic), "Largest score of the path, nat.")
         .def_property_readonly("confirmed", member(&Track::isConfirmed))
-        .def_property_readonly("open", member(&Track::isOpen), "Still followed when the data ended.")
+        .def_property_readonly("open", member(&Track::isOpen),
+                               "Whether the track was still followed when the data ended.")
         .def_property_readonly("model", member(&Track::model),
-                               "Of a bank of models, the number of the one that found it.")
+                               "Number of the model of a bank that detected the signal.")
         .def("__len__", [](const HeldTrack &self) { return self.track().points.size(); })
         .def("__repr__", &textOf);
 }

@@ -6,11 +6,11 @@
 
 namespace faintline::python {
 
-/// The events of an analysis as a structured array, a record an event, with the names of the command line's CSV
+/// The events of an analysis as a structured array, one record per event, with the names of the command line's CSV
 /// columns.
 pybind11::array eventArray(const Analysis &analysis);
 
-/// Its areas of raised level without a line, with the names of the command line's JSON.
+/// The areas of raised level without a line, with the names of the command line's JSON.
 pybind11::array areaArray(const Analysis &analysis);
 
 } // namespace faintline::python

@@ -6,7 +6,7 @@
 
 namespace faintline::python {
 
-/// An explanation as Python holds it, with the analysis that its states are numbered by.
+/// Python object for an explanation, with the analysis to which its state numbers refer.
 struct HeldExplanation {
     std::shared_ptr<const Analysis> analysis;
     Explanation explanation;

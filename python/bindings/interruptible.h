@@ -8,15 +8,15 @@
 
 namespace faintline::python {
 
-/// What every long call takes besides its inputs.
+/// Common arguments of all long calls.
 struct RunOptions {
     int threads = 0;           ///< 0: as many as the machine has
-    pybind11::object progress; ///< None, or called as progress(fraction, what) by the thread that called
+    pybind11::object progress; ///< None, or called as progress(fraction, what) on the calling thread
 };
 
-/// Runs `work` on a thread of its own while the calling one, the GIL released, listens: it passes progress on ten times
-/// a second and asks the work to stop when Ctrl+C was pressed or `progress` raised; that exception is then thrown.
-/// Otherwise throws what `work` threw.
+/// Runs `work` on a separate thread while the calling thread, with the GIL released, waits: it reports progress ten
+/// times a second and stops the work if Ctrl+C was pressed or `progress` raised an exception, which is then thrown.
+/// Exceptions of `work` are passed on.
 ///
 /// Precondition: the GIL is held; `work` touches no Python object.
 void runInterruptibly(const RunOptions &options, const std::function<void(const RunContext &context)> &work);

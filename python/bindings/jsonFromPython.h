@@ -8,20 +8,20 @@
 
 namespace faintline::python {
 
-/// None, truths, numbers, texts, paths, lists, arrays and mappings as JSON. Throws Error naming `where.key` for
-/// anything else.
+/// Converts None, booleans, numbers, strings, paths, lists, arrays and mappings to JSON. Throws Error with `where.key`
+/// for anything else.
 Json jsonFromPython(pybind11::handle value, const std::string &where);
 
-/// The other way: dicts, lists, texts, numbers, truths, None.
+/// Converts JSON to dicts, lists, strings, numbers, booleans and None.
 pybind11::object pythonFromJson(const Json &json);
 
-/// What is described by a mapping, or by the JSON file that a path names; `where` becomes the path then.
+/// JSON of a mapping, or of the file at a path; `where` is then set to the path.
 Json jsonOrFile(pybind11::handle value, std::string &where);
 
-/// The name of a file from a text or a path-like object.
+/// The file name in a string or path-like object.
 std::string pathFromPython(pybind11::handle path);
 
-/// The other way: bytes that are no text come back as they were from os.fsencode.
+/// The inverse; bytes that are not valid text are preserved, as by os.fsdecode.
 pybind11::str pythonPath(const std::string &path);
 
 } // namespace faintline::python

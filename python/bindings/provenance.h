@@ -8,14 +8,14 @@
 
 namespace faintline::python {
 
-/// How the command line would find the same: the arguments that name the source, and the settings.
+/// Input with which the command line gives the same result: the arguments for the source, and the settings.
 struct Origin {
-    std::vector<std::string> source; ///< a file, then options of reading it; none of what came from memory
-    AnalysisSettings settings;       ///< as they were asked for
+    std::vector<std::string> source; ///< a file, then options for reading it; empty for sources in memory
+    AnalysisSettings settings;       ///< as given by the caller
 };
 
-/// Writes beside each output what it was made from, as `faintline-cli detect` does: with it `faintline-cli replay` makes
-/// the output again. `outputs`: option and file; empty names are none. Nothing is written where the source is no file.
+/// Writes the provenance beside each output, as `faintline-cli detect` does; `faintline-cli replay` reproduces the
+/// output from it. `outputs`: option and file; empty names are ignored. Writes nothing if the source is not a file.
 void writeProvenance(const Origin &origin, const std::vector<std::pair<std::string, std::string>> &outputs);
 
 } // namespace faintline::python
