@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""What a family gains over a line, and channels over a channel: SNR of half of the detections at one measured false alarm an hour, path unknown:
+"""Gain of families over a line, and of channels over one channel: the SNR at which half of the lines are detected, at one measured false alarm an hour, path unknown:
     python3 tests/families.py CLI [LINES] [HOURS] [WHAT ...]
-WHAT: 1, 4, 8, 16 teeth; 8-1: eight of which one is missing, another for every line; 2c: one line in two channels; 4c. The threshold is the one that HOURS
-hours of white noise exceed once an hour. LINES lines of 50 s for each SNR, one after the other in other noise, anywhere in 1000 Hz, slowly drifting. In
-brackets 90 % of bootstrap samples of the lines. 8-1 has the noise and the lines of 8, less a tooth. Ghosts are events at another multiple of the
-fundamental, others at none. Last is the time of a processor for a second of recording. Needs numpy."""
+WHAT: 1, 4, 8, 16 members; 8-1: eight, one of which is missing, a different one for each line; 2c, 4c: one line in two or four channels. The threshold is
+the one that HOURS hours of white noise exceed once an hour. LINES lines of 50 s for each SNR, one after the other in different noise, anywhere in 1000 Hz,
+slowly drifting. In brackets 90 % of bootstrap samples of the lines. 8-1 uses the noise and lines of 8 without one member. Ghosts are events at another
+multiple of the fundamental; other events are at none. The last column is processor time per second of recording. Needs numpy."""
 import csv
 import os
 import subprocess

@@ -1,8 +1,8 @@
 #!/bin/sh
-# Feeds made-up bytes to every parser, MINUTES of a processor in all, with clang's libFuzzer, AddressSanitizer and UndefinedBehaviorSanitizer:
+# Feeds generated input to every parser, for MINUTES of processor time in all, with clang's libFuzzer, AddressSanitizer and UndefinedBehaviorSanitizer:
 #     sh tests/fuzz.sh [MINUTES] [PARSER...]
-# What breaks a parser is kept in build-fuzz/found, to be moved to tests/fuzz/files, which a test feeds to all of them. Corpora grow in
-# build-fuzz/corpus from run to run. The processor's time counts, not the clock's: a busy machine takes longer, and does as much.
+# Input that breaks a parser is stored in build-fuzz/found; move it to tests/fuzz/files, which a test feeds to all parsers. Corpora grow in
+# build-fuzz/corpus from run to run. MINUTES are processor time, not elapsed time: a busy machine takes longer for the same work.
 set -eu
 
 cd "$(dirname "$0")/.."
@@ -30,7 +30,7 @@ window=$PWD/build-fuzz/tests/faintline-fuzz-window
 ofWindow=" $(FAINTLINE_FUZZ=LIST "$window" | tr '\n' ' ')"
 parsers=${*:-$(FAINTLINE_FUZZ=LIST "$core")$ofWindow}
 export QT_QPA_PLATFORM=offscreen
-# As in strict.sh: where a large request fails, so does the parser.
+# As in strict.sh: a failed allocation must be handled by the parser.
 export ASAN_OPTIONS="allocator_may_return_null=1:${ASAN_OPTIONS:-}"
 export LSAN_OPTIONS="suppressions=$PWD/tests/leaks.supp:print_suppressions=0:${LSAN_OPTIONS:-}"
 export UBSAN_OPTIONS="print_stacktrace=1:${UBSAN_OPTIONS:-}"
@@ -39,7 +39,7 @@ FAINTLINE_FUZZ_SECONDS=$((minutes * 60 / count))
 [ "$FAINTLINE_FUZZ_SECONDS" -gt 0 ] || FAINTLINE_FUZZ_SECONDS=1
 export FAINTLINE_FUZZ_SECONDS
 
-# What the parsers begin with: the repository's own files, and what the program writes of them.
+# Initial corpora: files of the repository, and files that the program writes from them.
 seeds=build-fuzz/seeds
 if [ ! -d "$seeds" ]; then
     mkdir -p "$seeds"
@@ -80,7 +80,7 @@ EOF
         echo '{"version": "0.1.0", "experiment": '"$few"', "runs": [0, 1]}' > curve.json
         "$cli" evaluate few.json --shard 1/2 --out shard.json
         FAINTLINE_CACHE=$PWD "$cli" detect line.wav --set spectrogram.windowSeconds=0.5 --set model.lowestSlope=0 --set model.highestSlope=0
-        # Four pixels by three that tell of a scale.
+        # A picture of four by three pixels with a scale in its metadata.
         echo iVBORw0KGgoAAAANSUhEUgAAAAQAAAADCAAAAACRn/EaAAAAI3RFWHRwcm92ZW5hbmNlAHsicmVuZGVyIjogeyJzY2FsZSI6IDF9feS0IvUAAAAPSURBVHicY2BkYmZhgB\
 MAAOEAH40//+EAAAAASUVORK5CYII= | base64 -d > picture.png
     )
@@ -88,10 +88,10 @@ fi
 cp tests/fuzz/files/* "$seeds"
 
 mkdir -p build-fuzz/found
-TMPDIR=$(mktemp -d -p /dev/shm 2>/dev/null || mktemp -d) # in memory: a disk would be the slowest part of most parsers
+TMPDIR=$(mktemp -d -p /dev/shm 2>/dev/null || mktemp -d) # in memory, because a disk would be the slowest part for most parsers
 export TMPDIR
 trap 'rm -rf "$TMPDIR"' EXIT
-seconds() { # what `times` says that all children took so far
+seconds() { # processor time of all children so far, from `times`
     sed -n 2p "$TMPDIR/times" | awk '{ gsub(/[ms]/, " "); print int(60 * $1 + $2 + 60 * $3 + $4) }'
 }
 

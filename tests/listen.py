@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""What faintline-cli listen promises, tried on its sources:
-    python3 tests/listen.py CLI pipe [HOURS]            as fast as it goes (24): memory, processor
+"""Tests of faintline-cli listen with each of its sources:
+    python3 tests/listen.py CLI pipe [HOURS]            at full speed (24): memory, processor time
     python3 tests/listen.py CLI sound|udp|rtl_tcp [MINUTES]   in real time (10); sound needs pulseaudio
     python3 tests/listen.py CLI kill [COUNT]            SIGKILL at random moments (50)
-    python3 tests/listen.py CLI drift [PPM]             a sender whose clock is slow by so much (100), which takes 17 minutes
-All but kill compare the events with those of detect in the recording, byte for byte. Needs numpy. Exit code 1 where a promise is not kept."""
+    python3 tests/listen.py CLI drift [PPM]             a sender whose clock is slow by PPM (100); takes 17 minutes
+All but kill compare the events with those of detect on the recording, byte for byte. Needs numpy. Exit code 1 if a test fails."""
 import collections
 import json
 import os
@@ -25,7 +25,7 @@ RATE = 48000
 BLOCK = RATE // 20  # samples
 SETTINGS = ["--set", "spectrogram.windowSeconds=1", "--set", "decide.falseAlarmsPerHour=1"]
 MB = 1e6
-BEGINNING = 600  # s of each hour that its memory is not measured in: the first has the calibration in them
+BEGINNING = 600  # s of each hour excluded from the measurement of memory, because the first contain the calibration
 
 
 def fail(words):

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Measures of the source tree: how large files and functions are, how many of the patterns we want to be rid of are left.
+"""Measures of the source tree: sizes of files and functions, and counts of patterns that should disappear.
 
     python3 tests/measures.py
 
-prints one line a measure, from the text of the files alone. Functions are found by the style's own layout: a brace alone on its line, at
-the indentation of its end.
+prints one line per measure, from the text of the files alone. Functions are recognised by the layout of the style: an opening brace alone on
+its line, at the indentation of the closing one.
 """
 
 import os

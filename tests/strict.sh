@@ -1,10 +1,10 @@
 #!/bin/sh
-# Everything under the sanitizers; fails where a test does, or where a sanitizer has something to say:
+# Runs everything under the sanitizers; fails if a test fails or a sanitizer reports an error:
 #     sh tests/strict.sh [asan|tsan|all] [CTEST-ARGUMENT...]
-# asan: AddressSanitizer and UndefinedBehaviorSanitizer over core, command line, widgets and window, and every test, the hostile files among
-# them. tsan: ThreadSanitizer over what computes on threads: recursion, thread pool, streaming, previews, calibrations, campaigns, the window's
-# jobs. Qt and the other libraries of the system are not instrumented: what goes through Qt's queue from thread to thread is seen by asan only.
-# `sh tests/strict.sh asan -R tst_Axis` builds everything, and runs one test. What is no finding stands in leaks.supp and races.supp.
+# asan: AddressSanitizer and UndefinedBehaviorSanitizer over core, command line, widgets and window, and every test, including hostile
+# files. tsan: ThreadSanitizer over multi-threaded code: recursion, thread pool, streaming, previews, calibrations, campaigns, the window's
+# jobs. Qt and the other system libraries are not instrumented, so data that passes between threads through Qt's event queue is checked by asan only.
+# `sh tests/strict.sh asan -R tst_Axis` builds everything, and runs one test. False positives are listed in leaks.supp and races.supp.
 set -eu
 
 cd "$(dirname "$0")/.."
@@ -19,12 +19,12 @@ words() { # PREFIX SEPARATOR: of the threaded tests
     echo $threaded | sed "s/^/$1/; s/ /$2$1/g"
 }
 
-configure() { # a folder of an earlier run may have been made with other flags or time limits
+configure() { # an existing folder may have other flags or time limits
     cmake --preset "$1" > /dev/null
 }
 
-# A calibration depends on the core's sources alone, and takes most of the time of many tests: those of an ordinary build are taken over where
-# memory is looked at. Where threads are, each is made anew.
+# Calibrations depend only on the core's sources and take most of the time of many tests, so asan uses those of an ordinary build. tsan computes
+# its own.
 takeCalibrations() { # PRESET
     mkdir -p "build-$1/tests/cache"
     cp -n build/tests/cache/calibration-* "build-$1/tests/cache" 2> /dev/null || true
@@ -58,7 +58,7 @@ asan | tsan | all) ;;
     ;;
 esac
 
-# The C library's own allocator lets a large request fail, which tests ask for; sanitizers would end the program.
+# Some tests request too much memory. The C library's allocator then returns an error; sanitizers would end the program.
 export ASAN_OPTIONS="allocator_may_return_null=1:detect_leaks=1:${ASAN_OPTIONS:-}"
 export LSAN_OPTIONS="suppressions=$PWD/tests/leaks.supp:print_suppressions=0:${LSAN_OPTIONS:-}"
 export UBSAN_OPTIONS="print_stacktrace=1:${UBSAN_OPTIONS:-}"

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Layout and documentation, as CONTRIBUTING asks for: sh tests/style.sh
-# Fails where clang-format would change a file, or where doxygen has a warning about a public header or a page of docs.
+# Checks layout and documentation as described in CONTRIBUTING: sh tests/style.sh
+# Fails if clang-format would change a file, or if doxygen reports a warning for a public header or a page of docs.
 set -eu
 
 cd "$(dirname "$0")/.."

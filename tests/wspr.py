@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """WSPR messages whose frequency drifts or swings, decoded by wsprd before and after faintline-cli straighten:
     python3 tests/wspr.py CLI [TRIALS] [NOISE-SLOTS]
-Needs numpy, and wsprsim and wsprd of Debian's wsjtx: a modulator and a decoder by other people. SNR in 2500 Hz; where in 200 Hz the message
-lies is not told to anybody."""
+Needs numpy, and wsprsim and wsprd of Debian's wsjtx: an independent modulator and decoder. SNR in 2500 Hz; neither
+program is given the position of the message within 200 Hz."""
 import os
 import subprocess
 import sys

@@ -1,7 +1,7 @@
 #!/bin/sh
-# False alarms found and ordered, of every detector on simulated white noise: falseAlarms.sh FAINTLINE-CLI FOLDER [HOURS]
-# 48 hours at 100 Hz unless said otherwise, windows of 4 s, 1 and 10 an hour. A ratio of 1 is right; beside it the 95 % interval that
-# chance leaves for a count (Wilson and Hilferty's).
+# False alarms found and ordered, for every detector on simulated white noise: falseAlarms.sh FAINTLINE-CLI FOLDER [HOURS]
+# 48 hours by default, at 100 Hz, windows of 4 s, 1 and 10 an hour. The correct ratio is 1; beside it is the 95 % interval of a count
+# (Wilson and Hilferty's).
 set -eu
 
 cli=$1

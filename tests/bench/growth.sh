@@ -1,6 +1,6 @@
 #!/bin/sh
-# How processor time and peak memory of a detection grow with states, frames and hours: growth.sh FAINTLINE-CLI FOLDER
-# Needs Debian's "time". Every size is run twice and the second counts: the first may have to calibrate. Prints a table with exponents.
+# Growth of processor time and peak memory of a detection with states, frames and hours: growth.sh FAINTLINE-CLI FOLDER
+# Needs Debian's "time". Every size is run twice and the second run is used, because the first may have to calibrate. Prints a table with exponents.
 set -eu
 
 cli=$1

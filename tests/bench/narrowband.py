@@ -1,4 +1,4 @@
-"""turbo_seti's regression cases, made from their description: 2²⁰ channels of 1 Hz, 60 frames of 1 s, Gaussian noise; lines of 1 and 2 Hz width at 1.3
+"""turbo_seti's regression cases, generated from their description: 2²⁰ channels of 1 Hz, 60 frames of 1 s, Gaussian noise; lines of 1 and 2 Hz width at 1.3
 and 2.6 Hz/s, of an SNR of 100 and 300, and broad ones at 3.9 Hz/s, too weak, and at ±100 Hz/s, too fast. Frequencies ascend or descend, drifts go up or
 down. Then a cadence of six files, of which three are on target.
 

@@ -1,6 +1,6 @@
 #!/bin/sh
-# survey.sh FAINTLINE-CLI [COUNT [SECONDS]]: a survey of COUNT short recordings (10000 of 10 s) by two workers, killed three times and resumed, gives the
-# bytes of an undisturbed one; and how much processor time it takes beside `detect` on one recording as long as all of them. Takes what it needs in $TMPDIR.
+# survey.sh FAINTLINE-CLI [COUNT [SECONDS]]: a survey of COUNT short recordings (10000 of 10 s) by two workers, killed three times and resumed, must give the
+# bytes of an uninterrupted one. Also compares its processor time with that of `detect` on one recording of the same total length. Uses $TMPDIR.
 set -eu
 
 cli=$(realpath "$1")

@@ -1,4 +1,4 @@
-"""fl.viterbi against a dense Viterbi in numpy, in the log domain, on one lattice: frames a second, as a ratio.
+"""Compares fl.viterbi with a dense Viterbi in numpy, in the log domain, on one lattice: ratio of frames per second.
 
     PYTHONPATH=build/python python3 tests/bench/viterbi.py [CELLS [FRAMES]]
 """

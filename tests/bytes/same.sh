@@ -1,5 +1,5 @@
 #!/bin/sh
-# same.sh A B: both programs print the same, A with every width of vectors that this processor has.
+# same.sh A B: fails unless both programs print the same, A with every vector width of this processor.
 set -eu
 
 expected=$("$2")

@@ -1,4 +1,4 @@
-"""What the tests of the module share: scenes, and the command line beside it."""
+"""Shared parts of the module's tests: scenes, and calls of the command line."""
 
 import os
 import pathlib

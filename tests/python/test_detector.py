@@ -1,4 +1,4 @@
-"""The recursion by itself: streams, likelihoods of one's own."""
+"""The recursion alone: streams, custom likelihoods."""
 
 import json
 import unittest

@@ -1,4 +1,4 @@
-"""HDF5 files: filterbanks packed in every way, strain, and what a stranger's file may try."""
+"""HDF5 files: filterbanks packed in every way, strain, and hostile files."""
 
 import importlib.util
 import os

@@ -1,4 +1,4 @@
-"""What the module promises besides numbers: settings, errors, arrays without copies, interruption, types, help."""
+"""Properties of the module besides numbers: settings, errors, arrays without copies, interruption, types, help."""
 
 import _thread
 import ast

@@ -1,4 +1,4 @@
-"""Files that have time and frequency in them already: sigproc filterbanks, whole, large and hostile."""
+"""Files of power over time and frequency: sigproc filterbanks, whole, large and hostile."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""What the command line's survey keeps of a recording is what the module finds in it."""
+"""A survey by the command line stores the same events of a recording as the module finds."""
 
 import contextlib
 import csv

@@ -1,4 +1,4 @@
-"""Many files as one recording, from every door."""
+"""Many files as one recording, opened in every way."""
 
 import json
 import unittest
