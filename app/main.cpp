@@ -241,7 +241,7 @@ namespace {
 
     int runWindow(int argc, char *argv[], const std::vector<std::string> &files, const OpenOptions &options)
     {
-        keepNoHoles(1 << 20); // of what tuning makes and drops
+        keepNoHoles(1 << 20); // returns the memory of temporary results of tuning
         Theme::prepareEnvironment();
         const QtMessageHandler before = qInstallMessageHandler(missScreen);
         QApplication application(argc, argv);

@@ -100,7 +100,7 @@ void DetectorPlugin::setParameter(std::string identifier, float value)
     const Parameter *parameter = parameterOf(identifier);
     if (!parameter)
         return;
-    if (value == parameter->byDefault) // hosts set all of them: what is not changed is the preset's
+    if (value == parameter->byDefault) // hosts set all parameters; defaults are left to the preset
         m_parameters.erase(identifier);
     else
         m_parameters[identifier] = value;
@@ -110,7 +110,7 @@ Vamp::Plugin::ProgramList DetectorPlugin::getPrograms() const
 {
     ProgramList names;
     for (const Preset &preset : presets())
-        if (!preset.name.starts_with("sonar")) // of frames on two axes
+        if (!preset.name.starts_with("sonar")) // these presets need frames with two axes
             names.push_back(preset.name);
     return names;
 }
@@ -151,7 +151,7 @@ Vamp::Plugin::FeatureSet DetectorPlugin::process(const float *const *inputBuffer
     return {};
 }
 
-/// Without the zeros that the host filled up the last block with.
+/// The samples without the zeros with which the host padded the last block.
 std::vector<float> DetectorPlugin::samples() const
 {
     std::vector<float> samples = m_samples;

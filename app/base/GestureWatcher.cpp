@@ -62,7 +62,7 @@ void GestureWatcher::begin()
     emit began();
 }
 
-/// Who handles the release still belongs to the gesture. A press that comes before is the beginning of the next one.
+/// Handlers of the release still belong to the gesture. A press before they have run begins the next gesture.
 void GestureWatcher::endLater()
 {
     m_down = 0;

@@ -74,11 +74,11 @@ void JobRunner::work(const std::stop_token &quit)
 {
     std::unique_lock lock(m_mutex);
     const auto isAsked = [this] { return bool(m_request.job); };
-    // The C library keeps what a job's threads freed for those threads, which for an hour of recording are 170 MiB.
+    // The C library keeps memory freed by a job's threads for those threads: 170 MiB for an hour of recording.
     bool owesMemory = false;
     for (;;) {
-        // Not while the delivery is taken: who frees what it replaces would wait for it, and it goes with the rest
-        // then.
+        // Not during the delivery: freeing the replaced result would have to wait, and its memory can be returned with
+        // the rest afterwards.
         if (owesMemory && !m_wake.wait_for(lock, quit, restAfterJob, isAsked) && !quit.stop_requested()) {
             lock.unlock();
             returnHoles();

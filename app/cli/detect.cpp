@@ -306,7 +306,7 @@ namespace {
     void detect(DetectOptions options, const Common &common)
     {
         if (std::ranges::all_of(outputsOf(options), &std::string::empty))
-            options.summary = true; // who asks for nothing else wants to know what there is
+            options.summary = true; // without another output, print a summary
         checkOptions(options);
         const RunContext context = common.context();
         const DetectInput input = open(options, context);

@@ -4,8 +4,8 @@
 
 namespace faintline::cli {
 
-/// Prints what an analysis was made with and what it found: frames, window, threshold, warnings and advice, events,
-/// areas. For people; the columns of files are writeEvents.h's.
+/// Prints a summary of an analysis for people: frames, window, threshold, warnings and advice, events, areas. For the
+/// columns of files see writeEvents.h.
 void printSummary(const Analysis &analysis);
 
 } // namespace faintline::cli

@@ -240,7 +240,7 @@ namespace {
         const Provenance provenance = readProvenance(path.string());
         tellVersion(provenance.version);
         std::vector<std::string> arguments = provenance.arguments;
-        std::erase(arguments, "--summary"); // what is said here is about the files
+        std::erase(arguments, "--summary"); // the output here is about the files
         for (const std::string &output : provenance.outputs) {
             const auto names = [&](const std::string &argument) {
                 return argument == output || (argument.starts_with("--") && argument.ends_with("=" + output));

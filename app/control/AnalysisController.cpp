@@ -16,7 +16,7 @@ namespace faintline {
 
 namespace {
 
-    /// Three digits, what a dragged value is worth in a form, within the range of the field.
+    /// Rounds a dragged value to three digits, within the range of the field.
     double rounded(double value, const char *field)
     {
         const FieldInfo &info = settingField(field);
@@ -74,7 +74,7 @@ void AnalysisController::open(const QString &path, const OpenOptions &options, c
     open(path, options, adjust, {});
 }
 
-/// With what is already annotated, where a recording is read anew.
+/// `annotations`: those of the open recording, if it is opened again.
 void AnalysisController::open(const QString &path, const OpenOptions &options, const Adjust &adjust,
                               const Annotations &annotations)
 {

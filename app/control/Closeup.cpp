@@ -10,7 +10,7 @@ namespace faintline {
 namespace {
 
     constexpr int pauseMs = 80;
-    /// Of each of the two: more frames than a screen has rows.
+    /// For each of the two; enough for more frames than a screen has rows.
     constexpr std::size_t byteBudget = memoryShares::closeup;
 
 } // namespace
@@ -39,7 +39,7 @@ bool Closeup::eventFilter(QObject *watched, QEvent *event)
     return QObject::eventFilter(watched, event);
 }
 
-/// Of a live run, only while its picture is held.
+/// For a live run, only while its picture is paused.
 std::shared_ptr<const Analysis> Closeup::current() const
 {
     const bool isMoving = m_document.isLive() && m_document.viewport().isFollowing();

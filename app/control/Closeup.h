@@ -10,11 +10,11 @@ namespace faintline {
 
 class WaterfallView;
 
-/// Who zooms into a long recording, whose pictures hold rows of many frames, sees single frames: what is visible is
-/// gone through again on a worker, the input first, and shown in the place of the merged rows as soon as it is there.
+/// Shows single frames when the user zooms into a long recording, whose pictures have rows of many frames: the visible
+/// part is computed again on a worker, the input first, and replaces the merged rows as soon as it is complete.
 ///
-/// The newest view wins; one that moves on ends the work for the one before. Nothing is done where rows are frames
-/// already.
+/// Only the newest view is computed; a change of the view cancels the work for the previous one. Does nothing if rows
+/// are single frames already.
 class Closeup : public QObject
 {
     Q_OBJECT

@@ -426,7 +426,7 @@ void EventReviews::showUnmatched()
     m_unmatched.clear();
     if (m_document.analysis())
         m_unmatched = unmatchedReviews(*m_document.analysis(), m_document.shownEvents(), reviews);
-    std::erase_if(m_unmatched, [&](std::size_t index) { return reviews[index].paths.empty(); }); // of no place
+    std::erase_if(m_unmatched, [&](std::size_t index) { return reviews[index].paths.empty(); }); // without a position
     QStringList lines;
     for (const std::size_t index : m_unmatched)
         lines << lineOf(reviews[index]);

@@ -277,7 +277,7 @@ void OutputLayers::showRates(LayerItem &item, std::size_t axis)
     item.setLayer(m_layer, {-largest, largest}, title, unit.hz);
 }
 
-/// In frames where each is a picture of its own, otherwise in hours or seconds.
+/// Unit of ages: frames if each is a separate picture (pings), otherwise hours or seconds.
 void OutputLayers::showAges(LayerItem &item)
 {
     const double frameSeconds = m_document.analysis()->time().step;

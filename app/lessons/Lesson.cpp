@@ -42,7 +42,7 @@ namespace {
         return value->get<std::string>();
     }
 
-    /// As it is read on the screen.
+    /// A text as displayed on the screen.
     QString sentenceAt(const Json &object, const char *key, const std::string &where, bool isNeeded = false)
     {
         return paragraphs(textAt(object, key, where, isNeeded));

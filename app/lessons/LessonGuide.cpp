@@ -45,7 +45,7 @@ namespace {
         return double(QDateTime::currentSecsSinceEpoch());
     }
 
-    /// As many digits as a learner's page needs.
+    /// Rounded to the digits needed on a learner's page.
     std::string roughly(const FieldValue &value)
     {
         const auto *number = std::get_if<double>(&value);
@@ -169,7 +169,7 @@ void LessonGuide::recordTask()
                 answer.measured.emplace_back(part.measure, roughly(*value));
 }
 
-/// Of the source that this lesson opened, before its own settings.
+/// Settings of the source that this lesson opened, before those of the lesson.
 AnalysisSettings LessonGuide::settingsAtOpening() const
 {
     return isSessionPath(pathBytes(m_opened)) ? readSession(pathBytes(m_opened)).settings

@@ -288,7 +288,7 @@ void LessonPanel::showState()
             QPalette palette = this->palette();
             if (palette.color(QPalette::Window).lightness() < 128)
                 palette.setColor(QPalette::Base,
-                                 colours.frame.lighter(170)); // dark on dark, nobody would see where to click
+                                 colours.frame.lighter(170)); // on a dark theme the button would be invisible
             button->setPalette(palette);
         }
     if (m_task) {

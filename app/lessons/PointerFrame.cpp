@@ -44,7 +44,7 @@ void PointerFrame::follow()
     for (QWidget *around = m_target->parentWidget(); around && around != parentWidget();
          around = around->parentWidget())
         if (const auto *area =
-                qobject_cast<QAbstractScrollArea *>(around)) // of a form that scrolls, no more than is in sight
+                qobject_cast<QAbstractScrollArea *>(around)) // limited to the visible part of a scrolling form
             round &= QRect(area->viewport()->mapTo(parentWidget(), QPoint()), area->viewport()->size());
     setGeometry(round.intersected(parentWidget()->rect()));
     raise();

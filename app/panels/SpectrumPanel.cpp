@@ -20,7 +20,7 @@ namespace {
 
     constexpr std::size_t mostPoints = 3000;
 
-    /// In dB, the largest of each group where there are more than can be drawn.
+    /// A curve in dB; with more values than can be drawn, the maximum of each group.
     Curve curveOf(const std::string &name, const std::vector<double> &hz, const std::vector<double> &values,
                   const Span &band, double addedDb)
     {

@@ -179,7 +179,7 @@ const FieldInfo &SweepForm::field() const
     return settingField(m_parameter->currentData().toString().toStdString());
 }
 
-/// Round the value there is: threefold either way for what is above zero, some steps for whole numbers.
+/// A range around the present value: a factor of three either way for positive values, some steps for integers.
 void SweepForm::suggestRange()
 {
     const FieldInfo &info = field();
@@ -213,7 +213,7 @@ SweepExperiment SweepForm::experiment() const
     const double from = numberOf(*m_from, "from"), to = numberOf(*m_to, "to");
     sweep.values = sweepValues(sweep.parameter, from, to, m_steps->value(), m_byFactors->isChecked());
     sweep.recording = isInRecording() ? m_recording.toStdString() : std::string();
-    // In simulated noise as many cells as a window of 400 samples has, however long it is.
+    // Simulated noise has as many cells as a window of 400 samples, whatever the window's length.
     sweep.sampleRateHz = 400.0 / sweep.settings.spectrogram.windowSeconds;
     sweep.seed = m_seed->value();
     sweep.trials = m_trials->value();

@@ -208,7 +208,7 @@ WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *
     connect(&document, &Document::analysisChanged, this, &WhyPanel::follow);
     connect(&m_runner, &JobRunner::progressed, this, [this](double fraction, const QString &what) {
         constexpr qint64 longMs = 300;
-        if (m_began.elapsed() > longMs) // of millions of states, or far into a long recording, it takes seconds
+        if (m_began.elapsed() > longMs) // with millions of states, or late in a long recording
             m_sentence->setText(tr("%1, %2 %").arg(what).arg(int(100.0 * fraction)));
     });
     connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
@@ -254,7 +254,7 @@ void WhyPanel::follow()
 {
     if (!m_sight->isOn())
         return;
-    m_runner.cancel(); // of the cell before: it would be taken for this one's
+    m_runner.cancel(); // a result for the previous cell would be mistaken for this one's
     m_pause->start();
 }
 

@@ -73,7 +73,7 @@ namespace {
         return std::find(views.begin(), views.end(), name) != views.end();
     }
 
-    /// Opens and waits until nothing is left to do. The answer is what the settings would be without A's own.
+    /// Opens the source and waits until all computations have ended. Returns the settings without those of A only.
     AnalysisSettings openAndSettle(MainWindow &window, const RenderOptions &options)
     {
         const auto settingsOfB = std::make_shared<AnalysisSettings>();
@@ -267,7 +267,7 @@ namespace {
         window.bench().setPlace({options.seconds, options.hz, options.range, options.bearing});
     }
 
-    /// Of what the window shows; a radar's scans are known by their test.
+    /// Provenance of what the window shows; for a radar's scans, the settings of their test.
     Json provenanceOf(MainWindow &window, const RenderOptions &options)
     {
         const Document &document = window.document();
@@ -293,8 +293,8 @@ namespace {
         writeTextFile(path, bytes.toStdString());
     }
 
-    /// A view is taken out of what it is a part of, so the window comes before its parts, and the maps before each of
-    /// them.
+    /// Rendering a view removes it from the widget that contains it, so the window is rendered before its parts, and
+    /// the maps together before each of them.
     std::vector<std::string> wholesFirst(std::vector<std::string> views)
     {
         const auto rank = [](const std::string &view) {

@@ -127,7 +127,7 @@ PictureOrigin originOf(const QImage &picture, const ReplayOptions &options, cons
         writeTextFile(origin.options.source, session.dump(2) + "\n");
         try {
             viewFromJson(readSession(origin.options.source).view, origin.options.source);
-        } catch (const Error &error) { // of a file of which nobody knows
+        } catch (const Error &error) { // names the temporary file, which the user does not know
             throw Error(options.picture, "has an invalid provenance: "
                                              + std::string(error.what()).substr(origin.options.source.size() + 2));
         }

@@ -58,7 +58,7 @@ PingBench::PingBench(Document &document, OutputLayers &layers, QWidget *parent)
       m_histories(new QSplitter(Qt::Horizontal)), m_rows(new QSplitter(Qt::Vertical))
 {
     setObjectName(QStringLiteral("pingBench"));
-    setMinimumHeight(220); // of the maps, as in the Workbench
+    setMinimumHeight(220); // for the maps, as in the Workbench
     layOut();
     buildHistories();
     linkViews();

@@ -12,7 +12,7 @@ namespace {
 
     constexpr double minus = -std::numeric_limits<double>::infinity();
 
-    /// Cells of the last axis, along which memory lies, and of the one before, 1 where there is none.
+    /// Number of cells of the last axis, which is contiguous in memory, and of the one before it (1 if there is none).
     Index columnsOf(const StateSpace &space)
     {
         return space.axes().size() > 1 ? space.axes()[1].cells : 1;

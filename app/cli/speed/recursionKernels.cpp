@@ -18,7 +18,7 @@ namespace {
     const char *const eigen = "Eigen";
     const char *const pass = "pass";
 
-    /// A detector on frames that come round again.
+    /// A detector that processes the same frames cyclically.
     template <class D>
     class Running
     {
