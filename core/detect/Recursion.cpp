@@ -11,7 +11,7 @@ namespace {
 
     constexpr Index tileCells = 1024;     ///< of each plane in a tile
     constexpr Index longTileCells = 2048; ///< the same for a single axis, which needs no second step
-    /// The same for so many planes that those of the next tile would not fit into the cache as well.
+    /// The smallest tile, used with many planes, so that those of the next tile also fit into the cache.
     constexpr Index fewestCells = 256;
     constexpr Index tileBytes = 1 << 19; ///< read and written, for all planes of a tile
     constexpr Index vectorCells = 32;

@@ -36,9 +36,9 @@ public:
     /// Number of samples that the first frame needs, counted from the first selected one.
     static Index samplesOfFirstBlock(const Spectrogram &spectrogram, const NormaliserSettings &settings);
 
-    /// Of samples that pass by, whose background is carried on once, states are kept from now on, for `over`.
+    /// Stores states from now on, for `over`. For streams, whose background can be computed only once, in order.
     void keepStates() const;
-    /// The same frames of a recording with the same samples, from the states that were kept of these. Reads nothing.
+    /// The same frames over a recording of the same samples, from the stored states. Reads nothing.
     std::shared_ptr<const CausalSpectrogram> over(std::shared_ptr<const Spectrogram> spectrogram) const;
 
     /// Background of the first block, valid at any time.

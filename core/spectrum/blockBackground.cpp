@@ -12,9 +12,9 @@ namespace faintline {
 namespace {
 
     constexpr float silence = NoiseBackground::silence;
-    constexpr double roundingMargin =
-        4.0; // of ln power: what lies no higher above the floor does not tell the whole band's level
-    constexpr double roundingNearness = 0.1; // nor, this near to it, its own
+    // Height of a background above the rounding floor, in ln power, above which it is used
+    constexpr double roundingMargin = 4.0;   ///< for the level of the whole band
+    constexpr double roundingNearness = 0.1; ///< at all
 
 } // namespace
 

@@ -181,7 +181,7 @@ namespace {
             addLevelsBetween(own, first, used);
         }
 
-        /// Of the block's frames; `taken`: what each was flattened by.
+        /// Adds the levels of the block's frames; `taken`: ln of the factor by which each was divided (flatten).
         void addLevels(const BlockBackground &own, Index row, const std::vector<float> &taken)
         {
             const std::vector<float> measured = levelsOf(m_block, own, m_background->bandCount, m_likeness);
@@ -192,7 +192,7 @@ namespace {
                 putLevels(measured, i, (row + i) * m_steps, taken[std::size_t(i)]);
         }
 
-        /// Of the detector's frames between the block's.
+        /// Adds the levels of the detector's frames between those of the block.
         void addLevelsBetween(const BlockBackground &own, Index first, Index used)
         {
             for (Index shift = 1; shift < m_steps; ++shift) {

@@ -27,10 +27,10 @@ constexpr std::size_t leastDopplerPoints = 8;
 ///                does not hold: the limits are then those of the joint region of all four parameters at 99 %.
 ///
 /// Only v/c, R/c, f0 and t0 are measured: v and R are proportional to `propagation`. Sentences state which intervals
-/// are open and why, whether the residuals contradict a straight pass, and what one sensor can never tell. Throws Error
-/// if there are fewer than 8 points, times do not increase, a number is not finite, or a frequency or a deviation is
-/// not above 0. Source of the method: Ferguson and Quinn 1994, J. Acoust. Soc. Am. 96, 821. Oracle: 1000 simulated
-/// passes.
+/// are open and why, whether the residuals contradict a straight pass, and what one sensor cannot determine.
+/// Throws Error if there are fewer than 8 points, times do not increase, a number is not finite, or a frequency or a
+/// deviation is not above 0. Source of the method: Ferguson and Quinn 1994, J. Acoust. Soc. Am. 96, 821. Oracle: 1000
+/// simulated passes.
 DopplerFit fitDopplerPass(const std::vector<DopplerPoint> &points, double propagation);
 
 } // namespace faintline

@@ -40,8 +40,8 @@ namespace {
             sum[i] += ratio[i];
     }
 
-    /// Of a trial's frame: Σ p1/p0 of the cells folded into one, in the first stateCells places of `ratio`, which is as
-    /// long as the frame.
+    /// For a trial's frame: Σ p1/p0 over the cells folded into one, in the first stateCells elements of `ratio`, which
+    /// is as long as the frame.
     void foldedRatios(const SequentialModel &model, std::span<const float> y, std::span<float> ratio)
     {
         const double snr = model.markov.likelihood.snr();
