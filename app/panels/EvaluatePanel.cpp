@@ -117,7 +117,7 @@ void EvaluatePanel::followForm()
 Experiment EvaluatePanel::ofForm() const
 {
     if (m_form->isInRecording())
-        return m_form->injection(m_document.source().path);
+        return m_form->injection(m_document.sourcePath());
     return m_form->lines();
 }
 
