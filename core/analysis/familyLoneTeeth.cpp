@@ -119,6 +119,12 @@ namespace {
             }
         }
 
+        template <class AnyNeighbourhood>
+        auto valuesOf(AnyNeighbourhood &around, Index at, Index i) const
+        {
+            return std::span(around.y).subspan(std::size_t(at * around.strip.width() + i) * m_values, m_values);
+        }
+
         template <class Power>
         void copyFrame(Neighbourhood &around, Index at, Power powerOf) const
         {
@@ -132,12 +138,6 @@ namespace {
                     for (std::size_t c = 0; bins[k] >= 0 && c < m_channels; ++c)
                         values[k * m_channels + c] = powerOf(c, bins[k]);
             }
-        }
-
-        template <class AnyNeighbourhood>
-        auto valuesOf(AnyNeighbourhood &around, Index at, Index i) const
-        {
-            return std::span(around.y).subspan(std::size_t(at * around.strip.width() + i) * m_values, m_values);
         }
 
         PathStrip memberAlone(const Neighbourhood &around, std::size_t member) const
