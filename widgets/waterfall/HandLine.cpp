@@ -17,6 +17,20 @@ namespace {
     constexpr double reach = 9.0; ///< pixels within which a vertex can be grabbed
     constexpr double handleRadius = 4.5;
 
+    bool isOfMouse(const QEvent &event)
+    {
+        switch (event.type()) {
+        case QEvent::MouseButtonPress:
+        case QEvent::MouseButtonDblClick:
+        case QEvent::MouseMove:
+        case QEvent::MouseButtonRelease:
+        case QEvent::ContextMenu:
+            return true;
+        default:
+            return false;
+        }
+    }
+
 } // namespace
 
 /// Draws the line with a dark outline, so that it is visible on any colour of the map.
@@ -131,7 +145,8 @@ void HandLine::update()
 
 bool HandLine::eventFilter(QObject *watched, QEvent *event)
 {
-    if (!m_isActive || !m_view.viewport() || !m_view.picture())
+    // The canvas also sends events while the view is being destroyed, when the view must not be called.
+    if (!m_isActive || !isOfMouse(*event) || !m_view.viewport() || !m_view.picture())
         return QObject::eventFilter(watched, event);
     const auto mouse = [event] { return static_cast<QMouseEvent *>(event); };
     switch (event->type()) {
