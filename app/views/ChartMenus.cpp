@@ -7,7 +7,9 @@
 #include "app/panels/SweepPanel.h"
 #include "app/views/WindowParts.h"
 #include "app/views/chartCaption.h"
+#include "app/workspace/Bench.h"
 #include "exchange/writeChart.h"
+#include "widgets/base/TimeStack.h"
 #include "widgets/plot/ChartFigure.h"
 #include "widgets/plot/ChartPlot.h"
 #include "widgets/plot/ExceedancePlot.h"
@@ -82,6 +84,7 @@ void ChartMenus::saveTo(QWidget &chart, const QString &path)
         try {
             const auto *plot = qobject_cast<ChartPlot *>(&chart);
             const QString caption = captionFor(chart);
+            const TimeStack::Part part(m_parts.bench().timeStack(), chart); // with a time axis of its own
             const auto figure =
                 plot ? std::make_unique<ChartFigure>(*plot, caption) : std::make_unique<ChartFigure>(chart, caption);
             saveView(*figure, csvOf(chart), path, provenance);

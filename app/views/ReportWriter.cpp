@@ -51,8 +51,7 @@ std::vector<ReportMaterial::Picture> reportPictures(const WindowViews &views)
         QByteArray bytes;
         QBuffer buffer(&bytes);
         buffer.open(QIODevice::WriteOnly);
-        const QImage image =
-            views.named(QString::fromLatin1(name))->grab().toImage().convertToFormat(QImage::Format_RGB32);
+        const QImage image = views.grab(QString::fromLatin1(name)).toImage().convertToFormat(QImage::Format_RGB32);
         image.save(&buffer, "PNG");
         pictures.push_back({title.toStdString(), bytes.toStdString(), image.width(), image.height()});
     }

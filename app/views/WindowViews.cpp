@@ -21,6 +21,7 @@
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
 #include "widgets/base/Theme.h"
+#include "widgets/base/TimeStack.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/pings/PingMap.h"
 #include "widgets/plot/BarPlot.h"
@@ -108,6 +109,13 @@ QWidget *WindowViews::named(const QString &name) const
     return found->widget ? found->widget(m_parts) : m_window;
 }
 
+QPixmap WindowViews::grab(const QString &name) const
+{
+    QWidget &view = *named(name);
+    const TimeStack::Part part(m_parts.bench().timeStack(), view);
+    return view.grab();
+}
+
 void WindowViews::exportPicture(const QString &name)
 {
     const QString path = QFileDialog::getSaveFileName(m_window, tr("Export picture"), name + QStringLiteral(".png"),
@@ -120,7 +128,9 @@ void WindowViews::saveTo(const QString &name, const QString &path)
 {
     m_parts.reviews().provenance().with([this, name, path](const std::string &provenance) {
         try {
-            saveView(*named(name), {}, path, withView(name, provenance));
+            QWidget &view = *named(name);
+            const TimeStack::Part part(m_parts.bench().timeStack(), view);
+            saveView(view, {}, path, withView(name, provenance));
             emit written(path);
         } catch (const Error &error) {
             emit failed(error);

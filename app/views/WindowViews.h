@@ -3,6 +3,7 @@
 #include "base/Error.h"
 
 #include <QObject>
+#include <QPixmap>
 #include <QStringList>
 
 #include <string>
@@ -41,9 +42,11 @@ public:
     /// Null if there is no such view.
     QWidget *named(const QString &name) const;
 
+    /// The view as it is displayed, with axes of its own.
+    QPixmap grab(const QString &name) const;
     /// Asks for a path and saves the view there.
     void exportPicture(const QString &name);
-    /// Saves the view as it is displayed now; the extension selects the format.
+    /// Saves the view as it is displayed now, with axes of its own; the extension selects the format.
     void saveTo(const QString &name, const QString &path);
 
 signals:

@@ -35,7 +35,9 @@ void Bench::restoreSplitters(const QByteArray &state)
     for (QSplitter *splitter : splitters()) {
         QByteArray own;
         stream >> own;
+        const Qt::Orientation orientation = splitter->orientation(); // follows the pictures'
         splitter->restoreState(own);
+        splitter->setOrientation(orientation);
     }
 }
 

@@ -12,6 +12,8 @@ class QSplitter;
 
 namespace faintline {
 
+class TimeStack;
+
 /// Central part of the window while a document is open: the pictures and the navigation in them. There is one bench for
 /// each kind of frames; it follows the document only while the document's frames are of its kind.
 class Bench : public QWidget
@@ -41,6 +43,7 @@ public:
     virtual QString firstViewName() const = 0; ///< as in `windowViews`
     virtual bool hasReadOut() const = 0;       ///< has a read-out and a history of its own
     virtual QString hint() const = 0;          ///< suggests the next step if there are events
+    virtual TimeStack &timeStack() = 0;        ///< the pictures and curves above each other
 
     /// Text shown in the empty panes.
     virtual void setEmptySentence(const QString &sentence) = 0;

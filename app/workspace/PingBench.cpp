@@ -5,6 +5,7 @@
 #include "app/document/statisticUnit.h"
 #include "app/workspace/PingBar.h"
 #include "spectrum/pictureCuts.h"
+#include "widgets/base/TimeStack.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 #include "widgets/pings/PingMap.h"
@@ -24,6 +25,7 @@ namespace faintline {
 namespace {
 
     constexpr int playerInterval = 200; // ms per ping
+    constexpr int lowestHistory = 96;   // pixels, of one above the other
 
     QString unitText(const Axis &axis)
     {
@@ -55,7 +57,7 @@ PingBench::PingBench(Document &document, OutputLayers &layers, QWidget *parent)
       m_rangeHistory(new WaterfallView(tr("D over range, best bearing"))),
       m_bearingHistory(new WaterfallView(tr("D over bearing, best range"))),
       m_regulation(new StripPlot(tr("ln K (nat)"))), m_dragged(new QLabel), m_maps(new QSplitter(Qt::Horizontal)),
-      m_histories(new QSplitter(Qt::Horizontal)), m_rows(new QSplitter(Qt::Vertical))
+      m_histories(new QSplitter(Qt::Vertical)), m_rows(new QSplitter(Qt::Vertical)), m_stack(new TimeStack(this))
 {
     setObjectName(QStringLiteral("pingBench"));
     setMinimumHeight(220); // for the maps, as in the Workbench
@@ -94,7 +96,7 @@ void PingBench::layOut()
     m_rows->addWidget(m_histories);
     m_rows->addWidget(column(m_dragged, m_regulation, 0));
     m_rows->setStretchFactor(0, 1);
-    m_rows->setSizes({470, 230, 120});
+    m_rows->setSizes({430, 270, 120});
     for (QSplitter *splitter : {m_maps, m_histories, m_rows})
         splitter->setChildrenCollapsible(false);
     auto *layout = new QVBoxLayout(this);
@@ -120,7 +122,21 @@ void PingBench::buildHistories()
     for (WaterfallView *view : {m_rangeHistory, m_bearingHistory}) {
         view->setOrientation(WaterfallView::Orientation::LeftToRight);
         view->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+        view->setMinimumHeight(lowestHistory);
+        m_stack->add(*view, *view);
+        connect(view, &WaterfallView::orientationChanged, view == m_rangeHistory ? m_bearingHistory : m_rangeHistory,
+                &WaterfallView::setOrientation);
+        connect(view, &WaterfallView::orientationChanged, this, &PingBench::arrangeHistories);
     }
+    m_stack->add(*m_regulation, *m_regulation);
+    arrangeHistories();
+}
+
+void PingBench::arrangeHistories()
+{
+    const bool isStacked = !m_rangeHistory->isTimeVertical();
+    m_histories->setOrientation(isStacked ? Qt::Vertical : Qt::Horizontal);
+    m_stack->setOn(isStacked);
 }
 
 void PingBench::resizeEvent(QResizeEvent *event)

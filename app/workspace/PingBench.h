@@ -17,8 +17,8 @@ class PingBar;
 class PingMap;
 class StripPlot;
 
-/// Sonar pings: input and statistic of one ping as maps of range × bearing, range and bearing of the tracks against
-/// time, ln K below.
+/// Sonar pings: input and statistic of one ping as maps of range × bearing; below, range and bearing of the tracks
+/// against time, and ln K. What runs along time from left to right is above each other on one time axis.
 ///
 /// The ping at the cursor is shown. All pictures share one range, one bearing and one time axis (PingViewports). Keys:
 /// J and L step, Space plays, Shift+Space plays backwards, P shows the map from above.
@@ -40,6 +40,7 @@ public:
     QString firstViewName() const override { return QStringLiteral("map"); }
     bool hasReadOut() const override { return true; }
     QString hint() const override;
+    TimeStack &timeStack() override { return *m_stack; }
     QWidget *histories() const;
     QWidget *maps() const;
     PingViewports &viewports() { return m_viewports; }
@@ -78,6 +79,7 @@ protected:
 private:
     void layOut();
     void buildHistories();
+    void arrangeHistories();
     void linkViews();
     void linkBar();
     std::vector<WaterfallView *> views() const;
@@ -103,6 +105,7 @@ private:
     QSplitter *m_maps;
     QSplitter *m_histories;
     QSplitter *m_rows;
+    TimeStack *m_stack; ///< histories and ln K
     PingMarks m_marks;
     Index m_shownPing = -1; ///< ping shown in the maps; -1: none
     int m_playStep = 1;

@@ -5,6 +5,7 @@
 #include "app/control/OutputLayers.h"
 #include "app/control/trackBox.h"
 #include "app/document/statisticUnit.h"
+#include "widgets/base/TimeStack.h"
 #include "widgets/base/familyWords.h"
 #include "widgets/base/quantities.h"
 #include "widgets/base/settingWords.h"
@@ -93,7 +94,7 @@ Workbench::Workbench(Document &document, QWidget *parent)
       m_boxMeter(new BoxMeter(document, this)), m_inputPane(ColourBar::pane(m_input)),
       m_outputPane(ColourBar::pane(m_output)), m_statistic(new StripPlot(tr("D (nat)"))),
       m_regulation(new StripPlot(tr("ln K (nat)"))), m_pictures(new QSplitter(Qt::Horizontal)),
-      m_rows(new QSplitter(Qt::Vertical))
+      m_rows(new QSplitter(Qt::Vertical)), m_stack(new TimeStack(this))
 {
     m_pictures->addWidget(m_inputPane);
     m_pictures->addWidget(m_outputPane);
@@ -116,6 +117,10 @@ Workbench::Workbench(Document &document, QWidget *parent)
     m_regulation->setFixedScale(StripPlot::Side::Right, {0.0, 1.0});
     m_input->setObjectName(QStringLiteral("input"));
     m_output->setObjectName(QStringLiteral("output"));
+    m_stack->add(*m_input, *m_inputPane);
+    m_stack->add(*m_output, *m_outputPane);
+    m_stack->add(*m_statistic, *m_statistic);
+    m_stack->add(*m_regulation, *m_regulation);
     linkViews();
 
     connect(&document, &Document::opened, this, [this] {
@@ -125,6 +130,7 @@ Workbench::Workbench(Document &document, QWidget *parent)
             view->setStartUnixSeconds({});
             view->setTimes({});
         }
+        m_statistic->setStartUnixSeconds({});
         emit playingChanged(false);
         showStrips();
         showOrigin();
@@ -161,6 +167,7 @@ void Workbench::linkViews()
         connect(view, &WaterfallView::hovered, this, [this](double seconds, double hz) { read({seconds, hz}); });
         whenInUse(view, &WaterfallView::hoverEnded, &Workbench::readCursor);
     }
+    connect(m_output, &WaterfallView::orientationChanged, this, &Workbench::arrange);
     connect(m_output, &WaterfallView::shownPictureChanged, this, [this] {
         if (!isInUse() || (m_document.isLive() && !isStripDue()))
             return;
@@ -261,6 +268,7 @@ void Workbench::showLive()
     if (isChanged) {
         for (WaterfallView *view : {m_input, m_output})
             view->setStartUnixSeconds(live.plan->recording->info().startUnixSeconds);
+        m_statistic->setStartUnixSeconds(live.plan->recording->info().startUnixSeconds);
         markChanges();
         showHeading();
         showStrips();
@@ -513,10 +521,20 @@ void Workbench::resizeEvent(QResizeEvent *event)
     QWidget::resizeEvent(event);
 }
 
+/// Places the pictures for the direction of time.
+void Workbench::arrange()
+{
+    const bool isStacked = !m_output->isTimeVertical();
+    m_pictures->setOrientation(isStacked ? Qt::Vertical : Qt::Horizontal);
+    m_stack->setOn(isStacked);
+    showStrips();
+}
+
 void Workbench::showStrips()
 {
-    constexpr int enoughForOne = 460; // the pictures keep 350
-    constexpr int enoughForBoth = 570;
+    const bool isStacked = m_stack->isOn();
+    const int enoughForOne = isStacked ? 520 : 460; // the pictures keep 350, or 200 each above each other
+    const int enoughForBoth = isStacked ? 610 : 570;
     m_statistic->setVisible(height() >= enoughForOne);
     m_regulation->setVisible(height() >= enoughForBoth && !m_document.isLive());
 }

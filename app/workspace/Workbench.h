@@ -16,7 +16,8 @@ class Closeup;
 class OutputLayers;
 class StripPlot;
 
-/// The pictures: input and statistic side by side on one viewport, each with its colour bar; time curves below.
+/// The pictures: input and statistic on one viewport, each with its colour bar; time curves below. The pictures are
+/// side by side, or, if time runs from left to right, above each other on the time axis of the curves.
 class Workbench : public Bench
 {
     Q_OBJECT
@@ -33,6 +34,7 @@ public:
     bool hasReadOut() const override { return false; }
     bool eventFilter(QObject *watched, QEvent *event) override; ///< detects when a live picture is painted
     QString hint() const override;
+    TimeStack &timeStack() override { return *m_stack; }
 
     Place place() const override;
     void setPlace(const Place &place) override;
@@ -83,6 +85,7 @@ private:
     void growExtents(const LiveView &live);
     bool isStripDue();
     void markChanges();
+    void arrange();
     void showStrips();
     void placeCursor();
     void read(const Viewport::Point &point);
@@ -99,6 +102,7 @@ private:
     StripPlot *m_regulation;
     QSplitter *m_pictures;
     QSplitter *m_rows;
+    TimeStack *m_stack;
     QTimer m_player;
     bool m_isFirstAnalysis = true; ///< of the open source
     bool m_isFirstPicture = true;

@@ -23,6 +23,25 @@ ThemedPlot::~ThemedPlot()
     canvas()->removeEventFilter(this); // the canvas outlives objects that the filter uses
 }
 
+void ThemedPlot::setSideRooms(int left, int right)
+{
+    const QMargins rooms(left, 0, right, 0);
+    if (rooms == m_sideRooms)
+        return;
+    m_sideRooms = rooms;
+    restyle();
+    updateLayout();
+}
+
+void ThemedPlot::setTimeLabels(bool isOn)
+{
+    if (isOn == m_hasTimeLabels)
+        return;
+    m_hasTimeLabels = isOn;
+    restyle();
+    updateLayout();
+}
+
 void ThemedPlot::changeEvent(QEvent *event)
 {
     QwtPlot::changeEvent(event);

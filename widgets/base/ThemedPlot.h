@@ -4,6 +4,8 @@
 
 #include <qwt_plot.h>
 
+#include <QMargins>
+
 namespace faintline {
 
 /// A plot that follows the theme, accepts the keyboard focus and shows it by its frame. Subclasses implement two
@@ -18,6 +20,14 @@ public:
     explicit ThemedPlot(QWidget *parent = nullptr);
     ~ThemedPlot() override;
 
+    /// Pixels left free beside the plot, so that its canvas is aligned with those of other plots (TimeStack).
+    void setSideRooms(int left, int right);
+    const QMargins &sideRooms() const { return m_sideRooms; }
+
+    /// Off: a time axis along the lower edge is not drawn, because a plot below has the same axis.
+    void setTimeLabels(bool isOn);
+    bool hasTimeLabels() const { return m_hasTimeLabels; }
+
 protected:
     /// Called when the palette or the texts change.
     virtual void restyle() = 0;
@@ -29,6 +39,10 @@ protected:
     void focusOutEvent(QFocusEvent *event) override;
     /// Handles canvas events.
     bool eventFilter(QObject *watched, QEvent *event) override;
+
+private:
+    QMargins m_sideRooms;
+    bool m_hasTimeLabels = true;
 };
 
 } // namespace faintline

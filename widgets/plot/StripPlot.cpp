@@ -129,6 +129,14 @@ void StripPlot::removeSeries(const QString &name)
     restyle();
 }
 
+void StripPlot::setStartUnixSeconds(std::optional<double> start)
+{
+    if (start == m_startUnixSeconds)
+        return;
+    m_startUnixSeconds = start;
+    restyle();
+}
+
 void StripPlot::setLeftTitle(const QString &title)
 {
     setAxisTitle(QwtAxis::YLeft, title);
@@ -256,10 +264,13 @@ void StripPlot::layAxes()
     const bool hasRight =
         std::any_of(m_series.begin(), m_series.end(), [](const auto &one) { return one->side == axisOf(Side::Right); });
     auto *time = static_cast<TimeScaleDraw *>(axisScaleDraw(QwtAxis::XBottom));
-    const bool isClock = m_viewport && m_viewport->full().time.high > 600.0;
-    time->setClock(isClock);
-    setAxisTitle(QwtAxis::XBottom, isClock ? tr("Time (h:min:s)") : tr("Time (s)"));
-    setAxisVisible(QwtAxis::XBottom, !isEmpty);
+    const bool isLong = m_viewport && m_viewport->full().time.high > 600.0;
+    time->setClock(isLong || m_startUnixSeconds);
+    time->setStartUnixSeconds(m_startUnixSeconds);
+    setAxisTitle(QwtAxis::XBottom, m_startUnixSeconds ? tr("Time (UTC)")
+                                   : isLong           ? tr("Time (h:min:s)")
+                                                      : tr("Time (s)"));
+    setAxisVisible(QwtAxis::XBottom, !isEmpty && hasTimeLabels());
     setAxisVisible(QwtAxis::YLeft, !isEmpty);
     setAxisVisible(QwtAxis::YRight, hasRight);
     m_sentence->setVisible(isEmpty);
@@ -277,13 +288,14 @@ void StripPlot::followSpan()
         one->curve->setSamples(one->points(span, pixels));
     const auto &timeDraw = *static_cast<TimeScaleDraw *>(axisScaleDraw(QwtAxis::XBottom));
     const bool isClock = timeDraw.isClock();
-    setAxisScaleDiv(QwtAxis::XBottom, timeScaleDiv(span, std::clamp(pixels / (isClock ? 90 : 60), 1, 16)));
+    setAxisScaleDiv(QwtAxis::XBottom, timeScaleDiv(span, std::clamp(pixels / (isClock ? 90 : 60), 1, 16),
+                                                   m_startUnixSeconds.value_or(0.0)));
     updateOrdinate(Side::Left);
     updateOrdinate(Side::Right);
     // Wide enough for most figures, so that the canvases of strips above each other are aligned.
     steadyAxes(*this, QStringLiteral("−0.000"), timeDraw.widestLabel(m_viewport ? m_viewport->full().time : span));
     const bool hasRight = isAxisVisible(QwtAxis::YRight) || m_series.empty();
-    setContentsMargins(2, 4, 6 + (hasRight ? 0 : widthOfRightAxis()), 2);
+    setContentsMargins(QMargins(2, 4, 6 + (hasRight ? 0 : widthOfRightAxis()), 2) + sideRooms());
     replot();
 }
 
@@ -369,7 +381,8 @@ void StripPlot::wheelEvent(QWheelEvent *event)
     }
     const double notches = event->angleDelta().y() / 120.0;
     const double seconds = invTransform(QwtAxis::XBottom, canvas()->mapFrom(this, event->position()).x());
-    const bool isOverAxis = axisWidget(QwtAxis::XBottom)->geometry().contains(event->position().toPoint());
+    const bool isOverAxis = isAxisVisible(QwtAxis::XBottom)
+                            && axisWidget(QwtAxis::XBottom)->geometry().contains(event->position().toPoint());
     if (isOverAxis || event->modifiers().testFlag(Qt::ControlModifier))
         m_viewport->zoomAt(std::pow(1.25, notches), {seconds, m_viewport->frequency().middle()}, Viewport::Axes::Time);
     else
@@ -382,7 +395,7 @@ QSize StripPlot::minimumSizeHint() const
 {
     constexpr int least = 84;
     const int titleLength = QFontMetrics(Theme::plotTitleFont()).horizontalAdvance(axisTitle(QwtAxis::YLeft).text());
-    const int timeAxis = int(std::lround(48.0 * Theme::plotScale()));
+    const int timeAxis = hasTimeLabels() ? int(std::lround(48.0 * Theme::plotScale())) : 0;
     return {220, std::max(least, titleLength + timeAxis)};
 }
 

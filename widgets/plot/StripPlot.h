@@ -41,6 +41,8 @@ public:
     /// Replaces the curve of that name. `values`: one per step of `time`; NaN leaves a gap.
     void setSeries(const QString &name, const Axis &time, std::vector<float> values, Side side = Side::Left);
     void removeSeries(const QString &name);
+    /// UTC of second 0, since 1970: the axis then shows times of day; none: seconds.
+    void setStartUnixSeconds(std::optional<double> start);
     void setLeftTitle(const QString &title);
     void setRightTitle(const QString &title);
 
@@ -86,6 +88,7 @@ private:
     std::shared_ptr<const PeakPyramid> m_profile;
     Axis m_profileFrequency;
     std::optional<Span> m_fixed[2];
+    std::optional<double> m_startUnixSeconds;
     double m_levelValue;
     QwtPlotGrid *m_grid;
     QwtPlotMarker *m_cursorLine;

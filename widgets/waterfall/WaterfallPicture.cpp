@@ -297,8 +297,8 @@ void WaterfallPicture::restyle()
                                                  : new QwtLinearScaleEngine);
     setAxisScaleDraw(hzAxis(), hzDraw);
     setAxisTitle(hzAxis(), originHz() != 0.0 ? tr("Radio frequency (%1)").arg(unit.name) : titleOf(m_frequency));
-    for (const QwtAxisId axis : {timeAxis(), hzAxis()})
-        setAxisVisible(axis, !isEmpty);
+    setAxisVisible(hzAxis(), !isEmpty);
+    setAxisVisible(timeAxis(), !isEmpty && (isTimeVertical() || hasTimeLabels()));
 
     QwtText title(m_heading);
     title.setFont(Theme::plotHeadingFont());
@@ -306,6 +306,7 @@ void WaterfallPicture::restyle()
     title.setColor(Theme::colours(*this).text);
     setTitle(title);
     Theme::style(*this);
+    setContentsMargins(contentsMargins() + sideRooms());
     m_raster->setTimeVertical(isTimeVertical());
     m_raster->setLogarithmic(isLogarithmic());
     m_sentence->colour = Theme::colours(*this).faintText;
