@@ -67,8 +67,8 @@ namespace {
             ->required();
         command
             ->add_option("--view", options.views,
-                         "window, input, output, threshold, events, noise, noisefit, spectrum, doppler, pd, why, "
-                         "compare, sweep, "
+                         "window, input, output, threshold, events, noise, noisefit, spectrum, channels, doppler, pd, "
+                         "why, compare, sweep, "
                          "sequential, walk, posterior; for sonar pings also map, polar, histories, slice, latency; for "
                          "radar scans stopping, scan, asn, prior, sectors; separate several by commas")
             ->delimiter(',')

@@ -1,6 +1,7 @@
 #include "app/document/ViewState.h"
 
 #include "base/readingJson.h"
+#include "base/wholeNumber.h"
 
 namespace faintline {
 
@@ -19,8 +20,8 @@ namespace {
     ViewState viewFrom(const Json &json)
     {
         checkKeys(json, "view",
-                  {"seconds", "hz", "cursor", "orientation", "colourMap", "logarithmic", "radio", "bearing",
-                   "cursorBearing", "polar"});
+                  {"seconds", "hz", "cursor", "orientation", "colourMap", "logarithmic", "radio", "firstChannel",
+                   "bearing", "cursorBearing", "polar"});
         ViewState view;
         if (json.contains("seconds") && json.contains("hz"))
             view.visible = {spanFromJson(json["seconds"]), spanFromJson(json["hz"])};
@@ -35,6 +36,8 @@ namespace {
         view.colourMap = QString::fromStdString(json.value("colourMap", std::string()));
         view.isLogarithmic = json.value("logarithmic", false);
         view.isRadioAxis = json.value("radio", false);
+        if (json.contains("firstChannel"))
+            view.firstChannel = wholeNumber<int>(json["firstChannel"], "firstChannel");
         return view;
     }
 
@@ -61,6 +64,8 @@ Json toJson(const ViewState &view)
         json["logarithmic"] = true;
     if (view.isRadioAxis)
         json["radio"] = true;
+    if (view.firstChannel != 0)
+        json["firstChannel"] = view.firstChannel;
     return json;
 }
 

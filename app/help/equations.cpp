@@ -108,6 +108,11 @@ const std::vector<Equation> &equations()
              "y  power over noise background\n"
              "X  transform in a window of unit energy, f_s sample rate; full scale is 1",
              "Welch 1967"),
+        make("channels", "Channels beside each other", "y_c(t, f) = |S_c(t, f)|² / B_c(t, f),   shown as 10·lg y_c",
+             "S_c  spectrogram of channel c, with the window of the analysis\n"
+             "B_c  noise background of channel c, so y_c has mean 1 on noise\n"
+             "without families of lines, and without subtracting strong lines",
+             "Billon 2005, section 4; the background as in docs/theory.md"),
         make("doppler", "Doppler fit",
              "f(t) = f₀ / ( 1 + v²τ / (c·r(τ)) ),   r(τ) = √( R² + v²τ² )\n"
              "t = t₀ + τ + r(τ)/c,   Σ ( (fᵢ − f(tᵢ))/σᵢ )² least",

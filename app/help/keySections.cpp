@@ -3,6 +3,8 @@
 #include <QApplication>
 #include <QStringList>
 
+#include <string_view>
+
 namespace faintline {
 
 namespace {
@@ -118,6 +120,15 @@ namespace {
         return section;
     }
 
+    Section channels()
+    {
+        Section section = waterfall("Here: channels beside each other");
+        for (Entry &entry : section.entries)
+            if (entry.keys == std::string_view("Click"))
+                entry = {"Click, Return", "analyse this channel; a click also places the cursor"};
+        return section;
+    }
+
     const std::vector<std::pair<QStringList, Section>> &viewSections()
     {
         static const std::vector<std::pair<QStringList, Section>> all{
@@ -156,6 +167,7 @@ namespace {
                {"Click, Enter", "on a measured point: show its trials"},
                {"Boxes of the legend", "show and hide curves"},
                {"Right button", "save as SVG, PDF, PNG or CSV"}}}},
+            {{"channels"}, channels()},
             {{"slice"}, waterfall("Here: a slice through the states")},
             {{"sweep"},
              {"Here: a sweep",
@@ -198,7 +210,7 @@ namespace {
     bool saysAllOfAWaterfall(const QString &view)
     {
         return view == QLatin1String("input") || view == QLatin1String("output") || view == QLatin1String("histories")
-               || view == QLatin1String("slice");
+               || view == QLatin1String("slice") || view == QLatin1String("channels");
     }
 
 } // namespace

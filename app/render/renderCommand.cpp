@@ -254,6 +254,8 @@ namespace {
             settleNoiseCheck(window);
         if (has("spectrum"))
             settleSpectrum(window);
+        if (has("channels"))
+            showChannels(window);
         if (has("doppler"))
             fitDoppler(window);
         if (has("noisefit"))

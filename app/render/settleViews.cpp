@@ -2,6 +2,7 @@
 
 #include "app/control/Closeup.h"
 #include "app/control/OutputLayers.h"
+#include "app/panels/ChannelsPanel.h"
 #include "app/panels/DopplerPanel.h"
 #include "app/panels/EvaluatePanel.h"
 #include "app/panels/ExperimentForm.h"
@@ -101,6 +102,12 @@ void settleSpectrum(MainWindow &window)
 {
     window.showSpectrum();
     waitFor(window.spectrum());
+}
+
+void showChannels(MainWindow &window)
+{
+    window.showChannels();
+    waitFor(window.channels());
 }
 
 void fitDoppler(MainWindow &window)

@@ -18,6 +18,8 @@ void sweepThreshold(MainWindow &window);
 /// Explains why there is a detection at the cursor, or none.
 void explainCursor(MainWindow &window);
 void measureNoise(MainWindow &window);
+/// Draws all channels of a recording.
+void showChannels(MainWindow &window);
 /// Fits the track of the strongest event.
 void fitDoppler(MainWindow &window);
 void cutStates(MainWindow &window);

@@ -1,6 +1,7 @@
 #include "app/views/WindowParts.h"
 
 #include "app/document/scanScenario.h"
+#include "app/panels/ChannelsPanel.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
 
@@ -15,6 +16,19 @@ void WindowParts::openScansOf(const QString &path)
     const ScanTest test = readScanTest(path);
     if (m_sequentialTests.isEmpty() || m_sequentialTests.test() != test)
         openScans(test);
+}
+
+ViewState WindowParts::viewState() const
+{
+    ViewState view = bench().viewState();
+    view.firstChannel = m_channels->firstChannel();
+    return view;
+}
+
+void WindowParts::restore(const ViewState &view)
+{
+    bench().restore(view);
+    m_channels->setFirstChannel(view.firstChannel);
 }
 
 Bench &WindowParts::bench() const

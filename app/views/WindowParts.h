@@ -10,6 +10,7 @@
 namespace faintline {
 
 class Bench;
+class ChannelsPanel;
 class ComparePanel;
 class DopplerPanel;
 class EvaluatePanel;
@@ -70,6 +71,7 @@ public:
     ComparePanel &comparePanel() const { return *m_compare; }
     EvaluatePanel &evaluation() const { return *m_evaluate; }
     SpectrumPanel &spectrum() const { return *m_spectrum; }
+    ChannelsPanel &channels() const { return *m_channels; }
     DopplerPanel &doppler() const { return *m_doppler; }
     SurveyPanel &survey() const { return *m_survey; }
     SweepPanel &sweep() const { return *m_sweep; }
@@ -77,6 +79,10 @@ public:
     ReproductionPanel &reproduction() const { return *m_reproduction; }
     SequentialPanel &sequential() const { return *m_sequential; }
     WindowViews &views() const { return *m_views; }
+
+    /// What a session keeps of the window: the view of the bench and of the panels.
+    ViewState viewState() const;
+    void restore(const ViewState &view);
 
     /// Opens a recording, a scenario or a session without asking about unsaved changes.
     virtual void openNow(const QString &path, const OpenOptions &options = {},
@@ -118,6 +124,7 @@ protected:
     ComparePanel *m_compare = nullptr;
     EvaluatePanel *m_evaluate = nullptr;
     SpectrumPanel *m_spectrum = nullptr;
+    ChannelsPanel *m_channels = nullptr;
     DopplerPanel *m_doppler = nullptr;
     SurveyPanel *m_survey = nullptr;
     SweepPanel *m_sweep = nullptr;

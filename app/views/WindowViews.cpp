@@ -3,6 +3,7 @@
 #include "app/control/EventReviews.h"
 #include "app/control/OutputLayers.h"
 #include "app/document/saveView.h"
+#include "app/panels/ChannelsPanel.h"
 #include "app/panels/ComparePanel.h"
 #include "app/panels/DopplerPanel.h"
 #include "app/panels/EvaluatePanel.h"
@@ -59,6 +60,7 @@ const std::vector<WindowView> &windowViews()
         {"noise", tr("Noise and calibration"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.info(); }},
         {"noisefit", tr("Noise fit"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.noiseFit(); }},
         {"spectrum", tr("Spectrum"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.spectrum(); }},
+        {"channels", tr("Channels"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.channels(); }},
         {"doppler", tr("Doppler fit"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.doppler(); }},
         {"pd", tr("Pd and ROC"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.evaluation(); }},
         {"why", tr("Why"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.why(); }},
@@ -147,7 +149,7 @@ std::string WindowViews::withView(const QString &name, const std::string &proven
         return provenance;
     const OutputLayers &layers = m_parts.workbench().layers();
     Json json = parseJson(provenance, "provenance");
-    json["view"] = toJson(m_parts.bench().viewState());
+    json["view"] = toJson(m_parts.viewState());
     json["render"] = {
         {"view", name.toStdString()},
         {"size", {shown.width(), shown.height()}},

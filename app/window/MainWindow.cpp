@@ -11,6 +11,7 @@
 #include "app/help/KeysOverlay.h"
 #include "app/lessons/Lesson.h"
 #include "app/lessons/LessonGuide.h"
+#include "app/panels/ChannelsPanel.h"
 #include "app/panels/ComparePanel.h"
 #include "app/panels/DopplerPanel.h"
 #include "app/panels/EvaluatePanel.h"
@@ -342,6 +343,11 @@ void MainWindow::showSweep()
 void MainWindow::showSpectrum()
 {
     m_panels->show(m_spectrum);
+}
+
+void MainWindow::showChannels()
+{
+    m_panels->show(m_channels);
 }
 
 void MainWindow::showDoppler()

@@ -77,6 +77,7 @@ public:
     void showHandLine();
     void learnMotion();
     void showSpectrum();
+    void showChannels();
     void showDoppler();
     void setPlaying(bool isPlaying);
     void straighten(); ///< along the selected event's track, or the strongest's

@@ -16,6 +16,7 @@
 #include "app/lessons/Lesson.h"
 #include "app/lessons/LessonGuide.h"
 #include "app/lessons/LessonList.h"
+#include "app/panels/ChannelsPanel.h"
 #include "app/panels/ComparePanel.h"
 #include "app/panels/DopplerPanel.h"
 #include "app/panels/EvaluatePanel.h"
@@ -41,6 +42,7 @@
 #include "widgets/base/settingWords.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/plot/ExceedancePlot.h"
+#include "widgets/waterfall/LinkedPictures.h"
 #include "widgets/waterfall/OverviewStrip.h"
 
 #include <QDockWidget>
@@ -128,12 +130,11 @@ void MainWindow::connectController()
     connect(&m_controller, &AnalysisController::refined, this,
             [this](double firstEstimate) { m_hint->setText(refinedSentence(*m_document.analysis(), firstEstimate)); });
     new AdviceMessages(m_document, m_controller, m_check, *m_messages, this);
-    connect(&m_controller, &AnalysisController::viewRestored, this,
-            [this](const ViewState &view) { bench().restore(view); });
+    connect(&m_controller, &AnalysisController::viewRestored, this, [this](const ViewState &view) { restore(view); });
     m_saver = new SessionSaver(
-        m_document, [this] { return bench().viewState(); }, this);
+        m_document, [this] { return viewState(); }, this);
     m_recovery = new Recovery(
-        m_document, [this] { return bench().viewState(); }, m_recoveryFolder, this);
+        m_document, [this] { return viewState(); }, m_recoveryFolder, this);
     m_report = new ReportWriter(m_document, *m_views, this);
     connect(m_report, &ReportWriter::busyChanged, m_activity, &ActivityBar::setBusy);
     connect(m_report, &ReportWriter::progressed, m_activity, &ActivityBar::setProgress);
@@ -189,6 +190,12 @@ void MainWindow::connectViews()
     connect(m_compare, &ComparePanel::eventActivated, this, goTo);
     connect(m_workbench->output(), &WaterfallView::orientationChanged, m_compare->picture(),
             &WaterfallView::setOrientation);
+    WaterfallView *output = m_workbench->output();
+    LinkedPictures *channels = &m_channels->pictures();
+    connect(output, &WaterfallView::orientationChanged, channels, &LinkedPictures::setOrientation);
+    connect(channels, &LinkedPictures::orientationChanged, output, &WaterfallView::setOrientation);
+    connect(output, &WaterfallView::colourMapChanged, channels, &LinkedPictures::setColourMap);
+    connect(channels, &LinkedPictures::colourMapChanged, output, &WaterfallView::setColourMap);
     connect(m_workbench, &Workbench::readingChanged, m_readOut, &ReadOut::setReading);
     connect(m_workbench->output(), &WaterfallView::colourMapChanged, m_overview,
             [this](const QString &name) { m_overview->setColourMap(ColourMap::named(name)); });

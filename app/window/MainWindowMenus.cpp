@@ -177,6 +177,9 @@ void MainWindow::buildViewMenu()
     addViewAction(*menu, tr("S&pectrum"), QKeySequence(Qt::SHIFT | Qt::Key_S), [this] {
         showSpectrum();
     })->setToolTip(tr("Spectrum at the cursor, and mean spectrum of the visible part"));
+    addViewAction(*menu, tr("C&hannels side by side"), {}, [this] {
+        showChannels();
+    })->setToolTip(tr("The input of each channel of the recording; a click selects the channel that is analysed"));
     menu->addSeparator();
     QMenu *picture = menu->addMenu(tr("P&icture"));
     connect(picture, &QMenu::aboutToShow, this, [picture, output] {

@@ -9,6 +9,7 @@
 #include "app/control/ThresholdCurves.h"
 #include "app/document/OwnPresets.h"
 #include "app/lessons/LessonList.h"
+#include "app/panels/ChannelsPanel.h"
 #include "app/panels/ComparePanel.h"
 #include "app/panels/DopplerPanel.h"
 #include "app/panels/EvaluatePanel.h"
@@ -113,6 +114,7 @@ void MainWindow::buildPanels()
                                    {*m_workbench->input(), *m_workbench->outputView(), *m_workbench->statisticPlot()});
     m_compare = new ComparePanel(m_document, m_controller, m_comparer);
     m_spectrum = new SpectrumPanel(m_document);
+    m_channels = new ChannelsPanel(m_document, m_controller);
     m_doppler = new DopplerPanel(m_document, *m_events, m_reviews->provenance());
     m_evaluate = new EvaluatePanel(m_document, m_experiments);
     m_sweep = new SweepPanel(m_document, m_experiments);
@@ -138,6 +140,7 @@ void MainWindow::buildDocks()
     m_handLine->parentWidget()->hide(); // until requested
     m_panels->add(QStringLiteral("evaluateDock"), tr("Pd and ROC"), m_evaluate, Place::Bottom);
     m_panels->add(QStringLiteral("spectrumDock"), tr("Spectrum"), m_spectrum, Place::Bottom);
+    m_panels->add(QStringLiteral("channelsDock"), tr("Channels"), m_channels, Place::Bottom);
     m_panels->add(QStringLiteral("dopplerDock"), tr("Doppler fit"), m_doppler, Place::Bottom);
     m_panels->add(QStringLiteral("compareDock"), tr("Compare"), m_compare, Place::Bottom);
     m_panels->add(QStringLiteral("sweepDock"), tr("Sweep"), m_sweep, Place::Bottom);

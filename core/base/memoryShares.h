@@ -16,7 +16,7 @@ namespace faintline {
 namespace memoryShares {
 
     inline constexpr std::size_t mebibyte = std::size_t(1) << 20;
-    inline constexpr std::size_t documentBytes = 432 * mebibyte;
+    inline constexpr std::size_t documentBytes = 464 * mebibyte;
 
     inline constexpr std::size_t picture = 64 * mebibyte; ///< for the input, and as much for the statistic; 1.33 per
                                                           ///< cell
@@ -27,12 +27,13 @@ namespace memoryShares {
     inline constexpr std::size_t pathRecord = 32 * mebibyte;
     /// Visible part of the input, of the statistic, and of its preview.
     inline constexpr std::size_t closeup = 24 * mebibyte;
+    inline constexpr std::size_t channels = 32 * mebibyte;      ///< pictures of channels beside each other, together
     inline constexpr std::size_t previewFrames = 24 * mebibyte; ///< kept while a detector is tuned
     inline constexpr std::size_t stateReplay = 24 * mebibyte;   ///< all states of the inspected frames
     inline constexpr std::size_t layerReplay = 24 * mebibyte;   ///< ages and predecessors of all paths
 
-    static_assert(2 * picture + background + checkpoints + 2 * pathRecord + 3 * closeup + previewFrames + stateReplay
-                      + layerReplay
+    static_assert(2 * picture + background + checkpoints + 2 * pathRecord + 3 * closeup + channels + previewFrames
+                      + stateReplay + layerReplay
                   == documentBytes);
 
     constexpr std::size_t orSome(std::size_t share, std::size_t bytesOfSome)

@@ -1,0 +1,79 @@
+#pragma once
+
+#include "analysis/channelPicture.h"
+#include "app/base/JobRunner.h"
+
+#include <QWidget>
+
+#include <vector>
+
+class QLabel;
+class QToolButton;
+
+namespace faintline {
+
+class AnalysisController;
+class Document;
+class LinkedPictures;
+class VisibilityWatcher;
+
+/// The input of each channel of a recording beside each other, over its own noise, with linked zoom and cursor and one
+/// range of colours. A click on a channel makes it the analysed one. At most eight channels are shown at once, with
+/// buttons for the next and previous ones. Computed while visible.
+class ChannelsPanel : public QWidget
+{
+    Q_OBJECT
+
+public:
+    static constexpr int mostAtOnce = 8;
+
+    ChannelsPanel(Document &document, AnalysisController &controller, QWidget *parent = nullptr);
+
+    bool isBusy() const { return m_runner.isRunning(); }
+    LinkedPictures &pictures() const { return *m_pictures; }
+    QString sentence() const; ///< why there is no picture; empty if there is one
+    int firstChannel() const { return m_first; }
+    /// Shows the page that begins with this channel or contains it.
+    void setFirstChannel(int channel);
+
+    QSize sizeHint() const override { return {720, 300}; }
+
+signals:
+    void settled();
+
+private:
+    /// What the pictures are made from.
+    struct Request {
+        RecordingPointer recording;
+        AnalysisSettings settings; ///< without what differs from channel to channel or comes after the frames
+        int first = 0;
+        int count = 0;
+        bool operator==(const Request &) const = default;
+    };
+
+    QString obstacle() const;
+    int channelCount() const;
+    std::vector<int> analysed() const;
+    Request wanted() const;
+    void buildPager();
+    void follow();
+    void nameChannels();
+    void compute();
+    void show(int place, const ChannelPicture &made, const QString &why);
+    void choose(int place);
+    void clear();
+
+    Document &m_document;
+    AnalysisController &m_controller;
+    QLabel *m_sentence; ///< in place of the pictures
+    QLabel *m_page;
+    QToolButton *m_previous;
+    QToolButton *m_next;
+    LinkedPictures *m_pictures;
+    VisibilityWatcher *m_sight;
+    int m_first = 0;
+    Request m_request;  ///< shown, or being computed
+    JobRunner m_runner; ///< last, so that its jobs end first
+};
+
+} // namespace faintline
