@@ -79,6 +79,8 @@ PingBench::PingBench(Document &document, OutputLayers &layers, QWidget *parent)
 
 void PingBench::layOut()
 {
+    for (WaterfallView *view : {m_rangeHistory, m_bearingHistory})
+        view->setMinimumHeight(lowestHistory);
     m_maps->addWidget(m_input);
     m_maps->addWidget(m_output);
     m_histories->addWidget(m_rangeHistory);
@@ -96,7 +98,7 @@ void PingBench::layOut()
     m_rows->addWidget(m_histories);
     m_rows->addWidget(column(m_dragged, m_regulation, 0));
     m_rows->setStretchFactor(0, 1);
-    m_rows->setSizes({430, 270, 120});
+    m_rows->setSizes({450, 250, 120});
     for (QSplitter *splitter : {m_maps, m_histories, m_rows})
         splitter->setChildrenCollapsible(false);
     auto *layout = new QVBoxLayout(this);
@@ -122,7 +124,6 @@ void PingBench::buildHistories()
     for (WaterfallView *view : {m_rangeHistory, m_bearingHistory}) {
         view->setOrientation(WaterfallView::Orientation::LeftToRight);
         view->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
-        view->setMinimumHeight(lowestHistory);
         m_stack->add(*view, *view);
         connect(view, &WaterfallView::orientationChanged, view == m_rangeHistory ? m_bearingHistory : m_rangeHistory,
                 &WaterfallView::setOrientation);

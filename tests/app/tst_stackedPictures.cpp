@@ -47,6 +47,8 @@ class tst_stackedPictures : public QObject
     QTemporaryDir m_folder;
 
 private slots:
+    void initTestCase() { Theme::apply(Theme::Kind::Light); }
+
     void areAboveEachOtherWhenTimeRunsFromLeftToRight_data()
     {
         QTest::addColumn<QSize>("size");
@@ -150,8 +152,8 @@ private slots:
         const auto window = newWindow({1400, 1000});
         QVERIFY(openAndSettle(*window,
                               writeFile(m_folder, "pings.json",
-                                        R"({"kind": "pings", "pings": 12, "rangeCells": 60, "beams": 8, "targets": [
-    {"snrDb": 15, "rangeMetres": 2000, "bearingDegrees": 90}]})")));
+                                        R"({"kind": "pings", "pings": 12, "rangeCells": 120, "beams": 8, "targets": [
+    {"snrDb": 15, "rangeMetres": 3500, "bearingDegrees": 90}]})")));
         const PingBench &bench = window->pingBench();
         QCoreApplication::processEvents();
         const WaterfallView &range = *bench.rangeHistory(), &bearing = *bench.bearingHistory();

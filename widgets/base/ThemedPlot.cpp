@@ -38,6 +38,7 @@ void ThemedPlot::setTimeLabels(bool isOn)
     if (isOn == m_hasTimeLabels)
         return;
     m_hasTimeLabels = isOn;
+    updateGeometry();
     restyle();
     updateLayout();
 }
