@@ -419,6 +419,12 @@ void tst_hostileNames::dialogsSuggestNamesOneCanType()
              QStringLiteral("/tmp/a.b-events.csv"));
     QCOMPARE(nameBeside(pathText("/tmp/a\xff.wav"), QStringLiteral(".html")), QStringLiteral("/tmp/a_.html"));
     QVERIFY(nameBeside(QStringLiteral("/tmp/") + QString(250, QLatin1Char('x')), QStringLiteral(".html")).size() < 255);
+    // Characters of three and four bytes, whose limit lies within one.
+    for (const QString &character : {QString(QChar(0x6f22)), QStringLiteral("\U0001F3B5")}) {
+        const QString name = nameBeside(QLatin1Char('x') + character.repeated(60), QStringLiteral("-events.csv"));
+        QVERIFY2(name.isValidUtf16(), qPrintable(name));
+        QVERIFY(name.section(QLatin1Char('/'), -1).toUtf8().size() < 255);
+    }
 }
 
 QTEST_MAIN(tst_hostileNames)
