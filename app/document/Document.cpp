@@ -169,6 +169,11 @@ Span Document::lookedAt() const
     return frameKind().isSeenSingly && cursor ? Span{cursor->seconds, cursor->seconds} : m_viewport.time();
 }
 
+std::vector<Annotation> Document::shownBoxes() const
+{
+    return frameKind().takesBoxes ? m_annotations.boxes : std::vector<Annotation>();
+}
+
 std::optional<Viewport::Box> Document::box() const
 {
     return frameKind().takesBoxes ? m_viewport.selection() : std::nullopt;

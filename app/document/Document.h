@@ -65,6 +65,8 @@ public:
     // ---- annotations ---------------------------------------------------------------------------------------------
 
     const Annotations &annotations() const { return m_annotations; }
+    /// The annotated boxes, if boxes of time × frequency apply to the open source.
+    std::vector<Annotation> shownBoxes() const;
     /// One undoable step; does not affect detection.
     void annotate(Annotations after, const QString &text);
 

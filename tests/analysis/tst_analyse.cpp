@@ -47,7 +47,7 @@ std::shared_ptr<const Analysis> analysed(int threads = 1, const AnalysisSettings
         sink = [statistic](Index, std::span<const float> block) {
             statistic->insert(statistic->end(), block.begin(), block.end());
         };
-    return analyse(recording(), s, context, nullptr, sink);
+    return analyse(recording(), s, context, nullptr, {.statistic = sink});
 }
 
 bool sameTracks(const Analysis &a, const Analysis &b)
