@@ -4,7 +4,7 @@
 #include "spectrum/NoiseNormaliser.h"
 #include "spectrum/Window.h"
 #include "track/bothWays.h"
-#include "track/explanation.h"
+#include "track/explainPath.h"
 #include "track/levelBeside.h"
 #include "track/numberByDetection.h"
 
@@ -17,18 +17,13 @@ namespace faintline {
 namespace {
 
     constexpr std::string_view following = "refining tracks in both directions";
-    constexpr Index extraFrames = 16;         ///< before and after a path, in which presence is evaluated
-    constexpr Index slopeFrames = 24;         ///< at either end, for extrapolating it
-    constexpr Index largestGapFrames = 24;    ///< between stretches of one signal
-    constexpr double levelCells = 0.75;       ///< distance on either side within which a signal's own maximum lies
-    constexpr float strongerThanNoise = 7.0f; ///< probability on noise 1/1000
-    constexpr double notchCells = 1.0;        ///< distance on either side within which a subtracted line leaves less
-                                              ///< than noise
-    constexpr Index skirtBins = 96;           ///< on either side of strong tracks
-    constexpr double strongGrowth = 2.0;      ///< nats per frame
-    constexpr double leastShare = 0.08;       ///< of a path's statistic, above the floor
-    constexpr Index longestPiece = 4096;      ///< frames of a track that are processed together
-    constexpr Index pieceOverlap = 64;        ///< frames of the neighbouring pieces that are also processed
+    constexpr Index extraFrames = 16;      ///< before and after a path, in which presence is evaluated
+    constexpr Index slopeFrames = 24;      ///< at either end, for extrapolating it
+    constexpr Index largestGapFrames = 24; ///< between stretches of one signal
+    constexpr double strongGrowth = 2.0;   ///< nats per frame
+    constexpr double leastShare = 0.08;    ///< of a path's statistic, above the floor
+    constexpr Index longestPiece = 4096;   ///< frames of a track that are processed together
+    constexpr Index pieceOverlap = 64;     ///< frames of the neighbouring pieces that are also processed
     constexpr std::size_t stripBytes = std::size_t(16) << 20; ///< read at a time
 
     /// A track as detected, or a piece of a long one.
@@ -118,7 +113,7 @@ namespace {
                            following);
                 for (Piece &piece : some) {
                     m_context.checkpoint(done(end), following);
-                    piece.track->isSubtracted ? explainRest(piece) : lookAt(piece);
+                    piece.track->isSubtracted ? lookAtRest(piece) : lookAt(piece);
                 }
                 first = end;
             }
@@ -266,39 +261,18 @@ namespace {
                 accept();
         }
 
-        /// Explains the remainder of a subtracted line, in frames where noise does not mask it, and its skirts.
-        void explainRest(Piece &piece)
+        /// What subtraction left of a line is not a separate signal.
+        void lookAtRest(Piece &piece)
         {
-            PathStrip &strip = piece.strip;
-            const auto near = Index(std::floor(levelCells * m_model.binsPerCell));
-            ExplainedSignal rest;
-            rest.firstFrame = strip.firstFrame;
-            for (Index at = 0; at < strip.frameCount(); ++at) {
-                const Index centre = strip.centres[std::size_t(at)];
-                float power = 0.0f;
-                for (Index d = -near; d <= near; ++d)
-                    if (const float y = strip.valueAt(at, centre + d); !std::isnan(y))
-                        power = std::max(power, y);
-                rest.positions.push_back(double(centre));
-                rest.levels.push_back(power > strongerThanNoise ? power - 1.0f : 0.0f);
-            }
-            ExplainedSignal skirts{rest.firstFrame, rest.positions, std::vector<float>(rest.levels.size(), 1.0f), {}};
-            const auto notch = Index(std::ceil(notchCells * m_model.binsPerCell));
-            bool hasSkirts = false;
-            for (Index first = 0; first < strip.frameCount(); first += ExplainedSignal::skirtFrames) {
-                skirts.skirts.push_back(skirtOf(strip, skirts, 0, first, notch));
-                hasSkirts = hasSkirts || !skirts.skirts.back().empty();
-            }
-            m_explanations.add(std::move(rest));
-            if (hasSkirts)
-                m_explanations.add(std::move(skirts));
-            strip = {};
+            for (ExplainedSignal &signal : explainSubtracted(piece.strip, m_model.binsPerCell))
+                m_explanations.add(std::move(signal));
+            piece.strip = {};
         }
 
         void propose(const Piece &piece, const BothWays &seen, const Stretch &stretch)
         {
             Track track = trackOf(piece, seen, stretch);
-            ExplainedSignal signal = explain(piece.strip, seen, stretch);
+            ExplainedSignal signal = explainPath(piece.strip, seen, stretch.from, stretch.to, m_model.binsPerCell);
             if (m_candidates.empty() || m_candidates.back().track.endFrame + 1 != track.onsetFrame) {
                 if (!piece.isLast()) { // long: no room needed beyond that
                     track.points.reserve(piece.track->points.size() - piece.from + 2 * std::size_t(extraFrames));
@@ -383,60 +357,6 @@ namespace {
                                           seen.presence.present[i], float(seen.levels[i])});
             }
             return track;
-        }
-
-        ExplainedSignal explain(const PathStrip &strip, const BothWays &seen, const Stretch &stretch) const
-        {
-            const auto near = Index(std::floor(levelCells * m_model.binsPerCell));
-            ExplainedSignal signal;
-            signal.firstFrame = strip.firstFrame + stretch.from;
-            for (Index at = stretch.from; at < stretch.to; ++at) {
-                const auto i = std::size_t(at);
-                double power = seen.levels[i] + 1.0;
-                for (Index d = -near; d <= near; ++d)
-                    if (const float y = strip.valueAt(at, Index(std::lround(seen.positions[i])) + d); !std::isnan(y))
-                        power = std::max(power, double(y));
-                signal.positions.push_back(seen.positions[i]);
-                signal.levels.push_back(float(power - 1.0));
-            }
-            if (strip.halfWidth >= skirtBins)
-                for (Index first = 0; first < stretch.to - stretch.from; first += ExplainedSignal::skirtFrames)
-                    signal.skirts.push_back(skirtOf(strip, signal, stretch.from, first));
-            return signal;
-        }
-
-        /// Power beside the path in units of its level, the lower of both sides, decreasing outward, as far as it is
-        /// significant. Nearer than `nearest` it is constant.
-        static std::vector<float> skirtOf(const PathStrip &strip, const ExplainedSignal &signal, Index from,
-                                          Index first, Index nearest = 0)
-        {
-            const Index end = std::min(std::ssize(signal.positions), first + ExplainedSignal::skirtFrames);
-            const auto count = double(end - first);
-            double level = 0.0;
-            for (Index i = first; i < end; ++i)
-                level += double(signal.levels[std::size_t(i)]) / count;
-            const auto excess = [&](Index distance) {
-                double sum = 0.0;
-                double observed = 0.0;
-                for (Index i = first; i < end; ++i) {
-                    const auto cell = Index(std::lround(signal.positions[std::size_t(i)])) + distance;
-                    if (const float y = strip.valueAt(from + i, cell); !std::isnan(y)) {
-                        sum += double(y) - 1.0;
-                        observed += 1.0;
-                    }
-                }
-                return observed > 0.0 ? sum / observed : 0.0;
-            };
-            std::vector<float> shares;
-            double running = std::numeric_limits<double>::infinity();
-            for (Index d = 0; d <= strip.halfWidth; ++d) {
-                if (const Index outer = std::max(d, nearest); d == 0 || d > nearest)
-                    running = std::min({running, excess(outer), excess(-outer)});
-                if (running <= 1.0 + 3.0 / std::sqrt(count))
-                    break;
-                shares.push_back(float(running / std::max(level, 1e-9)));
-            }
-            return shares;
         }
 
         const Analysis &m_analysis;
