@@ -1,6 +1,7 @@
 #include "app/views/ChartMenus.h"
 
 #include "app/base/filePath.h"
+#include "app/control/EventFiles.h"
 #include "app/control/EventReviews.h"
 #include "app/document/saveView.h"
 #include "app/panels/EvaluatePanel.h"
@@ -90,7 +91,7 @@ void ChartMenus::saveTo(QWidget &chart, const QString &path)
             emit failed(error);
         }
     };
-    m_parts.document().isEmpty() ? save({}) : m_parts.reviews().provenance().with(save);
+    m_parts.document().isEmpty() ? save({}) : m_parts.reviews().files().provenance().with(save);
 }
 
 } // namespace faintline
