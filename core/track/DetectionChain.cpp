@@ -1,6 +1,7 @@
 #include "track/DetectionChain.h"
 
 #include "base/memoryShares.h"
+#include "track/boxExtent.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,11 +12,9 @@ namespace {
 
     constexpr Index checkpointFrames = 32; ///< frames between checkpoints
     constexpr int framesUntilDuplicate = 3;
-    constexpr double skirtLevel = 8.0; ///< y that noise rarely exceeds
     /// Factor by which a constant leaks more than a line: where noise falls steeply from 0 Hz on, its side lobes lie on
     /// less noise.
     constexpr double excludedMargin = 10.0;
-    constexpr Index largestSkirtSteps = 16;
 
     /// Number of frames to record: only the newest one without traceback.
     std::size_t framesOf(const Grid &grid, const ChainSettings &settings)
@@ -296,43 +295,10 @@ void DetectionChain::endDuplicates()
 CellBox DetectionChain::boxRound(const std::vector<Index> &centre, std::span<const float> y, double margin) const
 {
     CellBox box{centre, m_settings.inhibitCells};
-    const Index middle = m_grid.cell(centre);
-    const double level = double(std::max(0.0f, y[std::size_t(middle)])); // 0 if not observed
+    const double level = double(std::max(0.0f, y[std::size_t(m_grid.cell(centre))])); // 0 if not observed
     if (m_settings.leakageExtent)
         box.halfWidth.back() = std::max(box.halfWidth.back(), m_settings.leakageExtent(margin * level));
-    if (m_settings.skirtStep <= 0 || level < skirtLevel)
-        return box;
-    // Beyond the window's own side lobes a modulated line has skirts: extend the box down the hill to where it stops
-    // falling.
-    const Axis &axis = m_grid.axes.back();
-    const Index position = centre.back();
-    const auto hillOn = [&](Index direction) {
-        const auto groupPeak = [&](Index from) {
-            float peak = 0.0f;
-            for (Index i = 0; i < m_settings.skirtStep; ++i)
-                if (const Index cell = axis.wrapped(position + direction * (from + i)); cell >= 0)
-                    peak = std::max(peak, y[std::size_t(middle - position + cell)]);
-            return peak;
-        };
-        Index reach = box.halfWidth.back();
-        const Index limit = reach + largestSkirtSteps * m_settings.skirtStep;
-        float before = groupPeak(std::max<Index>(0, reach - m_settings.skirtStep + 1));
-        while (reach < limit) {
-            const float next = groupPeak(reach + 1);
-            if (double(next) < skirtLevel || next > before)
-                break;
-            before = next;
-            reach += m_settings.skirtStep;
-        }
-        return reach;
-    };
-    const Index below = hillOn(-1);
-    const Index above = hillOn(+1);
-    box.halfWidth.back() = (below + above + 1) / 2;
-    box.centre.back() = position + (above - below) / 2;
-    if (const Index inside = axis.wrapped(box.centre.back()); inside >= 0)
-        box.centre.back() = inside;
-    return box;
+    return overSkirts(std::move(box), m_grid, y, m_settings.skirtStep);
 }
 
 double DetectionChain::scoreOf(Index state, std::size_t model) const
@@ -456,16 +422,7 @@ void DetectionChain::startTrack(Index frame, const Cluster &cluster, std::span<c
     CellBox box = boxRound(m_grid.coordinates(cluster.peakCell), y);
     for (std::size_t axis = 0; axis < m_settings.forgetCells.size(); ++axis)
         box.halfWidth[axis] = std::max(box.halfWidth[axis], m_settings.forgetCells[axis]);
-    for (Index cell : cluster.cells) {
-        const std::vector<Index> c = m_grid.coordinates(cell);
-        for (std::size_t axis = 0; axis < c.size(); ++axis) {
-            const Axis &a = m_grid.axes[axis];
-            Index distance = std::abs(c[axis] - box.centre[axis]);
-            if (a.cyclic)
-                distance = std::min(distance, a.count - distance);
-            box.halfWidth[axis] = std::max(box.halfWidth[axis], distance + m_settings.linkCells[axis]);
-        }
-    }
+    box = overCells(std::move(box), m_grid, cluster.cells, m_settings.linkCells);
     m_newBoxes.push_back(box);
     m_boxes.push_back(std::move(box));
 }
