@@ -2,6 +2,7 @@
 
 #include "base/memoryShares.h"
 #include "track/boxExtent.h"
+#include "track/closeTrackers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,6 @@ namespace faintline {
 namespace {
 
     constexpr Index checkpointFrames = 32; ///< frames between checkpoints
-    constexpr int framesUntilDuplicate = 3;
     /// Factor by which a constant leaks more than a line: where noise falls steeply from 0 Hz on, its side lobes lie on
     /// less noise.
     constexpr double excludedMargin = 10.0;
@@ -221,34 +221,13 @@ float DetectionChain::nothingSeen() const
 
 std::vector<std::pair<Index, float>> DetectionChain::maskNeighbours(const PlaceIndex &places, std::size_t own)
 {
-    // Prevents a tracker from moving over to a stronger signal that another one follows: cells nearer to the other
-    // tracker belong to it.
-    const auto distance = [this](const std::vector<Index> &a, const std::vector<Index> &b) {
-        Index largest = 0;
-        for (std::size_t axis = 0; axis < a.size(); ++axis) {
-            Index d = std::abs(a[axis] - b[axis]);
-            if (m_grid.axes[axis].cyclic)
-                d = std::min(d, m_grid.axes[axis].count - d);
-            largest = std::max(largest, d);
-        }
-        return largest;
-    };
-    const std::vector<Index> &mine = places[own];
-    const Index farthest = m_trackerModels.front()->largestExtent;
     std::vector<std::pair<Index, float>> hidden;
-    places.forEachNear(mine, farthest, [&](std::size_t other) {
-        const std::vector<Index> &centre = places[other];
-        if (other == own || distance(mine, centre) > farthest)
-            return;
-        CellBox{centre, m_settings.inhibitCells}.forEachCell(m_grid, [&](Index cell) {
-            const std::vector<Index> c = m_grid.coordinates(cell);
-            if (distance(c, centre) >= distance(c, mine))
-                return;
-            float &value = m_lambda[std::size_t(cell)];
-            hidden.emplace_back(cell, value);
-            value = nothingSeen();
-        });
-    });
+    const Index farthest = m_trackerModels.front()->largestExtent;
+    for (const Index cell : cellsOfNeighbours(m_grid, places, own, farthest, m_settings.inhibitCells)) {
+        float &value = m_lambda[std::size_t(cell)];
+        hidden.emplace_back(cell, value);
+        value = nothingSeen();
+    }
     // Undoing in reverse order restores the first value of a cell hidden twice.
     std::reverse(hidden.begin(), hidden.end());
     return hidden;
@@ -256,40 +235,8 @@ std::vector<std::pair<Index, float>> DetectionChain::maskNeighbours(const PlaceI
 
 void DetectionChain::endDuplicates()
 {
-    // If two trackers follow one signal, the younger one ends. It was a second report of the same signal, unless it had
-    // existed separately for longer.
-    if (m_trackers.size() < 2)
-        return;
-    std::vector<std::vector<Index>> places;
-    for (const HmmTracker &tracker : m_trackers)
-        places.push_back(tracker.coordinates());
-    const PlaceIndex index(m_grid, std::move(places));
-    std::vector<std::size_t> near;
-    for (std::size_t younger = m_trackers.size(); younger-- > 1;) {
-        HmmTracker &young = m_trackers[younger];
-        near.clear();
-        index.forEachNear(index[younger], m_settings.linkCells.front(), [&](std::size_t older) {
-            if (older < younger && CellBox{index[older], m_settings.linkCells}.contains(m_grid, index[younger]))
-                near.push_back(older);
-        });
-        std::sort(near.begin(), near.end());
-        std::vector<HmmTracker::Beside> beside;
-        int longest = 0;
-        for (std::size_t i = 0; i < near.size() && longest < framesUntilDuplicate; ++i) {
-            const int older = m_trackers[near[i]].track().id;
-            const auto known = std::find_if(young.beside().begin(), young.beside().end(),
-                                            [older](const HmmTracker::Beside &other) { return other.track == older; });
-            longest = known == young.beside().end() ? 1 : known->frames + 1;
-            beside.push_back({older, longest});
-        }
-        if (longest < framesUntilDuplicate) {
-            young.setBeside(std::move(beside));
-            continue;
-        }
-        if (2 * longest < young.age())
-            m_ended.push_back(young.finish(false));
-        m_trackers.erase(m_trackers.begin() + std::ptrdiff_t(younger));
-    }
+    for (Track &track : endedDuplicates(m_trackers, m_grid, m_settings.linkCells))
+        m_ended.push_back(std::move(track));
 }
 
 CellBox DetectionChain::boxRound(const std::vector<Index> &centre, std::span<const float> y, double margin) const
