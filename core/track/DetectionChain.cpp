@@ -3,6 +3,7 @@
 #include "base/memoryShares.h"
 #include "track/boxExtent.h"
 #include "track/closeTrackers.h"
+#include "track/trimOnset.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,24 +32,6 @@ namespace {
         for (const MarkovModel &model : models)
             states += std::size_t(model.space.stateCount());
         return memoryShares::pathRecord / (sizeof(float) * states);
-    }
-
-    /// A path usually reaches its signal through some frames of favourable noise. The signal begins where the score
-    /// begins to grow: the change point between no growth and half the path's own mean growth.
-    void trimOnset(std::vector<TrackPoint> &points)
-    {
-        const double tilt = 0.5 * points.back().statistic / double(points.size());
-        std::size_t onset = 0;
-        double least = 0.0;
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            const double before = i == 0 ? 0.0 : points[i - 1].statistic;
-            const double tilted = before - tilt * double(i);
-            if (tilted < least) {
-                least = tilted;
-                onset = i;
-            }
-        }
-        points.erase(points.begin(), points.begin() + std::ptrdiff_t(onset));
     }
 
 } // namespace
