@@ -1,7 +1,6 @@
 #include "app/panels/SequentialPanel.h"
 
 #include "app/document/Document.h"
-#include "app/document/saveView.h"
 #include "app/panels/ScanTestForm.h"
 #include "app/panels/TrajectoryPage.h"
 #include "app/panels/sequentialSentences.h"
@@ -13,7 +12,6 @@
 #include "widgets/plot/WalkPlot.h"
 
 #include <QComboBox>
-#include <QFileDialog>
 #include <QKeyEvent>
 #include <QLabel>
 #include <QMenu>
@@ -74,23 +72,23 @@ SequentialPanel::SequentialPanel(Document &document, SequentialTests &tests, QWi
       m_start(new QPushButton(tr("Run"))), m_cancel(new QPushButton(tr("Cancel"))),
       m_onSelection(new QPushButton(tr("Test the visible part"))), m_progress(new QProgressBar), m_state(new QLabel),
       m_tabs(new QTabWidget), m_walk(new WalkPlot), m_stopping(new BarPlot), m_trajectory(new TrajectoryPage(tests)),
-      m_asn(new ChartPlot), m_variation(new ChartPlot), m_curvesText(sentenceLabel()), m_prior(new ChartPlot),
-      m_priorText(sentenceLabel()), m_sectors(new BarPlot), m_sectorsText(sentenceLabel()), m_runText(new QLabel),
-      m_stageText(new QLabel), m_slider(new QSlider(Qt::Horizontal))
+      m_views(document, tests, *m_trajectory, this), m_asn(new ChartPlot), m_variation(new ChartPlot),
+      m_curvesText(sentenceLabel()), m_prior(new ChartPlot), m_priorText(sentenceLabel()), m_sectors(new BarPlot),
+      m_sectorsText(sentenceLabel()), m_runText(new QLabel), m_stageText(new QLabel),
+      m_slider(new QSlider(Qt::Horizontal))
 {
     m_tabs->setDocumentMode(true);
     m_tabs->setMinimumWidth(280); // charts that are not visible must not widen the window
     m_tabs->addTab(buildWalks(), tr("Walks"));
-    addView(&m_trajectory->posterior(), tr("Posterior and trajectory"),
-            [this] { return m_trajectory->posteriorNumbers(); });
-    addView(&m_trajectory->scan(), tr("Scan"), [this] { return m_trajectory->scanNumbers(); });
+    m_views.add(&m_trajectory->posterior(), tr("Posterior and trajectory"),
+                [this] { return m_trajectory->posteriorNumbers(); });
+    m_views.add(&m_trajectory->scan(), tr("Scan"), [this] { return m_trajectory->scanNumbers(); });
     m_tabs->addTab(m_trajectory, tr("Trajectory and scan"));
     m_tabs->addTab(buildCurves(), tr("Stages against SNR"));
     m_tabs->addTab(buildPrior(), tr("Against the prior"));
     m_tabs->addTab(buildSectors(), tr("Sectors"));
     auto *saveMenu = new QMenu(this);
-    for (const View &view : m_views)
-        saveMenu->addAction(tr("%1…").arg(view.title), this, [this, view] { save(view); });
+    m_views.addActionsTo(*saveMenu);
     auto *saveButton = new QToolButton;
     saveButton->setText(tr("Save"));
     saveButton->setToolTip(tr("Save a view as PNG, SVG or PDF, or its numbers as CSV"));
@@ -160,25 +158,14 @@ QWidget *SequentialPanel::buildLeft()
     return left;
 }
 
-void SequentialPanel::addView(QWidget *widget, const QString &title, std::function<std::string()> csv)
-{
-    m_views.push_back({widget, title, std::move(csv)});
-    widget->setContextMenuPolicy(Qt::CustomContextMenu);
-    connect(widget, &QWidget::customContextMenuRequested, this, [this, view = m_views.back()](const QPoint &at) {
-        QMenu menu;
-        menu.addAction(tr("Save picture or numbers…"), this, [this, view] { save(view); });
-        menu.exec(view.widget->mapToGlobal(at));
-    });
-}
-
 QWidget *SequentialPanel::buildWalks()
 {
     m_walk->setEmptySentence(tr("Press Run to plot ln Λ of each trial until it decides."));
     m_stopping->setEmptySentence(tr("The stages at which tests stop are counted here."));
     m_stopping->setTitles(tr("stages taken"), tr("tests"));
     m_stopping->setAccessibleName(tr("Number of tests that stopped after each stage"));
-    addView(m_walk, tr("Walks of ln Λ"), [this] { return walksCsv(m_tests.walks(), m_tests.isOfScans()); });
-    addView(m_stopping, tr("Stopping times"), [this] { return walksCsv(m_tests.walks(), m_tests.isOfScans()); });
+    m_views.add(m_walk, tr("Walks of ln Λ"), [this] { return walksCsv(m_tests.walks(), m_tests.isOfScans()); });
+    m_views.add(m_stopping, tr("Stopping times"), [this] { return walksCsv(m_tests.walks(), m_tests.isOfScans()); });
     connect(m_walk, &WalkPlot::walkActivated, &m_tests, &SequentialTests::select);
     connect(m_walk, &MarkedPlot::activated, this, [this](double x) { m_tests.setStage(std::lround(x)); });
     connect(m_stopping, &BarPlot::barActivated, this, &SequentialPanel::selectStoppedAt);
@@ -189,14 +176,14 @@ QWidget *SequentialPanel::buildCurves()
 {
     for (ChartPlot *plot : {m_asn, m_variation, m_prior})
         plot->setEmptySentence(tr("Press Run to plot the curve."));
-    addView(m_asn, tr("Stages against SNR"), [this] { return chartCsv(m_asn->chart()); });
-    addView(m_variation, tr("Coefficient of variation"), [this] { return chartCsv(m_variation->chart()); });
+    m_views.add(m_asn, tr("Stages against SNR"), [this] { return chartCsv(m_asn->chart()); });
+    m_views.add(m_variation, tr("Coefficient of variation"), [this] { return chartCsv(m_variation->chart()); });
     return m_curvesPage = column({sideBySide(m_asn, m_variation, 3, 2), m_curvesText});
 }
 
 QWidget *SequentialPanel::buildPrior()
 {
-    addView(m_prior, tr("Stages against the prior"), [this] { return chartCsv(m_prior->chart()); });
+    m_views.add(m_prior, tr("Stages against the prior"), [this] { return chartCsv(m_prior->chart()); });
     return m_priorPage = column({m_prior, m_priorText});
 }
 
@@ -205,8 +192,8 @@ QWidget *SequentialPanel::buildSectors()
     m_sectors->setEmptySentence(tr("The dwell time on each sector appears here."));
     m_sectors->setTitles(tr("sector"), tr("dwell, mean stages per look"));
     m_sectors->setAccessibleName(tr("Dwell time on each sector"));
-    addView(m_sectors, tr("Sectors"),
-            [this] { return m_tests.survey() ? surveyCsv(m_tests.test(), *m_tests.survey()) : std::string(); });
+    m_views.add(m_sectors, tr("Sectors"),
+                [this] { return m_tests.survey() ? surveyCsv(m_tests.test(), *m_tests.survey()) : std::string(); });
     return m_sectorsPage = column({m_sectors, m_sectorsText});
 }
 
@@ -244,6 +231,8 @@ void SequentialPanel::connectTests()
     connect(&m_tests, &SequentialTests::curvesChanged, this, &SequentialPanel::showCurves);
     connect(&m_tests, &SequentialTests::surveyChanged, this, &SequentialPanel::showSectors);
     connect(&m_tests, &SequentialTests::failed, this, &SequentialPanel::failed);
+    connect(&m_views, &SequentialViews::failed, this, &SequentialPanel::failed);
+    connect(&m_views, &SequentialViews::written, this, &SequentialPanel::written);
 }
 
 // ---- starting -------------------------------------------------------------------------------------------------------
@@ -423,7 +412,7 @@ void SequentialPanel::showSectors()
     m_sectorsText->setText(sectorsSentence(m_tests));
 }
 
-// ---- keys and files -------------------------------------------------------------------------------------------------
+// ---- keys -----------------------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -463,46 +452,6 @@ bool SequentialPanel::eventFilter(QObject *watched, QEvent *event)
         return QWidget::eventFilter(watched, event);
     m_tests.setStage(m_tests.stage() + stepOf(*event));
     return true;
-}
-
-std::string SequentialPanel::provenance(const View &view) const
-{
-    Json json = {{"version", FAINTLINE_VERSION},
-                 {"chart", view.title.toStdString()},
-                 {"walk", m_tests.selected()},
-                 {"stage", m_tests.stage()},
-                 {"axis", m_trajectory->axis()}};
-    json["sequential"] = m_tests.isOfScans() ? writeFields(m_tests.test(), ScanTest::fields())
-                                             : writeFields(m_tests.test().sprt, SprtSettings::fields());
-    if (!m_tests.isOfScans()) {
-        const SequentialTests::Selection &selection = m_tests.selection();
-        json["recording"] = {{"name", selection.name.toStdString()}};
-        json["settings"] = Json::parse(settingsToJson(m_document.settings()));
-        json["firstFrame"] = selection.firstFrame;
-        json["frameCount"] = selection.frameCount;
-        json["firstCell"] = selection.firstCell;
-        json["cellCount"] = selection.cellCount;
-    }
-    return json.dump(2) + "\n";
-}
-
-void SequentialPanel::save(const View &view)
-{
-    const QString path = QFileDialog::getSaveFileName(this, tr("Save: %1").arg(view.title),
-                                                      QStringLiteral("sequential.png"), saveViewFilter());
-    if (path.isEmpty())
-        return;
-    try {
-        saveTo(view, path);
-        emit written(path);
-    } catch (const Error &error) {
-        emit failed(error);
-    }
-}
-
-void SequentialPanel::saveTo(const View &view, const QString &path) const
-{
-    saveView(*view.widget, view.csv(), path, provenance(view));
 }
 
 } // namespace faintline

@@ -1,12 +1,9 @@
 #pragma once
 
 #include "app/control/SequentialTests.h"
+#include "app/panels/SequentialViews.h"
 
 #include <QWidget>
-
-#include <functional>
-#include <string>
-#include <vector>
 
 class QLabel;
 class QProgressBar;
@@ -52,15 +49,7 @@ public:
     QSlider &slider() { return *m_slider; }
     QTabWidget &tabs() { return *m_tabs; }
 
-    /// A view and its numbers, for export.
-    struct View {
-        QWidget *widget;
-        QString title;
-        std::function<std::string()> csv;
-    };
-    const std::vector<View> &views() const { return m_views; }
-    /// Saves a view as displayed, or its numbers (.csv) with their provenance. Throws Error.
-    void saveTo(const View &view, const QString &path) const;
+    const SequentialViews &views() const { return m_views; } ///< and their export
 
     QSize sizeHint() const override { return {1000, 340}; }
 
@@ -80,7 +69,6 @@ private:
     QWidget *buildPrior();
     QWidget *buildSectors();
     QWidget *buildRunRow();
-    void addView(QWidget *widget, const QString &title, std::function<std::string()> csv);
     void connectTests();
 
     void run();
@@ -94,12 +82,9 @@ private:
     void showSectors();
     void selectStoppedAt(int stage);
     void followDocument();
-    void save(const View &view);
-    std::string provenance(const View &view) const;
 
     Document &m_document;
     SequentialTests &m_tests;
-    std::vector<View> m_views;
 
     ScanTestForm *m_form;
     QPushButton *m_start;
@@ -111,6 +96,7 @@ private:
     WalkPlot *m_walk;
     BarPlot *m_stopping;
     TrajectoryPage *m_trajectory;
+    SequentialViews m_views;
     ChartPlot *m_asn;
     ChartPlot *m_variation;
     QLabel *m_curvesText;
