@@ -2,6 +2,7 @@
 
 #include "app/document/Document.h"
 #include "app/panels/ScanTestForm.h"
+#include "app/panels/SequentialControls.h"
 #include "app/panels/TrajectoryPage.h"
 #include "app/panels/sequentialSentences.h"
 #include "exchange/sequentialCsv.h"
@@ -15,9 +16,6 @@
 #include <QKeyEvent>
 #include <QLabel>
 #include <QMenu>
-#include <QProgressBar>
-#include <QPushButton>
-#include <QScrollArea>
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QSplitter>
@@ -68,9 +66,7 @@ namespace {
 } // namespace
 
 SequentialPanel::SequentialPanel(Document &document, SequentialTests &tests, QWidget *parent)
-    : QWidget(parent), m_document(document), m_tests(tests), m_form(new ScanTestForm),
-      m_start(new QPushButton(tr("Run"))), m_cancel(new QPushButton(tr("Cancel"))),
-      m_onSelection(new QPushButton(tr("Test the visible part"))), m_progress(new QProgressBar), m_state(new QLabel),
+    : QWidget(parent), m_document(document), m_tests(tests), m_controls(new SequentialControls(tests)),
       m_tabs(new QTabWidget), m_walk(new WalkPlot), m_stopping(new BarPlot), m_trajectory(new TrajectoryPage(tests)),
       m_views(document, tests, *m_trajectory, this), m_asn(new ChartPlot), m_variation(new ChartPlot),
       m_curvesText(sentenceLabel()), m_prior(new ChartPlot), m_priorText(sentenceLabel()), m_sectors(new BarPlot),
@@ -104,7 +100,7 @@ SequentialPanel::SequentialPanel(Document &document, SequentialTests &tests, QWi
     auto *layout = new QHBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
-    layout->addWidget(buildLeft());
+    layout->addWidget(m_controls);
     layout->addLayout(right, 1);
     for (QComboBox *list : m_tabs->findChildren<QComboBox *>())
         list->installEventFilter(this);
@@ -115,48 +111,12 @@ SequentialPanel::SequentialPanel(Document &document, SequentialTests &tests, QWi
     restart();
 }
 
-// ---- building -------------------------------------------------------------------------------------------------------
-
-QWidget *SequentialPanel::buildLeft()
+ScanTestForm &SequentialPanel::form()
 {
-    auto *area = new QScrollArea;
-    area->setWidget(m_form);
-    area->setWidgetResizable(true);
-    area->setFrameShape(QFrame::NoFrame);
-    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    m_progress->setRange(0, 1000);
-    m_progress->setTextVisible(false);
-    m_progress->setFixedHeight(8);
-    m_progress->setAccessibleName(tr("Progress of the sequential tests"));
-    m_state->setTextFormat(Qt::PlainText);
-    m_state->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-    m_start->setToolTip(tr("Run tests on simulated radar scans with these settings, in the background"));
-    m_onSelection->setToolTip(tr("Run one test on the visible frames and frequencies, with α, β and the cut-off from "
-                                 "above and the signal model of the pipeline"));
-    connect(m_start, &QPushButton::clicked, this, &SequentialPanel::run);
-    connect(m_cancel, &QPushButton::clicked, &m_tests, &SequentialTests::cancel);
-    connect(m_onSelection, &QPushButton::clicked, this, &SequentialPanel::startOnSelection);
-
-    auto *left = new QWidget;
-    left->setFixedWidth(290);
-    auto *buttons = new QHBoxLayout;
-    buttons->setSpacing(6);
-    buttons->addWidget(m_start, 1);
-    buttons->addWidget(m_cancel, 1);
-    auto *below = new QVBoxLayout;
-    below->setContentsMargins(8, 2, 8, 4);
-    below->setSpacing(3);
-    below->addLayout(buttons);
-    below->addWidget(m_onSelection);
-    below->addWidget(m_progress);
-    below->addWidget(m_state);
-    auto *layout = new QVBoxLayout(left);
-    layout->setContentsMargins(0, 0, 0, 0);
-    layout->setSpacing(0);
-    layout->addWidget(area, 1);
-    layout->addLayout(below);
-    return left;
+    return m_controls->form();
 }
+
+// ---- building -------------------------------------------------------------------------------------------------------
 
 QWidget *SequentialPanel::buildWalks()
 {
@@ -217,12 +177,9 @@ QWidget *SequentialPanel::buildRunRow()
 
 void SequentialPanel::connectTests()
 {
+    connect(m_controls, &SequentialControls::runRequested, this, &SequentialPanel::run);
+    connect(m_controls, &SequentialControls::onSelectionRequested, this, &SequentialPanel::startOnSelection);
     connect(&m_tests, &SequentialTests::restarted, this, &SequentialPanel::restart);
-    connect(&m_tests, &SequentialTests::busyChanged, this, &SequentialPanel::showBusy);
-    connect(&m_tests, &SequentialTests::progressed, this, [this](double fraction, const QString &what) {
-        m_progress->setValue(int(1000.0 * fraction));
-        m_state->setText(what);
-    });
     connect(&m_tests, &SequentialTests::walksChanged, this, &SequentialPanel::showWalks);
     connect(&m_tests, &SequentialTests::fixedSizeChanged, this, &SequentialPanel::showWalks);
     connect(&m_tests, &SequentialTests::selectionChanged, this, &SequentialPanel::showSelection);
@@ -239,16 +196,16 @@ void SequentialPanel::connectTests()
 
 void SequentialPanel::run()
 {
-    start(m_form->test());
+    start(form().test());
 }
 
 void SequentialPanel::start(const ScanTest &test)
 {
-    m_form->setTest(test);
+    form().setTest(test);
     try {
         m_tests.start(test);
     } catch (const Error &error) {
-        m_form->showError(error);
+        form().showError(error);
         emit failed(error);
     }
 }
@@ -270,7 +227,7 @@ void SequentialPanel::startOnSelection()
     selection.firstCell = frequency.nearest(visible.frequency.low + 0.5 * frequency.step);
     selection.cellCount = frequency.nearest(visible.frequency.high - 0.5 * frequency.step) - selection.firstCell + 1;
     try {
-        m_tests.start(selection, m_form->test().sprt);
+        m_tests.start(selection, form().test().sprt);
     } catch (const Error &error) {
         emit failed(error);
     }
@@ -278,7 +235,6 @@ void SequentialPanel::startOnSelection()
 
 void SequentialPanel::restart()
 {
-    showBusy(m_tests.isRunning());
     m_trajectory->clear();
     const QString none = tr("Curves and sectors are simulated. Press Run to plot them.");
     for (ChartPlot *plot : {m_asn, m_variation, m_prior})
@@ -291,24 +247,10 @@ void SequentialPanel::restart()
     showSectors();
 }
 
-void SequentialPanel::showBusy(bool isBusy)
-{
-    m_cancel->setEnabled(isBusy);
-    if (isBusy) {
-        m_state->setText(tr("starting"));
-        return m_progress->setValue(0);
-    }
-    m_progress->setValue(m_tests.isFixedSizeKnown() || (!m_tests.isOfScans() && !m_tests.isEmpty()) ? 1000 : 0);
-    m_state->setText(m_tests.isEmpty()             ? QString()
-                     : m_progress->value() == 1000 ? tr("done")
-                                                   : tr("Stopped; results "
-                                                        "incomplete"));
-}
-
 void SequentialPanel::followDocument()
 {
     const auto analysis = m_document.lineAnalysis();
-    m_onSelection->setEnabled(analysis && analysis->settings.model.motion == Motion::Slopes);
+    m_controls->setOnSelectionEnabled(analysis && analysis->settings.model.motion == Motion::Slopes);
 }
 
 // ---- showing --------------------------------------------------------------------------------------------------------

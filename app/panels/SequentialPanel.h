@@ -6,8 +6,6 @@
 #include <QWidget>
 
 class QLabel;
-class QProgressBar;
-class QPushButton;
 class QSlider;
 class QTabWidget;
 
@@ -17,6 +15,7 @@ class BarPlot;
 class ChartPlot;
 class Document;
 class ScanTestForm;
+class SequentialControls;
 class TrajectoryPage;
 class WalkPlot;
 
@@ -35,7 +34,7 @@ public:
     void start(const ScanTest &test);
     void startOnSelection(); ///< tests the visible part of the recording
 
-    ScanTestForm &form() { return *m_form; }
+    ScanTestForm &form();
     WalkPlot &walk() { return *m_walk; }
     BarPlot &stopping() { return *m_stopping; }
     ChartPlot &asn() { return *m_asn; }
@@ -63,7 +62,6 @@ protected:
     void keyPressEvent(QKeyEvent *event) override;
 
 private:
-    QWidget *buildLeft();
     QWidget *buildWalks();
     QWidget *buildCurves();
     QWidget *buildPrior();
@@ -73,7 +71,6 @@ private:
 
     void run();
     void restart();
-    void showBusy(bool isBusy);
     void showWalks();
     void showStopping();
     void showSelection();
@@ -86,12 +83,7 @@ private:
     Document &m_document;
     SequentialTests &m_tests;
 
-    ScanTestForm *m_form;
-    QPushButton *m_start;
-    QPushButton *m_cancel;
-    QPushButton *m_onSelection;
-    QProgressBar *m_progress;
-    QLabel *m_state;
+    SequentialControls *m_controls;
     QTabWidget *m_tabs;
     WalkPlot *m_walk;
     BarPlot *m_stopping;
