@@ -2,6 +2,7 @@
 
 #include "analysis/judgeByBoxes.h"
 #include "app/base/filePath.h"
+#include "app/base/writeAndReport.h"
 #include "app/control/thresholdWords.h"
 #include "exchange/readAnnotations.h"
 #include "exchange/writeEvents.h"
@@ -76,17 +77,14 @@ void EventFiles::writeProvenance(const QString &path, bool isOfTracks)
     const bool isDragged = m_document.shownThreshold() != m_document.analysis()->threshold;
     m_provenance.with(
         [this, path, isOfTracks, isDragged, threshold = m_document.shownThreshold()](const std::string &provenance) {
-            try {
+            writeAndReport(*this, path, [&] {
                 Json json = parseJson(provenance, "provenance");
                 if (isDragged)
                     json["shownThreshold"] = threshold;
                 if (isOfTracks)
                     json["tracks"] = true;
                 writeProvenanceBeside(path, json.dump(2) + "\n");
-                emit written(path);
-            } catch (const Error &error) {
-                emit failed(error);
-            }
+            });
         });
 }
 

@@ -1,5 +1,6 @@
 #include "app/panels/SequentialViews.h"
 
+#include "app/base/writeAndReport.h"
 #include "app/control/SequentialTests.h"
 #include "app/document/Document.h"
 #include "app/document/saveView.h"
@@ -60,14 +61,8 @@ void SequentialViews::save(const View &view)
 {
     const QString path = QFileDialog::getSaveFileName(m_panel, tr("Save: %1").arg(view.title),
                                                       QStringLiteral("sequential.png"), saveViewFilter());
-    if (path.isEmpty())
-        return;
-    try {
-        saveTo(view, path);
-        emit written(path);
-    } catch (const Error &error) {
-        emit failed(error);
-    }
+    if (!path.isEmpty())
+        writeAndReport(*this, path, [&] { saveTo(view, path); });
 }
 
 void SequentialViews::saveTo(const View &view, const QString &path) const
