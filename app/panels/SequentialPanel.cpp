@@ -4,6 +4,7 @@
 #include "app/panels/ScanTestForm.h"
 #include "app/panels/SequentialControls.h"
 #include "app/panels/TrajectoryPage.h"
+#include "app/panels/sequentialBars.h"
 #include "app/panels/sequentialSentences.h"
 #include "exchange/sequentialCsv.h"
 #include "exchange/writeChart.h"
@@ -269,17 +270,8 @@ void SequentialPanel::showWalks()
 
 void SequentialPanel::showStopping()
 {
-    std::vector<BarPlot::Series> series{{tr("H0, noise only"), 0, {}}, {tr("H1, a target"), 1, {}}};
-    Index longest = 0;
-    for (const auto &[run, result] : m_tests.walks())
-        longest = std::max(longest, result.stages);
-    if (!m_tests.isOfScans())
-        longest = 0; // a single test has no histogram
-    for (BarPlot::Series &one : series)
-        one.values.assign(std::size_t(longest), 0.0);
-    if (longest > 0)
-        for (const auto &[run, result] : m_tests.walks())
-            series[run.hasTarget ? 1 : 0].values[std::size_t(result.stages - 1)] += 1.0;
+    std::vector<BarPlot::Series> series = stoppingBars(m_tests);
+    const Index longest = std::ssize(series.front().values);
     m_stopping->setBars(std::move(series), 1);
     std::vector<MarkedPlot::Mark> marks;
     if (m_tests.fixedSize() && *m_tests.fixedSize() <= longest)
@@ -332,16 +324,7 @@ void SequentialPanel::showCurves()
 
 void SequentialPanel::showSectors()
 {
-    const ScanTest &test = m_tests.test();
-    std::vector<BarPlot::Series> series{{tr("empty"), 0, {}}, {tr("with a target"), 1, {}}};
-    if (m_tests.survey()) {
-        for (BarPlot::Series &one : series)
-            one.values.assign(std::size_t(test.sectors), 0.0);
-        for (const SectorVisit &visit : m_tests.survey()->visits)
-            series[holdsTarget(test, visit.sector) ? 1 : 0].values[std::size_t(visit.sector)] +=
-                double(visit.result.stages) / test.rounds;
-    }
-    m_sectors->setBars(std::move(series), 1, true);
+    m_sectors->setBars(sectorBars(m_tests), 1, true);
     std::vector<MarkedPlot::Mark> marks;
     if (m_tests.fixedSize()) {
         marks.push_back({double(*m_tests.fixedSize()), false,
