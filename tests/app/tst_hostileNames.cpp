@@ -2,6 +2,7 @@
 
 #include "app/base/MessageBar.h"
 #include "app/base/filePath.h"
+#include "app/control/EventFiles.h"
 #include "app/control/EventReviews.h"
 #include "app/lessons/LessonGuide.h"
 #include "app/openWindow.h"
@@ -396,7 +397,7 @@ void tst_hostileNames::bytesThatAreNoTextAreOpened()
     QVERIFY(openAndSettle(*window, pathText(session)));
     QVERIFY2(window->document().analysis(), qPrintable(window->messages().text()));
     QCOMPARE(window->messages().text(), QString()); // the recording's hash is the session's
-    window->reviews().exportTo(pathText(place + "/" + name.toStdString() + ".csv"));
+    window->reviews().files().exportTo(pathText(place + "/" + name.toStdString() + ".csv"));
     QVERIFY(std::filesystem::exists(place + "/" + name.toStdString() + ".csv"));
     QTRY_VERIFY(std::filesystem::exists(place + "/" + name.toStdString() + ".csv.provenance.json"));
 }
