@@ -296,10 +296,9 @@ void EventReviews::show()
     for (const EventReview &one : said)
         if (one.verdict == Verdict::Rejected)
             rejected.push_back(one.event);
-    const bool hasBoxes = m_document.frameKind().takesBoxes;
     for (WaterfallView *view : m_views) {
         view->setFaintEvents(rejected);
-        view->setAnnotations(hasBoxes ? m_document.annotations().boxes : std::vector<Annotation>());
+        view->setAnnotations(m_document.shownBoxes());
     }
     for (PingMap *map : m_maps)
         map->setFaintTracks(rejected);

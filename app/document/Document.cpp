@@ -171,12 +171,12 @@ Span Document::lookedAt() const
 
 std::vector<Annotation> Document::shownBoxes() const
 {
-    return frameKind().takesBoxes ? m_annotations.boxes : std::vector<Annotation>();
+    return isOnePicture() ? m_annotations.boxes : std::vector<Annotation>();
 }
 
 std::optional<Viewport::Box> Document::box() const
 {
-    return frameKind().takesBoxes ? m_viewport.selection() : std::nullopt;
+    return isOnePicture() ? m_viewport.selection() : std::nullopt;
 }
 
 void Document::setProvisional(std::shared_ptr<const PeakPyramid> statistic)
