@@ -25,8 +25,8 @@ public:
     /// `window`: parent of dialogs.
     EventFiles(Document &document, QWidget *window);
 
-    /// Import, export of events and export of tracks, each of which asks for a file; for a menu, which enables them once
-    /// there is an analysis.
+    /// Import, export of events and export of tracks, each of which asks for a file; for a menu, which enables them
+    /// once there is an analysis.
     const QList<QAction *> &actions() const { return m_actions; }
 
     /// Throws Error.

@@ -20,9 +20,9 @@ double toneAmplitude(double snrDb, double noiseVariance, double windowSamples, b
 ///
 ///   complex: A·g(t)·e^(iφ(t)),   real: A·Re(g(t)·e^(iφ(t))),   φ' = 2π(f(t) - centreHz),   t = index / rate
 ///
-/// f and the factor g of fading or fluctuation are those of LineSettings, determined by (seed, number); f is linear between nodes
-/// 0.1·referenceSeconds (0.1·wanderSeconds, if shorter) apart, so φ is a parabola there, in closed form. A stretch
-/// gives the same values however it is divided. Thread-safe.
+/// f and the factor g of fading or fluctuation are those of LineSettings, determined by (seed, number); f is linear
+/// between nodes 0.1·referenceSeconds (0.1·wanderSeconds, if shorter) apart, so φ is a parabola there, in closed form.
+/// A stretch gives the same values however it is divided. Thread-safe.
 class Tone
 {
 public:

@@ -11,8 +11,8 @@ namespace faintline {
 
 /// Cells that belong to another place than number `own`, because they are nearer to it: hidden from the tracker there,
 /// they prevent it from moving over to a stronger signal that another one follows. The cells of boxes of `halfWidth`,
-/// per axis, around the places at most `farthest` away; a cell may occur more than once. Distance: the largest along any
-/// axis, in cells.
+/// per axis, around the places at most `farthest` away; a cell may occur more than once. Distance: the largest along
+/// any axis, in cells.
 std::vector<Index> cellsOfNeighbours(const Grid &grid, const PlaceIndex &places, std::size_t own, Index farthest,
                                      const std::vector<Index> &halfWidth);
 

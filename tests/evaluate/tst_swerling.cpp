@@ -48,7 +48,8 @@ double pdOfMixture(double threshold, int looks, double snr, Fluctuation fluctuat
     return sum;
 }
 
-/// Powers of `cells` cells with a target each, one frame after the other: a complex amplitude √(g·snr) in complex noise.
+/// Powers of `cells` cells with a target each, one frame after the other: a complex amplitude √(g·snr) in complex
+/// noise.
 class Targets
 {
 public:
@@ -126,7 +127,8 @@ void tst_swerling::onePulse()
 
 void tst_swerling::textbookSnrs()
 {
-    // The usual example, Pd 0.9 at Pfa 1e-6: 13.2 dB without fluctuation, 21.1 dB for case 1, a fluctuation loss of 8 dB.
+    // The usual example, Pd 0.9 at Pfa 1e-6: 13.2 dB without fluctuation, 21.1 dB for case 1, a fluctuation loss of
+    // 8 dB.
     const double threshold = thresholdOfMeanPower(1e-6, 1);
     QVERIFY(std::abs(pdOfMeanPower(threshold, 1, std::pow(10.0, 1.318), Fluctuation::None) - 0.9) < 0.003);
     QVERIFY(std::abs(pdOfMeanPower(threshold, 1, std::pow(10.0, 2.114), Fluctuation::Swerling1) - 0.9) < 0.001);

@@ -22,8 +22,8 @@ namespace {
 
     /// A(n) = ∫₀ⱽ f_n(x) e^{-(V-x)/a} dx; for n = 0, where Γ(0) is 0, e^{-V/a}.
     ///
-    /// Up to z = (1 - 1/a)V = n + 1 by the series f_{n+1}(V)·Σ zʲ/((n+1)…(n+j)), beyond by P(n, z)·e^{-V/a}·(1 - 1/a)^-n;
-    /// there P(n, z) is at least a third, so that neither factor underflows alone.
+    /// Up to z = (1 - 1/a)V = n + 1 by the series f_{n+1}(V)·Σ zʲ/((n+1)…(n+j)), beyond by
+    /// P(n, z)·e^{-V/a}·(1 - 1/a)^-n; there P(n, z) is at least a third, so that neither factor underflows alone.
     double decayedGamma(int n, double v, double a)
     {
         const double share = 1.0 - 1.0 / a;
