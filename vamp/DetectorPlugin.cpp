@@ -185,7 +185,7 @@ DetectorPlugin::Found DetectorPlugin::search() const
     context.threads = std::max(1, int(std::thread::hardware_concurrency()));
     Found found;
     found.analysis = analyseInChosenWindow(recording, withSlopesInBins(settings(), recording->info()), context, nullptr,
-                                           {}, CalibrationDepth::Refined, AnalysisDepth::Tracks);
+                                           {.depth = AnalysisDepth::Tracks});
     const Index cells = found.analysis->grid().size();
     if (found.analysis->time().count > mostGridValues / cells) {
         std::fprintf(stderr, "faintline: the statistic has too many values for a host; choose a narrower band\n");
@@ -195,8 +195,8 @@ DetectorPlugin::Found DetectorPlugin::search() const
         for (Index at = 0; at < std::ssize(values); at += cells)
             found.statistic.emplace_back(values.begin() + at, values.begin() + at + cells);
     };
-    analyse(recording, found.analysis->settings, context, found.analysis.get(), keep, {}, CalibrationDepth::Refined,
-            AnalysisDepth::Trial);
+    analyse(recording, found.analysis->settings, context, found.analysis.get(),
+            {.statistic = keep, .depth = AnalysisDepth::Trial});
     return found;
 }
 

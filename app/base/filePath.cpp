@@ -90,11 +90,10 @@ QString fileLabel(const QString &path)
 
 QString nameBeside(const QString &path, const QString &ending)
 {
+    constexpr std::size_t mostBytes = 200; // a file system takes 255, with the ending
     const QFileInfo info(path);
-    const QString name =
-        QString::fromStdString(oneLine(pathBytes(info.completeBaseName()))).replace(QLatin1Char('?'), QLatin1Char('_'));
-    constexpr int mostLetters = 100; // a file system takes 255 bytes
-    return info.path() + QLatin1Char('/') + name.left(mostLetters) + ending;
+    const QString name = QString::fromStdString(beginning(oneLine(pathBytes(info.completeBaseName())), mostBytes));
+    return info.path() + QLatin1Char('/') + QString(name).replace(QLatin1Char('?'), QLatin1Char('_')) + ending;
 }
 
 } // namespace faintline

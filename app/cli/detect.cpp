@@ -222,8 +222,8 @@ namespace {
 
     std::shared_ptr<const Analysis> tracksOf(const DetectInput &input, const RunContext &context)
     {
-        return analyseInChosenWindow(input.recording, input.settings, context, nullptr, {}, CalibrationDepth::Refined,
-                                     AnalysisDepth::Tracks);
+        return analyseInChosenWindow(input.recording, input.settings, context, nullptr,
+                                     {.depth = AnalysisDepth::Tracks});
     }
 
     /// `writer`: where the statistic goes, if it is asked for.
@@ -239,13 +239,13 @@ namespace {
             return tracksOf(input, context);
         if (!leavesWindowToRecording(input.settings))
             return analyse(input.recording, input.settings, context, nullptr,
-                           sinkOf(writer, options.statistic, shapeOf(input.recording, input.settings)), {},
-                           CalibrationDepth::Refined, AnalysisDepth::Tracks);
+                           {.statistic = sinkOf(writer, options.statistic, shapeOf(input.recording, input.settings)),
+                            .depth = AnalysisDepth::Tracks});
         // A window that is chosen first; its tracks are more than those of the statistic.
         const auto chosen = tracksOf(input, context.part(0.0, 0.7));
         analyse(input.recording, chosen->settings, context.part(0.7, 1.0), chosen.get(),
-                sinkOf(writer, options.statistic, shapeOf(input.recording, chosen->settings)), {},
-                CalibrationDepth::Refined, AnalysisDepth::Trial);
+                {.statistic = sinkOf(writer, options.statistic, shapeOf(input.recording, chosen->settings)),
+                 .depth = AnalysisDepth::Trial});
         return chosen;
     }
 

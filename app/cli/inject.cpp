@@ -8,7 +8,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <memory>
+#include <vector>
 
 namespace faintline::cli {
 
@@ -18,11 +20,17 @@ namespace {
         AnalysisOptions analysis;
         LineSettings line;
         std::string fading = "none";
+        std::string fluctuation = "none";
         std::string out;
         std::string truth;
         std::string type = "float32";
         int seed = 1;
     };
+
+    Fluctuation fluctuationNamed(const std::string &name)
+    {
+        return static_cast<Fluctuation>(std::ranges::find(fluctuationNames, name) - fluctuationNames.begin());
+    }
 
     void inject(const InjectOptions &options, const Common &common)
     {
@@ -33,6 +41,7 @@ namespace {
         const RecordingPointer recording = options.analysis.recording();
         const AnalysisSettings settings = options.analysis.settings();
         line.fading = options.fading == "rayleigh" ? Fading::Rayleigh : Fading::None;
+        line.fluctuation = fluctuationNamed(options.fluctuation);
         const InjectedLine injected = scaledInjection(line, recording, settings, common.context().part(0.0, 0.3));
         const InjectedRecording made(recording, {injected}, settings.selection.channel, std::uint64_t(options.seed));
         CommitTogether files;
@@ -72,7 +81,10 @@ void addInject(CLI::App &app, Common &common)
         ->capture_default_str();
     command->add_option("--fading-time", line.fadingSeconds, "Correlation time of the fading, s")
         ->capture_default_str();
-    command->add_option("--seed", options->seed, "Seed of phase, wander and fading")
+    command->add_option("--fluctuation", options->fluctuation, "Fluctuation of the power about its mean")
+        ->check(CLI::IsMember(std::vector<std::string>(fluctuationNames.begin(), fluctuationNames.end())))
+        ->capture_default_str();
+    command->add_option("--seed", options->seed, "Seed of phase, wander, fading and fluctuation")
         ->check(inRange(0, 2147483647))
         ->capture_default_str();
     command->add_option("--type", options->type, "Sample type")

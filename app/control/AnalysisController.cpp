@@ -195,8 +195,9 @@ void AnalysisController::startAnalysis()
                 m_runner.deliver([this, sofar] { emit m_document.picturesGrew(sofar); });
             };
         const bool isNew = showsFirstEstimates && opened.recording && !knownCalibration(settings);
-        auto analysis = analyse(opened, settings, context.part(0.0, isNew ? 0.3 : 1.0), previous.get(), pictures,
-                                isNew ? CalibrationDepth::FirstEstimate : CalibrationDepth::Refined);
+        auto analysis = analyse(
+            opened, settings, context.part(0.0, isNew ? 0.3 : 1.0), previous.get(),
+            {.pictures = pictures, .calibration = isNew ? CalibrationDepth::FirstEstimate : CalibrationDepth::Refined});
         if (analysis->calibration->isFirstEstimate) {
             m_runner.deliver([this, analysis, found = events(*analysis)] { showFirstEstimate(analysis, found); });
             analysis = analyse(opened, settings, context.part(0.3, 1.0), analysis.get());
@@ -228,9 +229,9 @@ void AnalysisController::showPreview(const AnalysisSettings &settings, const Sta
 void AnalysisController::dropPartialPreview()
 {
     const auto &shown = m_document.provisional();
-    if (!shown || m_document.frameKind().isSeenSingly) // there it is of one frame, and shown with that one only
+    if (!shown)
         return;
-    const Span &visible = m_document.viewport().time();
+    const Span visible = m_document.lookedAt();
     const Axis &time = shown->time();
     if (visible.low < time.value(-1.5) || visible.high > time.value(double(time.count) + 0.5))
         m_document.setProvisional(nullptr);

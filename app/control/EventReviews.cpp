@@ -1,12 +1,7 @@
 #include "app/control/EventReviews.h"
 
-#include "analysis/judgeByBoxes.h"
-#include "app/base/filePath.h"
-#include "app/control/thresholdWords.h"
+#include "app/control/EventFiles.h"
 #include "base/oneLine.h"
-#include "exchange/readAnnotations.h"
-#include "exchange/writeEvents.h"
-#include "exchange/writeReviewed.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 #include "widgets/events/EventTable.h"
@@ -14,8 +9,6 @@
 #include "widgets/waterfall/WaterfallView.h"
 
 #include <QAction>
-#include <QFileDialog>
-#include <QFileInfo>
 #include <QInputDialog>
 #include <QItemSelectionModel>
 #include <QMenu>
@@ -51,7 +44,7 @@ namespace {
 
 EventReviews::EventReviews(Document &document, EventTable &table, std::vector<WaterfallView *> views, QWidget *window)
     : QObject(window), m_document(document), m_table(table), m_views(std::move(views)), m_window(window),
-      m_provenance(document)
+      m_files(new EventFiles(document, window))
 {
     m_eventActions << add(tr("&Accept"), Qt::Key_Y, tr("This is a signal"), &EventReviews::accept)
                    << add(tr("Re&ject"), Qt::Key_X, tr("Not a signal; show it dimmed"), &EventReviews::reject)
@@ -70,13 +63,7 @@ EventReviews::EventReviews(Document &document, EventTable &table, std::vector<Wa
     m_actions << nullptr;
     m_addBox =
         add(tr("Add annotation of the &box…"), Qt::Key_B, tr("Label the measured box (M)"), &EventReviews::askForLabel);
-    m_actions << nullptr;
-    add(tr("&Import annotations…"), {}, tr("Raven selection tables, Audacity labels, SigMF, CSV, JSON"),
-        &EventReviews::askForImport);
-    add(tr("E&xport events and annotations…"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_E),
-        tr("CSV, JSON, Raven, Audacity, SigMF"), &EventReviews::askForExport);
-    add(tr("Export &tracks…"), {}, tr("Frequency, band, presence and SNR of each track frame by frame: CSV, JSON"),
-        &EventReviews::askForTracks);
+    m_actions << nullptr << m_files->actions();
 
     for (QAction *action : m_eventActions)
         m_table.table()->addAction(action);
@@ -90,7 +77,6 @@ EventReviews::EventReviews(Document &document, EventTable &table, std::vector<Wa
     for (WaterfallView *view : m_views)
         connect(view, &WaterfallView::contextMenuRequested, this,
                 [this](QMenu *menu, double seconds, double hz) { fillContextMenu(*menu, seconds, hz); });
-    connect(&m_provenance, &Provenance::failed, this, &EventReviews::failed);
     enable();
 }
 
@@ -299,106 +285,6 @@ void EventReviews::fillContextMenu(QMenu &menu, int track)
     menu.addActions(m_eventActions);
 }
 
-void EventReviews::importFrom(const QString &path)
-{
-    const RecordingInfo info = m_document.recording() ? m_document.recording()->info() : RecordingInfo();
-    const std::vector<Annotation> boxes = readAnnotations(pathBytes(path), info);
-    Annotations after = m_document.annotations();
-    JudgedByBoxes imported{{}, boxes, 0};
-    if (m_document.analysis()) {
-        imported = judgeByBoxes(after.reviews, *m_document.analysis(), m_document.shownEvents(), boxes);
-        after.reviews = imported.reviews;
-    }
-    after.boxes.insert(after.boxes.end(), imported.others.begin(), imported.others.end());
-    m_document.annotate(std::move(after), tr("Import %1 annotations").arg(boxes.size()));
-    const QString judged = imported.judged == 0 ? QString() : tr(" They review %1 event(s).").arg(imported.judged);
-    emit told(fileLabel(path), tr("%1 annotation(s) imported; Ctrl+Z undoes the import.").arg(boxes.size()) + judged);
-}
-
-void EventReviews::exportTo(const QString &path)
-{
-    if (!m_document.analysis())
-        return;
-    if (m_document.analysis()->calibration->isFirstEstimate)
-        return emit failed(firstEstimateError());
-    writeReviewed(*m_document.analysis(), m_document.shownEvents(), m_document.annotations(), pathBytes(path));
-    writeProvenance(path, false);
-}
-
-void EventReviews::exportTracksTo(const QString &path)
-{
-    if (!m_document.analysis())
-        return;
-    if (m_document.analysis()->calibration->isFirstEstimate)
-        return emit failed(firstEstimateError());
-    writeTracksOf(m_document.shownEvents(), *m_document.analysis(), pathBytes(path));
-    writeProvenance(path, true);
-}
-
-void EventReviews::writeProvenance(const QString &path, bool isOfTracks)
-{
-    // Only a threshold that is being dragged differs from the settings'.
-    const bool isDragged = m_document.shownThreshold() != m_document.analysis()->threshold;
-    m_provenance.with(
-        [this, path, isOfTracks, isDragged, threshold = m_document.shownThreshold()](const std::string &provenance) {
-            try {
-                Json json = parseJson(provenance, "provenance");
-                if (isDragged)
-                    json["shownThreshold"] = threshold;
-                if (isOfTracks)
-                    json["tracks"] = true;
-                writeProvenanceBeside(path, json.dump(2) + "\n");
-                emit written(path);
-            } catch (const Error &error) {
-                emit failed(error);
-            }
-        });
-}
-
-void EventReviews::askForImport()
-{
-    const QString path =
-        QFileDialog::getOpenFileName(m_window, tr("Import annotations"), QFileInfo(m_document.sourcePath()).path(),
-                                     tr("Annotations (*.txt *.sigmf-meta *.csv *.json);;All files (*)"));
-    if (path.isEmpty())
-        return;
-    try {
-        importFrom(path);
-    } catch (const Error &error) {
-        emit failed(error);
-    }
-}
-
-void EventReviews::askForExport()
-{
-    const QString path = QFileDialog::getSaveFileName(
-        m_window, tr("Export events and annotations"),
-        nameBeside(m_document.sourcePath(), QStringLiteral("-events.csv")),
-        tr("Table (*.csv);;JSON (*.json);;Raven selection table (*.selections.txt);;Audacity labels (*.txt);;SigMF "
-           "annotations (*.sigmf-meta)"));
-    if (path.isEmpty())
-        return;
-    try {
-        exportTo(path);
-    } catch (const Error &error) {
-        emit failed(error);
-    }
-}
-
-void EventReviews::askForTracks()
-{
-    const QString path = QFileDialog::getSaveFileName(
-        m_window, tr("Export tracks"), nameBeside(m_document.sourcePath(), QStringLiteral("-tracks.csv")),
-        tr("Table (*.csv);;JSON (*.json)"));
-    if (path.isEmpty())
-        return;
-    try {
-        exportTracksTo(path);
-    } catch (const Error &error) {
-        emit failed(error);
-    }
-}
-
 void EventReviews::show()
 {
     std::vector<EventReview> said;
@@ -410,10 +296,9 @@ void EventReviews::show()
     for (const EventReview &one : said)
         if (one.verdict == Verdict::Rejected)
             rejected.push_back(one.event);
-    const bool hasBoxes = m_document.frameKind().takesBoxes;
     for (WaterfallView *view : m_views) {
         view->setFaintEvents(rejected);
-        view->setAnnotations(hasBoxes ? m_document.annotations().boxes : std::vector<Annotation>());
+        view->setAnnotations(m_document.shownBoxes());
     }
     for (PingMap *map : m_maps)
         map->setFaintTracks(rejected);
@@ -453,8 +338,8 @@ void EventReviews::enable()
         action->setEnabled(!ids.empty());
     m_merge->setEnabled(ids.size() > 1);
     m_addBox->setEnabled(m_document.box().has_value() && !m_document.isEmpty());
-    for (qsizetype i = m_actions.size() - 3; i < m_actions.size(); ++i) // import and exports
-        m_actions[i]->setEnabled(m_document.analysis() != nullptr);
+    for (QAction *action : m_files->actions())
+        action->setEnabled(m_document.analysis() != nullptr);
 }
 
 } // namespace faintline

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "app/document/Document.h"
-#include "app/document/Provenance.h"
 
 #include <QObject>
 
@@ -13,6 +12,7 @@ class QWidget;
 
 namespace faintline {
 
+class EventFiles;
 class EventTable;
 class PingMap;
 class WaterfallView;
@@ -48,19 +48,11 @@ public:
     /// Turns the measured box into an annotation.
     void annotateSelection(const QString &label);
 
-    /// Throws Error.
-    void importFrom(const QString &path);
-    void exportTo(const QString &path);
-    /// Exports the tracks of the events shown, frame by frame: .csv or .json.
-    void exportTracksTo(const QString &path);
-
-    Provenance &provenance() { return m_provenance; }
+    /// Import and export, whose actions are among those of the menu.
+    EventFiles &files() { return *m_files; }
 
 signals:
     void classNamesChanged(const QStringList &names);
-    void failed(const faintline::Error &error);
-    void written(const QString &path);
-    void told(const QString &where, const QString &what);
 
 private:
     QAction *add(const QString &text, const QKeySequence &key, const QString &tip, void (EventReviews::*act)());
@@ -71,10 +63,6 @@ private:
     void addClasses();
     void editClassNames();
     void askForLabel();
-    void askForImport();
-    void askForExport();
-    void askForTracks();
-    void writeProvenance(const QString &path, bool isOfTracks);
     void fillContextMenu(QMenu &menu, double seconds, double hz);
     void fillContextMenu(QMenu &menu, int track);
     void show();
@@ -89,6 +77,7 @@ private:
     std::vector<WaterfallView *> m_views;
     std::vector<PingMap *> m_maps;
     QWidget *m_window;
+    EventFiles *m_files;
     QList<QAction *> m_actions;      ///< null: a separator
     QList<QAction *> m_eventActions; ///< enabled with a selected event
     QAction *m_merge = nullptr;
@@ -96,7 +85,6 @@ private:
     QStringList m_classNames;
     QAction *m_addBox = nullptr;
     std::vector<std::size_t> m_unmatched; ///< reviews in the order listed
-    Provenance m_provenance;
 };
 
 } // namespace faintline

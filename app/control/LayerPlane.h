@@ -27,6 +27,8 @@ public:
     LayerItem &item() const { return m_item; } ///< owned by the view
     WaterfallView &view() const { return m_view; }
 
+    /// Whether the picture shows a single frame, its rows along the frame's first axis; otherwise rows are frames.
+    virtual bool isOfOneFrame() const = 0;
     virtual std::optional<FramePlace> cursor() const = 0;
     /// The visible part, with a resolution limited to its pixels.
     virtual LayerWindow window(const Analysis &analysis) const = 0;
@@ -55,6 +57,7 @@ class LineLayerPlane : public LayerPlane
 public:
     LineLayerPlane(WaterfallView &view, Viewport &viewport, QObject *watcher);
 
+    bool isOfOneFrame() const override { return false; }
     std::optional<FramePlace> cursor() const override { return cursorOf(m_viewport); }
     LayerWindow window(const Analysis &analysis) const override;
     std::pair<Axis, Axis> axes(const Analysis &analysis) const override;
@@ -70,6 +73,7 @@ class PingLayerPlane : public LayerPlane
 public:
     PingLayerPlane(PingMap &map, PingViewports &viewports, QObject *watcher);
 
+    bool isOfOneFrame() const override { return true; }
     std::optional<FramePlace> cursor() const override { return cursorOf(m_viewports); }
     LayerWindow window(const Analysis &analysis) const override;
     std::pair<Axis, Axis> axes(const Analysis &analysis) const override;

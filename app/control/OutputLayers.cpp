@@ -156,7 +156,7 @@ void OutputLayers::followCursor(const LayerPlane &of)
 {
     if (&of.kind() != &m_document.frameKind() || !isWanted())
         return;
-    if (of.kind().isSeenSingly) // results for another frame are removed at once
+    if (of.isOfOneFrame()) // results for another frame are removed at once
         show();
     follow();
 }
@@ -169,8 +169,7 @@ OutputLayers::Place OutputLayers::placeOf(const FramePlace &place) const
     for (std::size_t axis = 0; axis < place.position.size(); ++axis)
         cell.push_back(grid.axes[axis].nearest(place.position[axis]));
     const Index frame = analysis.time().nearest(place.seconds);
-    const Index row = m_document.frameKind().isSeenSingly ? cell.front() : frame;
-    return {frame, grid.cell(cell), row, cell.back()};
+    return {frame, grid.cell(cell), plane().isOfOneFrame() ? cell.front() : frame, cell.back()};
 }
 
 std::optional<OutputLayers::Place> OutputLayers::cursor() const
@@ -182,7 +181,7 @@ std::optional<OutputLayers::Place> OutputLayers::cursor() const
 /// The frame that a picture shows, if it shows a single one.
 std::optional<Index> OutputLayers::singleFrame(const std::optional<Place> &cursor) const
 {
-    return m_document.frameKind().isSeenSingly && cursor ? std::optional(cursor->frame) : std::nullopt;
+    return plane().isOfOneFrame() && cursor ? std::optional(cursor->frame) : std::nullopt;
 }
 
 void OutputLayers::compute()
@@ -277,7 +276,6 @@ void OutputLayers::showRates(LayerItem &item, std::size_t axis)
     item.setLayer(m_layer, {-largest, largest}, title, unit.hz);
 }
 
-/// Unit of ages: frames if each is a separate picture (pings), otherwise hours or seconds.
 void OutputLayers::showAges(LayerItem &item)
 {
     const double frameSeconds = m_document.analysis()->time().step;
@@ -288,8 +286,8 @@ void OutputLayers::showAges(LayerItem &item)
         QString name;
         double seconds;
     } unit{tr("s"), 1.0};
-    if (const FrameKind &kind = m_document.frameKind(); kind.isSeenSingly)
-        unit = {kind.frames, frameSeconds};
+    if (const QString &frames = m_document.frameKind().ageUnit; !frames.isEmpty())
+        unit = {frames, frameSeconds};
     else if (longest > manySeconds)
         unit = {tr("h"), 3600.0};
     item.setLayer(m_layer, {0.0, longest}, tr("Path age since reset (%1)").arg(unit.name), unit.seconds);

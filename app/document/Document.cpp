@@ -169,9 +169,14 @@ Span Document::lookedAt() const
     return frameKind().isSeenSingly && cursor ? Span{cursor->seconds, cursor->seconds} : m_viewport.time();
 }
 
+std::vector<Annotation> Document::shownBoxes() const
+{
+    return isOnePicture() ? m_annotations.boxes : std::vector<Annotation>();
+}
+
 std::optional<Viewport::Box> Document::box() const
 {
-    return frameKind().takesBoxes ? m_viewport.selection() : std::nullopt;
+    return isOnePicture() ? m_viewport.selection() : std::nullopt;
 }
 
 void Document::setProvisional(std::shared_ptr<const PeakPyramid> statistic)

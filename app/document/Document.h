@@ -65,6 +65,8 @@ public:
     // ---- annotations ---------------------------------------------------------------------------------------------
 
     const Annotations &annotations() const { return m_annotations; }
+    /// The annotated boxes, if boxes of time × frequency apply to the open source.
+    std::vector<Annotation> shownBoxes() const;
     /// One undoable step; does not affect detection.
     void annotate(Annotations after, const QString &text);
 
@@ -87,7 +89,7 @@ public:
     void setAnalysis(std::shared_ptr<const Analysis> analysis, std::vector<Event> events);
     const std::shared_ptr<const Analysis> &analysis() const { return m_analysis; }
     /// The same if it is one picture of time × frequency, parts of which can be measured and analysed; otherwise null.
-    std::shared_ptr<const Analysis> lineAnalysis() const { return frameKind().takesBoxes ? m_analysis : nullptr; }
+    std::shared_ptr<const Analysis> lineAnalysis() const { return isOnePicture() ? m_analysis : nullptr; }
     bool isCurrent() const;
 
     /// State of the live run so far, in place of an analysis. Its recording is in progress.
@@ -139,6 +141,7 @@ private:
 
     State state() const { return {m_opened, m_settings, m_annotations}; }
     void apply(const State &state);
+    bool isOnePicture() const { return frameKind().takesBoxes; } ///< of time × frequency
     bool isShown(const Event &event) const { return event.statistic >= m_shownThreshold; }
     std::ptrdiff_t shownCount() const;
 

@@ -25,6 +25,10 @@ const FrameKind &lineFrames()
         .signal = tr("a line"),
         .rates = {tr("slope")},
         .preset = {},
+        .ageUnit = {},
+        .handLineHint = tr("Press Draw and drag a line through the input where you expect a signal. Cover the "
+                           "statistic first to make it a prediction."),
+        .sections = {},
     };
     return kind;
 }
@@ -39,9 +43,11 @@ const FrameKind &pingFrames()
         .signal = tr("a target"),
         .rates = {tr("range rate"), tr("bearing rate")},
         .preset = "sonar",
+        .ageUnit = tr("pings"),
+        .handLineHint = tr("Lines can be drawn through recordings, not through pings."),
+        .sections = {QStringLiteral("conventional")},
         .takesBoxes = false,
         .isSeenSingly = true,
-        .hasConventional = true,
     };
     return kind;
 }

@@ -21,14 +21,16 @@ struct FrameKind {
     QString signal;             ///< what is detected: "a line", "a target"
     std::vector<QString> rates; ///< along each axis: "slope"; "range rate", "bearing rate"
     std::string preset;         ///< initial preset for a source; empty: the defaults
+    QString ageUnit;            ///< of the age of paths; empty: s or h
+    QString handLineHint;       ///< how a line is drawn by hand, or why none can be
+    /// Sections of the settings for this kind alone.
+    std::vector<QString> sections;
 
     /// Time × frequency is one picture, in which boxes can be measured, analysed and annotated, and lines drawn by
     /// hand.
     bool takesBoxes = true;
-    /// Each frame is a separate picture. The one under the cursor is shown, and ages are counted in frames.
+    /// Each frame is a separate picture. The one under the cursor is shown.
     bool isSeenSingly = false;
-    /// A conventional tracker runs beside the detector, for comparison.
-    bool hasConventional = false;
 };
 
 /// The kind of frames on a grid of one or two axes. There is one object per kind, so their addresses can be compared.

@@ -2,6 +2,7 @@
 
 #include "app/base/MessageBar.h"
 #include "app/base/filePath.h"
+#include "app/base/writeAndReport.h"
 #include "app/document/scanScenario.h"
 #include "app/lessons/LessonPanel.h"
 #include "app/lessons/PointerFrame.h"
@@ -141,14 +142,8 @@ void LessonGuide::saveAnswers(const QString &learner)
     const QString name = QFileInfo(m_lesson.path).completeBaseName() + QStringLiteral("-answers.html");
     const QString path = pathOf(QFileDialog::getSaveFileUrl(
         &m_window, tr("Save answers"), QUrl::fromLocalFile(QDir::home().filePath(name)), tr("Web pages (*.html)")));
-    if (path.isEmpty())
-        return;
-    try {
-        writeAnswers(path, learner);
-        emit written(path);
-    } catch (const Error &error) {
-        emit failed(error);
-    }
+    if (!path.isEmpty())
+        writeAndReport(*this, path, [&] { writeAnswers(path, learner); });
 }
 
 void LessonGuide::writeAnswers(const QString &path, const QString &learner) const

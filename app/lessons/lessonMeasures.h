@@ -15,8 +15,8 @@ class WindowParts;
 ///     cursor.seconds, cursor.hz, cursor.range, cursor.bearing, visible.seconds, visible.hz, level, statistic
 ///     frameSeconds, binHz, windowSeconds, aboveTwice (share of cells whose power is more than twice the noise's mean)
 ///     threshold, falseAlarmsPerHour (on noise), events, peak, resetFraction, lnK
-///     lines.found: how many of the truth's lines or targets a shown track follows; events.false: shown tracks that follow
-///         none of them
+///     lines.found: how many of the truth's lines or targets a shown track follows; events.false: shown tracks that
+///         follow none of them
 ///     line.1.followed, line.1.tracks, line.1.peak, line.1.seconds: of the truth's first line or target, the share of
 ///         its frames that a shown track goes along with, how many do so, their largest statistic, how long after its
 ///         beginning the first was detected

@@ -380,7 +380,7 @@ void ComparePanel::goTo(int row)
     if (compared.b)
         return emit eventActivated(compared.b->id);
     const Track *track = trackOfId(result->a->tracks, compared.a->id);
-    if (!track || track->points.empty() || !m_document.frameKind().takesBoxes)
+    if (!track || track->points.empty() || !m_document.lineAnalysis())
         return;
     m_document.viewport().reveal(trackBox(*track, *result->a));
     m_document.viewport().setCursor({compared.a->detectSeconds, compared.a->position.back()});

@@ -3,6 +3,7 @@
 #include "app/base/VisibilityWatcher.h"
 #include "app/base/filePath.h"
 #include "app/base/readingTable.h"
+#include "app/base/writeAndReport.h"
 #include "app/control/thresholdWords.h"
 #include "app/document/Document.h"
 #include "app/document/Provenance.h"
@@ -279,7 +280,7 @@ void DopplerPanel::saveTo(const QString &path)
     if (const auto analysis = m_document.lineAnalysis(); !analysis || analysis->calibration->isFirstEstimate)
         return emit failed(firstEstimateError());
     m_provenance.with([this, path, report = *m_report](const std::string &provenance) {
-        try {
+        writeAndReport(*this, path, [&] {
             writeDoppler(report, pathBytes(path));
             Json json = parseJson(provenance, "provenance");
             json["doppler"] = {
@@ -287,10 +288,7 @@ void DopplerPanel::saveTo(const QString &path)
             for (const Event &event : report.events)
                 json["doppler"]["events"].push_back(event.id);
             writeProvenanceBeside(path, json.dump(2) + "\n");
-            emit written(path);
-        } catch (const Error &error) {
-            emit failed(error);
-        }
+        });
     });
 }
 

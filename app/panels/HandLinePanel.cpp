@@ -220,14 +220,8 @@ void HandLinePanel::show(const Comparison &comparison)
 
 void HandLinePanel::showSentence()
 {
-    if (!m_comparison) {
-        m_sentence->setText(
-            m_document.frameKind().takesBoxes
-                ? tr("Press Draw and drag a line through the input where you expect a signal. Cover the statistic "
-                     "first to make it a prediction.")
-                : tr("Lines can be drawn through recordings, not through pings."));
-        return;
-    }
+    if (!m_comparison)
+        return m_sentence->setText(m_document.frameKind().handLineHint);
     const Comparison &both = *m_comparison;
     if (isCovered())
         return m_sentence->setText(

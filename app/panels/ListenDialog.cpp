@@ -1,8 +1,8 @@
 #include "app/panels/ListenDialog.h"
 
-#include "app/base/diskRoom.h"
 #include "app/base/filePath.h"
 #include "base/Error.h"
+#include "widgets/base/diskRoom.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 

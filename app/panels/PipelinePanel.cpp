@@ -117,7 +117,9 @@ void PipelinePanel::showSettings()
         m_document.recording() ? hzPerSecondOfABinAFrame(m_document.settings(), m_document.recording()->info()) : 0.0);
     for (const char *stage : {"selection", "spectrogram", "noise", "family", "subtract"})
         m_form->setSectionShown(QString::fromLatin1(stage), m_document.isEmpty() || m_document.recording());
-    m_form->setSectionShown(QStringLiteral("conventional"), m_document.frameKind().hasConventional);
+    for (const FrameKind *kind : {&lineFrames(), &pingFrames()})
+        for (const QString &section : kind->sections)
+            m_form->setSectionShown(section, kind == &m_document.frameKind());
     int taken = 1;
     while (taken < m_preset->count() && withSelection(presetAt(taken).settings) != m_document.settings())
         ++taken;

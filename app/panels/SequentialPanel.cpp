@@ -1,9 +1,10 @@
 #include "app/panels/SequentialPanel.h"
 
 #include "app/document/Document.h"
-#include "app/document/saveView.h"
 #include "app/panels/ScanTestForm.h"
+#include "app/panels/SequentialControls.h"
 #include "app/panels/TrajectoryPage.h"
+#include "app/panels/sequentialBars.h"
 #include "app/panels/sequentialSentences.h"
 #include "exchange/sequentialCsv.h"
 #include "exchange/writeChart.h"
@@ -13,13 +14,9 @@
 #include "widgets/plot/WalkPlot.h"
 
 #include <QComboBox>
-#include <QFileDialog>
 #include <QKeyEvent>
 #include <QLabel>
 #include <QMenu>
-#include <QProgressBar>
-#include <QPushButton>
-#include <QScrollArea>
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QSplitter>
@@ -70,27 +67,25 @@ namespace {
 } // namespace
 
 SequentialPanel::SequentialPanel(Document &document, SequentialTests &tests, QWidget *parent)
-    : QWidget(parent), m_document(document), m_tests(tests), m_form(new ScanTestForm),
-      m_start(new QPushButton(tr("Run"))), m_cancel(new QPushButton(tr("Cancel"))),
-      m_onSelection(new QPushButton(tr("Test the visible part"))), m_progress(new QProgressBar), m_state(new QLabel),
+    : QWidget(parent), m_document(document), m_tests(tests), m_controls(new SequentialControls(tests)),
       m_tabs(new QTabWidget), m_walk(new WalkPlot), m_stopping(new BarPlot), m_trajectory(new TrajectoryPage(tests)),
-      m_asn(new ChartPlot), m_variation(new ChartPlot), m_curvesText(sentenceLabel()), m_prior(new ChartPlot),
-      m_priorText(sentenceLabel()), m_sectors(new BarPlot), m_sectorsText(sentenceLabel()), m_runText(new QLabel),
-      m_stageText(new QLabel), m_slider(new QSlider(Qt::Horizontal))
+      m_views(document, tests, *m_trajectory, this), m_asn(new ChartPlot), m_variation(new ChartPlot),
+      m_curvesText(sentenceLabel()), m_prior(new ChartPlot), m_priorText(sentenceLabel()), m_sectors(new BarPlot),
+      m_sectorsText(sentenceLabel()), m_runText(new QLabel), m_stageText(new QLabel),
+      m_slider(new QSlider(Qt::Horizontal))
 {
     m_tabs->setDocumentMode(true);
     m_tabs->setMinimumWidth(280); // charts that are not visible must not widen the window
     m_tabs->addTab(buildWalks(), tr("Walks"));
-    addView(&m_trajectory->posterior(), tr("Posterior and trajectory"),
-            [this] { return m_trajectory->posteriorNumbers(); });
-    addView(&m_trajectory->scan(), tr("Scan"), [this] { return m_trajectory->scanNumbers(); });
+    m_views.add(&m_trajectory->posterior(), tr("Posterior and trajectory"),
+                [this] { return m_trajectory->posteriorNumbers(); });
+    m_views.add(&m_trajectory->scan(), tr("Scan"), [this] { return m_trajectory->scanNumbers(); });
     m_tabs->addTab(m_trajectory, tr("Trajectory and scan"));
     m_tabs->addTab(buildCurves(), tr("Stages against SNR"));
     m_tabs->addTab(buildPrior(), tr("Against the prior"));
     m_tabs->addTab(buildSectors(), tr("Sectors"));
     auto *saveMenu = new QMenu(this);
-    for (const View &view : m_views)
-        saveMenu->addAction(tr("%1…").arg(view.title), this, [this, view] { save(view); });
+    m_views.addActionsTo(*saveMenu);
     auto *saveButton = new QToolButton;
     saveButton->setText(tr("Save"));
     saveButton->setToolTip(tr("Save a view as PNG, SVG or PDF, or its numbers as CSV"));
@@ -106,7 +101,7 @@ SequentialPanel::SequentialPanel(Document &document, SequentialTests &tests, QWi
     auto *layout = new QHBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
-    layout->addWidget(buildLeft());
+    layout->addWidget(m_controls);
     layout->addLayout(right, 1);
     for (QComboBox *list : m_tabs->findChildren<QComboBox *>())
         list->installEventFilter(this);
@@ -117,59 +112,12 @@ SequentialPanel::SequentialPanel(Document &document, SequentialTests &tests, QWi
     restart();
 }
 
+ScanTestForm &SequentialPanel::form()
+{
+    return m_controls->form();
+}
+
 // ---- building -------------------------------------------------------------------------------------------------------
-
-QWidget *SequentialPanel::buildLeft()
-{
-    auto *area = new QScrollArea;
-    area->setWidget(m_form);
-    area->setWidgetResizable(true);
-    area->setFrameShape(QFrame::NoFrame);
-    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    m_progress->setRange(0, 1000);
-    m_progress->setTextVisible(false);
-    m_progress->setFixedHeight(8);
-    m_progress->setAccessibleName(tr("Progress of the sequential tests"));
-    m_state->setTextFormat(Qt::PlainText);
-    m_state->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-    m_start->setToolTip(tr("Run tests on simulated radar scans with these settings, in the background"));
-    m_onSelection->setToolTip(tr("Run one test on the visible frames and frequencies, with α, β and the cut-off from "
-                                 "above and the signal model of the pipeline"));
-    connect(m_start, &QPushButton::clicked, this, &SequentialPanel::run);
-    connect(m_cancel, &QPushButton::clicked, &m_tests, &SequentialTests::cancel);
-    connect(m_onSelection, &QPushButton::clicked, this, &SequentialPanel::startOnSelection);
-
-    auto *left = new QWidget;
-    left->setFixedWidth(290);
-    auto *buttons = new QHBoxLayout;
-    buttons->setSpacing(6);
-    buttons->addWidget(m_start, 1);
-    buttons->addWidget(m_cancel, 1);
-    auto *below = new QVBoxLayout;
-    below->setContentsMargins(8, 2, 8, 4);
-    below->setSpacing(3);
-    below->addLayout(buttons);
-    below->addWidget(m_onSelection);
-    below->addWidget(m_progress);
-    below->addWidget(m_state);
-    auto *layout = new QVBoxLayout(left);
-    layout->setContentsMargins(0, 0, 0, 0);
-    layout->setSpacing(0);
-    layout->addWidget(area, 1);
-    layout->addLayout(below);
-    return left;
-}
-
-void SequentialPanel::addView(QWidget *widget, const QString &title, std::function<std::string()> csv)
-{
-    m_views.push_back({widget, title, std::move(csv)});
-    widget->setContextMenuPolicy(Qt::CustomContextMenu);
-    connect(widget, &QWidget::customContextMenuRequested, this, [this, view = m_views.back()](const QPoint &at) {
-        QMenu menu;
-        menu.addAction(tr("Save picture or numbers…"), this, [this, view] { save(view); });
-        menu.exec(view.widget->mapToGlobal(at));
-    });
-}
 
 QWidget *SequentialPanel::buildWalks()
 {
@@ -177,8 +125,8 @@ QWidget *SequentialPanel::buildWalks()
     m_stopping->setEmptySentence(tr("The stages at which tests stop are counted here."));
     m_stopping->setTitles(tr("stages taken"), tr("tests"));
     m_stopping->setAccessibleName(tr("Number of tests that stopped after each stage"));
-    addView(m_walk, tr("Walks of ln Λ"), [this] { return walksCsv(m_tests.walks(), m_tests.isOfScans()); });
-    addView(m_stopping, tr("Stopping times"), [this] { return walksCsv(m_tests.walks(), m_tests.isOfScans()); });
+    m_views.add(m_walk, tr("Walks of ln Λ"), [this] { return walksCsv(m_tests.walks(), m_tests.isOfScans()); });
+    m_views.add(m_stopping, tr("Stopping times"), [this] { return walksCsv(m_tests.walks(), m_tests.isOfScans()); });
     connect(m_walk, &WalkPlot::walkActivated, &m_tests, &SequentialTests::select);
     connect(m_walk, &MarkedPlot::activated, this, [this](double x) { m_tests.setStage(std::lround(x)); });
     connect(m_stopping, &BarPlot::barActivated, this, &SequentialPanel::selectStoppedAt);
@@ -189,14 +137,14 @@ QWidget *SequentialPanel::buildCurves()
 {
     for (ChartPlot *plot : {m_asn, m_variation, m_prior})
         plot->setEmptySentence(tr("Press Run to plot the curve."));
-    addView(m_asn, tr("Stages against SNR"), [this] { return chartCsv(m_asn->chart()); });
-    addView(m_variation, tr("Coefficient of variation"), [this] { return chartCsv(m_variation->chart()); });
+    m_views.add(m_asn, tr("Stages against SNR"), [this] { return chartCsv(m_asn->chart()); });
+    m_views.add(m_variation, tr("Coefficient of variation"), [this] { return chartCsv(m_variation->chart()); });
     return m_curvesPage = column({sideBySide(m_asn, m_variation, 3, 2), m_curvesText});
 }
 
 QWidget *SequentialPanel::buildPrior()
 {
-    addView(m_prior, tr("Stages against the prior"), [this] { return chartCsv(m_prior->chart()); });
+    m_views.add(m_prior, tr("Stages against the prior"), [this] { return chartCsv(m_prior->chart()); });
     return m_priorPage = column({m_prior, m_priorText});
 }
 
@@ -205,8 +153,8 @@ QWidget *SequentialPanel::buildSectors()
     m_sectors->setEmptySentence(tr("The dwell time on each sector appears here."));
     m_sectors->setTitles(tr("sector"), tr("dwell, mean stages per look"));
     m_sectors->setAccessibleName(tr("Dwell time on each sector"));
-    addView(m_sectors, tr("Sectors"),
-            [this] { return m_tests.survey() ? surveyCsv(m_tests.test(), *m_tests.survey()) : std::string(); });
+    m_views.add(m_sectors, tr("Sectors"),
+                [this] { return m_tests.survey() ? surveyCsv(m_tests.test(), *m_tests.survey()) : std::string(); });
     return m_sectorsPage = column({m_sectors, m_sectorsText});
 }
 
@@ -230,12 +178,9 @@ QWidget *SequentialPanel::buildRunRow()
 
 void SequentialPanel::connectTests()
 {
+    connect(m_controls, &SequentialControls::runRequested, this, &SequentialPanel::run);
+    connect(m_controls, &SequentialControls::onSelectionRequested, this, &SequentialPanel::startOnSelection);
     connect(&m_tests, &SequentialTests::restarted, this, &SequentialPanel::restart);
-    connect(&m_tests, &SequentialTests::busyChanged, this, &SequentialPanel::showBusy);
-    connect(&m_tests, &SequentialTests::progressed, this, [this](double fraction, const QString &what) {
-        m_progress->setValue(int(1000.0 * fraction));
-        m_state->setText(what);
-    });
     connect(&m_tests, &SequentialTests::walksChanged, this, &SequentialPanel::showWalks);
     connect(&m_tests, &SequentialTests::fixedSizeChanged, this, &SequentialPanel::showWalks);
     connect(&m_tests, &SequentialTests::selectionChanged, this, &SequentialPanel::showSelection);
@@ -244,22 +189,24 @@ void SequentialPanel::connectTests()
     connect(&m_tests, &SequentialTests::curvesChanged, this, &SequentialPanel::showCurves);
     connect(&m_tests, &SequentialTests::surveyChanged, this, &SequentialPanel::showSectors);
     connect(&m_tests, &SequentialTests::failed, this, &SequentialPanel::failed);
+    connect(&m_views, &SequentialViews::failed, this, &SequentialPanel::failed);
+    connect(&m_views, &SequentialViews::written, this, &SequentialPanel::written);
 }
 
 // ---- starting -------------------------------------------------------------------------------------------------------
 
 void SequentialPanel::run()
 {
-    start(m_form->test());
+    start(form().test());
 }
 
 void SequentialPanel::start(const ScanTest &test)
 {
-    m_form->setTest(test);
+    form().setTest(test);
     try {
         m_tests.start(test);
     } catch (const Error &error) {
-        m_form->showError(error);
+        form().showError(error);
         emit failed(error);
     }
 }
@@ -281,7 +228,7 @@ void SequentialPanel::startOnSelection()
     selection.firstCell = frequency.nearest(visible.frequency.low + 0.5 * frequency.step);
     selection.cellCount = frequency.nearest(visible.frequency.high - 0.5 * frequency.step) - selection.firstCell + 1;
     try {
-        m_tests.start(selection, m_form->test().sprt);
+        m_tests.start(selection, form().test().sprt);
     } catch (const Error &error) {
         emit failed(error);
     }
@@ -289,7 +236,6 @@ void SequentialPanel::startOnSelection()
 
 void SequentialPanel::restart()
 {
-    showBusy(m_tests.isRunning());
     m_trajectory->clear();
     const QString none = tr("Curves and sectors are simulated. Press Run to plot them.");
     for (ChartPlot *plot : {m_asn, m_variation, m_prior})
@@ -302,24 +248,10 @@ void SequentialPanel::restart()
     showSectors();
 }
 
-void SequentialPanel::showBusy(bool isBusy)
-{
-    m_cancel->setEnabled(isBusy);
-    if (isBusy) {
-        m_state->setText(tr("starting"));
-        return m_progress->setValue(0);
-    }
-    m_progress->setValue(m_tests.isFixedSizeKnown() || (!m_tests.isOfScans() && !m_tests.isEmpty()) ? 1000 : 0);
-    m_state->setText(m_tests.isEmpty()             ? QString()
-                     : m_progress->value() == 1000 ? tr("done")
-                                                   : tr("Stopped; results "
-                                                        "incomplete"));
-}
-
 void SequentialPanel::followDocument()
 {
     const auto analysis = m_document.lineAnalysis();
-    m_onSelection->setEnabled(analysis && analysis->settings.model.motion == Motion::Slopes);
+    m_controls->setOnSelectionEnabled(analysis && analysis->settings.model.motion == Motion::Slopes);
 }
 
 // ---- showing --------------------------------------------------------------------------------------------------------
@@ -338,17 +270,8 @@ void SequentialPanel::showWalks()
 
 void SequentialPanel::showStopping()
 {
-    std::vector<BarPlot::Series> series{{tr("H0, noise only"), 0, {}}, {tr("H1, a target"), 1, {}}};
-    Index longest = 0;
-    for (const auto &[run, result] : m_tests.walks())
-        longest = std::max(longest, result.stages);
-    if (!m_tests.isOfScans())
-        longest = 0; // a single test has no histogram
-    for (BarPlot::Series &one : series)
-        one.values.assign(std::size_t(longest), 0.0);
-    if (longest > 0)
-        for (const auto &[run, result] : m_tests.walks())
-            series[run.hasTarget ? 1 : 0].values[std::size_t(result.stages - 1)] += 1.0;
+    std::vector<BarPlot::Series> series = stoppingBars(m_tests);
+    const Index longest = std::ssize(series.front().values);
     m_stopping->setBars(std::move(series), 1);
     std::vector<MarkedPlot::Mark> marks;
     if (m_tests.fixedSize() && *m_tests.fixedSize() <= longest)
@@ -401,16 +324,7 @@ void SequentialPanel::showCurves()
 
 void SequentialPanel::showSectors()
 {
-    const ScanTest &test = m_tests.test();
-    std::vector<BarPlot::Series> series{{tr("empty"), 0, {}}, {tr("with a target"), 1, {}}};
-    if (m_tests.survey()) {
-        for (BarPlot::Series &one : series)
-            one.values.assign(std::size_t(test.sectors), 0.0);
-        for (const SectorVisit &visit : m_tests.survey()->visits)
-            series[holdsTarget(test, visit.sector) ? 1 : 0].values[std::size_t(visit.sector)] +=
-                double(visit.result.stages) / test.rounds;
-    }
-    m_sectors->setBars(std::move(series), 1, true);
+    m_sectors->setBars(sectorBars(m_tests), 1, true);
     std::vector<MarkedPlot::Mark> marks;
     if (m_tests.fixedSize()) {
         marks.push_back({double(*m_tests.fixedSize()), false,
@@ -423,7 +337,7 @@ void SequentialPanel::showSectors()
     m_sectorsText->setText(sectorsSentence(m_tests));
 }
 
-// ---- keys and files -------------------------------------------------------------------------------------------------
+// ---- keys -----------------------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -463,46 +377,6 @@ bool SequentialPanel::eventFilter(QObject *watched, QEvent *event)
         return QWidget::eventFilter(watched, event);
     m_tests.setStage(m_tests.stage() + stepOf(*event));
     return true;
-}
-
-std::string SequentialPanel::provenance(const View &view) const
-{
-    Json json = {{"version", FAINTLINE_VERSION},
-                 {"chart", view.title.toStdString()},
-                 {"walk", m_tests.selected()},
-                 {"stage", m_tests.stage()},
-                 {"axis", m_trajectory->axis()}};
-    json["sequential"] = m_tests.isOfScans() ? writeFields(m_tests.test(), ScanTest::fields())
-                                             : writeFields(m_tests.test().sprt, SprtSettings::fields());
-    if (!m_tests.isOfScans()) {
-        const SequentialTests::Selection &selection = m_tests.selection();
-        json["recording"] = {{"name", selection.name.toStdString()}};
-        json["settings"] = Json::parse(settingsToJson(m_document.settings()));
-        json["firstFrame"] = selection.firstFrame;
-        json["frameCount"] = selection.frameCount;
-        json["firstCell"] = selection.firstCell;
-        json["cellCount"] = selection.cellCount;
-    }
-    return json.dump(2) + "\n";
-}
-
-void SequentialPanel::save(const View &view)
-{
-    const QString path = QFileDialog::getSaveFileName(this, tr("Save: %1").arg(view.title),
-                                                      QStringLiteral("sequential.png"), saveViewFilter());
-    if (path.isEmpty())
-        return;
-    try {
-        saveTo(view, path);
-        emit written(path);
-    } catch (const Error &error) {
-        emit failed(error);
-    }
-}
-
-void SequentialPanel::saveTo(const View &view, const QString &path) const
-{
-    saveView(*view.widget, view.csv(), path, provenance(view));
 }
 
 } // namespace faintline

@@ -1,16 +1,11 @@
 #pragma once
 
 #include "app/control/SequentialTests.h"
+#include "app/panels/SequentialViews.h"
 
 #include <QWidget>
 
-#include <functional>
-#include <string>
-#include <vector>
-
 class QLabel;
-class QProgressBar;
-class QPushButton;
 class QSlider;
 class QTabWidget;
 
@@ -20,6 +15,7 @@ class BarPlot;
 class ChartPlot;
 class Document;
 class ScanTestForm;
+class SequentialControls;
 class TrajectoryPage;
 class WalkPlot;
 
@@ -38,7 +34,7 @@ public:
     void start(const ScanTest &test);
     void startOnSelection(); ///< tests the visible part of the recording
 
-    ScanTestForm &form() { return *m_form; }
+    ScanTestForm &form();
     WalkPlot &walk() { return *m_walk; }
     BarPlot &stopping() { return *m_stopping; }
     ChartPlot &asn() { return *m_asn; }
@@ -52,15 +48,7 @@ public:
     QSlider &slider() { return *m_slider; }
     QTabWidget &tabs() { return *m_tabs; }
 
-    /// A view and its numbers, for export.
-    struct View {
-        QWidget *widget;
-        QString title;
-        std::function<std::string()> csv;
-    };
-    const std::vector<View> &views() const { return m_views; }
-    /// Saves a view as displayed, or its numbers (.csv) with their provenance. Throws Error.
-    void saveTo(const View &view, const QString &path) const;
+    const SequentialViews &views() const { return m_views; } ///< and their export
 
     QSize sizeHint() const override { return {1000, 340}; }
 
@@ -74,18 +62,15 @@ protected:
     void keyPressEvent(QKeyEvent *event) override;
 
 private:
-    QWidget *buildLeft();
     QWidget *buildWalks();
     QWidget *buildCurves();
     QWidget *buildPrior();
     QWidget *buildSectors();
     QWidget *buildRunRow();
-    void addView(QWidget *widget, const QString &title, std::function<std::string()> csv);
     void connectTests();
 
     void run();
     void restart();
-    void showBusy(bool isBusy);
     void showWalks();
     void showStopping();
     void showSelection();
@@ -94,23 +79,16 @@ private:
     void showSectors();
     void selectStoppedAt(int stage);
     void followDocument();
-    void save(const View &view);
-    std::string provenance(const View &view) const;
 
     Document &m_document;
     SequentialTests &m_tests;
-    std::vector<View> m_views;
 
-    ScanTestForm *m_form;
-    QPushButton *m_start;
-    QPushButton *m_cancel;
-    QPushButton *m_onSelection;
-    QProgressBar *m_progress;
-    QLabel *m_state;
+    SequentialControls *m_controls;
     QTabWidget *m_tabs;
     WalkPlot *m_walk;
     BarPlot *m_stopping;
     TrajectoryPage *m_trajectory;
+    SequentialViews m_views;
     ChartPlot *m_asn;
     ChartPlot *m_variation;
     QLabel *m_curvesText;

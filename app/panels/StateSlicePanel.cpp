@@ -246,7 +246,7 @@ void StateSlicePanel::layOut()
 {
     constexpr int wideEnough = 620;
     constexpr int tallEnough = 600;
-    const bool hasLaw = m_document.frameKind().isSeenSingly || isOfLines();
+    const bool hasLaw = hasChoice() || isOfLines();
     const bool isWide = width() >= wideEnough;
     const bool hasBoth = isWide || height() >= tallEnough;
     m_body->setDirection(isWide ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
@@ -269,7 +269,7 @@ std::optional<StateCut::Wanted> StateSlicePanel::wanted() const
     const int columns = m_columns->currentIndex();
     if (isOfLines())
         return StateCut::Wanted{*at, {1, 0, {}}, model, isMaximised()}; // slope × frequency
-    if (!m_document.frameKind().isSeenSingly || rows == columns)
+    if (!hasChoice() || rows == columns)
         return {};
     return StateCut::Wanted{*at, {std::size_t(rows), std::size_t(columns), {}}, model, isMaximised()};
 }

@@ -1,6 +1,8 @@
 #include "app/views/ChartMenus.h"
 
 #include "app/base/filePath.h"
+#include "app/base/writeAndReport.h"
+#include "app/control/EventFiles.h"
 #include "app/control/EventReviews.h"
 #include "app/document/saveView.h"
 #include "app/panels/EvaluatePanel.h"
@@ -81,19 +83,16 @@ void ChartMenus::ask(QWidget &chart)
 void ChartMenus::saveTo(QWidget &chart, const QString &path)
 {
     const auto save = [this, path, &chart](const std::string &provenance) {
-        try {
+        writeAndReport(*this, path, [&] {
             const auto *plot = qobject_cast<ChartPlot *>(&chart);
             const QString caption = captionFor(chart);
             const TimeStack::Part part(m_parts.bench().timeStack(), chart); // with a time axis of its own
             const auto figure =
                 plot ? std::make_unique<ChartFigure>(*plot, caption) : std::make_unique<ChartFigure>(chart, caption);
             saveView(*figure, csvOf(chart), path, provenance);
-            emit written(path);
-        } catch (const Error &error) {
-            emit failed(error);
-        }
+        });
     };
-    m_parts.document().isEmpty() ? save({}) : m_parts.reviews().provenance().with(save);
+    m_parts.document().isEmpty() ? save({}) : m_parts.reviews().files().provenance().with(save);
 }
 
 } // namespace faintline

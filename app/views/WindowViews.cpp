@@ -1,5 +1,7 @@
 #include "app/views/WindowViews.h"
 
+#include "app/base/writeAndReport.h"
+#include "app/control/EventFiles.h"
 #include "app/control/EventReviews.h"
 #include "app/control/OutputLayers.h"
 #include "app/document/saveView.h"
@@ -128,15 +130,12 @@ void WindowViews::exportPicture(const QString &name)
 
 void WindowViews::saveTo(const QString &name, const QString &path)
 {
-    m_parts.reviews().provenance().with([this, name, path](const std::string &provenance) {
-        try {
+    m_parts.reviews().files().provenance().with([this, name, path](const std::string &provenance) {
+        writeAndReport(*this, path, [&] {
             QWidget &view = *named(name);
             const TimeStack::Part part(m_parts.bench().timeStack(), view);
             saveView(view, {}, path, withView(name, provenance));
-            emit written(path);
-        } catch (const Error &error) {
-            emit failed(error);
-        }
+        });
     });
 }
 

@@ -6,6 +6,7 @@
 #include "app/base/MessageBar.h"
 #include "app/base/filePath.h"
 #include "app/control/AdviceMessages.h"
+#include "app/control/EventFiles.h"
 #include "app/control/EventReviews.h"
 #include "app/control/OutputLayers.h"
 #include "app/control/Playback.h"
@@ -183,8 +184,8 @@ void MainWindow::connectViews()
     connect(m_events, &EventTable::eventActivated, this, goTo);
     connect(m_reviews, &EventReviews::classNamesChanged, this,
             [this](const QStringList &names) { m_memory.setClassNames(names); });
-    connect(m_reviews, &EventReviews::failed, this, &MainWindow::showError);
-    connect(m_reviews, &EventReviews::told, this, [this](const QString &where, const QString &what) {
+    connect(&m_reviews->files(), &EventFiles::failed, this, &MainWindow::showError);
+    connect(&m_reviews->files(), &EventFiles::told, this, [this](const QString &where, const QString &what) {
         m_messages->showMessage(MessageBar::Kind::Notice, where, what);
     });
     connect(m_compare, &ComparePanel::eventActivated, this, goTo);
@@ -217,7 +218,7 @@ void MainWindow::connectViews()
     connect(m_chartMenus, &ChartMenus::failed, this, &MainWindow::showError);
     connect(m_chartMenus, &ChartMenus::written, this, &MainWindow::showWritten);
     connect(m_views, &WindowViews::written, this, &MainWindow::showWritten);
-    connect(m_reviews, &EventReviews::written, this, &MainWindow::showWritten);
+    connect(&m_reviews->files(), &EventFiles::written, this, &MainWindow::showWritten);
     connect(m_sequential, &SequentialPanel::written, this, &MainWindow::showWritten);
     connect(m_doppler, &DopplerPanel::written, this, &MainWindow::showWritten);
     connect(m_doppler, &DopplerPanel::failed, this, &MainWindow::showError);

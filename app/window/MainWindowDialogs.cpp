@@ -2,6 +2,7 @@
 
 #include "app/window/MainWindow.h"
 
+#include "app/control/EventFiles.h"
 #include "app/control/EventReviews.h"
 #include "app/panels/InjectDialog.h"
 #include "app/panels/LearnMotionDialog.h"
@@ -40,7 +41,7 @@ void MainWindow::straighten()
     const std::vector<Event> events = chosenEvents(m_document, *m_events);
     if (!m_document.lineAnalysis() || !m_document.recording() || events.empty())
         return showError(Error(tr("Straighten").toStdString(), "requires a recording with an event to follow"));
-    auto *dialog = new StraightenDialog(m_document, events.front(), m_reviews->provenance(), this);
+    auto *dialog = new StraightenDialog(m_document, events.front(), m_reviews->files().provenance(), this);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &StraightenDialog::written, this, &MainWindow::showWritten);
     dialog->open();

@@ -4,6 +4,7 @@
 
 #include "app/base/MessageBar.h"
 #include "app/control/BoxAnalysis.h"
+#include "app/control/EventFiles.h"
 #include "app/control/EventReviews.h"
 #include "app/control/Playback.h"
 #include "app/control/ThresholdCurves.h"
@@ -115,7 +116,7 @@ void MainWindow::buildPanels()
     m_compare = new ComparePanel(m_document, m_controller, m_comparer);
     m_spectrum = new SpectrumPanel(m_document);
     m_channels = new ChannelsPanel(m_document, m_controller);
-    m_doppler = new DopplerPanel(m_document, *m_events, m_reviews->provenance());
+    m_doppler = new DopplerPanel(m_document, *m_events, m_reviews->files().provenance());
     m_evaluate = new EvaluatePanel(m_document, m_experiments);
     m_sweep = new SweepPanel(m_document, m_experiments);
     m_experimentList = new ExperimentsPanel(m_experiments);

@@ -1,8 +1,8 @@
 #include "app/workspace/LiveBar.h"
 
-#include "app/base/diskRoom.h"
 #include "base/utc.h"
 #include "widgets/base/Theme.h"
+#include "widgets/base/diskRoom.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 

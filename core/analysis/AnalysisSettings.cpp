@@ -181,7 +181,8 @@ const std::vector<Field<ModelSettings>> &ModelSettings::fields()
               "same form."),
         field(&S::rounding, "rounding", roundingNames, "Rounding of a movement by half a bin."),
         field(&S::likelihood, "likelihood", likelihoodNames,
-              "Signal law: constant amplitude, fluctuating, or the power itself."),
+              "Signal law in a frame: constant amplitude (rice; also for Swerling 1 and 3), power that fluctuates from "
+              "frame to frame (exponential: Swerling 2; swerling4), or the power itself (linear)."),
         field(&S::snr, "snr", "", 1e-6, 1e6,
               "Signal-to-noise ratio r0 for which the likelihood is designed, as a power ratio in one frame."),
     };

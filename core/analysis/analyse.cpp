@@ -130,8 +130,8 @@ namespace {
 
     /// Streams the frames through the chain and sets the rest of the analysis. `subtracted`: lines that were removed
     /// before the frames were made.
-    void run(Analysis &analysis, const RunContext &context, const StatisticSink &sink, ProgressPublisher &publisher,
-             AnalysisDepth depth = AnalysisDepth::Whole, const std::vector<Track> &subtracted = {})
+    void run(Analysis &analysis, const RunContext &context, const AnalysisRequest &request,
+             ProgressPublisher &publisher, const std::vector<Track> &subtracted = {})
     {
         const NormalisedFrames &frames = *analysis.frames;
         const auto cells = std::size_t(frames.grid().size());
@@ -140,10 +140,10 @@ namespace {
         detector->useThreads(context.threads);
         const auto chain = makeChain(analysis, std::move(detector));
 
-        RunPictures pictures(analysis, depth);
+        RunPictures pictures(analysis, request.depth);
         PingProducts pings(analysis);
         analysis.statisticCounts.assign(256, 0.0);
-        if (depth == AnalysisDepth::Whole)
+        if (request.depth == AnalysisDepth::Whole)
             analysis.checkpoints = {checkpointInterval(analysis), memoryShares::checkpoints};
         FrameStream stream(frames, context.threads > 1);
         const RunContext detecting = context.part(0.0, 0.9);
@@ -155,7 +155,7 @@ namespace {
             for (std::size_t at = 0; at < block.size(); at += cells) {
                 const Index frame = first + Index(at / cells);
                 const auto y = std::span<const float>(block).subspan(at, cells);
-                if (depth == AnalysisDepth::Whole && analysis.checkpoints.lacks(frame))
+                if (request.depth == AnalysisDepth::Whole && analysis.checkpoints.lacks(frame))
                     if (auto state = chain->state())
                         analysis.checkpoints.keep(frame, state, state->bytes());
                 chain->update(frame, y, std::span(statistic).subspan(at, cells));
@@ -166,8 +166,8 @@ namespace {
             }
             countValues(statistic, analysis.statisticCounts);
             pictures.append(block, statistic, publisher);
-            if (sink)
-                sink(first, statistic);
+            if (request.statistic)
+                request.statistic(first, statistic);
         }
         chain->finish();
         pictures.finish();
@@ -184,7 +184,7 @@ namespace {
             analysis.tracks.insert(analysis.tracks.end(), subtracted.begin(), subtracted.end());
             numberByDetection(analysis.tracks);
         }
-        if (depth != AnalysisDepth::Trial)
+        if (request.depth != AnalysisDepth::Trial)
             holdAgainstOwnNoise(analysis, context.part(0.96, 1.0));
     }
 
@@ -210,8 +210,7 @@ namespace {
     /// Sends the frames of a recording through the chain, once.
     std::shared_ptr<Analysis> analyseAsItIs(RecordingPointer recording, const AnalysisSettings &settings,
                                             const RunContext &context, const Analysis *previous,
-                                            const StatisticSink &sink, const PictureSink &pictures,
-                                            CalibrationDepth calibrationDepth, AnalysisDepth depth)
+                                            const AnalysisRequest &request)
     {
         auto analysis = std::make_shared<Analysis>();
         analysis->settings = settings;
@@ -227,21 +226,20 @@ namespace {
             analysis->inputAlong = previous->inputAlong;
         } else {
             const auto spectrogram = std::make_shared<Spectrogram>(recording, settings.spectrogram, settings.selection);
-            publisher = ProgressPublisher(pictures, spectrogram->time(),
+            publisher = ProgressPublisher(request.pictures, spectrogram->time(),
                                           familyAxis(settings.family, spectrogram->frequency()), settings);
             if (settings.family.isNone())
                 publisher.publishQuickLook(spectrogram, settings.noise, context.part(0.0, 0.01));
             normalisePlan(*analysis, spectrogram, context.part(0.01, 0.2));
         }
-        calibratePlan(*analysis, context.part(0.2, 0.5), calibrationDepth);
-        run(*analysis, context.part(0.5, 1.0), sink, publisher, depth);
+        calibratePlan(*analysis, context.part(0.2, 0.5), request.calibration);
+        run(*analysis, context.part(0.5, 1.0), request, publisher);
         return analysis;
     }
 
     /// The same for the remainder of the recording without the strong lines of a first run.
     std::shared_ptr<Analysis> analyseRest(std::shared_ptr<const Analysis> first, const std::vector<Track> &subtracted,
-                                          const RunContext &context, const StatisticSink &sink,
-                                          const PictureSink &pictures, AnalysisDepth depth)
+                                          const RunContext &context, const AnalysisRequest &request)
     {
         const AnalysisSettings &settings = first->settings;
         auto analysis = std::make_shared<Analysis>();
@@ -249,38 +247,37 @@ namespace {
         analysis->recording = first->recording;
         const RecordingPointer rest = restOf(*first, subtracted, context.part(0.0, 0.2));
         const auto spectrogram = std::make_shared<Spectrogram>(rest, settings.spectrogram, settings.selection);
-        ProgressPublisher publisher(pictures, spectrogram->time(), spectrogram->frequency(), settings);
+        ProgressPublisher publisher(request.pictures, spectrogram->time(), spectrogram->frequency(), settings);
         normalisePlan(*analysis, spectrogram, context.part(0.2, 0.4));
         analysis->model = first->model; // for the same grid
         analysis->calibration = first->calibration;
         analysis->threshold = first->threshold;
         analysis->cellFramesPerHour = first->cellFramesPerHour;
         analysis->unsubtracted = std::move(first);
-        run(*analysis, context.part(0.4, 1.0), sink, publisher, depth, subtracted);
+        run(*analysis, context.part(0.4, 1.0), request, publisher, subtracted);
         return analysis;
     }
 
 } // namespace
 
 std::shared_ptr<Analysis> analyse(RecordingPointer recording, const AnalysisSettings &settings,
-                                  const RunContext &context, const Analysis *previous, const StatisticSink &sink,
-                                  const PictureSink &pictures, CalibrationDepth calibrationDepth, AnalysisDepth depth)
+                                  const RunContext &context, const Analysis *previous, const AnalysisRequest &request)
 {
     checkSettings(settings);
     checkWindow(settings);
     const Analysis *lent = lender(previous, recording);
     if (!settings.subtract.lines)
-        return analyseAsItIs(recording, settings, context, lent, sink, pictures, calibrationDepth, depth);
+        return analyseAsItIs(recording, settings, context, lent, request);
+    const bool isWhole = request.depth == AnalysisDepth::Whole;
     const std::shared_ptr<Analysis> first =
-        analyseAsItIs(recording, settings, context.part(0.0, 0.4), lent, {}, {}, calibrationDepth,
-                      depth == AnalysisDepth::Whole ? AnalysisDepth::Tracks : depth);
+        analyseAsItIs(recording, settings, context.part(0.0, 0.4), lent,
+                      {.calibration = request.calibration, .depth = isWhole ? AnalysisDepth::Tracks : request.depth});
     const std::vector<Track> strong = tracksToSubtract(*first);
     if (!strong.empty())
-        return analyseRest(first, strong, context.part(0.4, 1.0), sink, pictures, depth);
-    if (depth != AnalysisDepth::Whole && !sink)
+        return analyseRest(first, strong, context.part(0.4, 1.0), request);
+    if (!isWhole && !request.statistic)
         return first;
-    return analyseAsItIs(recording, settings, context.part(0.4, 1.0), first.get(), sink, pictures, calibrationDepth,
-                         depth);
+    return analyseAsItIs(recording, settings, context.part(0.4, 1.0), first.get(), request);
 }
 
 namespace {
@@ -339,7 +336,7 @@ namespace {
             analysis.lnKBand =
                 regulationBand(analysis.model, resetRule(*smd, analysis.calibration->lnK), context.part(0.0, 0.1));
         ProgressPublisher nothing;
-        run(analysis, context.part(0.1, 1.0), sink, nothing);
+        run(analysis, context.part(0.1, 1.0), {.statistic = sink}, nothing);
     }
 
 } // namespace

@@ -18,16 +18,22 @@ using StatisticSink = std::function<void(Index firstFrame, std::span<const float
 /// tracks are also not tested against the recording's own noise (overOwnNoise.h).
 enum class AnalysisDepth { Whole, Tracks, Trial };
 
+/// What an analysis delivers while it runs, and how far it goes.
+struct AnalysisRequest {
+    StatisticSink statistic;
+    PictureSink pictures;
+    /// A first estimate of the calibration gives a preliminary threshold sooner; nothing else of the run differs.
+    CalibrationDepth calibration = CalibrationDepth::Refined;
+    AnalysisDepth depth = AnalysisDepth::Whole;
+};
+
 /// The pipeline: recording → frames → normalised frames → detector → threshold, clusters, tracks.
 ///
 /// Used by window, command line and library alike. Parts of `previous`, if given, are reused where they are still
-/// valid. Streams: memory is bounded for any recording length. A first estimate of the calibration gives a preliminary
-/// threshold sooner; nothing else of the run differs. Throws Error, Cancelled.
+/// valid. Streams: memory is bounded for any recording length. Throws Error, Cancelled.
 std::shared_ptr<Analysis> analyse(RecordingPointer recording, const AnalysisSettings &settings,
                                   const RunContext &context = {}, const Analysis *previous = nullptr,
-                                  const StatisticSink &sink = {}, const PictureSink &pictures = {},
-                                  CalibrationDepth calibrationDepth = CalibrationDepth::Refined,
-                                  AnalysisDepth depth = AnalysisDepth::Whole);
+                                  const AnalysisRequest &request = {});
 
 /// The same from ready-made frames on any grid, with the settings' own model or bank of models (reuses the input
 /// picture and the band of ln K of `previous`) …

@@ -25,8 +25,7 @@ namespace {
     void check(const Grid &grid, Index frameCount, const FrameBox &box)
     {
         if (!grid.isSpectrum())
-            throw Error("box", "can be measured only in frames with one axis; the number of axes is "
-                                   + std::to_string(grid.axes.size()));
+            throw Error("box", "can be measured only in spectra, which have one axis");
         const bool isThere = box.beginFrame >= 0 && box.beginFrame < box.endFrame && box.endFrame <= frameCount
                              && box.beginCell >= 0 && box.beginCell < box.endCell && box.endCell <= grid.size();
         if (!isThere)

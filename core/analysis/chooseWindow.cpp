@@ -77,7 +77,8 @@ namespace {
         std::shared_ptr<Analysis> run(const Analysis *previous, const PictureSink &pictures)
         {
             const std::shared_ptr<Analysis> automatic =
-                analyse(m_recording, m_asked, nextPart(), previous, {}, pictures, m_calibrationDepth, m_depth);
+                analyse(m_recording, m_asked, nextPart(), previous,
+                        {.pictures = pictures, .calibration = m_calibrationDepth, .depth = m_depth});
             m_windowSeconds = windowSecondsOf(*automatic);
             m_cells = double(automatic->grid().size()) * automatic->grid().axes.back().step * m_windowSeconds;
             m_frames = double(automatic->time().count);
@@ -161,8 +162,8 @@ namespace {
             AnalysisSettings settings = m_asked;
             settings.spectrogram.windowSeconds = step * m_windowSeconds;
             settings.model = withLaw(m_asked.model, law);
-            auto analysis =
-                analyse(m_recording, settings, nextPart(), nullptr, {}, {}, m_calibrationDepth, AnalysisDepth::Trial);
+            auto analysis = analyse(m_recording, settings, nextPart(), nullptr,
+                                    {.calibration = m_calibrationDepth, .depth = AnalysisDepth::Trial});
             note(settings, *analysis);
             return analysis;
         }
@@ -247,11 +248,12 @@ AnalysisSettings inWindowOf(const Analysis &analysis, const AnalysisSettings &se
 
 std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording, const AnalysisSettings &settings,
                                                       const RunContext &context, const Analysis *previous,
-                                                      const PictureSink &pictures, CalibrationDepth calibrationDepth,
-                                                      AnalysisDepth depth)
+                                                      const AnalysisRequest &request)
 {
+    AnalysisRequest wanted = request;
+    wanted.statistic = {};
     if (!leavesWindowToRecording(settings))
-        return analyse(recording, settings, context, previous, {}, pictures, calibrationDepth, depth);
+        return analyse(recording, settings, context, previous, wanted);
     const bool isChosen = previous && previous->recording == recording && previous->choice
                           && !previous->calibration->isFirstEstimate
                           && asksForTheSame(previous->choice->asked, settings);
@@ -267,23 +269,23 @@ std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording
         choice = *previous->choice;
         longer = previous->longer;
     } else {
-        WindowSearch search(recording, asked, calibrationDepth, subtracts ? AnalysisDepth::Trial : depth,
+        WindowSearch search(recording, asked, wanted.calibration, subtracts ? AnalysisDepth::Trial : wanted.depth,
                             context.part(0.0, searched));
-        found = search.run(previous, pictures);
+        found = search.run(previous, wanted.pictures);
         longer = search.nextLonger(*found);
         choice = search.choice(*found);
     }
     choice.asked = settings;
     const bool isTrial = !isChosen && choice.chosen != choice.automatic;
     const bool isComplete = !isChosen && !subtracts; // the search ran with these settings
-    if (isTrial && isComplete && depth == AnalysisDepth::Tracks)
+    if (isTrial && isComplete && wanted.depth == AnalysisDepth::Tracks)
         holdAgainstOwnNoise(*found, context.part(searched, 1.0));
     else if (isTrial || !isComplete)
         found = analyse(recording, ofTrial(choice, choice.chosen, settings), context.part(searched, detected),
-                        isChosen ? previous : found.get(), {}, pictures, calibrationDepth, depth);
+                        isChosen ? previous : found.get(), wanted);
     if (longer && !isComplete) // after the pictures, which the user waits for
         longer = analyse(recording, ofTrial(choice, choice.chosen + 1, settings), context.part(detected, 1.0),
-                         longer.get(), {}, {}, calibrationDepth, AnalysisDepth::Trial);
+                         longer.get(), {.calibration = wanted.calibration, .depth = AnalysisDepth::Trial});
     found->longer = std::move(longer);
     if (found->longer)
         found->tracks = withSteadyLines(*found, *found->longer);

@@ -35,13 +35,13 @@ AnalysisSettings inWindowOf(const WindowTrial &trial, AnalysisSettings settings)
 /// If strong lines are subtracted, windows are tried on the unchanged recording, and lines are subtracted in the chosen
 /// window and in the next longer one.
 ///
+/// The statistic is not delivered: a second run with the chosen window (`inWindowOf`) gives it.
+///
 /// The result's tracks are those of the chosen window and the steady lines that only the next longer one detects
 /// (steadyLines.h), which may have as few as four frames.
 std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording, const AnalysisSettings &settings,
                                                       const RunContext &context = {},
                                                       const Analysis *previous = nullptr,
-                                                      const PictureSink &pictures = {},
-                                                      CalibrationDepth calibrationDepth = CalibrationDepth::Refined,
-                                                      AnalysisDepth depth = AnalysisDepth::Whole);
+                                                      const AnalysisRequest &request = {});
 
 } // namespace faintline

@@ -24,8 +24,8 @@ Index framesApart(const NormalisedFrames &frames)
 void checkLikelihoodRatio(const Likelihood &likelihood, const std::string &where)
 {
     if (likelihood.kind() == LikelihoodKind::Linear)
-        throw Error(where, "linear is not a likelihood ratio, so error probabilities cannot be guaranteed; choose rice "
-                           "or exponential");
+        throw Error(where, "linear is not a likelihood ratio, so error probabilities cannot be guaranteed; choose "
+                           "rice, exponential or swerling4");
 }
 
 } // namespace faintline

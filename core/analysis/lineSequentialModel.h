@@ -24,8 +24,8 @@ SequentialModel lineSequentialModel(const ModelSettings &settings, const Grid &g
 /// Distance of frames that share no samples: k_t of a spectrogram, 1 for ready-made frames.
 Index framesApart(const NormalisedFrames &frames);
 
-/// Throws Error naming `where` if e^λ is not a likelihood ratio on exponential noise: E0 e^λ = 1 for rice and
-/// exponential, but not for linear.
+/// Throws Error naming `where` if e^λ is not a likelihood ratio on exponential noise: E0 e^λ = 1 for rice,
+/// exponential and swerling4, but not for linear.
 void checkLikelihoodRatio(const Likelihood &likelihood, const std::string &where);
 
 } // namespace faintline

@@ -3,8 +3,9 @@
 #include "analysis/pathStrips.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "spectrum/Window.h"
+#include "track/TrackPiece.h"
 #include "track/bothWays.h"
-#include "track/explanation.h"
+#include "track/explainPath.h"
 #include "track/levelBeside.h"
 #include "track/numberByDetection.h"
 
@@ -17,30 +18,9 @@ namespace faintline {
 namespace {
 
     constexpr std::string_view following = "refining tracks in both directions";
-    constexpr Index extraFrames = 16;         ///< before and after a path, in which presence is evaluated
-    constexpr Index slopeFrames = 24;         ///< at either end, for extrapolating it
-    constexpr Index largestGapFrames = 24;    ///< between stretches of one signal
-    constexpr double levelCells = 0.75;       ///< distance on either side within which a signal's own maximum lies
-    constexpr float strongerThanNoise = 7.0f; ///< probability on noise 1/1000
-    constexpr double notchCells = 1.0;        ///< distance on either side within which a subtracted line leaves less
-                                              ///< than noise
-    constexpr Index skirtBins = 96;           ///< on either side of strong tracks
-    constexpr double strongGrowth = 2.0;      ///< nats per frame
-    constexpr double leastShare = 0.08;       ///< of a path's statistic, above the floor
-    constexpr Index longestPiece = 4096;      ///< frames of a track that are processed together
-    constexpr Index pieceOverlap = 64;        ///< frames of the neighbouring pieces that are also processed
+    constexpr Index largestGapFrames = 24;                    ///< between stretches of one signal
+    constexpr double leastShare = 0.08;                       ///< of a path's statistic, above the floor
     constexpr std::size_t stripBytes = std::size_t(16) << 20; ///< read at a time
-
-    /// A track as detected, or a piece of a long one.
-    struct Piece {
-        const Track *track;
-        std::size_t from; ///< points
-        std::size_t to;   ///< one past the last
-        PathStrip strip;
-
-        bool isFirst() const { return from == 0; }
-        bool isLast() const { return to == track->points.size(); }
-    };
 
     struct Stretch {
         Index from;      ///< frames of the piece's strip
@@ -56,20 +36,6 @@ namespace {
         double gain;
         double evidence;
     };
-
-    /// Least-squares slope of `count` points from `first` on, cells per frame.
-    double slopeOf(const std::vector<TrackPoint> &points, std::size_t first, std::size_t count)
-    {
-        const double middle = 0.5 * double(count - 1);
-        double cross = 0.0;
-        double square = 0.0;
-        for (std::size_t i = 0; i < count; ++i) {
-            const double t = double(i) - middle;
-            cross += t * double(points[first + i].cell);
-            square += t * t;
-        }
-        return square > 0.0 ? cross / square : 0.0;
-    }
 
     /// The point at a frame, or the nearest one.
     const TrackPoint &pointAt(const Track &track, Index frame)
@@ -97,11 +63,11 @@ namespace {
         {
             std::stable_sort(found.begin(), found.end(),
                              [](const Track &a, const Track &b) { return a.peakStatistic > b.peakStatistic; });
-            std::vector<Piece> pieces;
+            std::vector<TrackPiece> pieces;
             for (const Track &track : subtracted)
-                cut(track, pieces);
+                addPieces(pieces, track, m_frames.time().count, m_model.binsPerCell);
             for (const Track &track : found)
-                cut(track, pieces);
+                addPieces(pieces, track, m_frames.time().count, m_model.binsPerCell);
             for (std::size_t first = 0; first < pieces.size();) {
                 std::size_t bytes = 0;
                 std::size_t end = first;
@@ -109,16 +75,16 @@ namespace {
                     const PathStrip &strip = pieces[end++].strip;
                     bytes += sizeof(float) * std::size_t(strip.frameCount() * strip.width());
                 }
-                const std::span<Piece> some = std::span(pieces).subspan(first, end - first);
+                const std::span<TrackPiece> some = std::span(pieces).subspan(first, end - first);
                 const auto done = [&](std::size_t piece) { return double(piece) / double(pieces.size()); };
                 std::vector<PathStrip *> strips;
-                for (Piece &piece : some)
+                for (TrackPiece &piece : some)
                     strips.push_back(&piece.strip);
                 readStrips(m_analysis, std::move(strips), m_context.part(done(first), 0.5 * (done(first) + done(end))),
                            following);
-                for (Piece &piece : some) {
+                for (TrackPiece &piece : some) {
                     m_context.checkpoint(done(end), following);
-                    piece.track->isSubtracted ? explainRest(piece) : lookAt(piece);
+                    piece.track->isSubtracted ? lookAtRest(piece) : lookAt(piece);
                 }
                 first = end;
             }
@@ -127,48 +93,6 @@ namespace {
         }
 
     private:
-        void cut(const Track &track, std::vector<Piece> &pieces) const
-        {
-            const std::size_t length = track.points.size();
-            const std::size_t count = (length + longestPiece - 1) / longestPiece;
-            for (std::size_t i = 0; i < count; ++i) {
-                Piece piece{&track, i * length / count, (i + 1) * length / count, {}};
-                piece.strip = stripRound(piece);
-                pieces.push_back(std::move(piece));
-            }
-        }
-
-        /// An empty strip around a piece of a path, extended by some frames at either end: along the track, or beyond
-        /// its ends with its slope there.
-        PathStrip stripRound(const Piece &piece) const
-        {
-            PathStrip strip;
-            const std::vector<TrackPoint> &points = piece.track->points;
-            const auto goesOn = [&](const TrackPoint &end, double slope, Index frame) {
-                strip.centres.push_back(end.cell + Index(std::lround(slope * double(frame - end.frame))));
-            };
-            const std::size_t count = std::min(points.size(), std::size_t(slopeFrames));
-            const std::size_t from = piece.from - std::min(piece.from, std::size_t(pieceOverlap));
-            const std::size_t to = std::min(points.size(), piece.to + std::size_t(pieceOverlap));
-            strip.firstFrame = points[from].frame;
-            if (piece.isFirst()) {
-                strip.firstFrame = std::max<Index>(0, points.front().frame - extraFrames);
-                for (Index frame = strip.firstFrame; frame < points.front().frame; ++frame)
-                    goesOn(points.front(), slopeOf(points, 0, count), frame);
-            }
-            for (std::size_t i = from; i < to; ++i)
-                strip.centres.push_back(points[i].cell);
-            if (piece.isLast()) {
-                const Index end = std::min(m_frames.time().count, points.back().frame + 1 + extraFrames);
-                for (Index frame = points.back().frame + 1; frame < end; ++frame)
-                    goesOn(points.back(), slopeOf(points, points.size() - count, count), frame);
-            }
-            const bool isStrong = piece.track->peakStatistic > strongGrowth * double(points.size());
-            strip.halfWidth = std::max({bothWaysHalfWidth(m_model.binsPerCell),
-                                        levelBesideHalfWidth(m_model.binsPerCell), isStrong ? skirtBins : 0});
-            return strip;
-        }
-
         /// Divides a strip by the floor of stronger tracks; returns whether they raise it.
         bool divideByFloor(PathStrip &strip) const
         {
@@ -251,7 +175,7 @@ namespace {
             return false;
         }
 
-        void lookAt(Piece &piece)
+        void lookAt(TrackPiece &piece)
         {
             PathStrip &strip = piece.strip;
             m_model.lnK.assign(m_analysis.lnK.begin() + strip.firstFrame,
@@ -266,42 +190,22 @@ namespace {
                 accept();
         }
 
-        /// Explains the remainder of a subtracted line, in frames where noise does not mask it, and its skirts.
-        void explainRest(Piece &piece)
+        /// What subtraction left of a line is not a separate signal.
+        void lookAtRest(TrackPiece &piece)
         {
-            PathStrip &strip = piece.strip;
-            const auto near = Index(std::floor(levelCells * m_model.binsPerCell));
-            ExplainedSignal rest;
-            rest.firstFrame = strip.firstFrame;
-            for (Index at = 0; at < strip.frameCount(); ++at) {
-                const Index centre = strip.centres[std::size_t(at)];
-                float power = 0.0f;
-                for (Index d = -near; d <= near; ++d)
-                    if (const float y = strip.valueAt(at, centre + d); !std::isnan(y))
-                        power = std::max(power, y);
-                rest.positions.push_back(double(centre));
-                rest.levels.push_back(power > strongerThanNoise ? power - 1.0f : 0.0f);
-            }
-            ExplainedSignal skirts{rest.firstFrame, rest.positions, std::vector<float>(rest.levels.size(), 1.0f), {}};
-            const auto notch = Index(std::ceil(notchCells * m_model.binsPerCell));
-            bool hasSkirts = false;
-            for (Index first = 0; first < strip.frameCount(); first += ExplainedSignal::skirtFrames) {
-                skirts.skirts.push_back(skirtOf(strip, skirts, 0, first, notch));
-                hasSkirts = hasSkirts || !skirts.skirts.back().empty();
-            }
-            m_explanations.add(std::move(rest));
-            if (hasSkirts)
-                m_explanations.add(std::move(skirts));
-            strip = {};
+            for (ExplainedSignal &signal : explainSubtracted(piece.strip, m_model.binsPerCell))
+                m_explanations.add(std::move(signal));
+            piece.strip = {};
         }
 
-        void propose(const Piece &piece, const BothWays &seen, const Stretch &stretch)
+        void propose(const TrackPiece &piece, const BothWays &seen, const Stretch &stretch)
         {
             Track track = trackOf(piece, seen, stretch);
-            ExplainedSignal signal = explain(piece.strip, seen, stretch);
+            ExplainedSignal signal = explainPath(piece.strip, seen, stretch.from, stretch.to, m_model.binsPerCell);
             if (m_candidates.empty() || m_candidates.back().track.endFrame + 1 != track.onsetFrame) {
                 if (!piece.isLast()) { // long: no room needed beyond that
-                    track.points.reserve(piece.track->points.size() - piece.from + 2 * std::size_t(extraFrames));
+                    track.points.reserve(piece.track->points.size() - piece.from
+                                         + 2 * std::size_t(TrackPiece::extraFrames));
                     track.smoothed.reserve(track.points.capacity());
                 }
                 m_candidates.push_back({std::move(track), {std::move(signal)}, stretch.gain, stretch.evidence});
@@ -335,7 +239,7 @@ namespace {
         }
 
         /// The stretches of a piece, without those that its neighbours give.
-        std::vector<Stretch> stretchesOf(const Piece &piece, const BothWays &seen) const
+        std::vector<Stretch> stretchesOf(const TrackPiece &piece, const BothWays &seen) const
         {
             const std::vector<TrackPoint> &points = piece.track->points;
             const Index from = piece.isFirst() ? 0 : points[piece.from].frame - piece.strip.firstFrame;
@@ -362,7 +266,7 @@ namespace {
             return stretches;
         }
 
-        Track trackOf(const Piece &piece, const BothWays &seen, const Stretch &stretch) const
+        Track trackOf(const TrackPiece &piece, const BothWays &seen, const Stretch &stretch) const
         {
             const PathStrip &strip = piece.strip;
             const Track &found = *piece.track;
@@ -383,60 +287,6 @@ namespace {
                                           seen.presence.present[i], float(seen.levels[i])});
             }
             return track;
-        }
-
-        ExplainedSignal explain(const PathStrip &strip, const BothWays &seen, const Stretch &stretch) const
-        {
-            const auto near = Index(std::floor(levelCells * m_model.binsPerCell));
-            ExplainedSignal signal;
-            signal.firstFrame = strip.firstFrame + stretch.from;
-            for (Index at = stretch.from; at < stretch.to; ++at) {
-                const auto i = std::size_t(at);
-                double power = seen.levels[i] + 1.0;
-                for (Index d = -near; d <= near; ++d)
-                    if (const float y = strip.valueAt(at, Index(std::lround(seen.positions[i])) + d); !std::isnan(y))
-                        power = std::max(power, double(y));
-                signal.positions.push_back(seen.positions[i]);
-                signal.levels.push_back(float(power - 1.0));
-            }
-            if (strip.halfWidth >= skirtBins)
-                for (Index first = 0; first < stretch.to - stretch.from; first += ExplainedSignal::skirtFrames)
-                    signal.skirts.push_back(skirtOf(strip, signal, stretch.from, first));
-            return signal;
-        }
-
-        /// Power beside the path in units of its level, the lower of both sides, decreasing outward, as far as it is
-        /// significant. Nearer than `nearest` it is constant.
-        static std::vector<float> skirtOf(const PathStrip &strip, const ExplainedSignal &signal, Index from,
-                                          Index first, Index nearest = 0)
-        {
-            const Index end = std::min(std::ssize(signal.positions), first + ExplainedSignal::skirtFrames);
-            const auto count = double(end - first);
-            double level = 0.0;
-            for (Index i = first; i < end; ++i)
-                level += double(signal.levels[std::size_t(i)]) / count;
-            const auto excess = [&](Index distance) {
-                double sum = 0.0;
-                double observed = 0.0;
-                for (Index i = first; i < end; ++i) {
-                    const auto cell = Index(std::lround(signal.positions[std::size_t(i)])) + distance;
-                    if (const float y = strip.valueAt(from + i, cell); !std::isnan(y)) {
-                        sum += double(y) - 1.0;
-                        observed += 1.0;
-                    }
-                }
-                return observed > 0.0 ? sum / observed : 0.0;
-            };
-            std::vector<float> shares;
-            double running = std::numeric_limits<double>::infinity();
-            for (Index d = 0; d <= strip.halfWidth; ++d) {
-                if (const Index outer = std::max(d, nearest); d == 0 || d > nearest)
-                    running = std::min({running, excess(outer), excess(-outer)});
-                if (running <= 1.0 + 3.0 / std::sqrt(count))
-                    break;
-                shares.push_back(float(running / std::max(level, 1e-9)));
-            }
-            return shares;
         }
 
         const Analysis &m_analysis;

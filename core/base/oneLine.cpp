@@ -61,10 +61,15 @@ namespace {
         if (text.size() <= mostBytes)
             return text;
         const std::size_t half = mostBytes / 2;
-        return text.substr(0, boundary(text, half)) + " … " + text.substr(boundary(text, text.size() - half));
+        return beginning(text, half) + " … " + text.substr(boundary(text, text.size() - half));
     }
 
 } // namespace
+
+std::string beginning(const std::string &text, std::size_t mostBytes)
+{
+    return mostBytes >= text.size() ? text : text.substr(0, boundary(text, mostBytes));
+}
 
 std::string oneLine(const std::string &text, std::size_t mostBytes)
 {

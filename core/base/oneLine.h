@@ -9,6 +9,9 @@ namespace faintline {
 /// for table rows, messages, terminals and labels. If it is longer than `mostBytes`, its middle is replaced by "…".
 std::string oneLine(const std::string &text, std::size_t mostBytes = std::string::npos);
 
+/// First characters of UTF-8 text, at most `mostBytes` bytes; no character is cut.
+std::string beginning(const std::string &text, std::size_t mostBytes);
+
 /// Length in bytes of the UTF-8 character that begins at `at`; 0 if none does.
 std::size_t characterLength(std::string_view text, std::size_t at);
 

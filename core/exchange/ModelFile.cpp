@@ -178,7 +178,8 @@ namespace {
     }
 
     /// Those of the settings, and likelihood ratios computed elsewhere.
-    constexpr std::array<std::string_view, 4> modelLikelihoodNames{"rice", "exponential", "linear", "given"};
+    constexpr std::array<std::string_view, 5> modelLikelihoodNames{"rice", "exponential", "linear", "swerling4",
+                                                                   "given"};
 
     Likelihood readLikelihood(const Json &json, const std::string &path)
     {
@@ -189,8 +190,9 @@ namespace {
         const double snr = number(object, where, "r0", number(object, where, "snr", 1.0));
         if (kind == LikelihoodKind::Rice && !object.contains("r0") && !object.contains("snr"))
             throw Error(where, "rice needs \"r0\", the signal-to-noise ratio as a power ratio");
-        if (kind == LikelihoodKind::Exponential && !object.contains("snr") && !object.contains("r0"))
-            throw Error(where, "exponential needs \"snr\", a power ratio");
+        const bool fluctuates = kind == LikelihoodKind::Exponential || kind == LikelihoodKind::Swerling4;
+        if (fluctuates && !object.contains("snr") && !object.contains("r0"))
+            throw Error(where, std::string(modelLikelihoodNames[std::size_t(kind)]) + " needs \"snr\", a power ratio");
         if (!(snr > 0.0 && snr < 1e12))
             throw Error(where + (object.contains("r0") ? ".r0" : ".snr") + " = " + formatNumber(snr),
                         "must be a power ratio above 0");

@@ -36,6 +36,19 @@ namespace {
         }
     }
 
+    /// λ = z + ln(1 + z) + offset with z = slope·y.
+    FAINTLINE_MULTIVERSION
+    void affineWithLogarithm(const float *y, std::size_t n, float slope, float offset, float *out)
+    {
+        constexpr float largest = std::numeric_limits<float>::max();
+        for (std::size_t i = 0; i < n; ++i) {
+            float value = y[i] > 0.0f ? y[i] : 0.0f;
+            value = value <= largest ? value : 0.0f;
+            const float z = slope * value;
+            out[i] = z + (fastLn(1.0f + z) + offset);
+        }
+    }
+
     // With z = r0·y and w = √(z + c), where -c is the singularity of ln I0(2√z) nearest to 0,
     //
     //   ln I0(2√z) = 2w - ½ ln w + g(1/w),
@@ -120,7 +133,7 @@ namespace {
 
 Likelihood::Likelihood(LikelihoodKind kind, double snr) : m_kind(kind), m_snr(snr)
 {
-    const bool needsSnr = kind == LikelihoodKind::Rice || kind == LikelihoodKind::Exponential;
+    const bool needsSnr = kind != LikelihoodKind::Linear && kind != LikelihoodKind::Given;
     if (needsSnr && !(snr > 0.0 && snr < 1e12))
         throw Error(std::string("likelihood ") + std::string(likelihoodNames[std::size_t(kind)]) + ", SNR "
                         + formatNumber(snr),
@@ -140,6 +153,11 @@ double Likelihood::at(double y) const
         return -m_snr + lnBesselI0(2.0 * std::sqrt(m_snr * y));
     case LikelihoodKind::Exponential:
         return y * m_snr / (1.0 + m_snr) - std::log1p(m_snr);
+    case LikelihoodKind::Swerling4: {
+        const double half = 0.5 * m_snr;
+        const double z = y * half / (1.0 + half);
+        return z + std::log1p(z) - 2.0 * std::log1p(half);
+    }
     case LikelihoodKind::Linear:
     case LikelihoodKind::Given:
         return y;
@@ -156,6 +174,11 @@ void Likelihood::apply(std::span<const float> y, std::span<float> out) const
     case LikelihoodKind::Exponential:
         affine(y.data(), y.size(), float(m_snr / (1.0 + m_snr)), float(-std::log1p(m_snr)), out.data());
         break;
+    case LikelihoodKind::Swerling4: {
+        const double half = 0.5 * m_snr;
+        affineWithLogarithm(y.data(), y.size(), float(half / (1.0 + half)), float(-2.0 * std::log1p(half)), out.data());
+        break;
+    }
     case LikelihoodKind::Linear:
         affine(y.data(), y.size(), 1.0f, 0.0f, out.data());
         break;

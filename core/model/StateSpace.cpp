@@ -28,8 +28,6 @@ StateSpace::StateSpace(std::vector<KinematicAxis> axes) : m_axes(std::move(axes)
 StateSpace::Coordinates StateSpace::coordinates(Index state) const
 {
     Coordinates result;
-    result.rates.reserve(m_axes.size());
-    result.cells.reserve(m_axes.size());
     const Index plane = planeOf(state);
     const Index cell = cellOf(state);
     Index cells = m_cellCount;
@@ -65,7 +63,6 @@ Index StateSpace::phaseCount() const
 std::vector<double> StateSpace::ratesOfPlane(Index plane) const
 {
     std::vector<double> rates;
-    rates.reserve(m_axes.size());
     Index planes = m_planeCount;
     for (const KinematicAxis &axis : m_axes) {
         planes /= axis.rateCount;

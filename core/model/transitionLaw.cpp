@@ -11,14 +11,12 @@ namespace {
     constexpr double lowestSnr = 1e-6;
     constexpr double highestSnr = 1e9;
 
-    /// Simpson's rule over the amplitude a = √y, whose density is 2a·e^(-a²)·p1/p0.
-    double meanRice(const Likelihood &likelihood, double snr)
+    /// Simpson's rule over the amplitude a = √y from `first` to `last`; its density is 2a·e^(-a²)·p1/p0.
+    double meanOverAmplitude(const Likelihood &likelihood, double snr, double first, double last)
     {
         constexpr int intervals = 600;
-        constexpr double reach = 7.0; // in amplitude, whose standard deviation is at most √½
-        const Likelihood actual(LikelihoodKind::Rice, std::max(snr, lowestSnr));
-        const double first = std::max(0.0, std::sqrt(snr) - reach);
-        const double step = (std::sqrt(snr) + reach - first) / intervals;
+        const Likelihood actual(likelihood.kind(), std::max(snr, lowestSnr));
+        const double step = (last - first) / intervals;
         double sum = 0.0;
         for (int i = 0; i <= intervals; ++i) {
             const double a = first + i * step;
@@ -27,6 +25,19 @@ namespace {
             sum += weight * 2.0 * a * std::exp(actual.at(y) - y) * likelihood.at(y);
         }
         return sum * step / 3.0;
+    }
+
+    double meanRice(const Likelihood &likelihood, double snr)
+    {
+        constexpr double reach = 7.0; // in amplitude, whose standard deviation is at most √½
+        const double centre = std::sqrt(snr);
+        return meanOverAmplitude(likelihood, snr, std::max(0.0, centre - reach), centre + reach);
+    }
+
+    double meanSwerling4(const Likelihood &likelihood, double snr)
+    {
+        constexpr double reach = 7.0; // y falls as e^(-y/(1 + snr/2))
+        return meanOverAmplitude(likelihood, snr, 0.0, reach * std::sqrt(1.0 + 0.5 * snr));
     }
 
 } // namespace
@@ -75,6 +86,8 @@ double meanEvidence(const Likelihood &likelihood, double snr)
 {
     if (likelihood.kind() == LikelihoodKind::Rice)
         return meanRice(likelihood, snr);
+    if (likelihood.kind() == LikelihoodKind::Swerling4)
+        return meanSwerling4(likelihood, snr);
     return likelihood.at(1.0 + snr); // linear in y, whose mean is 1 + SNR
 }
 

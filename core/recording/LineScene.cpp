@@ -31,6 +31,12 @@ namespace {
         return line.fading != Fading::None ? duration / (0.02 * line.fadingSeconds) : 0.0;
     }
 
+    /// Number of powers of a line that fluctuates, as stored by `Tone`.
+    double fluctuationNodes(const LineSettings &line, double duration)
+    {
+        return changesFromFrameToFrame(line.fluctuation) ? duration / line.referenceSeconds : 0.0;
+    }
+
 } // namespace
 
 const std::vector<Field<LineSettings>> &LineSettings::fields()
@@ -52,6 +58,9 @@ const std::vector<Field<LineSettings>> &LineSettings::fields()
         field(&S::wanderSeconds, "wanderSeconds", "s", 1e-6, 1e9, "Correlation time of the wander."),
         field(&S::fading, "fading", fadingNames, "Whether the amplitude is constant or fades."),
         field(&S::fadingSeconds, "fadingSeconds", "s", 1e-6, 1e9, "Correlation time of the fading."),
+        field(&S::fluctuation, "fluctuation", fluctuationNames,
+              "Fluctuation of the power about its mean: one power for the whole line (Swerling 1 and 3), or one for "
+              "each referenceSeconds (2 and 4)."),
     };
     return table;
 }
@@ -119,12 +128,18 @@ void checkLine(const LineSettings &line, const RecordingInfo &recording, const s
                     "the line must stay within " + formatNumber(low) + " … " + formatNumber(high) + " Hz"
                         + (line.driftHzPerSecond != 0.0 ? ", but drifts to " + formatNumber(last) + " Hz" : ""));
 
+    if (line.fluctuation != Fluctuation::None && line.fading != Fading::None)
+        throw Error(name + ".fluctuation = " + std::string(fluctuationNames[std::size_t(line.fluctuation)]),
+                    "is not possible with fading; use one of the two");
     if (wanderNodes(line, duration) > mostNodes)
         throw Error(name + ".wanderSeconds = " + formatNumber(line.wanderSeconds),
                     "is too short for a line of " + formatNumber(duration) + " s, or referenceSeconds is");
     if (fadingNodes(line, duration) > mostNodes)
         throw Error(name + ".fadingSeconds = " + formatNumber(line.fadingSeconds),
                     "is too short for a line of " + formatNumber(duration) + " s");
+    if (fluctuationNodes(line, duration) > mostNodes)
+        throw Error(name + ".referenceSeconds = " + formatNumber(line.referenceSeconds),
+                    "is too short for a fluctuating line of " + formatNumber(duration) + " s");
 }
 
 void checkLines(std::span<const LineSettings> lines, const RecordingInfo &recording, const std::string &name)
@@ -133,9 +148,11 @@ void checkLines(std::span<const LineSettings> lines, const RecordingInfo &record
     for (std::size_t i = 0; i < lines.size(); ++i) {
         checkLine(lines[i], recording, lineName(name, i));
         const double duration = durationOf(lines[i], recording);
-        nodes += wanderNodes(lines[i], duration) + fadingNodes(lines[i], duration);
+        nodes +=
+            wanderNodes(lines[i], duration) + fadingNodes(lines[i], duration) + fluctuationNodes(lines[i], duration);
         if (nodes > mostNodes)
-            throw Error(lineName(name, i), "wanders or fades too fast for its length, counting all lines before it");
+            throw Error(lineName(name, i),
+                        "wanders, fades or fluctuates too fast for its length, counting all lines before it");
     }
 }
 

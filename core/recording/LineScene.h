@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/json.h"
+#include "recording/Fluctuation.h"
 #include "recording/Recording.h"
 
 #include <array>
@@ -20,8 +21,10 @@ inline constexpr std::array<std::string_view, 2> fadingNames{"none", "rayleigh"}
 ///
 /// with w a Gaussian Ornstein-Uhlenbeck process of autocorrelation wanderHz²·e^(-|τ|/wanderSeconds), its path shifted
 /// and scaled to mean 0 and standard deviation exactly wanderHz. With Rayleigh fading the amplitude is multiplied by a
-/// complex Ornstein-Uhlenbeck process of mean power 1 and correlation time fadingSeconds.
-/// Source: Billon 2005, section 5.
+/// complex Ornstein-Uhlenbeck process of mean power 1 and correlation time fadingSeconds. With fluctuation the power is
+/// multiplied by one value of mean 1 for the whole line (Swerling 1 and 3), or by one for each successive
+/// referenceSeconds from its start (Swerling 2 and 4), with a continuous phase. Fading and fluctuation exclude each
+/// other. Source: Billon 2005, section 5; Swerling 1954.
 struct LineSettings {
     double snrDb = -1.0;            ///< r: see toneAmplitude
     double referenceSeconds = 0.25; ///< T: the window that r refers to
@@ -33,6 +36,7 @@ struct LineSettings {
     double wanderSeconds = 3.75;
     Fading fading = Fading::None;
     double fadingSeconds = 5.0;
+    Fluctuation fluctuation = Fluctuation::None;
 
     static const std::vector<Field<LineSettings>> &fields();
     bool operator==(const LineSettings &) const = default;

@@ -40,6 +40,9 @@ namespace {
                 throw Error(legName(i, leg) + ".pings = 0",
                             "lasts to the end, but another leg follows; give its length");
         }
+        if (target.fluctuation != Fluctuation::None && target.echo == Echo::Fluctuating)
+            throw Error(name + ".fluctuation = " + std::string(fluctuationNames[std::size_t(target.fluctuation)]),
+                        "is not possible with echo = fluctuating, which is Swerling 2 already; use echo = complex");
         if (target.vanishPing != 0 && target.vanishPing <= target.appearPing)
             throw Error(name + ".vanishPing = " + std::to_string(target.vanishPing),
                         "must be greater than appearPing = " + std::to_string(target.appearPing)
@@ -87,6 +90,9 @@ const std::vector<Field<PingTarget>> &PingTarget::fields()
         field(&S::echo, "echo", echoNames,
               "Constant added power, a power drawn independently in every ping, or a "
               "constant amplitude."),
+        field(&S::fluctuation, "fluctuation", fluctuationNames,
+              "Fluctuation of the echo's power about its mean: one power for the whole track (Swerling 1 and 3), or "
+              "one in every ping (2 and 4)."),
         field(&S::rangeMetres, "rangeMetres", "m", 0.0, 1e9, "Range at which the target appears."),
         field(&S::bearingDegrees, "bearingDegrees", "°", -360.0, 720.0, "Bearing at which the target appears."),
         field(&S::appearPing, "appearPing", "ping", 0.0, 1e6, "First ping with the target, counted from 0."),

@@ -2,6 +2,7 @@
 
 #include "base/Grid.h"
 #include "base/json.h"
+#include "recording/Fluctuation.h"
 
 #include <array>
 #include <optional>
@@ -14,7 +15,7 @@ namespace faintline {
 /// Effect of a target's echo on the power y of its cell; S is the SNR as a power ratio, n the complex noise, E|n|² = 1.
 enum class Echo {
     Constant,    ///< y = |n|² + S: constant added power (Parsons 2008, section 3)
-    Fluctuating, ///< y ~ (1 + S)·Exp(1), independent in each ping (Grossi and Lops 2006, eq. 10)
+    Fluctuating, ///< y ~ (1 + S)·Exp(1), independent in each ping and look: Swerling 2 (Grossi and Lops 2006, eq. 10)
     Complex      ///< y = |n + √S e^{iφ}|²: constant amplitude, random phase (Billon 2005)
 };
 inline constexpr std::array<std::string_view, 3> echoNames{"constant", "fluctuating", "complex"};
@@ -36,9 +37,14 @@ struct PingLeg {
 ///
 /// With v(k) the rate k pings after it appears, its position is p(k+1) = p(k) + (v(k) + v(k+1))/2 on each axis, and it
 /// fills the nearest cell. Bearings wrap; a target beyond the range cells is silent until it returns.
+///
+/// With fluctuation S is multiplied by a power of mean 1: one for the whole track (Swerling 1 and 3), or one for each
+/// ping (2 and 4). A track and not a leg is the look of cases 1 and 3, because legs describe the motion: a detector
+/// integrates across them. Swerling's targets have the echo Complex; with Constant the added power fluctuates.
 struct PingTarget {
     double snrDb = 7.0;
     Echo echo = Echo::Constant;
+    Fluctuation fluctuation = Fluctuation::None;
     double rangeMetres = 0.0;
     double bearingDegrees = 0.0;
     int appearPing = 0;

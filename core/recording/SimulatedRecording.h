@@ -9,7 +9,8 @@ namespace faintline {
 /// A scene as a recording: x(n) = noise(n) + Σ tones(n), a pure function of (scene, n), computed when read.
 ///
 /// Each line's amplitude follows from its SNR and the noise density at its first frequency (toneAmplitude). Memory does
-/// not grow with the length, except for the nodes of wandering and fading lines (16 bytes per 0.1·referenceSeconds).
+/// not grow with the length, except for the nodes of wandering and fading lines (16 bytes per 0.1·referenceSeconds) and
+/// the powers of lines that change from frame to frame (4 bytes per referenceSeconds).
 /// Thread-safe.
 class SimulatedRecording final : public Recording
 {

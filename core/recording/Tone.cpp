@@ -103,6 +103,14 @@ Tone::Tone(const LineSettings &line, double amplitude, const RecordingInfo &reco
         m_fadingImaginary = component(SimulationStream::FadingImaginary);
     }
 
+    if (line.fluctuation != Fluctuation::None) {
+        m_dwellSeconds = line.referenceSeconds;
+        Random random(seed, streamNumber(SimulationStream::Fluctuation, number));
+        const double dwells = changesFromFrameToFrame(line.fluctuation) ? std::ceil(duration / m_dwellSeconds) : 1.0;
+        for (Index dwell = 0; dwell < Index(dwells); ++dwell)
+            m_dwellAmplitudes.push_back(float(std::sqrt(relativePower(line.fluctuation, random))));
+    }
+
     const auto firstAt = [&](double seconds) { return Index(std::ceil(seconds * m_sampleRateHz - 1e-6)); };
     m_begin = firstAt(m_truth.startSeconds);
     m_end = firstAt(m_truth.endSeconds);
@@ -146,6 +154,14 @@ void Tone::addTo(Index first, std::span<float> out) const
         }
 }
 
+/// Amplitude factor of the dwell that holds a sample; the last dwell extends to the end.
+float Tone::dwellAmplitude(Index sample) const
+{
+    const double seconds = (double(sample) + 1e-6) / m_sampleRateHz - m_truth.startSeconds;
+    const Index dwell = std::clamp<Index>(Index(seconds / m_dwellSeconds), 0, std::ssize(m_dwellAmplitudes) - 1);
+    return m_dwellAmplitudes[std::size_t(dwell)];
+}
+
 /// Adds at most pieceLength samples, all within one interval.
 void Tone::addPiece(Index interval, Index first, std::span<float> out) const
 {
@@ -166,6 +182,12 @@ void Tone::addPiece(Index interval, Index first, std::span<float> out) const
         const float c = cosine[i];
         cosine[i] = real * c - imaginary * sine[i];
         sine[i] = real * sine[i] + imaginary * c;
+    }
+
+    for (std::size_t i = 0; i < count && !m_dwellAmplitudes.empty(); ++i) {
+        const float factor = dwellAmplitude(first + Index(i));
+        cosine[i] *= factor;
+        sine[i] *= factor;
     }
 
     const auto amplitude = float(m_truth.amplitude);

@@ -20,9 +20,9 @@ double toneAmplitude(double snrDb, double noiseVariance, double windowSamples, b
 ///
 ///   complex: A·g(t)·e^(iφ(t)),   real: A·Re(g(t)·e^(iφ(t))),   φ' = 2π(f(t) - centreHz),   t = index / rate
 ///
-/// f and the fading g are those of LineSettings, determined by (seed, number); f is linear between nodes
-/// 0.1·referenceSeconds (0.1·wanderSeconds, if shorter) apart, so φ is a parabola there, in closed form. A stretch
-/// gives the same values however it is divided. Thread-safe.
+/// f and the factor g of fading or fluctuation are those of LineSettings, determined by (seed, number); f is linear
+/// between nodes 0.1·referenceSeconds (0.1·wanderSeconds, if shorter) apart, so φ is a parabola there, in closed form.
+/// A stretch gives the same values however it is divided. Thread-safe.
 class Tone
 {
 public:
@@ -38,6 +38,7 @@ private:
     Index firstSampleOf(Index interval) const;
     Index intervalOf(Index sample) const;
     void addPiece(Index interval, Index first, std::span<float> out) const;
+    float dwellAmplitude(Index sample) const;
 
     TruthLine m_truth;
     double m_sampleRateHz;
@@ -49,6 +50,8 @@ private:
     double m_fadingStepSeconds = 0.0;
     std::vector<double> m_fadingReal; ///< g at its own nodes; empty means g = 1
     std::vector<double> m_fadingImaginary;
+    double m_dwellSeconds = 0.0;
+    std::vector<float> m_dwellAmplitudes; ///< √power of each dwell of a fluctuating line; empty means 1
 };
 
 } // namespace faintline

@@ -12,7 +12,7 @@ struct TruthLine {
     double endSeconds = 0.0;
     double snrDb = 0.0;
     double referenceSeconds = 0.0;   ///< the window that snrDb refers to
-    double amplitude = 0.0;          ///< of the tone, before fading
+    double amplitude = 0.0;          ///< of the tone, before fading and fluctuation
     double stepSeconds = 0.0;        ///< spacing of frequencyHz
     std::vector<double> frequencyHz; ///< f(startSeconds + k·stepSeconds), linear between; the last at endSeconds
 

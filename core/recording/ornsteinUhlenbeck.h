@@ -19,7 +19,15 @@ void standardise(std::vector<double> &path, double deviation);
 double interpolate(const std::vector<double> &path, double position);
 
 /// Names of a recording's random streams: (kind, number of the block or line).
-enum class SimulationStream : std::uint64_t { Noise = 1, Level, Phase, Wander, FadingReal, FadingImaginary };
+enum class SimulationStream : std::uint64_t {
+    Noise = 1,
+    Level,
+    Phase,
+    Wander,
+    FadingReal,
+    FadingImaginary,
+    Fluctuation
+};
 
 inline std::uint64_t streamNumber(SimulationStream kind, Index number)
 {

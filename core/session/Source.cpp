@@ -114,11 +114,11 @@ RecordingPointer openSamples(const Source &source)
 
 std::shared_ptr<const Analysis> analyse(const OpenedSource &opened, const AnalysisSettings &settings,
                                         const RunContext &context, const Analysis *previous,
-                                        const PictureSink &pictures, CalibrationDepth depth)
+                                        const AnalysisRequest &request)
 {
     return opened.frames ? analyse(opened.frames, withSlopesInBins(settings, *opened.frames), context, previous)
                          : analyseInChosenWindow(opened.recording, withSlopesInBins(settings, opened.recording->info()),
-                                                 context, previous, pictures, depth);
+                                                 context, previous, request);
 }
 
 OpenedSource withInjection(const OpenedSource &opened, const Source::Injection &injection)

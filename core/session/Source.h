@@ -65,8 +65,7 @@ RecordingPointer openSamples(const Source &source);
 /// Runs the pipeline on an opened source.
 std::shared_ptr<const Analysis> analyse(const OpenedSource &opened, const AnalysisSettings &settings,
                                         const RunContext &context = {}, const Analysis *previous = nullptr,
-                                        const PictureSink &pictures = {},
-                                        CalibrationDepth depth = CalibrationDepth::Refined);
+                                        const AnalysisRequest &request = {});
 
 /// The open source with one more line. Throws Error.
 OpenedSource withInjection(const OpenedSource &opened, const Source::Injection &injection);

@@ -22,6 +22,17 @@ namespace {
             power[i] += noise[2 * i] * noise[2 * i] + noise[2 * i + 1] * noise[2 * i + 1];
     }
 
+    /// Power of a target in a ping over its mean: drawn once for the whole track, or once for each ping. The streams'
+    /// numbers are above those of the pings' noise.
+    double fluctuationOf(const PingScene &scene, std::size_t target, Index ping)
+    {
+        constexpr std::uint64_t firstStream = std::uint64_t(1) << 56;
+        const Fluctuation fluctuation = scene.targets[target].fluctuation;
+        const auto draw = changesFromFrameToFrame(fluctuation) ? std::uint64_t(ping) : 0;
+        Random random(std::uint64_t(scene.seed), firstStream + (std::uint64_t(target) << 32) + draw);
+        return relativePower(fluctuation, random);
+    }
+
     /// Range half width of the window around a cell, shorter at the axis's ends so that the cell stays in its middle.
     Index windowAt(Index range, Index rangeCells)
     {
@@ -96,7 +107,7 @@ void SimulatedPings::addEchoes(Index ping, std::span<const float> noise, std::sp
         const Index cell = m_truth.targets[i].cellAt(ping);
         if (cell < 0)
             continue;
-        const double snr = ratioFromDb(m_scene.targets[i].snrDb);
+        const double snr = ratioFromDb(m_scene.targets[i].snrDb) * fluctuationOf(m_scene, i, ping);
         Sum &sum = sums[cell];
         switch (m_scene.targets[i].echo) {
         case Echo::Constant:

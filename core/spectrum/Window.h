@@ -21,7 +21,8 @@ std::vector<float> sampleWindow(WindowShape shape, int length);
 /// w⁴ with Σ w² = 1, which is 1 for a rectangular and 35/18 for a Hann window.
 double cellLikeness(const std::vector<float> &window);
 
-/// Standard error of a mean over many successive frames, `steps` per window, relative to that over as many independent ones.
+/// Standard error of a mean over many successive frames, `steps` per window, relative to that over as many
+/// independent ones.
 double overlapFactor(const std::vector<float> &window, int steps);
 
 /// Half width of the main lobe, from its peak to its first zero, in resolution cells 1/T_FT.

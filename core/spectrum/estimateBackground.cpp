@@ -134,8 +134,8 @@ namespace {
             m_background->lnPower.reserve(std::size_t(m_blockCount * m_cells));
         }
 
-        /// Levels are computed for the detector's own, overlapping frames, because a sudden change between windows could
-        /// only be guessed.
+        /// Levels are computed for the detector's own, overlapping frames, because a sudden change between windows
+        /// could only be guessed.
         void layOutLevels()
         {
             m_background->bandCount =

@@ -1,6 +1,9 @@
 #include "track/DetectionChain.h"
 
 #include "base/memoryShares.h"
+#include "track/boxExtent.h"
+#include "track/closeTrackers.h"
+#include "track/trimOnset.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,12 +13,9 @@ namespace faintline {
 namespace {
 
     constexpr Index checkpointFrames = 32; ///< frames between checkpoints
-    constexpr int framesUntilDuplicate = 3;
-    constexpr double skirtLevel = 8.0; ///< y that noise rarely exceeds
     /// Factor by which a constant leaks more than a line: where noise falls steeply from 0 Hz on, its side lobes lie on
     /// less noise.
     constexpr double excludedMargin = 10.0;
-    constexpr Index largestSkirtSteps = 16;
 
     /// Number of frames to record: only the newest one without traceback.
     std::size_t framesOf(const Grid &grid, const ChainSettings &settings)
@@ -32,24 +32,6 @@ namespace {
         for (const MarkovModel &model : models)
             states += std::size_t(model.space.stateCount());
         return memoryShares::pathRecord / (sizeof(float) * states);
-    }
-
-    /// A path usually reaches its signal through some frames of favourable noise. The signal begins where the score
-    /// begins to grow: the change point between no growth and half the path's own mean growth.
-    void trimOnset(std::vector<TrackPoint> &points)
-    {
-        const double tilt = 0.5 * points.back().statistic / double(points.size());
-        std::size_t onset = 0;
-        double least = 0.0;
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            const double before = i == 0 ? 0.0 : points[i - 1].statistic;
-            const double tilted = before - tilt * double(i);
-            if (tilted < least) {
-                least = tilted;
-                onset = i;
-            }
-        }
-        points.erase(points.begin(), points.begin() + std::ptrdiff_t(onset));
     }
 
 } // namespace
@@ -222,34 +204,13 @@ float DetectionChain::nothingSeen() const
 
 std::vector<std::pair<Index, float>> DetectionChain::maskNeighbours(const PlaceIndex &places, std::size_t own)
 {
-    // Prevents a tracker from moving over to a stronger signal that another one follows: cells nearer to the other
-    // tracker belong to it.
-    const auto distance = [this](const std::vector<Index> &a, const std::vector<Index> &b) {
-        Index largest = 0;
-        for (std::size_t axis = 0; axis < a.size(); ++axis) {
-            Index d = std::abs(a[axis] - b[axis]);
-            if (m_grid.axes[axis].cyclic)
-                d = std::min(d, m_grid.axes[axis].count - d);
-            largest = std::max(largest, d);
-        }
-        return largest;
-    };
-    const std::vector<Index> &mine = places[own];
-    const Index farthest = m_trackerModels.front()->largestExtent;
     std::vector<std::pair<Index, float>> hidden;
-    places.forEachNear(mine, farthest, [&](std::size_t other) {
-        const std::vector<Index> &centre = places[other];
-        if (other == own || distance(mine, centre) > farthest)
-            return;
-        CellBox{centre, m_settings.inhibitCells}.forEachCell(m_grid, [&](Index cell) {
-            const std::vector<Index> c = m_grid.coordinates(cell);
-            if (distance(c, centre) >= distance(c, mine))
-                return;
-            float &value = m_lambda[std::size_t(cell)];
-            hidden.emplace_back(cell, value);
-            value = nothingSeen();
-        });
-    });
+    const Index farthest = m_trackerModels.front()->largestExtent;
+    for (const Index cell : cellsOfNeighbours(m_grid, places, own, farthest, m_settings.inhibitCells)) {
+        float &value = m_lambda[std::size_t(cell)];
+        hidden.emplace_back(cell, value);
+        value = nothingSeen();
+    }
     // Undoing in reverse order restores the first value of a cell hidden twice.
     std::reverse(hidden.begin(), hidden.end());
     return hidden;
@@ -257,82 +218,17 @@ std::vector<std::pair<Index, float>> DetectionChain::maskNeighbours(const PlaceI
 
 void DetectionChain::endDuplicates()
 {
-    // If two trackers follow one signal, the younger one ends. It was a second report of the same signal, unless it had
-    // existed separately for longer.
-    if (m_trackers.size() < 2)
-        return;
-    std::vector<std::vector<Index>> places;
-    for (const HmmTracker &tracker : m_trackers)
-        places.push_back(tracker.coordinates());
-    const PlaceIndex index(m_grid, std::move(places));
-    std::vector<std::size_t> near;
-    for (std::size_t younger = m_trackers.size(); younger-- > 1;) {
-        HmmTracker &young = m_trackers[younger];
-        near.clear();
-        index.forEachNear(index[younger], m_settings.linkCells.front(), [&](std::size_t older) {
-            if (older < younger && CellBox{index[older], m_settings.linkCells}.contains(m_grid, index[younger]))
-                near.push_back(older);
-        });
-        std::sort(near.begin(), near.end());
-        std::vector<HmmTracker::Beside> beside;
-        int longest = 0;
-        for (std::size_t i = 0; i < near.size() && longest < framesUntilDuplicate; ++i) {
-            const int older = m_trackers[near[i]].track().id;
-            const auto known = std::find_if(young.beside().begin(), young.beside().end(),
-                                            [older](const HmmTracker::Beside &other) { return other.track == older; });
-            longest = known == young.beside().end() ? 1 : known->frames + 1;
-            beside.push_back({older, longest});
-        }
-        if (longest < framesUntilDuplicate) {
-            young.setBeside(std::move(beside));
-            continue;
-        }
-        if (2 * longest < young.age())
-            m_ended.push_back(young.finish(false));
-        m_trackers.erase(m_trackers.begin() + std::ptrdiff_t(younger));
-    }
+    for (Track &track : endedDuplicates(m_trackers, m_grid, m_settings.linkCells))
+        m_ended.push_back(std::move(track));
 }
 
 CellBox DetectionChain::boxRound(const std::vector<Index> &centre, std::span<const float> y, double margin) const
 {
     CellBox box{centre, m_settings.inhibitCells};
-    const Index middle = m_grid.cell(centre);
-    const double level = double(std::max(0.0f, y[std::size_t(middle)])); // 0 if not observed
+    const double level = double(std::max(0.0f, y[std::size_t(m_grid.cell(centre))])); // 0 if not observed
     if (m_settings.leakageExtent)
         box.halfWidth.back() = std::max(box.halfWidth.back(), m_settings.leakageExtent(margin * level));
-    if (m_settings.skirtStep <= 0 || level < skirtLevel)
-        return box;
-    // Beyond the window's own side lobes a modulated line has skirts: extend the box down the hill to where it stops
-    // falling.
-    const Axis &axis = m_grid.axes.back();
-    const Index position = centre.back();
-    const auto hillOn = [&](Index direction) {
-        const auto groupPeak = [&](Index from) {
-            float peak = 0.0f;
-            for (Index i = 0; i < m_settings.skirtStep; ++i)
-                if (const Index cell = axis.wrapped(position + direction * (from + i)); cell >= 0)
-                    peak = std::max(peak, y[std::size_t(middle - position + cell)]);
-            return peak;
-        };
-        Index reach = box.halfWidth.back();
-        const Index limit = reach + largestSkirtSteps * m_settings.skirtStep;
-        float before = groupPeak(std::max<Index>(0, reach - m_settings.skirtStep + 1));
-        while (reach < limit) {
-            const float next = groupPeak(reach + 1);
-            if (double(next) < skirtLevel || next > before)
-                break;
-            before = next;
-            reach += m_settings.skirtStep;
-        }
-        return reach;
-    };
-    const Index below = hillOn(-1);
-    const Index above = hillOn(+1);
-    box.halfWidth.back() = (below + above + 1) / 2;
-    box.centre.back() = position + (above - below) / 2;
-    if (const Index inside = axis.wrapped(box.centre.back()); inside >= 0)
-        box.centre.back() = inside;
-    return box;
+    return overSkirts(std::move(box), m_grid, y, m_settings.skirtStep);
 }
 
 double DetectionChain::scoreOf(Index state, std::size_t model) const
@@ -456,16 +352,7 @@ void DetectionChain::startTrack(Index frame, const Cluster &cluster, std::span<c
     CellBox box = boxRound(m_grid.coordinates(cluster.peakCell), y);
     for (std::size_t axis = 0; axis < m_settings.forgetCells.size(); ++axis)
         box.halfWidth[axis] = std::max(box.halfWidth[axis], m_settings.forgetCells[axis]);
-    for (Index cell : cluster.cells) {
-        const std::vector<Index> c = m_grid.coordinates(cell);
-        for (std::size_t axis = 0; axis < c.size(); ++axis) {
-            const Axis &a = m_grid.axes[axis];
-            Index distance = std::abs(c[axis] - box.centre[axis]);
-            if (a.cyclic)
-                distance = std::min(distance, a.count - distance);
-            box.halfWidth[axis] = std::max(box.halfWidth[axis], distance + m_settings.linkCells[axis]);
-        }
-    }
+    box = overCells(std::move(box), m_grid, cluster.cells, m_settings.linkCells);
     m_newBoxes.push_back(box);
     m_boxes.push_back(std::move(box));
 }

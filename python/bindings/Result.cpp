@@ -40,7 +40,7 @@ void Result::streamStatistic(const StatisticSink &sink, const RunContext &contex
 {
     const Analysis &a = *m_analysis;
     if (a.recording)
-        analyse(a.recording, a.settings, context, &a, sink, {}, CalibrationDepth::Refined, AnalysisDepth::Trial);
+        analyse(a.recording, a.settings, context, &a, {.statistic = sink, .depth = AnalysisDepth::Trial});
     else
         analyse(a.frames, a.settings, context, &a, sink);
 }

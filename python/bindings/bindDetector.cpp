@@ -160,7 +160,7 @@ void bindDetector(py::module_ &module)
 
 grid: an Axis, or a list of them, slowest first.
 model: a dict, or the path of a JSON file: "axes", one law for each axis of the grid (keys rates, ratesPerCell, rateChange, step, round,
-transition, renormalised); "likelihood", {"kind": "rice", "r0": 0.5}, "exponential" or "linear", for power whose noise has mean 1, by
+transition, renormalised); "likelihood", {"kind": "rice", "r0": 0.5}, "exponential", "swerling4" or "linear", for power whose noise has mean 1, by
 default {"kind": "given"}: frames contain log-likelihood ratios λ themselves, any finite numbers, NaN for cells that were not observed; "reset",
 {"law": "fixed", "lnK": -0.5}, "half", "mean" or "none"; "semiring", "max" or "sum".
 

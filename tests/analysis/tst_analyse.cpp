@@ -47,7 +47,7 @@ std::shared_ptr<const Analysis> analysed(int threads = 1, const AnalysisSettings
         sink = [statistic](Index, std::span<const float> block) {
             statistic->insert(statistic->end(), block.begin(), block.end());
         };
-    return analyse(recording(), s, context, nullptr, sink);
+    return analyse(recording(), s, context, nullptr, {.statistic = sink});
 }
 
 bool sameTracks(const Analysis &a, const Analysis &b)
@@ -82,6 +82,7 @@ private slots:
     void explanationAddsUp();
     void calibratedKHalvesNoise();
     void aKOutOfReachIsAnError();
+    void falseAlarmsAsOrdered_data();
     void falseAlarmsAsOrdered();
     void noLinesInNoiseOfAnyKind_data();
     void noLinesInNoiseOfAnyKind();
@@ -202,8 +203,16 @@ void tst_analyse::aKOutOfReachIsAnError()
     QVERIFY2(said.ends_with("% do; choose a lower one"), said.c_str());
 }
 
+void tst_analyse::falseAlarmsAsOrdered_data()
+{
+    QTest::addColumn<int>("likelihood");
+    QTest::newRow("rice") << int(LikelihoodKind::Rice);
+    QTest::newRow("swerling4") << int(LikelihoodKind::Swerling4);
+}
+
 void tst_analyse::falseAlarmsAsOrdered()
 {
+    QFETCH(int, likelihood);
     // An hour of noise at 60 false alarms an hour; the Poisson interval at 1 in 10⁴ is 33 … 93.
     LineScene scene;
     scene.sampleRateHz = 2000.0;
@@ -211,6 +220,7 @@ void tst_analyse::falseAlarmsAsOrdered()
     scene.seed = 41;
     AnalysisSettings s = settings();
     s.decide.falseAlarmsPerHour = 60.0;
+    s.model.likelihood = static_cast<LikelihoodKind>(likelihood);
     const auto analysis = analyse(std::make_shared<SimulatedRecording>(scene), s);
     const auto count = int(analysis->tracks.size());
     QVERIFY2(count >= 33 && count <= 93, qPrintable(QString::number(count)));

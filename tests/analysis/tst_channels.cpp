@@ -72,7 +72,8 @@ std::vector<float> frameOf(const Analysis &analysis, Index frame)
 
 std::shared_ptr<const Analysis> quick(const RecordingPointer &recording, const AnalysisSettings &settings)
 {
-    return analyse(recording, settings, {}, nullptr, {}, {}, CalibrationDepth::FirstEstimate, AnalysisDepth::Tracks);
+    return analyse(recording, settings, {}, nullptr,
+                   {.calibration = CalibrationDepth::FirstEstimate, .depth = AnalysisDepth::Tracks});
 }
 
 } // namespace

@@ -47,8 +47,8 @@ AnalysisSettings settingsOf(const FamilySettings &family)
 /// How the threshold is found does not matter here.
 std::shared_ptr<const Analysis> analysed(const RecordingPointer &recording, const FamilySettings &family)
 {
-    return analyse(recording, settingsOf(family), {}, nullptr, {}, {}, CalibrationDepth::FirstEstimate,
-                   AnalysisDepth::Tracks);
+    return analyse(recording, settingsOf(family), {}, nullptr,
+                   {.calibration = CalibrationDepth::FirstEstimate, .depth = AnalysisDepth::Tracks});
 }
 
 std::vector<PathCell> straightPath(const Analysis &analysis, double hz)

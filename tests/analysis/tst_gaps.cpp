@@ -14,7 +14,8 @@
 
 using namespace faintline;
 
-/// What was not heard is not taken for silence: frames that reach into a gap are not observed, and a line goes on behind.
+/// What was not heard is not taken for silence: frames that reach into a gap are not observed, and a line goes on
+/// behind.
 class tst_gaps : public QObject
 {
     Q_OBJECT

@@ -188,6 +188,7 @@ void tst_lineSequentialModel::likelihoodRatiosHaveMeanOne_data()
     for (const double snr : {0.1, 0.5, 1.0, 4.0}) {
         QTest::addRow("rice, %g", snr) << int(LikelihoodKind::Rice) << snr;
         QTest::addRow("exponential, %g", snr) << int(LikelihoodKind::Exponential) << snr;
+        QTest::addRow("swerling4, %g", snr) << int(LikelihoodKind::Swerling4) << snr;
     }
 }
 

@@ -3,6 +3,7 @@
 #include "app/control/EventReviews.h"
 
 #include "app/base/filePath.h"
+#include "app/control/EventFiles.h"
 #include "app/openWindow.h"
 #include "app/workspace/Workbench.h"
 #include "exchange/readAnnotations.h"
@@ -128,7 +129,7 @@ private slots:
         choose({1});
         m_window->reviews().classify("fin whale");
         const QString path = m_folder.filePath("classes.csv");
-        m_window->reviews().exportTo(path);
+        m_window->reviews().files().exportTo(path);
         const QList<QByteArray> rows = test::readBytes(path.toStdString()).split('\n');
         QVERIFY2(rows[1].contains(",\"fin whale\","), rows[1].constData());
         QVERIFY2(rows[2].contains(",\"event 2\","), rows[2].constData());
@@ -199,7 +200,7 @@ private slots:
         choose({1});
         m_window->reviews().judge(Verdict::Rejected);
         const QString file = m_folder.filePath("out.selections.txt");
-        m_window->reviews().exportTo(file);
+        m_window->reviews().files().exportTo(file);
         const Json provenance = readJsonFile(file.toStdString() + ".provenance.json");
         QVERIFY(provenance["recording"].contains("scenario"));
         QCOMPARE(provenance["annotations"]["reviews"].size(), std::size_t(1));
@@ -207,7 +208,7 @@ private slots:
         const auto events = document().shownEvents().size();
         const auto boxes = readAnnotations(file.toStdString(), document().recording()->info());
         QCOMPARE(boxes.size(), events);
-        m_window->reviews().importFrom(file);
+        m_window->reviews().files().importFrom(file);
         // What is judged in it judges here, the rest are boxes.
         QCOMPARE(document().annotations().boxes.size(), events - 1);
         QCOMPARE(verdicts().front(), Verdict::Rejected);
@@ -215,7 +216,7 @@ private slots:
         QCOMPARE(document().annotations().boxes.size(), std::size_t(0));
         document().undoStack().undo(); // what was judged by hand
         QCOMPARE(verdicts().front(), Verdict::None);
-        m_window->reviews().importFrom(file);
+        m_window->reviews().files().importFrom(file);
         QCOMPARE(verdicts().front(), Verdict::Rejected);
         document().undoStack().undo();
         QVERIFY(document().annotations().boxes.empty());
@@ -223,7 +224,7 @@ private slots:
         QVERIFY(bad.open(QIODevice::WriteOnly));
         bad.write("no table");
         bad.close();
-        QVERIFY_EXCEPTION_THROWN(m_window->reviews().importFrom(bad.fileName()), Error);
+        QVERIFY_EXCEPTION_THROWN(m_window->reviews().files().importFrom(bad.fileName()), Error);
     }
 
     void anExportIsMadeAgainWithoutTheWindow()
@@ -247,10 +248,10 @@ private slots:
         };
         for (const QString &name : {QString("r.csv"), QString("r.json"), QString("r.selections.txt"), QString("r.txt"),
                                     QString("r.sigmf-meta")}) {
-            m_window->reviews().exportTo(m_folder.filePath(name));
+            m_window->reviews().files().exportTo(m_folder.filePath(name));
             QCOMPARE(replay(name), name.toUtf8() + ": the same bytes\n");
         }
-        m_window->reviews().exportTracksTo(m_folder.filePath("tracks.csv"));
+        m_window->reviews().files().exportTracksTo(m_folder.filePath("tracks.csv"));
         QCOMPARE(replay("tracks.csv"), QByteArray("tracks.csv: the same bytes\n"));
         writeTracks(*document().analysis(), pathBytes(m_folder.filePath("all.csv")));
         const auto bytesOf = [&](const char *name) {

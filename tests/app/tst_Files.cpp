@@ -1,6 +1,7 @@
 #include "app/base/MessageBar.h"
 #include "app/base/distinctLabels.h"
 #include "app/base/filePath.h"
+#include "app/control/EventFiles.h"
 #include "app/control/EventReviews.h"
 #include "app/document/recordingFiles.h"
 #include "app/openWindow.h"
@@ -152,7 +153,7 @@ private slots:
     {
         const auto window = newWindow();
         QVERIFY(openAndSettle(*window, path("night 2.wav")));
-        window->reviews().exportTo(path("out.csv"));
+        window->reviews().files().exportTo(path("out.csv"));
         QTRY_VERIFY2(window->messages().text().contains("out.csv"), qPrintable(window->messages().text()));
         window->messages().dismiss();
         window->views().saveTo("events", path("events.png"));

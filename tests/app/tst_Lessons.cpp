@@ -299,7 +299,8 @@ void tst_Lessons::answersAreHandedInAsAPage()
         {"title": "One", "text": "t", "open": "scene.json", "settings": {"decide.thresholdNats": 12},
          "ask": {"question": "Is it?", "choices": ["yes & no", "no"], "answer": 1, "why": "w"},
          "do": "Set the threshold to 20 nat.", "until": {"decide.thresholdNats": 20}, "thenFacts": {"threshold": 20}},
-        {"title": "Two", "text": "t", "ask": {"question": "Or not?", "choices": ["a", "b"], "answer": 0, "why": "w"}}]})");
+        {"title": "Two", "text": "t", "ask": {"question": "Or not?", "choices": ["a", "b"],
+                                             "answer": 0, "why": "w"}}]})");
     QVERIFY(QFile::copy(":/lessons/scenes/line-that-ends.json", m_folder.filePath("scene.json")));
     window->open(path);
     QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);

@@ -3,11 +3,11 @@
 #include "analysis/slopeUnit.h"
 #include "app/Feeder.h"
 #include "app/base/MessageBar.h"
-#include "app/base/diskRoom.h"
 #include "app/panels/ListenDialog.h"
 #include "app/workspace/LiveBar.h"
 #include "app/workspace/Workbench.h"
 #include "exchange/writeEvents.h"
+#include "widgets/base/diskRoom.h"
 #include "widgets/events/EventTable.h"
 
 #include <QComboBox>

@@ -421,8 +421,8 @@ void tst_Sequential::viewsAreSaved()
 {
     m_window->openScans(smallTest());
     QVERIFY(settle());
-    QCOMPARE(panel().views().size(), std::size_t(8));
-    for (const SequentialPanel::View &view : panel().views()) {
+    QCOMPARE(panel().views().all().size(), std::size_t(8));
+    for (const SequentialViews::View &view : panel().views().all()) {
         for (const char *extension : {"png", "svg", "pdf", "csv"}) {
             const QString path = m_folder.filePath(QString("view.%1").arg(extension));
             saveView(*view.widget, view.csv(), path);
@@ -446,7 +446,7 @@ void tst_Sequential::viewsAreSaved()
     QVERIFY(settle());
     for (const std::size_t i : {0, 2, 3}) {
         const QString path = m_folder.filePath(QString("again-%1.csv").arg(i));
-        panel().saveTo(panel().views()[i], path);
+        panel().views().saveTo(panel().views().all()[i], path);
         QProcess replay;
         replay.start(QStringLiteral(FAINTLINE_BINARY_DIR "/app/faintline"), {"replay", path});
         QVERIFY(replay.waitForFinished(patience));

@@ -9,8 +9,8 @@
 using namespace faintline;
 using namespace faintline::test;
 
-/// One recording through every door: command line, window, survey, Python and a Vamp host give the same events, byte for
-/// byte, formats apart.
+/// One recording through every door: command line, window, survey, Python and a Vamp host give the same events, byte
+/// for byte, formats apart.
 class tst_everyDoor : public CommandLineTest
 {
     Q_OBJECT

@@ -2,6 +2,7 @@
 
 #include "app/base/MessageBar.h"
 #include "app/base/filePath.h"
+#include "app/control/EventFiles.h"
 #include "app/control/EventReviews.h"
 #include "app/lessons/LessonGuide.h"
 #include "app/openWindow.h"
@@ -396,7 +397,7 @@ void tst_hostileNames::bytesThatAreNoTextAreOpened()
     QVERIFY(openAndSettle(*window, pathText(session)));
     QVERIFY2(window->document().analysis(), qPrintable(window->messages().text()));
     QCOMPARE(window->messages().text(), QString()); // the recording's hash is the session's
-    window->reviews().exportTo(pathText(place + "/" + name.toStdString() + ".csv"));
+    window->reviews().files().exportTo(pathText(place + "/" + name.toStdString() + ".csv"));
     QVERIFY(std::filesystem::exists(place + "/" + name.toStdString() + ".csv"));
     QTRY_VERIFY(std::filesystem::exists(place + "/" + name.toStdString() + ".csv.provenance.json"));
 }
@@ -419,6 +420,12 @@ void tst_hostileNames::dialogsSuggestNamesOneCanType()
              QStringLiteral("/tmp/a.b-events.csv"));
     QCOMPARE(nameBeside(pathText("/tmp/a\xff.wav"), QStringLiteral(".html")), QStringLiteral("/tmp/a_.html"));
     QVERIFY(nameBeside(QStringLiteral("/tmp/") + QString(250, QLatin1Char('x')), QStringLiteral(".html")).size() < 255);
+    // Characters of three and four bytes, whose limit lies within one.
+    for (const QString &character : {QString(QChar(0x6f22)), QStringLiteral("\U0001F3B5")}) {
+        const QString name = nameBeside(QLatin1Char('x') + character.repeated(60), QStringLiteral("-events.csv"));
+        QVERIFY2(name.isValidUtf16(), qPrintable(name));
+        QVERIFY(name.section(QLatin1Char('/'), -1).toUtf8().size() < 255);
+    }
 }
 
 QTEST_MAIN(tst_hostileNames)

@@ -13,6 +13,7 @@ private slots:
     void isCleanText();
     void nothingThatCommands();
     void longTextLosesItsMiddle();
+    void aBeginningIsWholeCharacters();
 };
 
 void tst_oneLine::isCleanText()
@@ -44,6 +45,16 @@ void tst_oneLine::longTextLosesItsMiddle()
     QCOMPARE(oneLine("abcdefgh", 8), std::string("abcdefgh"));
     QCOMPARE(oneLine("abcdefghi", 8), std::string("abcd … fghi"));
     QCOMPARE(oneLine("½½½½½½", 6), std::string("½ … ½½")); // never within a character
+}
+
+void tst_oneLine::aBeginningIsWholeCharacters()
+{
+    QCOMPARE(beginning("abc", 3), std::string("abc"));
+    QCOMPARE(beginning("abc", 2), std::string("ab"));
+    const std::string note("\xf0\x9f\x8e\xb5");
+    for (std::size_t bytes = 0; bytes < 4; ++bytes)
+        QCOMPARE(beginning("a" + note, 1 + bytes), std::string("a"));
+    QCOMPARE(beginning("a" + note, 5), "a" + note);
 }
 
 QTEST_APPLESS_MAIN(tst_oneLine)

@@ -36,6 +36,8 @@ class tst_LineExperiment : public QObject
 private slots:
     void outcomesAreTheLargestOfTheirCells();
     void everyOtherFrameAlone();
+    void linesFluctuateFromWindowToWindow();
+    void linesFluctuateAsAWhole();
     void sinksSeeEveryRunOnce();
     void noRunsNoOutcomes();
     void resetsAreFoundForMarkovDetectorsAlone();
@@ -96,6 +98,64 @@ void tst_LineExperiment::everyOtherFrameAlone()
     for (std::size_t i = 0; i < 10; ++i)
         QVERIFY2(std::abs(outcome.noise[0][i] - expected[i]) < 1e-4f * expected[i],
                  qPrintable(QString("%1, not %2").arg(double(outcome.noise[0][i])).arg(double(expected[i]))));
+}
+
+namespace {
+
+/// Power of each line in each of its frames, where it is strongest, over that of a constant line.
+std::vector<std::vector<double>> relativePowers(LineExperiment made, Fluctuation fluctuation)
+{
+    FieldTransform transform(made);
+    const NoisyField constant = makeField(made, 1, transform);
+    made.fluctuation = fluctuation;
+    const NoisyField field = makeField(made, 1, transform);
+    std::vector<std::vector<double>> powers;
+    for (const Place &place : constant.places) {
+        std::vector<double> &line = powers.emplace_back();
+        for (std::size_t k = 0; k < place.bins.size(); ++k) {
+            const auto at = std::size_t((place.firstFrame + Index(k)) * made.bins() + place.bins[k]);
+            line.push_back(double(std::norm(field.signal[at]) / std::norm(constant.signal[at])));
+        }
+    }
+    return powers;
+}
+
+LineExperiment separateFrames()
+{
+    LineExperiment made = experiment({peer("energy", 10.0)});
+    made.stepsPerWindow = 1;
+    return made;
+}
+
+} // namespace
+
+// Lines begin with a window, so each window has the line's power of a moment of its own.
+void tst_LineExperiment::linesFluctuateFromWindowToWindow()
+{
+    double mean = 0.0;
+    double square = 0.0;
+    int windows = 0;
+    for (const std::vector<double> &line : relativePowers(separateFrames(), Fluctuation::Swerling2))
+        for (const double power : line) {
+            mean += power;
+            square += power * power;
+            ++windows;
+        }
+    QCOMPARE(windows, 100);
+    QVERIFY2(std::abs(mean / windows - 1.0) < 0.45, qPrintable(QString::number(mean / windows)));
+    QVERIFY2(square / windows > 1.2, qPrintable(QString::number(square / windows))); // 2 is expected
+}
+
+void tst_LineExperiment::linesFluctuateAsAWhole()
+{
+    std::vector<double> powers;
+    for (const std::vector<double> &line : relativePowers(separateFrames(), Fluctuation::Swerling1)) {
+        for (const double power : line)
+            QVERIFY(std::abs(power - line.front()) < 1e-3 * line.front());
+        powers.push_back(line.front());
+    }
+    std::sort(powers.begin(), powers.end());
+    QVERIFY(powers.back() > 2.0 * powers.front()); // ten lines have ten powers
 }
 
 void tst_LineExperiment::sinksSeeEveryRunOnce()
@@ -197,10 +257,23 @@ void tst_LineExperiment::refusals_data()
                                  << "blockFrames, blockBins: a block must fit into the field of 130 × 1000 cells";
     QTest::newRow("durationWindows") << "durationWindows"
                                      << "durationWindows = 30.5: a line must last 1 … blockFrames = 60 frames";
+    QTest::newRow("fluctuation") << "fluctuation"
+                                 << "fluctuation = swerling1: is not possible with fading; use one of the two";
     QTest::newRow("drift") << "drift"
                            << "driftCellsPerWindow, wanderCells: a line must stay within its block of blockBins = 200 "
                               "bins";
 }
+
+namespace {
+
+LineExperiment fadingAndFluctuating(LineExperiment made)
+{
+    made.fading = Fading::Rayleigh;
+    made.fluctuation = Fluctuation::Swerling1;
+    return made;
+}
+
+} // namespace
 
 void tst_LineExperiment::refusals()
 {
@@ -220,6 +293,8 @@ void tst_LineExperiment::refusals()
         made.blockFrames = 131;
     else if (member == "durationWindows")
         made.durationWindows = 30.5;
+    else if (member == "fluctuation")
+        made = fadingAndFluctuating(made);
     else
         made.driftCellsPerWindow = 4.7; // 47 cells in ten windows, where 46 have room
     QCOMPARE(QString::fromStdString(errorOf([&] { checkExperiment(made); })), words);

@@ -1,6 +1,7 @@
 #include "evaluate/experiments/campaignCharts.h"
 
 #include "evaluate/experiments/peers.h"
+#include "evaluate/theory/swerling.h"
 #include "evaluate/theory/theory.h"
 
 #include <QtTest>
@@ -17,6 +18,7 @@ class tst_campaignCharts : public QObject
 private slots:
     void pdHasOneCurvePerDetectorAndTheory();
     void theoryOnlyWhereItHolds();
+    void theoryOfFluctuatingLines();
     void rocRisesWithFalseAlarms();
     void emptyCampaignsHaveEmptyCharts();
     void shownThresholdIsExceededByItsShareOfBlocks();
@@ -65,6 +67,24 @@ void tst_campaignCharts::theoryOnlyWhereItHolds()
     QCOMPARE(curvesWith([](LineExperiment &lines) { lines.fading = Fading::Rayleigh; }), std::size_t(2));
     QCOMPARE(curvesWith([](LineExperiment &lines) { lines.durationWindows = 50.0; }), std::size_t(2));
     QCOMPARE(curvesWith([](LineExperiment &lines) { lines.window = WindowShape::Hann; }), std::size_t(2));
+    // Frames that overlap two windows hold parts of two powers.
+    QCOMPARE(curvesWith([](LineExperiment &lines) { lines.fluctuation = Fluctuation::Swerling2; }), std::size_t(2));
+    QCOMPARE(curvesWith([](LineExperiment &lines) {
+                 lines.fluctuation = Fluctuation::Swerling2;
+                 lines.stepsPerWindow = 1;
+             }),
+             std::size_t(3));
+}
+
+void tst_campaignCharts::theoryOfFluctuatingLines()
+{
+    Campaign changed = campaign();
+    std::get<LineExperiment>(changed.experiment).fluctuation = Fluctuation::Swerling3;
+    const Curve &theory = pdChart(changed).curves.at(2);
+    QCOMPARE(theory.name, std::string("integrator, Swerling 3"));
+    QCOMPARE(theory.points.front().y,
+             pdOfMeanPower(thresholdOfMeanPower(100.0 / 7500.0, 100), 100, 1.0, Fluctuation::Swerling3));
+    QCOMPARE(rocChart(changed, 0).curves.at(2).name, std::string("integrator, Swerling 3"));
 }
 
 void tst_campaignCharts::rocRisesWithFalseAlarms()

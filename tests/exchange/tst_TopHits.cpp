@@ -45,7 +45,8 @@ namespace {
 constexpr Index channels = 1 << 16;
 constexpr Index frames = 60;
 
-/// A line of a Gaussian profile, as wide in Hz at half its height, whose power adds up to `snr` deviations over √frames.
+/// A line of a Gaussian profile, as wide in Hz at half its height, whose power adds up to `snr` deviations over
+/// √frames.
 struct Injected {
     double startHz; ///< from the lowest channel on
     double drift;
@@ -158,8 +159,8 @@ void tst_TopHits::linesAreFound_data()
     QTest::newRow("descending, down") << true << -1.0;
 }
 
-// Lines of 1 and 2 Hz at 1.3 and 2.6 Hz/s within a drift step of what was injected; neither a broad one at 3.9 Hz/s that
-// is too weak, nor the constant in the middle channel.
+// Lines of 1 and 2 Hz at 1.3 and 2.6 Hz/s within a drift step of what was injected; neither a broad one at 3.9 Hz/s
+// that is too weak, nor the constant in the middle channel.
 void tst_TopHits::linesAreFound()
 {
     QFETCH(bool, descends);

@@ -108,8 +108,8 @@ struct Run {
     std::vector<EventChange> changes;
 };
 
-/// Listens, and wishes for other settings once so much of the time has passed. Until they are in force or refused, whose
-/// calibration takes seconds, frames come in their own time: else the source would be over before.
+/// Listens, and wishes for other settings once so much of the time has passed. Until they are in force or refused,
+/// whose calibration takes seconds, frames come in their own time: else the source would be over before.
 std::unique_ptr<Run> run(std::vector<float> samples, const ListenSettings &used, double wishSeconds = 0.0,
                          const std::optional<AnalysisSettings> &wish = {})
 {

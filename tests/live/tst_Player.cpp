@@ -158,7 +158,8 @@ void tst_Player::lineStaysAtItsTone()
              qPrintable(QString::number(amplitudeAt(samples, 700.0) / fullTone)));
 }
 
-// Nothing is played that is not there yet; what has run away is left out but for half a second; the level is that before.
+// Nothing is played that is not there yet; what has run away is left out but for half a second; the level is that
+// before.
 void tst_Player::waitsForWhatIsBeingMade()
 {
     double end = 12.0;

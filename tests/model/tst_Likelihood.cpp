@@ -20,6 +20,8 @@ private slots:
     void rice_data();
     void rice();
     void affine();
+    void swerling4_data();
+    void swerling4();
     void badValuesAreNoEvidence();
     void givenEvidenceStaysAsItIs();
     void refusals();
@@ -69,12 +71,48 @@ void tst_Likelihood::affine()
     QCOMPARE(lambda, y);
 }
 
+void tst_Likelihood::swerling4_data()
+{
+    QTest::addColumn<double>("snr");
+    for (double snr : {0.05, 0.5, 2.0, 10.0, 300.0})
+        QTest::newRow(qPrintable(QString::number(snr))) << snr;
+}
+
+// Against the mean of the constant amplitude's likelihood ratio over a power of density 4g·e^(-2g), by Simpson's rule.
+void tst_Likelihood::swerling4()
+{
+    QFETCH(double, snr);
+    const Likelihood likelihood(LikelihoodKind::Swerling4, snr);
+    std::vector<float> y;
+    for (double value = 0.0; value < 60.0; value = 1.3 * value + 0.01)
+        y.push_back(float(value));
+    std::vector<float> lambda(y.size());
+    likelihood.apply(y, lambda);
+    for (std::size_t i = 0; i < y.size(); ++i) {
+        constexpr int intervals = 4000;
+        constexpr double step = 6.0 / intervals; // over the amplitude √g
+        double sum = 0.0;
+        for (int k = 0; k <= intervals; ++k) {
+            const double amplitude = k * step;
+            const double g = amplitude * amplitude;
+            const double ratio = std::exp(-g * snr) * boost::math::cyl_bessel_i(0, 2.0 * std::sqrt(g * snr * y[i]));
+            const double weight = k == 0 || k == intervals ? 1.0 : k % 2 == 1 ? 4.0 : 2.0;
+            sum += weight * 2.0 * amplitude * 4.0 * g * std::exp(-2.0 * g) * ratio;
+        }
+        const double expected = std::log(sum * step / 3.0);
+        QVERIFY2(std::abs(likelihood.at(double(y[i])) - expected) < 1e-8 * std::max(1.0, std::abs(expected)),
+                 qPrintable(QString("y %1: %2, expected %3").arg(y[i]).arg(likelihood.at(double(y[i]))).arg(expected)));
+        QVERIFY(std::abs(double(lambda[i]) - expected) < 2e-6 * std::max(1.0, std::abs(expected)));
+    }
+}
+
 void tst_Likelihood::badValuesAreNoEvidence()
 {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     constexpr float infinity = std::numeric_limits<float>::infinity();
     const std::vector<float> y{-1.0f, -infinity, infinity, 1e30f, nan, 1.0f};
-    for (LikelihoodKind kind : {LikelihoodKind::Rice, LikelihoodKind::Exponential, LikelihoodKind::Linear}) {
+    for (LikelihoodKind kind :
+         {LikelihoodKind::Rice, LikelihoodKind::Exponential, LikelihoodKind::Linear, LikelihoodKind::Swerling4}) {
         const Likelihood likelihood(kind, 0.5);
         std::vector<float> lambda(y.size());
         likelihood.apply(y, lambda);
@@ -102,6 +140,7 @@ void tst_Likelihood::refusals()
     QVERIFY_EXCEPTION_THROWN(Likelihood(LikelihoodKind::Rice, 0.0), Error);
     QVERIFY_EXCEPTION_THROWN(Likelihood(LikelihoodKind::Exponential, -1.0), Error);
     QVERIFY_EXCEPTION_THROWN(Likelihood(LikelihoodKind::Rice, std::nan("")), Error);
+    QVERIFY_EXCEPTION_THROWN(Likelihood(LikelihoodKind::Swerling4, 0.0), Error);
 }
 
 QTEST_APPLESS_MAIN(tst_Likelihood)

@@ -135,6 +135,31 @@ private slots:
         QCOMPARE(meanEvidence(Likelihood(LikelihoodKind::Linear), 5.0), 6.0);
     }
 
+    void meanEvidenceOfAFluctuatingPower()
+    {
+        // An amplitude √(g·SNR) in complex noise, with g of χ² with 4 degrees of freedom.
+        const Likelihood likelihood(LikelihoodKind::Swerling4, 2.0);
+        for (const double snr : {0.1, 1.0, 5.0, 100.0}) {
+            Random random(12, 3);
+            double sum = 0.0;
+            double squares = 0.0;
+            constexpr int count = 200000;
+            for (int i = 0; i < count; ++i) {
+                const double g = 0.5 * (random.exponential() + random.exponential());
+                const double re = std::sqrt(g * snr) + random.normal() * std::numbers::sqrt2 / 2.0;
+                const double im = random.normal() * std::numbers::sqrt2 / 2.0;
+                const double lambda = likelihood.at(re * re + im * im);
+                sum += lambda;
+                squares += lambda * lambda;
+            }
+            const double mean = sum / count;
+            const double error = std::sqrt((squares / count - mean * mean) / count);
+            QVERIFY2(std::abs(meanEvidence(likelihood, snr) - mean) < 5.0 * error, qPrintable(QString::number(snr)));
+        }
+        const double snr = lowestIntegratedSnr(likelihood, 0.3);
+        QVERIFY(std::abs(meanEvidence(likelihood, snr) - 0.3) < 1e-9);
+    }
+
     void lowestSnrIsWhereTheMeanBalances()
     {
         QVERIFY(std::abs(lowestIntegratedSnr(Likelihood(LikelihoodKind::Linear), 3.5) - 2.5) < 1e-6);

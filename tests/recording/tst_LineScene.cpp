@@ -31,7 +31,7 @@ const char *const example = R"({
     "noise": {"deviation": 0.2, "slopeDbPerOctave": -3, "levelDriftDb": 1, "levelDriftSeconds": 20},
     "lines": [{"snrDb": 3.5, "referenceSeconds": 0.5, "startSeconds": 10, "durationSeconds": 40,
                "frequencyHz": 1200, "driftHzPerSecond": -2, "wanderHz": 12, "wanderSeconds": 7.5,
-               "fading": "rayleigh", "fadingSeconds": 6}, {}]})";
+               "fading": "rayleigh", "fadingSeconds": 6}, {}, {"fluctuation": "swerling3"}]})";
 
 std::string refusal(const std::string &text)
 {
@@ -49,6 +49,7 @@ void tst_LineScene::readsTheDocumentedExample()
     QVERIFY((scene.noise == NoiseSettings{0.2, -3.0, 1.0, 20.0}));
     QVERIFY((scene.lines.at(0) == LineSettings{3.5, 0.5, 10.0, 40.0, 1200.0, -2.0, 12.0, 7.5, Fading::Rayleigh, 6.0}));
     QVERIFY(scene.lines.at(1) == LineSettings{});
+    QVERIFY(scene.lines.at(2) == LineSettings{.fluctuation = Fluctuation::Swerling3});
 }
 
 void tst_LineScene::defaults()
@@ -99,6 +100,16 @@ void tst_LineScene::refusals_data()
         "lines[0].snrDb = 200: must lie in -60 … 120 dB");
     row("fading", R"({"sampleRateHz": 8000, "durationSeconds": 1, "lines": [{"fading": "x"}]})",
         "lines[0].fading = x: must be one of none, rayleigh");
+    row("fluctuation", R"({"sampleRateHz": 8000, "durationSeconds": 1, "lines": [{"fluctuation": "swerling5"}]})",
+        "lines[0].fluctuation = swerling5: must be one of none, swerling1, swerling2, swerling3, swerling4");
+    row("fades and fluctuates",
+        R"({"sampleRateHz": 8000, "durationSeconds": 1,
+            "lines": [{"fading": "rayleigh", "fluctuation": "swerling2"}]})",
+        "lines[0].fluctuation = swerling2: is not possible with fading; use one of the two");
+    row("fluctuates too fast",
+        R"({"sampleRateHz": 8000, "durationSeconds": 1e6,
+            "lines": [{"fluctuation": "swerling2", "referenceSeconds": 1e-2}]})",
+        "lines[0].referenceSeconds = 0.01: is too short for a fluctuating line of 1e+06 s");
     row("above the band", R"({"sampleRateHz": 8000, "durationSeconds": 1, "lines": [{"frequencyHz": 4001}]})",
         "lines[0].frequencyHz = 4001: the line must stay within 0 … 4000 Hz");
     row("drifts out", R"({"sampleRateHz": 8000, "durationSeconds": 9, "lines": [{"driftHzPerSecond": 500}]})",

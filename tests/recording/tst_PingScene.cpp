@@ -187,6 +187,7 @@ void tst_PingScene::jsonRoundTrip()
     scene.reverberation = Reverberation{15.0, 2.5, PingNormalisation::Estimated};
     scene.targets = {targetAt(10, 2, {leg(5, 3, 1), leg(0, -2, 0, 4)}), targetAt(20, 3, {})};
     scene.targets[1].echo = Echo::Complex;
+    scene.targets[1].fluctuation = Fluctuation::Swerling4;
     QVERIFY(pingSceneFromJson(toJson(scene)) == scene);
     QVERIFY(isPingScene(toJson(scene)));
     QVERIFY(!isPingScene(Json::parse(R"({"kind": "lines"})")));
@@ -233,6 +234,11 @@ void tst_PingScene::refusals_data()
                                           << "targets[0]";
     QTest::newRow("echo") << R"({"kind": "pings", "targets": [{"rangeMetres": 4000, "echo": "loud"}]})"
                           << "targets[0].echo";
+    QTest::newRow("fluctuation") << R"({"kind": "pings", "targets": [{"rangeMetres": 4000, "fluctuation": "case 1"}]})"
+                                 << "targets[0].fluctuation";
+    QTest::newRow("fluctuates twice")
+        << R"({"kind": "pings", "targets": [{"rangeMetres": 4000, "echo": "fluctuating", "fluctuation": "swerling1"}]})"
+        << "targets[0].fluctuation";
     QTest::newRow("reverberation at no range") << R"({"kind": "pings", "firstRangeMetres": 0, "reverberation": {}})"
                                                << "firstRangeMetres";
 }

@@ -33,6 +33,8 @@ private slots:
     void phaseIsContinuous();
     void toneBeginsAndEndsWhereItShould();
     void rayleighFading();
+    void fluctuatesFromWindowToWindow();
+    void fluctuatesFromLineToLine();
     void slopeOfTheNoise_data();
     void slopeOfTheNoise();
     void levelDrift();
@@ -65,7 +67,10 @@ LineScene busyScene(bool isComplex, double slope)
     fading.fading = Fading::Rayleigh;
     fading.fadingSeconds = 0.7;
     fading.driftHzPerSecond = 20.0;
-    result.lines = {wandering, fading, LineSettings{}};
+    LineSettings fluctuating;
+    fluctuating.startSeconds = 1.1;
+    fluctuating.fluctuation = Fluctuation::Swerling2;
+    result.lines = {wandering, fading, fluctuating, LineSettings{}};
     return result;
 }
 
@@ -380,6 +385,73 @@ void tst_SimulatedRecording::rayleighFading()
     QVERIFY(std::abs(power - 1.0) < 0.06);                       // ten thousand independent stretches
     QVERIFY(std::abs(squaredPower / power / power - 2.0) < 0.2); // exponential law of the power
     QVERIFY(std::abs(lagged - std::exp(-1.0)) < 0.06);
+}
+
+namespace {
+
+/// Powers of a complex line of frequency 0 over its mean power, sample by sample.
+std::vector<double> relativePowers(Fluctuation fluctuation, double duration, int seed = 1)
+{
+    LineScene made = scene(true, 100.0, duration);
+    made.noise.deviation = 1e-9;
+    made.seed = seed;
+    made.lines = {LineSettings{
+        .snrDb = 120.0, .referenceSeconds = 0.5, .startSeconds = 1.25, .frequencyHz = 0.0, .fluctuation = fluctuation}};
+    const SimulatedRecording recording(made);
+    const std::vector<float> samples = readAll(recording);
+    const double amplitude = recording.truth().lines.at(0).amplitude;
+    std::vector<double> powers;
+    for (std::size_t i = 125; 2 * i < samples.size(); ++i)
+        powers.push_back((std::pow(double(samples[2 * i]), 2) + std::pow(double(samples[2 * i + 1]), 2))
+                         / (amplitude * amplitude));
+    return powers;
+}
+
+} // namespace
+
+void tst_SimulatedRecording::fluctuatesFromWindowToWindow()
+{
+    for (const Fluctuation fluctuation : {Fluctuation::Swerling2, Fluctuation::Swerling4}) {
+        const std::vector<double> powers = relativePowers(fluctuation, 5000.0);
+        constexpr std::size_t window = 50; // samples of referenceSeconds
+        const std::size_t windows = powers.size() / window;
+        double mean = 0.0;
+        double square = 0.0;
+        double product = 0.0;
+        for (std::size_t i = 0; i < windows; ++i) {
+            const double first = powers[i * window];
+            for (std::size_t k = 1; k < window; ++k)
+                QVERIFY(std::abs(powers[i * window + k] - first) < 1e-4 * first + 1e-4);
+            mean += first / double(windows);
+            square += first * first / double(windows);
+            product += i == 0 ? 0.0 : first * powers[(i - 1) * window] / double(windows);
+        }
+        const double variance = fluctuation == Fluctuation::Swerling2 ? 1.0 : 0.5;
+        const double error = 4.5 / std::sqrt(double(windows)); // 10 000 windows
+        QVERIFY2(std::abs(mean - 1.0) < error * std::sqrt(variance), qPrintable(QString::number(mean)));
+        QVERIFY2(std::abs(square - mean * mean - variance) < 3.0 * error, qPrintable(QString::number(square)));
+        QVERIFY2(std::abs(product - 1.0) < 2.0 * error, qPrintable(QString::number(product))); // independent
+    }
+}
+
+void tst_SimulatedRecording::fluctuatesFromLineToLine()
+{
+    for (const Fluctuation fluctuation : {Fluctuation::Swerling1, Fluctuation::Swerling3}) {
+        constexpr int lines = 400;
+        double mean = 0.0;
+        double square = 0.0;
+        for (int seed = 0; seed < lines; ++seed) {
+            const std::vector<double> powers = relativePowers(fluctuation, 4.0, seed);
+            for (const double power : powers)
+                QVERIFY(std::abs(power - powers.front()) < 1e-4 * powers.front() + 1e-4);
+            mean += powers.front() / lines;
+            square += powers.front() * powers.front() / lines;
+        }
+        const double variance = fluctuation == Fluctuation::Swerling1 ? 1.0 : 0.5;
+        const double error = 4.5 / std::sqrt(double(lines));
+        QVERIFY2(std::abs(mean - 1.0) < error * std::sqrt(variance), qPrintable(QString::number(mean)));
+        QVERIFY2(std::abs(square - mean * mean - variance) < 3.0 * error, qPrintable(QString::number(square)));
+    }
 }
 
 void tst_SimulatedRecording::slopeOfTheNoise_data()

@@ -42,13 +42,16 @@ Moments momentsOf(const std::vector<float> &values)
 }
 
 /// y in the cell of a target that stands still.
-std::vector<float> targetCell(Echo echo, double snrDb, int pings, int looks = 1)
+std::vector<float> targetCell(Echo echo, double snrDb, int pings, int looks = 1,
+                              Fluctuation fluctuation = Fluctuation::None, int seed = 3)
 {
     PingScene made = scene(pings, looks);
     made.rangeCells = 20;
+    made.seed = seed;
     PingTarget target;
     target.snrDb = snrDb;
     target.echo = echo;
+    target.fluctuation = fluctuation;
     target.rangeMetres = 3050.0;
     made.targets = {target};
     const SimulatedPings simulated(made);
@@ -75,6 +78,11 @@ private slots:
     void echoes();
     void constantPowerIsAdded();
     void twoTargetsInACell();
+    void onePowerForATrack_data();
+    void onePowerForATrack();
+    void onePowerForAPing_data();
+    void onePowerForAPing();
+    void fluctuatingAmplitudeIsExponential();
     void reverberationIsTakenOut_data();
     void reverberationIsTakenOut();
 };
@@ -175,6 +183,87 @@ void tst_SimulatedPings::twoTargetsInACell()
     const SimulatedPings two(made);
     const auto cell = std::size_t(two.truth().targets[0].cellAt(0));
     QVERIFY(std::abs(allOf(two)[cell] - allOf(none)[cell] - 20.0f) < 1e-4f);
+}
+
+namespace {
+
+/// Power that a target of 20 dB adds to its cell in each ping, over its mean.
+std::vector<double> addedPowers(Fluctuation fluctuation, int pings, int seed)
+{
+    const std::vector<float> with = targetCell(Echo::Constant, 20.0, pings, 1, fluctuation, seed);
+    const std::vector<float> without = targetCell(Echo::Constant, -60.0, pings, 1, Fluctuation::None, seed);
+    std::vector<double> powers;
+    for (std::size_t i = 0; i < with.size(); ++i)
+        powers.push_back(0.01 * double(with[i] - without[i]));
+    return powers;
+}
+
+/// Mean 1 and the variance of χ² with 2 or 4 degrees of freedom over 2 or 4.
+void verifyLaw(const std::vector<double> &powers, double variance)
+{
+    const Moments m = momentsOf(std::vector<float>(powers.begin(), powers.end()));
+    const double n = double(powers.size());
+    QVERIFY2(std::abs(m.mean - 1.0) < 4.5 * std::sqrt(variance / n), qPrintable(QString::number(m.mean)));
+    QVERIFY2(std::abs(m.variance - variance) < 4.5 * variance * std::sqrt(8.0 / n),
+             qPrintable(QString::number(m.variance)));
+}
+
+} // namespace
+
+void tst_SimulatedPings::onePowerForATrack_data()
+{
+    QTest::addColumn<int>("fluctuation");
+    QTest::addColumn<double>("variance");
+    QTest::newRow("Swerling 1") << int(Fluctuation::Swerling1) << 1.0;
+    QTest::newRow("Swerling 3") << int(Fluctuation::Swerling3) << 0.5;
+}
+
+void tst_SimulatedPings::onePowerForATrack()
+{
+    QFETCH(int, fluctuation);
+    QFETCH(double, variance);
+    std::vector<double> powers;
+    for (int seed = 0; seed < 1000; ++seed) {
+        const std::vector<double> track = addedPowers(static_cast<Fluctuation>(fluctuation), 5, seed);
+        for (const double power : track)
+            QVERIFY(std::abs(power - track.front()) < 1e-5);
+        powers.push_back(track.front());
+    }
+    verifyLaw(powers, variance);
+}
+
+void tst_SimulatedPings::onePowerForAPing_data()
+{
+    QTest::addColumn<int>("fluctuation");
+    QTest::addColumn<double>("variance");
+    QTest::newRow("Swerling 2") << int(Fluctuation::Swerling2) << 1.0;
+    QTest::newRow("Swerling 4") << int(Fluctuation::Swerling4) << 0.5;
+}
+
+void tst_SimulatedPings::onePowerForAPing()
+{
+    QFETCH(int, fluctuation);
+    QFETCH(double, variance);
+    const std::vector<double> powers = addedPowers(static_cast<Fluctuation>(fluctuation), 4000, 3);
+    verifyLaw(powers, variance);
+    double product = 0.0; // of neighbours, which are independent
+    for (std::size_t i = 1; i < powers.size(); ++i)
+        product += powers[i] * powers[i - 1] / double(powers.size() - 1);
+    QVERIFY2(std::abs(product - 1.0) < 4.5 * std::sqrt(3.0 / 4000.0), qPrintable(QString::number(product)));
+}
+
+// A constant phase with a power of Swerling 2 in each ping is a complex normal amplitude: y ~ (1 + S)·Exp(1).
+void tst_SimulatedPings::fluctuatingAmplitudeIsExponential()
+{
+    const int pings = 4000;
+    const double snr = 5.0;
+    const std::vector<float> y = targetCell(Echo::Complex, 10.0 * std::log10(snr), pings, 1, Fluctuation::Swerling2);
+    for (const double level : {1.0, 4.0, 12.0, 20.0}) {
+        const double p = std::exp(-level / (1.0 + snr));
+        const auto above = std::count_if(y.begin(), y.end(), [level](float value) { return double(value) > level; });
+        QVERIFY2(std::abs(double(above) / pings - p) < 4.5 * std::sqrt(p * (1.0 - p) / pings),
+                 qPrintable(QString("above %1").arg(level)));
+    }
 }
 
 void tst_SimulatedPings::reverberationIsTakenOut_data()

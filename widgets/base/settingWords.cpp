@@ -136,6 +136,7 @@ QString choiceLabel(const QString &choice)
         {"blackmanHarris", "Blackman–Harris"},
         {"rice", "constant (Rice)"},
         {"exponential", "fluctuating"},
+        {"swerling4", "fluctuating (Swerling 4)"},
         {"linear", "plain power"},
         {"halfDown", "half rounds down"},
         {"trunc", "toward zero"},

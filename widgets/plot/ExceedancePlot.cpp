@@ -9,6 +9,7 @@
 #include "widgets/plot/LineLabel.h"
 #include "widgets/plot/NumberScaleDraw.h"
 #include "widgets/plot/PowerScaleDraw.h"
+#include "widgets/plot/exceedanceCurves.h"
 
 #include <qwt_plot_curve.h>
 #include <qwt_plot_grid.h>
@@ -25,20 +26,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace faintline {
 
 namespace {
-
-    constexpr double quarterNat = 0.25;
-    constexpr double lowestNats = -4.0; ///< of the recording's histogram
-    constexpr double smallestExponent = -14.0;
-
-    double log10OrFloor(double value)
-    {
-        return value > 0.0 ? std::max(std::log10(value), smallestExponent - 6.0) : smallestExponent - 6.0;
-    }
 
     QwtPlotCurve *makeCurve(QwtPlot *plot, double z)
     {
@@ -146,14 +137,6 @@ void ExceedancePlot::setUnit(Unit unit)
     emit unitChanged(unit);
 }
 
-/// Whether enough cells were counted; below that the calibration uses the fitted tail instead of the simulated curve.
-bool ExceedancePlot::isCountedWell(std::size_t level) const
-{
-    const double simulated = m_calibration->exceedance[level];
-    return simulated > 0.0
-           && std::abs(m_calibration->exceedanceAt(m_calibration->levels[level]) / simulated - 1.0) < 1e-6;
-}
-
 double ExceedancePlot::ordinate(double nats) const
 {
     if (!m_calibration)
@@ -196,24 +179,7 @@ QString ExceedancePlot::labelText() const
 
 Span ExceedancePlot::natSpan() const
 {
-    double low = 0.0, high = 30.0;
-    if (m_calibration && !m_calibration->levels.empty()) {
-        low = std::max(m_calibration->levels.front(), -2.0);
-        std::size_t last = m_calibration->levels.size() - 1;
-        while (last > 0 && m_calibration->exceedance[last] <= 0.0)
-            --last;
-        high = std::max({m_calibration->levels[last], m_calibration->anchorNats, low + 5.0});
-        high += 8.0 / std::max(m_calibration->tailSlope, 0.05);
-        // Signals lie beyond: the threshold can be dragged to faint ones, while the noise curve keeps half of the
-        // width.
-        const auto highest = std::find_if(m_counts.rbegin(), m_counts.rend(), [](double count) { return count > 0.0; });
-        const double recorded = lowestNats + quarterNat * double(m_counts.rend() - highest);
-        high = std::clamp(recorded, high, low + 2.0 * (high - low));
-    }
-    // Room beyond the threshold, in steps, so that the scale does not follow each small change.
-    while (m_threshold > low + 0.85 * (high - low))
-        high = low + 1.25 * (high - low);
-    return {std::min(low, m_threshold - 1.0), high};
+    return exceedanceSpan(m_calibration.get(), m_counts, m_threshold);
 }
 
 void ExceedancePlot::restyle()
@@ -262,17 +228,16 @@ void ExceedancePlot::drawNoise()
 {
     QPolygonF simulated, tail, closedForm, selection;
     if (m_calibration) {
-        for (std::size_t i = 0; i < m_calibration->levels.size() && !isRate(); ++i)
-            if (isCountedWell(i))
-                simulated << QPointF(m_calibration->levels[i], std::log10(m_calibration->exceedance[i]));
+        if (!isRate())
+            simulated = simulatedCurve(*m_calibration);
         // The fitted law of events only holds in the tail.
         const double anchor = simulated.isEmpty() ? m_calibration->anchorNats : simulated.back().x();
         for (const double nats : {anchor, natSpan().high})
             tail << QPointF(nats, ordinate(nats));
-        for (const QPointF &point : isRate() ? QPolygonF() : m_closedFormPoints)
-            closedForm << QPointF(point.x(), log10OrFloor(point.y()));
-        for (const QPointF &point : isRate() ? QPolygonF() : m_selectionPoints)
-            selection << QPointF(point.x(), log10OrFloor(point.y()));
+        if (!isRate()) {
+            closedForm = logarithmic(m_closedFormPoints);
+            selection = logarithmic(m_selectionPoints);
+        }
     }
     m_selection->setSamples(selection);
     m_simulated->setSamples(simulated);
@@ -282,22 +247,9 @@ void ExceedancePlot::drawNoise()
 
 void ExceedancePlot::drawRecording()
 {
-    QPolygonF measured;
-    QList<QwtIntervalSample> bars;
-    const double total = std::accumulate(m_counts.begin(), m_counts.end(), 0.0);
-    const double highest = natSpan().high;
-    double above = total;
-    for (std::size_t i = 0; i < m_counts.size() && m_calibration; ++i) {
-        const double nats = lowestNats + quarterNat * double(i);
-        if (above > 0.0 && !isRate())
-            measured << QPointF(nats, std::log10(above / total));
-        above -= m_counts[i];
-        if (m_counts[i] > 0.0 && nats < highest)
-            bars << QwtIntervalSample(std::log10(m_counts[i]), nats, nats + quarterNat);
-    }
-    m_measured->setSamples(measured);
+    m_measured->setSamples(m_calibration && !isRate() ? recordedCurve(m_counts) : QPolygonF());
     m_histogram->setBaseline(-0.3);
-    m_histogram->setSamples(bars);
+    m_histogram->setSamples(m_calibration ? recordedCells(m_counts, natSpan().high) : QList<QwtIntervalSample>());
 }
 
 void ExceedancePlot::nameCurves()
@@ -358,7 +310,7 @@ void ExceedancePlot::dragTo(double canvasX)
 
 void ExceedancePlot::step(int quarterNats)
 {
-    setThreshold(m_threshold + quarterNats * quarterNat);
+    setThreshold(m_threshold + quarterNats * countedNats);
     emit thresholdRequested(m_threshold);
     emit thresholdCommitted(m_threshold);
 }

@@ -101,7 +101,6 @@ private:
     void dragTo(double canvasX);
     void step(int quarterNats);
     bool isRate() const { return m_unit == Unit::FalseAlarmsPerHour; }
-    bool isCountedWell(std::size_t level) const;
     double ordinate(double nats) const;
     Span natSpan() const;
 

@@ -25,6 +25,9 @@ const std::vector<Field<LineExperiment>> &LineExperiment::fields()
         field(&S::wanderWindows, "wanderWindows", "windows", 0.01, 1e5, "Correlation time of the wander."),
         field(&S::fading, "fading", fadingNames, "Whether the amplitude fades."),
         field(&S::fadingWindows, "fadingWindows", "windows", 0.01, 1e5, "Correlation time of the fading."),
+        field(&S::fluctuation, "fluctuation", fluctuationNames,
+              "Fluctuation of a line's power about its mean: one power for the whole line (Swerling 1 and 3), or one "
+              "for each window (2 and 4)."),
     };
     return table;
 }
@@ -50,6 +53,9 @@ void checkExperiment(const LineExperiment &experiment)
     if (experiment.signalFrames() < 1 || experiment.signalFrames() > experiment.blockFrames)
         throw fieldError("durationWindows", formatNumber(experiment.durationWindows),
                          "a line must last 1 … blockFrames = " + std::to_string(experiment.blockFrames) + " frames");
+    if (experiment.fluctuation != Fluctuation::None && experiment.fading != Fading::None)
+        throw fieldError("fluctuation", std::string(fluctuationNames[std::size_t(experiment.fluctuation)]),
+                         "is not possible with fading; use one of the two");
     const double room = double(experiment.blockBins) / experiment.binsPerCell - 4.0;
     if (std::abs(experiment.driftCellsPerWindow) * experiment.durationWindows + 4.0 * experiment.wanderCells > room)
         throw Error("driftCellsPerWindow, wanderCells", "a line must stay within its block of blockBins = "

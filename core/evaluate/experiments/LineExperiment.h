@@ -42,6 +42,7 @@ struct LineExperiment {
     double wanderWindows = 15.0;
     Fading fading = Fading::None;
     double fadingWindows = 20.0;
+    Fluctuation fluctuation = Fluctuation::None; ///< Swerling 2 and 4: from window to window
     std::vector<DetectorUnderTest> detectors;
 
     static const std::vector<Field<LineExperiment>> &fields();

@@ -136,6 +136,7 @@ NoisyField makeField(const LineExperiment &experiment, int run, FieldTransform &
         line.wanderSeconds = experiment.wanderWindows;
         line.fading = experiment.fading;
         line.fadingSeconds = experiment.fadingWindows;
+        line.fluctuation = experiment.fluctuation;
         const Tone tone(line, amplitude, info, seed, Index(run) * experiment.signalsPerRun() + i);
         tone.addTo(0, samples);
         truths.push_back(tone.truth());

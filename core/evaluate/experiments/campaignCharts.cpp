@@ -5,6 +5,7 @@
 #include "base/logmath.h"
 #include "evaluate/experiments/PdCurve.h"
 #include "evaluate/experiments/sweepCurve.h"
+#include "evaluate/theory/swerling.h"
 #include "evaluate/theory/theory.h"
 
 #include <algorithm>
@@ -16,13 +17,26 @@ namespace {
 
     constexpr double snrStep = 0.25; ///< dB, of theory curves
 
+    /// Whether a frame has one power. Where frames overlap, those between two windows hold parts of two powers.
+    bool hasWholeFrames(const LineExperiment &lines)
+    {
+        return lines.stepsPerWindow == 1 || !changesFromFrameToFrame(lines.fluctuation);
+    }
+
     bool hasTheory(const LineExperiment &lines, const DetectorUnderTest &detectorUnderTest)
     {
         const auto *integrator = std::get_if<IntegratorSettings>(&detectorUnderTest.settings.detector);
         return integrator && integrator->shape == IntegratorSettings::Shape::Boxcar
                && integrator->durationWindows == lines.durationWindows && lines.durationWindows >= 1.0
                && lines.wanderCells == 0.0 && lines.driftCellsPerWindow == 0.0 && lines.fading == Fading::None
-               && lines.window == WindowShape::Rectangular;
+               && lines.window == WindowShape::Rectangular && hasWholeFrames(lines);
+    }
+
+    /// Name of the law that theory assumes of a line's power.
+    std::string theoryName(const LineExperiment &lines)
+    {
+        const auto number = int(lines.fluctuation);
+        return lines.fluctuation == Fluctuation::None ? "Marcum Q" : "Swerling " + std::to_string(number);
     }
 
     /// Pd of the integrator for a mean number of false alarms per block.
@@ -31,12 +45,14 @@ namespace {
         const int looks = int(std::lround(lines.durationWindows));
         const double cells = double(lines.blockFrames) / lines.stepsPerWindow * lines.blockBins / lines.binsPerCell;
         const double pfa = std::min(1.0, falseAlarms * lines.durationWindows / cells);
-        return pfa >= 1.0 ? 1.0 : pdOfMeanPower(thresholdOfMeanPower(pfa, looks), looks, ratioFromDb(snrDb));
+        if (pfa >= 1.0)
+            return 1.0;
+        return pdOfMeanPower(thresholdOfMeanPower(pfa, looks), looks, ratioFromDb(snrDb), lines.fluctuation);
     }
 
     Curve theoryAgainstSnr(const LineExperiment &lines, const std::string &name)
     {
-        Curve curve{name + ", Marcum Q", Curve::Kind::Theory, {}};
+        Curve curve{name + ", " + theoryName(lines), Curve::Kind::Theory, {}};
         const auto [low, high] = std::minmax_element(lines.snrDb.begin(), lines.snrDb.end());
         for (double db = *low; db <= *high + 1e-9; db += snrStep)
             curve.points.push_back({db, integratorPd(lines, 1.0, db), {}});
@@ -47,7 +63,7 @@ namespace {
                                    double high)
     {
         constexpr int points = 60;
-        Curve curve{name + ", Marcum Q", Curve::Kind::Theory, {}};
+        Curve curve{name + ", " + theoryName(lines), Curve::Kind::Theory, {}};
         for (int i = 0; i <= points; ++i) {
             const double falseAlarms = low * std::pow(high / low, double(i) / points);
             curve.points.push_back({falseAlarms, integratorPd(lines, falseAlarms, snrDb), {}});

@@ -65,8 +65,8 @@ namespace {
         described.durationSeconds = info.durationSeconds();
         described.centreHz = info.centreHz;
         described.startUnixSeconds = info.startUnixSeconds;
-        return analyseInChosenWindow(recording, withSlopesInBins(settings.analysis, info), context, nullptr, {},
-                                     CalibrationDepth::Refined, AnalysisDepth::Tracks);
+        return analyseInChosenWindow(recording, withSlopesInBins(settings.analysis, info), context, nullptr,
+                                     {.depth = AnalysisDepth::Tracks});
     }
 
     void describe(const Analysis &analysis, SurveyRecording &described)

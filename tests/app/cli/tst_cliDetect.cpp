@@ -52,9 +52,10 @@ std::shared_ptr<const Analysis> inLibrary(const std::string &path, std::vector<f
     AnalysisSettings own;
     setSetting(own, "spectrogram.windowSeconds", "0.5");
     setSetting(own, "decide.falseAlarmsPerHour", "2");
-    return analyse(openRecording(path), own, {}, nullptr, [&](Index, std::span<const float> values) {
+    const StatisticSink sink = [&](Index, std::span<const float> values) {
         statistic.insert(statistic.end(), values.begin(), values.end());
-    });
+    };
+    return analyse(openRecording(path), own, {}, nullptr, {.statistic = sink});
 }
 
 /// A WAV file of float samples, its header by hand, so that it may lie.

@@ -61,7 +61,8 @@ void tst_cliStraighten::resamplesAFamily()
 {
     writeBytes(pathOf("family.json"),
                R"({"kind": "lines", "sampleRateHz": 500, "durationSeconds": 60, "seed": 3, "lines": [
-        {"frequencyHz": 50, "driftHzPerSecond": 0.1, "snrDb": 10}, {"frequencyHz": 100, "driftHzPerSecond": 0.2, "snrDb": 10},
+        {"frequencyHz": 50, "driftHzPerSecond": 0.1, "snrDb": 10},
+        {"frequencyHz": 100, "driftHzPerSecond": 0.2, "snrDb": 10},
         {"frequencyHz": 150, "driftHzPerSecond": 0.3, "snrDb": 10}]})");
     QCOMPARE(run({"simulate", "family.json", "--out", "family.wav"}).code, 0);
     const QStringList window{"--set", "spectrogram.windowSeconds=1"};

@@ -1,4 +1,4 @@
-#include "app/base/diskRoom.h"
+#include "widgets/base/diskRoom.h"
 
 #include <QCoreApplication>
 #include <QDir>
