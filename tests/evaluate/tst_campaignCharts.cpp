@@ -80,7 +80,7 @@ void tst_campaignCharts::theoryOfFluctuatingLines()
 {
     Campaign changed = campaign();
     std::get<LineExperiment>(changed.experiment).fluctuation = Fluctuation::Swerling3;
-    const Curve &theory = pdChart(changed).curves.at(2);
+    const Curve theory = pdChart(changed).curves.at(2);
     QCOMPARE(theory.name, std::string("integrator, Swerling 3"));
     QCOMPARE(theory.points.front().y,
              pdOfMeanPower(thresholdOfMeanPower(100.0 / 7500.0, 100), 100, 1.0, Fluctuation::Swerling3));

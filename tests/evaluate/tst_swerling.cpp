@@ -147,7 +147,7 @@ void tst_swerling::limits()
             QVERIFY(std::abs(pd(1e-9) - 1e-4) < 1e-9);
             QVERIFY(pd(1e8) > 0.999999 && pd(1e8) <= 1.0 + 1e-12);
             for (double snr = 1e-3; snr < 1e4; snr *= 1.5)
-                QVERIFY(pd(1.5 * snr) >= pd(snr));
+                QVERIFY(pd(1.5 * snr) >= pd(snr) - 1e-12); // rounding near 1
             QCOMPARE(pdOfMeanPower(0.0, looks, 1.0, fluctuation), 1.0);
         }
     QCOMPARE(pdOfMeanPower(1.4, 20, 0.5, Fluctuation::None), pdOfMeanPower(1.4, 20, 0.5));
