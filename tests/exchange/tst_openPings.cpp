@@ -257,7 +257,7 @@ void tst_openPings::refusals_data()
     QTest::newRow("scale of nothing") << QByteArray("'<i2'") << own + R"(, "scale": 2})" << QByteArray("(40, 60, 8)")
                                       << QByteArray("require \"values\": power, magnitude, decibels or iq");
     QTest::newRow("magnitude of a spectrogram")
-        << QByteArray("'<f4'") << R"({"axes": [{"name": "frequency"}], "values": "magnitude"})"
+        << QByteArray("'<f4'") << QByteArray(R"({"axes": [{"name": "frequency"}], "values": "magnitude"})")
         << QByteArray("(20, 480)") << QByteArray("must be normalised or power for frames on one axis");
     QTest::newRow("normalised integers")
         << QByteArray("'<i2'") << own + R"(, "values": "normalised"})" << QByteArray("(40, 60, 8)")
