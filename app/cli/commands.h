@@ -103,6 +103,9 @@ Source sourceIn(const std::string &path, const OpenOptions &options);
 /// The pings of a simulated sonar; null for other sources.
 std::shared_ptr<const SimulatedPings> pingsOf(const Source &source);
 
+/// Says on standard error what was guessed of recorded pings, if anything was.
+void tellGuess(const NormalisedFrames &frames, const std::string &path, const Common &common);
+
 /// Options for input and output files. Every file that a command writes must be declared with the second function,
 /// because only then does a replay, which may run untrusted commands, redirect it.
 CLI::Option *addInput(CLI::App &command, Common &common, const std::string &name, std::string &path,

@@ -4,9 +4,11 @@
 #include "analysis/slopeUnit.h"
 #include "base/AtomicFile.h"
 #include "base/json.h"
+#include "base/oneLine.h"
 #include "exchange/openFrames.h"
 #include "recording/Timeline.h"
 #include "recording/openTogether.h"
+#include "spectrum/NormalisedPings.h"
 
 #include <CLI/CLI.hpp>
 
@@ -187,7 +189,9 @@ NormalisedFramesPointer AnalysisOptions::frames(AnalysisSettings &settings, cons
         return pings;
     if (from.hasSamples() || !more.empty())
         return nullptr;
-    const NormalisedFramesPointer frames = openFrames(from.path, {settings.selection, settings.noise}, context);
+    const NormalisedFramesPointer frames =
+        openFrames(from.path, {settings.selection, settings.noise, settings.pings}, context);
+    tellGuess(*frames, from.path, *m_common);
     settings = withSlopesInBins(settings, *frames);
     return frames;
 }
@@ -236,6 +240,18 @@ std::shared_ptr<const SimulatedPings> pingsOf(const Source &source)
 {
     return source.pings ? inFile(source.path, [&] { return std::make_shared<SimulatedPings>(*source.pings); })
                         : nullptr;
+}
+
+void tellGuess(const NormalisedFrames &frames, const std::string &path, const Common &common)
+{
+    const std::string guess = pingGuess(frames);
+    if (guess.empty())
+        return;
+    const std::string note = oneLine(path) + ": " + guess;
+    if (common.progress == "json")
+        std::fprintf(stderr, "%s\n", Json{{"note", note}}.dump(-1, ' ', true).c_str());
+    else
+        std::fprintf(stderr, "note: %s\n", note.c_str());
 }
 
 } // namespace faintline::cli

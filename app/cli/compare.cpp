@@ -99,8 +99,11 @@ namespace {
         if (frames)
             settingsB = withSlopesInBins(settingsB, *frames);
         const RecordingPointer recording = frames ? nullptr : options.common.recording();
+        const bool areAlike = !frames || settingsA.pings == settingsB.pings;
+        const NormalisedFramesPointer framesB = areAlike ? frames : options.common.frames(settingsB, context);
         const auto analysed = [&](const AnalysisSettings &settings, const RunContext &part, const Analysis *previous) {
-            return frames ? analyse(frames, settings, part, previous)
+            const NormalisedFramesPointer &own = previous ? framesB : frames;
+            return frames ? analyse(own, settings, part, previous)
                           : analyseInChosenWindow(recording, settings, part, previous);
         };
         const auto a = analysed(settingsA, context.part(0.0, 0.5), nullptr);

@@ -160,14 +160,15 @@ namespace {
         return observation;
     }
 
-    DetectInput open(const DetectOptions &options, const RunContext &context)
+    DetectInput open(const DetectOptions &options, const Common &common, const RunContext &context)
     {
         DetectInput input;
         input.settings = options.analysis.settings();
         if (const std::optional<Session> session = options.analysis.namedSession())
             input.reviewed = session->annotations;
         if (!options.frames.empty()) {
-            input.frames = readFrames(options.frames, options.grid);
+            input.frames = openStack(options.frames, options.grid, input.settings.pings, context);
+            tellGuess(*input.frames, options.frames, common);
             input.truth = pingTruthBeside(options.frames, input.frames->grid());
         } else if (const auto pings = pingsOf(options.analysis.source())) {
             input.frames = pings;
@@ -309,7 +310,7 @@ namespace {
             options.summary = true; // without another output, print a summary
         checkOptions(options);
         const RunContext context = common.context();
-        const DetectInput input = open(options, context);
+        const DetectInput input = open(options, common, context);
         std::optional<NumPyWriter> writer;
         const auto analysis = run(input, options, context, writer);
         context.checkpoint(1.0, "done");

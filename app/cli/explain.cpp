@@ -7,7 +7,7 @@
 #include "base/json.h"
 #include "base/logmath.h"
 #include "base/oneLine.h"
-#include "exchange/ModelFile.h"
+#include "exchange/openFrames.h"
 
 #include <CLI/CLI.hpp>
 
@@ -189,8 +189,9 @@ namespace {
     {
         const RunContext context = common.context();
         AnalysisSettings settings = options.analysis.settings();
-        const NormalisedFramesPointer frames = !options.grid.empty() ? readFrames(options.analysis.file, options.grid)
-                                                                     : options.analysis.frames(settings, context);
+        const NormalisedFramesPointer frames =
+            !options.grid.empty() ? openStack(options.analysis.file, options.grid, settings.pings, context)
+                                  : options.analysis.frames(settings, context);
         const std::vector<double> position = options.position(frames.get());
         const auto analysis =
             frames ? analyse(frames, settings, context.part(0.0, 0.5))

@@ -5,10 +5,13 @@
 #include "base/json.h"
 #include "base/oneLine.h"
 #include "exchange/openFrames.h"
+#include "exchange/openPings.h"
+#include "spectrum/guessPingValues.h"
 
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 namespace faintline::cli {
@@ -83,6 +86,50 @@ namespace {
             std::printf("note          %s\n", oneLine(note).c_str());
     }
 
+    Json toJson(const PingsInfo &info)
+    {
+        Json json;
+        json["path"] = textFromFileName(info.path);
+        json["container"] = info.container;
+        json["sampleType"] = info.sampleType;
+        json["time"] = toJson(info.time);
+        json["axes"] = Json::array();
+        for (const Axis &axis : info.grid.axes) {
+            Json one = toJson(axis);
+            one["name"] = axis.name;
+            one["cyclic"] = axis.cyclic;
+            json["axes"].push_back(one);
+        }
+        json["complex"] = info.isComplex;
+        return json;
+    }
+
+    /// What the numbers of pings are: as the file says, or guessed.
+    std::string valuesOf(const RawPings &pings)
+    {
+        const PingsInfo &info = pings.info();
+        if (info.isComplex)
+            return "I/Q";
+        const bool isStated = info.stated != PingValues::Automatic;
+        return std::string(pingValuesNames[std::size_t(isStated ? info.stated : guessPingValues(pings))])
+               + (isStated ? "" : " (guessed; the grid file or pings.values can say)");
+    }
+
+    void print(const RawPings &pings)
+    {
+        const PingsInfo &info = pings.info();
+        std::printf("file          %s\n", oneLine(info.path).c_str());
+        std::printf("container     %s, %s\n", oneLine(info.container).c_str(), oneLine(info.sampleType).c_str());
+        std::printf("pings         %td, one every %s s\n", info.time.count, formatNumber(info.time.step).c_str());
+        for (const Axis &axis : info.grid.axes) {
+            const std::string unit = axis.unit.empty() ? std::string() : " " + oneLine(axis.unit);
+            std::printf("%-13s %td cells of %s%s, %s … %s%s%s\n", oneLine(axis.name).c_str(), axis.count,
+                        formatNumber(axis.step).c_str(), unit.c_str(), formatNumber(axis.first).c_str(),
+                        formatNumber(axis.last()).c_str(), unit.c_str(), axis.cyclic ? ", cyclic" : "");
+        }
+        std::printf("values        %s\n", valuesOf(pings).c_str());
+    }
+
     void print(const SimulatedPings &pings, const std::string &file)
     {
         const PingScene &scene = pings.scene();
@@ -151,6 +198,22 @@ void addInfo(CLI::App &app, Common &)
                 std::printf("%s\n", toJson(pings->scene()).dump(2, ' ', true).c_str());
             else
                 print(*pings, options->file);
+            return;
+        }
+        std::error_code ignored;
+        const std::string grid = gridPathOf(source.path);
+        if (const auto raw =
+                source.hasSamples()
+                    ? nullptr
+                    : openRawPings(source.path,
+                                   std::filesystem::is_regular_file(grid, ignored) ? grid : std::string())) {
+            if (options->json) {
+                Json json = toJson(raw->info());
+                json["values"] = valuesOf(*raw);
+                std::printf("%s\n", json.dump(2, ' ', true).c_str());
+            } else {
+                print(*raw);
+            }
             return;
         }
         if (const auto power = !source.hasSamples() ? openPower(source.path) : nullptr) {

@@ -3,12 +3,17 @@
 #include "base/AtomicFile.h"
 #include "exchange/ModelFile.h"
 #include "exchange/NumPy.h"
+#include "exchange/openFrames.h"
+#include "exchange/openPings.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace faintline::cli {
 
@@ -20,12 +25,42 @@ namespace {
         std::string out;
         std::string projected;
         std::string log;
+        std::vector<std::string> assignments; ///< --set pings.name=value
     };
+
+    /// How recorded pings are normalised; the model says everything else.
+    PingNoiseSettings pingsOf(const std::vector<std::string> &assignments)
+    {
+        AnalysisSettings settings;
+        for (const std::string &assignment : assignments) {
+            const std::size_t equals = assignment.find('=');
+            if (equals == std::string::npos || !assignment.starts_with("pings."))
+                throw Error("--set " + assignment, "must be a setting of pings, such as pings.values=magnitude");
+            setSetting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
+        }
+        checkSettings(settings);
+        return settings.pings;
+    }
+
+    /// The frames, with the axes of the grid beside the file only if it says what their numbers are.
+    NormalisedFramesPointer framesOf(const StatisticOptions &options, const Common &common)
+    {
+        std::string grid = gridPathOf(options.frames);
+        std::error_code ignored;
+        if (!std::filesystem::is_regular_file(grid, ignored))
+            grid.clear();
+        const PingNoiseSettings pings = pingsOf(options.assignments);
+        auto frames = openPings(options.frames, grid, pings, UnstatedPings::Normalised, common.context());
+        if (!frames)
+            return readFrames(options.frames, "");
+        tellGuess(*frames, options.frames, common);
+        return frames;
+    }
 
     void statistic(const StatisticOptions &options, const Common &common)
     {
         checkOutputs({options.out, options.projected, options.log});
-        const NormalisedFramesPointer frames = readFrames(options.frames, "");
+        const NormalisedFramesPointer frames = framesOf(options, common);
         const ModelFile file = readModelFile(options.model);
         const StateSpace &space = file.model.space;
         const std::vector<Axis> &axes = frames->grid().axes;
@@ -80,8 +115,12 @@ void addStatistic(CLI::App &app, Common &common)
     const auto options = std::make_shared<StatisticOptions>();
     CLI::App *command = app.add_subcommand("statistic", "Compute ln Λ of the recursion for every frame and state, "
                                                         "without decisions");
-    addInput(*command, common, "--frames", options->frames, "Normalised frames, .npy of shape (frames, cells…)")
+    addInput(*command, common, "--frames", options->frames,
+             "Normalised frames, .npy of shape (frames, cells…), or recorded pings, which are normalised")
         ->required();
+    command->add_option("--set", options->assignments, "A setting of recorded pings, pings.name=value; may be repeated")
+        ->take_all()
+        ->allow_extra_args(false);
     addInput(*command, common, "--model", options->model, "JSON of the model")->required();
     addOutput(*command, common, "--out", options->out, "Write the statistic of all states, .npy")->required();
     addOutput(*command, common, "--projected", options->projected, "Write its maximum over the rates, .npy");

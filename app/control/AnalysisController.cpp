@@ -6,6 +6,7 @@
 #include "analysis/slopeUnit.h"
 #include "app/base/filePath.h"
 #include "session/Session.h"
+#include "spectrum/NormalisedPings.h"
 #include "spectrum/noiseMean.h"
 
 #include <algorithm>
@@ -40,6 +41,16 @@ namespace {
             break;
         }
         return decide;
+    }
+
+    /// What was assumed of ready-made frames, or is wrong with them; empty if nothing was.
+    QString doubtAbout(const OpenedSource &opened)
+    {
+        if (!opened.frames)
+            return {};
+        if (const std::string guess = pingGuess(*opened.frames); !guess.empty())
+            return QString::fromStdString(guess);
+        return opened.source.isStack() ? QString::fromStdString(noiseMeanWarning(*opened.frames)) : QString();
     }
 
     /// Whether noise exceeds a threshold too rarely for the rate to be set.
@@ -81,7 +92,7 @@ void AnalysisController::open(const QString &path, const OpenOptions &options, c
     m_isOpening = true;
     m_runner.start([this, path, options, adjust, annotations](const RunContext &context) -> JobRunner::Delivery {
         context.checkpoint(0.0, "opening");
-        Opening opening = openNow(path, options);
+        Opening opening = openNow(path, options, context.part(0.0, 0.9));
         if (adjust)
             adjust(opening.settings);
         if (opening.annotations.isEmpty())
@@ -270,7 +281,7 @@ void AnalysisController::recover(const QString &path)
     m_isOpening = true;
     m_runner.start([this, path](const RunContext &context) -> JobRunner::Delivery {
         context.checkpoint(0.0, "opening");
-        Opening opening = openNow(path, {});
+        Opening opening = openNow(path, {}, context.part(0.0, 0.9));
         opening.sessionPath.clear();
         return [this, opening = std::move(opening)] {
             deliver(opening);
@@ -279,18 +290,18 @@ void AnalysisController::recover(const QString &path)
     });
 }
 
-AnalysisController::Opening AnalysisController::openNow(const QString &path, const OpenOptions &options)
+AnalysisController::Opening AnalysisController::openNow(const QString &path, const OpenOptions &options,
+                                                        const RunContext &context)
 {
     const std::string name = pathBytes(path);
     if (!isSessionPath(name)) {
-        OpenedSource opened = openSource(sourceAt(path, options));
+        OpenedSource opened = openSource(sourceAt(path, options), {}, context);
         const AnalysisSettings settings = firstSettings(opened);
-        const QString warning =
-            opened.source.isStack() ? QString::fromStdString(noiseMeanWarning(*opened.frames)) : QString();
+        const QString warning = doubtAbout(opened);
         return {std::move(opened), settings, {}, {}, warning};
     }
     const Session session = readSession(name);
-    OpenedSource opened = openSource(session.source);
+    OpenedSource opened = openSource(session.source, session.settings.pings, context);
     kindOf(opened); // throws for frames that cannot be shown
     return {std::move(opened),
             session.settings,

@@ -80,7 +80,7 @@ private:
         QString warning;
         Annotations annotations{};
     };
-    static Opening openNow(const QString &path, const OpenOptions &options);
+    static Opening openNow(const QString &path, const OpenOptions &options, const RunContext &context);
     void open(const QString &path, const OpenOptions &options, const Adjust &adjust, const Annotations &annotations);
     void deliver(const Opening &opening);
     void startAnalysis();

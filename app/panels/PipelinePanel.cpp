@@ -5,6 +5,7 @@
 #include "app/control/AnalysisController.h"
 #include "app/document/OwnPresets.h"
 #include "spectrum/NoiseNormaliser.h"
+#include "spectrum/NormalisedPings.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
@@ -42,11 +43,13 @@ namespace {
         QStringList axes;
         for (const Axis &axis : frames.grid().axes)
             axes << QStringLiteral("%1 %2").arg(axis.count).arg(labelText(axis.name, mostUnitLetters));
-        return QObject::tr("%1 %2, every %3 s · %4")
-            .arg(frames.time().count)
-            .arg(frameKindOf(frames.grid()).frames)
-            .arg(frames.time().step, 0, 'g', 4)
-            .arg(axes.join(QStringLiteral(" × ")));
+        const QString words = QObject::tr("%1 %2, every %3 s · %4")
+                                  .arg(frames.time().count)
+                                  .arg(frameKindOf(frames.grid()).frames)
+                                  .arg(frames.time().step, 0, 'g', 4)
+                                  .arg(axes.join(QStringLiteral(" × ")));
+        const std::string assumption = pingAssumption(frames);
+        return assumption.empty() ? words : words + QStringLiteral(" · ") + labelText(assumption, longestPath);
     }
 
 } // namespace
@@ -95,6 +98,7 @@ PipelinePanel::PipelinePanel(Document &document, AnalysisController &controller,
         showSettings();
     });
     connect(&document, &Document::settingsChanged, this, &PipelinePanel::showSettings);
+    connect(&document, &Document::analysisChanged, this, &PipelinePanel::showRecording);
     connect(&document, &Document::analysisChanged, this, &PipelinePanel::showNotes);
     connect(&controller, &AnalysisController::failed, this, &PipelinePanel::showError);
     showRecording();
@@ -117,6 +121,7 @@ void PipelinePanel::showSettings()
         m_document.recording() ? hzPerSecondOfABinAFrame(m_document.settings(), m_document.recording()->info()) : 0.0);
     for (const char *stage : {"selection", "spectrogram", "noise", "family", "subtract"})
         m_form->setSectionShown(QString::fromLatin1(stage), m_document.isEmpty() || m_document.recording());
+    m_form->setSectionShown(QStringLiteral("pings"), m_document.openedSource().isRecordedPings());
     for (const FrameKind *kind : {&lineFrames(), &pingFrames()})
         for (const QString &section : kind->sections)
             m_form->setSectionShown(section, kind == &m_document.frameKind());

@@ -237,6 +237,7 @@ const std::vector<Field<AnalysisSettings>> &AnalysisSettings::fields()
         append(all, "selection", &S::selection);
         append(all, "spectrogram", &S::spectrogram);
         append(all, "noise", &S::noise);
+        append(all, "pings", &S::pings);
         append(all, "family", &S::family);
         append(all, "model", &S::model);
         all.push_back(detectorKind());
@@ -327,7 +328,7 @@ Stage firstStale(const AnalysisSettings &before, const AnalysisSettings &after)
 {
     if (!(before.selection == after.selection && before.spectrogram == after.spectrogram))
         return Stage::Spectrogram;
-    if (!(before.noise == after.noise && before.family == after.family))
+    if (!(before.noise == after.noise && before.pings == after.pings && before.family == after.family))
         return Stage::Noise;
     return before == after ? Stage::Nothing : Stage::Detector;
 }

@@ -5,6 +5,7 @@
 #include "model/MarkovModel.h"
 #include "spectrum/Family.h"
 #include "spectrum/NoiseNormaliser.h"
+#include "spectrum/PingNoise.h"
 #include "spectrum/Spectrogram.h"
 #include "track/ConventionalTracker.h"
 #include "track/HmmTracker.h"
@@ -94,6 +95,7 @@ struct AnalysisSettings {
     SelectionSettings selection;
     SpectrogramSettings spectrogram;
     NormaliserSettings noise;
+    PingNoiseSettings pings; ///< of recorded pings, which have no spectrogram
     FamilySettings family;
     ModelSettings model;
     DetectorSettings detector;

@@ -76,6 +76,7 @@ std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel
     bare.selection = {};
     bare.spectrogram = {};
     bare.noise = {};
+    bare.pings = {};
     bare.conventional = {};
     bare.decide = withoutThreshold(bare.decide);
     bare.track.bothWays = TrackSettings{}.bothWays;

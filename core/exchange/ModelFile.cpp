@@ -1,36 +1,18 @@
 #include "exchange/ModelFile.h"
 
 #include "base/json.h"
-#include "base/oneLine.h"
 #include "detect/SumDetector.h"
 #include "exchange/NumPy.h"
+#include "exchange/jsonFields.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace faintline {
 
+using namespace jsonFields;
+
 namespace {
-
-    double number(const Json &object, const std::string &where, const std::string &key, double otherwise)
-    {
-        const auto found = object.find(key);
-        if (found == object.end())
-            return otherwise;
-        if (!found->is_number())
-            throw Error(jsonName(where, key), "must be a number");
-        return found->get<double>();
-    }
-
-    bool flag(const Json &object, const std::string &where, const std::string &key)
-    {
-        const auto found = object.find(key);
-        if (found == object.end())
-            return false;
-        if (!found->is_boolean())
-            throw Error(jsonName(where, key), "must be true or false");
-        return found->get<bool>();
-    }
 
     std::vector<double> numbers(const Json &object, const std::string &where, const std::string &key)
     {
@@ -45,33 +27,6 @@ namespace {
         if (!found->is_array() || result.size() != found->size() || result.empty())
             throw Error(jsonName(where, key), "must be a list of numbers");
         return result;
-    }
-
-    template <class Names>
-    std::size_t choice(const Json &object, const std::string &where, const std::string &key, const Names &names,
-                       std::size_t otherwise)
-    {
-        const auto found = object.find(key);
-        if (found == object.end())
-            return otherwise;
-        std::string known;
-        for (std::size_t i = 0; i < names.size(); ++i) {
-            if (found->is_string() && found->template get<std::string>() == names[i])
-                return i;
-            known += (i ? ", " : "") + std::string(names[i]);
-        }
-        throw Error(jsonName(where, key), "must be one of " + known);
-    }
-
-    std::string text(const Json &object, const std::string &where, const std::string &key, const std::string &otherwise)
-    {
-        const auto found = object.find(key);
-        if (found == object.end())
-            return otherwise;
-        if (!found->is_string())
-            throw Error(jsonName(where, key), "must be a string");
-        constexpr std::size_t mostBytes = 80; // names and units appear on labels and in terminals
-        return oneLine(found->get<std::string>(), mostBytes);
     }
 
     void readRates(KinematicAxis &axis, const std::vector<double> &rates, const std::string &where)
@@ -285,41 +240,6 @@ SequentialModel readSequentialModel(const std::string &path, const FrameCells *f
     }
 }
 
-GridFile readGridFile(const std::string &path, const std::vector<Index> &shape)
-{
-    const Json json = readJsonFile(path);
-    checkKeys(json, path, {"axes", "time", "values"});
-    if (!json.contains("axes") || !json["axes"].is_array() || json["axes"].size() + 1 != shape.size())
-        throw Error(path,
-                    "needs \"axes\", one for each of the frames' " + std::to_string(shape.size() - 1) + " cell axes");
-    GridFile file;
-    for (std::size_t i = 0; i < json["axes"].size(); ++i) {
-        const Json &axis = json["axes"][i];
-        const std::string where = path + ": axes[" + std::to_string(i) + "]";
-        checkKeys(axis, where, {"name", "unit", "first", "step", "count", "cells", "cyclic"});
-        const double count = number(axis, where, "count", number(axis, where, "cells", double(shape[i + 1])));
-        if (count != double(shape[i + 1]))
-            throw Error(where + ".count", "is " + formatNumber(count) + ", but the frames have "
-                                              + std::to_string(shape[i + 1]) + " cells there");
-        file.grid.axes.push_back({text(axis, where, "name", "axis " + std::to_string(i + 1)),
-                                  text(axis, where, "unit", ""), number(axis, where, "first", 0.0),
-                                  number(axis, where, "step", 1.0), shape[i + 1], flag(axis, where, "cyclic")});
-        if (!(file.grid.axes.back().step > 0.0))
-            throw Error(where + ".step", "must be above 0");
-    }
-    file.isPower = choice(json, path, "values", std::array<std::string_view, 2>{"normalised", "power"}, 0) == 1;
-    file.time = {"time", "s", 0.0, 1.0, shape[0], false};
-    if (json.contains("time")) {
-        const std::string where = path + ": time";
-        checkKeys(json["time"], where, {"first", "step", "name", "unit"});
-        file.time.first = number(json["time"], where, "first", 0.0);
-        file.time.step = number(json["time"], where, "step", 1.0);
-        if (file.time.step <= 0.0)
-            throw Error(where + ".step", "must be above 0");
-    }
-    return file;
-}
-
 namespace {
 
     template <class Real>
@@ -354,35 +274,11 @@ DoubleFrames readDoubleFrames(const std::string &path)
     return {std::move(array.shape), std::move(array.values)};
 }
 
-std::string gridFileText(const GridFile &file)
-{
-    Json json;
-    json["axes"] = Json::array();
-    for (const Axis &axis : file.grid.axes)
-        json["axes"].push_back({{"name", axis.name},
-                                {"unit", axis.unit},
-                                {"first", axis.first},
-                                {"step", axis.step},
-                                {"count", axis.count},
-                                {"cyclic", axis.cyclic}});
-    json["time"] = {{"first", file.time.first}, {"step", file.time.step}};
-    if (file.isPower)
-        json["values"] = "power";
-    return json.dump(2) + "\n";
-}
-
 NormalisedFramesPointer readFrames(const std::string &path, const std::string &gridPath)
 {
     NumPyArray array = readNumPy(path);
     checkFrames(array, path);
-    GridFile file;
-    if (gridPath.empty()) {
-        file.time = {"time", "s", 0.0, 1.0, array.shape[0], false};
-        for (std::size_t i = 1; i < array.shape.size(); ++i)
-            file.grid.axes.push_back({"axis " + std::to_string(i), "", 0.0, 1.0, array.shape[i], false});
-    } else {
-        file = readGridFile(gridPath, array.shape);
-    }
+    const GridFile file = gridPath.empty() ? plainGrid(array.shape) : readGridFile(gridPath, array.shape);
     return std::make_shared<FrameArray>(file.time, file.grid, std::move(array.values));
 }
 

@@ -3,6 +3,7 @@
 #include "base/Grid.h"
 #include "base/json.h"
 #include "detect/Smd.h"
+#include "exchange/gridFile.h"
 #include "model/SequentialModel.h"
 #include "spectrum/NormalisedFrames.h"
 
@@ -60,19 +61,6 @@ struct DoubleFrames {
     std::vector<double> values;
 };
 DoubleFrames readDoubleFrames(const std::string &path);
-
-/// Grid and time axis of a stack of frames: { "axes": [ { "name", "unit", "first", "step", "count", "cyclic" } ],
-/// "time": { "first", "step" }, "values": "normalised" | "power" }; count is optional if the frames determine it.
-/// Throws Error.
-struct GridFile {
-    Grid grid;
-    Axis time;
-    bool isPower = false; ///< a spectrogram in its own unit that is not normalised yet
-};
-GridFile readGridFile(const std::string &path, const std::vector<Index> &shape);
-
-/// The text of a grid file, as read by readGridFile.
-std::string gridFileText(const GridFile &file);
 
 /// Throws Error naming `where` if a value is negative or infinite.
 void checkFrameValues(std::span<const float> values, const std::string &where);

@@ -95,7 +95,8 @@ namespace {
                                + std::to_string(valueCount(layout)) + " values");
     }
 
-    NumPyLayout readLayout(std::ifstream &file, int mostExponent, const std::string &path)
+    /// The header's dictionary; the values follow it in the file.
+    std::string readDictionary(std::ifstream &file, const std::string &path)
     {
         if (!file)
             throw Error(path, "cannot be opened; expected a NumPy file (.npy)");
@@ -103,12 +104,10 @@ namespace {
         if (!file.read(start, 10) || std::string_view(start, 6) != magic)
             throw Error(path, "is not a NumPy file (.npy)");
         std::size_t length = static_cast<unsigned char>(start[8]) + 256u * static_cast<unsigned char>(start[9]);
-        std::size_t before = 10;
         if (start[6] >= 2) {
             unsigned char more[2] = {};
             file.read(reinterpret_cast<char *>(more), 2);
             length += (std::size_t(more[0]) << 16) + (std::size_t(more[1]) << 24);
-            before = 12;
         }
         if (length > (1u << 20))
             throw Error(path, "its NumPy header is too long");
@@ -117,17 +116,24 @@ namespace {
             throw Error(path, "is truncated within its NumPy header");
         if (entry(dictionary, "fortran_order", path).starts_with("True"))
             throw Error(path, "is in Fortran order; save it in C order (numpy.ascontiguousarray)");
+        return dictionary;
+    }
+
+    NumPyLayout readLayout(std::ifstream &file, int mostExponent, const std::string &path)
+    {
+        const std::string dictionary = readDictionary(file, path);
         const std::string_view type = entry(dictionary, "descr", path);
         if (!type.starts_with("'<f4'") && !type.starts_with("'<f8'"))
             throw Error(path, "holds " + std::string(type.substr(0, type.find(',')))
                                   + "; expected float32 or float64, little-endian");
-        NumPyLayout layout{parseShape(entry(dictionary, "shape", path), mostExponent, path), Index(before + length),
+        const auto begin = Index(file.tellg());
+        NumPyLayout layout{parseShape(entry(dictionary, "shape", path), mostExponent, path), begin,
                            type.starts_with("'<f8'")};
         std::error_code code;
         const std::uintmax_t size = std::filesystem::file_size(path, code);
         const auto wanted =
             static_cast<std::uintmax_t>(valueCount(layout)) * (layout.isDouble ? sizeof(double) : sizeof(float));
-        if (!code && size - before - length < wanted) // before memory is allocated for missing values
+        if (!code && size - std::uintmax_t(begin) < wanted) // before memory is allocated for missing values
             throw cutShort(layout, path);
         return layout;
     }
@@ -164,6 +170,18 @@ namespace {
     }
 
 } // namespace
+
+NumPyHeader readNumPyHeader(const std::string &path)
+{
+    std::ifstream file(path, std::ios::binary);
+    const std::string dictionary = readDictionary(file, path);
+    const std::string_view type = entry(dictionary, "descr", path);
+    const std::size_t end = type.starts_with('\'') ? type.find('\'', 1) : std::string_view::npos;
+    if (end == std::string_view::npos)
+        throw Error(path, "holds records; expected numbers");
+    return {parseShape(entry(dictionary, "shape", path), fileExponent, path), Index(file.tellg()),
+            std::string(type.substr(1, end - 1))};
+}
 
 NumPyLayout readNumPyLayout(const std::string &path)
 {

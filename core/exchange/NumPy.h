@@ -21,7 +21,17 @@ struct NumPyDoubles {
     std::vector<double> values;
 };
 
-/// Position and type of the values of such a file, without reading them.
+/// Shape, position and type of the values of any .npy file in C order, without reading them.
+struct NumPyHeader {
+    std::vector<Index> shape;
+    Index offset = 0;       ///< of the first value, bytes
+    std::string descriptor; ///< NumPy's name of the type: "<f4", "|u1" …
+};
+
+/// Throws Error if the file is not such an array; its length and type are not checked.
+NumPyHeader readNumPyHeader(const std::string &path);
+
+/// The same of an array of float32 or float64.
 struct NumPyLayout {
     std::vector<Index> shape;
     Index offset = 0; ///< of the first value, bytes

@@ -1,7 +1,7 @@
 #include "exchange/NumPyPower.h"
 
 #include "base/Error.h"
-#include "exchange/ModelFile.h"
+#include "exchange/gridFile.h"
 
 #include <cmath>
 #include <filesystem>
@@ -14,7 +14,8 @@ bool NumPyPower::recognises(const std::string &path, const std::string &gridPath
     if (!std::filesystem::is_regular_file(gridPath, ignored))
         return false;
     try {
-        return readGridFile(gridPath, readNumPyLayout(path).shape).isPower;
+        const GridFile file = readGridFile(gridPath, readNumPyLayout(path).shape);
+        return file.isPower && file.grid.isSpectrum();
     } catch (const Error &) {
         return false;
     }

@@ -3,6 +3,7 @@
 #include "base/RunContext.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "spectrum/NormalisedFrames.h"
+#include "spectrum/PingNoise.h"
 #include "spectrum/PowerFrames.h"
 #include "spectrum/Spectrogram.h"
 
@@ -11,7 +12,7 @@
 
 namespace faintline {
 
-/// Path of the file that describes the axes of a stack of frames: NAME.grid.json for NAME.npy.
+/// Path of the file that describes the axes of a stack of frames: NAME.grid.json for NAME.npy or NAME.h5.
 std::string gridPathOf(const std::string &stackPath);
 
 /// Whether a file holds frames (with time and frequency, or any other axes) rather than a recording: a NumPy file by
@@ -31,16 +32,23 @@ std::shared_ptr<const PowerFrames> openPower(const std::string &path);
 struct FramesOptions {
     SelectionSettings selection; ///< channel (polarisation), time and band
     NormaliserSettings noise;
+    PingNoiseSettings pings{}; ///< of frames on several axes
 };
 
 /// Opens the frames of such a file; null for other files, which are recordings.
 ///
 ///   .npy     normalised power of shape (frames, cells…), with axes from NAME.grid.json if it exists; the
-///            options apply only to power
+///            options do not apply
+///   pings    frames on several axes (.npy, or HDF5 with a dataset "pings") that are not normalised (openPings)
 ///   others   power, normalised by its noise (NormalisedPower)
 ///
 /// Throws Error, Cancelled.
 NormalisedFramesPointer openFrames(const std::string &path, const FramesOptions &options = {},
                                    const RunContext &context = {});
+
+/// The frames of a NumPy file with axes from a given grid file; empty: axes without units. Floats are normalised power
+/// unless the grid says otherwise; other numbers are normalised as pings. Throws Error, Cancelled.
+NormalisedFramesPointer openStack(const std::string &path, const std::string &gridPath,
+                                  const PingNoiseSettings &pings = {}, const RunContext &context = {});
 
 } // namespace faintline

@@ -14,9 +14,10 @@ namespace faintline {
 namespace {
 
     /// Without the added lines and the truth beside the file.
-    OpenedSource openBase(const Source &source)
+    OpenedSource openBase(const Source &source, const PingNoiseSettings &pingNoise = {}, const RunContext &context = {})
     {
         OpenedSource opened{source, {}, {}};
+        opened.pings = pingNoise;
         opened.source.injections.clear();
         if (source.pings) {
             const auto pings = std::make_shared<SimulatedPings>(*source.pings);
@@ -29,7 +30,7 @@ namespace {
         } else if (source.hasSamples()) {
             opened.recording = openRecording(source.path, source.options);
         } else {
-            opened.frames = openFrames(source.path);
+            opened.frames = openFrames(source.path, {{}, {}, pingNoise}, context);
         }
         return opened;
     }
@@ -43,6 +44,15 @@ namespace {
             opened.pingTruth = pingTruthBeside(path, opened.frames->grid());
         if (!opened.frames || opened.frames->grid().isSpectrum())
             opened.truth = truthBeside(path);
+    }
+
+    /// The frames at hand, unless the settings ask for another normalisation of recorded pings.
+    NormalisedFramesPointer framesFor(const OpenedSource &opened, const AnalysisSettings &settings,
+                                      const RunContext &context)
+    {
+        if (!opened.isRecordedPings() || settings.pings == opened.pings)
+            return opened.frames;
+        return openFrames(opened.source.path, {settings.selection, settings.noise, settings.pings}, context);
     }
 
     OpenedSource withInjections(OpenedSource opened, const std::vector<Source::Injection> &injections)
@@ -93,9 +103,9 @@ Source sourceOfScene(const Json &scene, const std::string &path)
     return source;
 }
 
-OpenedSource openSource(const Source &source)
+OpenedSource openSource(const Source &source, const PingNoiseSettings &pings, const RunContext &context)
 {
-    OpenedSource opened = openBase(source);
+    OpenedSource opened = openBase(source, pings, context);
     readTruthBeside(opened);
     return withInjections(std::move(opened), source.injections);
 }
@@ -116,9 +126,12 @@ std::shared_ptr<const Analysis> analyse(const OpenedSource &opened, const Analys
                                         const RunContext &context, const Analysis *previous,
                                         const AnalysisRequest &request)
 {
-    return opened.frames ? analyse(opened.frames, withSlopesInBins(settings, *opened.frames), context, previous)
-                         : analyseInChosenWindow(opened.recording, withSlopesInBins(settings, opened.recording->info()),
-                                                 context, previous, request);
+    if (!opened.frames)
+        return analyseInChosenWindow(opened.recording, withSlopesInBins(settings, opened.recording->info()), context,
+                                     previous, request);
+    const NormalisedFramesPointer frames = framesFor(opened, settings, context.part(0.0, 0.2));
+    return analyse(frames, withSlopesInBins(settings, *frames),
+                   frames == opened.frames ? context : context.part(0.2, 1.0), previous);
 }
 
 OpenedSource withInjection(const OpenedSource &opened, const Source::Injection &injection)

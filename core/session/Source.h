@@ -47,7 +47,11 @@ struct OpenedSource {
     RecordingPointer recording;
     Truth truth; ///< of a simulated recording, or in a file beside a recording; with the lines added
     NormalisedFramesPointer frames{};
-    PingTruth pingTruth{}; ///< of simulated pings, or in a file beside pings
+    PingTruth pingTruth{};     ///< of simulated pings, or in a file beside pings
+    PingNoiseSettings pings{}; ///< with which recorded pings were normalised
+
+    /// Whether they are frames on several axes from a file, which the settings may normalise anew.
+    bool isRecordedPings() const { return frames && !frames->grid().isSpectrum() && !source.isSimulated(); }
 };
 
 /// The source that a path denotes: a scene for a JSON file, otherwise a file that is not read yet. Throws Error.
@@ -56,13 +60,13 @@ Source sourceOf(const std::string &path, const OpenOptions &options = {});
 /// The source of a scene's JSON, which `path` names. Throws Error.
 Source sourceOfScene(const Json &scene, const std::string &path);
 
-/// Opens or simulates, with the truth beside the file. Throws Error.
-OpenedSource openSource(const Source &source);
+/// Opens or simulates, with the truth beside the file; recorded pings are normalised. Throws Error, Cancelled.
+OpenedSource openSource(const Source &source, const PingNoiseSettings &pings = {}, const RunContext &context = {});
 
 /// Only the samples, with the lines added. Throws Error for frames.
 RecordingPointer openSamples(const Source &source);
 
-/// Runs the pipeline on an opened source.
+/// Runs the pipeline on an opened source; recorded pings are normalised as the settings ask.
 std::shared_ptr<const Analysis> analyse(const OpenedSource &opened, const AnalysisSettings &settings,
                                         const RunContext &context = {}, const Analysis *previous = nullptr,
                                         const AnalysisRequest &request = {});

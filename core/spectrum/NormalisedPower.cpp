@@ -4,6 +4,7 @@
 #include "base/memoryShares.h"
 #include "spectrum/averageWhileSteady.h"
 #include "spectrum/blockBackground.h"
+#include "spectrum/dither.h"
 #include "spectrum/levels.h"
 #include "spectrum/medians.h"
 
@@ -34,15 +35,6 @@ namespace {
     double gammaQuantile(double looks, double p)
     {
         return boost::math::gamma_p_inv(looks, p) / looks;
-    }
-
-    /// Uniform in 0 … 1: a hashed counter (Steele and others 2014, splitmix64).
-    float uniformAt(std::uint64_t counter)
-    {
-        std::uint64_t z = counter * 0x9e3779b97f4a7c15u + 0x9e3779b97f4a7c15u;
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return float((z ^ (z >> 31)) >> 40) * 0x1p-24f;
     }
 
     float quantile(std::vector<float> &values, double p)

@@ -6,6 +6,7 @@
 #include "bindings/Source.h"
 #include "bindings/jsonFromPython.h"
 #include "bindings/settingsFromPython.h"
+#include "exchange/openFrames.h"
 #include "spectrum/NormalisedPower.h"
 
 #include <pybind11/stl.h>
@@ -34,10 +35,13 @@ namespace {
         return py::cast(recordingOfArray(given, *rate, centreHz));
     }
 
-    /// Of a file of power the part that the settings select, normalised as they say.
+    /// Of a file of power the part that the settings select, normalised as they say; of recorded pings likewise.
     NormalisedFramesPointer framesFor(const HeldFrames &held, const AnalysisSettings &settings,
                                       const RunContext &context)
     {
+        if (!held.power && !held.arguments.empty() && settings.pings != PingNoiseSettings()
+            && holdsFrames(held.arguments.front()))
+            return openFrames(held.arguments.front(), {settings.selection, settings.noise, settings.pings}, context);
         if (!held.power || (settings.selection == SelectionSettings() && settings.noise == NormaliserSettings()))
             return held.frames;
         return std::make_shared<NormalisedPower>(held.power, partOf(held.power->info(), settings.selection),

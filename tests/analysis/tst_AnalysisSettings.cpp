@@ -135,6 +135,9 @@ void tst_AnalysisSettings::stages()
     QVERIFY(firstStale(a, b) == Stage::Nothing);
     b.decide.falseAlarmsPerHour = 2.0;
     QVERIFY(firstStale(a, b) == Stage::Detector);
+    b.pings.guardCells = 9;
+    QVERIFY(firstStale(a, b) == Stage::Noise);
+    b = a;
     b.noise.halfWidthCells = 9;
     QVERIFY(firstStale(a, b) == Stage::Noise);
     b.selection.channel = 1;

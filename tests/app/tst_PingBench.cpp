@@ -450,6 +450,48 @@ private slots:
         QVERIFY2(w->messages().text().contains("the mean of the noise is about 5"), qPrintable(w->messages().text()));
     }
 
+    void recordedPingsAreNormalised()
+    {
+        const NumPyArray stack = readNumPy(path("stack.npy").toStdString());
+        QByteArray header = "{'descr': '<i2', 'fortran_order': False, 'shape': (24, 120, 8), }";
+        header = header.leftJustified(128 - 10 - 1, ' ') + '\n';
+        QByteArray bytes = QByteArray("\x93NUMPY\x01\x00", 8) + char(header.size()) + '\0' + header;
+        for (std::size_t i = 0; i < stack.values.size(); ++i) { // reverberation that falls by 30 dB
+            const double mean = std::pow(10.0, 6.0 - 3.0 * double(i / 8 % 120) / 120.0);
+            const auto value = std::int16_t(std::lround(std::min(32767.0, std::sqrt(mean * double(stack.values[i])))));
+            bytes.append(reinterpret_cast<const char *>(&value), sizeof value);
+        }
+        writeFile(m_folder, "raw.npy", bytes);
+        QFile::copy(path("stack.grid.json"), path("raw.grid.json"));
+
+        const auto w = window();
+        QVERIFY(openWithNineRates(*w, path("raw.npy")));
+        QVERIFY2(w->messages().text().contains("int16, taken as magnitude from its distribution"),
+                 qPrintable(w->messages().text()));
+        Document &document = w->document();
+        QVERIFY(document.isCurrent());
+        QVERIFY(document.analysis()->tracks.size() >= 2);
+        const NormalisedFramesPointer before = document.frames();
+        w->controller().edit("pings.guardCells", 5, "Change guard cells");
+        QVERIFY(settle(*w));
+        QVERIFY(document.isCurrent());
+        QVERIFY(document.frames() != before);
+        QCOMPARE(document.openedSource().pings.guardCells, 5);
+        document.undoStack().undo();
+        QVERIFY(settle(*w));
+        QVERIFY(document.isCurrent());
+        QCOMPARE(document.frames(), before);
+        // In a session: the same settings, without a question.
+        Session session;
+        session.source = document.source();
+        session.settings = document.settings();
+        session.settings.pings.guardCells = 4;
+        writeSession(pathBytes(path("raw.faintline")), session);
+        QVERIFY(openAndSettle(*w, path("raw.faintline")));
+        QCOMPARE(document.settings().pings.guardCells, 4);
+        QCOMPARE(document.openedSource().pings.guardCells, 4);
+    }
+
     void aMistakeIsALine()
     {
         const auto w = window();

@@ -32,6 +32,52 @@ def has_bitshuffle():
         return False
 
 
+class RecordedPings(InFolder):
+    """A dataset "pings", as in a .npy file of the same numbers."""
+
+    def noisy_iq(self):
+        rng = np.random.default_rng(5)
+        fall = 3e3 * 10 ** (-2 * np.arange(60) / 60)
+        iq = rng.normal(size=(48, 60, 8, 2)) * fall[:, None, None]
+        for ping in range(8, 48):
+            iq[ping, ping, 3] += 4 * fall[ping]
+        return np.round(iq).astype("i2")
+
+    def test_the_same_as_from_a_npy_file(self):
+        iq = self.noisy_iq()
+        asked = {"preset": "sonar", "threshold_nats": 20}
+        np.save(self.folder / "a.npy", iq[..., 0].astype("f4") + 1j * iq[..., 1].astype("f4"))
+        expected = fl.detect(self.folder / "a.npy", **asked)
+        self.assertGreater(len(expected.events), 0)
+        pair = np.dtype([("r", "f4"), ("i", "f4")])
+        values = np.zeros(iq.shape[:3], pair)
+        values["r"], values["i"] = iq[..., 0], iq[..., 1]
+        for name, how in {"a": {}, "b": {"chunks": (1, 60, 8), "compression": "gzip"}}.items():
+            with h5py.File(self.folder / f"{name}.h5", "w") as file:
+                file.create_dataset("pings", data=values, **how)
+            result = fl.detect(self.folder / f"{name}.h5", **asked)
+            np.testing.assert_equal(result.events.tolist(), expected.events.tolist())
+
+    def test_integers_and_their_grid(self):
+        iq = self.noisy_iq()
+        magnitude = np.round(np.hypot(iq[..., 0].astype("f8"), iq[..., 1])).astype("u2")
+        grid = """{"axes": [{"name": "range", "unit": "m", "step": 2}, {"name": "bearing"}],
+                   "time": {"step": 5}, "values": "magnitude"}"""
+        np.save(self.folder / "m.npy", magnitude)
+        with h5py.File(self.folder / "n.h5", "w") as file:
+            file.create_dataset("pings", data=magnitude)
+        for name in "mn":
+            (self.folder / f"{name}.grid.json").write_text(grid)
+        frames = [fl.open(self.folder / name) for name in ("m.npy", "n.h5")]
+        self.assertEqual(frames[1].axes[0].step, 2)
+        np.testing.assert_array_equal(frames[0].read(), frames[1].read())
+        self.assertAlmostEqual(float(np.median(frames[1].read())) / np.log(2), 1.0, delta=0.05)
+        asked = {"preset": "sonar", "threshold_nats": 20}
+        as_stated = fl.detect(self.folder / "n.h5", **asked)
+        as_power = fl.detect(self.folder / "n.h5", values="power", **asked)
+        self.assertNotEqual(as_stated.events.tolist(), as_power.events.tolist())
+
+
 class Hdf5Filterbanks(InFolder):
     written = 0
 

@@ -39,6 +39,12 @@ QString settingLabel(const QString &name)
         {"noise.halfWidthCells", "Half width"},
         {"noise.blockWindows", "Block length"},
         {"noise.followLevel", "Follow level changes"},
+        {"pings.values", "Numbers are"},
+        {"pings.rangeCells", "Noise half width"},
+        {"pings.guardCells", "Guard cells"},
+        {"pings.blockPings", "Block length"},
+        {"pings.followPing", "Follow level of pings"},
+        {"pings.pastOnly", "Past pings only"},
         {"family.relation", "Lines detected together"},
         {"family.members", "Members"},
         {"family.present", "Present"},
@@ -106,6 +112,7 @@ QString stageLabel(const QString &prefix)
         {"selection", "Selection"},
         {"spectrogram", "Spectrogram"},
         {"noise", "Noise background"},
+        {"pings", "Noise of pings"},
         {"family", "Family of lines"},
         {"model", "Signal model"},
         {"detector", "Detector"},
@@ -130,6 +137,7 @@ QString stageLabel(const QString &prefix)
 QString choiceLabel(const QString &choice)
 {
     static const QHash<QString, QString> labels{
+        {"auto", "found automatically"},
         {"hann", "Hann"},
         {"hamming", "Hamming"},
         {"blackman", "Blackman"},
@@ -180,6 +188,9 @@ bool isSeldomUsed(const QString &name)
                                      "model.bearingRateChange",
                                      "noise.blockWindows",
                                      "noise.followLevel",
+                                     "pings.blockPings",
+                                     "pings.followPing",
+                                     "pings.pastOnly",
                                      "selection.channels",
                                      "family.present",
                                      "model.slopeChange",

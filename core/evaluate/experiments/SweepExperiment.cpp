@@ -134,7 +134,8 @@ const std::vector<Field<SweepExperiment>> &SweepExperiment::fields()
 bool isSweepable(const FieldInfo &field)
 {
     return (field.kind == FieldKind::Integer || field.kind == FieldKind::Number)
-           && !field.name.starts_with("selection.") && !field.name.starts_with("conventional.");
+           && !field.name.starts_with("selection.") && !field.name.starts_with("pings.")
+           && !field.name.starts_with("conventional.");
 }
 
 std::vector<double> sweepValues(const std::string &parameter, double from, double to, int steps, bool isLogarithmic)

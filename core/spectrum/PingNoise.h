@@ -1,0 +1,35 @@
+#pragma once
+
+#include "base/Field.h"
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+namespace faintline {
+
+/// What the numbers of recorded pings are. Complex numbers, I and Q of a beam, need no such statement.
+enum class PingValues {
+    Automatic,  ///< as the file's grid says; otherwise guessed (guessPingValues)
+    Normalised, ///< power over noise power already
+    Power,
+    Magnitude, ///< envelope: the root of the power
+    Decibels   ///< 10 log10 of the power
+};
+inline constexpr std::array<std::string_view, 5> pingValuesNames{"auto", "normalised", "power", "magnitude",
+                                                                 "decibels"};
+
+/// How recorded pings, frames on several axes that are not power over noise yet, are normalised (PingBackground).
+struct PingNoiseSettings {
+    PingValues values = PingValues::Automatic;
+    int rangeCells = 20;    ///< on each side, beyond the guard cells, from which a cell's noise is estimated
+    int guardCells = 3;     ///< on each side of a cell, without influence on its own noise
+    int blockPings = 48;    ///< pings from which one background is estimated
+    bool followPing = true; ///< divide out level changes of whole pings
+    bool pastOnly = false;  ///< from the previous block alone, not from later pings
+
+    static const std::vector<Field<PingNoiseSettings>> &fields();
+    bool operator==(const PingNoiseSettings &) const = default;
+};
+
+} // namespace faintline
