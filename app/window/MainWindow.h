@@ -75,6 +75,8 @@ public:
     void showStates();
     void showLatency();
     void showHandLine();
+    void showTargets();
+    void newScene(); ///< of sonar pings, without targets
     void learnMotion();
     void showSpectrum();
     void showDoppler();
@@ -118,6 +120,7 @@ private:
     void connectController();
     void connectViews();
     void connectSurvey();
+    void connectTargets();
     void connectLive();
     void connectEvaluation();
     /// An action that is available only while a recording is shown.
