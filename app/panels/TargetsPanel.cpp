@@ -1,6 +1,7 @@
 #include "app/panels/TargetsPanel.h"
 
 #include "app/base/filePath.h"
+#include "app/base/readingTable.h"
 #include "app/panels/TargetModel.h"
 #include "base/AtomicFile.h"
 #include "widgets/base/Theme.h"
@@ -85,12 +86,13 @@ void TargetsPanel::buildTable()
     m_table->setModel(m_model);
     m_table->setAccessibleName(tr("Targets and their legs"));
     m_table->setSelectionMode(QAbstractItemView::SingleSelection);
-    m_table->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed
-                             | QAbstractItemView::AnyKeyPressed);
     m_table->setTabKeyNavigation(false);
     m_table->setWordWrap(false);
-    m_table->verticalHeader()->hide();
-    m_table->verticalHeader()->setDefaultSectionSize(rowHeight);
+    makeReadingTable(*m_table, rowHeight);
+    m_table->setSelectionBehavior(QAbstractItemView::SelectItems);
+    m_table->setShowGrid(true);
+    m_table->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed
+                             | QAbstractItemView::AnyKeyPressed);
     m_table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
     m_table->setMinimumHeight(3 * rowHeight);
     m_table->installEventFilter(this);
@@ -155,6 +157,7 @@ void TargetsPanel::setActive(bool isActive)
         m_editor->setPlacing(false);
     }
     followScene();
+    emit activeChanged(isActive);
 }
 
 /// Without an analysis the maps have no axes to place anything on.

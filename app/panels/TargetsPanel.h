@@ -48,6 +48,7 @@ public slots:
     void setActive(bool isActive);
 
 signals:
+    void activeChanged(bool isActive);
     void newSceneRequested();
     void written(const QString &path);
     void failed(const faintline::Error &error);

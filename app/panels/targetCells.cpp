@@ -221,9 +221,11 @@ bool isEditable(const TargetRow &row, TargetColumn column)
 QString titleOf(TargetColumn column, RateUnit unit)
 {
     switch (column) {
-    case TargetColumn::Target:
     case TargetColumn::From:
+        return tr("From");
     case TargetColumn::Until:
+        return tr("Until");
+    case TargetColumn::Target:
     case TargetColumn::Leg:
     case TargetColumn::Pings:
         return wordOf(column);

@@ -244,6 +244,7 @@ void MainWindow::connectTargets()
     connect(m_targets, &TargetsPanel::newSceneRequested, this, &MainWindow::newScene);
     connect(m_targets, &TargetsPanel::written, this, &MainWindow::showWritten);
     connect(m_targets, &TargetsPanel::failed, this, &MainWindow::showError);
+    connect(m_targets, &TargetsPanel::activeChanged, m_pings, &PingBench::setMapsFirst);
     connect(static_cast<QDockWidget *>(m_targets->parentWidget()), &QDockWidget::visibilityChanged, m_targets,
             &TargetsPanel::setActive);
 }

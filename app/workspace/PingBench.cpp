@@ -47,11 +47,23 @@ PingBench::PingBench(Document &document, OutputLayers &layers, QWidget *parent)
 
 void PingBench::resizeEvent(QResizeEvent *event)
 {
+    showWhatFits();
+    Bench::resizeEvent(event);
+}
+
+void PingBench::showWhatFits()
+{
     constexpr int enoughForHistories = 460;
     constexpr int enoughForAll = 580;
-    m_histories->setVisible(height() >= enoughForHistories);
-    m_regulation->setVisible(height() >= enoughForAll);
-    Bench::resizeEvent(event);
+    const int more = m_areMapsFirst ? 320 : 0;
+    m_histories->setVisible(height() >= enoughForHistories + more);
+    m_regulation->setVisible(height() >= enoughForAll + more);
+}
+
+void PingBench::setMapsFirst(bool areFirst)
+{
+    m_areMapsFirst = areFirst;
+    showWhatFits();
 }
 
 QWidget *PingBench::histories() const

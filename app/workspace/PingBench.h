@@ -60,6 +60,8 @@ public slots:
     void setPlaying(bool isPlaying) override;
     void setPlayingBackward(bool isPlaying);
     void setPolar(bool isPolar);
+    /// Shows the other parts only if the maps are tall enough to place something on them.
+    void setMapsFirst(bool areFirst);
     void showPing(faintline::Index ping);
 
 protected:
@@ -75,6 +77,7 @@ protected:
 
 private:
     void layOut();
+    void showWhatFits();
     void buildHistories();
     void linkViews();
     void linkBar();
@@ -101,6 +104,7 @@ private:
     PingMarks m_marks;
     Index m_shownPing = -1; ///< ping shown in the maps; -1: none
     PingPlayer m_player;
+    bool m_areMapsFirst = false;
     bool m_isFirstAnalysis = true; ///< of the open document
 };
 

@@ -142,6 +142,7 @@ void tst_Targets::init()
     QVERIFY(openAndSettle(*m_window, m_path, takeNineRates));
     QTest::keyClick(m_window.get(), Qt::Key_D, Qt::ControlModifier | Qt::ShiftModifier);
     QVERIFY(panel().isVisible());
+    QVERIFY(!bench().histories()->isVisible()); // the maps have the room
     bench().showPing(2);
 }
 
@@ -243,6 +244,7 @@ void tst_Targets::withoutThePanelTheMapTakesNoTargets()
     startPlacing();
     panel().parentWidget()->hide();
     QVERIFY(!panel().editor().isPlacing());
+    QVERIFY(bench().histories()->isVisible());
     QTest::mouseClick(canvas(), Qt::LeftButton, {}, cornerOf(0, 0));
     QVERIFY(panel().editor().selected().isNone());
     QCOMPARE(scene().targets.size(), std::size_t(1));

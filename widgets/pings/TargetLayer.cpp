@@ -59,7 +59,7 @@ private:
     {
         const TargetShape &shape = m_layer.m_shapes[std::size_t(number)];
         const Theme::Colours &colours = Theme::colours(m_layer.m_plot);
-        const QColor colour = number == m_layer.m_selected.target ? colours.selectedEvent : colours.truth;
+        const QColor colour = number == m_layer.m_selected.target ? colours.event : colours.truth;
         drawPath(painter, shape.path, colour);
         for (int corner = int(shape.corners.size()) - 1; corner >= 0; --corner)
             drawHandle(painter, {number, corner}, colour);
