@@ -278,6 +278,17 @@ void TargetsPanel::pressKey(const QKeyEvent &event)
         m_table->edit(m_table->currentIndex());
 }
 
+bool TargetsPanel::event(QEvent *event)
+{
+    const bool isOfKey = event->type() == QEvent::ShortcutOverride || event->type() == QEvent::KeyPress;
+    if (!isOfKey || static_cast<QKeyEvent *>(event)->key() != Qt::Key_Escape || !m_editor->isPlacing())
+        return QWidget::event(event);
+    if (event->type() == QEvent::KeyPress)
+        m_editor->setPlacing(false);
+    event->accept();
+    return true;
+}
+
 bool TargetsPanel::eventFilter(QObject *watched, QEvent *event)
 {
     if (event->type() != QEvent::ShortcutOverride && event->type() != QEvent::KeyPress)

@@ -17,8 +17,8 @@ class PingMap;
 class TargetLayer;
 class TargetModel;
 
-/// The targets of the open sonar scene, placed on the maps with the mouse and listed with SNR and legs in a table that can
-/// be edited. The pings are simulated and analysed again after each change.
+/// The targets of the open sonar scene, placed on the maps with the mouse and listed with SNR and legs in a table that
+/// can be edited. The pings are simulated and analysed again after each change.
 ///
 /// Handles are drawn over the maps while the panel is active.
 class TargetsPanel : public QWidget
@@ -54,6 +54,8 @@ signals:
     void failed(const faintline::Error &error);
 
 protected:
+    /// Escape ends placing before it stops the analysis.
+    bool event(QEvent *event) override;
     bool eventFilter(QObject *watched, QEvent *event) override;
 
 private:

@@ -14,7 +14,15 @@ namespace {
 
     TruthTarget pathOf(const PingScene &scene, const PingTarget &target)
     {
-        PingScene alone = scene;
+        PingScene alone; // a copy would also take all other targets
+        alone.pings = scene.pings;
+        alone.priSeconds = scene.priSeconds;
+        alone.rangeCells = scene.rangeCells;
+        alone.firstRangeMetres = scene.firstRangeMetres;
+        alone.rangeStepMetres = scene.rangeStepMetres;
+        alone.beams = scene.beams;
+        alone.firstBearingDegrees = scene.firstBearingDegrees;
+        alone.beamStepDegrees = scene.beamStepDegrees;
         alone.targets = {target};
         return pingTruth(alone).targets.front();
     }

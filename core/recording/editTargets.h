@@ -6,13 +6,13 @@
 
 namespace faintline {
 
-/// Editing of a ping scene's targets by places on the map. The scene is a value: each function returns a changed copy of
-/// a target and leaves the scene alone.
+/// Editing of a ping scene's targets by places on the map. The scene is a value: each function returns a changed copy
+/// of a target and leaves the scene alone.
 ///
 /// A target's path is that of `pingTruth`. Its *corners* are its start and the ends of its legs, as far as they lie
-/// within the scene; corner i > 0 is the end of leg i - 1. Placing a corner changes the rates of its own leg only, so the
-/// legs that follow keep their rates and move along. Rates are linear in the place: with A the distance that the corner
-/// moves for a rate of one cell per ping, A = Σ of the leg's share of the rate over the pings before the corner,
+/// within the scene; corner i > 0 is the end of leg i - 1. Placing a corner changes the rates of its own leg only, so
+/// the legs that follow keep their rates and move along. Rates are linear in the place: with A the distance that the
+/// corner moves for a rate of one cell per ping, A = Σ of the leg's share of the rate over the pings before the corner,
 ///
 ///     v' = v + (place - corner)/A
 ///

@@ -1,58 +1,27 @@
-// Targets of a sonar scene placed on the map by mouse, and edited in a table: what is simulated, undone and saved.
+// Targets of a sonar scene placed on the map by mouse: what is simulated, detected, undone and saved.
 
+#include "app/TargetsTest.h"
 #include "app/document/Recovery.h"
-#include "app/openWindow.h"
-#include "app/panels/TargetModel.h"
-#include "app/panels/TargetsPanel.h"
-#include "app/welcome/WelcomePage.h"
-#include "app/workspace/PingBench.h"
 #include "session/Session.h"
 #include "spectrum/SimulatedPings.h"
-#include "widgets/pings/PingMap.h"
 #include "widgets/pings/PolarView.h"
 
 #include <qwt_plot_canvas.h>
 
-#include <QComboBox>
-#include <QHeaderView>
-#include <QLineEdit>
 #include <QProcess>
-#include <QPushButton>
-#include <QTableView>
 
 #include <cmath>
 
 using namespace faintline;
 using namespace faintline::test;
 
-namespace {
-
-const char *const text = R"({"kind": "pings", "pings": 24, "rangeCells": 120, "beams": 8, "seed": 5, "targets": [
-    {"snrDb": 11, "rangeMetres": 3200, "bearingDegrees": 270, "appearPing": 4,
-     "legs": [{"pings": 12, "rangeCellsPerPing": 0.5}]}]})";
-
-/// Small enough to be analysed at once: nine rates a cell.
-void takeNineRates(AnalysisSettings &settings)
-{
-    settings.model.motion = Motion::Slopes;
-    settings.model.lowestSlope = -1;
-    settings.model.highestSlope = 1;
-    settings.detector = SmdSettings{SmdSettings::Reset::Mean, 0.0};
-    settings.decide.thresholdNats = 22.0;
-    settings.decide.inhibitCells = {2.0, 1.0};
-    settings.decide.forgetCells = {4.0, 1.0};
-    settings.track.windowCells = {4.0, 1.0};
-}
-
-} // namespace
-
-class tst_Targets : public QObject
+class tst_Targets : public TargetsTest
 {
     Q_OBJECT
 
 private slots:
-    void initTestCase();
-    void init();
+    void initTestCase() { writeScene(); }
+    void init() { openScene(); }
     void cleanup() { m_window.reset(); }
 
     void aClickPlacesATargetInThePingShown();
@@ -62,11 +31,6 @@ private slots:
     void escapeAbandonsTheDragThenEndsPlacing();
     void withoutThePanelTheMapTakesNoTargets();
     void fromAboveItIsTheSame();
-    void theTableAndTheMapShowTheSame();
-    void typedNumbersChangeTheScene();
-    void badInputGivesOneLine_data();
-    void badInputGivesOneLine();
-    void everythingIsReachedByKeyboard();
     void thePingsAreSimulatedAndDetectedAgain();
     void theNewestSceneWins();
     void everyStepIsUndone();
@@ -74,77 +38,7 @@ private slots:
     void unsavedTargetsSurvive();
     void aNewSceneHasNoTargets();
     void otherPingsAreNotEdited();
-
-private:
-    PingBench &bench() const { return m_window->pingBench(); }
-    TargetsPanel &panel() const { return m_window->targets(); }
-    const PingScene &scene() const { return *m_window->document().source().pings; }
-    const PingTarget &last() const { return scene().targets.back(); }
-    WaterfallView &plane() const { return *bench().output()->plane(); }
-    QWidget *canvas() const { return plane().canvas(); }
-    QPoint at(double range, double bearing) const { return plane().positionOf({range, bearing}).toPoint(); }
-    QPoint cornerOf(int target, int corner) const
-    {
-        const ScenePlace place = cornersOf(scene(), scene().targets[std::size_t(target)])[std::size_t(corner)].place;
-        return at(place.rangeMetres, place.bearingDegrees);
-    }
-    /// Press, move in two steps, release.
-    void drag(QWidget *on, QPoint from, QPoint to) const
-    {
-        QTest::mousePress(on, Qt::LeftButton, {}, from);
-        QTest::mouseMove(on, (from + to) / 2);
-        QTest::mouseMove(on, to);
-        QTest::mouseRelease(on, Qt::LeftButton, {}, to);
-    }
-    void startPlacing() const { QTest::mouseClick(panel().placeButton(), Qt::LeftButton); }
-    /// Where the simulated target is in a ping.
-    ScenePlace placeIn(int target, int ping) const
-    {
-        const TruthTarget &truth = m_window->document().pingTruth().targets[std::size_t(target)];
-        const auto k = std::size_t(ping - truth.firstPing);
-        return {truth.rangeMetres[k], truth.bearingDegrees[k]};
-    }
-    /// Types into a cell as a user does.
-    void type(int row, TargetColumn column, const QString &what) const
-    {
-        QTableView &table = *panel().table();
-        table.setFocus();
-        table.setCurrentIndex(table.model()->index(row, int(column)));
-        QTest::keyClick(&table, Qt::Key_Return);
-        auto *edit = table.findChild<QLineEdit *>();
-        QVERIFY(edit);
-        edit->selectAll();
-        QTest::keyClicks(edit, what);
-        QTest::keyClick(edit, Qt::Key_Return);
-        QCoreApplication::processEvents(); // the editor commits when it gets back to the event loop
-        QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
-    }
-    QString cell(int row, TargetColumn column) const
-    {
-        return panel().table()->model()->index(row, int(column)).data().toString();
-    }
-
-    QTemporaryDir m_folder;
-    QString m_path;
-    std::unique_ptr<MainWindow> m_window;
 };
-
-void tst_Targets::initTestCase()
-{
-    Theme::apply(Theme::Kind::Light);
-    m_path = writeFile(m_folder, "sea.json", text);
-}
-
-void tst_Targets::init()
-{
-    m_window = newWindow({1400, 1000});
-    m_window->welcome().stop();
-    QVERIFY(openAndSettle(*m_window, m_path, takeNineRates));
-    QTest::keyClick(m_window.get(), Qt::Key_D, Qt::ControlModifier | Qt::ShiftModifier);
-    QVERIFY(panel().isVisible());
-    QVERIFY(!bench().histories()->isVisible()); // the maps have the room
-    bench().showPing(2);
-}
 
 void tst_Targets::aClickPlacesATargetInThePingShown()
 {
@@ -237,6 +131,9 @@ void tst_Targets::escapeAbandonsTheDragThenEndsPlacing()
     QTest::mouseClick(canvas(), Qt::LeftButton, {}, at(3300.0, 45.0));
     QCOMPARE(scene().targets.size(), std::size_t(1));
     QVERIFY(std::abs(bench().viewports().place().range - 3300.0) < 10.0); // a click places the cursor again
+    startPlacing();
+    QTest::keyClick(panel().placeButton(), Qt::Key_Escape);
+    QVERIFY(!panel().editor().isPlacing());
 }
 
 void tst_Targets::withoutThePanelTheMapTakesNoTargets()
@@ -263,127 +160,6 @@ void tst_Targets::fromAboveItIsTheSame()
     QVERIFY2(std::abs(end.bearingDegrees - 180.0) < 6.0, qPrintable(QString::number(end.bearingDegrees)));
     QTest::keyClick(&polar, Qt::Key_Delete);
     QVERIFY(last().legs.empty());
-}
-
-void tst_Targets::theTableAndTheMapShowTheSame()
-{
-    QCOMPARE(panel().table()->model()->rowCount(), 1);
-    QCOMPARE(cell(0, TargetColumn::Target), QString("T1"));
-    QCOMPARE(cell(0, TargetColumn::Snr), QString("11"));
-    QCOMPARE(cell(0, TargetColumn::From), QString("5"));
-    QCOMPARE(cell(0, TargetColumn::Until), QString("end"));
-    QCOMPARE(cell(0, TargetColumn::Pings), QString("12"));
-    QCOMPARE(cell(0, TargetColumn::RangeRate), QString("0.5"));
-    const auto title = [this](TargetColumn column) {
-        return panel().table()->model()->headerData(int(column), Qt::Horizontal).toString();
-    };
-    QCOMPARE(title(TargetColumn::RangeRate), QString("Range rate (cells/ping)"));
-    panel().unitBox()->setCurrentIndex(0);
-    emit panel().unitBox()->activated(0);
-    QCOMPARE(title(TargetColumn::RangeRate), QString("Range rate (m/s)"));
-    QCOMPARE(cell(0, TargetColumn::RangeRate), QString("0.125")); // 5 m in 40 s
-    // The table follows a drag before the mouse is released.
-    startPlacing();
-    QTest::mousePress(canvas(), Qt::LeftButton, {}, at(3300.0, 45.0));
-    QTest::mouseMove(canvas(), at(3600.0, 45.0));
-    QCOMPARE(panel().table()->model()->rowCount(), 2);
-    QVERIFY(!cell(1, TargetColumn::RangeRate).isEmpty());
-    QTest::mouseRelease(canvas(), Qt::LeftButton, {}, at(3600.0, 45.0));
-    QCOMPARE(panel().table()->currentIndex().row(), 1);
-    // A selected row selects the corner.
-    panel().table()->setCurrentIndex(panel().table()->model()->index(0, int(TargetColumn::RangeRate)));
-    QCOMPARE(panel().editor().selected(), (TargetHandle{0, 1}));
-}
-
-void tst_Targets::typedNumbersChangeTheScene()
-{
-    type(0, TargetColumn::Snr, "14.5");
-    QCOMPARE(scene().targets[0].snrDb, 14.5);
-    type(0, TargetColumn::Range, "3333");
-    QCOMPARE(scene().targets[0].rangeMetres, 3333.0);
-    type(0, TargetColumn::From, "1");
-    QCOMPARE(scene().targets[0].appearPing, 0);
-    type(0, TargetColumn::Until, "20");
-    QCOMPARE(scene().targets[0].vanishPing, 20); // the 20th ping is the last one with it
-    type(0, TargetColumn::Pings, "end");
-    QCOMPARE(scene().targets[0].legs[0].pings, 0);
-    type(0, TargetColumn::RangeRate, "-1.25");
-    QCOMPARE(scene().targets[0].legs[0].rangeCellsPerPing, -1.25);
-    type(0, TargetColumn::BearingRate, "0.1");
-    QCOMPARE(scene().targets[0].legs[0].beamsPerPing, 0.1);
-    type(0, TargetColumn::Turn, "3");
-    QCOMPARE(scene().targets[0].legs[0].turnPings, 3);
-    QCOMPARE(m_window->document().undoStack().count(), 8);
-    type(0, TargetColumn::Snr, "14.5"); // the same again is no change
-    QCOMPARE(m_window->document().undoStack().count(), 8);
-}
-
-void tst_Targets::badInputGivesOneLine_data()
-{
-    QTest::addColumn<int>("column");
-    QTest::addColumn<QString>("typed");
-    QTest::addColumn<QString>("line");
-    QTest::newRow("no number") << int(TargetColumn::Snr) << "loud"
-                               << "Target T1, SNR = loud: must lie in -60 … 80 dB";
-    QTest::newRow("off the map") << int(TargetColumn::Range) << "9000"
-                                 << "Target T1, range = 9000: must lie in 3000 … 4190 m";
-    QTest::newRow("after the end") << int(TargetColumn::From) << "25"
-                                   << "Target T1, from ping = 25: must lie in 1 … 24, a whole number";
-    QTest::newRow("before it appears") << int(TargetColumn::Until) << "3"
-                                       << "Target T1, until ping = 3: must lie in 5 … 24, a whole number";
-    QTest::newRow("half a ping") << int(TargetColumn::Pings) << "2.5"
-                                 << "Target T1, leg 1, pings = 2.5: must lie in 1 … 24, a whole number";
-    QTest::newRow("too fast") << int(TargetColumn::RangeRate) << "1e9"
-                              << "Target T1, leg 1, range rate = 1e+09: must lie in -10000 … 10000 cells/ping";
-}
-
-void tst_Targets::badInputGivesOneLine()
-{
-    QFETCH(int, column);
-    QFETCH(QString, typed);
-    QFETCH(QString, line);
-    const PingScene before = scene();
-    type(0, TargetColumn(column), typed);
-    QCOMPARE(panel().sentence(), line);
-    QVERIFY(scene() == before);
-    QCOMPARE(m_window->document().undoStack().count(), 0);
-    type(0, TargetColumn::Snr, "12"); // a good number takes the line away
-    QVERIFY(panel().sentence() != line);
-}
-
-void tst_Targets::everythingIsReachedByKeyboard()
-{
-    PingViewports::Place cursor = bench().viewports().place();
-    cursor.range = 3500.0;
-    cursor.bearing = 180.0;
-    bench().viewports().setPlace(cursor);
-    panel().addTargetButton()->setFocus();
-    QTest::keyClick(panel().addTargetButton(), Qt::Key_Space);
-    QCOMPARE(scene().targets.size(), std::size_t(2));
-    QCOMPARE(last().rangeMetres, 3500.0);
-    cursor.range = 3600.0;
-    bench().viewports().setPlace(cursor);
-    panel().addLegButton()->setFocus();
-    QTest::keyClick(panel().addLegButton(), Qt::Key_Space);
-    QCOMPARE(last().legs.size(), std::size_t(1));
-    QCOMPARE(last().legs[0].rangeCellsPerPing, 0.5); // 10 cells in 20 pings
-    // Digits typed on the table begin to edit; they are not the window's keys for classes.
-    QTableView &table = *panel().table();
-    table.setFocus();
-    table.setCurrentIndex(table.model()->index(1, int(TargetColumn::Snr)));
-    QTest::keyClick(&table, Qt::Key_9);
-    auto *edit = table.findChild<QLineEdit *>();
-    QVERIFY(edit);
-    QTest::keyClick(edit, Qt::Key_Return);
-    QCoreApplication::processEvents();
-    QCOMPARE(last().snrDb, 9.0);
-    QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
-    table.setCurrentIndex(table.model()->index(1, int(TargetColumn::Pings)));
-    QTest::keyClick(&table, Qt::Key_Delete);
-    QVERIFY(last().legs.empty());
-    table.setCurrentIndex(table.model()->index(1, int(TargetColumn::Snr)));
-    QTest::keyClick(&table, Qt::Key_Delete);
-    QCOMPARE(scene().targets.size(), std::size_t(1));
 }
 
 void tst_Targets::thePingsAreSimulatedAndDetectedAgain()

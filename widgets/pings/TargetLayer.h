@@ -16,8 +16,8 @@ namespace faintline {
 class PolarView;
 class WaterfallView;
 
-/// Targets drawn over one map of a ping, with handles at their corners, and the mouse and keys that edit them. It changes
-/// no target: it reports what the user does.
+/// Targets drawn over one map of a ping, with handles at their corners, and the mouse and keys that edit them. It
+/// changes no target: it reports what the user does.
 ///
 /// While active, a press on a handle grabs it. While placing as well, any other press places a target. All else still
 /// goes to the view: without a handle under the pointer, clicks place the cursor and drags pan. Delete removes the
