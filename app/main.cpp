@@ -69,7 +69,7 @@ namespace {
             ->add_option("--view", options.views,
                          "window, input, output, threshold, events, noise, noisefit, spectrum, channels, doppler, pd, "
                          "why, compare, sweep, "
-                         "sequential, walk, posterior; for sonar pings also map, polar, histories, slice, latency; for "
+                         "sequential, walk, posterior; for sonar pings also map, polar, histories, slice, latency, targets; for "
                          "radar scans stopping, scan, asn, prior, sectors; separate several by commas")
             ->delimiter(',')
             ->allow_extra_args(false)

@@ -26,4 +26,9 @@ const std::vector<Scenario> &scenarios()
     return list;
 }
 
+QString openSeaPath()
+{
+    return QStringLiteral(":/scenarios/open-sea.json");
+}
+
 } // namespace faintline

@@ -17,4 +17,7 @@ struct Scenario {
 /// The bundled scenarios, the most instructive one first.
 const std::vector<Scenario> &scenarios();
 
+/// Path of the bundled scene of sonar pings without targets.
+QString openSeaPath();
+
 } // namespace faintline

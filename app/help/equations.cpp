@@ -159,6 +159,10 @@ const std::vector<Equation> &equations()
              "n  position and rate along every axis of the frames", "Billon 2005, section 3; Parsons 2008, eq. 8"),
         make("latency", "Latency", "pings from a target's appearance to its detection",
              "counted over simulated runs of the scene", "trackScore in core/evaluate"),
+        make("targets", "Path of a simulated target", "p(k+1) = p(k) + [ v(k) + v(k+1) ] / 2  on each axis",
+             "k  pings since the target appeared\n"
+             "v  rate of the leg; over its turn, between that of the leg before and its own",
+             "recording/PingScene.h"),
         make("hand", "A line drawn by hand",
              "Σ λ(y(t, f(t)))  over its frames\n"
              "SNR per frame = mean y − 1",

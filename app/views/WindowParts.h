@@ -33,6 +33,7 @@ class StateSlicePanel;
 class SpectrumPanel;
 class SurveyPanel;
 class SweepPanel;
+class TargetsPanel;
 class WelcomePage;
 class WhyPanel;
 class WindowViews;
@@ -68,6 +69,7 @@ public:
     StateSlicePanel &states() const { return *m_states; }
     LatencyPanel &latency() const { return *m_latency; }
     HandLinePanel &handLine() const { return *m_handLine; }
+    TargetsPanel &targets() const { return *m_targets; }
     ComparePanel &comparePanel() const { return *m_compare; }
     EvaluatePanel &evaluation() const { return *m_evaluate; }
     SpectrumPanel &spectrum() const { return *m_spectrum; }
@@ -121,6 +123,7 @@ protected:
     StateSlicePanel *m_states = nullptr;
     LatencyPanel *m_latency = nullptr;
     HandLinePanel *m_handLine = nullptr;
+    TargetsPanel *m_targets = nullptr;
     ComparePanel *m_compare = nullptr;
     EvaluatePanel *m_evaluate = nullptr;
     SpectrumPanel *m_spectrum = nullptr;

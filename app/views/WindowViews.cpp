@@ -18,6 +18,7 @@
 #include "app/panels/StateSlicePanel.h"
 #include "app/panels/SurveyPanel.h"
 #include "app/panels/SweepPanel.h"
+#include "app/panels/TargetsPanel.h"
 #include "app/panels/TrajectoryPage.h"
 #include "app/panels/WhyPanel.h"
 #include "app/views/WindowParts.h"
@@ -74,6 +75,7 @@ const std::vector<WindowView> &windowViews()
         {"polar", tr("Maps from above"), Of::Pings, [](Parts parts) { return parts.pingBench().maps(); }},
         {"histories", tr("Histories"), Of::Pings, [](Parts parts) { return parts.pingBench().histories(); }},
         {"latency", tr("Latency"), Of::Pings, [](Parts parts) -> QWidget * { return &parts.latency(); }},
+        {"targets", tr("Targets"), Of::Pings, [](Parts parts) -> QWidget * { return &parts.targets(); }},
         {"sequential", tr("Sequential test"), Of::Scans, [](Parts parts) -> QWidget * { return &parts.sequential(); }},
         {"walk", tr("Walks"), Of::Scans, [](Parts parts) -> QWidget * { return &parts.sequential().walk(); }},
         {"stopping", tr("Stopping stages"), Of::Scans,

@@ -23,6 +23,7 @@
 #include "app/panels/SpectrumPanel.h"
 #include "app/panels/StateSlicePanel.h"
 #include "app/panels/SweepPanel.h"
+#include "app/panels/TargetsPanel.h"
 #include "app/panels/WhyPanel.h"
 #include "app/views/ReportWriter.h"
 #include "app/views/WindowViews.h"
@@ -88,6 +89,7 @@ MainWindow::MainWindow(std::unique_ptr<QSettings> memory, const QString &recover
     connectController();
     connectViews();
     connectSurvey();
+    connectTargets();
     connectEvaluation();
     connectLive();
     m_keys = new KeysOverlay(this);
@@ -333,6 +335,11 @@ void MainWindow::showLatency()
 void MainWindow::showHandLine()
 {
     m_panels->show(m_handLine);
+}
+
+void MainWindow::showTargets()
+{
+    m_panels->show(m_targets);
 }
 
 void MainWindow::showSweep()

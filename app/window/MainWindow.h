@@ -75,6 +75,8 @@ public:
     void showStates();
     void showLatency();
     void showHandLine();
+    void showTargets();
+    void newScene(); ///< of sonar pings, without targets
     void learnMotion();
     void showSpectrum();
     void showChannels();
@@ -119,6 +121,7 @@ private:
     void connectController();
     void connectViews();
     void connectSurvey();
+    void connectTargets();
     void connectLive();
     void connectEvaluation();
     /// An action that is available only while a recording is shown.

@@ -27,6 +27,7 @@
 #include "app/panels/StateSlicePanel.h"
 #include "app/panels/SurveyPanel.h"
 #include "app/panels/SweepPanel.h"
+#include "app/panels/TargetsPanel.h"
 #include "app/views/ChartMenus.h"
 #include "app/views/ReportWriter.h"
 #include "app/views/WindowViews.h"
@@ -244,6 +245,16 @@ void MainWindow::connectSurvey()
                 if (mayLeave(tr("opening something else"), next))
                     next();
             });
+}
+
+void MainWindow::connectTargets()
+{
+    connect(m_targets, &TargetsPanel::newSceneRequested, this, &MainWindow::newScene);
+    connect(m_targets, &TargetsPanel::written, this, &MainWindow::showWritten);
+    connect(m_targets, &TargetsPanel::failed, this, &MainWindow::showError);
+    connect(m_targets, &TargetsPanel::activeChanged, m_pings, &PingBench::setMapsFirst);
+    connect(static_cast<QDockWidget *>(m_targets->parentWidget()), &QDockWidget::visibilityChanged, m_targets,
+            &TargetsPanel::setActive);
 }
 
 void MainWindow::connectEvaluation()

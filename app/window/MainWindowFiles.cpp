@@ -9,6 +9,7 @@
 #include "app/document/SessionSaver.h"
 #include "app/document/recordingFiles.h"
 #include "app/document/scanScenario.h"
+#include "app/document/scenarios.h"
 #include "app/lessons/Lesson.h"
 #include "app/lessons/LessonGuide.h"
 #include "app/lessons/writeLesson.h"
@@ -129,6 +130,16 @@ void MainWindow::openScenario(ScenarioCard *card)
         m_controller.adopt(card->opened(), card->analysis());
     };
     if (mayLeave(tr("opening something else"), next))
+        next();
+}
+
+void MainWindow::newScene()
+{
+    const auto next = [this] {
+        openNow(openSeaPath());
+        showTargets();
+    };
+    if (mayLeave(tr("opening a new scene"), next))
         next();
 }
 

@@ -77,6 +77,8 @@ void MainWindow::buildFileMenu()
     menu->addAction(tr("Open as &raw samples…"), this, &MainWindow::chooseRawFile);
     menu->addAction(tr("&Listen…"), QKeySequence(Qt::CTRL | Qt::Key_L), this, &MainWindow::listen)
         ->setToolTip(tr("Detect signals in live samples, and record the samples"));
+    menu->addAction(tr("New sonar sc&ene"), this, [this] { newScene(); })
+        ->setToolTip(tr("Open a scene of noise, and place targets in it"));
     m_recentMenu = menu->addMenu(tr("Open re&cent"));
     connect(m_recentMenu, &QMenu::aboutToShow, this, &MainWindow::fillRecentMenu);
     addViewAction(*menu, tr("&Next file of the folder"), QKeySequence(Qt::CTRL | Qt::Key_PageDown), [this] {
@@ -277,6 +279,9 @@ void MainWindow::buildDetectMenu()
     menu->addSeparator();
     addViewAction(*menu, tr("&Why (not) detected"), QKeySequence(Qt::Key_W), [this] { showWhy(); });
     addViewAction(*menu, tr("Draw a line &by hand"), QKeySequence(Qt::CTRL | Qt::Key_D), [this] { showHandLine(); });
+    addViewAction(*menu, tr("Pla&ce sonar targets"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_D), [this] {
+        showTargets();
+    })->setToolTip(tr("Place the targets of a simulated scene on the map, and edit them in a table"));
     addViewAction(*menu, tr("Doppler &fit"), Qt::Key_D, [this] {
         showDoppler();
     })->setToolTip(tr("Fit a source that passes at constant speed to the selected event's track"));

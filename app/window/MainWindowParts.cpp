@@ -26,6 +26,7 @@
 #include "app/panels/StateSlicePanel.h"
 #include "app/panels/SurveyPanel.h"
 #include "app/panels/SweepPanel.h"
+#include "app/panels/TargetsPanel.h"
 #include "app/panels/ThresholdPanel.h"
 #include "app/panels/WhyPanel.h"
 #include "app/panels/chosenEvents.h"
@@ -113,6 +114,7 @@ void MainWindow::buildPanels()
     m_latency = new LatencyPanel(m_document);
     m_handLine = new HandLinePanel(m_document,
                                    {*m_workbench->input(), *m_workbench->outputView(), *m_workbench->statisticPlot()});
+    m_targets = new TargetsPanel(m_document, {m_pings->input(), m_pings->output()}, m_pings->viewports());
     m_compare = new ComparePanel(m_document, m_controller, m_comparer);
     m_spectrum = new SpectrumPanel(m_document);
     m_channels = new ChannelsPanel(m_document, m_controller);
@@ -150,6 +152,7 @@ void MainWindow::buildDocks()
     m_panels->add(QStringLiteral("reproductionDock"), tr("Reproduction"), m_reproduction, Place::Bottom);
     m_panels->add(QStringLiteral("sequentialDock"), tr("Sequential test"), m_sequential, Place::Bottom);
     m_panels->add(QStringLiteral("latencyDock"), tr("Latency"), m_latency, Place::Bottom);
+    m_panels->add(QStringLiteral("targetsDock"), tr("Targets"), m_targets, Place::Bottom);
 }
 
 void MainWindow::buildBottom()

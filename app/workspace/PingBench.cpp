@@ -1,54 +1,23 @@
 #include "app/workspace/PingBench.h"
 
-#include "analysis/regulation.h"
 #include "app/control/OutputLayers.h"
 #include "app/document/statisticUnit.h"
 #include "app/workspace/PingBar.h"
+#include "app/workspace/PingRegulation.h"
+#include "app/workspace/pingReading.h"
+#include "app/workspace/strongestPlace.h"
 #include "spectrum/pictureCuts.h"
 #include "widgets/base/TimeStack.h"
-#include "widgets/base/labelText.h"
-#include "widgets/base/quantities.h"
 #include "widgets/pings/PingMap.h"
 #include "widgets/pings/PolarView.h"
-#include "widgets/plot/StripPlot.h"
 
-#include <QLabel>
 #include <QShortcut>
 #include <QSplitter>
-#include <QVBoxLayout>
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 namespace faintline {
-
-namespace {
-
-    constexpr int playerInterval = 200; // ms per ping
-    constexpr int lowestHistory = 96;   // pixels, of one above the other
-
-    QString unitText(const Axis &axis)
-    {
-        const QString unit = labelText(axis.unit, mostUnitLetters);
-        return unit == QStringLiteral("°") ? unit : QLatin1Char(' ') + unit;
-    }
-
-    QString axisText(const Axis &axis, double value)
-    {
-        return numberText(value, decimalsFor(axis.step)) + unitText(axis);
-    }
-
-    Index cellOf(const Axis &axis, double value)
-    {
-        return axis.nearest(value);
-    }
-
-    double centreOf(const Axis &axis, double value)
-    {
-        return axis.value(double(cellOf(axis, value)));
-    }
-
-} // namespace
 
 PingBench::PingBench(Document &document, OutputLayers &layers, QWidget *parent)
     : Bench(document, pingFrames(), parent), m_layers(layers), m_viewports(document.viewport()),
@@ -56,7 +25,7 @@ PingBench::PingBench(Document &document, OutputLayers &layers, QWidget *parent)
       m_output(new PingMap(tr("Statistic D (nat)"), m_viewports.map())), m_bar(new PingBar),
       m_rangeHistory(new WaterfallView(tr("D over range, best bearing"))),
       m_bearingHistory(new WaterfallView(tr("D over bearing, best range"))),
-      m_regulation(new StripPlot(tr("ln K (nat)"))), m_dragged(new QLabel), m_maps(new QSplitter(Qt::Horizontal)),
+      m_regulation(new PingRegulation(m_viewports.rangeTime())), m_maps(new QSplitter(Qt::Horizontal)),
       m_histories(new QSplitter(Qt::Vertical)), m_rows(new QSplitter(Qt::Vertical)), m_stack(new TimeStack(this))
 {
     setObjectName(QStringLiteral("pingBench"));
@@ -70,83 +39,32 @@ PingBench::PingBench(Document &document, OutputLayers &layers, QWidget *parent)
     whenInUse(&layers, &OutputLayers::readingChanged, &PingBench::readCursor);
 
     connect(&document, &Document::opened, this, [this] { m_isFirstAnalysis = true; });
-    m_player.setInterval(playerInterval);
-    connect(&m_player, &QTimer::timeout, this, &PingBench::play);
+    connect(&m_player, &PingPlayer::stepRequested, this, &PingBench::play);
+    connect(&m_player, &PingPlayer::playingChanged, this, &PingBench::playingChanged);
     auto *backward = new QShortcut(QKeySequence(Qt::SHIFT | Qt::Key_Space), this);
     backward->setContext(Qt::WidgetWithChildrenShortcut);
-    connect(backward, &QShortcut::activated, this, [this] { setPlayingBackward(!m_player.isActive()); });
-}
-
-void PingBench::layOut()
-{
-    for (WaterfallView *view : {m_rangeHistory, m_bearingHistory})
-        view->setMinimumHeight(lowestHistory);
-    m_maps->addWidget(m_input);
-    m_maps->addWidget(m_output);
-    m_histories->addWidget(m_rangeHistory);
-    m_histories->addWidget(m_bearingHistory);
-    const auto column = [](QWidget *first, QWidget *second, int share) {
-        auto *result = new QWidget;
-        auto *layout = new QVBoxLayout(result);
-        layout->setContentsMargins(0, 0, 0, 0);
-        layout->setSpacing(0);
-        layout->addWidget(first, share);
-        layout->addWidget(second, 1 - share);
-        return result;
-    };
-    m_rows->addWidget(column(m_maps, m_bar, 1));
-    m_rows->addWidget(m_histories);
-    m_rows->addWidget(column(m_dragged, m_regulation, 0));
-    m_rows->setStretchFactor(0, 1);
-    m_rows->setSizes({450, 250, 120});
-    for (QSplitter *splitter : {m_maps, m_histories, m_rows})
-        splitter->setChildrenCollapsible(false);
-    auto *layout = new QVBoxLayout(this);
-    layout->setContentsMargins(0, 0, 0, 0);
-    layout->addWidget(m_rows);
-}
-
-/// What runs along time.
-void PingBench::buildHistories()
-{
-    m_input->setObjectName(QStringLiteral("pingInput"));
-    m_output->setObjectName(QStringLiteral("pingOutput"));
-    m_dragged->setWordWrap(true);
-    m_dragged->setTextFormat(Qt::PlainText);
-    m_dragged->setContentsMargins(10, 4, 10, 0);
-    m_dragged->hide();
-    m_regulation->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
-    m_regulation->setRightTitle(tr("resets"));
-    m_regulation->setFixedScale(StripPlot::Side::Right, {0.0, 1.0});
-    m_regulation->setViewport(&m_viewports.rangeTime());
-    m_rangeHistory->setViewport(&m_viewports.rangeTime());
-    m_bearingHistory->setViewport(&m_viewports.bearingTime());
-    for (WaterfallView *view : {m_rangeHistory, m_bearingHistory}) {
-        view->setOrientation(WaterfallView::Orientation::LeftToRight);
-        view->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
-        m_stack->add(*view, *view);
-        connect(view, &WaterfallView::orientationChanged, view == m_rangeHistory ? m_bearingHistory : m_rangeHistory,
-                &WaterfallView::setOrientation);
-        connect(view, &WaterfallView::orientationChanged, this, &PingBench::arrangeHistories);
-    }
-    m_stack->add(*m_regulation, *m_regulation);
-    arrangeHistories();
-}
-
-void PingBench::arrangeHistories()
-{
-    const bool isStacked = !m_rangeHistory->isTimeVertical();
-    m_histories->setOrientation(isStacked ? Qt::Vertical : Qt::Horizontal);
-    m_stack->setOn(isStacked);
+    connect(backward, &QShortcut::activated, this, [this] { setPlayingBackward(!m_player.isPlaying()); });
 }
 
 void PingBench::resizeEvent(QResizeEvent *event)
 {
+    showWhatFits();
+    Bench::resizeEvent(event);
+}
+
+void PingBench::showWhatFits()
+{
     constexpr int enoughForHistories = 460;
     constexpr int enoughForAll = 580;
-    m_histories->setVisible(height() >= enoughForHistories);
-    m_regulation->parentWidget()->setVisible(height() >= enoughForAll);
-    Bench::resizeEvent(event);
+    const int more = m_areMapsFirst ? 320 : 0;
+    m_histories->setVisible(height() >= enoughForHistories + more);
+    m_regulation->setVisible(height() >= enoughForAll + more);
+}
+
+void PingBench::setMapsFirst(bool areFirst)
+{
+    m_areMapsFirst = areFirst;
+    showWhatFits();
 }
 
 QWidget *PingBench::histories() const
@@ -159,52 +77,6 @@ QWidget *PingBench::maps() const
     return m_maps;
 }
 
-void PingBench::linkBar()
-{
-    connect(m_bar, &PingBar::pingRequested, this, &PingBench::showPing);
-    connect(m_bar, &PingBar::stepRequested, this, &PingBench::stepFrames);
-    connect(m_bar, &PingBar::playClicked, this, [this] { setPlaying(!m_player.isActive()); });
-    connect(m_bar, &PingBar::backwardClicked, this, [this] { setPlayingBackward(!m_player.isActive()); });
-    for (PingMap *map : {m_input, m_output}) {
-        connect(m_bar, &PingBar::inhibitionToggled, map, &PingMap::setInhibitionShown);
-        connect(m_bar, &PingBar::conventionalToggled, map, &PingMap::setConventionalShown);
-    }
-    connect(m_bar, &PingBar::polarToggled, this, &PingBench::setPolar);
-    connect(m_output, &PingMap::polarChanged, m_bar, &PingBar::setPolar);
-}
-
-std::vector<WaterfallView *> PingBench::views() const
-{
-    return {m_output->plane(), m_input->plane(), m_rangeHistory, m_bearingHistory};
-}
-
-void PingBench::linkViews()
-{
-    for (WaterfallView *view : views()) {
-        for (WaterfallView *other : views()) {
-            if (other == view)
-                continue;
-            connect(view, &WaterfallView::colourMapChanged, other, &WaterfallView::setColourMap);
-            connect(view, &WaterfallView::layersChanged, other, [view, other] {
-                for (const auto layer :
-                     {WaterfallView::EventLayer, WaterfallView::TrackLayer, WaterfallView::TruthLayer,
-                      WaterfallView::ThresholdLayer, WaterfallView::GridLayer, WaterfallView::CursorLayer})
-                    other->setLayer(layer, view->layers().testFlag(layer));
-            });
-        }
-        connect(view, &WaterfallView::eventActivated, this, &PingBench::eventActivated);
-        connect(view, &WaterfallView::thresholdStepRequested, this, &PingBench::thresholdStepRequested);
-    }
-    for (PingMap *map : {m_input, m_output}) {
-        PingMap *other = map == m_input ? m_output : m_input;
-        connect(map->plane(), &WaterfallView::orientationChanged, other->plane(), &WaterfallView::setOrientation);
-        connect(map, &PingMap::polarChanged, other, &PingMap::setPolar);
-        connect(map, &PingMap::hovered, this, &PingBench::read);
-        whenInUse(map, &PingMap::hoverEnded, &PingBench::readCursor);
-    }
-    whenInUse(&m_viewports, &PingViewports::placeChanged, &PingBench::followPlace);
-}
-
 void PingBench::setEmptySentence(const QString &sentence)
 {
     m_shownPing = -1;
@@ -215,9 +87,7 @@ void PingBench::setEmptySentence(const QString &sentence)
         map->setPicture(nullptr, {});
     for (WaterfallView *view : {m_rangeHistory, m_bearingHistory})
         view->setPicture(nullptr, {});
-    m_regulation->removeSeries(tr("ln K"));
-    m_regulation->removeSeries(tr("reset fraction"));
-    m_regulation->setEmptySentence(sentence);
+    m_regulation->clear(sentence);
     m_bar->setReading({});
 }
 
@@ -237,7 +107,7 @@ void PingBench::showAnalysis()
     m_bearingHistory->setPicture(analysis.statisticAlong[1], grid.axes[1]);
     m_rangeHistory->setTruth(truthAlong(m_document.pingTruth(), grid, analysis.time(), 0));
     m_bearingHistory->setTruth(truthAlong(m_document.pingTruth(), grid, analysis.time(), 1));
-    showRegulation();
+    m_regulation->show(analysis);
     m_bar->setPingCount(analysis.time().count);
     m_shownPing = -1;
     if (isFirst)
@@ -258,26 +128,6 @@ void PingBench::showHeading()
         isProvisional ? tr("Statistic D (%1), provisional").arg(unit) : tr("Statistic D (%1)").arg(unit);
     m_output->plane()->setStatisticUnit(unit, isStatistic ? statistic : m_layers.heading());
     m_output->polar()->followPicture();
-}
-
-void PingBench::showRegulation()
-{
-    const Analysis &analysis = *m_document.analysis();
-    std::vector<float> resetFraction(analysis.continuedFraction.size());
-    std::transform(analysis.continuedFraction.begin(), analysis.continuedFraction.end(), resetFraction.begin(),
-                   [](float continued) { return 1.0f - continued; });
-    m_regulation->setSeries(tr("ln K"), analysis.time(), analysis.lnK);
-    m_regulation->setSeries(tr("reset fraction"), analysis.time(), std::move(resetFraction), StripPlot::Side::Right);
-    const NoiseBand &band = analysis.lnKBand;
-    m_regulation->setBand(band.deviation > 0.0 ? std::optional(Span{band.low(), band.high()}) : std::nullopt);
-    const std::vector<Index> dragged = draggedFrames(analysis);
-    m_dragged->setVisible(!dragged.empty());
-    if (!dragged.empty())
-        m_dragged->setText(tr("⚠ ln K lies below its noise band in %1 of %2 pings, first in ping %3. Signals without a "
-                              "track lower it, and with it every other statistic.")
-                               .arg(dragged.size())
-                               .arg(analysis.lnK.size())
-                               .arg(dragged.front() + 1));
 }
 
 void PingBench::showThreshold()
@@ -311,23 +161,10 @@ void PingBench::followExtents()
 
 void PingBench::placeCursor()
 {
-    const std::vector<Event> events = m_document.shownEvents();
-    const auto strongest = std::max_element(events.begin(), events.end(),
-                                            [](const Event &a, const Event &b) { return a.statistic < b.statistic; });
     const Viewport::Box &map = m_viewports.map().full();
-    // In the middle of the strongest track, where most is visible.
-    const Track *track = strongest == events.end() ? nullptr : m_document.track(strongest->id);
-    const Analysis &analysis = *m_document.analysis();
-    if (track && !track->points.empty()) {
-        const Index middle = (track->detectFrame + track->endFrame) / 2;
-        const auto at = std::find_if(track->points.begin(), track->points.end(),
-                                     [&](const TrackPoint &point) { return point.frame >= middle; });
-        const TrackPoint &point = at == track->points.end() ? track->points.back() : *at;
-        const std::vector<Index> c = analysis.grid().coordinates(point.cell);
-        m_viewports.setPlace({analysis.time().value(double(point.frame)), analysis.grid().axes[0].value(double(c[0])),
-                              analysis.grid().axes[1].value(double(c[1]))});
-    } else
-        m_viewports.setPlace({m_viewports.rangeTime().full().time.middle(), map.time.middle(), map.frequency.middle()});
+    const double middle = m_viewports.rangeTime().full().time.middle();
+    m_viewports.setPlace(
+        strongestPlace(m_document).value_or(PingViewports::Place{middle, map.time.middle(), map.frequency.middle()}));
 }
 
 QString PingBench::hint() const
@@ -418,36 +255,9 @@ void PingBench::showMarks()
 
 void PingBench::read(double range, double bearing)
 {
-    if (m_shownPing < 0)
-        return;
-    const Analysis &analysis = *m_document.analysis();
-    const Axis &ranges = analysis.grid().axes[0];
-    const Axis &bearings = analysis.grid().axes[1];
-    const double r = centreOf(ranges, range);
-    const double b = centreOf(bearings, bearing);
-    const auto value = [](const WaterfallView &view, double x, double y) {
-        const auto there = view.valueAt(x, y);
-        return there ? numberText(*there, 1) : QStringLiteral("–");
-    };
-    QStringList words{tr("ping %1/%2").arg(m_shownPing + 1).arg(analysis.time().count),
-                      secondsText(analysis.time().value(double(m_shownPing)), 1.0),
-                      axisText(ranges, r),
-                      axisText(bearings, b),
-                      tr("y %1 dB").arg(value(*m_input->plane(), r, b)),
-                      tr("D %1 %2").arg(value(*m_output->plane(), r, b), m_output->plane()->valueUnit())};
-    if (const auto best = m_layers.readingAt({analysis.time().value(double(m_shownPing)), {r, b}})) {
-        const auto rate = [&](const Axis &axis, double perSecond) {
-            return numberText(perSecond, decimalsFor(axis.step / analysis.time().step)) + unitText(axis)
-                   + QStringLiteral("/s");
-        };
-        words
-            << tr("best state %1, %2").arg(rate(ranges, best->ratePerSecond), rate(bearings, best->secondRatePerSecond))
-            << tr("path age %1").arg(std::lround(best->ageSeconds / analysis.time().step));
-    }
-    if (const PingMarks::Box *box = m_marks.boxAt({r, b}))
-        words << (box->pings == 1 ? tr("inhibited: track %1, from now on").arg(box->track)
-                                  : tr("inhibited: track %1, %2 pings").arg(box->track).arg(box->pings));
-    m_bar->setReading(words.join(QStringLiteral(" · ")));
+    if (m_shownPing >= 0)
+        m_bar->setReading(pingReading({*m_document.analysis(), *m_input, *m_output, m_layers, m_marks}, m_shownPing,
+                                      {range, bearing}));
 }
 
 void PingBench::readCursor()
@@ -494,33 +304,19 @@ void PingBench::selectEvent(int id)
         }
 }
 
-void PingBench::startPlaying(int step)
-{
-    m_playStep = step;
-    m_player.start();
-    emit playingChanged(true);
-}
-
 void PingBench::setPlaying(bool isPlaying)
 {
-    if (isPlaying == m_player.isActive())
-        return;
-    if (isPlaying)
-        return startPlaying(1);
-    m_player.stop();
-    emit playingChanged(false);
+    m_player.setPlaying(isPlaying);
 }
 
 void PingBench::setPlayingBackward(bool isPlaying)
 {
-    setPlaying(false);
-    if (isPlaying)
-        startPlaying(-1);
+    m_player.setPlayingBackward(isPlaying);
 }
 
-void PingBench::play()
+void PingBench::play(int step)
 {
-    const Index next = ping() + m_playStep;
+    const Index next = ping() + step;
     if (!m_document.analysis() || next < 0 || next >= m_document.analysis()->time().count)
         return setPlaying(false);
     showPing(next);

@@ -1,13 +1,11 @@
 #pragma once
 
 #include "app/workspace/Bench.h"
+#include "app/workspace/PingPlayer.h"
 #include "widgets/pings/PingMarks.h"
 #include "widgets/pings/PingViewports.h"
 #include "widgets/waterfall/WaterfallView.h"
 
-#include <QTimer>
-
-class QLabel;
 class QSplitter;
 
 namespace faintline {
@@ -15,7 +13,7 @@ namespace faintline {
 class OutputLayers;
 class PingBar;
 class PingMap;
-class StripPlot;
+class PingRegulation;
 
 /// Sonar pings: input and statistic of one ping as maps of range × bearing; below, range and bearing of the tracks
 /// against time, and ln K. What runs along time from left to right is above each other on one time axis.
@@ -63,6 +61,8 @@ public slots:
     void setPlaying(bool isPlaying) override;
     void setPlayingBackward(bool isPlaying);
     void setPolar(bool isPolar);
+    /// Shows the other parts only if the maps are tall enough to place something on them.
+    void setMapsFirst(bool areFirst);
     void showPing(faintline::Index ping);
 
 protected:
@@ -78,20 +78,19 @@ protected:
 
 private:
     void layOut();
+    void showWhatFits();
     void buildHistories();
     void arrangeHistories();
     void linkViews();
     void linkBar();
     std::vector<WaterfallView *> views() const;
-    void showRegulation();
     const PeakPyramid *provisional() const;
     void followExtents();
     void placeCursor();
     void followPlace();
     void showMarks();
     void read(double range, double bearing);
-    void startPlaying(int step);
-    void play();
+    void play(int step);
 
     OutputLayers &m_layers;
     PingViewports m_viewports;
@@ -100,16 +99,15 @@ private:
     PingBar *m_bar; ///< below the maps
     WaterfallView *m_rangeHistory;
     WaterfallView *m_bearingHistory;
-    StripPlot *m_regulation;
-    QLabel *m_dragged; ///< warning that signals bias K low
+    PingRegulation *m_regulation;
     QSplitter *m_maps;
     QSplitter *m_histories;
     QSplitter *m_rows;
     TimeStack *m_stack; ///< histories and ln K
     PingMarks m_marks;
     Index m_shownPing = -1; ///< ping shown in the maps; -1: none
-    int m_playStep = 1;
-    QTimer m_player;
+    PingPlayer m_player;
+    bool m_areMapsFirst = false;
     bool m_isFirstAnalysis = true; ///< of the open document
 };
 

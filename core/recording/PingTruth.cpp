@@ -1,5 +1,7 @@
 #include "recording/PingTruth.h"
 
+#include "recording/legRates.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -21,27 +23,15 @@ namespace {
         return table;
     }
 
-    /// Rates in cells and beams per ping.
-    struct Rates {
-        double range = 0.0;
-        double bearing = 0.0;
-    };
-
-    Rates ratesOf(const PingLeg &leg, const PingScene &scene, const Grid &grid)
-    {
-        return {leg.rangeCellsPerPing + leg.rangeRateMetresPerSecond * scene.priSeconds / grid.axes[0].step,
-                leg.beamsPerPing + leg.bearingRateDegreesPerSecond * scene.priSeconds / grid.axes[1].step};
-    }
-
     /// Rates k pings after the target appeared.
-    Rates ratesAt(int k, const PingTarget &target, const PingScene &scene, const Grid &grid)
+    LegRates ratesAt(int k, const PingTarget &target, const PingScene &scene, const Grid &grid)
     {
-        Rates rates;
-        Rates before;
+        LegRates rates;
+        LegRates before;
         int begin = 0;
         for (std::size_t i = 0; i < target.legs.size(); ++i) {
             const PingLeg &leg = target.legs[i];
-            const Rates own = ratesOf(leg, scene, grid);
+            const LegRates own = ratesOf(leg, scene.priSeconds, grid);
             const double share = i == 0 ? 1.0 : std::min(1.0, double(k - begin + 1) / leg.turnPings);
             rates = {std::lerp(before.range, own.range, share), std::lerp(before.bearing, own.bearing, share)};
             if (leg.pings == 0 || k < begin + leg.pings)
@@ -63,14 +53,14 @@ namespace {
         double r = range.position(target.rangeMetres);
         double b = bearing.position(target.bearingDegrees);
         const int end = target.vanishPing == 0 ? scene.pings : std::min(target.vanishPing, scene.pings);
-        Rates rates = ratesAt(0, target, scene, grid);
+        LegRates rates = ratesAt(0, target, scene, grid);
         for (int ping = target.appearPing; ping < end; ++ping) {
             if (bearing.cyclic)
                 b -= double(bearing.count) * std::floor((b + 0.5) / double(bearing.count));
             truth.rangeMetres.push_back(range.value(r));
             truth.bearingDegrees.push_back(bearing.value(b));
             truth.cell.push_back(double(grid.cell({Index(std::floor(r + 0.5)), Index(std::floor(b + 0.5))})));
-            const Rates next = ratesAt(ping + 1 - target.appearPing, target, scene, grid);
+            const LegRates next = ratesAt(ping + 1 - target.appearPing, target, scene, grid);
             r += 0.5 * (rates.range + next.range);
             b += 0.5 * (rates.bearing + next.bearing);
             rates = next;

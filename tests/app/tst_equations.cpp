@@ -45,7 +45,7 @@ void tst_equations::everyViewHasOne()
 void tst_equations::everyViewHasItsKeys()
 {
     for (const char *view :
-         {"input", "output", "map", "threshold", "events", "pd", "slice", "walk", "histories", "hand"}) {
+         {"input", "output", "map", "threshold", "events", "pd", "slice", "walk", "histories", "hand", "targets"}) {
         const KeySection section = keysOfView(view);
         QVERIFY2(section.entries.size() >= 3, view);
         QVERIFY(section.title.startsWith("Here"));

@@ -1,0 +1,93 @@
+#pragma once
+
+#include "app/control/SceneEditor.h"
+
+#include <QWidget>
+
+#include <vector>
+
+class QComboBox;
+class QLabel;
+class QPushButton;
+class QTableView;
+
+namespace faintline {
+
+class PingMap;
+class TargetLayer;
+class TargetModel;
+
+/// The targets of the open sonar scene, placed on the maps with the mouse and listed with SNR and legs in a table that
+/// can be edited. The pings are simulated and analysed again after each change.
+///
+/// Handles are drawn over the maps while the panel is active.
+class TargetsPanel : public QWidget
+{
+    Q_OBJECT
+
+public:
+    TargetsPanel(Document &document, const std::vector<PingMap *> &maps, const PingViewports &viewports,
+                 QWidget *parent = nullptr);
+
+    SceneEditor &editor() { return *m_editor; }
+    QTableView *table() const { return m_table; }
+    QPushButton *placeButton() const { return m_place; }
+    QPushButton *addTargetButton() const { return m_addTarget; }
+    QPushButton *addLegButton() const { return m_addLeg; }
+    QPushButton *removeButton() const { return m_remove; }
+    QComboBox *unitBox() const { return m_unit; }
+    QString sentence() const;
+
+    /// Writes the scene as JSON, as `faintline-cli simulate` reads it. Throws Error.
+    void save(const QString &path) const;
+
+    QSize sizeHint() const override { return {760, 220}; }
+
+public slots:
+    /// While the panel is visible.
+    void setActive(bool isActive);
+
+signals:
+    void activeChanged(bool isActive);
+    void newSceneRequested();
+    void written(const QString &path);
+    void failed(const faintline::Error &error);
+
+protected:
+    /// Escape ends placing before it stops the analysis.
+    bool event(QEvent *event) override;
+    bool eventFilter(QObject *watched, QEvent *event) override;
+
+private:
+    void layOut();
+    void buildTable();
+    void addLayers(PingMap &map);
+    void connectInputs();
+    void followScene();
+    void followSelection();
+    void followCurrent(const QModelIndex &current);
+    void updateLayers();
+    bool takesKey(const QKeyEvent &event) const;
+    void pressKey(const QKeyEvent &event);
+    void say(const QString &sentence, bool isError);
+    void showSentence();
+    void chooseFile();
+
+    Document &m_document;
+    SceneEditor *m_editor;
+    TargetModel *m_model;
+    QPushButton *m_place;
+    QPushButton *m_addTarget;
+    QPushButton *m_addLeg;
+    QPushButton *m_remove;
+    QPushButton *m_clear;
+    QPushButton *m_save;
+    QPushButton *m_new;
+    QComboBox *m_unit;
+    QTableView *m_table;
+    QLabel *m_sentence;
+    std::vector<TargetLayer *> m_layers; ///< of each map, from both sides
+    bool m_isActive = false;
+};
+
+} // namespace faintline

@@ -1,0 +1,57 @@
+#include "app/workspace/PingRegulation.h"
+
+#include "analysis/regulation.h"
+#include "widgets/plot/StripPlot.h"
+
+#include <QLabel>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+namespace faintline {
+
+PingRegulation::PingRegulation(Viewport &time, QWidget *parent)
+    : QWidget(parent), m_dragged(new QLabel), m_plot(new StripPlot(tr("ln K (nat)")))
+{
+    m_dragged->setWordWrap(true);
+    m_dragged->setTextFormat(Qt::PlainText);
+    m_dragged->setContentsMargins(10, 4, 10, 0);
+    m_dragged->hide();
+    m_plot->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+    m_plot->setRightTitle(tr("resets"));
+    m_plot->setFixedScale(StripPlot::Side::Right, {0.0, 1.0});
+    m_plot->setViewport(&time);
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(m_dragged);
+    layout->addWidget(m_plot, 1);
+}
+
+void PingRegulation::show(const Analysis &analysis)
+{
+    std::vector<float> resetFraction(analysis.continuedFraction.size());
+    std::transform(analysis.continuedFraction.begin(), analysis.continuedFraction.end(), resetFraction.begin(),
+                   [](float continued) { return 1.0f - continued; });
+    m_plot->setSeries(tr("ln K"), analysis.time(), analysis.lnK);
+    m_plot->setSeries(tr("reset fraction"), analysis.time(), std::move(resetFraction), StripPlot::Side::Right);
+    const NoiseBand &band = analysis.lnKBand;
+    m_plot->setBand(band.deviation > 0.0 ? std::optional(Span{band.low(), band.high()}) : std::nullopt);
+    const std::vector<Index> dragged = draggedFrames(analysis);
+    m_dragged->setVisible(!dragged.empty());
+    if (!dragged.empty())
+        m_dragged->setText(tr("⚠ ln K lies below its noise band in %1 of %2 pings, first in ping %3. Signals without a "
+                              "track lower it, and with it every other statistic.")
+                               .arg(dragged.size())
+                               .arg(analysis.lnK.size())
+                               .arg(dragged.front() + 1));
+}
+
+void PingRegulation::clear(const QString &emptySentence)
+{
+    m_plot->removeSeries(tr("ln K"));
+    m_plot->removeSeries(tr("reset fraction"));
+    m_plot->setEmptySentence(emptySentence);
+}
+
+} // namespace faintline
