@@ -5,6 +5,7 @@
 #include "app/workspace/PingRegulation.h"
 #include "widgets/base/TimeStack.h"
 #include "widgets/pings/PingMap.h"
+#include "widgets/plot/StripPlot.h"
 
 #include <QSplitter>
 #include <QVBoxLayout>
