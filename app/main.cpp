@@ -66,11 +66,12 @@ namespace {
         command->add_option("--out", options.out, "Picture to write (.png); with several views, each name is appended")
             ->required();
         command
-            ->add_option("--view", options.views,
-                         "window, input, output, threshold, events, noise, noisefit, spectrum, channels, doppler, pd, "
-                         "why, compare, sweep, "
-                         "sequential, walk, posterior; for sonar pings also map, polar, histories, slice, latency, targets; for "
-                         "radar scans stopping, scan, asn, prior, sectors; separate several by commas")
+            ->add_option(
+                "--view", options.views,
+                "window, input, output, threshold, events, noise, noisefit, spectrum, channels, doppler, pd, "
+                "why, compare, sweep, "
+                "sequential, walk, posterior; for sonar pings also map, polar, histories, slice, latency, targets; for "
+                "radar scans stopping, scan, asn, prior, sectors; separate several by commas")
             ->delimiter(',')
             ->allow_extra_args(false)
             ->capture_default_str();
