@@ -21,7 +21,8 @@ public:
 
     void read(const PowerPart &part, std::span<float> out) const override;
 
-    /// Whether the grid file exists and declares power on one axis. False if it cannot be read; the next reader then reports why.
+    /// Whether the grid file exists and declares power on one axis. False if it cannot be read; the next reader then
+    /// reports why.
     static bool recognises(const std::string &path, const std::string &gridPath);
 
 private:

@@ -9,8 +9,8 @@
 namespace faintline {
 
 /// Grid and time axis of a stack of frames: { "axes": [ { "name", "unit", "first", "step", "count", "cyclic" } ],
-/// "time": { "first", "step" }, "values": "normalised" | "power" | "magnitude" | "decibels" | "iq", "scale", "offset" };
-/// count is optional if the frames determine it. With "iq" the stack has a last axis of two, I and Q, that the grid
+/// "time": { "first", "step" }, "values": "normalised" | "power" | "magnitude" | "decibels" | "iq", "scale", "offset"
+/// }; count is optional if the frames determine it. With "iq" the stack has a last axis of two, I and Q, that the grid
 /// does not have. Throws Error.
 struct GridFile {
     Grid grid;

@@ -10,8 +10,8 @@
 namespace faintline {
 
 /// Opens a stack of frames on several axes, as numbers: .npy (NumPyPings), or HDF5 with a dataset "pings" (Hdf5Pings).
-/// Null for other files, also for frames on a single axis. `gridPath`: empty for axes without units. Reads headers only.
-/// Throws Error naming the file and the cause.
+/// Null for other files, also for frames on a single axis. `gridPath`: empty for axes without units. Reads headers
+/// only. Throws Error naming the file and the cause.
 std::shared_ptr<const RawPings> openRawPings(const std::string &path, const std::string &gridPath);
 
 /// How to take a stack that says nothing of its numbers.

@@ -12,9 +12,9 @@ namespace faintline {
 
 /// Recorded pings over their noise: y, exponential of mean 1 on noise, NaN where there is none.
 ///
-/// The power of a ping (PingPower) is divided by its background (PingBackground), and with `followPing` by its own level
-/// if that clearly differs from 1. Construction reads the file once. Thread-safe; a ping is a pure function of (file,
-/// settings, index).
+/// The power of a ping (PingPower) is divided by its background (PingBackground), and with `followPing` by its own
+/// level if that clearly differs from 1. Construction reads the file once. Thread-safe; a ping is a pure function of
+/// (file, settings, index).
 class NormalisedPings final : public NormalisedFrames
 {
 public:

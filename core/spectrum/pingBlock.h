@@ -34,7 +34,8 @@ private:
 /// ln power of a cell without noise: fewer than half of its values are above 0.
 inline constexpr float noPingNoise = -200.0f;
 
-/// Divides pings (pings × cells) that are clearly louder or softer than `lnNoise` by their level; whether there are any.
+/// Divides pings (pings × cells) that are clearly louder or softer than `lnNoise` by their level; whether there are
+/// any.
 bool levelPings(std::span<float> pings, std::span<const float> lnNoise);
 
 /// ln mean noise power of each cell from a block of pings (pings × cells); NaN is not observed. The order of `pings`
@@ -46,8 +47,8 @@ bool levelPings(std::span<float> pings, std::span<const float> lnNoise);
 ///
 /// g is the gain of a beam, s the fall of reverberation that all beams share: without it a running median would be
 /// biased where reverberation is steep. μ is the mean of p/e^B₀ over a split window: `rangeCells` range cells of the
-/// same beam on each side, beyond `guardCells`, and all pings of the block. Values above 5 do not count, and the mean of
-/// an exponential is found from the rest. Hence an echo does not raise its own noise, however long it stays, and
+/// same beam on each side, beyond `guardCells`, and all pings of the block. Values above 5 do not count, and the mean
+/// of an exponential is found from the rest. Hence an echo does not raise its own noise, however long it stays, and
 /// another one in the window counts for less than five cells of noise. Source of the split window: Struzinski and Lowe,
 /// J. Acoust. Soc. Am. 76 (1984), 1738-1742.
 std::vector<float> pingBlockNoise(std::vector<float> &pings, const BeamLayout &layout,

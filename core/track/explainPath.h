@@ -26,8 +26,8 @@ ExplainedSignal explainPath(const PathStrip &strip, const BothWays &seen, Index 
 
 /// The same of a line that was subtracted before the frames were made (subtractLines.h): its remainder, in frames where
 /// noise does not mask it (y > 7), and as a signal of its own, if there are any, its skirts, as fractions of the
-/// noise's power. Within ±1 resolution cell of the path, where subtraction leaves less than noise, skirts are those at that
-/// distance.
+/// noise's power. Within ±1 resolution cell of the path, where subtraction leaves less than noise, skirts are those at
+/// that distance.
 std::vector<ExplainedSignal> explainSubtracted(const PathStrip &strip, double binsPerCell);
 
 } // namespace faintline

@@ -32,7 +32,8 @@ inline void takeNineRates(AnalysisSettings &settings)
     settings.track.windowCells = {4.0, 1.0};
 }
 
-/// What tests of the targets panel share: a window with a sea of one target, its panel open, and hands on map and table.
+/// What tests of the targets panel share: a window with a sea of one target, its panel open, and hands on map and
+/// table.
 class TargetsTest : public QObject
 {
 protected:

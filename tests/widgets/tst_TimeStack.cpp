@@ -14,8 +14,8 @@ using namespace faintline;
 
 namespace {
 
-/// Two pictures whose frequencies need labels of different widths, one with a bar of colours, and two curves, one with an
-/// axis on the right.
+/// Two pictures whose frequencies need labels of different widths, one with a bar of colours, and two curves, one with
+/// an axis on the right.
 struct Column {
     Viewport viewport;
     QWidget window;
