@@ -75,7 +75,9 @@ void tst_FrameKind::boxesAreOfLines()
         QVERIFY(!document.box());
         document.viewport().setSelection({{1.0, 2.0}, {3.0, 4.0}});
         QCOMPARE(document.box().has_value(), !isPing);
-        document.setAnalysis(std::make_shared<Analysis>(), {});
+        auto analysis = std::make_shared<Analysis>();
+        analysis->frames = document.frames();
+        document.setAnalysis(analysis, {});
         QCOMPARE(document.lineAnalysis() != nullptr, !isPing);
         QVERIFY(document.analysis());
     }
