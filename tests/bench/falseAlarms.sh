@@ -44,7 +44,7 @@ for case in $cases; do
         set -- "$noise" --iq $(options "$case") --set spectrogram.windowSeconds=1 --set decide.falseAlarmsPerHour=$order
         "$cli" detect "$@" --from "$from" --to "$to" --events "$folder/e.csv"
         found=$(($(wc -l <"$folder/e.csv") - 1))
-        printed=$("$cli" calibrate "$@" | sed -n 's/.*per hour (95 %: \(.*\) … \(.*\))/\1 \2/p')
+        printed=$("$cli" calibrate "$@" --json | tr -d ' \n' | sed 's/.*"falseAlarmsPerHourInterval":\[\([^,]*\),\([^]]*\)\].*/\1 \2/')
         awk -v name="$case" -v order=$order -v n=$found -v expected="$(awk "BEGIN { print $order * ($to - $from) / 3600 }")" -v printed="$printed" 'BEGIN {
             m = n + 1
             low = n > 0 ? n * (1 - 1 / (9 * n) - 1.96 / (3 * sqrt(n))) ^ 3 : 0
