@@ -3,6 +3,7 @@
 
 #include "analysis/Calibration.h"
 #include "analysis/chooseWindow.h"
+#include "analysis/falseAlarmWords.h"
 #include "analysis/surrogates.h"
 #include "base/json.h"
 #include "spectrum/Spectrogram.h"
@@ -48,6 +49,7 @@ namespace {
                 {"intervalNats", {nats - half, nats + half}},
                 {"pfaPerCell", calibration.exceedanceAt(nats)},
                 {"falseAlarmsPerHour", rate * cellFramesPerHour},
+                {"falseAlarms", falseAlarmWords(rate * cellFramesPerHour, calibration.rateUncertaintyAt(nats))},
                 {"falseAlarmsPerHourInterval",
                  {calibration.eventRateAt(nats + half) * cellFramesPerHour,
                   calibration.eventRateAt(nats - half) * cellFramesPerHour}}};
@@ -83,13 +85,11 @@ namespace {
 
     void printRecording(const Json &found, const std::string &unit)
     {
-        std::printf(
-            "on this recording  threshold %.3f %s (95 %%: %.3f … %.3f), Pfa per cell %.2e, %.3g false alarms per "
-            "hour (95 %%: %.3g … %.3g)\n",
-            found["thresholdNats"].get<double>(), unit.c_str(), found["intervalNats"][0].get<double>(),
-            found["intervalNats"][1].get<double>(), found["pfaPerCell"].get<double>(),
-            found["falseAlarmsPerHour"].get<double>(), found["falseAlarmsPerHourInterval"][0].get<double>(),
-            found["falseAlarmsPerHourInterval"][1].get<double>());
+        std::printf("on this recording  threshold %.3f %s (95 %%: %.3f … %.3f), Pfa per cell %.2e, false alarms on "
+                    "noise: %s\n",
+                    found["thresholdNats"].get<double>(), unit.c_str(), found["intervalNats"][0].get<double>(),
+                    found["intervalNats"][1].get<double>(), found["pfaPerCell"].get<double>(),
+                    found["falseAlarms"].get<std::string>().c_str());
     }
 
     void printSurrogates(const Json &s)

@@ -27,7 +27,7 @@ namespace {
                     isScoreOfPaths(detector) ? "" : ", of the detector that guides the tracks", analysis.threshold,
                     unit.c_str());
         const double perHour = analysis.calibration->eventRateAt(analysis.threshold) * analysis.cellFramesPerHour;
-        std::printf(": %.3g false alarms per hour on noise, %s\n", perHour,
+        std::printf(", false alarms on noise: %s\n",
                     falseAlarmWords(perHour, analysis.calibration->rateUncertaintyAt(analysis.threshold)).c_str());
     }
 

@@ -24,10 +24,10 @@ namespace faintline {
 /// not (some 400); linear between them, constant beyond. Above the second one S gives the shape and the count the
 /// height. Oracle: brute force over 200 hours (README of the core).
 ///
-/// Without splitting (several axes, detectors that cannot save their state, short windows such as that of P out of N),
-/// ln(rate) = ln(eventRate) - θ(T - u), fitted by maximum likelihood to the Poisson counts at two thresholds far apart.
-/// The error of the background is not added: a chance excursion raises the background by which it is divided, and
-/// adding the error gave thresholds for twice as many events as occurred.
+/// Detectors that decide at the ends of blocks have S from blocks under tilted laws (`measureBlockRates`). Without S
+/// (several axes, short windows such as that of P out of N), ln(rate) = ln(eventRate) - θ(T - u), fitted by maximum
+/// likelihood to the Poisson counts at two thresholds far apart. The error of the background is not added: a chance
+/// excursion raises its own background, and adding the error gave thresholds for twice as many events as occurred.
 struct Calibration {
     bool isFirstEstimate = false; ///< made quickly, to be refined
     /// ln K in force; for other detectors, that of the sequential Markov detector that guides their tracks.
@@ -74,8 +74,8 @@ std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, c
 ///
 ///   ln rate(T) = ln rate_wide(T) + ln S_band(T) - ln S_wide(T),   S: excursions per cell and frame, each by splitting
 ///
-/// From 64 bins on the ends do not affect each other, and 1 - S_band/S_wide falls as 1/bins; from 256 on the wide
-/// band's calibration is used. It is also used for lines that stay in their bin, and for detectors without splitting.
+/// From 64 bins on (128 for slopes of four bins) the loss at the ends falls as 1/bins. From 256 times the steepest slope
+/// on, and for lines that stay in their bin and detectors without splitting, the wide band's calibration is used.
 std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &settings, Index bins,
                                                  const RunContext &context = {},
                                                  CalibrationDepth depth = CalibrationDepth::Refined);

@@ -1,22 +1,41 @@
 #include "analysis/calibrateOn.h"
 #include "analysis/followTail.h"
 #include "analysis/keptCalibration.h"
+#include "spectrum/Fft.h"
+#include "spectrum/channelCount.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace faintline {
 
 namespace {
 
-    /// The calibration of a narrow band whose ends remove a `share` of its rate.
-    std::shared_ptr<const Calibration> withShareOfEnds(const Calibration &wide, const Calibration &narrow, double share)
+    /// What a narrow band's ends leave of the rate at a level.
+    double leftAt(const Calibration &wide, const Calibration &narrow, double level)
+    {
+        return std::exp(narrow.rates.lnRateAt(level) - wide.rates.lnRateAt(level));
+    }
+
+    /// The band in which a calibration counts events, which has two ends as well; none if it is a ring.
+    std::optional<Index> countedBins(const AnalysisSettings &bare)
+    {
+        if (!bare.family.isNone() || channelCount(bare.selection) > 1)
+            return {};
+        return Fft::fastLength(calibrationWindowSamples * bare.spectrogram.binsPerCell);
+    }
+
+    /// The calibration of a narrow band whose ends remove a `share` of its rate, while those of the band in which the
+    /// events were counted have already removed `counted` of it.
+    std::shared_ptr<const Calibration> withShareOfEnds(const Calibration &wide, const Calibration &narrow, double share,
+                                                       double counted)
     {
         auto result = std::make_shared<Calibration>(narrow);
         RareRates &rates = result->rates;
         for (std::size_t i = 0; i < rates.levels.size(); ++i) {
             const double left = std::exp(narrow.rates.lnRates[i] - wide.rates.lnRates[i]);
-            rates.lnRates[i] = wide.rates.lnRates[i] + std::log(1.0 - share * (1.0 - left));
+            rates.lnRates[i] = wide.rates.lnRates[i] + std::log(1.0 - share * (1.0 - left)) - std::log1p(-counted);
             rates.relativeErrors[i] =
                 wide.rates.relativeErrors[i] + share * (narrow.rates.relativeErrors[i] - wide.rates.relativeErrors[i]);
         }
@@ -39,7 +58,7 @@ namespace {
             rates.relativeErrors[i] = std::hypot(
                 rates.relativeErrors[i], std::hypot(band.relativeErrorAt(level), closed.relativeErrorAt(level)));
         }
-        return withShareOfEnds(wide, narrow, 1.0);
+        return withShareOfEnds(wide, narrow, 1.0, 0.0);
     }
 
 } // namespace
@@ -47,10 +66,13 @@ namespace {
 std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &settings, Index bins,
                                                  const RunContext &context, CalibrationDepth depth)
 {
-    constexpr Index wideEnough = 256;   // less than a twentieth of the false alarms is lost at the ends
-    constexpr Index endsDoNotMeet = 64; // from here on the loss at the ends does not depend on the width
     const bool isMoving = settings.model.motion == Motion::Slopes
                           && (settings.model.lowestSlope != 0.0 || settings.model.highestSlope != 0.0);
+    const double steepest = std::max(std::abs(settings.model.lowestSlope), std::abs(settings.model.highestSlope));
+    // Less than a twentieth of the false alarms is lost at the ends, which lie as many steps away as at one bin a frame.
+    const auto wideEnough = Index(256.0 * std::clamp(steepest, 1.0, 4.0));
+    // From here on the loss at the ends does not depend on the width.
+    const auto endsDoNotMeet = Index(64.0 * std::clamp(0.5 * steepest, 1.0, 2.0));
     if (bins >= wideEnough || !isMoving)
         return calibrate(settings, context, depth);
     const auto wide = calibrate(settings, context.part(0.0, 0.6), depth);
@@ -68,7 +90,12 @@ std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &setting
             return band.isEmpty() ? wide : narrowed(*wide, band, closed);
         },
         context);
-    return bins == simulated ? narrow : withShareOfEnds(*wide, *narrow, double(simulated) / double(bins));
+    if (bins == simulated || narrow->rates.isEmpty() || *narrow == *wide)
+        return narrow;
+    const std::optional<Index> counted = countedBins(bare);
+    const double lost = 1.0 - std::min(1.0, leftAt(*wide, *narrow, wide->anchorNats));
+    return withShareOfEnds(*wide, *narrow, double(simulated) / double(bins),
+                           counted ? lost * double(simulated) / double(*counted) : 0.0);
 }
 
 double cellFramesInAnHour(const FamilySettings &family, const Spectrogram &spectrogram)

@@ -105,9 +105,11 @@ std::shared_ptr<const Calibration> calibrateOn(const NoiseSegments &noise, const
     const RareRates rare = followTail(trial, effort, context.part(0.2, 0.4));
     if (effort.isFirstEstimate && rare.isEmpty())
         return nullptr; // a line through a fifth of the counts is too inaccurate
+    const bool isInBlocks = framesPerDecision(settings.detector, frameGeometry(settings.spectrogram)) > 1;
+    const TailShape shape = rare.isEmpty() ? TailShape::Line : isInBlocks ? TailShape::Blocks : TailShape::Followed;
     const std::vector<double> thresholds =
         thresholdsForEvents(std::move(rough.blockMaxima), double(noiseBlockFrames) * cells / columns,
-                            rough.cellFrames / roughCount * noise.count, rare.isEmpty());
+                            rough.cellFrames / roughCount * noise.count, shape);
     EventCounts counts;
     inRounds(
         noise.count, context.part(0.4, 1.0),

@@ -19,6 +19,8 @@ namespace {
     /// a tenth of the noise, and where they do not (800 and 400 events in the usual 8·10⁷ cells × frames). One that is
     /// extrapolated along a line is counted at two thresholds far apart.
     constexpr std::array<double, 2> ratesBeforeSplitting{1e-3, 2e-5};
+    /// At the end of a block of some hundred frames; a rate of 1e-3 a frame would be a tenth of all cells.
+    constexpr std::array<double, 2> ratesOfBlocks{1e-4, 2e-5};
     constexpr std::array<double, 2> ratesOfLine{2e-5, 2.5e-6};
     /// Expected number of maxima at 2·10⁻⁵, a third of which become events of lines; in small volumes the rates are
     /// higher.
@@ -28,7 +30,7 @@ namespace {
 } // namespace
 
 std::vector<double> thresholdsForEvents(std::vector<float> maxima, double cellFramesPerBlock, double cellFrames,
-                                        bool isLine)
+                                        TailShape shape)
 {
     // A detector that decides in its own blocks leaves some of ours without a decision.
     const auto blocks = double(maxima.size());
@@ -43,9 +45,10 @@ std::vector<double> thresholdsForEvents(std::vector<float> maxima, double cellFr
     const double theta =
         std::log(std::log(lower) / std::log(upper)) / std::max(1e-6, quantile(upper) - quantile(lower));
     std::vector<double> thresholds;
+    const bool isLine = shape == TailShape::Line;
     const double expected = isLine ? leastExpected / 3.0 : leastExpected;
     const double scale = std::max(1.0, expected / (ratesOfLine.front() * cellFrames));
-    for (const double rate : isLine ? ratesOfLine : ratesBeforeSplitting)
+    for (const double rate : isLine ? ratesOfLine : shape == TailShape::Blocks ? ratesOfBlocks : ratesBeforeSplitting)
         thresholds.push_back(quantile(upper) + std::log(-std::log(upper) / perMaximum / (rate * scale)) / theta);
     return thresholds;
 }

@@ -10,10 +10,17 @@ namespace faintline {
 
 // Event rate as a function of the threshold, from counts at a few thresholds and from splitting.
 
+/// How the tail beyond the counted thresholds is known.
+enum class TailShape {
+    Line,     ///< extrapolated
+    Followed, ///< by splitting
+    Blocks    ///< followed, of a detector that decides at the ends of blocks
+};
+
 /// Thresholds at which chains are expected to find events at about the wanted rates, from a rough analysis of the
 /// maxima of space-time blocks: P(max ≤ T) = exp(-Λ e^{-θ(T-u)}), with Λ and θ from two quantiles.
 std::vector<double> thresholdsForEvents(std::vector<float> maxima, double cellFramesPerBlock, double cellFrames,
-                                        bool isLine);
+                                        TailShape shape);
 
 /// Fits ln(rate) = ln(rate at the anchor) - θ(T - anchor) to Poisson counts of events at several thresholds, by maximum
 /// likelihood.

@@ -1,6 +1,8 @@
 #include "analysis/followTail.h"
 
+#include "analysis/blockRates.h"
 #include "base/Random.h"
+#include "detect/Smd.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "spectrum/channelCount.h"
 
@@ -73,6 +75,27 @@ namespace {
                               settings.spectrogram.windowSeconds * double(settings.spectrogram.binsPerCell), channels));
     }
 
+    /// What splitting needs to know of noise, detector and model.
+    struct Excursions {
+        const DetectorSettings &detector;
+        const MarkovModel &model;
+        const Grid &grid;
+        FrameGeometry geometry;
+        double lnK = 0.0;
+        std::function<std::unique_ptr<NoiseStream>()> makeNoise;
+    };
+
+    RareRates ratesOf(const Excursions &of, const SplittingSettings &splitting, const RunContext &context)
+    {
+        if (const Index frames = framesPerDecision(of.detector, of.geometry); frames > 1)
+            return measureBlockRates([&] { return std::make_unique<Smd>(of.model, ResetRule{ResetLaw::None}); },
+                                     of.makeNoise, frames, splitting, context);
+        const auto *smd = std::get_if<SmdSettings>(&of.detector);
+        const ResetRule rule = smd ? resetRule(*smd, of.lnK) : ResetRule{};
+        return measureRareRates([&] { return makeDetector(of.detector, of.model, of.grid, of.geometry, rule); },
+                                of.makeNoise, splitting, context);
+    }
+
 } // namespace
 
 RareRates followTail(const AnalysisPlan &plan, const CalibrationEffort &effort, const RunContext &context)
@@ -94,13 +117,9 @@ RareRates followTail(const AnalysisPlan &plan, const CalibrationEffort &effort, 
         return {};
     const MarkovModel piece{StateSpace({axis}), model.likelihood, model.transitionScale};
     const Grid grid{{{axis.name, "", 0.0, 1.0, axis.cells, true}}};
-    const auto *smd = std::get_if<SmdSettings>(&settings.detector);
-    const auto make = [&] {
-        return makeDetector(settings.detector, piece, grid,
-                            isSpectral ? frameGeometry(settings.spectrogram) : FrameGeometry{},
-                            smd ? resetRule(*smd, plan.calibration->lnK) : ResetRule{});
-    };
-    return measureRareRates(make, makeNoise, effort.splitting, context);
+    const FrameGeometry geometry = isSpectral ? frameGeometry(settings.spectrogram) : FrameGeometry{};
+    return ratesOf({settings.detector, piece, grid, geometry, plan.calibration->lnK, makeNoise}, effort.splitting,
+                   context);
 }
 
 RareRates followBand(const AnalysisSettings &bare, double lnK, std::optional<Index> bins,
@@ -121,12 +140,7 @@ RareRates followBand(const AnalysisSettings &bare, double lnK, std::optional<Ind
     const MarkovModel model = makeModel(bare.model, grid);
     if (isCyclic && grid.size() <= 4 * model.space.axes().front().largestDisplacement())
         return {};
-    const auto *smd = std::get_if<SmdSettings>(&bare.detector);
-    const auto make = [&] {
-        return makeDetector(bare.detector, model, grid, frameGeometry(bare.spectrogram),
-                            smd ? resetRule(*smd, lnK) : ResetRule{});
-    };
-    return measureRareRates(make, makeNoise, splitting, context);
+    return ratesOf({bare.detector, model, grid, frameGeometry(bare.spectrogram), lnK, makeNoise}, splitting, context);
 }
 
 } // namespace faintline

@@ -1,5 +1,6 @@
 #include "analysis/rareRates.h"
 
+#include "analysis/NoiseWalker.h"
 #include "base/Random.h"
 #include "base/parallel.h"
 
@@ -28,46 +29,6 @@ namespace {
     constexpr double largestError = 0.5; ///< relative, of an accepted rate
     constexpr double deepEnough = 0.7;   ///< fraction of leastLnRate that must be reached with this error
 
-    /// State of noise and detector at one moment.
-    struct Particle {
-        std::vector<float> noise;
-        std::shared_ptr<const DetectorState> detector;
-        double reached = 0.0; ///< largest D of the frame
-    };
-
-    /// Noise and detector of one thread.
-    class Walker
-    {
-    public:
-        Walker(std::unique_ptr<Detector> detector, std::unique_ptr<NoiseStream> noise)
-            : m_detector(std::move(detector)), m_noise(std::move(noise)), m_y(std::size_t(m_noise->cells())),
-              m_statistic(m_y.size())
-        {
-        }
-
-        /// Takes the next frame; returns its largest D.
-        double step(Random &random)
-        {
-            m_noise->next(random, m_y);
-            m_detector->update(m_y, m_statistic);
-            return double(*std::max_element(m_statistic.begin(), m_statistic.end()));
-        }
-
-        Particle particle(double reached) const { return {m_noise->state(), m_detector->state(), reached}; }
-        void take(const Particle &particle)
-        {
-            m_noise->setState(particle.noise);
-            m_detector->setState(*particle.detector);
-        }
-        Index cells() const { return m_noise->cells(); }
-
-    private:
-        std::unique_ptr<Detector> m_detector;
-        std::unique_ptr<NoiseStream> m_noise;
-        std::vector<float> m_y;
-        std::vector<float> m_statistic;
-    };
-
     double quantileOf(std::vector<double> values, double p)
     {
         const auto at = values.begin() + std::ptrdiff_t(p * double(values.size() - 1));
@@ -81,8 +42,8 @@ namespace {
         Splitting(const std::function<std::unique_ptr<Detector>()> &makeDetector,
                   const std::function<std::unique_ptr<NoiseStream>()> &makeNoise, const SplittingSettings &settings,
                   const RunContext &context)
-            : m_makeWalker([&] { return std::make_shared<Walker>(makeDetector(), makeNoise()); }), m_settings(settings),
-              m_context(context)
+            : m_makeWalker([&] { return std::make_shared<NoiseWalker>(makeDetector(), makeNoise()); }),
+              m_settings(settings), m_context(context)
         {
         }
 
@@ -100,9 +61,9 @@ namespace {
                     return {};
                 if (!(next > m_level))
                     break;
-                const std::vector<std::optional<Particle>> outcomes = trials(number, next);
-                std::vector<Particle> entered;
-                for (const std::optional<Particle> &outcome : outcomes)
+                const std::vector<std::optional<NoiseParticle>> outcomes = trials(number, next);
+                std::vector<NoiseParticle> entered;
+                for (const std::optional<NoiseParticle> &outcome : outcomes)
                     if (outcome)
                         entered.push_back(*outcome);
                 if (std::ssize(entered) < leastSuccesses)
@@ -156,7 +117,7 @@ namespace {
         double enterFirstLevel()
         {
             const int wanted = (m_settings.entries + streams - 1) / streams;
-            std::vector<std::vector<Particle>> entered(streams);
+            std::vector<std::vector<NoiseParticle>> entered(streams);
             std::vector<double> frames(streams);
             parallelFor(streams, m_context, "noise", [&] {
                 return [&](Index stream) {
@@ -190,11 +151,11 @@ namespace {
 
         /// Runs from one of the entered states, with new noise, to the next level or back to the base; returns the
         /// highest D, or ∞ if it does not end.
-        double walk(Walker &walker, Random &random, double next, std::optional<Particle> *outcome) const
+        double walk(NoiseWalker &walker, Random &random, double next, std::optional<NoiseParticle> *outcome) const
         {
             const auto number =
                 std::min(std::size_t(random.uniform() * double(m_entered.size())), m_entered.size() - 1);
-            const Particle &start = m_entered[number];
+            const NoiseParticle &start = m_entered[number];
             double highest = start.reached;
             if (highest > next) {
                 *outcome = start;
@@ -220,7 +181,7 @@ namespace {
             parallelFor(m_settings.pilots, m_context, "noise", [&] {
                 return [&, walker = m_makeWalker()](Index trial) {
                     Random random = randomOf(2000 + number, trial);
-                    std::optional<Particle> ignored;
+                    std::optional<NoiseParticle> ignored;
                     highest[std::size_t(trial)] =
                         walk(*walker, random, std::numeric_limits<double>::infinity(), &ignored);
                 };
@@ -230,9 +191,9 @@ namespace {
             return quantileOf(highest, 1.0 - pilotFraction);
         }
 
-        std::vector<std::optional<Particle>> trials(int number, double next) const
+        std::vector<std::optional<NoiseParticle>> trials(int number, double next) const
         {
-            std::vector<std::optional<Particle>> outcomes(std::size_t(m_settings.entries));
+            std::vector<std::optional<NoiseParticle>> outcomes(std::size_t(m_settings.entries));
             parallelFor(std::ssize(outcomes), m_context, "noise", [&] {
                 return [&, walker = m_makeWalker()](Index trial) {
                     Random random = randomOf(3000 + number, trial);
@@ -242,12 +203,12 @@ namespace {
             return outcomes;
         }
 
-        std::function<std::shared_ptr<Walker>()> m_makeWalker;
+        std::function<std::shared_ptr<NoiseWalker>()> m_makeWalker;
         const SplittingSettings &m_settings;
         const RunContext &m_context;
         double m_base = 0.0;
         double m_level = 0.0;
-        std::vector<Particle> m_entered;
+        std::vector<NoiseParticle> m_entered;
         RareRates m_result;
     };
 

@@ -52,7 +52,7 @@ struct NoiseBackground {
     /// In ascending time: stretches where several alternating noises replace lnPower.
     std::vector<NoiseStretch> stretches{};
     Axis bins{};                  ///< frames of the detector, Hz
-    std::vector<float> lnAtEdges; ///< correction of each bin after interpolation; empty: no steep edges
+    std::vector<float> lnAtEdges; ///< correction of each bin after interpolation; empty: none
 
     /// ln power that denotes "nothing was recorded".
     static constexpr float silence = -200.0f;

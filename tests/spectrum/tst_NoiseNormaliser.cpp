@@ -36,6 +36,8 @@ private slots:
     void sameAtTheEdges();
     void nothingAboveABandEdge();
     void measuredAtABandEdge();
+    void aRoundTopKeepsItsLevel();
+    void framesThatAreAlikeCountLess();
     void digitalSilence();
     void silenceAllOver();
     void tooLoudForAFloat();
@@ -506,6 +508,51 @@ void tst_NoiseNormaliser::measuredAtABandEdge()
     const Normalised n = normalised(lowPassed(250000, 37), {0.1, 2, 2});
     for (Index bin = n.binAt(150.0); bin < n.binAt(260.0); ++bin)
         QVERIFY2(n.meanOfBin(bin) < 1.15, said("mean of a bin", n.meanOfBin(bin)));
+}
+
+void tst_NoiseNormaliser::aRoundTopKeepsItsLevel()
+{
+    // A resonance of 10 dB at 125 Hz, 38 cells of 2.5 Hz wide at half its height: the running median over 41 cells
+    // lies between its top and its flanks.
+    const double radius = 0.7;
+    std::vector<float> samples = gaussian(600000, 38);
+    for (std::size_t n = 2; n < samples.size(); ++n)
+        samples[n] += float(2.0 * radius * std::cos(2.0 * std::numbers::pi * 0.125)) * samples[n - 1]
+                      - float(radius * radius) * samples[n - 2];
+    const auto atTheTop = [](const Normalised &n) { return n.mean(0, n.frameCount, n.binAt(122.0), n.binAt(128.0)); };
+    const double uncorrected = atTheTop(normalised({samples.begin(), samples.begin() + 400000}, {0.4, 2, 2}));
+    QVERIFY2(uncorrected > 1.06, said("mean at the top in fewer than 1024 windows", uncorrected));
+    const Normalised n = normalised(std::move(samples), {0.4, 2, 2});
+    const double top = atTheTop(n);
+    QVERIFY2(std::abs(top - 1.0) < 0.04, said("mean at the top", top));
+    const double beside = n.mean(0, n.frameCount, n.binAt(300.0), n.binAt(400.0));
+    QVERIFY2(std::abs(beside - 1.0) < 0.02, said("mean elsewhere", beside));
+}
+
+void tst_NoiseNormaliser::framesThatAreAlikeCountLess()
+{
+    // On a flank that is steeper than the window's main lobe a frame repeats the one before: y is correlated from frame
+    // to frame, which is worth as many false alarms as a level that is too low by a tenth.
+    const Normalised n = normalised(lowPassed(600000, 39), {0.1, 2, 2});
+    const auto correlation = [&](Index bin) {
+        const double mean = n.meanOfBin(bin);
+        double products = 0.0;
+        double squares = 0.0;
+        for (Index frame = 1; frame < n.frameCount; ++frame) {
+            products += (double(n.at(frame, bin)) - mean) * (double(n.at(frame - 1, bin)) - mean);
+            squares += (double(n.at(frame, bin)) - mean) * (double(n.at(frame, bin)) - mean);
+        }
+        return products / squares;
+    };
+    const double below = n.mean(0, n.frameCount, n.binAt(50.0), n.binAt(180.0));
+    QVERIFY2(std::abs(below - 1.0) < 0.05, said("mean below", below));
+    Index flank = 0;
+    for (Index bin = n.binAt(230.0); bin < n.binAt(280.0); ++bin)
+        if (correlation(bin) > 0.5) {
+            ++flank;
+            QVERIFY2(n.meanOfBin(bin) < below - 0.05, said("mean of a bin on the flank", n.meanOfBin(bin)));
+        }
+    QVERIFY(flank > 0);
 }
 
 void tst_NoiseNormaliser::digitalSilence()
