@@ -171,7 +171,7 @@ bool StateSlicePanel::isOfLines() const
 bool StateSlicePanel::hasChoice() const
 {
     const auto &analysis = m_document.analysis();
-    return m_document.frameKind().isSeenSingly && analysis && !analysis->model.space.axes().empty();
+    return analysis && analysis->model.space.axes().size() > 1;
 }
 
 QString StateSlicePanel::sentence() const

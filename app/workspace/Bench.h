@@ -2,20 +2,28 @@
 
 #include "app/document/Document.h"
 #include "app/document/ViewState.h"
+#include "app/workspace/FramePlayer.h"
+#include "widgets/waterfall/WaterfallView.h"
 
 #include <QWidget>
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 class QSplitter;
 
 namespace faintline {
 
+class OutputLayers;
 class TimeStack;
 
 /// Central part of the window while a document is open: the pictures and the navigation in them. There is one bench for
 /// each kind of frames; it follows the document only while the document's frames are of its kind.
+///
+/// A bench consists of *planes* (two axes of one frame), *histories* (one axis over time, with the events, tracks and
+/// truth along it) and *strips* (curves over time). Bench links them, shows what they have in common and steps through
+/// the frames; the class of a kind adds the parts for its axes and lays them out.
 class Bench : public QWidget
 {
     Q_OBJECT
@@ -29,7 +37,8 @@ public:
         std::optional<double> bearing;
     };
 
-    Bench(Document &document, const FrameKind &kind, QWidget *parent = nullptr);
+    /// `stepInterval`: between two steps while frames are played.
+    Bench(Document &document, const FrameKind &kind, std::chrono::milliseconds stepInterval, QWidget *parent = nullptr);
 
     bool isInUse() const; ///< the document's frames are of this kind
 
@@ -39,30 +48,31 @@ public:
 
     virtual QWidget *inputView() const = 0; ///< with its colour bar
     virtual QWidget *outputView() const = 0;
-    virtual QWidget *firstView() const = 0;    ///< has the initial focus
-    virtual QString firstViewName() const = 0; ///< as in `windowViews`
-    virtual bool hasReadOut() const = 0;       ///< has a read-out and a history of its own
-    virtual QString hint() const = 0;          ///< suggests the next step if there are events
-    virtual TimeStack &timeStack() = 0;        ///< the pictures and curves above each other
+    virtual WaterfallView *firstView() const = 0; ///< shows the statistic; has the initial focus
+    virtual QString firstViewName() const = 0;    ///< as in `windowViews`
+    virtual bool hasReadOut() const = 0;          ///< has a read-out and a history of its own
+    virtual QString hint() const = 0;             ///< suggests the next step if there are events
+    virtual OutputLayers &layers() const = 0;     ///< shown with the statistic
+    TimeStack &timeStack() { return *m_stack; }   ///< the pictures and curves above each other
 
     /// Text shown in the empty panes.
-    virtual void setEmptySentence(const QString &sentence) = 0;
+    virtual void setEmptySentence(const QString &sentence);
 
     virtual ViewState viewState() const = 0;
     virtual void restore(const ViewState &view) = 0;
 
-    virtual void cycleOrientation() = 0;
-    virtual void cycleColourMap() = 0;
-    virtual void setAutomaticRange() = 0;
+    void cycleOrientation() { firstView()->cycleOrientation(); }
+    void cycleColourMap() { firstView()->cycleColourMap(); }
+    void setAutomaticRange();
 
     /// Sizes of the panes.
     QByteArray saveSplitters() const;
     void restoreSplitters(const QByteArray &state);
 
 public slots:
-    virtual void selectEvent(int id) = 0; ///< marks the event, moves the cursor to it and scrolls it into view
+    void selectEvent(int id); ///< marks the event, moves the cursor to it and scrolls it into view
     virtual void stepFrames(int frames) = 0;
-    virtual void setPlaying(bool isPlaying) = 0;
+    virtual void setPlaying(bool isPlaying);
 
 signals:
     void eventActivated(int id);
@@ -70,15 +80,48 @@ signals:
     void playingChanged(bool isPlaying);
 
 protected:
+    /// Adds a picture of two axes of one frame.
+    void addPlane(WaterfallView &view);
+    /// Adds a picture of one axis of the frames over time, or of the largest values along it. `pane`: the view, or the
+    /// widget that contains it.
+    void addHistory(WaterfallView &view, QWidget &pane, std::size_t axis);
+    /// Stacks the parts with these initial heights; the first takes what the window has left.
+    void addRows(const std::vector<std::pair<QWidget *, int>> &rows);
+    static QSplitter *newSplitter(Qt::Orientation orientation);
+    QSplitter *historyPanes() const { return m_historyPanes; }
+    QSplitter *rows() const { return m_rows; }
     virtual std::vector<QSplitter *> splitters() const = 0;
+
+    /// Places the histories for the direction of time, which all have in common.
+    void arrange(const WaterfallView &history);
+    /// Hides parts that would leave too little room for the pictures, which have priority.
+    virtual void showWhatFits() = 0;
+    void resizeEvent(QResizeEvent *event) override;
 
     // Called only while the document's frames are of this kind.
     virtual void showAnalysis() = 0;
-    virtual void showHeading() = 0;
+    void showHeading();
     virtual void showStatistic() = 0; ///< of the analysis, or the provisional one
     virtual void showThreshold() = 0;
-    virtual void showEvents() = 0;
+    void showEvents();
     virtual void readCursor() = 0;
+
+    void showTruth();
+    virtual void showMarks() {}                        ///< of planes, after the events have changed
+    virtual void markSelected(int) {}                  ///< a track, in planes
+    virtual void goTo(const Event &event) = 0;         ///< moves the cursor to it and scrolls it into view
+    virtual void setColourBarShown(bool isShown) = 0;  ///< that of the statistic
+    virtual void showStatisticUnit(const QString &) {} ///< beside the statistic's picture
+    /// What is shown instead of the analysis's statistic: computed with changed settings; null if there is none.
+    virtual const PeakPyramid *provisional() const { return m_document.provisional().get(); }
+    /// Frames to step while playing in a direction, 1 or -1; 0 at the end.
+    virtual int framesToPlay(int direction) const = 0;
+
+    bool isPlaying() const { return m_player.isPlaying(); }
+    FramePlayer &player() { return m_player; }
+    /// Whether no analysis of the open source has been shown; from then on false.
+    bool takeFirstAnalysis() { return std::exchange(m_isFirstAnalysis, false); }
+    void forgetAnalysis() { m_isFirstAnalysis = true; }
 
     /// Connects a signal to a member function that is called only while this bench is in use.
     template <class Sender, class Signal, class B>
@@ -93,7 +136,22 @@ protected:
     Document &m_document;
 
 private:
+    struct Picture {
+        WaterfallView *view;
+        std::optional<std::size_t> axis; ///< of a history
+    };
+
+    void add(const Picture &picture);
+    void keepLike(const Picture &from, const Picture &to);
+    void play(int direction);
+
     const FrameKind &m_kind;
+    std::vector<Picture> m_pictures;
+    QSplitter *m_historyPanes;
+    QSplitter *m_rows;
+    TimeStack *m_stack;
+    FramePlayer m_player;
+    bool m_isFirstAnalysis = true; ///< of the open document
 };
 
 } // namespace faintline

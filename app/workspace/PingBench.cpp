@@ -1,7 +1,6 @@
 #include "app/workspace/PingBench.h"
 
 #include "app/control/OutputLayers.h"
-#include "app/document/statisticUnit.h"
 #include "app/workspace/PingBar.h"
 #include "app/workspace/PingRegulation.h"
 #include "app/workspace/pingReading.h"
@@ -15,21 +14,24 @@
 #include <QSplitter>
 
 #include <algorithm>
-#include <utility>
 
 namespace faintline {
 
+namespace {
+
+    constexpr std::chrono::milliseconds stepInterval{200}; // a ping can be looked at
+
+} // namespace
+
 PingBench::PingBench(Document &document, OutputLayers &layers, QWidget *parent)
-    : Bench(document, pingFrames(), parent), m_layers(layers), m_viewports(document.viewport()),
+    : Bench(document, pingFrames(), stepInterval, parent), m_layers(layers), m_viewports(document.viewport()),
       m_input(new PingMap(tr("Input (dB over noise)"), m_viewports.map())),
       m_output(new PingMap(tr("Statistic D (nat)"), m_viewports.map())), m_bar(new PingBar),
       m_rangeHistory(new WaterfallView(tr("D over range, best bearing"))),
       m_bearingHistory(new WaterfallView(tr("D over bearing, best range"))),
-      m_regulation(new PingRegulation(m_viewports.rangeTime())), m_maps(new QSplitter(Qt::Horizontal)),
-      m_histories(new QSplitter(Qt::Vertical)), m_rows(new QSplitter(Qt::Vertical)), m_stack(new TimeStack(this))
+      m_regulation(new PingRegulation(m_viewports.rangeTime())), m_maps(newSplitter(Qt::Horizontal))
 {
     setObjectName(QStringLiteral("pingBench"));
-    setMinimumHeight(220); // for the maps, as in the Workbench
     layOut();
     buildHistories();
     linkViews();
@@ -38,18 +40,9 @@ PingBench::PingBench(Document &document, OutputLayers &layers, QWidget *parent)
     connect(&layers, &OutputLayers::layerChanged, this, &PingBench::showHeading);
     whenInUse(&layers, &OutputLayers::readingChanged, &PingBench::readCursor);
 
-    connect(&document, &Document::opened, this, [this] { m_isFirstAnalysis = true; });
-    connect(&m_player, &PingPlayer::stepRequested, this, &PingBench::play);
-    connect(&m_player, &PingPlayer::playingChanged, this, &PingBench::playingChanged);
     auto *backward = new QShortcut(QKeySequence(Qt::SHIFT | Qt::Key_Space), this);
     backward->setContext(Qt::WidgetWithChildrenShortcut);
-    connect(backward, &QShortcut::activated, this, [this] { setPlayingBackward(!m_player.isPlaying()); });
-}
-
-void PingBench::resizeEvent(QResizeEvent *event)
-{
-    showWhatFits();
-    Bench::resizeEvent(event);
+    connect(backward, &QShortcut::activated, this, [this] { setPlayingBackward(!player().isPlaying()); });
 }
 
 void PingBench::showWhatFits()
@@ -57,7 +50,7 @@ void PingBench::showWhatFits()
     constexpr int enoughForHistories = 460;
     constexpr int enoughForAll = 580;
     const int more = m_areMapsFirst ? 320 : 0;
-    m_histories->setVisible(height() >= enoughForHistories + more);
+    historyPanes()->setVisible(height() >= enoughForHistories + more);
     m_regulation->setVisible(height() >= enoughForAll + more);
 }
 
@@ -69,7 +62,7 @@ void PingBench::setMapsFirst(bool areFirst)
 
 QWidget *PingBench::histories() const
 {
-    return m_histories;
+    return historyPanes();
 }
 
 QWidget *PingBench::maps() const
@@ -80,13 +73,10 @@ QWidget *PingBench::maps() const
 void PingBench::setEmptySentence(const QString &sentence)
 {
     m_shownPing = -1;
-    m_isFirstAnalysis = true;
-    for (WaterfallView *view : views())
-        view->setEmptySentence(sentence);
+    forgetAnalysis();
+    Bench::setEmptySentence(sentence);
     for (PingMap *map : {m_input, m_output})
         map->setPicture(nullptr, {});
-    for (WaterfallView *view : {m_rangeHistory, m_bearingHistory})
-        view->setPicture(nullptr, {});
     m_regulation->clear(sentence);
     m_bar->setReading({});
 }
@@ -97,7 +87,7 @@ void PingBench::showAnalysis()
 {
     const Analysis &analysis = *m_document.analysis();
     const Grid &grid = analysis.grid();
-    const bool isFirst = std::exchange(m_isFirstAnalysis, false);
+    const bool isFirst = takeFirstAnalysis();
     showHeading();
     if (isFirst)
         followExtents();
@@ -105,8 +95,7 @@ void PingBench::showAnalysis()
     m_output->plane()->setThreshold(analysis.threshold);
     m_rangeHistory->setPicture(analysis.statisticAlong[0], grid.axes[0]);
     m_bearingHistory->setPicture(analysis.statisticAlong[1], grid.axes[1]);
-    m_rangeHistory->setTruth(truthAlong(m_document.pingTruth(), grid, analysis.time(), 0));
-    m_bearingHistory->setTruth(truthAlong(m_document.pingTruth(), grid, analysis.time(), 1));
+    showTruth();
     m_regulation->show(analysis);
     m_bar->setPingCount(analysis.time().count);
     m_shownPing = -1;
@@ -115,37 +104,19 @@ void PingBench::showAnalysis()
     followPlace();
 }
 
-/// Heading above the output. The colour bar belongs to the statistic; a layer shown in its place has its own key.
-void PingBench::showHeading()
+void PingBench::setColourBarShown(bool isShown)
 {
-    const bool isStatistic = m_layers.layer() == OutputLayer::Statistic || m_layers.isOverlay();
-    m_output->setColourBarShown(isStatistic);
-    if (!m_document.analysis() || !isInUse())
-        return;
-    const bool isProvisional = provisional() != nullptr;
-    const QString unit = statisticUnit(isProvisional ? m_document.settings() : m_document.analysis()->settings);
-    const QString statistic =
-        isProvisional ? tr("Statistic D (%1), provisional").arg(unit) : tr("Statistic D (%1)").arg(unit);
-    m_output->plane()->setStatisticUnit(unit, isStatistic ? statistic : m_layers.heading());
+    m_output->setColourBarShown(isShown);
+}
+
+void PingBench::showStatisticUnit(const QString &)
+{
     m_output->polar()->followPicture();
 }
 
 void PingBench::showThreshold()
 {
     m_output->plane()->setThreshold(m_document.shownThreshold());
-}
-
-void PingBench::showEvents()
-{
-    if (!m_document.analysis())
-        return;
-    const Analysis &analysis = *m_document.analysis();
-    const std::vector<Track> tracks = m_document.shownTracks();
-    m_rangeHistory->setEvents(eventsAlong(m_document.shownEvents(), 0));
-    m_rangeHistory->setTracks(tracksAlong(tracks, analysis.grid(), 0), analysis.time());
-    m_bearingHistory->setEvents(eventsAlong(m_document.shownEvents(), 1));
-    m_bearingHistory->setTracks(tracksAlong(tracks, analysis.grid(), 1), analysis.time());
-    showMarks();
 }
 
 void PingBench::followExtents()
@@ -182,7 +153,7 @@ QWidget *PingBench::outputView() const
     return m_output;
 }
 
-QWidget *PingBench::firstView() const
+WaterfallView *PingBench::firstView() const
 {
     return m_output->plane();
 }
@@ -289,59 +260,35 @@ void PingBench::stepFrames(int frames)
     showPing(ping() + frames);
 }
 
-void PingBench::selectEvent(int id)
+void PingBench::markSelected(int track)
 {
-    for (WaterfallView *view : {m_rangeHistory, m_bearingHistory})
-        view->setSelectedEvent(id);
     for (PingMap *map : {m_input, m_output})
-        map->setSelectedTrack(id);
-    for (const Event &event : m_document.shownEvents())
-        if (event.id == id) {
-            m_viewports.setPlace({event.detectSeconds, event.position[0], event.position[1]});
-            m_viewports.map().reveal({{event.position[0], event.position[0]}, {event.position[1], event.position[1]}});
-            m_viewports.rangeTime().reveal(
-                {{event.onsetSeconds, event.endSeconds}, {event.position[0], event.position[0]}});
-        }
+        map->setSelectedTrack(track);
 }
 
-void PingBench::setPlaying(bool isPlaying)
+void PingBench::goTo(const Event &event)
 {
-    m_player.setPlaying(isPlaying);
+    const double range = event.position[0], bearing = event.position[1];
+    m_viewports.setPlace({event.detectSeconds, range, bearing});
+    m_viewports.map().reveal({{range, range}, {bearing, bearing}});
+    m_viewports.rangeTime().reveal({{event.onsetSeconds, event.endSeconds}, {range, range}});
 }
 
 void PingBench::setPlayingBackward(bool isPlaying)
 {
-    m_player.setPlayingBackward(isPlaying);
+    player().setPlayingBackward(isPlaying);
 }
 
-void PingBench::play(int step)
+int PingBench::framesToPlay(int direction) const
 {
-    const Index next = ping() + step;
-    if (!m_document.analysis() || next < 0 || next >= m_document.analysis()->time().count)
-        return setPlaying(false);
-    showPing(next);
+    const Index next = ping() + direction;
+    return m_document.analysis() && next >= 0 && next < m_document.analysis()->time().count ? direction : 0;
 }
 
 void PingBench::setPolar(bool isPolar)
 {
     m_input->setPolar(isPolar);
     m_output->setPolar(isPolar);
-}
-
-void PingBench::cycleOrientation()
-{
-    m_output->plane()->cycleOrientation();
-}
-
-void PingBench::cycleColourMap()
-{
-    m_output->plane()->cycleColourMap();
-}
-
-void PingBench::setAutomaticRange()
-{
-    for (WaterfallView *view : views())
-        view->setAutomaticRange();
 }
 
 // ---- session -------------------------------------------------------------------------------------------------------

@@ -1,16 +1,13 @@
 #pragma once
 
 #include "app/workspace/Bench.h"
-#include "app/workspace/PingPlayer.h"
 #include "widgets/pings/PingMarks.h"
 #include "widgets/pings/PingViewports.h"
-#include "widgets/waterfall/WaterfallView.h"
 
 class QSplitter;
 
 namespace faintline {
 
-class OutputLayers;
 class PingBar;
 class PingMap;
 class PingRegulation;
@@ -34,11 +31,11 @@ public:
     WaterfallView *bearingHistory() const { return m_bearingHistory; }
     QWidget *inputView() const override;
     QWidget *outputView() const override;
-    QWidget *firstView() const override;
+    WaterfallView *firstView() const override;
     QString firstViewName() const override { return QStringLiteral("map"); }
     bool hasReadOut() const override { return true; }
     QString hint() const override;
-    TimeStack &timeStack() override { return *m_stack; }
+    OutputLayers &layers() const override { return m_layers; }
     QWidget *histories() const;
     QWidget *maps() const;
     PingViewports &viewports() { return m_viewports; }
@@ -51,14 +48,9 @@ public:
     void setEmptySentence(const QString &sentence) override;
     ViewState viewState() const override;
     void restore(const ViewState &view) override;
-    void cycleOrientation() override;
-    void cycleColourMap() override;
-    void setAutomaticRange() override;
 
 public slots:
-    void selectEvent(int id) override;
     void stepFrames(int frames) override;
-    void setPlaying(bool isPlaying) override;
     void setPlayingBackward(bool isPlaying);
     void setPolar(bool isPolar);
     /// Shows the other parts only if the maps are tall enough to place something on them.
@@ -66,31 +58,29 @@ public slots:
     void showPing(faintline::Index ping);
 
 protected:
-    /// Hides parts that would leave too little room for the maps.
-    void resizeEvent(QResizeEvent *event) override;
-    std::vector<QSplitter *> splitters() const override { return {m_maps, m_histories, m_rows}; }
+    void showWhatFits() override;
+    std::vector<QSplitter *> splitters() const override { return {m_maps, historyPanes(), rows()}; }
     void showAnalysis() override;
-    void showHeading() override;
     void showStatistic() override;
     void showThreshold() override;
-    void showEvents() override;
     void readCursor() override;
+    void showMarks() override;
+    void markSelected(int track) override;
+    void goTo(const Event &event) override;
+    void setColourBarShown(bool isShown) override;
+    void showStatisticUnit(const QString &unit) override;
+    const PeakPyramid *provisional() const override;
+    int framesToPlay(int direction) const override;
 
 private:
     void layOut();
-    void showWhatFits();
     void buildHistories();
-    void arrangeHistories();
     void linkViews();
     void linkBar();
-    std::vector<WaterfallView *> views() const;
-    const PeakPyramid *provisional() const;
     void followExtents();
     void placeCursor();
     void followPlace();
-    void showMarks();
     void read(double range, double bearing);
-    void play(int step);
 
     OutputLayers &m_layers;
     PingViewports m_viewports;
@@ -101,14 +91,9 @@ private:
     WaterfallView *m_bearingHistory;
     PingRegulation *m_regulation;
     QSplitter *m_maps;
-    QSplitter *m_histories;
-    QSplitter *m_rows;
-    TimeStack *m_stack; ///< histories and ln K
     PingMarks m_marks;
     Index m_shownPing = -1; ///< ping shown in the maps; -1: none
-    PingPlayer m_player;
     bool m_areMapsFirst = false;
-    bool m_isFirstAnalysis = true; ///< of the open document
 };
 
 } // namespace faintline

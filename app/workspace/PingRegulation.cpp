@@ -1,25 +1,20 @@
 #include "app/workspace/PingRegulation.h"
 
 #include "analysis/regulation.h"
-#include "widgets/plot/StripPlot.h"
+#include "app/workspace/RegulationPlot.h"
 
 #include <QLabel>
 #include <QVBoxLayout>
 
-#include <algorithm>
-
 namespace faintline {
 
 PingRegulation::PingRegulation(Viewport &time, QWidget *parent)
-    : QWidget(parent), m_dragged(new QLabel), m_plot(new StripPlot(tr("ln K (nat)")))
+    : QWidget(parent), m_dragged(new QLabel), m_plot(new RegulationPlot)
 {
     m_dragged->setWordWrap(true);
     m_dragged->setTextFormat(Qt::PlainText);
     m_dragged->setContentsMargins(10, 4, 10, 0);
     m_dragged->hide();
-    m_plot->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
-    m_plot->setRightTitle(tr("resets"));
-    m_plot->setFixedScale(StripPlot::Side::Right, {0.0, 1.0});
     m_plot->setViewport(&time);
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
@@ -30,11 +25,7 @@ PingRegulation::PingRegulation(Viewport &time, QWidget *parent)
 
 void PingRegulation::show(const Analysis &analysis)
 {
-    std::vector<float> resetFraction(analysis.continuedFraction.size());
-    std::transform(analysis.continuedFraction.begin(), analysis.continuedFraction.end(), resetFraction.begin(),
-                   [](float continued) { return 1.0f - continued; });
-    m_plot->setSeries(tr("ln K"), analysis.time(), analysis.lnK);
-    m_plot->setSeries(tr("reset fraction"), analysis.time(), std::move(resetFraction), StripPlot::Side::Right);
+    m_plot->setAnalysis(analysis);
     const NoiseBand &band = analysis.lnKBand;
     m_plot->setBand(band.deviation > 0.0 ? std::optional(Span{band.low(), band.high()}) : std::nullopt);
     const std::vector<Index> dragged = draggedFrames(analysis);
@@ -49,9 +40,7 @@ void PingRegulation::show(const Analysis &analysis)
 
 void PingRegulation::clear(const QString &emptySentence)
 {
-    m_plot->removeSeries(tr("ln K"));
-    m_plot->removeSeries(tr("reset fraction"));
-    m_plot->setEmptySentence(emptySentence);
+    m_plot->clear(emptySentence);
 }
 
 } // namespace faintline

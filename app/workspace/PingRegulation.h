@@ -8,7 +8,7 @@ class QLabel;
 
 namespace faintline {
 
-class StripPlot;
+class RegulationPlot;
 class Viewport;
 
 /// ln K and the reset fraction of each ping, with ln K's band on noise, and a warning where signals bias K low.
@@ -22,11 +22,11 @@ public:
 
     void show(const Analysis &analysis);
     void clear(const QString &emptySentence);
-    StripPlot &plot() const { return *m_plot; }
+    RegulationPlot &plot() const { return *m_plot; }
 
 private:
     QLabel *m_dragged; ///< the warning
-    StripPlot *m_plot;
+    RegulationPlot *m_plot;
 };
 
 } // namespace faintline

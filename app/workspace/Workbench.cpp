@@ -4,22 +4,15 @@
 #include "app/control/Closeup.h"
 #include "app/control/OutputLayers.h"
 #include "app/control/trackBox.h"
-#include "app/document/statisticUnit.h"
+#include "app/workspace/RegulationPlot.h"
+#include "app/workspace/strongestPlace.h"
 #include "widgets/base/TimeStack.h"
 #include "widgets/base/familyWords.h"
-#include "widgets/base/quantities.h"
-#include "widgets/base/settingWords.h"
 #include "widgets/plot/StripPlot.h"
 #include "widgets/waterfall/ColourBar.h"
 
-#include <QByteArray>
-#include <QDataStream>
-#include <QEvent>
-#include <QHBoxLayout>
-#include <QIODevice>
 #include <QMetaEnum>
 #include <QSplitter>
-#include <QVBoxLayout>
 
 #include <algorithm>
 #include <chrono>
@@ -30,11 +23,8 @@ namespace faintline {
 
 namespace {
 
-    constexpr int playerInterval = 33; // ms
-    constexpr int playerSteps = 600;   // to play the visible part
-
-    constexpr Index framesInSight = 600;     // initially in a live picture: about a pixel each
-    constexpr Index longestColouring = 8192; // frames used to choose a live picture's colours
+    constexpr std::chrono::milliseconds stepInterval{33};
+    constexpr int playerSteps = 600; // to play the visible part
 
     QString orientationName(WaterfallView::Orientation orientation)
     {
@@ -55,13 +45,6 @@ namespace {
         return isKnown ? std::optional(WaterfallView::Orientation(value)) : std::nullopt;
     }
 
-    void copyLayers(const WaterfallView &from, WaterfallView &to)
-    {
-        for (const auto layer : {WaterfallView::EventLayer, WaterfallView::TrackLayer, WaterfallView::TruthLayer,
-                                 WaterfallView::ThresholdLayer, WaterfallView::GridLayer, WaterfallView::CursorLayer})
-            to.setLayer(layer, from.layers().testFlag(layer));
-    }
-
     /// Drift rate of the tracked line at a point, Hz/s; empty if there is no track.
     std::optional<double> slopeAt(const Analysis &analysis, const Viewport::Point &point)
     {
@@ -79,52 +62,33 @@ namespace {
         return {};
     }
 
-    /// `isRest`: the strong lines are subtracted.
-    QString inputHeading(bool isRest)
-    {
-        return isRest ? Workbench::tr("Input, strong lines subtracted (dB over noise)")
-                      : Workbench::tr("Input (dB over noise)");
-    }
-
 } // namespace
 
+/// `isRest`: the strong lines are subtracted.
+QString Workbench::inputHeading(bool isRest)
+{
+    return isRest ? tr("Input, strong lines subtracted (dB over noise)") : tr("Input (dB over noise)");
+}
+
 Workbench::Workbench(Document &document, QWidget *parent)
-    : Bench(document, lineFrames(), parent), m_input(new WaterfallView(inputHeading(false))),
+    : Bench(document, lineFrames(), stepInterval, parent), m_input(new WaterfallView(inputHeading(false))),
       m_output(new WaterfallView(tr("Statistic D (nat)"))), m_layers(new OutputLayers(document, *m_output, this)),
       m_boxMeter(new BoxMeter(document, this)), m_inputPane(ColourBar::pane(m_input)),
       m_outputPane(ColourBar::pane(m_output)), m_statistic(new StripPlot(tr("D (nat)"))),
-      m_regulation(new StripPlot(tr("ln K (nat)"))), m_pictures(new QSplitter(Qt::Horizontal)),
-      m_rows(new QSplitter(Qt::Vertical)), m_stack(new TimeStack(this))
+      m_regulation(new RegulationPlot)
 {
-    m_pictures->addWidget(m_inputPane);
-    m_pictures->addWidget(m_outputPane);
-    m_rows->addWidget(m_pictures);
-    m_rows->addWidget(m_statistic);
-    m_rows->addWidget(m_regulation);
-    m_rows->setStretchFactor(0, 1);
-    m_rows->setSizes({640, 106, 106});
-    for (QSplitter *splitter : {m_pictures, m_rows})
-        splitter->setChildrenCollapsible(false);
-    for (QwtPlot *plot : std::initializer_list<QwtPlot *>{m_input, m_output, m_statistic, m_regulation})
-        plot->setSizePolicy(QSizePolicy::Expanding,
-                            QSizePolicy::Expanding); // Qwt's default never shrinks below the hint
-    auto *layout = new QVBoxLayout(this);
-    layout->setContentsMargins(0, 0, 0, 0);
-    layout->addWidget(m_rows);
-    setMinimumHeight(220); // pictures only: with the curves' height the window could not shrink enough to hide them
-
-    m_regulation->setRightTitle(tr("resets"));
-    m_regulation->setFixedScale(StripPlot::Side::Right, {0.0, 1.0});
     m_input->setObjectName(QStringLiteral("input"));
     m_output->setObjectName(QStringLiteral("output"));
-    m_stack->add(*m_input, *m_inputPane);
-    m_stack->add(*m_output, *m_outputPane);
-    m_stack->add(*m_statistic, *m_statistic);
-    m_stack->add(*m_regulation, *m_regulation);
+    addHistory(*m_input, *m_inputPane, 0);
+    addHistory(*m_output, *m_outputPane, 0);
+    m_statistic->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+    timeStack().add(*m_statistic, *m_statistic);
+    timeStack().add(*m_regulation, *m_regulation);
+    addRows({{historyPanes(), 640}, {m_statistic, 106}, {m_regulation, 106}});
     linkViews();
 
     connect(&document, &Document::opened, this, [this] {
-        m_isFirstAnalysis = m_isFirstPicture = true;
+        m_isFirstPicture = true;
         m_livePlan.reset();
         for (WaterfallView *view : {m_input, m_output}) {
             view->setStartUnixSeconds({});
@@ -132,7 +96,7 @@ Workbench::Workbench(Document &document, QWidget *parent)
         }
         m_statistic->setStartUnixSeconds({});
         emit playingChanged(false);
-        showStrips();
+        showWhatFits();
         showOrigin();
     });
     connect(&document, &Document::liveChanged, this, &Workbench::showLive);
@@ -144,8 +108,6 @@ Workbench::Workbench(Document &document, QWidget *parent)
     connect(&document, &Document::picturesGrew, this, &Workbench::showPictures);
     m_closeup = new Closeup(document, *m_input, *m_output, this); // connected after the pictures
     whenInUse(m_closeup, &Closeup::settled, &Workbench::readCursor);
-    m_player.setInterval(playerInterval);
-    connect(&m_player, &QTimer::timeout, this, &Workbench::play);
 }
 
 void Workbench::linkViews()
@@ -156,18 +118,12 @@ void Workbench::linkViews()
     for (WaterfallView *view : {m_input, m_output}) {
         WaterfallView *other = view == m_input ? m_output : m_input;
         view->setViewport(viewport);
-        connect(view, &WaterfallView::orientationChanged, other, &WaterfallView::setOrientation);
-        connect(view, &WaterfallView::colourMapChanged, other, &WaterfallView::setColourMap);
         connect(view, &WaterfallView::measuringChanged, other, &WaterfallView::setMeasuring);
         connect(view, &WaterfallView::sidebandsChanged, other, &WaterfallView::setSidebandSpacing);
         connect(m_boxMeter, &BoxMeter::measured, view, &WaterfallView::setSelectionNote);
-        connect(view, &WaterfallView::layersChanged, other, [view, other] { copyLayers(*view, *other); });
-        connect(view, &WaterfallView::eventActivated, this, &Workbench::eventActivated);
-        connect(view, &WaterfallView::thresholdStepRequested, this, &Workbench::thresholdStepRequested);
         connect(view, &WaterfallView::hovered, this, [this](double seconds, double hz) { read({seconds, hz}); });
         whenInUse(view, &WaterfallView::hoverEnded, &Workbench::readCursor);
     }
-    connect(m_output, &WaterfallView::orientationChanged, this, &Workbench::arrange);
     connect(m_output, &WaterfallView::shownPictureChanged, this, [this] {
         if (!isInUse() || (m_document.isLive() && !isStripDue()))
             return;
@@ -186,28 +142,22 @@ QString Workbench::hint() const
 
 void Workbench::setEmptySentence(const QString &sentence)
 {
-    for (WaterfallView *view : {m_input, m_output}) {
-        view->setEmptySentence(sentence);
-        view->setPicture(nullptr, {});
-    }
+    Bench::setEmptySentence(sentence);
     m_statistic->setProfile({}, nullptr, {});
     m_statistic->setEmptySentence(sentence);
-    m_regulation->removeSeries(tr("ln K"));
-    m_regulation->removeSeries(tr("reset fraction"));
-    m_regulation->setEmptySentence(sentence);
+    m_regulation->clear(sentence);
 }
 
-void Workbench::setAutomaticRange()
+StripPlot *Workbench::regulationPlot() const
 {
-    m_input->setAutomaticRange();
-    m_output->setAutomaticRange();
+    return m_regulation;
 }
 
 void Workbench::showAnalysis()
 {
     const Analysis &analysis = *m_document.analysis();
     const Axis &frequency = analysis.grid().axes.back();
-    const bool isFirst = std::exchange(m_isFirstAnalysis, false);
+    const bool isFirst = takeFirstAnalysis();
     m_statistic->setEmptySentence(tr("Click a picture to plot D at that frequency over time."));
 
     followExtents(analysis.time(), frequency);
@@ -215,16 +165,10 @@ void Workbench::showAnalysis()
     m_input->setHeading(inputHeading(analysis.unsubtracted != nullptr));
     m_input->setPicture(analysis.input, frequency);
     showStatistic();
-    for (WaterfallView *view : {m_input, m_output}) {
-        view->setTruth(m_document.truth().lines);
+    showTruth();
+    for (WaterfallView *view : {m_input, m_output})
         view->setAreas(areaEvents(analysis));
-    }
-
-    std::vector<float> resetFraction(analysis.continuedFraction.size());
-    std::transform(analysis.continuedFraction.begin(), analysis.continuedFraction.end(), resetFraction.begin(),
-                   [](float continued) { return 1.0f - continued; });
-    m_regulation->setSeries(tr("ln K"), analysis.time(), analysis.lnK);
-    m_regulation->setSeries(tr("reset fraction"), analysis.time(), std::move(resetFraction), StripPlot::Side::Right);
+    m_regulation->setAnalysis(analysis);
     if (isFirst)
         placeCursor();
     readCursor();
@@ -244,128 +188,13 @@ void Workbench::showPictures(const PicturesSoFar &pictures)
         m_output->setEmptySentence(tr("The statistic appears here after the noise has been estimated."));
 }
 
-/// Shows the newest live frames. Colours are chosen again whenever the frames to choose from have doubled.
-void Workbench::showLive()
+void Workbench::setColourBarShown(bool isShown)
 {
-    const LiveView &live = m_document.live();
-    const Axis &frequency = live.plan->grid().axes.back();
-    const bool isFirst = !m_livePlan || m_livePlan->frames != live.plan->frames;
-    const bool isChanged = m_livePlan != live.plan;
-    m_livePlan = live.plan;
-    if (isFirst || (live.time.count >= 2 * m_colouredFrames && live.time.count <= longestColouring)) {
-        m_colouredFrames = live.time.count;
-        m_input->setHeading(inputHeading(false));
-        m_input->setPicture(live.input, frequency);
-        m_output->setPicture(live.statistic, frequency);
-        m_statistic->setEmptySentence(tr("Click a picture to plot D at that frequency over time."));
-    }
-    const auto lookedBack = m_closeup->lookedBackAt(*m_input);
-    m_input->setGrownPicture(live.input, lookedBack ? lookedBack : live.newInput);
-    const auto lookedBackOut = m_closeup->lookedBackAt(*m_output);
-    m_output->setGrownPicture(live.statistic, lookedBackOut ? lookedBackOut : live.newStatistic);
-    growExtents(live);
-    showLiveTracks();
-    if (isChanged) {
-        for (WaterfallView *view : {m_input, m_output})
-            view->setStartUnixSeconds(live.plan->recording->info().startUnixSeconds);
-        m_statistic->setStartUnixSeconds(live.plan->recording->info().startUnixSeconds);
-        markChanges();
-        showHeading();
-        showStrips();
-        showOrigin();
-    }
-    m_isToBePainted = true;
+    m_outputPane->findChild<ColourBar *>()->setVisible(isShown);
 }
 
-/// Updated a few times a second while there is a cursor.
-bool Workbench::isStripDue()
+void Workbench::showStatisticUnit(const QString &unit)
 {
-    constexpr qint64 stripMs = 200;
-    if (!m_document.viewport().cursor() || (m_stripAge.isValid() && m_stripAge.elapsed() < stripMs))
-        return false;
-    m_stripAge.start();
-    return true;
-}
-
-/// Only the visible ones, of possibly a day's.
-void Workbench::showLiveTracks()
-{
-    const LiveView &live = m_document.live();
-    const Axis &time = live.plan->time();
-    const Span &visible = m_document.viewport().time();
-    const auto isInSight = [&](double from, double to) { return to >= visible.low && from <= visible.high; };
-    std::vector<Event> events;
-    std::ranges::copy_if(*live.events, std::back_inserter(events), [&](const Event &event) {
-        return isInSight(event.onsetSeconds, event.isOpen ? time.value(double(live.time.count)) : event.endSeconds);
-    });
-    std::vector<std::shared_ptr<const Track>> tracks;
-    std::ranges::copy_if(live.tracks, std::back_inserter(tracks), [&](const auto &track) {
-        return isInSight(time.value(double(track->points.front().frame)),
-                         time.value(double(track->points.back().frame)));
-    });
-    for (WaterfallView *view : {m_input, m_output})
-        view->setLiveTracks(events, tracks, time);
-}
-
-/// Initially leaves room for some frames, which then fill it.
-void Workbench::growExtents(const LiveView &live)
-{
-    const Viewport::Box full = WaterfallView::extents(live.time, live.plan->grid().axes.back());
-    const Index frames = std::min(framesInSight, LiveHistory::singleFrames(live.input->cells()));
-    const double width = double(frames) * live.time.step;
-    const Span time{full.time.low, std::max(full.time.high, full.time.low + width)};
-    Viewport &viewport = m_document.viewport();
-    if (!m_isFirstPicture && full.frequency == viewport.extents().frequency)
-        return viewport.grow(time);
-    m_isFirstPicture = false;
-    constexpr double fewestCells = 8.0;
-    viewport.setExtents(time, full.frequency, fewestCells * live.time.step,
-                        fewestCells * live.plan->grid().axes.back().step);
-    viewport.stretch({time.high - width, time.high}, full.frequency);
-    viewport.setFollowing(true);
-}
-
-void Workbench::markChanges()
-{
-    std::vector<OverlayTime> times;
-    for (const SettingsChange &change : m_document.live().changes) {
-        QStringList names;
-        bool isThreshold = !change.fields.empty();
-        for (const std::string &field : change.fields) {
-            names << settingLabel(QString::fromStdString(field));
-            isThreshold = isThreshold
-                          && (field == "decide.falseAlarmsPerHour" || field == "decide.pfaPerCell"
-                              || field == "decide.thresholdNats" || field == "decide.by");
-        }
-        const QString unit = statisticUnit(m_document.live().plan->settings);
-        times.push_back({change.seconds, isThreshold ? tr("threshold %1 %2").arg(numberText(change.threshold, 1), unit)
-                                                     : tr("changed: %1").arg(names.join(QStringLiteral(", ")))});
-    }
-    for (WaterfallView *view : {m_input, m_output})
-        view->setTimes(times);
-}
-
-bool Workbench::eventFilter(QObject *watched, QEvent *event)
-{
-    if (event->type() == QEvent::Paint && std::exchange(m_isToBePainted, false))
-        QTimer::singleShot(0, this, [this, heardAt = m_document.live().heardAt] { // after both are painted
-            emit livePainted(std::chrono::duration<double>(std::chrono::steady_clock::now() - heardAt).count());
-        });
-    return Bench::eventFilter(watched, event);
-}
-
-/// Title of the output; its colour bar is the statistic's, a layer shown instead has its own key.
-void Workbench::showHeading()
-{
-    const bool isStatistic = m_layers->layer() == OutputLayer::Statistic || m_layers->isOverlay();
-    m_outputPane->findChild<ColourBar *>()->setVisible(isStatistic);
-    if (!m_document.plan() || !isInUse())
-        return;
-    const bool isProvisional = m_document.provisional() != nullptr;
-    const QString unit = statisticUnit(isProvisional ? m_document.settings() : m_document.plan()->settings);
-    const QString statistic =
-        isProvisional ? tr("Statistic D (%1), provisional").arg(unit) : tr("Statistic D (%1)").arg(unit);
-    m_output->setStatisticUnit(unit, isStatistic ? statistic : m_layers->heading());
     m_statistic->setLeftTitle(tr("D (%1)").arg(unit));
 }
 
@@ -385,18 +214,6 @@ void Workbench::showThreshold()
 {
     m_output->setThreshold(m_document.shownThreshold());
     m_statistic->setLevel(m_document.shownThreshold(), tr("threshold"));
-}
-
-void Workbench::showEvents()
-{
-    if (!m_document.analysis())
-        return; // live events arrive with their pictures
-    const std::vector<Event> events = m_document.shownEvents();
-    const std::vector<Track> tracks = m_document.shownTracks();
-    for (WaterfallView *view : {m_input, m_output}) {
-        view->setEvents(events);
-        view->setTracks(tracks, m_document.analysis()->time());
-    }
 }
 
 void Workbench::followExtents(const Axis &time, const Axis &frequency)
@@ -419,11 +236,8 @@ void Workbench::followExtents(const Axis &time, const Axis &frequency)
 
 void Workbench::placeCursor()
 {
-    const std::vector<Event> events = m_document.shownEvents();
-    const auto strongest = std::max_element(events.begin(), events.end(),
-                                            [](const Event &a, const Event &b) { return a.statistic < b.statistic; });
     Viewport &viewport = m_document.viewport();
-    if (strongest != events.end())
+    if (const auto strongest = strongestEvent(m_document))
         viewport.setCursor({strongest->detectSeconds, strongest->position.back()});
     else
         viewport.setCursor({viewport.full().time.middle(), viewport.full().frequency.middle()});
@@ -472,17 +286,12 @@ void Workbench::readCursor()
         emit readingChanged({});
 }
 
-void Workbench::selectEvent(int id)
+void Workbench::goTo(const Event &event)
 {
-    for (WaterfallView *view : {m_input, m_output})
-        view->setSelectedEvent(id);
-    const Track *track = m_document.track(id);
-    if (!track || track->points.empty())
-        return;
-    m_document.viewport().reveal(trackBox(*track, *m_document.analysis()));
-    for (const Event &event : m_document.shownEvents())
-        if (event.id == id)
-            m_document.viewport().setCursor({event.detectSeconds, event.position.back()});
+    if (const Track *track = m_document.track(event.id); track && !track->points.empty()) {
+        m_document.viewport().reveal(trackBox(*track, *m_document.analysis()));
+        m_document.viewport().setCursor({event.detectSeconds, event.position.back()});
+    }
 }
 
 void Workbench::stepFrames(int frames)
@@ -500,39 +309,21 @@ void Workbench::setPlaying(bool isPlaying)
 {
     if (m_document.isLive())
         return m_document.viewport().setFollowing(isPlaying);
-    if (isPlaying == m_player.isActive())
-        return;
-    isPlaying ? m_player.start() : m_player.stop();
-    emit playingChanged(isPlaying);
+    Bench::setPlaying(isPlaying);
 }
 
-void Workbench::play()
+int Workbench::framesToPlay(int direction) const
 {
     const Viewport &viewport = m_document.viewport();
-    if (!m_document.analysis() || !viewport.cursor()
-        || viewport.cursor()->seconds >= m_document.analysis()->time().last())
-        return setPlaying(false);
-    stepFrames(std::max(1, int(viewport.time().width() / playerSteps / m_document.analysis()->time().step)));
+    const auto &analysis = m_document.analysis();
+    if (!analysis || !viewport.cursor() || viewport.cursor()->seconds >= analysis->time().last())
+        return 0;
+    return direction * std::max(1, int(viewport.time().width() / playerSteps / analysis->time().step));
 }
 
-void Workbench::resizeEvent(QResizeEvent *event)
+void Workbench::showWhatFits()
 {
-    showStrips();
-    QWidget::resizeEvent(event);
-}
-
-/// Places the pictures for the direction of time.
-void Workbench::arrange()
-{
-    const bool isStacked = !m_output->isTimeVertical();
-    m_pictures->setOrientation(isStacked ? Qt::Vertical : Qt::Horizontal);
-    m_stack->setOn(isStacked);
-    showStrips();
-}
-
-void Workbench::showStrips()
-{
-    const bool isStacked = m_stack->isOn();
+    const bool isStacked = timeStack().isOn();
     const int enoughForOne = isStacked ? 520 : 460; // the pictures keep 350, or 200 each above each other
     const int enoughForBoth = isStacked ? 610 : 570;
     m_statistic->setVisible(height() >= enoughForOne);

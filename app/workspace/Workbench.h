@@ -2,10 +2,8 @@
 
 #include "app/workspace/Bench.h"
 #include "widgets/base/ReadOut.h"
-#include "widgets/waterfall/WaterfallView.h"
 
 #include <QElapsedTimer>
-#include <QTimer>
 
 class QSplitter;
 
@@ -13,7 +11,7 @@ namespace faintline {
 
 class BoxMeter;
 class Closeup;
-class OutputLayers;
+class RegulationPlot;
 class StripPlot;
 
 /// The pictures: input and statistic on one viewport, each with its colour bar; time curves below. The pictures are
@@ -29,46 +27,41 @@ public:
     WaterfallView *output() const { return m_output; }
     QWidget *inputView() const override { return m_inputPane; }
     QWidget *outputView() const override { return m_outputPane; }
-    QWidget *firstView() const override { return m_output; }
+    WaterfallView *firstView() const override { return m_output; }
     QString firstViewName() const override { return QStringLiteral("output"); }
     bool hasReadOut() const override { return false; }
     bool eventFilter(QObject *watched, QEvent *event) override; ///< detects when a live picture is painted
     QString hint() const override;
-    TimeStack &timeStack() override { return *m_stack; }
+    OutputLayers &layers() const override { return *m_layers; }
 
     Place place() const override;
     void setPlace(const Place &place) override;
-    OutputLayers &layers() { return *m_layers; }
     Closeup &closeup() { return *m_closeup; }
     StripPlot *statisticPlot() const { return m_statistic; }
-    StripPlot *regulationPlot() const { return m_regulation; }
+    StripPlot *regulationPlot() const;
 
     void setEmptySentence(const QString &sentence) override;
     ViewState viewState() const override;
     void restore(const ViewState &view) override;
-    void cycleOrientation() override { m_output->cycleOrientation(); }
-    void cycleColourMap() override { m_output->cycleColourMap(); }
-    void setAutomaticRange() override;
     /// Labels frequencies as radio frequencies if the recording has a centre frequency.
     void setRadioAxis(bool isOn);
     bool isRadioAxis() const { return m_isRadioAxis; }
 
 public slots:
-    void selectEvent(int id) override;
     void stepFrames(int frames) override;
     void setPlaying(bool isPlaying) override;
 
 protected:
-    std::vector<QSplitter *> splitters() const override { return {m_pictures, m_rows}; }
+    std::vector<QSplitter *> splitters() const override { return {historyPanes(), rows()}; }
     void showAnalysis() override;
-    void showHeading() override;
     void showStatistic() override;
     void showThreshold() override;
-    void showEvents() override;
     void readCursor() override;
-
-    /// Hides the curves if the window is too low; the pictures have priority.
-    void resizeEvent(QResizeEvent *event) override;
+    void goTo(const Event &event) override;
+    void setColourBarShown(bool isShown) override;
+    void showStatisticUnit(const QString &unit) override;
+    int framesToPlay(int direction) const override;
+    void showWhatFits() override;
 
 signals:
     void readingChanged(const faintline::ReadOut::Reading &reading);
@@ -76,6 +69,7 @@ signals:
     void livePainted(double secondsLater);
 
 private:
+    static QString inputHeading(bool isRest);
     void linkViews();
     void showOrigin();
     void showPictures(const PicturesSoFar &pictures);
@@ -85,11 +79,8 @@ private:
     void growExtents(const LiveView &live);
     bool isStripDue();
     void markChanges();
-    void arrange();
-    void showStrips();
     void placeCursor();
     void read(const Viewport::Point &point);
-    void play();
 
     WaterfallView *m_input;
     WaterfallView *m_output;
@@ -99,13 +90,8 @@ private:
     QWidget *m_inputPane;
     QWidget *m_outputPane;
     StripPlot *m_statistic;
-    StripPlot *m_regulation;
-    QSplitter *m_pictures;
-    QSplitter *m_rows;
-    TimeStack *m_stack;
-    QTimer m_player;
-    bool m_isFirstAnalysis = true; ///< of the open source
-    bool m_isFirstPicture = true;
+    RegulationPlot *m_regulation;
+    bool m_isFirstPicture = true;                   ///< of the open source
     QElapsedTimer m_stripAge;                       ///< of a live run's curve
     std::shared_ptr<const AnalysisPlan> m_livePlan; ///< of the live picture shown
     Index m_colouredFrames = 0;                     ///< number of frames when its colours were chosen

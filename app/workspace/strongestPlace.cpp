@@ -4,12 +4,17 @@
 
 namespace faintline {
 
-std::optional<PingViewports::Place> strongestPlace(const Document &document)
+std::optional<Event> strongestEvent(const Document &document)
 {
     const std::vector<Event> events = document.shownEvents();
-    const auto strongest = std::max_element(events.begin(), events.end(),
-                                            [](const Event &a, const Event &b) { return a.statistic < b.statistic; });
-    const Track *track = strongest == events.end() ? nullptr : document.track(strongest->id);
+    const auto strongest = std::ranges::max_element(events, {}, &Event::statistic);
+    return strongest == events.end() ? std::nullopt : std::optional(*strongest);
+}
+
+std::optional<PingViewports::Place> strongestPlace(const Document &document)
+{
+    const std::optional<Event> strongest = strongestEvent(document);
+    const Track *track = strongest ? document.track(strongest->id) : nullptr;
     if (!track || track->points.empty())
         return {};
     const Analysis &analysis = *document.analysis();

@@ -7,6 +7,9 @@
 
 namespace faintline {
 
+/// The strongest of the events shown.
+std::optional<Event> strongestEvent(const Document &document);
+
 /// The middle of the strongest track of the document's pings, where most is visible; empty if there is no track.
 std::optional<PingViewports::Place> strongestPlace(const Document &document);
 

@@ -20,8 +20,8 @@ enum class AnalysisDepth { Whole, Tracks, Trial };
 
 /// What an analysis delivers while it runs, and how far it goes.
 struct AnalysisRequest {
-    StatisticSink statistic;
-    PictureSink pictures;
+    StatisticSink statistic{};
+    PictureSink pictures{};
     /// A first estimate of the calibration gives a preliminary threshold sooner; nothing else of the run differs.
     CalibrationDepth calibration = CalibrationDepth::Refined;
     AnalysisDepth depth = AnalysisDepth::Whole;

@@ -7,6 +7,10 @@ namespace faintline::vectors {
 // Vectors of floats for the inner loops of the recursion. Wide ones never cross a call, because all functions that take
 // them are inlined.
 
+// GCC warns that a vector wider than the ABI's registers is returned differently with and without them.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 template <int bytes>
 using Floats = typename Vector<float, bytes>::Type;
 template <int bytes>
@@ -29,5 +33,7 @@ template <class Values>
 {
     return a > b ? a : b;
 }
+
+#pragma GCC diagnostic pop
 
 } // namespace faintline::vectors

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace faintline {
@@ -27,6 +28,11 @@ public:
 
     /// The spectrogram from which the frames were made; null for ready-made frames.
     virtual const Spectrogram *spectrogram() const { return nullptr; }
+
+    /// What was assumed about the numbers of a file, in one sentence; empty if nothing was. Guessed: the file did not
+    /// say it, and neither did the settings.
+    virtual std::string assumption() const { return {}; }
+    virtual bool isGuessed() const { return false; }
 
 protected:
     NormalisedFrames(Axis time, Grid grid) : m_time(std::move(time)), m_grid(std::move(grid)) {}

@@ -43,14 +43,12 @@ std::string NormalisedPings::assumption() const
 
 std::string pingAssumption(const NormalisedFrames &frames)
 {
-    const auto *pings = dynamic_cast<const NormalisedPings *>(&frames);
-    return pings ? pings->assumption() : std::string();
+    return frames.assumption();
 }
 
 std::string pingGuess(const NormalisedFrames &frames)
 {
-    const auto *pings = dynamic_cast<const NormalisedPings *>(&frames);
-    return pings && pings->isGuessed() ? pings->assumption() : std::string();
+    return frames.isGuessed() ? frames.assumption() : std::string();
 }
 
 } // namespace faintline

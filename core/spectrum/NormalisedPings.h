@@ -26,8 +26,8 @@ public:
     void read(Index first, Index count, std::span<float> out) const override;
 
     /// What was assumed, in one sentence: "int16, taken as magnitude: …".
-    std::string assumption() const;
-    bool isGuessed() const { return m_isGuessed; }
+    std::string assumption() const override;
+    bool isGuessed() const override { return m_isGuessed; }
 
 private:
     PingPower m_power;

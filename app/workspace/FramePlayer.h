@@ -3,15 +3,17 @@
 #include <QObject>
 #include <QTimer>
 
+#include <chrono>
+
 namespace faintline {
 
-/// Plays pings forwards or backwards: asks for a step at regular intervals while it is on.
-class PingPlayer : public QObject
+/// Plays frames forwards or backwards: asks for a step at regular intervals while it is on.
+class FramePlayer : public QObject
 {
     Q_OBJECT
 
 public:
-    explicit PingPlayer(QObject *parent = nullptr);
+    explicit FramePlayer(std::chrono::milliseconds interval, QObject *parent = nullptr);
 
     bool isPlaying() const { return m_timer.isActive(); }
     void setPlaying(bool isPlaying);
@@ -19,7 +21,7 @@ public:
     void setPlayingBackward(bool isPlaying);
 
 signals:
-    void stepRequested(int pings); ///< 1 or -1
+    void stepRequested(int direction); ///< 1 or -1
     void playingChanged(bool isPlaying);
 
 private:

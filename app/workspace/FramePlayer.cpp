@@ -1,22 +1,21 @@
-#include "app/workspace/PingPlayer.h"
+#include "app/workspace/FramePlayer.h"
 
 namespace faintline {
 
-PingPlayer::PingPlayer(QObject *parent) : QObject(parent)
+FramePlayer::FramePlayer(std::chrono::milliseconds interval, QObject *parent) : QObject(parent)
 {
-    constexpr int interval = 200; // ms per ping
     m_timer.setInterval(interval);
     connect(&m_timer, &QTimer::timeout, this, [this] { emit stepRequested(m_step); });
 }
 
-void PingPlayer::start(int step)
+void FramePlayer::start(int step)
 {
     m_step = step;
     m_timer.start();
     emit playingChanged(true);
 }
 
-void PingPlayer::setPlaying(bool isPlaying)
+void FramePlayer::setPlaying(bool isPlaying)
 {
     if (isPlaying == m_timer.isActive())
         return;
@@ -26,7 +25,7 @@ void PingPlayer::setPlaying(bool isPlaying)
     emit playingChanged(false);
 }
 
-void PingPlayer::setPlayingBackward(bool isPlaying)
+void FramePlayer::setPlayingBackward(bool isPlaying)
 {
     setPlaying(false);
     if (isPlaying)

@@ -1,0 +1,108 @@
+#include "exchange/reviewedText.h"
+
+#include "base/json.h"
+
+#include <QtTest>
+
+using namespace faintline;
+
+/// Lists of reviewed events for other programs, written out here by hand.
+class tst_reviewedText : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void numbersAreShortestOrEmpty();
+    void ravenHasARowForEach();
+    void audacityPutsFrequenciesOnASecondLine();
+    void sigmfCountsSamples();
+    void sigmfIsInOrderOfTime();
+    void farTimesStayExact();
+};
+
+namespace {
+
+ReviewedRow row(double from, double to, const std::string &label)
+{
+    ReviewedRow made;
+    made.box.startSeconds = from;
+    made.box.endSeconds = to;
+    made.box.label = label;
+    return made;
+}
+
+ReviewedRow whale()
+{
+    ReviewedRow made = row(1.5, 2.25, "whale");
+    made.box.lowHz = 100.0;
+    made.box.highHz = 250.5;
+    made.box.verdict = Verdict::Rejected;
+    made.box.note = "a ship";
+    return made;
+}
+
+} // namespace
+
+void tst_reviewedText::numbersAreShortestOrEmpty()
+{
+    QCOMPARE(numberOrEmpty({}), std::string());
+    QCOMPARE(numberOrEmpty(0.0), std::string("0"));
+    QCOMPARE(numberOrEmpty(0.1), std::string("0.1"));
+}
+
+void tst_reviewedText::ravenHasARowForEach()
+{
+    const QStringList lines = QString::fromStdString(ravenText({whale(), row(3.0, 4.0, "")})).split('\n');
+    QCOMPARE(lines.size(), 4); // heading, two rows, end of the last line
+    QCOMPARE(lines[0].split('\t').size(), 10);
+    QCOMPARE(lines[1], QString("1\tSpectrogram 1\t1\t1.5\t2.25\t100\t250.5\twhale\trejected\ta ship"));
+    QCOMPARE(lines[2], QString("2\tSpectrogram 1\t1\t3\t4\t\t\t\t\t"));
+    QCOMPARE(lines[3], QString());
+}
+
+void tst_reviewedText::audacityPutsFrequenciesOnASecondLine()
+{
+    QCOMPARE(audacityText({row(3.0, 4.0, "hum")}), std::string("3\t4\thum\n"));
+    QCOMPARE(audacityText({whale()}), std::string("1.5\t2.25\twhale [rejected] a ship\n\\\t100\t250.5\n"));
+}
+
+void tst_reviewedText::sigmfCountsSamples()
+{
+    Event event;
+    event.statistic = 17.5;
+    ReviewedRow detected = whale();
+    detected.event = &event;
+    const Json json = Json::parse(sigmfText({detected, row(3.0, 3.0, "click")}, 48000.0, 1e8));
+    QCOMPARE(json["global"]["core:sample_rate"].get<double>(), 48000.0);
+    QCOMPARE(json["captures"][0]["core:frequency"].get<double>(), 1e8);
+    const Json &first = json["annotations"][0];
+    QCOMPARE(first["core:sample_start"].get<long long>(), 72000LL); // 1.5 s
+    QCOMPARE(first["core:sample_count"].get<long long>(), 36000LL); // 0.75 s
+    QCOMPARE(first["core:freq_lower_edge"].get<double>(), 1e8 + 100.0);
+    QCOMPARE(first["core:freq_upper_edge"].get<double>(), 1e8 + 250.5);
+    QCOMPARE(first["faintline:review"].get<std::string>(), std::string("rejected"));
+    QCOMPARE(first["faintline:statistic"].get<double>(), 17.5);
+    const Json &second = json["annotations"][1];
+    QCOMPARE(second["core:sample_count"].get<long long>(), 1LL); // not empty
+    QVERIFY(!second.contains("core:freq_lower_edge") && !second.contains("faintline:statistic"));
+}
+
+void tst_reviewedText::sigmfIsInOrderOfTime()
+{
+    const Json json = Json::parse(sigmfText({row(5, 6, "c"), row(1, 9, "a"), row(5, 7, "d"), row(2, 3, "b")}, 10, 0));
+    std::string labels;
+    for (const Json &one : json["annotations"])
+        labels += one["core:label"].get<std::string>();
+    QCOMPARE(labels, std::string("abcd")); // equal times keep their order
+}
+
+void tst_reviewedText::farTimesStayExact()
+{
+    const Json json = Json::parse(sigmfText({row(1e300, 1e301, "")}, 1e6, 0.0));
+    const Json &one = json["annotations"][0];
+    QCOMPARE(one["core:sample_start"].get<long long>(), 9007199254740992LL); // 2^53
+    QCOMPARE(one["core:sample_count"].get<long long>(), 1LL);
+}
+
+QTEST_APPLESS_MAIN(tst_reviewedText)
+#include "tst_reviewedText.moc"

@@ -1,0 +1,159 @@
+#include "live/wavHeader.h"
+
+#include "support/errors.h"
+
+#include <QtTest>
+
+#include <cstring>
+
+using namespace faintline;
+using namespace faintline::test;
+
+/// Headers of piped WAV streams, written here by the format's definition.
+class tst_wavHeader : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void formats_data();
+    void formats();
+    void theExtensibleFormNamesItsFormatLater();
+    void otherChunksAreSkippedWithTheirPadding();
+    void refusals_data();
+    void refusals();
+    void integersOf24BitsKeepTheirValue();
+};
+
+namespace {
+
+QByteArray number(std::uint32_t value, int bytes)
+{
+    QByteArray text;
+    for (int i = 0; i < bytes; ++i)
+        text.append(char(value >> (8 * i) & 0xff));
+    return text;
+}
+
+QByteArray chunk(const char *name, const QByteArray &content)
+{
+    QByteArray text = QByteArray(name) + number(std::uint32_t(content.size()), 4) + content;
+    return content.size() % 2 ? text + '\0' : text;
+}
+
+QByteArray format(int tag, int channels, int rate, int bits)
+{
+    const int frame = channels * bits / 8;
+    return number(std::uint32_t(tag), 2) + number(std::uint32_t(channels), 2) + number(std::uint32_t(rate), 4)
+           + number(std::uint32_t(rate * frame), 4) + number(std::uint32_t(frame), 2) + number(std::uint32_t(bits), 2);
+}
+
+QByteArray wav(const QByteArray &chunks, const char *kind = "RIFF")
+{
+    return QByteArray(kind) + number(0xffffffff, 4) + "WAVE" + chunks + "data" + number(0xffffffff, 4); // of a pipe
+}
+
+/// Parses the bytes; `left`: how many follow the header.
+WavHeader parse(const QByteArray &bytes, qsizetype *left = nullptr)
+{
+    qsizetype at = 0;
+    const WavHeader header = readWavHeader(
+        [&](std::span<std::byte> out) {
+            if (at + std::ssize(out) > bytes.size())
+                return false;
+            std::memcpy(out.data(), bytes.constData() + at, out.size());
+            at += std::ssize(out);
+            return true;
+        },
+        "pipe");
+    if (left)
+        *left = bytes.size() - at;
+    return header;
+}
+
+} // namespace
+
+void tst_wavHeader::formats_data()
+{
+    QTest::addColumn<int>("tag");
+    QTest::addColumn<int>("bits");
+    QTest::addColumn<QString>("type");
+    QTest::newRow("8 bits are unsigned") << 1 << 8 << "ru8";
+    QTest::newRow("16 bits") << 1 << 16 << "ri16_le";
+    QTest::newRow("24 bits appear as 32") << 1 << 24 << "ri32_le";
+    QTest::newRow("32 bits") << 1 << 32 << "ri32_le";
+    QTest::newRow("float") << 3 << 32 << "rf32_le";
+    QTest::newRow("double") << 3 << 64 << "rf64_le";
+}
+
+void tst_wavHeader::formats()
+{
+    QFETCH(int, tag);
+    QFETCH(int, bits);
+    QFETCH(QString, type);
+    qsizetype left = -1;
+    const WavHeader header = parse(wav(chunk("fmt ", format(tag, 2, 44100, bits))) + "samples", &left);
+    QCOMPARE(QString::fromStdString(header.format.type.name()), type);
+    QCOMPARE(header.format.channelCount, 2);
+    QCOMPARE(header.format.sampleRateHz, 44100.0);
+    QCOMPARE(header.isPacked24, bits == 24);
+    QCOMPARE(left, qsizetype(7)); // the first sample is the next byte
+}
+
+void tst_wavHeader::theExtensibleFormNamesItsFormatLater()
+{
+    const QByteArray guid = number(3, 2) + QByteArray(14, '\0'); // its first number is the format
+    const QByteArray extensible = format(0xfffe, 1, 8000, 32) + number(22, 2) + number(32, 2) + number(4, 4) + guid;
+    QCOMPARE(parse(wav(chunk("fmt ", extensible), "RF64")).format.type.name(), std::string("rf32_le"));
+}
+
+void tst_wavHeader::otherChunksAreSkippedWithTheirPadding()
+{
+    qsizetype left = -1;
+    const QByteArray before = chunk("JUNK", QByteArray(5, 'x')) + chunk("LIST", QByteArray(10001, 'y'));
+    const WavHeader header = parse(wav(before + chunk("fmt ", format(1, 1, 22050, 16)) + before) + "ab", &left);
+    QCOMPARE(header.format.sampleRateHz, 22050.0);
+    QCOMPARE(left, qsizetype(2));
+}
+
+void tst_wavHeader::refusals_data()
+{
+    QTest::addColumn<QByteArray>("bytes");
+    QTest::addColumn<QByteArray>("why");
+    const QByteArray good = chunk("fmt ", format(1, 1, 8000, 16));
+    QTest::newRow("another file") << QByteArray("OggS00000000000000000000") << QByteArray("does not begin as a WAV");
+    QTest::newRow("empty") << QByteArray() << QByteArray("ended within its header");
+    QTest::newRow("cut") << wav(good).chopped(9) << QByteArray("ended within its header");
+    QTest::newRow("no format") << wav({}) << QByteArray("has no format");
+    QTest::newRow("short format") << wav(chunk("fmt ", QByteArray(14, '\1'))) << QByteArray("incomplete");
+    QTest::newRow("mu-law") << wav(chunk("fmt ", format(7, 1, 8000, 8))) << QByteArray("format 7 with 8 bits");
+    QTest::newRow("20 bits") << wav(chunk("fmt ", format(1, 1, 8000, 20))) << QByteArray("with 20 bits");
+    QTest::newRow("no channels") << wav(chunk("fmt ", format(1, 0, 8000, 16))) << QByteArray("0 channels");
+    QTest::newRow("no rate") << wav(chunk("fmt ", format(1, 1, 0, 16))) << QByteArray("at 0 Hz");
+    QByteArray many;
+    for (int i = 0; i < 1001; ++i)
+        many += chunk("JUNK", {});
+    QTest::newRow("chunks without end") << wav(many) << QByteArray("first thousand chunks");
+}
+
+void tst_wavHeader::refusals()
+{
+    QFETCH(QByteArray, bytes);
+    QFETCH(QByteArray, why);
+    const std::string error = errorOf([&] { parse(bytes); });
+    QVERIFY2(contains(error, "pipe: ") && contains(error, why.toStdString()), error.c_str());
+}
+
+void tst_wavHeader::integersOf24BitsKeepTheirValue()
+{
+    for (const int value : {0, 1, -1, 8388607, -8388608, 123456, -123456}) {
+        const QByteArray packed = number(std::uint32_t(value), 3);
+        const auto wide = expand24(std::as_bytes(std::span(packed.constData(), 3)));
+        QCOMPARE(wide.size(), std::size_t(4));
+        std::int32_t read = 0;
+        std::memcpy(&read, wide.data(), 4);
+        QCOMPARE(read, value * 256); // the same fraction of full scale
+    }
+}
+
+QTEST_APPLESS_MAIN(tst_wavHeader)
+#include "tst_wavHeader.moc"
