@@ -1,6 +1,7 @@
 #include "analysis/secondLook.h"
 
 #include "analysis/pathStrips.h"
+#include "analysis/searchBehind.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "spectrum/Window.h"
 #include "track/TrackPiece.h"
@@ -20,6 +21,8 @@ namespace {
 
     constexpr std::string_view following = "refining tracks in both directions";
     constexpr Index largestGapFrames = 24;                    ///< between stretches of one signal
+    constexpr int mostPasses = 3;                             ///< of the search behind what is explained
+    constexpr double hiddenCells = 1.0;                       ///< beside a signal
     constexpr double leastShare = 0.08;                       ///< of a path's statistic, above the floor
     constexpr std::size_t stripBytes = std::size_t(16) << 20; ///< read at a time
 
@@ -83,11 +86,12 @@ namespace {
 
         SecondView run(std::vector<Track> found, std::span<const Track> subtracted, SecondLookDepth depth)
         {
-            lookAtAll(std::move(found), subtracted, m_context);
+            lookAtAll(std::move(found), subtracted, m_context.part(0.0, 0.4));
             SecondView view;
             if (depth == SecondLookDepth::Signals && m_analysis.settings.family.isNone()) {
                 view.first = m_tracks;
                 numberByDetection(view.first);
+                lookBehind();
                 m_tracks = relinked(std::move(m_tracks));
             }
             numberByDetection(m_tracks);
@@ -125,6 +129,16 @@ namespace {
                     piece.track->isSubtracted ? lookAtRest(piece) : lookAt(piece);
                 }
                 first = end;
+            }
+        }
+
+        /// Searches behind what is explained, as long as that finds something.
+        void lookBehind()
+        {
+            for (int pass = 0; pass < mostPasses && m_accepted > 0; ++pass) {
+                const RunContext context = m_context.part(0.4 + 0.2 * pass, 0.6 + 0.2 * pass);
+                m_accepted = 0;
+                lookAtAll(searchBehind(m_analysis, m_explanations, context.part(0.0, 0.7)), {}, context.part(0.7, 1.0));
             }
         }
 
@@ -248,6 +262,7 @@ namespace {
         {
             Track track = trackOf(piece, seen, stretch);
             ExplainedSignal signal = explainPath(piece.strip, seen, stretch.from, stretch.to, m_model.binsPerCell);
+            signal.hides = hiddenCells * m_model.binsPerCell;
             if (m_candidates.empty() || m_candidates.back().track.endFrame + 1 != track.onsetFrame) {
                 if (!piece.isLast()) { // long: no room needed beyond that
                     track.points.reserve(piece.track->points.size() - piece.from
@@ -278,6 +293,7 @@ namespace {
                 if (candidate != best)
                     candidate->track.peakStatistic = candidate->evidence;
                 m_tracks.push_back(std::move(candidate->track));
+                ++m_accepted;
                 for (ExplainedSignal &signal : candidate->signals)
                     m_explanations.add(std::move(signal));
             }
@@ -344,6 +360,7 @@ namespace {
         BothWaysModel m_model;
         std::vector<Candidate> m_candidates; ///< for the current track
         std::vector<Track> m_tracks;
+        int m_accepted = 0; ///< tracks in the last pass
         std::vector<Area> m_areas;
     };
 
