@@ -174,8 +174,13 @@ namespace {
         pings.finish();
         analysis.tracks = chain->takeJoinedTracks();
         if (looksTwice(analysis)) {
-            SecondView seen = lookTwice(analysis, std::move(analysis.tracks), subtracted, context.part(0.9, 0.95));
+            const bool isTrial = request.depth == AnalysisDepth::Trial;
+            SecondView seen =
+                lookTwice(analysis, std::move(analysis.tracks), subtracted,
+                          isTrial ? SecondLookDepth::Tracks : SecondLookDepth::Signals, context.part(0.9, 0.95));
             analysis.tracks = std::move(seen.tracks);
+            if (request.keepsFirstTracks)
+                analysis.firstTracks = std::move(seen.first);
             analysis.areas = std::move(seen.areas);
         }
         analysis.tracks = withoutLoneTeeth(analysis, std::move(analysis.tracks), context.part(0.95, 0.96));

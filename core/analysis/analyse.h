@@ -15,7 +15,8 @@ namespace faintline {
 using StatisticSink = std::function<void(Index firstFrame, std::span<const float> statistic)>;
 
 /// Scope of an analysis: everything; its tracks, without pictures and checkpoints; or a trial of its settings, whose
-/// tracks are also not tested against the recording's own noise (overOwnNoise.h).
+/// tracks are also not tested against the recording's own noise (overOwnNoise.h), and which is not searched for signals
+/// behind others (secondLook.h).
 enum class AnalysisDepth { Whole, Tracks, Trial };
 
 /// What an analysis delivers while it runs, and how far it goes.
@@ -25,6 +26,7 @@ struct AnalysisRequest {
     /// A first estimate of the calibration gives a preliminary threshold sooner; nothing else of the run differs.
     CalibrationDepth calibration = CalibrationDepth::Refined;
     AnalysisDepth depth = AnalysisDepth::Whole;
+    bool keepsFirstTracks = false; ///< sets Analysis::firstTracks
 };
 
 /// The pipeline: recording → frames → normalised frames → detector → threshold, clusters, tracks.

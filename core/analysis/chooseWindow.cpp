@@ -1,6 +1,5 @@
 #include "analysis/chooseWindow.h"
 
-#include "analysis/overOwnNoise.h"
 #include "analysis/steadyLines.h"
 #include "analysis/sureStatistic.h"
 #include "track/energyKept.h"
@@ -47,6 +46,8 @@ namespace {
     /// it, which is informative on the window.
     std::vector<Track> foundIn(const Analysis &analysis)
     {
+        if (!analysis.firstTracks.empty())
+            return analysis.firstTracks;
         std::vector<Track> found = analysis.tracks;
         found.insert(found.end(), analysis.explainedByNoise.begin(), analysis.explainedByNoise.end());
         return found;
@@ -59,6 +60,7 @@ namespace {
         static_cast<AnalysisPlan &>(*result) = analysis;
         result->tracks = analysis.tracks;
         result->explainedByNoise = analysis.explainedByNoise;
+        result->firstTracks = analysis.firstTracks;
         result->unsubtracted = analysis.unsubtracted;
         return result;
     }
@@ -76,9 +78,9 @@ namespace {
         /// Result for the chosen window; without pictures if it is not T0. Sets `choice`.
         std::shared_ptr<Analysis> run(const Analysis *previous, const PictureSink &pictures)
         {
-            const std::shared_ptr<Analysis> automatic =
-                analyse(m_recording, m_asked, nextPart(), previous,
-                        {.pictures = pictures, .calibration = m_calibrationDepth, .depth = m_depth});
+            const std::shared_ptr<Analysis> automatic = analyse(
+                m_recording, m_asked, nextPart(), previous,
+                {.pictures = pictures, .calibration = m_calibrationDepth, .depth = m_depth, .keepsFirstTracks = true});
             m_windowSeconds = windowSecondsOf(*automatic);
             m_cells = double(automatic->grid().size()) * automatic->grid().axes.back().step * m_windowSeconds;
             m_frames = double(automatic->time().count);
@@ -278,14 +280,13 @@ std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording
     choice.asked = settings;
     const bool isTrial = !isChosen && choice.chosen != choice.automatic;
     const bool isComplete = !isChosen && !subtracts; // the search ran with these settings
-    if (isTrial && isComplete && wanted.depth == AnalysisDepth::Tracks)
-        holdAgainstOwnNoise(*found, context.part(searched, 1.0));
-    else if (isTrial || !isComplete)
+    if (isTrial || !isComplete)
         found = analyse(recording, ofTrial(choice, choice.chosen, settings), context.part(searched, detected),
                         isChosen ? previous : found.get(), wanted);
     if (longer && !isComplete) // after the pictures, which the user waits for
         longer = analyse(recording, ofTrial(choice, choice.chosen + 1, settings), context.part(detected, 1.0),
                          longer.get(), {.calibration = wanted.calibration, .depth = AnalysisDepth::Trial});
+    found->firstTracks = {};
     found->longer = std::move(longer);
     if (found->longer)
         found->tracks = withSteadyLines(*found, *found->longer);

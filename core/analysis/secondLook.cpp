@@ -1,6 +1,7 @@
 #include "analysis/secondLook.h"
 
 #include "analysis/pathStrips.h"
+#include "analysis/searchBehind.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "spectrum/Window.h"
 #include "track/TrackPiece.h"
@@ -8,6 +9,7 @@
 #include "track/explainPath.h"
 #include "track/levelBeside.h"
 #include "track/numberByDetection.h"
+#include "track/relink.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +21,8 @@ namespace {
 
     constexpr std::string_view following = "refining tracks in both directions";
     constexpr Index largestGapFrames = 24;                    ///< between stretches of one signal
+    constexpr int mostPasses = 3;                             ///< of the search behind what is explained
+    constexpr double hiddenCells = 1.0;                       ///< beside a signal
     constexpr double leastShare = 0.08;                       ///< of a path's statistic, above the floor
     constexpr std::size_t stripBytes = std::size_t(16) << 20; ///< read at a time
 
@@ -44,6 +48,27 @@ namespace {
         return track.points[std::size_t(std::clamp(frame, first, track.points.back().frame) - first)];
     }
 
+    /// Frames over which a track's way is measured: the faster the law, the fewer.
+    Index slopeFramesOf(const KinematicAxis &axis)
+    {
+        constexpr double slow = 56.0;
+        constexpr double fast = 16.0; // from a largest slope of four cells per frame on
+        const double steepest = std::max({1.0, std::abs(axis.rate(0)), std::abs(axis.rate(axis.rateCount - 1))});
+        return Index(std::lround(std::max(fast, slow * std::pow(steepest, std::log(fast / slow) / std::log(4.0)))));
+    }
+
+    /// Mean evidence, in a frame of noise alone, against a signal of that level, nat. A level above 4 counts as 4, so
+    /// that a keyed line is one signal.
+    double evidenceOfAbsence(LikelihoodKind kind, double level)
+    {
+        constexpr int quantiles = 128;
+        const Likelihood likelihood(kind, std::clamp(level, 0.1, 4.0));
+        double sum = 0.0;
+        for (int i = 0; i < quantiles; ++i)
+            sum -= likelihood.at(-std::log((i + 0.5) / quantiles));
+        return sum / quantiles;
+    }
+
     class SecondLook
     {
     public:
@@ -59,7 +84,24 @@ namespace {
             m_model.binsPerCell = m_spectrogram.binsPerCell();
         }
 
-        SecondView run(std::vector<Track> found, std::span<const Track> subtracted)
+        SecondView run(std::vector<Track> found, std::span<const Track> subtracted, SecondLookDepth depth)
+        {
+            lookAtAll(std::move(found), subtracted, m_context.part(0.0, 0.4));
+            SecondView view;
+            if (depth == SecondLookDepth::Signals && m_analysis.settings.family.isNone()) {
+                view.first = m_tracks;
+                numberByDetection(view.first);
+                lookBehind();
+                m_tracks = relinked(std::move(m_tracks));
+            }
+            numberByDetection(m_tracks);
+            view.tracks = std::move(m_tracks);
+            view.areas = joinAreas(std::move(m_areas));
+            return view;
+        }
+
+    private:
+        void lookAtAll(std::vector<Track> found, std::span<const Track> subtracted, const RunContext &context)
         {
             std::stable_sort(found.begin(), found.end(),
                              [](const Track &a, const Track &b) { return a.peakStatistic > b.peakStatistic; });
@@ -80,19 +122,37 @@ namespace {
                 std::vector<PathStrip *> strips;
                 for (TrackPiece &piece : some)
                     strips.push_back(&piece.strip);
-                readStrips(m_analysis, std::move(strips), m_context.part(done(first), 0.5 * (done(first) + done(end))),
+                readStrips(m_analysis, std::move(strips), context.part(done(first), 0.5 * (done(first) + done(end))),
                            following);
                 for (TrackPiece &piece : some) {
-                    m_context.checkpoint(done(end), following);
+                    context.checkpoint(done(end), following);
                     piece.track->isSubtracted ? lookAtRest(piece) : lookAt(piece);
                 }
                 first = end;
             }
-            numberByDetection(m_tracks);
-            return {std::move(m_tracks), joinAreas(std::move(m_areas))};
         }
 
-    private:
+        /// Searches behind what is explained, as long as that finds something.
+        void lookBehind()
+        {
+            for (int pass = 0; pass < mostPasses && m_accepted > 0; ++pass) {
+                const RunContext context = m_context.part(0.4 + 0.2 * pass, 0.6 + 0.2 * pass);
+                m_accepted = 0;
+                lookAtAll(searchBehind(m_analysis, m_explanations, context.part(0.0, 0.7)), {}, context.part(0.7, 1.0));
+            }
+        }
+
+        std::vector<Track> relinked(std::vector<Track> tracks) const
+        {
+            RelinkRule rule;
+            rule.threshold = m_analysis.threshold;
+            rule.binsPerCell = m_model.binsPerCell;
+            rule.cells = m_cells;
+            rule.slopeFrames = slopeFramesOf(*m_model.axis);
+            rule.absence = [this](double level) { return evidenceOfAbsence(m_model.likelihood.kind(), level); };
+            return relink(std::move(tracks), rule);
+        }
+
         /// Divides a strip by the floor of stronger tracks; returns whether they raise it.
         bool divideByFloor(PathStrip &strip) const
         {
@@ -202,6 +262,7 @@ namespace {
         {
             Track track = trackOf(piece, seen, stretch);
             ExplainedSignal signal = explainPath(piece.strip, seen, stretch.from, stretch.to, m_model.binsPerCell);
+            signal.hides = hiddenCells * m_model.binsPerCell;
             if (m_candidates.empty() || m_candidates.back().track.endFrame + 1 != track.onsetFrame) {
                 if (!piece.isLast()) { // long: no room needed beyond that
                     track.points.reserve(piece.track->points.size() - piece.from
@@ -232,6 +293,7 @@ namespace {
                 if (candidate != best)
                     candidate->track.peakStatistic = candidate->evidence;
                 m_tracks.push_back(std::move(candidate->track));
+                ++m_accepted;
                 for (ExplainedSignal &signal : candidate->signals)
                     m_explanations.add(std::move(signal));
             }
@@ -298,6 +360,7 @@ namespace {
         BothWaysModel m_model;
         std::vector<Candidate> m_candidates; ///< for the current track
         std::vector<Track> m_tracks;
+        int m_accepted = 0; ///< tracks in the last pass
         std::vector<Area> m_areas;
     };
 
@@ -311,9 +374,9 @@ bool looksTwice(const AnalysisPlan &analysis)
 }
 
 SecondView lookTwice(const Analysis &analysis, std::vector<Track> found, std::span<const Track> subtracted,
-                     const RunContext &context)
+                     SecondLookDepth depth, const RunContext &context)
 {
-    return SecondLook(analysis, context).run(std::move(found), subtracted);
+    return SecondLook(analysis, context).run(std::move(found), subtracted, depth);
 }
 
 } // namespace faintline

@@ -16,7 +16,11 @@ bool looksTwice(const AnalysisPlan &analysis);
 struct SecondView {
     std::vector<Track> tracks; ///< lines, by detection
     std::vector<Area> areas;   ///< by time
+    std::vector<Track> first;  ///< the tracks after step 4, by detection, if steps 5 and 6 were taken
 };
+
+/// How far the second pass goes: to the tracks of the chain, or also to signals hidden by them, and to identities.
+enum class SecondLookDepth { Tracks, Signals };
 
 /// Two-sided second pass over detected tracks: limits each signal to the time it was present and estimates its position
 /// to a fraction of a bin.
@@ -31,7 +35,12 @@ struct SecondView {
 ///      cloud or a hum, which becomes an area;
 ///   3. the stretches where the signal is present are kept, joined over up to 24 frames: the one in which the path's
 ///      statistic gained most, and every other whose own evidence reaches the threshold, which is then its statistic;
-///   4. remaining tracks are explained: they raise the floor for weaker ones.
+///   4. remaining tracks are explained: they raise the floor for weaker ones;
+///   5. signals that they hide are searched for behind them (searchBehind.h), which then take the same steps, until
+///      nothing more is found;
+///   6. where signals met, the pieces of tracks before and after are assigned to each other anew (relink.h).
+///
+/// Steps 5 and 6 are left out at depth Tracks, and for families, whose members lie beside each other.
 ///
 /// `subtracted`: lines that were removed before the frames were made (subtractLines.h). Their remainders and skirts are
 /// explained before all others, because they are not separate signals.
@@ -39,6 +48,6 @@ struct SecondView {
 /// `found`: ordered by detection, as is the result, which is renumbered. Reads all frames once; memory is proportional
 /// to the tracks' length. Deterministic.
 SecondView lookTwice(const Analysis &analysis, std::vector<Track> found, std::span<const Track> subtracted,
-                     const RunContext &context);
+                     SecondLookDepth depth, const RunContext &context);
 
 } // namespace faintline

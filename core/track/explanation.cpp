@@ -66,18 +66,25 @@ void Explanations::add(ExplainedSignal signal)
     m_signals.push_back(std::move(signal));
 }
 
-void Explanations::read(Index frame, Index firstCell, std::span<float> floor) const
+template <class Take>
+void Explanations::forEachAt(Index frame, Index firstCell, Index count, Take take) const
 {
-    std::fill(floor.begin(), floor.end(), 1.0f);
     const auto number = std::size_t(frame / piece);
     if (number >= m_byTime.size())
         return;
     for (const Entry &entry : m_byTime[number]) {
         const ExplainedSignal &signal = m_signals[entry.signal];
-        const bool isBeside = entry.highest < double(firstCell) || entry.lowest > double(firstCell + std::ssize(floor));
-        if (isBeside || frame < signal.firstFrame - 1 || frame > signal.endFrame())
-            continue;
-        const auto at = std::size_t(std::clamp<Index>(frame - signal.firstFrame, 0, std::ssize(signal.positions) - 1));
+        const bool isBeside = entry.highest < double(firstCell) || entry.lowest > double(firstCell + count);
+        if (!isBeside && frame >= signal.firstFrame - 1 && frame <= signal.endFrame())
+            take(signal,
+                 std::size_t(std::clamp<Index>(frame - signal.firstFrame, 0, std::ssize(signal.positions) - 1)));
+    }
+}
+
+void Explanations::read(Index frame, Index firstCell, std::span<float> floor) const
+{
+    std::fill(floor.begin(), floor.end(), 1.0f);
+    forEachAt(frame, firstCell, std::ssize(floor), [&](const ExplainedSignal &signal, std::size_t at) {
         const double position = signal.positions[at] - double(firstCell);
         const auto level = double(signal.levels[at]);
         const std::span<const float> skirt = skirtAt(signal, at);
@@ -92,7 +99,18 @@ void Explanations::read(Index frame, Index firstCell, std::span<float> floor) co
                 share = std::max(share, double(skirt[step]));
             floor[std::size_t(cell)] *= float(1.0 + margin * level * share);
         }
-    }
+    });
+}
+
+void Explanations::hide(Index frame, Index firstCell, std::span<float> y, float value) const
+{
+    forEachAt(frame, firstCell, std::ssize(y), [&](const ExplainedSignal &signal, std::size_t at) {
+        const double position = signal.positions[at] - double(firstCell);
+        const auto first = std::max<Index>(0, Index(std::ceil(position - signal.hides)));
+        const auto last = std::min<Index>(std::ssize(y) - 1, Index(std::floor(position + signal.hides)));
+        for (Index cell = first; cell <= last; ++cell)
+            y[std::size_t(cell)] = value;
+    });
 }
 
 } // namespace faintline

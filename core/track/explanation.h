@@ -16,6 +16,7 @@ struct ExplainedSignal {
     /// Measured in blocks of `skirtFrames`: fraction of A at a distance of 0, 1, … cells; empty: only the window's
     /// leakage.
     std::vector<std::vector<float>> skirts;
+    double hides = -1.0; ///< distance within which nothing else can be seen, cells; negative: nothing is hidden
 
     static constexpr Index skirtFrames = 24;
 
@@ -39,6 +40,9 @@ public:
     /// Reads the floor of cells firstCell … in a frame.
     void read(Index frame, Index firstCell, std::span<float> floor) const;
 
+    /// Sets y to `value` in the cells firstCell … of a frame that signals hide.
+    void hide(Index frame, Index firstCell, std::span<float> y, float value) const;
+
 private:
     /// A signal in a block of time, and the cells that it may raise there.
     struct Entry {
@@ -46,6 +50,10 @@ private:
         double lowest;
         double highest;
     };
+
+    /// Calls take(signal, point) for each signal that may raise one of `count` cells of a frame.
+    template <class Take>
+    void forEachAt(Index frame, Index firstCell, Index count, Take take) const;
 
     double leakageAt(double distance) const;
     double reachAt(const ExplainedSignal &signal, std::size_t at) const;

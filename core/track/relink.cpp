@@ -1,0 +1,436 @@
+#include "track/relink.h"
+
+#include "track/PolynomialFit.h"
+#include "track/assign.h"
+#include "track/encounters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace faintline {
+
+namespace {
+
+    constexpr double nearCells = 1.8;
+    constexpr double endNearCells = 3.0;
+    constexpr double joinedShare = 0.7;   ///< of m
+    constexpr double hiddenCells = 2.5;   ///< within which of a track another signal is not to be seen
+    constexpr double farthestCells = 0.5; ///< deviation up to which the way of a lost track is known
+    constexpr double positionCells = 0.35;
+    constexpr double levelDb = 3.0;
+    constexpr double leastErrorCells = 0.05;
+    constexpr double ownWay = 0.9;     ///< largest cost of a track's own way, in T
+    constexpr Index shortestPiece = 4; ///< frames
+    constexpr Index longestGap = 8;    ///< in m
+    constexpr int fitLengths = 3;      ///< m, 2 m, 4 m
+
+    /// A stretch of a track between encounters: points from … to, exclusive.
+    struct Piece {
+        std::size_t track;
+        std::size_t from;
+        std::size_t to;
+        double slopeVariance = 0.0; ///< q, (cells per frame)²
+        double startDb = 0.0;
+        double endDb = 0.0;
+    };
+
+    double meanDb(std::span<const SmoothedPoint> points)
+    {
+        double sum = 0.0;
+        for (const SmoothedPoint &point : points)
+            sum += double(point.level);
+        return 10.0 * std::log10(std::max(0.05, sum / double(points.size())));
+    }
+
+    class Relinking
+    {
+    public:
+        Relinking(std::vector<Track> tracks, const RelinkRule &rule) : m_tracks(std::move(tracks)), m_rule(rule) {}
+
+        std::vector<Track> run()
+        {
+            cut();
+            link();
+            return build();
+        }
+
+    private:
+        Index m() const { return m_rule.slopeFrames; }
+        double cells(double resolutionCells) const { return resolutionCells * m_rule.binsPerCell; }
+
+        Index startOf(const Piece &piece) const { return m_tracks[piece.track].points[piece.from].frame; }
+        Index endOf(const Piece &piece) const { return m_tracks[piece.track].points[piece.to - 1].frame; }
+
+        std::span<const SmoothedPoint> pointsOf(const Piece &piece) const
+        {
+            return std::span(m_tracks[piece.track].smoothed).subspan(piece.from, piece.to - piece.from);
+        }
+
+        void cut()
+        {
+            EncounterRule rule;
+            rule.near = cells(nearCells);
+            rule.endNear = cells(endNearCells);
+            rule.joined = Index(std::lround(joinedShare * double(m())));
+            rule.widening = m() / 5;
+            rule.fitFrames = m() << (fitLengths - 1);
+            rule.extension = longestGap * m();
+            rule.farthest = cells(farthestCells);
+            rule.leastDeviation = cells(leastErrorCells);
+            const auto marks = encounters(m_tracks, rule);
+            for (std::size_t i = 0; i < m_tracks.size(); ++i) {
+                if (m_tracks[i].smoothed.empty())
+                    continue;
+                const std::size_t first = m_pieces.size();
+                for (std::size_t from = 0; from < marks[i].size();) {
+                    std::size_t to = from;
+                    while (to < marks[i].size() && marks[i][to] == marks[i][from])
+                        ++to;
+                    const bool isBetween = from > 0 && to < marks[i].size(); // two encounters
+                    if (!marks[i][from] && Index(to - from) >= (isBetween ? m() / 2 : shortestPiece))
+                        m_pieces.push_back({i, from, to});
+                    from = to;
+                }
+                if (m_pieces.size() == first) // nothing but encounters
+                    m_pieces.push_back({i, 0, marks[i].size()});
+            }
+            for (Piece &piece : m_pieces) {
+                const auto points = pointsOf(piece);
+                const std::size_t count = std::min(points.size(), std::size_t(m()));
+                piece.startDb = meanDb(points.first(count));
+                piece.endDb = meanDb(points.last(count));
+                piece.slopeVariance = slopeVariance(points);
+            }
+            m_next.assign(m_pieces.size(), none);
+            m_previous.assign(m_pieces.size(), none);
+        }
+
+        /// Half the mean square of the differences of the slopes of neighbouring blocks, without that of their errors.
+        double slopeVariance(std::span<const SmoothedPoint> points) const
+        {
+            const auto block = std::size_t(std::max<Index>(4, m() / 2));
+            double sum = 0.0;
+            double errors = 0.0;
+            double count = 0.0;
+            std::optional<PolynomialFit> before;
+            for (std::size_t from = 0; from + block <= points.size(); from += block) {
+                const PolynomialFit fit(points.subspan(from, block), Index(from), cells(leastErrorCells));
+                const auto middle = [&](std::size_t first) { return double(first) + 0.5 * double(block - 1); };
+                if (before) {
+                    const double change = fit.slopeAt(middle(from)) - before->slopeAt(middle(from - block));
+                    sum += 0.5 * change * change;
+                    errors += 0.5 * (fit.slopeVarianceAt(middle(from)) + before->slopeVarianceAt(middle(from - block)));
+                    count += 1.0;
+                }
+                before = fit;
+            }
+            return count > 0.0 ? std::max(0.0, (sum - errors) / count) : 0.0;
+        }
+
+        std::size_t fitLength(const Piece &piece, Index gap) const
+        {
+            const auto wanted = std::size_t(std::clamp(gap, m(), m() << (fitLengths - 1)));
+            return std::min(wanted, piece.to - piece.from);
+        }
+
+        PolynomialFit fitAtEnd(const Piece &piece, Index gap) const
+        {
+            const std::size_t count = fitLength(piece, gap);
+            return {pointsOf(piece).last(count), endOf(piece) - Index(count) + 1, cells(leastErrorCells)};
+        }
+
+        PolynomialFit fitAtStart(const Piece &piece, Index gap) const
+        {
+            return {pointsOf(piece).first(fitLength(piece, gap)), startOf(piece), cells(leastErrorCells)};
+        }
+
+        double costOf(const Piece &a, const Piece &b) const
+        {
+            const Index gap = startOf(b) - endOf(a);
+            const PolynomialFit before = fitAtEnd(a, gap);
+            const PolynomialFit after = fitAtStart(b, gap);
+            const double middle = 0.5 * double(endOf(a) + startOf(b));
+            const double half = 0.5 * double(gap);
+            const double q = std::max(a.slopeVariance, b.slopeVariance);
+            const double least = cells(positionCells) * cells(positionCells);
+            const double variance =
+                before.positionVarianceAt(middle) + after.positionVarianceAt(middle) + q * half * half + least;
+            const double leastSlope = cells(0.1) / double(m());
+            const double slopes =
+                before.slopeVarianceAt(middle) + after.slopeVarianceAt(middle) + 2.0 * q + leastSlope * leastSlope;
+            const auto square = [](double value) { return value * value; };
+            return 0.5
+                   * (square(before.positionAt(middle) - after.positionAt(middle)) / variance
+                      + std::log(variance / least) + square(before.slopeAt(middle) - after.slopeAt(middle)) / slopes
+                      + square((a.endDb - b.startDb) / levelDb));
+        }
+
+        /// The cubic between the ends of two pieces, with their slopes there: one position for each frame of the gap.
+        std::vector<double> wayBetween(const Piece &a, const Piece &b) const
+        {
+            const Index gap = startOf(b) - endOf(a);
+            const auto g = double(gap);
+            const double from = pointsOf(a).back().position;
+            const double to = pointsOf(b).front().position;
+            const double before = fitAtEnd(a, gap).slopeAt(double(endOf(a)));
+            const double after = fitAtStart(b, gap).slopeAt(double(startOf(b)));
+            std::vector<double> way;
+            for (Index i = 1; i < gap; ++i) {
+                const double u = double(i) / g;
+                const double v = 1.0 - u;
+                way.push_back(from * v * v * (1.0 + 2.0 * u) + to * u * u * (1.0 + 2.0 * v)
+                              + g * u * v * (before * v - after * u));
+            }
+            return way;
+        }
+
+        /// Whether a signal between two pieces would have been missed where it could have been seen.
+        bool isAbsent(const Piece &a, const Piece &b) const
+        {
+            const double absence = m_rule.absence(std::pow(10.0, 0.1 * std::min(a.endDb, b.startDb)));
+            double evidence = 0.0;
+            Index frame = endOf(a);
+            for (const double position : wayBetween(a, b))
+                if (isVisible(++frame, position) && (evidence += absence) > m_rule.threshold)
+                    return true;
+            return false;
+        }
+
+        bool isVisible(Index frame, double position) const
+        {
+            return std::none_of(m_tracks.begin(), m_tracks.end(), [&](const Track &track) {
+                if (track.smoothed.empty() || frame < track.points.front().frame || frame > track.points.back().frame)
+                    return false;
+                const auto at = std::size_t(frame - track.points.front().frame);
+                return std::abs(track.smoothed[at].position - position) < cells(hiddenCells);
+            });
+        }
+
+        /// A rough bound on the way between two pieces, before anything is fitted.
+        bool isInReach(const Piece &a, const Piece &b) const
+        {
+            const Index gap = startOf(b) - endOf(a);
+            return gap >= 1 && gap <= longestGap * m()
+                   && std::abs(pointsOf(a).back().position - pointsOf(b).front().position)
+                          <= m_steepest * double(gap) + cells(endNearCells);
+        }
+
+        void link()
+        {
+            for (const Piece &piece : m_pieces)
+                for (const PolynomialFit &fit : {fitAtEnd(piece, 1), fitAtStart(piece, 1)})
+                    if (const double slope = std::abs(fit.slopeAt(double(endOf(piece)))); piece.to - piece.from >= 8)
+                        m_steepest = std::max(m_steepest, slope);
+            std::vector<std::size_t> byStart(m_pieces.size());
+            for (std::size_t i = 0; i < byStart.size(); ++i)
+                byStart[i] = i;
+            std::stable_sort(byStart.begin(), byStart.end(), [this](std::size_t a, std::size_t b) {
+                return startOf(m_pieces[a]) < startOf(m_pieces[b]);
+            });
+            std::vector<PairCost> pairs;
+            for (std::size_t i = 0; i < m_pieces.size(); ++i) {
+                const Piece &a = m_pieces[i];
+                auto at = std::upper_bound(byStart.begin(), byStart.end(), endOf(a),
+                                           [this](Index frame, std::size_t b) { return frame < startOf(m_pieces[b]); });
+                for (; at != byStart.end() && startOf(m_pieces[*at]) - endOf(a) <= longestGap * m(); ++at) {
+                    const Piece &b = m_pieces[*at];
+                    const bool isOwn = *at == i + 1 && a.track == b.track;
+                    if (isOwn || !isInReach(a, b))
+                        continue;
+                    if (const double cost = costOf(a, b); cost < m_rule.threshold && !isAbsent(a, b))
+                        pairs.push_back({i, *at, cost});
+                }
+                if (i + 1 < m_pieces.size() && m_pieces[i + 1].track == a.track)
+                    pairs.push_back({i, i + 1, std::min(costOf(a, m_pieces[i + 1]), ownWay * m_rule.threshold)});
+            }
+            for (const std::size_t chosen : assign(pairs, m_rule.threshold)) {
+                m_next[pairs[chosen].from] = pairs[chosen].to;
+                m_previous[pairs[chosen].to] = pairs[chosen].from;
+            }
+        }
+
+        bool isOwnWay(std::size_t from, std::size_t to) const
+        {
+            return to == from + 1 && m_pieces[from].track == m_pieces[to].track;
+        }
+
+        std::vector<Track> build()
+        {
+            std::vector<std::size_t> best(m_tracks.size(), none); // piece with the largest gain of each track
+            for (std::size_t i = 0; i < m_pieces.size(); ++i) {
+                std::size_t &piece = best[m_pieces[i].track];
+                if (piece == none || gainOf(m_pieces[i]) > gainOf(m_pieces[piece]))
+                    piece = i;
+            }
+            std::vector<Track> result;
+            for (std::size_t first = 0; first < m_pieces.size(); ++first) {
+                if (m_previous[first] != none)
+                    continue;
+                std::vector<std::size_t> chain;
+                for (std::size_t i = first; i != none; i = m_next[i])
+                    chain.push_back(i);
+                if (isWhole(chain)) {
+                    result.push_back(m_tracks[m_pieces[first].track]);
+                    continue;
+                }
+                double gain = 0.0;
+                bool hasBest = false;
+                for (const std::size_t i : chain) {
+                    gain += gainOf(m_pieces[i]);
+                    hasBest = hasBest || best[m_pieces[i].track] == i;
+                }
+                if (hasBest || gain >= m_rule.threshold)
+                    result.push_back(joined(chain, std::max(gain, m_rule.threshold)));
+            }
+            for (Track &track : m_tracks)
+                if (track.smoothed.empty())
+                    result.push_back(std::move(track));
+            return result;
+        }
+
+        /// Whether a chain is a track as it was.
+        bool isWhole(const std::vector<std::size_t> &chain) const
+        {
+            const std::size_t track = m_pieces[chain.front()].track;
+            const bool isOne =
+                std::all_of(chain.begin(), chain.end(), [&](std::size_t i) { return m_pieces[i].track == track; });
+            const bool hasFirst = chain.front() == 0 || m_pieces[chain.front() - 1].track != track;
+            const bool hasLast = chain.back() + 1 == m_pieces.size() || m_pieces[chain.back() + 1].track != track;
+            return isOne && hasFirst && hasLast;
+        }
+
+        /// Gain of the path's statistic along a piece.
+        double gainOf(const Piece &piece) const
+        {
+            const std::vector<TrackPoint> &points = m_tracks[piece.track].points;
+            return std::max(0.0,
+                            points[piece.to - 1].statistic - (piece.from > 0 ? points[piece.from - 1].statistic : 0.0));
+        }
+
+        /// First point that belongs to a piece if nothing is linked before it: half of the encounter there.
+        std::size_t firstPoint(std::size_t number) const
+        {
+            const Piece &piece = m_pieces[number];
+            if (number == 0 || m_pieces[number - 1].track != piece.track)
+                return 0;
+            return m_next[number - 1] == none ? (m_pieces[number - 1].to + piece.from) / 2 : piece.from;
+        }
+
+        std::size_t endPoint(std::size_t number) const
+        {
+            const Piece &piece = m_pieces[number];
+            if (number + 1 == m_pieces.size() || m_pieces[number + 1].track != piece.track)
+                return m_tracks[piece.track].points.size();
+            return m_previous[number + 1] == none ? (piece.to + m_pieces[number + 1].from) / 2 : piece.to;
+        }
+
+        Track joined(const std::vector<std::size_t> &chain, double statistic) const
+        {
+            const Track &first = m_tracks[m_pieces[chain.front()].track];
+            Track track = first.withoutPoints();
+            for (std::size_t i = 0; i < chain.size(); ++i) {
+                const Piece &piece = m_pieces[chain[i]];
+                const bool isOwnBefore = i > 0 && isOwnWay(chain[i - 1], chain[i]);
+                const std::size_t from = i == 0        ? firstPoint(chain[i])
+                                         : isOwnBefore ? m_pieces[chain[i - 1]].to
+                                                       : piece.from;
+                if (i > 0 && !isOwnBefore)
+                    bridge(track, m_pieces[chain[i - 1]], piece);
+                append(track, m_tracks[piece.track], from, i + 1 == chain.size() ? endPoint(chain[i]) : piece.to);
+            }
+            track.onsetFrame = track.points.front().frame;
+            track.endFrame = track.points.back().frame;
+            track.peakStatistic = statistic;
+            describe(track, chain);
+            return track;
+        }
+
+        static void append(Track &track, const Track &from, std::size_t begin, std::size_t end)
+        {
+            const double offset = (track.points.empty() ? 0.0 : track.points.back().statistic)
+                                  - (begin > 0 ? from.points[begin - 1].statistic : 0.0);
+            for (std::size_t i = begin; i < end; ++i) {
+                track.points.push_back(from.points[i]);
+                track.points.back().statistic += offset;
+                track.smoothed.push_back(from.smoothed[i]);
+            }
+        }
+
+        /// Fills the gap between two pieces.
+        void bridge(Track &track, const Piece &a, const Piece &b) const
+        {
+            const Index gap = startOf(b) - endOf(a);
+            const PolynomialFit before = fitAtEnd(a, gap);
+            const PolynomialFit after = fitAtStart(b, gap);
+            const SmoothedPoint from = track.smoothed.back();
+            const SmoothedPoint to = pointsOf(b).front();
+            const TrackPoint end = track.points.back();
+            Index frame = end.frame;
+            for (const double position : wayBetween(a, b)) {
+                const double share = double(++frame - end.frame) / double(gap);
+                const auto mixed = [&](float x, float y) {
+                    return float((1.0 - share) * double(x) + share * double(y));
+                };
+                const double half = 1.645
+                                    * std::sqrt(std::min(before.positionVarianceAt(double(frame)),
+                                                         after.positionVarianceAt(double(frame))));
+                const double place = std::clamp(position, 0.0, double(m_rule.cells - 1));
+                track.points.push_back({frame, Index(std::lround(place)), end.plane, end.statistic});
+                track.smoothed.push_back({place, float(place - half), float(place + half),
+                                          mixed(from.presence, to.presence), mixed(from.level, to.level)});
+            }
+        }
+
+        /// Detection and confirmation are those of the first of its tracks that was detected along it, or where its own
+        /// statistic reaches the threshold.
+        void describe(Track &track, const std::vector<std::size_t> &chain) const
+        {
+            const Track *detected = nullptr;
+            for (const std::size_t i : chain) {
+                const Piece &piece = m_pieces[i];
+                const Track &own = m_tracks[piece.track];
+                track.isConfirmed = track.isConfirmed || own.isConfirmed;
+                if (own.detectFrame >= startOf(piece) && own.detectFrame <= endOf(piece)
+                    && (!detected || own.detectFrame < detected->detectFrame))
+                    detected = &own;
+            }
+            const auto reached =
+                std::find_if(track.points.begin(), track.points.end(),
+                             [this](const TrackPoint &point) { return point.statistic >= m_rule.threshold; });
+            const Index own = reached == track.points.end() ? track.endFrame : reached->frame;
+            track.detectFrame = detected ? detected->detectFrame : own;
+            const Track &last = m_tracks[m_pieces[chain.back()].track];
+            track.isOpen = last.isOpen && track.endFrame == last.endFrame;
+            if (detected) {
+                track.detectStatistic = detected->detectStatistic;
+                track.confirmFrame = detected->confirmFrame;
+                track.id = detected->id;
+            }
+            if (track.isConfirmed)
+                track.confirmFrame = std::clamp(track.confirmFrame, track.detectFrame, track.endFrame);
+        }
+
+        static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+        std::vector<Track> m_tracks;
+        const RelinkRule &m_rule;
+        std::vector<Piece> m_pieces; ///< by track, then time
+        std::vector<std::size_t> m_next;
+        std::vector<std::size_t> m_previous;
+        double m_steepest = 0.0; ///< slope of any piece, cells per frame
+    };
+
+} // namespace
+
+std::vector<Track> relink(std::vector<Track> tracks, const RelinkRule &rule)
+{
+    constexpr int rounds = 2; // the second one sees longer pieces
+    for (int round = 0; round < rounds; ++round)
+        tracks = Relinking(std::move(tracks), rule).run();
+    return tracks;
+}
+
+} // namespace faintline

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "track/Track.h"
+
+#include <functional>
+#include <vector>
+
+namespace faintline {
+
+/// Conditions for identities of tracks of lines.
+struct RelinkRule {
+    double threshold = 0.0; ///< T, nat, the detector's
+    double binsPerCell = 1.0;
+    Index cells = 0;        ///< of the axis
+    Index slopeFrames = 56; ///< m, over which a track's way before and after an encounter is measured
+    /// D(r): evidence against a signal of level r in each frame in which nothing is to be seen of it, nat.
+    std::function<double(double level)> absence;
+};
+
+/// Assigns the pieces of tracks before and after encounters anew, and joins the pieces of one signal.
+///
+/// Where two signals meet, a path may go over from one to the other at no cost, and one of the two trackers ends. All
+/// tracks are therefore cut where two of them are nearer than 1.8 resolution cells or cross (such frames less than 0.7 m
+/// apart count as one encounter, widened by m/5 at both ends), and around an end of a track within 3 cells of another.
+/// Pieces are then linked by a minimal-cost assignment (assign.h). From the end of piece a to the beginning of piece b, g
+/// frames later,
+///
+///   cost = ½[(f_a - f_b)²/V + ln(V/v0) + (s_a - s_b)²/W + (L_a - L_b)²/(3 dB)²]
+///
+///   f, s   position and slope of either piece, extrapolated to the middle of the gap from a polynomial through its
+///          nearest m to 4 m frames (more for longer gaps): a straight line, or a parabola if its curvature is
+///          significant, which is how whistles continue
+///   V, W   their variances: those of both fits, times 6 because neighbouring frames are correlated; q·(g/2)² and 2q,
+///          where q is the variance of the pieces' own slopes; v0 = (0.35 cell)² in V
+///   L      mean levels in dB
+///
+/// A link is possible if it costs less than T and the signal's absence where it could have been seen is no more
+/// significant than a detection: frames that are not within 2.5 cells of any track, times D, at most T. A track's own
+/// way costs T·0.9 at most, so that it is kept unless there is a better one; no link costs T. Between linked pieces of
+/// different tracks, a cubic curve replaces what the tracks had there.
+///
+/// Tracks without the second pass are left as they are. The result is not ordered. Deterministic.
+std::vector<Track> relink(std::vector<Track> tracks, const RelinkRule &rule);
+
+} // namespace faintline

@@ -1,0 +1,221 @@
+#include "base/Random.h"
+#include "track/relink.h"
+
+#include <QtTest>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+using namespace faintline;
+
+namespace {
+
+constexpr double binsPerCell = 2.0;
+constexpr double threshold = 15.0;
+
+RelinkRule rule()
+{
+    RelinkRule result;
+    result.threshold = threshold;
+    result.binsPerCell = binsPerCell;
+    result.cells = 1000;
+    result.absence = [](double level) { return 0.5 * std::min(level, 4.0); };
+    return result;
+}
+
+using Way = std::function<double(Index)>;
+
+/// A track from frame `first` to `last` along `way`, with errors of a tenth of a cell, that gains 1 nat a frame.
+Track track(Index first, Index last, const Way &way, double level = 4.0, std::uint64_t seed = 1)
+{
+    Random random(seed, 0);
+    Track result;
+    result.onsetFrame = first;
+    result.detectFrame = std::min(first + 10, last);
+    result.endFrame = last;
+    result.peakStatistic = double(last - first + 1);
+    for (Index frame = first; frame <= last; ++frame) {
+        const double position = way(frame) + 0.1 * random.normal();
+        result.points.push_back({frame, Index(std::lround(position)), 0, double(frame - first + 1)});
+        result.smoothed.push_back({position, float(position - 0.3), float(position + 0.3), 1.0f, float(level)});
+    }
+    return result;
+}
+
+Way straight(double at400, double slope)
+{
+    return [=](Index frame) { return at400 + slope * double(frame - 400); };
+}
+
+/// One way up to a frame, another one from there on.
+Way changing(Index frame, const Way &before, const Way &after)
+{
+    return [=](Index at) { return at < frame ? before(at) : after(at); };
+}
+
+/// Largest distance from a way, cells of the axis.
+double distance(const Track &track, const Way &way)
+{
+    double largest = 0.0;
+    for (std::size_t i = 0; i < track.points.size(); ++i)
+        largest = std::max(largest, std::abs(track.smoothed[i].position - way(track.points[i].frame)));
+    return largest;
+}
+
+/// The track that begins nearest to a way.
+const Track &trackAlong(const std::vector<Track> &tracks, const Way &way)
+{
+    return *std::min_element(tracks.begin(), tracks.end(), [&](const Track &a, const Track &b) {
+        const auto from = [&](const Track &t) {
+            return std::abs(t.smoothed.front().position - way(t.points.front().frame));
+        };
+        return from(a) < from(b);
+    });
+}
+
+void checkFrames(const Track &track)
+{
+    QCOMPARE(track.points.size(), track.smoothed.size());
+    for (std::size_t i = 0; i < track.points.size(); ++i)
+        QCOMPARE(track.points[i].frame, track.onsetFrame + Index(i));
+    QCOMPARE(track.points.back().frame, track.endFrame);
+    QVERIFY(track.detectFrame >= track.onsetFrame && track.detectFrame <= track.endFrame);
+}
+
+} // namespace
+
+/// Identities of tracks that met.
+class tst_relink : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void aloneItStaysAsItIs();
+    void thatCrossKeepTheirSlopes();
+    void aSwapIsUndone();
+    void curvesKissAndPart();
+    void lostBehindAnotherItIsOne();
+    void switchedOffItIsTwo();
+    void aGhostTakesNothing();
+    void piecesHaveTheirOwnEvidence();
+    void withoutTheSecondPassNothingChanges();
+};
+
+void tst_relink::aloneItStaysAsItIs()
+{
+    const Track alone = track(0, 800, straight(300.0, 0.1));
+    const auto result = relink({alone, track(0, 800, straight(500.0, 0.1), 4.0, 2)}, rule());
+    QCOMPARE(result.size(), std::size_t(2));
+    QCOMPARE(result.front().peakStatistic, alone.peakStatistic);
+    QCOMPARE(distance(result.front(), straight(300.0, 0.1)), distance(alone, straight(300.0, 0.1)));
+}
+
+void tst_relink::thatCrossKeepTheirSlopes()
+{
+    const Way up = straight(300.0, 0.06);
+    const Way flat = straight(300.0, 0.0);
+    const auto result = relink({track(0, 800, up), track(0, 800, flat, 4.0, 2)}, rule());
+    QCOMPARE(result.size(), std::size_t(2));
+    QVERIFY(distance(trackAlong(result, up), up) < 1.0);
+    QVERIFY(distance(trackAlong(result, flat), flat) < 1.0);
+}
+
+void tst_relink::aSwapIsUndone()
+{
+    const Way up = straight(300.0, 0.06);
+    const Way flat = straight(300.0, 0.0);
+    for (const Index swap : {370, 400, 425}) {
+        const auto result =
+            relink({track(0, 800, changing(swap, up, flat)), track(0, 800, changing(swap, flat, up), 4.0, 2)}, rule());
+        QCOMPARE(result.size(), std::size_t(2));
+        for (const Way &way : {up, flat}) {
+            const Track &one = trackAlong(result, way);
+            checkFrames(one);
+            QVERIFY(distance(one, way) < 1.5);
+            QVERIFY(one.peakStatistic > 500.0); // the sum of its pieces'
+        }
+    }
+}
+
+void tst_relink::curvesKissAndPart()
+{
+    const auto way = [](double side) {
+        return [side](Index frame) { return 300.0 + side * (1.0 + 0.0005 * double((frame - 400) * (frame - 400))); };
+    };
+    const auto result = relink(
+        {track(0, 800, changing(400, way(1.0), way(-1.0))), track(0, 800, changing(400, way(-1.0), way(1.0)), 4.0, 2)},
+        rule());
+    QCOMPARE(result.size(), std::size_t(2));
+    for (const double side : {-1.0, 1.0})
+        QVERIFY(distance(trackAlong(result, way(side)), way(side)) < 1.5);
+}
+
+void tst_relink::lostBehindAnotherItIsOne()
+{
+    const Way up = straight(300.0, 0.1);
+    const Way flat = straight(300.0, 0.0);
+    const auto result =
+        relink({track(0, 800, flat, 20.0), track(0, 350, up, 4.0, 2), track(455, 800, up, 4.0, 3)}, rule());
+    QCOMPARE(result.size(), std::size_t(2));
+    const Track &one = trackAlong(result, up);
+    checkFrames(one);
+    QCOMPARE(one.onsetFrame, Index(0));
+    QCOMPARE(one.endFrame, Index(800));
+    QVERIFY(distance(one, up) < 1.5);
+    QCOMPARE(one.detectFrame, Index(10));
+}
+
+void tst_relink::switchedOffItIsTwo()
+{
+    const Way flat = straight(300.0, 0.0);
+    const auto pieces = [&](double level) {
+        return relink({track(0, 390, flat, level), track(401, 800, flat, level, 2)}, rule()).size();
+    };
+    QCOMPARE(pieces(16.0), std::size_t(2)); // 10 frames of absence at 2 nat each
+    QCOMPARE(pieces(1.0), std::size_t(1));  // at ½ nat each
+}
+
+void tst_relink::aGhostTakesNothing()
+{
+    const Way flat = straight(300.0, 0.0);
+    const auto result = relink({track(0, 800, flat, 100.0), track(380, 420, straight(302.0, 0.0), 0.8, 2)}, rule());
+    QCOMPARE(result.size(), std::size_t(2));
+    const auto longest = std::max_element(
+        result.begin(), result.end(), [](const Track &a, const Track &b) { return a.points.size() < b.points.size(); });
+    QCOMPARE(longest->points.size(), std::size_t(801));
+    QVERIFY(distance(*longest, flat) < 0.5);
+}
+
+void tst_relink::piecesHaveTheirOwnEvidence()
+{
+    // A track follows a line, and behind an encounter with another track something that is no continuation: steeper and
+    // elsewhere. It stays one track: its own way is kept unless there is a better one.
+    const Way way = changing(400, straight(300.0, 0.0), straight(306.0, 0.2));
+    const auto kept = relink({track(0, 800, way), track(380, 420, straight(301.0, 0.0), 4.0, 2)}, rule());
+    QCOMPARE(kept.size(), std::size_t(2));
+    // If another track goes on from there, the rest is a track of its own, with what it gained.
+    const auto parted = relink({track(0, 800, way), track(390, 800, straight(300.0, 0.0), 4.0, 2)}, rule());
+    QCOMPARE(parted.size(), std::size_t(2));
+    const Track &flat = trackAlong(parted, straight(300.0, 0.0));
+    QVERIFY(distance(flat, straight(300.0, 0.0)) < 1.5);
+    QCOMPARE(flat.endFrame, Index(800));
+    for (const Track &one : parted) {
+        checkFrames(one);
+        QVERIFY(one.peakStatistic <= double(one.points.size()));
+    }
+}
+
+void tst_relink::withoutTheSecondPassNothingChanges()
+{
+    Track plain = track(0, 800, straight(300.0, 0.06));
+    Track other = track(0, 800, straight(300.0, 0.0));
+    plain.smoothed.clear();
+    other.smoothed.clear();
+    const auto result = relink({plain, other}, rule());
+    QCOMPARE(result.size(), std::size_t(2));
+    QCOMPARE(result.front().points.size(), plain.points.size());
+}
+
+QTEST_APPLESS_MAIN(tst_relink)
+#include "tst_relink.moc"
