@@ -69,6 +69,8 @@ const LayerItem &OutputLayers::item() const
 
 bool OutputLayers::isOffered(OutputLayer layer) const
 {
+    if (layer == OutputLayer::Presence)
+        return &m_document.frameKind() == &lineFrames();
     return layer != OutputLayer::SecondRate || m_document.frameKind().rates.size() > 1;
 }
 
@@ -110,6 +112,8 @@ QString OutputLayers::heading() const
         return tr("States reset");
     case OutputLayer::Inhibited:
         return tr("Inhibited cells");
+    case OutputLayer::Presence:
+        return tr("Presence of the tracks over their 5–95 % bands");
     case OutputLayer::Statistic:
         break;
     }
@@ -192,15 +196,17 @@ void OutputLayers::compute()
     const bool wantsPicture = m_layer != OutputLayer::Statistic;
     const LayerWindow wanted = plane().window(*analysis);
     const std::optional<Place> cursor = this->cursor();
-    m_runner.start([this, analysis, cursor, frame = singleFrame(cursor), wantsPicture,
-                    wanted](const RunContext &context) -> JobRunner::Delivery {
+    m_runner.start([this, analysis, cursor, frame = singleFrame(cursor), wantsPicture, wanted,
+                    isOfTracks = m_layer == OutputLayer::Presence](const RunContext &context) -> JobRunner::Delivery {
         if (!m_replay || m_replay->analysis() != analysis)
             m_replay = std::make_shared<LayerReplay>(
                 analysis, memoryShares::orSome(memoryShares::layerReplay, 4 * bytesOfStates(*analysis)));
         Result result{analysis, {}, {}, cursor, frame};
         if (wantsPicture)
-            result.picture = std::make_shared<const LayerPicture>(
-                frame ? layerPictureOf(*m_replay, *frame, wanted, context) : layerPicture(*m_replay, wanted, context));
+            result.picture =
+                std::make_shared<const LayerPicture>(isOfTracks ? presencePicture(*analysis, wanted)
+                                                     : frame    ? layerPictureOf(*m_replay, *frame, wanted, context)
+                                                                : layerPicture(*m_replay, wanted, context));
         if (cursor)
             result.atCursor = readCell(
                 *analysis, m_replay->at(cursor->frame, context, {cursor->cell, cursor->cell + 1}), cursor->cell);
@@ -224,7 +230,10 @@ std::optional<CellReading> OutputLayers::readingAt(const FramePlace &at) const
         return {};
     if (m_result.atCursor && m_result.cursor == place)
         return m_result.atCursor;
-    const Index pixel = m_result.picture ? m_result.picture->pixelAt(place.row, place.column) : -1;
+    // A picture of tracks has no values of the detector.
+    const Index pixel = m_result.picture && m_result.picture->presence.empty()
+                            ? m_result.picture->pixelAt(place.row, place.column)
+                            : -1;
     return pixel >= 0 ? std::optional(readPixel(*m_result.picture, pixel)) : std::nullopt;
 }
 
@@ -236,8 +245,9 @@ void OutputLayers::show()
     item.setTimeVertical(plane.view().orientation() != WaterfallView::Orientation::LeftToRight);
     const Theme::Colours &colours = Theme::colours(plane.view());
     item.setColours(colours.text, colours.canvas);
-    const bool isKnown =
-        analysis && m_result.analysis == analysis && m_result.picture && m_layer != OutputLayer::Statistic;
+    const bool isKnown = analysis && m_result.analysis == analysis && m_result.picture
+                         && m_layer != OutputLayer::Statistic
+                         && (m_layer == OutputLayer::Presence) == !m_result.picture->presence.empty();
     if (!isKnown || m_result.frame != singleFrame(cursor())) {
         item.setPicture(nullptr, {}, {});
         return plane.replot();
@@ -262,6 +272,8 @@ void OutputLayers::showLayer(LayerItem &item)
         return item.setLayer(m_layer, {0.0, 1.0}, tr("States reset (fraction)"), 1.0);
     case OutputLayer::Inhibited:
         return item.setLayer(m_layer, {0.0, 1.0}, tr("Inhibited"), 1.0);
+    case OutputLayer::Presence:
+        return item.setLayer(m_layer, {0.0, 1.0}, tr("Presence of the tracks (probability)"), 1.0);
     case OutputLayer::Statistic:
         return;
     }

@@ -70,6 +70,14 @@ const std::vector<Equation> &equations()
              "A  sum over all paths, not the best alone\n"
              "λ, P, K  as for the sequential Markov detector",
              "the sum-product form of Billon 2005, section 3"),
+        make("output:presence", "Presence of the tracks",
+             "αₜ(s) ∝ e^λ(s) · ( p/N · αₜ₋₁(off) + (1−p) Σₘ P(s|m) αₜ₋₁(m) ),   γ = α·β,   presence = 1 − γ(off)\n"
+             "v(t, f) = max over the tracks of presence(t) · share of f's cell in the track's band",
+             "s, m  states in a corridor about the track; off: no signal\n"
+             "p  probability of an onset or an end, e^(−T/2), T threshold\n"
+             "β  the same recursion, backward in time\n"
+             "band  5 to 95 % of the position's law, Σ γ over the slopes",
+             "Baum and others 1970; docs/theory.md, From statistic to tracks"),
         make("profile", "The statistic along time", "D(t, f) at the cursor's f",
              "D  as in the picture above, with the threshold", "the picture of the statistic"),
         make("regulation", "ln K and resets",

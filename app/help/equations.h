@@ -15,7 +15,8 @@ struct Equation {
     QString source;
 };
 
-/// One for each view. For the statistic, that of the detector of that name (detectorNames).
+/// One for each view. For the statistic, that of the detector of that name (detectorNames); for the layer of presence,
+/// "presence".
 const std::vector<Equation> &equations();
 const Equation *equationOf(const QString &view, const QString &detector = QStringLiteral("smd"));
 

@@ -57,12 +57,14 @@ namespace {
         const auto found = std::find(outputLayerNames.begin(), outputLayerNames.end(), options.layer);
         if (found == outputLayerNames.end())
             throw Error("--layer " + options.layer,
-                        "unknown; choose one of statistic, rate, bearing-rate, age, reset, inhibited");
+                        "unknown; choose one of statistic, rate, bearing-rate, age, reset, inhibited, presence");
         OutputLayers &layers = window.workbench().layers();
         const auto layer = static_cast<OutputLayer>(found - outputLayerNames.begin());
         if (!layers.isOffered(layer))
-            throw Error("--layer " + options.layer, "requires pings on range and bearing; the source has lines over "
-                                                    "frequency");
+            throw Error("--layer " + options.layer,
+                        layer == OutputLayer::Presence
+                            ? "requires lines over frequency; the source has pings on range and bearing"
+                            : "requires pings on range and bearing; the source has lines over frequency");
         std::optional<Error> failure;
         QObject::connect(&layers, &OutputLayers::failed, &window, [&](const Error &error) { failure = error; });
         layers.setOverlay(options.isLayerOver);

@@ -64,8 +64,8 @@ CLI::App *addRender(CLI::App &program, RenderOptions &options, std::string &size
     command->add_option("--bearing", options.bearing, "Bearing of the cursor in pings, degrees");
     command
         ->add_option("--layer", options.layer,
-                     "Layer of the output: statistic, rate, bearing-rate (pings "
-                     "only), age, reset or inhibited")
+                     "Layer of the output: statistic, rate, bearing-rate (pings only), age, reset, inhibited or "
+                     "presence (lines only)")
         ->capture_default_str();
     command->add_flag("--overlay", options.isLayerOver, "Draw the layer over the statistic instead of in its place");
     command->add_option("--theme", options.theme, "light, dark or contrast")

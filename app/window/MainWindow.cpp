@@ -3,6 +3,7 @@
 #include "app/base/MessageBar.h"
 #include "app/base/distinctLabels.h"
 #include "app/base/filePath.h"
+#include "app/control/OutputLayers.h"
 #include "app/control/Playback.h"
 #include "app/control/hint.h"
 #include "app/document/SessionSaver.h"
@@ -387,7 +388,11 @@ void MainWindow::setTheme(Theme::Kind kind)
 void MainWindow::showEquation()
 {
     const QString name = currentView(*this, *this);
-    const QString detector = QString::fromLatin1(detectorNames[m_document.settings().detector.index()].data());
+    const bool isOfTracks =
+        m_workbench->layers().layer() == OutputLayer::Presence && !m_workbench->layers().isOverlay();
+    const QString detector = isOfTracks
+                                 ? QStringLiteral("presence")
+                                 : QString::fromLatin1(detectorNames[m_document.settings().detector.index()].data());
     // If the first view is a map, input and output are maps, too.
     const bool isMap = bench().firstViewName() == QLatin1String("map")
                        && (name == QLatin1String("input") || name == QLatin1String("output"));

@@ -238,7 +238,8 @@ void MainWindow::addLayerMenu(QMenu &menu)
                                                 {tr("Layer: winning &bearing rate"), OutputLayer::SecondRate},
                                                 {tr("Layer: path &age since the last reset"), OutputLayer::Age},
                                                 {tr("Layer: &resets"), OutputLayer::Reset},
-                                                {tr("Layer: &inhibited cells"), OutputLayer::Inhibited}};
+                                                {tr("Layer: &inhibited cells"), OutputLayer::Inhibited},
+                                                {tr("Layer: &presence of the tracks"), OutputLayer::Presence}};
     for (const auto &[text, layer] : all) {
         QAction *action = addViewAction(*choices, text, {}, [layers, layer = layer] { layers->setLayer(layer); });
         action->setCheckable(true);

@@ -45,6 +45,8 @@ const std::vector<float> &LayerPicture::values(OutputLayer layer) const
         return resetFraction;
     case OutputLayer::Inhibited:
         return inhibited;
+    case OutputLayer::Presence:
+        return presence;
     case OutputLayer::Statistic:
         break;
     }
@@ -58,6 +60,28 @@ Index LayerPicture::pixelAt(Index row, Index column) const
     return row < 0 || column < 0 || r < 0 || r >= rows || c < 0 || c >= columns ? -1 : r * columns + c;
 }
 
+LayerPicture pixelsOf(const LayerWindow &window, Index rows, Index columns)
+{
+    const Index endRow = std::min(window.endRow, rows);
+    const Index endColumn = std::min(window.endColumn, columns);
+    const Index beginRow = std::clamp<Index>(window.beginRow, 0, endRow);
+    const Index beginColumn = std::clamp<Index>(window.beginColumn, 0, endColumn);
+    const auto per = [](Index length, Index most) {
+        return std::max<Index>(1, (length + most - 1) / std::max<Index>(1, most));
+    };
+    const auto count = [](Index begin, Index end, Index by) {
+        return end > begin ? (end - 1) / by - begin / by + 1 : 0;
+    };
+    LayerPicture picture;
+    picture.perRow = per(endRow - beginRow, window.mostRows);
+    picture.perColumn = per(endColumn - beginColumn, window.mostColumns);
+    picture.firstRow = beginRow / picture.perRow;
+    picture.firstColumn = beginColumn / picture.perColumn;
+    picture.rows = count(beginRow, endRow, picture.perRow);
+    picture.columns = count(beginColumn, endColumn, picture.perColumn);
+    return picture;
+}
+
 namespace {
 
     /// A picture of a window, painted cell by cell.
@@ -68,22 +92,7 @@ namespace {
             : m_rows(rows), m_columns(columns), m_frameSeconds(float(analysis.time().step)),
               m_rates(ratesOfPlanes(analysis, 0)), m_secondRates(ratesOfPlanes(analysis, 1))
         {
-            const Index endRow = std::min(window.endRow, rows);
-            const Index endColumn = std::min(window.endColumn, columns);
-            const Index beginRow = std::clamp<Index>(window.beginRow, 0, endRow);
-            const Index beginColumn = std::clamp<Index>(window.beginColumn, 0, endColumn);
-            const auto per = [](Index length, Index most) {
-                return std::max<Index>(1, (length + most - 1) / std::max<Index>(1, most));
-            };
-            const auto count = [](Index begin, Index end, Index by) {
-                return end > begin ? (end - 1) / by - begin / by + 1 : 0;
-            };
-            picture.perRow = per(endRow - beginRow, window.mostRows);
-            picture.perColumn = per(endColumn - beginColumn, window.mostColumns);
-            picture.firstRow = beginRow / picture.perRow;
-            picture.firstColumn = beginColumn / picture.perColumn;
-            picture.rows = count(beginRow, endRow, picture.perRow);
-            picture.columns = count(beginColumn, endColumn, picture.perColumn);
+            picture = pixelsOf(window, rows, columns);
             const auto size = std::size_t(picture.rows * picture.columns);
             picture.statistic.assign(size, unreached);
             for (std::vector<float> *values :

@@ -106,10 +106,11 @@ enum class OutputLayer {
     SecondRate, ///< the same along the second one, for pings
     Age,        ///< path age since the last reset, s
     Reset,      ///< fraction of the cell's states that were reset
-    Inhibited   ///< 1 where the detector was inhibited, else 0
+    Inhibited,  ///< 1 where the detector was inhibited, else 0
+    Presence    ///< of lines: presence of the tracks, over their 5-95 % bands
 };
-inline constexpr std::array<std::string_view, 6> outputLayerNames{"statistic", "rate",  "bearing-rate",
-                                                                  "age",       "reset", "inhibited"};
+inline constexpr std::array<std::string_view, 7> outputLayerNames{"statistic", "rate",      "bearing-rate", "age",
+                                                                  "reset",     "inhibited", "presence"};
 
 /// The displayed part in rows and columns, and the maximum number of either in the picture. For a recording a row is a
 /// frame and a column a cell; for one ping a row is a cell of the first axis, a column one of the second.
@@ -133,16 +134,29 @@ struct LayerPicture {
     std::vector<float> age;
     std::vector<float> resetFraction;
     std::vector<float> inhibited;
+    std::vector<float> presence; ///< of presencePicture, which has no other layer
 
     const std::vector<float> &values(OutputLayer layer) const;
     /// The pixel that covers a row and column of the window; -1 outside it.
     Index pixelAt(Index row, Index column) const;
 };
 
+/// The pixels of a window's picture of `rows` × `columns`, without values.
+LayerPicture pixelsOf(const LayerWindow &window, Index rows, Index columns);
+
 /// For lines: frames × cells.
 LayerPicture layerPicture(LayerReplay &replay, const LayerWindow &window, const RunContext &context = {});
 /// For one ping. Precondition: the grid has two axes.
 LayerPicture layerPictureOf(LayerReplay &replay, Index ping, const LayerWindow &window, const RunContext &context = {});
+
+/// Tracks as the two-sided second pass sees them (secondLook.h), and nothing else:
+///
+///   v(t, n) = max over the tracks of presence(t) · share of cell n inside the track's 5-95 % band at t
+///
+/// The cell nearest to the track's position counts as inside, however narrow the band is. Tracks without a second pass
+/// count as present in the cells of their paths. A pixel shows the largest value of its cells. Nothing is run again:
+/// the cost is that of the window's pixels and of the tracks' points.
+LayerPicture presencePicture(const Analysis &analysis, const LayerWindow &window);
 
 /// The largest rate along an axis, in its unit per second; for a bank, over all its models.
 double largestRate(const Analysis &analysis, std::size_t axis);

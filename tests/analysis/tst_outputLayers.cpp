@@ -310,6 +310,36 @@ private slots:
                          whole.age[std::size_t((part.firstRow + row) * whole.columns + part.firstColumn + column)]);
     }
 
+    void presenceLiesOnTheBands()
+    {
+        Analysis analysis = *analysed();
+        // Wide and uncertain, from the middle of cell 9 to that of cell 12; narrow and certain, within cell 11; and a
+        // track without a second pass.
+        const auto track = [](Index frame, Index cell, std::vector<SmoothedPoint> smoothed) {
+            Track made;
+            made.points = {{frame, cell, 0, 20.0}};
+            made.smoothed = std::move(smoothed);
+            return made;
+        };
+        analysis.tracks = {track(3, 10, {{10.2, 9.0f, 12.0f, 0.6f, 1.0f}}),
+                           track(3, 11, {{11.1, 11.0f, 11.2f, 0.9f, 1.0f}}), track(4, 20, {})};
+        const LayerPicture fine = presencePicture(analysis, {0, frameCount, 0, cellCount, 1000, 1000});
+        const auto at = [&](Index frame, Index cell) { return fine.presence[std::size_t(fine.pixelAt(frame, cell))]; };
+        const float expected[] = {0.0f, 0.3f, 0.6f, 0.9f, 0.3f, 0.0f}; // cells 8 … 13
+        for (Index cell = 8; cell <= 13; ++cell)
+            QVERIFY(std::abs(at(3, cell) - expected[cell - 8]) < 1e-6f);
+        QCOMPARE(at(4, 20), 1.0f);
+        QCOMPARE(std::count_if(fine.presence.begin(), fine.presence.end(), [](float v) { return v > 0.0f; }), 5);
+        QCOMPARE(fine.values(OutputLayer::Presence), fine.presence);
+        // A pixel of many cells shows the largest value; a part of the window, that part.
+        const LayerPicture coarse = presencePicture(analysis, {0, frameCount, 0, cellCount, 12, 8});
+        QCOMPARE(coarse.presence[std::size_t(coarse.pixelAt(3, 9))], 0.9f);
+        const LayerPicture part = presencePicture(analysis, {4, 10, 16, 32, 100, 100});
+        QCOMPARE(part.rows, Index(6));
+        QCOMPARE(part.presence[std::size_t(part.pixelAt(4, 20))], 1.0f);
+        QCOMPARE(std::count_if(part.presence.begin(), part.presence.end(), [](float v) { return v > 0.0f; }), 1);
+    }
+
     void aCellsReading()
     {
         LayerReplay replay(analysed());

@@ -262,6 +262,12 @@ private slots:
         QVERIFY(output.title().text().contains(QStringLiteral("Statistic")));
         for (int i = 0; i < 4; ++i)
             QTest::keyClick(&output, Qt::Key_V);
+        QCOMPARE(layers.layer(), OutputLayer::Presence);
+        QVERIFY(settle(m_window->workbench().layers()));
+        const std::vector<float> &presence = layers.item().picture()->presence;
+        QVERIFY(*std::max_element(presence.begin(), presence.end()) > 0.9f);
+        QVERIFY(!layers.readingAt({13.0, {206.5}})); // a picture of tracks has no age of a path
+        QTest::keyClick(&output, Qt::Key_V);
         QCOMPARE(layers.layer(), OutputLayer::Statistic);
         QVERIFY(settle(m_window->workbench().layers()));
     }

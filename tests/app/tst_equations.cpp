@@ -39,6 +39,7 @@ void tst_equations::everyViewHasOne()
     for (const std::string_view detector : detectorNames)
         QVERIFY2(equationOf("output", QString::fromLatin1(detector.data())), detector.data());
     QVERIFY(equationOf("output", "smd") != equationOf("output", "pOfN"));
+    QVERIFY(equationOf("output", "presence"));
     QVERIFY(!equationOf("moon"));
 }
 

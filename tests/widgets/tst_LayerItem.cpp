@@ -46,6 +46,7 @@ private slots:
     void agesGrow();
     void agesBeyondTheRangeAreItsEnds();
     void inhibitedCellsHaveAColourOfTheirOwn();
+    void presenceIsAsOpaqueAsItIsSure();
     void overTheStatisticItIsAsOpaqueAsThatIsLarge();
     void overTheStatisticResetsAreAsOpaqueAsTheyAreMany();
     void aRowOfPixelsLiesOnItsFrames();
@@ -184,6 +185,20 @@ void tst_LayerItem::inhibitedCellsHaveAColourOfTheirOwn()
     m_item->setOverlay(true, 10.0);
     QCOMPARE(qAlpha(colour(0, 0)), 140); // 55 %, however small the statistic is there
     QCOMPARE(qAlpha(colour(1, 0)), 0);
+}
+
+void tst_LayerItem::presenceIsAsOpaqueAsItIsSure()
+{
+    const auto tracks = picture(1, 3);
+    tracks->presence = {0.0f, 0.5f, 1.0f};
+    m_item->setPicture(tracks, m_rows, m_columns);
+    m_item->setLayer(OutputLayer::Presence, {0.0, 1.0}, "Presence", 1.0);
+    QCOMPARE(colour(1, 0), mapped("viridis", 0.5));
+    QCOMPARE(colour(2, 0), mapped("viridis", 1.0));
+    m_item->setOverlay(true, 8.0);
+    QCOMPARE(qAlpha(colour(0, 0)), 0);
+    QCOMPARE(qAlpha(colour(1, 0)), 128);
+    QCOMPARE(qAlpha(colour(2, 0)), 255);
 }
 
 void tst_LayerItem::overTheStatisticItIsAsOpaqueAsThatIsLarge()

@@ -81,6 +81,8 @@ QRgb LayerItem::colourOf(std::size_t pixel) const
     const QRgb colour = mapOf(m_layer).at(m_range.isEmpty() ? 0.5 : (value - m_range.low) / m_range.width());
     if (!m_isOverlay)
         return clear(colour, 1.0);
+    if (m_layer == OutputLayer::Presence)
+        return clear(colour, std::clamp(value, 0.0, 1.0));
     if (m_layer == OutputLayer::Reset)
         return clear(colour, 0.7 * std::clamp(value, 0.0, 1.0));
     return clear(colour, std::clamp(double(m_picture->statistic[pixel]) / m_opaqueNats, 0.0, 1.0));

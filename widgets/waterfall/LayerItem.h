@@ -17,9 +17,9 @@ namespace faintline {
 /// Draws a layer of the detector's output on a waterfall or the map of a ping, instead of the statistic or over it, and
 /// its key in a corner.
 ///
-/// Rates use a diverging map about 0, with grey where all states were reset and no rate has won; ages and reset
-/// fractions use a sequential one, inhibited cells a colour of their own. Over the statistic, the opacity of a layer
-/// follows the height of the statistic above the noise, so that only relevant parts are visible.
+/// Rates use a diverging map about 0, with grey where all states were reset and no rate has won; ages, reset fractions
+/// and presence use a sequential one, inhibited cells a colour of their own. Over the statistic, the opacity of a layer
+/// follows the height of the statistic above the noise, or its own value, so that only relevant parts are visible.
 class LayerItem : public QwtPlotItem
 {
 public:
