@@ -51,7 +51,8 @@ Interruption::~Interruption()
         m_isOver = true;
     }
     m_ended.notify_all();
-    pthread_kill(m_thread, SIGTERM); // wakes it from waiting for a signal
+    // Wakes it from waiting for a signal, which it receives by sigwait.
+    pthread_kill(m_thread, SIGTERM); // NOLINT(bugprone-bad-signal-to-kill-thread)
     pthread_join(m_thread, nullptr);
 }
 
