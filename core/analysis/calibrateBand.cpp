@@ -70,9 +70,11 @@ std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &setting
                           && (settings.model.lowestSlope != 0.0 || settings.model.highestSlope != 0.0);
     const double steepest = std::max(std::abs(settings.model.lowestSlope), std::abs(settings.model.highestSlope));
     // Less than a twentieth of the false alarms is lost at the ends, which lie as many steps away as at one bin a frame.
-    const auto wideEnough = Index(256.0 * std::clamp(steepest, 1.0, 4.0));
-    // From here on the loss at the ends does not depend on the width.
-    const auto endsDoNotMeet = Index(64.0 * std::clamp(0.5 * steepest, 1.0, 2.0));
+    constexpr Index wideAtOneBin = 256;
+    const auto wideEnough = Index(double(wideAtOneBin) * std::clamp(steepest, 1.0, 4.0));
+    // From here on the loss at the ends hardly depends on the width. Narrow bands are as measured with 64 bins.
+    const bool isNarrow = bins < wideAtOneBin;
+    const auto endsDoNotMeet = Index(64.0 * (isNarrow ? 1.0 : std::clamp(0.5 * steepest, 1.0, 2.0)));
     if (bins >= wideEnough || !isMoving)
         return calibrate(settings, context, depth);
     const auto wide = calibrate(settings, context.part(0.0, 0.6), depth);
@@ -92,7 +94,7 @@ std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &setting
         context);
     if (bins == simulated || narrow->rates.isEmpty() || *narrow == *wide)
         return narrow;
-    const std::optional<Index> counted = countedBins(bare);
+    const std::optional<Index> counted = isNarrow ? std::nullopt : countedBins(bare);
     const double lost = 1.0 - std::min(1.0, leftAt(*wide, *narrow, wide->anchorNats));
     return withShareOfEnds(*wide, *narrow, double(simulated) / double(bins),
                            counted ? lost * double(simulated) / double(*counted) : 0.0);
