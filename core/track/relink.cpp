@@ -199,6 +199,17 @@ namespace {
             return false;
         }
 
+        /// Whether the end of one's track and the beginning of the other's were seen at the same time, as two signals.
+        bool areSeenTogether(std::size_t from, std::size_t to) const
+        {
+            const Piece &a = m_pieces[from];
+            const Piece &b = m_pieces[to];
+            const bool isLast = from + 1 == m_pieces.size() || m_pieces[from + 1].track != a.track;
+            const bool isFirst = to == 0 || m_pieces[to - 1].track != b.track;
+            return isLast && isFirst
+                   && m_tracks[a.track].points.back().frame - m_tracks[b.track].points.front().frame >= m() / 5;
+        }
+
         bool isVisible(Index frame, double position) const
         {
             return std::none_of(m_tracks.begin(), m_tracks.end(), [&](const Track &track) {
@@ -238,7 +249,7 @@ namespace {
                 for (; at != byStart.end() && startOf(m_pieces[*at]) - endOf(a) <= longestGap * m(); ++at) {
                     const Piece &b = m_pieces[*at];
                     const bool isOwn = *at == i + 1 && a.track == b.track;
-                    if (isOwn || !isInReach(a, b))
+                    if (isOwn || !isInReach(a, b) || areSeenTogether(i, *at))
                         continue;
                     if (const double cost = costOf(a, b); cost < m_rule.threshold && !isAbsent(a, b))
                         pairs.push_back({i, *at, cost});

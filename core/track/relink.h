@@ -35,7 +35,8 @@ struct RelinkRule {
 ///   L      mean levels in dB
 ///
 /// A link is possible if it costs less than T and the signal's absence where it could have been seen is no more
-/// significant than a detection: frames that are not within 2.5 cells of any track, times D, at most T. A track's own
+/// significant than a detection: frames that are not within 2.5 cells of any track, times D, at most T. Two tracks of
+/// which one's end and the other's beginning were seen together for m/5 frames or more are two signals. A track's own
 /// way costs T·0.9 at most, so that it is kept unless there is a better one; no link costs T. Between linked pieces of
 /// different tracks, a cubic curve replaces what the tracks had there.
 ///
