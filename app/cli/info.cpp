@@ -246,9 +246,14 @@ void addDescribe(CLI::App &app, Common &)
             std::printf("%s%s%s\n    %s; default %s\n    %s\n", field.name.c_str(), field.unit.empty() ? "" : ", ",
                         field.unit.c_str(), rangeOf(field).c_str(), formatFieldValue(defaultValue(field)).c_str(),
                         field.sentence.c_str());
+            if (!field.advice.empty())
+                std::printf("    %s\n", field.advice.c_str());
         }
         if (!any)
             settingField(*name); // its error names the nearest setting
+        if (name->empty())
+            for (const SettingRule &rule : settingRules())
+                std::printf("rule of %s\n    %s\n", rule.field.c_str(), rule.sentence.c_str());
         if (name->empty())
             for (const Preset &preset : presets())
                 std::printf("preset %s\n    %s\n", preset.name.c_str(), preset.sentence.c_str());

@@ -27,9 +27,9 @@ ScanTestForm::ScanTestForm(QWidget *parent) : QWidget(parent), m_error(plainLabe
             section = new FormSection(stageLabel(prefix));
             layout->addWidget(section);
         }
-        auto *row = new SettingRow(field, settingLabel(name), *field.get(ScanTest()));
+        auto *row = new SettingRow(field, *field.get(ScanTest()));
         row->setLabelWidth(labelWidth);
-        section->addRow(row, isSeldomUsed(name));
+        section->addRow(row, field.isAdvanced);
         m_rows[name] = row;
         connect(row, &SettingRow::edited, this, [this, &field](const FieldValue &value) {
             field.set(m_test, value);

@@ -58,7 +58,8 @@ namespace {
     QString titleOf(const FieldInfo &field)
     {
         const QString name = QString::fromStdString(field.name);
-        const QString stage = stageLabel(name.section(QLatin1Char('.'), 0, 0)), label = settingLabel(name);
+        const QString stage = stageLabel(name.section(QLatin1Char('.'), 0, 0)),
+                      label = QString::fromStdString(labelOf(field));
         return stage == label ? label : stage + QStringLiteral(" · ") + label;
     }
 

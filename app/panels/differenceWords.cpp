@@ -13,8 +13,8 @@ QString differenceWords(const SettingDifference &difference)
         return difference.field.kind == FieldKind::Choice ? choiceLabel(word) : word;
     };
     const QString name = QString::fromStdString(difference.field.name);
-    const QString label =
-        name == QLatin1String("detector.kind") ? stageLabel(QStringLiteral("detector")) : settingLabel(name);
+    const QString label = name == QLatin1String("detector.kind") ? stageLabel(QStringLiteral("detector"))
+                                                                 : QString::fromStdString(labelOf(difference.field));
     const QString unit =
         difference.field.unit.empty() ? QString() : QLatin1Char(' ') + QString::fromStdString(difference.field.unit);
     return QStringLiteral("%1 %2 → %3%4").arg(label, value(difference.a), value(difference.b), unit);

@@ -1,7 +1,10 @@
 #include "app/render/subcommands.h"
 
 #include "app/cli/inRange.h"
+#include "app/views/WindowViews.h"
 #include "base/Error.h"
+
+#include <QStringList>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +12,20 @@
 #include <utility>
 
 namespace faintline {
+
+namespace {
+
+    /// The views of a kind of source, separated by commas.
+    std::string viewNames(WindowView::Of of)
+    {
+        QStringList names;
+        for (const WindowView &view : windowViews())
+            if (view.of == of)
+                names << view.name;
+        return names.join(QStringLiteral(", ")).toStdString();
+    }
+
+} // namespace
 
 QSize parseSize(const std::string &text)
 {
@@ -42,12 +59,11 @@ CLI::App *addRender(CLI::App &program, RenderOptions &options, std::string &size
     command->add_option("--out", options.out, "Picture to write (.png); with several views, each name is appended")
         ->required();
     command
-        ->add_option(
-            "--view", options.views,
-            "window, input, output, threshold, events, noise, noisefit, spectrum, channels, doppler, pd, "
-            "why, compare, sweep, "
-            "sequential, walk, posterior; for sonar pings also map, polar, histories, slice, latency, targets; for "
-            "radar scans stopping, scan, asn, prior, sectors; separate several by commas")
+        ->add_option("--view", options.views,
+                     "One of: " + viewNames(WindowView::Of::Recording) + "; of sonar pings: "
+                         + viewNames(WindowView::Of::Pings) + "; of radar scans: " + viewNames(WindowView::Of::Scans)
+                         + "; of the results of a survey: " + viewNames(WindowView::Of::Survey)
+                         + "; separate several by commas")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->capture_default_str();

@@ -12,16 +12,6 @@ namespace faintline {
 
 namespace {
 
-    /// Setting the value of one of the three thresholds also selects it.
-    Field<DecideSettings> chosenBy(Field<DecideSettings> field, DecideSettings::By by)
-    {
-        field.set = [inner = field.set, by](DecideSettings &settings, const FieldValue &value) {
-            inner(settings, value);
-            settings.by = by;
-        };
-        return field;
-    }
-
     template <class T>
     void append(std::vector<Field<AnalysisSettings>> &table, const std::string &prefix, T AnalysisSettings::*member)
     {
@@ -37,6 +27,11 @@ namespace {
         kind.name = "detector.kind";
         kind.sentence = "The detector: sequential Markov, P out of N, integrator, single-frame energy, fixed-window "
                         "Viterbi, Shiryaev-Roberts.";
+        kind.label = "Kind";
+        kind.advice =
+            "The sequential Markov detector finds signals of unknown onset, duration and drift. The others are "
+            "faster, simpler, and there for comparison: the integrator and the energy do not follow drift, P "
+            "out of N counts exceedances, fixed-window Viterbi decides once a block.";
         kind.kind = FieldKind::Choice;
         kind.choices.assign(detectorNames.begin(), detectorNames.end());
         kind.get = [](const AnalysisSettings &settings) {
@@ -78,68 +73,9 @@ namespace {
         return row.back();
     }
 
-    void checkLaw(const std::string &name, const std::vector<double> &law, int rateCount)
-    {
-        KinematicAxis axis;
-        axis.cells = 1;
-        axis.rateCount = rateCount;
-        axis.rateChange = law;
-        try {
-            axis.check("model");
-        } catch (const Error &error) {
-            throw fieldError(name, formatFieldValue(law), error.why());
-        }
-    }
-
     int slopeIndex(double slope, int slopesPerBin)
     {
         return int(std::lround(slope * slopesPerBin));
-    }
-
-    int slopeCount(const ModelSettings &model)
-    {
-        return slopeIndex(model.highestSlope, model.slopesPerBin) - slopeIndex(model.lowestSlope, model.slopesPerBin)
-               + 1;
-    }
-
-    /// Checks slopes in bins per frame; those in Hz/s can only be converted with a recording.
-    void checkSlopes(const ModelSettings &model)
-    {
-        if (model.lowestSlope > model.highestSlope)
-            throw fieldError("model.lowestSlope", formatNumber(model.lowestSlope),
-                             "must not exceed model.highestSlope");
-        if (model.slopeUnit != SlopeUnit::BinsPerFrame)
-            return;
-        const auto check = [&](const char *name, double slope) {
-            constexpr double largest = 100.0;
-            if (std::abs(slope) > largest)
-                throw fieldError(
-                    std::string("model.") + name, formatNumber(slope),
-                    "must lie in -100 … 100 bins/frame; use a shorter window to reduce it for the same Hz/s");
-            const double inSteps = slope * model.slopesPerBin;
-            if (std::abs(inSteps - std::round(inSteps)) > 1e-6)
-                throw fieldError(std::string("model.") + name, formatNumber(slope),
-                                 "must be a multiple of 1/" + std::to_string(model.slopesPerBin)
-                                     + " bin/frame (model.slopesPerBin)");
-        };
-        check("lowestSlope", model.lowestSlope);
-        check("highestSlope", model.highestSlope);
-        if (slopeCount(model) > 1001)
-            throw fieldError("model.slopesPerBin", std::to_string(model.slopesPerBin),
-                             "gives " + std::to_string(slopeCount(model)) + " slopes; at most 1001 are possible");
-    }
-
-    /// Lines can only be subtracted if their positions are known to a fraction of a cell.
-    void checkSubtracts(const AnalysisSettings &settings)
-    {
-        if (!settings.track.bothWays || settings.noise.causal || !std::holds_alternative<SmdSettings>(settings.detector)
-            || settings.model.likelihood == LikelihoodKind::Linear)
-            checkSubtractsNothing(settings, "requires two-sided tracks: track.bothWays=true, "
-                                            "noise.causal=false, detector.kind=smd, and not model.likelihood=linear");
-        if (!settings.family.isNone())
-            checkSubtractsNothing(settings, "is not possible with a family; use family.relation=none");
-        if (!settings.selection.channels.empty())
-            checkSubtractsNothing(settings, "is not possible with several channels; use selection.channels=");
     }
 
     SonarMotion turning(const ModelSettings &settings)
@@ -152,81 +88,9 @@ namespace {
 
 } // namespace
 
-const std::vector<Field<ModelSettings>> &ModelSettings::fields()
+int slopeCount(const ModelSettings &model)
 {
-    using S = ModelSettings;
-    static const std::vector<Field<S>> table{
-        field(&S::motion, "motion", motionNames,
-              "Motion of signals: slopes as given here, or sonar targets that keep their rates, that turn, or both in "
-              "parallel."),
-        field(&S::slopeUnit, "slopeUnit", slopeUnitNames,
-              "Unit of the lowest and highest slope; Hz/s are converted to bins per frame with the window in use and "
-              "rounded outward to a multiple of 1/slopesPerBin."),
-        field(&S::lowestSlope, "lowestSlope", "bins/frame", -1e9, 1e9,
-              "Most negative slope a line may have, at least -100 bins/frame; in Hz/s if model.slopeUnit is "
-              "hzPerSecond."),
-        field(
-            &S::highestSlope, "highestSlope", "bins/frame", -1e9, 1e9,
-            "Most positive slope a line may have, at most 100 bins/frame; in Hz/s if model.slopeUnit is hzPerSecond."),
-        field(&S::slopesPerBin, "slopesPerBin", "", 1.0, 64.0,
-              "Number of slopes per bin/frame: 8 means steps of 1/8 bin/frame."),
-        field(&S::slopeChange, "slopeChange", "", 0.0, 1.0,
-              "Law h(0), h(1), … of the slope's change from frame to frame, in steps of the slope set; h(0) + 2·(h(1) "
-              "+ …) = 1."),
-        field(&S::rangeRateChange, "rangeRateChange", "", 0.0, 1.0,
-              "Law h(0), h(1), … of a manoeuvring target's change of range rate from ping to ping; h(0) + 2·(h(1) + …) "
-              "= 1."),
-        field(&S::bearingRateChange, "bearingRateChange", "", 0.0, 1.0,
-              "Law of the change of its bearing rate, in the "
-              "same form."),
-        field(&S::rounding, "rounding", roundingNames, "Rounding of a movement by half a bin."),
-        field(&S::likelihood, "likelihood", likelihoodNames,
-              "Signal law in a frame: constant amplitude (rice; also for Swerling 1 and 3), power that fluctuates from "
-              "frame to frame (exponential: Swerling 2; swerling4), or the power itself (linear)."),
-        field(&S::snr, "snr", "", 1e-6, 1e6,
-              "Signal-to-noise ratio r0 for which the likelihood is designed, as a power ratio in one frame."),
-    };
-    return table;
-}
-
-const std::vector<Field<DecideSettings>> &DecideSettings::fields()
-{
-    using S = DecideSettings;
-    static const std::vector<Field<S>> table{
-        chosenBy(field(&S::falseAlarmsPerHour, "falseAlarmsPerHour", "1/h", 1e-9, 1e9,
-                       "False alarms per hour of recording that the threshold permits on noise."),
-                 S::By::FalseAlarmsPerHour),
-        chosenBy(field(&S::pfaPerCell, "pfaPerCell", "", 1e-15, 0.5,
-                       "Probability that a cell of noise exceeds the threshold in a frame."),
-                 S::By::PfaPerCell),
-        chosenBy(field(&S::thresholdNats, "thresholdNats", "nat", -100.0, 1e6, "Threshold on the statistic."),
-                 S::By::Nats),
-        field(&S::by, "by", S::byNames, "Quantity that sets the threshold."),
-        field(&S::linkCells, "linkCells", "bins", 0.0, 1000.0,
-              "Largest distance between threshold crossings of one event, per axis; the last number repeats."),
-        field(
-            &S::inhibitCells, "inhibitCells", "cells", 0.0, 1000.0,
-            "Half width, in resolution cells, of the box inhibited around a track, per axis; the last number repeats."),
-        field(&S::forgetCells, "forgetCells", "cells", 0.0, 1000.0,
-              "Half width of the box in which the detector is reset around a new track, per axis; none: as "
-              "inhibitCells."),
-        field(&S::resets, "resets", "Whether the detector is reset in the box around a new track."),
-        field(&S::inhibits, "inhibits", "Whether the detector is inhibited in the box around a track."),
-    };
-    return table;
-}
-
-const std::vector<Field<SubtractSettings>> &SubtractSettings::fields()
-{
-    using S = SubtractSettings;
-    static const std::vector<Field<S>> table{
-        field(&S::lines, "lines",
-              "Whether strong lines are subtracted with their phase and the rest is searched again, for weak lines "
-              "beside them."),
-        field(&S::leastDb, "leastDb", "dB", 3.0, 200.0,
-              "Mean power over the noise, in one frame, from which on a line is subtracted."),
-    };
-    return table;
+    return slopeIndex(model.highestSlope, model.slopesPerBin) - slopeIndex(model.lowestSlope, model.slopesPerBin) + 1;
 }
 
 const std::vector<Field<AnalysisSettings>> &AnalysisSettings::fields()
@@ -288,20 +152,8 @@ void checkSettings(const AnalysisSettings &settings)
     for (const auto &f : AnalysisSettings::fields())
         if (const auto value = f.get(settings))
             checkFieldValue(f, *value);
-    checkChannels(settings.selection);
-    checkFamily(settings.family);
-    if (settings.noise.causal) // tracks that a stronger family explains are only known at the end
-        checkHasNoFamily(settings, "is not possible with noise.causal=true");
-    checkSubtracts(settings);
-    checkSlopes(settings.model);
-    if (settings.conventional.hits > settings.conventional.window)
-        throw fieldError("conventional.hits", std::to_string(settings.conventional.hits),
-                         "must not exceed conventional.window");
-    const bool isInBins = settings.model.slopeUnit == SlopeUnit::BinsPerFrame;
-    checkLaw("model.slopeChange", settings.model.slopeChange,
-             isInBins ? slopeCount(settings.model) : std::max(1, int(settings.model.slopeChange.size())));
-    checkLaw("model.rangeRateChange", settings.model.rangeRateChange, 1);
-    checkLaw("model.bearingRateChange", settings.model.bearingRateChange, 1);
+    for (const SettingRule &rule : settingRules())
+        rule.check(settings);
 }
 
 void checkHasNoFamily(const AnalysisSettings &settings, std::string why)

@@ -11,6 +11,7 @@
 #include "track/HmmTracker.h"
 
 #include <array>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -118,8 +119,21 @@ FieldValue defaultValue(const Field<AnalysisSettings> &field);
 /// Parses, checks and sets one setting. Throws Error.
 void setSetting(AnalysisSettings &settings, std::string_view name, std::string_view text);
 
-/// Checks conditions across settings: laws that must sum to 1, order of limits. Throws Error.
+/// A condition on several settings, beyond the ranges of the single ones.
+struct SettingRule {
+    std::string field;                                   ///< the setting that its error names and forms mark
+    std::string sentence;                                ///< what must hold
+    std::function<void(const AnalysisSettings &)> check; ///< throws Error if it does not
+};
+
+/// All rules, in the order in which they are checked.
+const std::vector<SettingRule> &settingRules();
+
+/// Checks the range of every setting, and the rules. Throws the first Error.
 void checkSettings(const AnalysisSettings &settings);
+
+/// Number of slopes of the set; slopes are in bins per frame.
+int slopeCount(const ModelSettings &model);
 
 /// Check for functions limited to single lines. If a family is set, throws Error naming family.relation and `why` it is
 /// not supported.

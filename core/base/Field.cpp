@@ -72,6 +72,27 @@ namespace {
 
 } // namespace
 
+std::string spelledOut(std::string_view camelCase)
+{
+    std::string words;
+    for (const char c : camelCase)
+        if (c >= 'A' && c <= 'Z')
+            (words += words.empty() ? "" : " ") += char(c - 'A' + 'a');
+        else
+            words += c;
+    return words;
+}
+
+std::string labelOf(const FieldInfo &info)
+{
+    if (!info.label.empty())
+        return info.label;
+    std::string words = spelledOut(std::string_view(info.name).substr(info.name.rfind('.') + 1));
+    if (!words.empty() && words[0] >= 'a' && words[0] <= 'z')
+        words[0] = char(words[0] - 'a' + 'A');
+    return words;
+}
+
 std::optional<double> parseNumber(std::string_view text)
 {
     double value = 0.0;

@@ -24,6 +24,10 @@ struct FieldInfo {
     double minimum = 0.0;
     double maximum = 0.0;
     std::string sentence;
+    std::string label;                ///< of a form's row; "": the spelled-out name, as `labelOf` gives it
+    bool isAdvanced = false;          ///< seldom changed; forms fold it away
+    std::string advice;               ///< when to change it, what that costs, and its source
+    std::string example;              ///< of what to type into an empty field
     std::vector<std::string> choices; ///< names of an enumeration's values
     std::string wordForAll;           ///< for Numbers: word for the single value -1, such as "all"; "" if there is none
     FieldKind kind = FieldKind::Number;
@@ -34,7 +38,29 @@ template <class S>
 struct Field : FieldInfo {
     std::function<std::optional<FieldValue>(const S &)> get;
     std::function<void(S &, const FieldValue &)> set;
+
+    // The same field with more words: field(…).labelled("Window length").advised("Lengthen it …").
+    Field labelled(std::string text) const { return with(&FieldInfo::label, std::move(text)); }
+    Field advanced() const { return with(&FieldInfo::isAdvanced, true); }
+    Field advised(std::string text) const { return with(&FieldInfo::advice, std::move(text)); }
+    Field withExample(std::string text) const { return with(&FieldInfo::example, std::move(text)); }
+
+private:
+    template <class T>
+    Field with(T FieldInfo::*member, T value) const
+    {
+        Field result = *this;
+        result.*member = std::move(value);
+        return result;
+    }
 };
+
+/// The label of a field, "Window length"; without one, its name in words: "decide.falseAlarmsPerHour" → "False alarms
+/// per hour".
+std::string labelOf(const FieldInfo &info);
+
+/// "halfDown" → "half down".
+std::string spelledOut(std::string_view camelCase);
 
 /// Converts text to a value of the field's kind and checks its range.
 /// Throws Error naming the field, the text, and what would be accepted.
@@ -63,35 +89,33 @@ std::optional<double> parseNumber(std::string_view text);
 template <class S, class T>
 Field<S> field(T S::*member, std::string name, std::string unit, double minimum, double maximum, std::string sentence)
 {
-    Field<S> result;
-    result.name = std::move(name);
-    result.unit = std::move(unit);
-    result.minimum = minimum;
-    result.maximum = maximum;
-    result.sentence = std::move(sentence);
+    FieldInfo info;
+    info.name = std::move(name);
+    info.unit = std::move(unit);
+    info.minimum = minimum;
+    info.maximum = maximum;
+    info.sentence = std::move(sentence);
     if constexpr (std::is_same_v<T, int>)
-        result.kind = FieldKind::Integer;
+        info.kind = FieldKind::Integer;
     else if constexpr (std::is_same_v<T, double>)
-        result.kind = FieldKind::Number;
+        info.kind = FieldKind::Number;
     else if constexpr (std::is_same_v<T, std::vector<double>>)
-        result.kind = FieldKind::Numbers;
+        info.kind = FieldKind::Numbers;
     else
         static_assert(!sizeof(T), "no field() overload for members of this type");
-    result.get = [member](const S &s) -> std::optional<FieldValue> { return s.*member; };
-    result.set = [member](S &s, const FieldValue &value) { s.*member = std::get<T>(value); };
-    return result;
+    return {std::move(info), [member](const S &s) -> std::optional<FieldValue> { return s.*member; },
+            [member](S &s, const FieldValue &value) { s.*member = std::get<T>(value); }};
 }
 
 template <class S>
 Field<S> field(bool S::*member, std::string name, std::string sentence)
 {
-    Field<S> result;
-    result.name = std::move(name);
-    result.sentence = std::move(sentence);
-    result.kind = FieldKind::Flag;
-    result.get = [member](const S &s) -> std::optional<FieldValue> { return s.*member; };
-    result.set = [member](S &s, const FieldValue &value) { s.*member = std::get<bool>(value); };
-    return result;
+    FieldInfo info;
+    info.name = std::move(name);
+    info.sentence = std::move(sentence);
+    info.kind = FieldKind::Flag;
+    return {std::move(info), [member](const S &s) -> std::optional<FieldValue> { return s.*member; },
+            [member](S &s, const FieldValue &value) { s.*member = std::get<bool>(value); }};
 }
 
 /// An enumeration whose values 0, 1, … have the given names.
@@ -99,20 +123,19 @@ template <class S, class E>
 requires std::is_enum_v<E> Field<S> field(E S::*member, std::string name, std::span<const std::string_view> names,
                                           std::string sentence)
 {
-    Field<S> result;
-    result.name = std::move(name);
-    result.sentence = std::move(sentence);
-    result.kind = FieldKind::Choice;
-    result.choices.assign(names.begin(), names.end());
-    result.get = [member, names](const S &s) -> std::optional<FieldValue> {
-        return std::string(names[std::size_t(s.*member)]);
-    };
-    result.set = [member, names](S &s, const FieldValue &value) {
-        for (std::size_t i = 0; i < names.size(); ++i)
-            if (names[i] == std::get<std::string>(value))
-                s.*member = static_cast<E>(i);
-    };
-    return result;
+    FieldInfo info;
+    info.name = std::move(name);
+    info.sentence = std::move(sentence);
+    info.kind = FieldKind::Choice;
+    info.choices.assign(names.begin(), names.end());
+    return {
+        std::move(info),
+        [member, names](const S &s) -> std::optional<FieldValue> { return std::string(names[std::size_t(s.*member)]); },
+        [member, names](S &s, const FieldValue &value) {
+            for (std::size_t i = 0; i < names.size(); ++i)
+                if (names[i] == std::get<std::string>(value))
+                    s.*member = static_cast<E>(i);
+        }};
 }
 
 /// Table of an inner struct, seen from the struct that contains it. Names get a prefix. `reach` maps Outer (const or

@@ -10,7 +10,10 @@ const std::vector<Field<BlockViterbiSettings>> &BlockViterbiSettings::fields()
     using S = BlockViterbiSettings;
     static const std::vector<Field<S>> table{
         field(&S::durationWindows, "durationWindows", "windows", 0.0, 1e5,
-              "Length of a block in windows of the spectrogram; a decision is made at the end of each block."),
+              "Length of a block in windows of the spectrogram; a decision is made at the end of each block.")
+            .labelled("Block length")
+            .advised("Lengthen it for weaker signals. A signal that fills only part of a block loses evidence, and the "
+                     "decision comes at the block's end."),
     };
     return table;
 }

@@ -83,13 +83,28 @@ const std::vector<Field<PofNSettings>> &PofNSettings::fields()
 {
     using S = PofNSettings;
     static const std::vector<Field<S>> table{
-        field(&S::p, "p", "frames", 1.0, maximumFrames, "Number of frames that must have an event."),
-        field(&S::n, "n", "frames", 1.0, maximumFrames, "Number of frames in the window."),
+        field(&S::p, "p", "frames", 1.0, maximumFrames, "Number of frames that must have an event.")
+            .labelled("P, frames needed")
+            .advised("Raise it against short bursts. Signals then have to last longer or be stronger."),
+        field(&S::n, "n", "frames", 1.0, maximumFrames, "Number of frames in the window.")
+            .labelled("N, frames in window")
+            .advised("Lengthen it for intermittent signals. The decision comes later, and noise has more frames in "
+                     "which to have events."),
         field(&S::r1, "r1", "", 0.0, 1e6,
               "A frame has an event if the largest y in the band exceeds this value; noise "
-              "has mean 1."),
-        field(&S::r2, "r2", "", 0.0, 1e6, "Second threshold, on the mean of the P largest; 0: none."),
-        field(&S::widthCells, "widthCells", "cells", 0.0, 1000.0, "Bandwidth of the window in resolution cells."),
+              "has mean 1.")
+            .labelled("Event threshold r1")
+            .advised("Lower it for weaker signals, and raise P to keep the number of false alarms. Exponential noise "
+                     "exceeds r1 in a fraction e^-r1 of the cells."),
+        field(&S::r2, "r2", "", 0.0, 1e6, "Second threshold, on the mean of the P largest; 0: none.")
+            .labelled("Mean threshold r2")
+            .advanced()
+            .advised("Raise it to require that events are strong as well as frequent."),
+        field(&S::widthCells, "widthCells", "cells", 0.0, 1000.0, "Bandwidth of the window in resolution cells.")
+            .labelled("Bandwidth")
+            .advanced()
+            .advised("Widen it for lines that drift or wander within the window of N frames. Noise then has more cells "
+                     "in which to have events."),
     };
     return table;
 }

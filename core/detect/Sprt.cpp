@@ -15,10 +15,17 @@ const std::vector<Field<SprtSettings>> &SprtSettings::fields()
 {
     using S = SprtSettings;
     static const std::vector<Field<S>> table{
-        field(&S::falseAlarm, "falseAlarm", "", 1e-300, 0.5,
-              "Specified probability of accepting a signal on noise, α."),
-        field(&S::miss, "miss", "", 1e-300, 0.5, "Specified probability of accepting noise with a signal, β."),
-        field(&S::cutOffStage, "cutOffStage", "", 0.0, 1e9, "Stage at which a decision is forced; 0: never."),
+        field(&S::falseAlarm, "falseAlarm", "", 1e-300, 0.5, "Specified probability of accepting a signal on noise, α.")
+            .labelled("False alarms α")
+            .advised("Lower it for fewer false alarms: the duration of the test on a signal grows with ln 1/α. Source: "
+                     "Wald 1945."),
+        field(&S::miss, "miss", "", 1e-300, 0.5, "Specified probability of accepting noise with a signal, β.")
+            .labelled("Misses β")
+            .advised(
+                "Lower it for fewer misses: the duration of the test on noise grows with ln 1/β. Source: Wald 1945."),
+        field(&S::cutOffStage, "cutOffStage", "", 0.0, 1e9, "Stage at which a decision is forced; 0: never.")
+            .labelled("Cut-off stage")
+            .advised("Use it to limit the duration of a test. An early cut-off raises both error probabilities."),
     };
     return table;
 }

@@ -23,8 +23,15 @@ const std::vector<Field<SmdSettings>> &SmdSettings::fields()
     static const std::vector<Field<S>> table{
         field(&S::reset, "reset", S::resetNames,
               "Choice of K: calibrated on noise for a 50 % reset probability, fixed, regulated to 50 %, or Parsons' "
-              "mean law."),
-        field(&S::lnK, "lnK", "nat", -100.0, 100.0, "ln K if it is fixed."),
+              "mean law.")
+            .labelled("Reset rule")
+            .advised("Use calibrated for recordings. Regulation to 50 % follows noise that differs from the model, but "
+                     "a strong signal lowers K for all cells. Sources: Billon 2005, section 3; Parsons, equation 8."),
+        field(&S::lnK, "lnK", "nat", -100.0, 100.0, "ln K if it is fixed.")
+            .labelled("ln K")
+            .advanced()
+            .advised("Raise it to add evidence over more frames; lower it to forget sooner. Above the calibrated value "
+                     "the score of noise grows, and paths begin before their signal."),
     };
     return table;
 }
@@ -41,7 +48,9 @@ const std::vector<Field<ShiryaevRobertsSettings>> &ShiryaevRobertsSettings::fiel
     static const std::vector<Field<S>> table{
         field(&S::lnK, "lnK", "nat", -100.0, 0.0,
               "Rate at which old evidence fades; 0 is the classical procedure, "
-              "which is not stationary on noise."),
+              "which is not stationary on noise.")
+            .labelled("ln K")
+            .advised("Raise it to add evidence over more frames; lower it to forget sooner."),
     };
     return table;
 }

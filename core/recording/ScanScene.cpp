@@ -38,21 +38,25 @@ const std::vector<Field<ScanScene>> &ScanScene::fields()
 {
     using S = ScanScene;
     static const std::vector<Field<S>> table{
-        field(&S::azimuthCells, "azimuthCells", "", 1.0, 65536.0, "Cells in azimuth."),
-        field(&S::elevationCells, "elevationCells", "", 1.0, 65536.0, "Cells in elevation."),
+        field(&S::azimuthCells, "azimuthCells", "", 1.0, 65536.0, "Cells in azimuth.").advanced(),
+        field(&S::elevationCells, "elevationCells", "", 1.0, 65536.0, "Cells in elevation.").advanced(),
         field(&S::rangeCells, "rangeCells", "", 1.0, 1048576.0, "Cells in range."),
         field(&S::dopplerCells, "dopplerCells", "", 1.0, 65536.0,
               "Cells in Doppler, which is ambiguous and drawn "
               "independently at every stage."),
         field(&S::stages, "stages", "", 1.0, 1000000.0, "Number of scans of the sector."),
         field(&S::hasTarget, "hasTarget", "Whether there is a target; otherwise the scans contain noise only."),
-        field(&S::snrDb, "snrDb", "dB", -60.0, 120.0, "Mean power of the target over the noise in its cell."),
-        field(&S::moves, "moves", scanMovesNames, "Motion of the target from stage to stage."),
+        field(&S::snrDb, "snrDb", "dB", -60.0, 120.0, "Mean power of the target over the noise in its cell.")
+            .labelled("True SNR"),
+        field(&S::moves, "moves", scanMovesNames, "Motion of the target from stage to stage.").advanced(),
         field(&S::moveCells, "moveCells", "", 0.0, 1000.0,
-              "Standard deviation of a Gaussian step along each axis, in cells."),
+              "Standard deviation of a Gaussian step along each axis, in cells.")
+            .labelled("Step deviation")
+            .advanced(),
         field(&S::secondsPerStage, "secondsPerStage", "s", 1e-9, 1e9, "Time between two scans."),
         field(&S::seed, "seed", "", 0.0, 2147483647.0,
-              "Seed of the random numbers; the same seed gives the same scans."),
+              "Seed of the random numbers; the same seed gives the same scans.")
+            .advanced(),
     };
     return table;
 }

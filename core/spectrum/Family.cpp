@@ -33,11 +33,21 @@ const std::vector<Field<FamilySettings>> &FamilySettings::fields()
     using S = FamilySettings;
     static const std::vector<Field<S>> table{
         field(&S::relation, "relation", relationNames,
-              "Lines detected as one signal: none, multiples of a fundamental, or lines at fixed distances."),
+              "Lines detected as one signal: none, multiples of a fundamental, or lines at fixed distances.")
+            .labelled("Lines detected together")
+            .advised("Use it for signals of several lines that are too weak one by one: their powers are added. Lines "
+                     "of other signals are then detected only as far as they raise such a sum."),
         field(&S::members, "members", "", -1e9, 1e9,
-              "Members of the family: multiples of the fundamental (harmonics), or distances in Hz (offsets)."),
+              "Members of the family: multiples of the fundamental (harmonics), or distances in Hz (offsets).")
+            .labelled("Members")
+            .advised("List only members that carry power: each of the others adds noise and raises the threshold. Time "
+                     "grows with their number.")
+            .withExample("1, 2, 3 or -50, 50"),
         field(&S::present, "present", presentNames,
-              "Whether all members are present at a time, or one at a time, as in frequency-shift keying."),
+              "Whether all members are present at a time, or one at a time, as in frequency-shift keying.")
+            .labelled("Present")
+            .advanced()
+            .advised("With inTurn the largest member counts instead of the sum, as for keying between frequencies."),
     };
     return table;
 }

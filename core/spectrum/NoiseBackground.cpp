@@ -80,15 +80,28 @@ const std::vector<Field<NormaliserSettings>> &NormaliserSettings::fields()
     static const std::vector<Field<S>> table{
         field(&S::halfWidthCells, "halfWidthCells", "cells", 2.0, 10000.0,
               "Half width of the frequency window of the background estimate: wider than any line, narrower than the "
-              "noise's spectral shape."),
+              "noise's spectral shape.")
+            .labelled("Half width")
+            .advised("Widen it if broad signals are taken for noise; narrow it if the noise has spectral detail that "
+                     "gives permanent false alarms. It does not affect the time."),
         field(&S::blockWindows, "blockWindows", "T_FT", 4.0, 1e6,
               "Length of a background block in windows: longer than any burst, shorter than the time between level "
-              "changes."),
+              "changes.")
+            .labelled("Block length")
+            .advanced()
+            .advised("Lengthen it if signals last for half of a block or more in one cell after another, because the "
+                     "median over time is then theirs; shorten it if the noise changes its colour within a block."),
         field(&S::followLevel, "followLevel",
-              "Divide out sudden level changes of a whole band, such as bursts, gain steps and clicks."),
+              "Divide out sudden level changes of a whole band, such as bursts, gain steps and clicks.")
+            .labelled("Follow level changes")
+            .advanced()
+            .advised("Switch it off if signals that fill the whole band are of interest: they are divided out with the "
+                     "noise. Without it, each burst gives false alarms."),
         field(&S::causal, "causal",
               "Estimate the background from the past alone, as a live run does; only the first block is estimated as a "
-              "whole. Tracks are then not followed backward."),
+              "whole. Tracks are then not followed backward.")
+            .advised("Switch it on to reproduce a live run. The margin for the shorter estimate costs 0.1 dB in the "
+                     "first block and less later. Source: docs/theory.md."),
     };
     return table;
 }

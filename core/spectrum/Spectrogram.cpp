@@ -85,12 +85,26 @@ const std::vector<Field<SpectrogramSettings>> &SpectrogramSettings::fields()
     static const std::vector<Field<S>> table{
         field(&S::windowSeconds, "windowSeconds", "s", 0.0, 1e6,
               "Length T_FT of the sliding Fourier window; 0 chooses it from the recording's length and rate and, with "
-              "the default slopes, from the tracks found."),
-        field(&S::stepsPerWindow, "stepsPerWindow", "", 1.0, 64.0, "Frames per window, k_t: 2 overlaps by half."),
+              "the default slopes, from the tracks found.")
+            .labelled("Window length")
+            .advised("Lengthen it for steady lines: a line that stays within one cell gains 3 dB with each doubling. "
+                     "Shorten it for lines that drift by more than a cell in a window. The number of cells per second "
+                     "stays the same. Source: Billon 2005, section 4."),
+        field(&S::stepsPerWindow, "stepsPerWindow", "", 1.0, 64.0, "Frames per window, k_t: 2 overlaps by half.")
+            .labelled("Frames per window")
+            .advised("Raise it to lose less of a short signal between two frames. Time and memory are proportional to "
+                     "it; overlapping frames share samples, so the evidence grows more slowly."),
         field(&S::binsPerCell, "binsPerCell", "", 1.0, 32.0,
-              "Frequency bins per resolution cell 1/T_FT, k_f: above 1 the window is padded with zeros."),
+              "Frequency bins per resolution cell 1/T_FT, k_f: above 1 the window is padded with zeros.")
+            .labelled("Bins per cell")
+            .advanced()
+            .advised("Raise it to lose less of a line halfway between two bins. States, time and memory are "
+                     "proportional to it."),
         field(&S::window, "window", windowShapeNames,
-              "Shape of the window; lower side lobes permit a faint line nearer to a strong one."),
+              "Shape of the window; lower side lobes permit a faint line nearer to a strong one.")
+            .labelled("Window shape")
+            .advised("Choose Blackman–Harris beside very strong lines. Its main lobe is twice as wide as that of Hann, "
+                     "so a line has less power in its cell and close lines merge."),
     };
     return table;
 }
@@ -99,16 +113,35 @@ const std::vector<Field<SelectionSettings>> &SelectionSettings::fields()
 {
     using S = SelectionSettings;
     static const std::vector<Field<S>> table{
-        alone(field(&S::channel, "channel", "", 0.0, 1023.0, "Channel, counted from 0.")),
-        together(field(&S::channels, "channels", "", 0.0, 1023.0,
-                       "Channels whose evidence is added, counted from 0, or \"all\": one signal in all of them, over "
-                       "noise that is independent from channel to channel. Empty: selection.channel alone.")),
-        field(&S::fromSeconds, "fromSeconds", "s", 0.0, 1e12, "Start of the part analysed, from the first sample."),
-        field(&S::toSeconds, "toSeconds", "s", 0.0, 1e12, "End of the part analysed; 0 is the end of the recording."),
+        alone(field(&S::channel, "channel", "", 0.0, 1023.0, "Channel, counted from 0.")
+                  .labelled("Channel")
+                  .advised("Select the channel with the best reception. Channels that receive the same signal can be "
+                           "added instead: selection.channels.")),
+        together(
+            field(&S::channels, "channels", "", 0.0, 1023.0,
+                  "Channels whose evidence is added, counted from 0, or \"all\": one signal in all of them, over "
+                  "noise that is independent from channel to channel. Empty: selection.channel alone.")
+                .labelled("Channels added")
+                .advanced()
+                .advised("Add channels that receive the same signal in independent noise. Noise they have in common "
+                         "raises the number of false alarms. Time is proportional to the number of channels.")
+                .withExample("all, or 0, 1")),
+        field(&S::fromSeconds, "fromSeconds", "s", 0.0, 1e12, "Start of the part analysed, from the first sample.")
+            .labelled("From")
+            .advised("A shorter part tries settings sooner: time is proportional to its length."),
+        field(&S::toSeconds, "toSeconds", "s", 0.0, 1e12, "End of the part analysed; 0 is the end of the recording.")
+            .labelled("To")
+            .advised("A shorter part tries settings sooner: time is proportional to its length."),
         field(&S::lowHz, "lowHz", "Hz", -1e12, 1e12,
               "Lower edge of the band; the whole band is used if it equals the "
-              "upper edge."),
-        field(&S::highHz, "highHz", "Hz", -1e12, 1e12, "Upper edge of the band."),
+              "upper edge.")
+            .labelled("Lower edge")
+            .advised("A narrower band takes less time and memory, and permits a lower threshold for the same number of "
+                     "false alarms."),
+        field(&S::highHz, "highHz", "Hz", -1e12, 1e12, "Upper edge of the band.")
+            .labelled("Upper edge")
+            .advised("A narrower band takes less time and memory, and permits a lower threshold for the same number of "
+                     "false alarms."),
     };
     return table;
 }

@@ -11,11 +11,16 @@ const std::vector<Field<ConventionalSettings>> &ConventionalSettings::fields()
     using S = ConventionalSettings;
     static const std::vector<Field<S>> table{
         field(&S::hitThreshold, "hitThreshold", "× noise", 0.0, 1e6,
-              "Power above which a cell of a ping is a hit of the conventional detector."),
-        field(&S::hits, "hits", "pings", 1.0, 1000.0, "M: number of pings with a hit that form a conventional track."),
-        field(&S::window, "window", "pings", 1.0, 1000.0, "N: number of latest pings that must contain these hits."),
-        field(&S::fastestCells, "fastestCells", "cells/ping", 0.0, 1e5, "Largest range rate that the gate admits."),
-        field(&S::fastestAcross, "fastestAcross", "cells/ping", 0.0, 1e5, "Largest bearing rate that the gate admits."),
+              "Power above which a cell of a ping is a hit of the conventional detector.")
+            .advised("Lower it for weaker echoes. Noise has a hit in a fraction e^-threshold of the cells."),
+        field(&S::hits, "hits", "pings", 1.0, 1000.0, "M: number of pings with a hit that form a conventional track.")
+            .advised("Raise it for fewer false tracks. Targets are then detected later."),
+        field(&S::window, "window", "pings", 1.0, 1000.0, "N: number of latest pings that must contain these hits.")
+            .advised("Lengthen it for echoes that fade. Noise then forms more tracks."),
+        field(&S::fastestCells, "fastestCells", "cells/ping", 0.0, 1e5, "Largest range rate that the gate admits.")
+            .advised("Raise it for faster targets. The gate then admits more hits of noise."),
+        field(&S::fastestAcross, "fastestAcross", "cells/ping", 0.0, 1e5, "Largest bearing rate that the gate admits.")
+            .advised("Raise it for targets that cross close to the sonar. The gate then admits more hits of noise."),
     };
     return table;
 }

@@ -55,20 +55,44 @@ const std::vector<Field<TrackSettings>> &TrackSettings::fields()
     using S = TrackSettings;
     static const std::vector<Field<S>> table{
         field(&S::windowCells, "windowCells", "bins", 0.0, 10000.0,
-              "Half width of the window of states that follows a signal, per axis; the last number repeats."),
+              "Half width of the window of states that follows a signal, per axis; the last number repeats.")
+            .labelled("Window half width")
+            .advanced()
+            .advised("Widen it for signals that turn quickly. The time per track is proportional to it, and a track "
+                     "changes to a neighbouring signal more easily."),
         field(&S::decayNats, "decayNats", "nat", 0.0, 1000.0,
               "Amount subtracted from a track's level every frame, so "
-              "that a track on noise fades."),
-        field(&S::ceilingNats, "ceilingNats", "nat", 0.0, 1e6, "Upper limit of a track's level above the threshold."),
-        field(&S::endNats, "endNats", "nat", 0.0, 1e6, "A track ends when its level is this far below the threshold."),
+              "that a track on noise fades.")
+            .labelled("Decay per frame")
+            .advanced()
+            .advised("Raise it to end tracks sooner after their signal; lower it to bridge longer pauses."),
+        field(&S::ceilingNats, "ceilingNats", "nat", 0.0, 1e6, "Upper limit of a track's level above the threshold.")
+            .labelled("Ceiling")
+            .advanced()
+            .advised("Lower it to end the tracks of strong signals sooner; raise it to let strong signals bridge "
+                     "longer pauses."),
+        field(&S::endNats, "endNats", "nat", 0.0, 1e6, "A track ends when its level is this far below the threshold.")
+            .labelled("End below")
+            .advised("Raise it to bridge longer pauses. A track then continues longer in the noise after its signal."),
         field(&S::confirmNats, "confirmNats", "nat", 0.0, 1e6,
-              "A track is confirmed when its level is this far above the threshold."),
-        field(&S::confirmFrames, "confirmFrames", "frames", 1.0, 1e6, "Lowest age at which a track is confirmed."),
-        field(&S::smoothingFrames, "smoothingFrames", "frames", 1.0, 10000.0,
-              "Lag of the smoothing of a track's path."),
+              "A track is confirmed when its level is this far above the threshold.")
+            .labelled("Confirm above")
+            .advised("Raise it to have fewer confirmed tracks on noise. Weak signals are confirmed later or never."),
+        field(&S::confirmFrames, "confirmFrames", "frames", 1.0, 1e6, "Lowest age at which a track is confirmed.")
+            .labelled("Confirm after")
+            .advised("Raise it to have fewer confirmed tracks of short bursts. Every signal is confirmed later."),
+        field(&S::smoothingFrames, "smoothingFrames", "frames", 1.0, 10000.0, "Lag of the smoothing of a track's path.")
+            .labelled("Smoothing lag")
+            .advanced()
+            .advised("Raise it for a smoother path. The path is known this many frames later; time and memory per "
+                     "track are proportional to it."),
         field(&S::bothWays, "bothWays",
               "Whether complete tracks of lines are also followed backward to refine onset, "
-              "end and frequency."),
+              "end and frequency.")
+            .labelled("Both ways")
+            .advanced()
+            .advised("Switch it off to keep the tracks of the causal chain, as in the published papers, and to save "
+                     "the time of the second pass. Events are detected in the same frames. Source: docs/theory.md."),
     };
     return table;
 }

@@ -37,7 +37,9 @@ namespace {
             row["minimum"] = field.maximum > field.minimum ? py::object(py::float_(field.minimum)) : py::none();
             row["maximum"] = field.maximum > field.minimum ? py::object(py::float_(field.maximum)) : py::none();
             row["choices"] = pythonFromJson(Json(field.choices));
+            row["label"] = labelOf(field);
             row["meaning"] = field.sentence;
+            row["advice"] = field.advice;
             list.append(row);
         }
         if (list.empty())
@@ -60,7 +62,7 @@ void bindSettings(py::module_ &module)
     module.def(
         "describe", &describe, py::arg("beginning") = "",
         R"(All settings whose full name has this prefix: a list of dicts with name, keyword (None where only the full name is unambiguous), unit,
-default, minimum, maximum, choices and meaning. Raises Error, with the nearest names, if there is none.)");
+default, minimum, maximum, choices, label, meaning and advice. Raises Error, with the nearest names, if there is none.)");
     module.def("presets", &presetSentences, "The presets: a dict of names and descriptions.");
 }
 

@@ -19,7 +19,7 @@ namespace {
 
     constexpr std::chrono::milliseconds listeningInterval{100};
 
-    /// What the computing thread says, for the listening one.
+    /// Progress that the computing thread reports to the waiting one.
     class Line
     {
     public:

@@ -21,7 +21,7 @@ namespace {
         return fullName.substr(fullName.rfind('.') + 1);
     }
 
-    /// A whole number stands for a number, and one number for a list of one.
+    /// Accepts an integer as a float, and a single number as a list of one.
     FieldValue valueOf(const FieldInfo &info, Json value)
     {
         if (info.kind == FieldKind::Numbers && value.is_number())

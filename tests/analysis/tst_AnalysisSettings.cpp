@@ -19,19 +19,25 @@ private slots:
     void settingAThresholdChoosesIt();
     void jsonKeepsTheChoice();
     void refusals();
+    void everyRuleRefusesItsSetting_data();
+    void everyRuleRefusesItsSetting();
     void stages();
     void presetsAreSound();
 };
 
 void tst_AnalysisSettings::everyFieldHasNameSentenceAndDefault()
 {
-    QStringList names;
+    QStringList names, labels;
     for (const auto &field : AnalysisSettings::fields()) {
         names << QString::fromStdString(field.name);
         QVERIFY(field.name.find('.') != std::string::npos);
         QVERIFY2(field.sentence.ends_with('.'), field.name.c_str());
+        QVERIFY2(field.advice.ends_with('.') && field.advice != field.sentence, field.name.c_str());
         checkFieldValue(field, defaultValue(field));
+        const std::string stage = field.name.substr(0, field.name.find('.'));
+        labels << QString::fromStdString(stage + "." + labelOf(field));
     }
+    QCOMPARE(labels.removeDuplicates(), 0); // rows of one section can be told apart
     QCOMPARE(names.removeDuplicates(), 0);
     QVERIFY(names.contains("spectrogram.windowSeconds")); // relied on from outside
     QVERIFY(names.contains("decide.falseAlarmsPerHour"));
@@ -126,6 +132,49 @@ void tst_AnalysisSettings::refusals()
     checkSettings(settings);
     settings.model.lowestSlope = -100.0;
     QVERIFY(contains(errorOf([&] { checkSettings(settings); }), "gives 1010 slopes; at most 1001 are possible"));
+}
+
+void tst_AnalysisSettings::everyRuleRefusesItsSetting_data()
+{
+    QTest::addColumn<std::size_t>("rule");
+    QTest::addColumn<QStringList>("settings");
+    const std::vector<QStringList> refused{{"selection.channels=0, 0.5"},
+                                           {"family.relation=harmonics", "family.members=1, 1"},
+                                           {"family.relation=harmonics", "family.members=1, 2", "noise.causal=true"},
+                                           {"subtract.lines=true", "track.bothWays=false"},
+                                           {"model.lowestSlope=2", "model.highestSlope=1"},
+                                           {"model.lowestSlope=-0.3"},
+                                           {"model.highestSlope=101"},
+                                           {"model.slopesPerBin=64", "model.lowestSlope=-8", "model.highestSlope=8"},
+                                           {"conventional.hits=9", "conventional.window=8"},
+                                           {"model.slopeChange=0.5, 0.1"},
+                                           {"model.rangeRateChange=0.5, 0.1"},
+                                           {"model.bearingRateChange=0.5, 0.1"}};
+    QCOMPARE(refused.size(), settingRules().size());
+    for (std::size_t rule = 0; rule < refused.size(); ++rule)
+        QTest::addRow("%s %zu", settingRules()[rule].field.c_str(), rule) << rule << refused[rule];
+}
+
+void tst_AnalysisSettings::everyRuleRefusesItsSetting()
+{
+    QFETCH(std::size_t, rule);
+    QFETCH(QStringList, settings);
+    AnalysisSettings refused;
+    settingRules()[rule].check(refused); // the defaults obey it
+    for (const QString &setting : settings)
+        setSetting(refused, setting.section('=', 0, 0).toStdString(), setting.section('=', 1).toStdString());
+    const auto fieldOf = [&](const auto &check) {
+        try {
+            check(refused);
+        } catch (const Error &error) {
+            return error.field();
+        }
+        return std::string();
+    };
+    for (std::size_t before = 0; before < rule; ++before) // later rules presuppose the earlier ones
+        QCOMPARE(fieldOf(settingRules()[before].check), std::string());
+    QCOMPARE(fieldOf(settingRules()[rule].check), settingRules()[rule].field);
+    QCOMPARE(fieldOf(&checkSettings), settingRules()[rule].field);
 }
 
 void tst_AnalysisSettings::stages()

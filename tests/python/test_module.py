@@ -70,6 +70,8 @@ class Settings(InFolder):
         self.assertEqual(rows["spectrogram.windowSeconds"]["keyword"], "window_seconds")
         self.assertIsNone(rows["smd.lnK"]["keyword"])
         self.assertIn("smd", rows["detector.kind"]["choices"])
+        self.assertEqual(rows["spectrogram.windowSeconds"]["label"], "Window length")
+        self.assertIn("3 dB", rows["spectrogram.windowSeconds"]["advice"])
         self.assertIn("billon", fl.presets())
 
 

@@ -28,10 +28,10 @@ private slots:
     void headingsCanBeHeard();
 
 private:
-    QCheckBox *addRow(const QString &name, bool isSeldomUsed = false)
+    QCheckBox *addRow(const QString &name, bool isAdvanced = false)
     {
         auto *row = new QCheckBox(name);
-        m_section->addRow(row, isSeldomUsed);
+        m_section->addRow(row, isAdvanced);
         QCoreApplication::processEvents();
         return row;
     }

@@ -83,7 +83,7 @@ private:
     {
         m_window = std::make_unique<QWidget>();
         auto *layout = new QVBoxLayout(m_window.get());
-        m_row = new SettingRow(field, "Setting", defaultValue, stepsInOne);
+        m_row = new SettingRow(field, defaultValue, stepsInOne);
         layout->addWidget(m_row);
         m_window->resize(300, 100);
         m_window->show();
@@ -395,7 +395,7 @@ void tst_SettingRow::theToolTipTellsRangeAndDefault()
 void tst_SettingRow::tabGoesFromEditorToEditor()
 {
     SettingRow &row = make(seconds(), 1.0);
-    auto *next = new SettingRow(info(FieldKind::Flag), "Next", false);
+    auto *next = new SettingRow(info(FieldKind::Flag), false);
     m_window->layout()->addWidget(next);
     next->show();
     row.editor()->setFocus();

@@ -4,10 +4,10 @@
 
 namespace faintline {
 
-/// Display texts for names in files and on the command line. Names that are not listed are converted automatically, so
-/// a new setting needs no entry here.
+/// Display texts for names in files and on the command line. The labels of settings come from their table; names
+/// without a label are spelled out.
 
-/// "decide.falseAlarmsPerHour" → "False alarms per hour".
+/// Of a setting of an analysis, "decide.falseAlarmsPerHour".
 QString settingLabel(const QString &name);
 
 /// "smd" → "Sequential Markov".
@@ -15,11 +15,5 @@ QString stageLabel(const QString &prefix);
 
 /// "halfDown" → "half rounds down".
 QString choiceLabel(const QString &choice);
-
-/// An example of what to type into an empty field, e.g. "all, or 0, 1" for channels. Empty for most settings.
-QString settingExample(const QString &name);
-
-/// Whether a setting is folded under "More".
-bool isSeldomUsed(const QString &name);
 
 } // namespace faintline

@@ -56,9 +56,9 @@ FormSection::FormSection(const QString &heading, QWidget *parent)
     connect(m_more, &QToolButton::toggled, this, &FormSection::setMoreOpen);
 }
 
-void FormSection::addRow(QWidget *row, bool isSeldomUsed)
+void FormSection::addRow(QWidget *row, bool isAdvanced)
 {
-    if (!isSeldomUsed) {
+    if (!isAdvanced) {
         m_rows->insertWidget(m_rows->count() - 2, row);
         return;
     }

@@ -15,7 +15,7 @@ class FormSection : public QWidget
 public:
     explicit FormSection(const QString &heading, QWidget *parent = nullptr);
 
-    void addRow(QWidget *row, bool isSeldomUsed);
+    void addRow(QWidget *row, bool isAdvanced);
 
     void setOpen(bool isOpen);
     void setMoreOpen(bool isOpen);

@@ -31,7 +31,7 @@ namespace {
         return fractionText(value);
     }
 
-    /// The sentence, followed by the accepted range and the default.
+    /// The sentence, followed by the accepted range, the default and the advice.
     QString toolTipOf(const FieldInfo &info, const FieldValue &defaultValue)
     {
         const QString unit = info.unit.empty() ? QString() : QStringLiteral(" ") + QString::fromStdString(info.unit);
@@ -46,6 +46,8 @@ namespace {
                      .arg(info.kind == FieldKind::Flag
                               ? (std::get<bool>(defaultValue) ? SettingRow::tr("on") : SettingRow::tr("off"))
                               : defaultText.toHtmlEscaped());
+        if (!info.advice.empty())
+            lines << QString::fromStdString(info.advice).toHtmlEscaped();
         lines << QStringLiteral("<small>%1</small>").arg(QString::fromStdString(info.name));
         return QStringLiteral("<qt>%1</qt>").arg(lines.join(QStringLiteral("<br>")));
     }
@@ -80,13 +82,13 @@ namespace {
 
 } // namespace
 
-SettingRow::SettingRow(const FieldInfo &info, const QString &label, const FieldValue &defaultValue, double stepsInOne,
-                       QWidget *parent)
+SettingRow::SettingRow(const FieldInfo &info, const FieldValue &defaultValue, double stepsInOne, QWidget *parent)
     : QWidget(parent), m_info(info), m_default(defaultValue), m_value(defaultValue), m_stepsInOne(stepsInOne),
-      m_label(new QLabel(label)), m_unit(new QLabel(QString::fromStdString(info.unit))), m_reset(new QToolButton),
-      m_message(plainLabel())
+      m_label(new QLabel(QString::fromStdString(labelOf(info)))), m_unit(new QLabel(QString::fromStdString(info.unit))),
+      m_reset(new QToolButton), m_message(plainLabel())
 {
     makeEditor();
+    const QString label = m_label->text();
     const QString toolTip = toolTipOf(info, defaultValue);
     for (QWidget *widget : {static_cast<QWidget *>(m_label), m_editor})
         widget->setToolTip(toolTip);
@@ -192,7 +194,7 @@ void SettingRow::makeEditor()
             break;
         }
         auto *edit = new QLineEdit;
-        edit->setPlaceholderText(settingExample(QString::fromStdString(m_info.name)));
+        edit->setPlaceholderText(QString::fromStdString(m_info.example));
         connect(edit, &QLineEdit::editingFinished, this, [this, edit] {
             if (edit->isModified())
                 acceptText(edit->text());

@@ -16,7 +16,7 @@ class SettingRow : public QWidget
 
 public:
     /// A number with `stepsInOne` steps per unit has arrows that move between multiples; other values can be typed.
-    SettingRow(const FieldInfo &info, const QString &label, const FieldValue &defaultValue, double stepsInOne = 0.0,
+    SettingRow(const FieldInfo &info, const FieldValue &defaultValue, double stepsInOne = 0.0,
                QWidget *parent = nullptr);
 
     const FieldInfo &info() const { return m_info; }

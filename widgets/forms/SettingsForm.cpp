@@ -92,12 +92,11 @@ FormSection &SettingsForm::section(const QString &prefix)
 void SettingsForm::addRow(const Field<AnalysisSettings> &field)
 {
     const QString name = QString::fromStdString(field.name);
-    auto *row = new SettingRow(field, settingLabel(name), defaultValue(field),
-                               isSlope(name) ? m_settings.model.slopesPerBin : 0);
+    auto *row = new SettingRow(field, defaultValue(field), isSlope(name) ? m_settings.model.slopesPerBin : 0);
     row->setLabelWidth(labelWidth);
     connect(row, &SettingRow::edited, this,
             [this, name](const FieldValue &edited) { emit settingEdited(name, edited); });
-    section(prefixOf(name)).addRow(row, isSeldomUsed(name));
+    section(prefixOf(name)).addRow(row, field.isAdvanced);
     m_rows[name] = row;
 }
 

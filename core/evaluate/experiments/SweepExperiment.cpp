@@ -84,6 +84,16 @@ namespace {
         return sweepOutcome(run, falseAlarms, double(analysis.time().count) * analysis.time().step, latency);
     }
 
+    FieldInfo anyNumber(const std::string &name, FieldKind kind)
+    {
+        FieldInfo info;
+        info.name = name;
+        info.minimum = -1e300;
+        info.maximum = 1e300;
+        info.kind = kind;
+        return info;
+    }
+
     /// The values of "values": a list, or a range.
     std::vector<double> valuesFromJson(const Json &json, const std::string &parameter, const std::string &where)
     {
@@ -91,15 +101,15 @@ namespace {
         const std::string name = jsonName(where, "values");
         if (found == json.end())
             throw Error(name, "must be a list of values, or {\"from\": …, \"to\": …, \"steps\": …}");
-        FieldInfo list{name, "", -1e300, 1e300, "", {}, {}, FieldKind::Numbers};
+        const FieldInfo list = anyNumber(name, FieldKind::Numbers);
         if (found->is_array())
             return std::get<std::vector<double>>(fieldValueFromJson(*found, list));
         checkKeys(*found, name, {"from", "to", "steps", "scale"});
         const auto number = [&](const char *key) {
             if (!found->contains(key))
                 throw Error(jsonName(name, key), "is missing");
-            return std::get<double>(fieldValueFromJson(
-                (*found)[key], {jsonName(name, key), "", -1e300, 1e300, "", {}, {}, FieldKind::Number}));
+            return std::get<double>(
+                fieldValueFromJson((*found)[key], anyNumber(jsonName(name, key), FieldKind::Number)));
         };
         const std::string scale = found->value("scale", std::string("linear"));
         if (scale != "linear" && scale != "log")

@@ -53,22 +53,34 @@ const std::vector<Field<ScanTest>> &ScanTest::fields()
         std::vector<Field<S>> all = within<S>("sprt", SprtSettings::fields(), sprt);
         all.push_back(field(&S::designSnrDb, "design.snrDb", "dB", -20.0, highestDesignDb,
                             "SNR of the target for which the test "
-                            "is designed."));
-        all.push_back(field(&S::averagedCells, "design.averagedCells", "", 0.0, 65536.0,
-                            "Neighbours in range whose mean estimates the noise power; 0: the noise power is known."));
+                            "is designed.")
+                          .labelled("Design SNR")
+                          .advised("Lower it for weaker targets: the test then takes longer to decide against noise."));
+        all.push_back(
+            field(&S::averagedCells, "design.averagedCells", "", 0.0, 65536.0,
+                  "Neighbours in range whose mean estimates the noise power; 0: the noise power is known.")
+                .labelled("Averaged cells")
+                .advised(
+                    "Raise it for a steadier estimate of the noise; it must not extend to where the clutter differs."));
         for (Field<S> &one : within<S>("scene", ScanScene::fields(), scene))
             if (one.name != "scene.stages" && one.name != "scene.hasTarget" && one.name != "scene.secondsPerStage")
                 all.push_back(std::move(one));
         all.push_back(field(&S::walks, "runs.walks", "", 1.0, 2000.0,
                             "Number of tests of each hypothesis shown "
-                            "individually."));
-        all.push_back(field(&S::trials, "runs.trials", "", 20.0, 100000.0, "Number of tests per point of a curve."));
-        all.push_back(field(&S::designFollows, "runs.designFollows", "Design the test for each SNR of the curves."));
+                            "individually.")
+                          .labelled("Walks shown"));
+        all.push_back(field(&S::trials, "runs.trials", "", 20.0, 100000.0, "Number of tests per point of a curve.")
+                          .labelled("Tests per point")
+                          .advised("The width of a point's interval falls with the square root of this number; time is "
+                                   "proportional to it."));
+        all.push_back(field(&S::designFollows, "runs.designFollows", "Design the test for each SNR of the curves.")
+                          .labelled("Design at each SNR"));
         all.push_back(
             field(&S::sectors, "survey.sectors", "", 1.0, 360.0, "Number of angular sectors visited in turn."));
         all.push_back(field(&S::targetSectors, "survey.targetSectors", "", 0.0, 360.0,
                             "Number of sectors with a "
-                            "target."));
+                            "target.")
+                          .labelled("With a target"));
         all.push_back(field(&S::rounds, "survey.rounds", "", 1.0, 1000.0, "Number of looks at each sector."));
         return all;
     }();

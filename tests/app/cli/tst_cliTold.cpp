@@ -73,12 +73,17 @@ void tst_cliTold::describesEverySetting()
     for (const auto &field : AnalysisSettings::fields()) {
         QVERIFY2(all.contains(field.name.c_str()), field.name.c_str());
         QVERIFY2(all.contains(field.sentence.c_str()), field.name.c_str());
+        QVERIFY2(all.contains(field.advice.c_str()), field.name.c_str());
     }
+    for (const SettingRule &rule : settingRules())
+        QVERIFY2(all.contains(rule.sentence.c_str()), rule.field.c_str());
     for (const Preset &known : presets())
         QVERIFY2(all.contains(known.sentence.c_str()), known.name.c_str());
     QCOMPARE(run({"describe", "decide.falseAlarmsPerHour"}).out,
              QByteArray("decide.falseAlarmsPerHour, 1/h\n    1e-09 … 1e+09; default 1\n"
-                        "    False alarms per hour of recording that the threshold permits on noise.\n"));
+                        "    False alarms per hour of recording that the threshold permits on noise.\n"
+                        "    Raise it to find weaker signals among more false ones. It applies to the whole band, so a "
+                        "wide band needs a higher threshold than a narrow one. Source: Billon 2005, section 3.\n"));
 }
 
 void tst_cliTold::simulatesTheSameAgain()
