@@ -29,8 +29,10 @@ namespace {
         return isScoreOfPaths(analysis.settings.detector) ? explanation.statistic : explanation.displayed;
     }
 
-    Json toJson(const PathStep &step, const StateSpace &space, const Analysis &analysis)
+    Json toJson(const PathStep &step, const Explanation &explanation, const Analysis &analysis)
     {
+        const std::size_t model = explanation.modelAt(step.frame);
+        const StateSpace &space = analysis.modelAt(model).space;
         const std::vector<Index> c = analysis.grid().coordinates(space.cellOf(step.state));
         std::vector<double> at;
         for (std::size_t axis = 0; axis < c.size(); ++axis)
@@ -44,12 +46,15 @@ namespace {
                      {"sum", step.score}};
         if (std::isfinite(step.runnerUp))
             json["runner_up_margin"] = step.runnerUp;
+        if (!explanation.modelChanges.empty())
+            json["model"] = nameOfBankModel(model);
         return json;
     }
 
     Json toJson(const Explanation &explanation, const Analysis &analysis)
     {
-        const StateSpace &space = analysis.modelAt(explanation.model).space;
+        const std::size_t model = explanation.modelAt(explanation.steps.back().frame);
+        const StateSpace &space = analysis.modelAt(model).space;
         Json json;
         json["time"] = explanation.seconds;
         json["position"] = explanation.position;
@@ -69,10 +74,10 @@ namespace {
             json["runner_up"] = {{"rates", space.ratesOfPlane(space.planeOf(*explanation.otherState))},
                                  {"margin", explanation.otherMargin}};
         if (analysis.isBank())
-            json["model"] = explanation.model == 0 ? "nonManoeuvring" : "manoeuvring";
+            json["model"] = nameOfBankModel(model);
         json["steps"] = Json::array();
         for (const PathStep &step : explanation.steps)
-            json["steps"].push_back(toJson(step, space, analysis));
+            json["steps"].push_back(toJson(step, explanation, analysis));
         return json;
     }
 
@@ -117,6 +122,9 @@ namespace {
             std::printf("its path is not reported: cells this strong, or runs of them, are common in this "
                         "recording's noise\n");
         std::printf("the best path began %zu frame(s) ago, when it was reset\n", explanation.steps.size() - 1);
+        for (const ModelChange &change : explanation.modelChanges)
+            std::printf("from %.6g s on, the track belongs to the %s model\n",
+                        analysis.time().value(double(change.frame)), nameOfBankModel(change.model).c_str());
         printHeading(analysis.grid());
         printSteps(toJson(explanation, analysis)["steps"]);
         if (explanation.offset != 0.0)

@@ -31,14 +31,9 @@ namespace {
         constexpr Index reach = 3;
         const std::vector<Index> from = grid.coordinates(a);
         const std::vector<Index> to = grid.coordinates(b);
-        for (std::size_t axis = 0; axis < from.size(); ++axis) {
-            const Axis &along = grid.axes[axis];
-            Index distance = std::abs(from[axis] - to[axis]);
-            if (along.cyclic)
-                distance = std::min(distance, along.count - distance);
-            if (distance > reach)
+        for (std::size_t axis = 0; axis < from.size(); ++axis)
+            if (std::abs(grid.axes[axis].steps(from[axis], to[axis])) > reach)
                 return false;
-        }
         return true;
     }
 

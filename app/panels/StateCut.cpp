@@ -76,9 +76,11 @@ std::vector<Viewport::Point> StateCut::pathsOf(const std::vector<Track> &tracks,
     const StateSpace &space = analysis.modelAt(model).space;
     for (const Track &track : tracks) {
         const Index i = frame - (track.points.empty() ? 0 : track.points.front().frame);
-        if (track.model != model || i < 0 || i >= std::ssize(track.points))
+        if (i < 0 || i >= std::ssize(track.points))
             continue;
         const TrackPoint &point = track.points[std::size_t(i)];
+        if (modelAt(point.frame, track.model, track.modelChanges) != model)
+            continue;
         std::vector<Index> state = analysis.grid().coordinates(point.cell);
         const StateSpace::Coordinates coordinates = space.coordinates(point.plane * space.cellCount() + point.cell);
         state.insert(state.end(), coordinates.rates.begin(), coordinates.rates.end());

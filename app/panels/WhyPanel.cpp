@@ -35,7 +35,7 @@ namespace {
 
     const StateSpace &spaceOf(const Explanation &explanation, const Analysis &analysis)
     {
-        return analysis.modelAt(explanation.model).space;
+        return analysis.modelAt(explanation.modelAt(explanation.steps.back().frame)).space;
     }
 
     Chart chartOf(const Explanation &explanation, const Axis &time)
@@ -146,6 +146,10 @@ QString whySentence(const Explanation &explanation, const Analysis &analysis)
     words += steps == 1 ? QObject::tr("The path begins in this frame")
                         : QObject::tr("The path has %1 steps and begins at %2").arg(steps).arg(since);
     words += resetWords(explanation.reset) + QLatin1Char(' ');
+    for (const ModelChange &change : explanation.modelChanges)
+        words += QObject::tr("From %1 on, the track belongs to the %2 model. ")
+                     .arg(secondsText(time.value(double(change.frame)), time.step),
+                          change.model == 0 ? QObject::tr("non-manoeuvring") : QObject::tr("manoeuvring"));
     if (explanation.otherState && std::isfinite(explanation.otherMargin))
         words +=
             QObject::tr("Runner-up: %1, %2 nat behind. ")

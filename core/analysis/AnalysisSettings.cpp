@@ -236,6 +236,11 @@ MarkovModel makeModel(const ModelSettings &settings, const Grid &grid)
     return {StateSpace(std::move(axes)), Likelihood(settings.likelihood, settings.snr), 1.0};
 }
 
+std::string nameOfBankModel(std::size_t model)
+{
+    return model == 0 ? "nonManoeuvring" : "manoeuvring";
+}
+
 std::vector<MarkovModel> makeModels(const ModelSettings &settings, const Grid &grid)
 {
     if (settings.motion != Motion::Bank)

@@ -171,6 +171,9 @@ const Preset &preset(std::string_view name);
 /// first model.
 MarkovModel makeModel(const ModelSettings &settings, const Grid &grid);
 
+/// Name of a bank's model, as in `sonarMotions()`.
+std::string nameOfBankModel(std::size_t model);
+
 /// All models of a bank, or the single model.
 std::vector<MarkovModel> makeModels(const ModelSettings &settings, const Grid &grid);
 

@@ -49,7 +49,7 @@ StateScores scoresNow(const Analysis &analysis, const DetectionChain &chain, Ind
         for (float &value : result.values)
             value -= shift;
     for (const HmmTracker &tracker : chain.trackers())
-        if (tracker.track().model == model)
+        if (tracker.model() == model)
             tracker.paintStates(result.values);
     return result;
 }

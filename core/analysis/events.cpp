@@ -105,6 +105,8 @@ std::vector<Event> events(const AnalysisPlan &plan, const std::vector<Track> &tr
             event.ratesPerSecond.push_back(driftOf(track, time, grid, axis));
         event.driftPerSecond = event.ratesPerSecond.back();
         event.model = track.model;
+        for (const ModelChange &change : track.modelChanges)
+            event.modelChanges.push_back({time.value(double(change.frame)), change.model});
         event.statistic = statisticOf(track, plan);
         event.isConfirmed = track.isConfirmed;
         event.isOpen = track.isOpen;

@@ -22,6 +22,11 @@ struct Event {
     bool isSubtracted = false;          ///< from the recording in which the others were found (subtractLines.h)
     std::vector<double> ratesPerSecond; ///< as driftPerSecond, along each axis
     std::size_t model = 0;              ///< index of the bank's model that found it
+    struct ChangeOfModel {
+        double seconds = 0.0;
+        std::size_t model = 0;
+    };
+    std::vector<ChangeOfModel> modelChanges; ///< to other models of the bank, from these times on
     double confirmSeconds = std::numeric_limits<double>::quiet_NaN(); ///< NaN: never confirmed
 
     // For tracks with a two-sided second pass (secondLook.h); NaN for others:

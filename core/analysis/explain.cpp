@@ -49,8 +49,9 @@ namespace {
     struct PathInto {
         std::vector<PathStep> steps; ///< under a tracker: from its seed frame on, as far as it knows
         bool isTracked = false;
-        std::size_t model = 0;
-        Index seedFrame = 0; ///< of the tracker
+        std::size_t model = 0; ///< with which it begins
+        Index seedFrame = 0;   ///< of the tracker
+        std::vector<ModelChange> modelChanges;
     };
 
     PathInto pathInto(const Analysis &analysis, const DetectionChain &chain, Index cell)
@@ -73,8 +74,9 @@ namespace {
             }
         }
         if (following)
-            return {following->explain(state), true, following->track().model, following->track().detectFrame};
-        return {chain.detectorPathInto(state, model), false, model, 0};
+            return {following->explain(state), true, following->track().model, following->track().detectFrame,
+                    following->track().modelChanges};
+        return {chain.detectorPathInto(state, model), false, model, 0, {}};
     }
 
     /// Runs the chain frame by frame and evaluates the alternatives to a path's steps, which the path itself does not
@@ -180,8 +182,9 @@ namespace {
     void findOther(Explanation &explanation, const Analysis &analysis, const DetectionChain &chain, Index frame,
                    Index cell)
     {
-        const StateSpace &space = analysis.modelAt(explanation.model).space;
-        const StateScores scores = scoresNow(analysis, chain, frame, explanation.model);
+        const std::size_t model = explanation.modelAt(frame);
+        const StateSpace &space = analysis.modelAt(model).space;
+        const StateScores scores = scoresNow(analysis, chain, frame, model);
         const Index own = explanation.steps.back().state;
         double best = minusInfinity;
         for (Index state = cell; state < space.stateCount(); state += space.cellCount())
@@ -295,6 +298,7 @@ Explanation explain(const Analysis &analysis, double seconds, const std::vector<
     explanation.steps = path.steps;
     std::size_t ownSteps = path.steps.size(); // the detector's, which precede a tracker's
     explanation.model = path.model;
+    explanation.modelChanges = path.modelChanges;
     explanation.offset = offsetOf(detailed, *chain, path.model);
     findOther(explanation, detailed, *chain, frame, cell);
     explanation.inhibitedFor = inhibitedFor(analysis, *chain, frame, cell);

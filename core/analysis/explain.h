@@ -29,8 +29,12 @@ struct Explanation {
     double statistic = 0.0;       ///< the sum of all terms and the offset, nat above background
     double displayed = 0.0;       ///< value shown by the analysis: the same, in single precision
     double threshold = 0.0;
-    std::size_t model = 0; ///< index of the bank's model with this path; it determines the steps' state numbers
-    ResetCause reset;      ///< before the first step
+    std::size_t model = 0;                 ///< index of the bank's model with which the path begins
+    std::vector<ModelChange> modelChanges; ///< along the path, of the tracker that follows it
+
+    /// The model of a step, which determines its state number.
+    std::size_t modelAt(Index frame) const { return faintline::modelAt(frame, model, modelChanges); }
+    ResetCause reset; ///< before the first step
     /// The best other state of the cell and its deficit, nat; absent for a model with one rate per cell.
     std::optional<Index> otherState;
     double otherMargin = 0.0;

@@ -208,6 +208,17 @@ void LayerReplay::followPaths(std::size_t model, Index frame)
     std::swap(m_paths.ages, m_ages.states[model]);
 }
 
+/// Age of the oldest path through a state's cell: when a track changes its model, its states are others.
+std::int32_t LayerReplay::oldestAt(Index state, const std::unordered_map<Index, std::int32_t> &ages) const
+{
+    const StateSpace &space = m_models.front().space; // all models have the same cells
+    std::int32_t oldest = 0;
+    for (const auto &[other, age] : ages)
+        if (space.cellOf(other) == space.cellOf(state))
+            oldest = std::max(oldest, age);
+    return oldest;
+}
+
 void LayerReplay::followTrackers()
 {
     TrackerAges now;
@@ -221,7 +232,7 @@ void LayerReplay::followTrackers()
                 continue;
             }
             const auto from = earlier->second.find(before);
-            ages[state] = 1 + (from == earlier->second.end() ? 0 : from->second);
+            ages[state] = 1 + (from == earlier->second.end() ? oldestAt(before, earlier->second) : from->second);
         }
     }
     m_ages.trackers = std::move(now);
@@ -265,7 +276,7 @@ void LayerReplay::project(std::span<const float> statistic)
             if (const double score = tracker.scoreAt(Index(cell), &candidate);
                 candidate == state && score > shown->second) {
                 shown->second = score;
-                m_layers.model[cell] = static_cast<unsigned char>(tracker.track().model);
+                m_layers.model[cell] = static_cast<unsigned char>(tracker.model());
                 m_layers.plane[cell] = std::int32_t(std::size_t(state) / cells);
                 m_layers.age[cell] = age;
                 m_layers.resetFraction[cell] = 0.0f; // a tracker's paths are not reset

@@ -84,6 +84,7 @@ private:
     std::vector<float> scoresBefore(std::size_t model) const;
     void followPaths(std::size_t model, Index frame);
     void followTrackers();
+    std::int32_t oldestAt(Index state, const std::unordered_map<Index, std::int32_t> &ages) const;
     void project(std::span<const float> statistic);
     static void move(const MarkovModel &model, std::size_t axis, Index step, const Paths &from, Paths &to);
 

@@ -39,6 +39,15 @@ struct Axis {
         return rest < 0 ? rest + count : rest;
     }
 
+    /// Steps from one index to another, the shorter way round on a cyclic axis.
+    Index steps(Index from, Index to) const
+    {
+        const Index direct = to - from;
+        if (cyclic && 2 * direct > count)
+            return direct - count;
+        return cyclic && 2 * direct < -count ? direct + count : direct;
+    }
+
     double last() const { return value(double(count - 1)); }
 
     bool operator==(const Axis &) const = default;

@@ -255,6 +255,8 @@ Json eventJson(const Event &e, const Grid &grid)
     json["open"] = e.isOpen;
     if (e.isSubtracted)
         json["subtracted"] = true;
+    for (const auto &[seconds, model] : e.modelChanges)
+        json["model_changes"].push_back({{"t", seconds}, {"model", nameOfBankModel(model)}});
     for (std::size_t i = 0; i < smoothedNames.size() && !std::isnan(e.snrDb); ++i)
         json[smoothedNames[i]] = smoothedOf(e)[i];
     return json;

@@ -41,9 +41,7 @@ bool ConventionalTracker::isInGate(const TrackPoint &from, Index frame, Index ce
     const std::vector<Index> a = m_grid.coordinates(from.cell);
     const std::vector<Index> b = m_grid.coordinates(cell);
     for (std::size_t axis = 0; axis < a.size(); ++axis) {
-        Index distance = std::abs(a[axis] - b[axis]);
-        if (m_grid.axes[axis].cyclic)
-            distance = std::min(distance, m_grid.axes[axis].count - distance);
+        const Index distance = std::abs(m_grid.axes[axis].steps(a[axis], b[axis]));
         if (double(distance) > frames * (axis == 0 ? m_settings.fastestCells : m_settings.fastestAcross))
             return false;
     }

@@ -51,6 +51,7 @@ DetectionChain::DetectionChain(std::vector<MarkovModel> models, const Grid &grid
     for (const MarkovModel &model : m_models)
         m_trackerModels.push_back(std::make_unique<TrackerModel>(
             model, grid, m_settings.track, m_settings.trackThreshold.value_or(m_settings.threshold)));
+    m_rivals = RivalModels(m_trackerModels);
 }
 
 void DetectionChain::update(Index frame, std::span<const float> y, std::span<float> statistic)
@@ -182,10 +183,14 @@ void DetectionChain::updateTrackers(Index frame, std::span<const float> y)
         places.push_back(tracker.coordinates());
     places.insert(places.end(), m_settings.excluded.begin(), m_settings.excluded.end());
     const PlaceIndex index(m_grid, std::move(places));
+    std::vector<double> lnK;
+    for (std::size_t model = 0; model < m_models.size(); ++model)
+        lnK.push_back(m_detector->regulation(model).lnK);
     for (std::size_t i = 0; i < m_trackers.size(); ++i) {
         HmmTracker &tracker = m_trackers[i];
         const auto hidden = maskNeighbours(index, i);
-        const bool goesOn = tracker.update(frame, m_lambda, m_detector->regulation(tracker.track().model).lnK);
+        bool goesOn = tracker.update(frame, m_lambda, lnK[tracker.model()]);
+        goesOn = m_rivals.update(tracker, goesOn, frame, m_lambda, lnK);
         for (const auto &[cell, value] : hidden)
             m_lambda[std::size_t(cell)] = value;
         if (goesOn)
@@ -195,6 +200,7 @@ void DetectionChain::updateTrackers(Index frame, std::span<const float> y)
     }
     m_trackers = std::move(going);
     endDuplicates();
+    m_rivals.keepOnly(m_trackers);
 }
 
 float DetectionChain::nothingSeen() const
@@ -278,6 +284,9 @@ std::size_t ChainState::bytes() const
     std::size_t total = sizeof *this + detector->bytes() + boxTracks.capacity() * sizeof(int);
     for (const HmmTracker &tracker : trackers)
         total += tracker.bytes();
+    for (const auto &[track, others] : rivals)
+        for (const HmmTracker &rival : others)
+            total += rival.bytes();
     for (const std::vector<CellBox> *list : {&boxes, &newBoxes})
         for (const CellBox &box : *list)
             total += sizeof box + (box.centre.capacity() + box.halfWidth.capacity()) * sizeof(Index);
@@ -293,7 +302,8 @@ std::shared_ptr<const ChainState> DetectionChain::state() const
     result->detector = std::move(detector);
     result->trackers.reserve(m_trackers.size());
     for (const HmmTracker &tracker : m_trackers)
-        result->trackers.push_back(tracker.withoutPast(*m_trackerModels[tracker.track().model]));
+        result->trackers.push_back(tracker.withoutPast(*m_trackerModels[tracker.model()]));
+    result->rivals = m_rivals.state();
     result->boxes = m_boxes;
     result->newBoxes = m_newBoxes;
     result->boxTracks = m_boxTracks;
@@ -307,7 +317,8 @@ void DetectionChain::setState(const ChainState &state)
     m_detector->setState(*state.detector);
     m_trackers.clear();
     for (const HmmTracker &tracker : state.trackers)
-        m_trackers.push_back(tracker.withoutPast(*m_trackerModels[tracker.track().model]));
+        m_trackers.push_back(tracker.withoutPast(*m_trackerModels[tracker.model()]));
+    m_rivals.setState(state.rivals);
     m_ended.clear();
     m_boxes = state.boxes;
     m_newBoxes = state.newBoxes;

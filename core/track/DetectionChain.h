@@ -6,11 +6,13 @@
 #include "track/Cluster.h"
 #include "track/HmmTracker.h"
 #include "track/PlaceIndex.h"
+#include "track/RivalModels.h"
 #include "track/Track.h"
 #include "track/joinTracks.h"
 
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -52,6 +54,7 @@ struct ChainSettings {
 struct ChainState {
     std::shared_ptr<const DetectorState> detector;
     std::vector<HmmTracker> trackers;
+    std::map<int, std::vector<HmmTracker>> rivals; ///< of a bank's other models, by the number of the track
     std::vector<CellBox> boxes;
     std::vector<CellBox> newBoxes;
     std::vector<int> boxTracks;
@@ -67,7 +70,8 @@ struct ChainState {
 /// box around each track and the detector takes the rest; crossings are clustered; the peak of each cluster starts a
 /// track, which is traced back to its onset, and the detector resets the box around it. The output statistic is the
 /// detector's, raised to the trackers' scores where they follow something. With a bank of models, a track belongs to
-/// the model whose statistic crossed, and is traced and followed with that model. With a guided detector, a track's
+/// the model whose statistic crossed, and is traced with that model; it changes to another one that follows it better
+/// (RivalModels). With a guided detector, a track's
 /// cell shows the statistic at its detection, because its tracker's scores are another quantity. Deterministic; use one
 /// object per thread.
 class DetectionChain
@@ -157,6 +161,7 @@ private:
     ChainSettings m_settings;
     std::vector<std::unique_ptr<TrackerModel>> m_trackerModels;
     std::vector<HmmTracker> m_trackers;
+    RivalModels m_rivals;
     std::vector<Track> m_ended;
     std::vector<CellBox> m_boxes;
     std::vector<CellBox> m_newBoxes; ///< those of tracks started in the last frame

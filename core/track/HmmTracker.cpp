@@ -12,17 +12,17 @@ namespace {
 
     constexpr float unreached = -std::numeric_limits<float>::infinity();
 
-    /// Distance along an axis, the short way round on a cyclic one.
-    Index offsetOnAxis(const Axis &axis, Index from, Index to)
+    /// The plane of `to` with the rates nearest to those of a plane of `from`, in cells per step.
+    Index nearestPlane(const StateSpace &from, Index plane, const StateSpace &to)
     {
-        Index distance = to - from;
-        if (axis.cyclic) {
-            if (2 * distance > axis.count)
-                distance -= axis.count;
-            if (2 * distance < -axis.count)
-                distance += axis.count;
+        const std::vector<double> rates = from.ratesOfPlane(plane);
+        Index result = 0;
+        for (std::size_t i = 0; i < rates.size(); ++i) {
+            const KinematicAxis &axis = to.axes()[i];
+            const auto nearest = Index(std::llround(rates[i] * double(axis.ratesPerCell))) - axis.firstRate;
+            result = result * axis.rateCount + std::clamp(nearest, Index(0), Index(axis.rateCount) - 1);
         }
-        return distance;
+        return result;
     }
 
 } // namespace
@@ -68,6 +68,78 @@ HmmTracker HmmTracker::withoutPast(TrackerModel &model) const
     return result;
 }
 
+HmmTracker HmmTracker::changedTo(TrackerModel &model, std::size_t number, double lnChange) const
+{
+    const Slice &last = m_history.back();
+    const StateSpace &space = m_model->space;
+    HmmTracker result = withoutPast(model);
+    result.m_track.modelChanges.push_back({last.frame, number});
+    result.m_lnChange = lnChange;
+    result.m_statistic += lnChange;
+    result.m_level += lnChange;
+    result.m_best = nearestPlane(space, space.planeOf(m_best), model.space) * space.cellCount() + space.cellOf(m_best);
+    Slice &slice = result.m_history.back();
+    slice.offset += lnChange;
+    slice.scores.assign(std::size_t(model.window.stateCount()), unreached);
+    const Index cells = model.window.cellCount();
+    for (Index plane = 0; plane < space.planeCount(); ++plane) {
+        const Index other = nearestPlane(space, plane, model.space);
+        for (Index cell = 0; cell < cells; ++cell) {
+            float &score = slice.scores[std::size_t(other * cells + cell)];
+            score = std::max(score, last.scores[std::size_t(plane * cells + cell)]);
+        }
+    }
+    return result;
+}
+
+Index HmmTracker::stateBefore(Index state, const StateSpace &later) const
+{
+    const Slice &last = m_history.back();
+    const StateSpace &space = m_model->space;
+    float best = unreached;
+    Index result = m_best;
+    for (Index plane = 0; plane < space.planeCount(); ++plane) {
+        if (nearestPlane(space, plane, later) != later.planeOf(state))
+            continue;
+        const Index candidate = plane * space.cellCount() + later.cellOf(state);
+        const Index local = localOf(last, candidate);
+        if (local >= 0 && last.scores[std::size_t(local)] > best) {
+            best = last.scores[std::size_t(local)];
+            result = candidate;
+        }
+    }
+    return result;
+}
+
+void HmmTracker::changeTo(HmmTracker next)
+{
+    const Index frame = next.m_track.modelChanges.back().frame;
+    const StateSpace &space = next.m_model->space;
+    const TrackPoint start =
+        next.m_track.points.empty() ? next.pathTo(next.m_best).front() : next.m_track.points.front();
+    Track track = std::move(m_track);
+    while (!track.points.empty() && track.points.back().frame >= frame)
+        track.points.pop_back();
+    while (!m_history.empty() && m_history.back().frame > frame)
+        m_history.pop_back();
+    if (!m_history.empty()) {
+        const std::vector<TrackPoint> path = pathTo(stateBefore(start.plane * space.cellCount() + start.cell, space));
+        track.points.insert(track.points.end(), path.begin(), path.end() - 1);
+    }
+    track.points.insert(track.points.end(), next.m_track.points.begin(), next.m_track.points.end());
+    track.modelChanges = next.m_track.modelChanges;
+    track.peakStatistic = std::max(track.peakStatistic, next.m_track.peakStatistic);
+    if (!track.isConfirmed) {
+        track.isConfirmed = next.m_track.isConfirmed;
+        track.confirmFrame = next.m_track.confirmFrame;
+    }
+    next.m_track = std::move(track);
+    next.m_beside = std::move(m_beside);
+    if (!m_history.empty() && next.m_history.front().frame == frame)
+        next.m_former = std::make_unique<HmmTracker>(std::move(*this));
+    *this = std::move(next);
+}
+
 std::size_t HmmTracker::bytes() const
 {
     constexpr std::size_t dequeBytes = 512 + 8 * sizeof(void *); // one node and the map of nodes
@@ -76,7 +148,7 @@ std::size_t HmmTracker::bytes() const
     for (const Slice &slice : m_history)
         total += sizeof slice + slice.centre.capacity() * sizeof(Index)
                  + (slice.scores.capacity() + slice.lambda.capacity()) * sizeof(float);
-    return total;
+    return m_former ? total + m_former->bytes() : total;
 }
 
 /// Updates the beginning of the final fall: the change point between "holds" and "loses half the decay per frame".
@@ -166,7 +238,7 @@ HmmTracker::Slice HmmTracker::cutOut(Index frame, const std::vector<Index> &cent
     const double shift = last.offset - m_statistic;
     std::vector<Index> moved;
     for (std::size_t axis = 0; axis < centre.size(); ++axis)
-        moved.push_back(offsetOnAxis(model.grid.axes[axis], last.centre[axis], centre[axis]));
+        moved.push_back(model.grid.axes[axis].steps(last.centre[axis], centre[axis]));
     const Index cells = model.window.cellCount();
     for (Index cell = 0; cell < cells; ++cell) {
         const Index source = model.inPadded(cell, moved);
@@ -182,7 +254,7 @@ Index HmmTracker::localOf(const Slice &slice, Index state) const
     const TrackerModel &model = *m_model;
     StateSpace::Coordinates c = model.space.coordinates(state);
     for (std::size_t axis = 0; axis < c.cells.size(); ++axis) {
-        c.cells[axis] = offsetOnAxis(model.grid.axes[axis], slice.centre[axis], c.cells[axis]) + model.halfWidth[axis];
+        c.cells[axis] = model.grid.axes[axis].steps(slice.centre[axis], c.cells[axis]) + model.halfWidth[axis];
         if (c.cells[axis] < 0 || c.cells[axis] >= model.window.axes()[axis].cells)
             return -1;
     }
@@ -269,15 +341,20 @@ std::vector<PathStep> HmmTracker::explain(Index state) const
         path.push_back(step);
     }
     std::reverse(path.begin(), path.end());
-    return path;
+    if (!m_former)
+        return path;
+    std::vector<PathStep> before = m_former->explain(m_former->stateBefore(path.front().state, m_model->space));
+    before.back().state = path.front().state;
+    before.back().lnTransition += m_lnChange;
+    before.back().score = path.front().score;
+    before.insert(before.end(), path.begin() + 1, path.end());
+    return before;
 }
 
-void HmmTracker::commit(std::size_t count)
+std::vector<TrackPoint> HmmTracker::pathTo(Index state) const
 {
     const TrackerModel &model = *m_model;
-    // Backward from the most probable state of the newest slice.
     std::vector<TrackPoint> path(m_history.size());
-    Index state = m_best;
     for (std::size_t i = m_history.size(); i-- > 0;) {
         const Slice &slice = m_history[i];
         const Index local = localOf(slice, state);
@@ -288,8 +365,15 @@ void HmmTracker::commit(std::size_t count)
         PathStep step;
         state = predecessorIn(m_history[i - 1], state, step);
     }
+    return path;
+}
+
+void HmmTracker::commit(std::size_t count)
+{
+    const std::vector<TrackPoint> path = pathTo(m_best);
     m_track.points.insert(m_track.points.end(), path.begin(), path.begin() + std::ptrdiff_t(count));
     m_history.erase(m_history.begin(), m_history.begin() + std::ptrdiff_t(count));
+    m_former.reset(); // the history no longer reaches it
 }
 
 void HmmTracker::paint(std::span<float> statistic) const

@@ -5,6 +5,7 @@
 #include "track/TrackerModel.h"
 
 #include <deque>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -38,6 +39,18 @@ public:
     /// A copy that continues bit for bit but has no path before the newest frame, so its size does not depend on its
     /// age.
     HmmTracker withoutPast(TrackerModel &model) const;
+
+    /// The same track as if another model of the bank, its `number`, followed it from the newest frame on: each state
+    /// takes the score of the states with the nearest rates, plus `lnChange`, ln P of a change of model. Both models
+    /// have the same cells and window. Its points begin with the newest frame.
+    HmmTracker changedTo(TrackerModel &model, std::size_t number, double lnChange) const;
+
+    /// Becomes `next`, which was made by changedTo() from this tracker in an earlier frame. The path before the change
+    /// remains this one's; it leads to the beginning of the other's.
+    void changeTo(HmmTracker next);
+
+    /// Index in the bank of the model that follows now.
+    std::size_t model() const { return m_track.lastModel(); }
 
     /// Memory used.
     std::size_t bytes() const;
@@ -102,6 +115,10 @@ private:
     void follow(Index frame, std::span<const float> lambda, double lnK);
     Index predecessorIn(const Slice &earlier, Index state, PathStep &step) const; ///< sets ln P and the runner-up
     Index localOf(const Slice &slice, Index state) const;
+    /// The path to a state in the newest frame, as far as the history goes.
+    std::vector<TrackPoint> pathTo(Index state) const;
+    /// The best state of the newest frame that changedTo() a model on `later` maps to `state`.
+    Index stateBefore(Index state, const StateSpace &later) const;
     void commit(std::size_t count);
     void holdLevel();
 
@@ -115,6 +132,8 @@ private:
     std::vector<Beside> m_beside;
     double m_statistic = 0.0;
     double m_level = 0.0;
+    double m_lnChange = 0.0;              ///< of the last change of model
+    std::unique_ptr<HmmTracker> m_former; ///< the tracker before that change, while the history reaches back to it
 };
 
 } // namespace faintline

@@ -28,6 +28,24 @@ struct SmoothedPoint {
     double deviation() const { return std::max(0.1, double(high - low) / 3.2897); }
 };
 
+/// From this frame on, a track belongs to another model of the bank (track/rivalModels.h).
+struct ModelChange {
+    Index frame = 0;
+    std::size_t model = 0; ///< index in the bank
+
+    bool operator==(const ModelChange &) const = default;
+};
+
+/// The model in a frame, after changes ordered by frame.
+inline std::size_t modelAt(Index frame, std::size_t first, const std::vector<ModelChange> &changes)
+{
+    std::size_t model = first;
+    for (const ModelChange &change : changes)
+        if (change.frame <= frame)
+            model = change.model;
+    return model;
+}
+
 /// One signal from onset to end, and the decision that started it.
 struct Track {
     int id = 0;                 ///< numbered from 1, in order of detection, then of cell
@@ -39,12 +57,17 @@ struct Track {
     bool isOpen = false;                   ///< still followed when the data ended
     std::vector<TrackPoint> points;        ///< onset … end, one per frame
     Index confirmFrame = -1;               ///< frame of the confirmation; -1: never
-    std::size_t model = 0;                 ///< index of the bank's model that found and follows it
+    std::size_t model = 0;                 ///< index of the bank's model that found it
     double detectStatistic = 0.0;          ///< the detector's statistic at the detection, in its own unit
     std::vector<SmoothedPoint> smoothed{}; ///< one per point; empty without the second pass
     double windowSeconds =
         0.0;                   ///< T_FT of the longer window that found it (analysis/steadyLines.h); 0: the frames' own
     bool isSubtracted = false; ///< from the recording whose frames are displayed (analysis/subtractLines.h)
+    std::vector<ModelChange>
+        modelChanges{}; ///< ordered by frame; the points' planes are those of the model at their frame
+
+    /// The model that follows it at its newest point.
+    std::size_t lastModel() const { return modelChanges.empty() ? model : modelChanges.back().model; }
 
     /// Position of a point along the last axis, in cells, as precisely as known.
     double lastPosition(std::size_t point, const Axis &axis) const
@@ -67,8 +90,8 @@ struct Track {
     /// A copy without the per-frame values, which are not copied first.
     Track withoutPoints() const
     {
-        return {id,           onsetFrame, detectFrame,     endFrame, peakStatistic, isConfirmed, isOpen, {},
-                confirmFrame, model,      detectStatistic, {},       windowSeconds, isSubtracted};
+        return {id,           onsetFrame, detectFrame,     endFrame, peakStatistic, isConfirmed,  isOpen,      {},
+                confirmFrame, model,      detectStatistic, {},       windowSeconds, isSubtracted, modelChanges};
     }
 };
 

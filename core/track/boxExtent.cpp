@@ -56,10 +56,7 @@ CellBox overCells(CellBox box, const Grid &grid, std::span<const Index> cells, c
     for (Index cell : cells) {
         const std::vector<Index> c = grid.coordinates(cell);
         for (std::size_t axis = 0; axis < c.size(); ++axis) {
-            const Axis &a = grid.axes[axis];
-            Index distance = std::abs(c[axis] - box.centre[axis]);
-            if (a.cyclic)
-                distance = std::min(distance, a.count - distance);
+            const Index distance = std::abs(grid.axes[axis].steps(box.centre[axis], c[axis]));
             box.halfWidth[axis] = std::max(box.halfWidth[axis], distance + margin[axis]);
         }
     }

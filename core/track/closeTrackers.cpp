@@ -17,12 +17,8 @@ std::vector<Index> cellsOfNeighbours(const Grid &grid, const PlaceIndex &places,
 {
     const auto distance = [&grid](const std::vector<Index> &a, const std::vector<Index> &b) {
         Index largest = 0;
-        for (std::size_t axis = 0; axis < a.size(); ++axis) {
-            Index d = std::abs(a[axis] - b[axis]);
-            if (grid.axes[axis].cyclic)
-                d = std::min(d, grid.axes[axis].count - d);
-            largest = std::max(largest, d);
-        }
+        for (std::size_t axis = 0; axis < a.size(); ++axis)
+            largest = std::max(largest, std::abs(grid.axes[axis].steps(a[axis], b[axis])));
         return largest;
     };
     const std::vector<Index> &mine = places[own];

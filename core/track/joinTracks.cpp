@@ -8,17 +8,6 @@ namespace faintline {
 
 namespace {
 
-    /// Steps from one coordinate to another, the short way round on a cyclic axis.
-    Index stepsTo(const Axis &axis, Index from, Index to)
-    {
-        Index steps = to - from;
-        if (axis.cyclic && 2 * steps > axis.count)
-            steps -= axis.count;
-        if (axis.cyclic && 2 * steps < -axis.count)
-            steps += axis.count;
-        return steps;
-    }
-
     /// Mean gain of a track, nats per frame.
     double growth(const Track &track)
     {
@@ -49,7 +38,7 @@ namespace {
             joint.distance = 0;
             joint.isFound = true;
             for (std::size_t axis = 0; axis < to.size(); ++axis) {
-                const Index steps = std::abs(stepsTo(grid.axes[axis], from[axis], to[axis]));
+                const Index steps = std::abs(grid.axes[axis].steps(from[axis], to[axis]));
                 joint.isFound = joint.isFound
                                 && steps <= std::min(rule.linkCells[axis] + joint.gapFrames * rule.reachCells[axis],
                                                      rule.windowCells[axis]);
@@ -73,13 +62,19 @@ namespace {
             std::vector<Index> c = from;
             for (std::size_t axis = 0; axis < c.size(); ++axis) {
                 const double share = double(i) / double(joint.gapFrames);
-                const auto steps = std::llround(share * double(stepsTo(grid.axes[axis], from[axis], to[axis])));
+                const auto steps = std::llround(share * double(grid.axes[axis].steps(from[axis], to[axis])));
                 c[axis] = grid.axes[axis].wrapped(from[axis] + Index(steps));
             }
             earlier.points.push_back({end.frame + i, grid.cell(c), next.plane, end.statistic});
         }
         earlier.points.insert(earlier.points.end(), later.points.begin() + std::ptrdiff_t(joint.point),
                               later.points.end());
+        if (const std::size_t model = modelAt(next.frame, later.model, later.modelChanges);
+            model != earlier.lastModel())
+            earlier.modelChanges.push_back({end.frame + 1, model});
+        for (const ModelChange &change : later.modelChanges)
+            if (change.frame > next.frame)
+                earlier.modelChanges.push_back(change);
         earlier.endFrame = later.endFrame;
         earlier.detectStatistic = std::max(earlier.detectStatistic, later.detectStatistic);
         earlier.peakStatistic = std::max(earlier.peakStatistic, later.peakStatistic);

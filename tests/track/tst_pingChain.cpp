@@ -55,8 +55,16 @@ ChainSettings settings()
     return chain;
 }
 
-/// A chain that has taken all pings.
-std::unique_ptr<DetectionChain> run(const SimulatedPings &pings, const ChainSettings &chainSettings, bool bank = false)
+/// Keeps its rates for 20 pings, long enough for the model of such targets, and turns then.
+PingTarget turningLate()
+{
+    PingTarget made = target(60, 6, 2, 0, 8.0);
+    made.legs[0].pings = 20;
+    made.legs.push_back({0, 0.0, 0.0, -2.0, 0.0, 8});
+    return made;
+}
+
+std::unique_ptr<DetectionChain> newChain(const SimulatedPings &pings, const ChainSettings &chainSettings, bool bank)
 {
     const MarkovModel turning = sonarModel(pings.grid(), slow(manoeuvring(1)));
     const MarkovModel steady = sonarModel(pings.grid(), slow(nonManoeuvring()));
@@ -70,6 +78,13 @@ std::unique_ptr<DetectionChain> run(const SimulatedPings &pings, const ChainSett
     else
         chain = std::make_unique<DetectionChain>(
             turning, pings.grid(), std::make_unique<Smd>(turning, ResetRule{ResetLaw::Mean}), chainSettings);
+    return chain;
+}
+
+/// A chain that has taken all pings.
+std::unique_ptr<DetectionChain> run(const SimulatedPings &pings, const ChainSettings &chainSettings, bool bank = false)
+{
+    std::unique_ptr<DetectionChain> chain = newChain(pings, chainSettings, bank);
     std::vector<float> y(std::size_t(pings.grid().size()));
     std::vector<float> statistic(y.size());
     for (Index ping = 0; ping < pings.time().count; ++ping) {
@@ -99,6 +114,9 @@ private slots:
     void inhibitionNamesItsTracks();
     void feedbackKeepsTracksFew();
     void bankTracksWithTheWinner();
+    void aTrackChangesItsModel();
+    void aSteadyTargetEndsInItsModel();
+    void aSavedStateKeepsTheRivals();
     void pathTermsAddUp();
 };
 
@@ -178,6 +196,58 @@ void tst_pingChain::bankTracksWithTheWinner()
     for (std::size_t i = 0; i < score.targetOfTrack.size(); ++i)
         if (score.targetOfTrack[i] == 1 && chain->tracks()[i].isConfirmed)
             QCOMPARE(chain->tracks()[i].model, std::size_t(1));
+}
+
+void tst_pingChain::aTrackChangesItsModel()
+{
+    const SimulatedPings pings(scene({turningLate()}, 60));
+    const auto chain = run(pings, settings(), true);
+    const TrackScore score = scoreOf(*chain, pings);
+    QCOMPARE(score.targets[0].tracks, 1);
+    QCOMPARE(score.falseTracks, 0);
+    QVERIFY2(score.targets[0].matchedPoints >= 45,
+             qPrintable(QString("%1 of 52 pings followed").arg(score.targets[0].matchedPoints)));
+    const Track &track = chain->tracks().front();
+    const auto isTurning = [&](Index ping) { return modelAt(ping, track.model, track.modelChanges) == 1; };
+    const Index turn = 8 + 20; // its first ping
+    QVERIFY2(!isTurning(turn - 6), "keeps its rates before the turn");
+    QVERIFY2(isTurning(turn + 2), "manoeuvres in the turn");
+    QVERIFY2(!isTurning(turn + 24), "keeps its rates after the turn");
+    for (std::size_t i = 1; i < track.points.size(); ++i)
+        QCOMPARE(track.points[i].frame, track.points[i - 1].frame + 1);
+}
+
+void tst_pingChain::aSteadyTargetEndsInItsModel()
+{
+    const SimulatedPings pings(scene({target(30, 4, 2, 0)}));
+    const auto chain = run(pings, settings(), true);
+    chain->finish();
+    QCOMPARE(chain->tracks().size(), std::size_t(1));
+    QCOMPARE(chain->tracks().front().lastModel(), std::size_t(0));
+    QVERIFY(chain->tracks().front().modelChanges.size() <= 1);
+}
+
+void tst_pingChain::aSavedStateKeepsTheRivals()
+{
+    const SimulatedPings pings(scene({turningLate()}, 60));
+    const auto whole = newChain(pings, settings(), true);
+    const auto resumed = newChain(pings, settings(), true);
+    std::vector<float> y(std::size_t(pings.grid().size()));
+    std::vector<float> statistic(y.size());
+    std::vector<float> again(y.size());
+    for (Index ping = 0; ping < pings.time().count; ++ping) {
+        pings.read(ping, 1, y);
+        whole->update(ping, y, statistic);
+        if (ping == 27) // the turn is about to begin
+            resumed->setState(*whole->state());
+        if (ping <= 27)
+            continue;
+        resumed->update(ping, y, again);
+        QVERIFY2(statistic == again, qPrintable(QString("ping %1").arg(ping)));
+    }
+    QVERIFY(!whole->trackers().empty());
+    QVERIFY(!whole->trackers().front().track().modelChanges.empty());
+    QCOMPARE(resumed->trackers().front().track().modelChanges, whole->trackers().front().track().modelChanges);
 }
 
 void tst_pingChain::pathTermsAddUp()

@@ -6,19 +6,6 @@ namespace faintline {
 
 namespace {
 
-    /// Cells from a to b along an axis, the shorter way round on a cyclic axis.
-    Index offsetAlong(const Axis &axis, Index a, Index b)
-    {
-        Index offset = b - a;
-        if (axis.cyclic) {
-            if (2 * offset > axis.count)
-                offset -= axis.count;
-            if (2 * offset < -axis.count)
-                offset += axis.count;
-        }
-        return offset;
-    }
-
     /// Offsets of a point from a target along the axes; empty if the point is outside the gate.
     std::vector<Index> offsetsFrom(const TruthTarget &target, const TrackPoint &point, const Grid &grid,
                                    const std::vector<Index> &gate)
@@ -30,7 +17,7 @@ namespace {
         const std::vector<Index> found = grid.coordinates(point.cell);
         std::vector<Index> offsets;
         for (std::size_t axis = 0; axis < wanted.size(); ++axis) {
-            offsets.push_back(offsetAlong(grid.axes[axis], wanted[axis], found[axis]));
+            offsets.push_back(grid.axes[axis].steps(wanted[axis], found[axis]));
             if (std::abs(offsets.back()) > gate[axis])
                 return {};
         }
