@@ -59,6 +59,7 @@ namespace {
 
     private:
         Index m() const { return m_rule.slopeFrames; }
+        Index longestAbsence() const { return m() / 5; }
         double cells(double resolutionCells) const { return resolutionCells * m_rule.binsPerCell; }
 
         Index startOf(const Piece &piece) const { return m_tracks[piece.track].points[piece.from].frame; }
@@ -191,10 +192,11 @@ namespace {
         bool isAbsent(const Piece &a, const Piece &b) const
         {
             const double absence = m_rule.absence(std::pow(10.0, 0.1 * std::min(a.endDb, b.startDb)));
-            double evidence = 0.0;
+            Index visible = 0;
             Index frame = endOf(a);
             for (const double position : wayBetween(a, b))
-                if (isVisible(++frame, position) && (evidence += absence) > m_rule.threshold)
+                if (isVisible(++frame, position)
+                    && (++visible > longestAbsence() || double(visible) * absence > m_rule.threshold))
                     return true;
             return false;
         }

@@ -34,11 +34,11 @@ struct RelinkRule {
 ///          where q is the variance of the pieces' own slopes; v0 = (0.35 cell)² in V
 ///   L      mean levels in dB
 ///
-/// A link is possible if it costs less than T and the signal's absence where it could have been seen is no more
-/// significant than a detection: frames that are not within 2.5 cells of any track, times D, at most T. Two tracks of
-/// which one's end and the other's beginning were seen together for m/5 frames or more are two signals. A track's own
-/// way costs T·0.9 at most, so that it is kept unless there is a better one; no link costs T. Between linked pieces of
-/// different tracks, a cubic curve replaces what the tracks had there.
+/// A link is possible if it costs less than T and the signal could have been seen in few frames of the gap: those that
+/// are not within 2.5 cells of any track are at most m/5, and times D at most T (for longer ones see joinTracks.h). Two
+/// tracks of which one's end and the other's beginning were seen together for m/5 frames or more are two signals. A
+/// track's own way costs T·0.9 at most, so that it is kept unless there is a better one; no link costs T. Between linked
+/// pieces of different tracks, a cubic curve replaces what the tracks had there.
 ///
 /// Tracks without the second pass are left as they are. The result is not ordered. Deterministic.
 std::vector<Track> relink(std::vector<Track> tracks, const RelinkRule &rule);
