@@ -174,13 +174,13 @@ namespace {
         pings.finish();
         analysis.tracks = chain->takeJoinedTracks();
         if (looksTwice(analysis)) {
-            const bool isTrial = request.depth == AnalysisDepth::Trial;
+            const SecondLookDepth depth = request.depth == AnalysisDepth::Trial ? SecondLookDepth::Tracks
+                                          : request.keepsFirstTracks            ? SecondLookDepth::SignalsBesideTracks
+                                                                                : SecondLookDepth::Signals;
             SecondView seen =
-                lookTwice(analysis, std::move(analysis.tracks), subtracted,
-                          isTrial ? SecondLookDepth::Tracks : SecondLookDepth::Signals, context.part(0.9, 0.95));
+                lookTwice(analysis, std::move(analysis.tracks), subtracted, depth, context.part(0.9, 0.95));
             analysis.tracks = std::move(seen.tracks);
-            if (request.keepsFirstTracks)
-                analysis.firstTracks = std::move(seen.first);
+            analysis.firstTracks = std::move(seen.first);
             analysis.areas = std::move(seen.areas);
         }
         analysis.tracks = withoutLoneTeeth(analysis, std::move(analysis.tracks), context.part(0.95, 0.96));

@@ -88,9 +88,11 @@ namespace {
         {
             lookAtAll(std::move(found), subtracted, m_context.part(0.0, 0.4));
             SecondView view;
-            if (depth == SecondLookDepth::Signals && m_analysis.settings.family.isNone()) {
-                view.first = m_tracks;
-                numberByDetection(view.first);
+            if (depth != SecondLookDepth::Tracks && m_analysis.settings.family.isNone()) {
+                if (depth == SecondLookDepth::SignalsBesideTracks) {
+                    view.first = m_tracks;
+                    numberByDetection(view.first);
+                }
                 lookBehind();
                 m_tracks = relinked(std::move(m_tracks));
             }

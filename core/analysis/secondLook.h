@@ -16,11 +16,12 @@ bool looksTwice(const AnalysisPlan &analysis);
 struct SecondView {
     std::vector<Track> tracks; ///< lines, by detection
     std::vector<Area> areas;   ///< by time
-    std::vector<Track> first;  ///< the tracks after step 4, by detection, if steps 5 and 6 were taken
+    std::vector<Track> first;  ///< the tracks after step 4, by detection, if they were asked for and steps 5 and 6 taken
 };
 
-/// How far the second pass goes: to the tracks of the chain, or also to signals hidden by them, and to identities.
-enum class SecondLookDepth { Tracks, Signals };
+/// How far the second pass goes: to the tracks of the chain; or also to signals hidden by them, and to identities; or
+/// the same with the former beside the result.
+enum class SecondLookDepth { Tracks, Signals, SignalsBesideTracks };
 
 /// Two-sided second pass over detected tracks: limits each signal to the time it was present and estimates its position
 /// to a fraction of a bin.

@@ -286,7 +286,7 @@ namespace {
                 for (std::size_t i = first; i != none; i = m_next[i])
                     chain.push_back(i);
                 if (isWhole(chain)) {
-                    result.push_back(m_tracks[m_pieces[first].track]);
+                    result.push_back(std::move(m_tracks[m_pieces[first].track])); // no other chain needs it
                     continue;
                 }
                 double gain = 0.0;
@@ -299,7 +299,7 @@ namespace {
                     result.push_back(joined(chain, std::max(gain, m_rule.threshold)));
             }
             for (Track &track : m_tracks)
-                if (track.smoothed.empty())
+                if (track.smoothed.empty() && !track.points.empty())
                     result.push_back(std::move(track));
             return result;
         }
@@ -312,7 +312,8 @@ namespace {
                 std::all_of(chain.begin(), chain.end(), [&](std::size_t i) { return m_pieces[i].track == track; });
             const bool hasFirst = chain.front() == 0 || m_pieces[chain.front() - 1].track != track;
             const bool hasLast = chain.back() + 1 == m_pieces.size() || m_pieces[chain.back() + 1].track != track;
-            return isOne && hasFirst && hasLast;
+            const bool hasAll = chain.back() - chain.front() + 1 == chain.size();
+            return isOne && hasFirst && hasLast && hasAll;
         }
 
         /// Gain of the path's statistic along a piece.
