@@ -23,9 +23,14 @@ namespace {
         return steepest;
     }
 
-    /// Whether a track's slope is that steep in more than half of its frames.
+    /// Whether a track's slope is that steep in more than half of its frames, or from its first to its last one: the
+    /// pieces of a line that is too fast for the model may have been joined to one track.
     bool keepsTo(const Track &track, double slope, const StateSpace &space)
     {
+        const TrackPoint &first = track.points.front();
+        const TrackPoint &last = track.points.back();
+        if (std::abs(double(last.cell - first.cell)) >= slope * double(last.frame - first.frame))
+            return true;
         const auto steep = std::count_if(track.points.begin(), track.points.end(), [&](const TrackPoint &point) {
             return std::abs(space.ratesOfPlane(point.plane).back()) >= slope;
         });
