@@ -74,8 +74,9 @@ std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, c
 ///
 ///   ln rate(T) = ln rate_wide(T) + ln S_band(T) - ln S_wide(T),   S: excursions per cell and frame, each by splitting
 ///
-/// From 64 bins on (128 for slopes of four bins) the loss at the ends falls as 1/bins. From 256 times the steepest slope
-/// on, and for lines that stay in their bin and detectors without splitting, the wide band's calibration is used.
+/// From 64 bins on (of bands of 256 bins or more with slopes of four bins, from 128 on) the loss at the ends falls as
+/// 1/bins. From 256 times the steepest slope on, and for lines that stay in their bin and detectors without splitting,
+/// the wide band's calibration is used.
 std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &settings, Index bins,
                                                  const RunContext &context = {},
                                                  CalibrationDepth depth = CalibrationDepth::Refined);
