@@ -71,7 +71,7 @@ const std::vector<Equation> &equations()
              "λ, P, K  as for the sequential Markov detector",
              "the sum-product form of Billon 2005, section 3"),
         make("output:presence", "Presence of the tracks",
-             "αₜ(s) ∝ e^λ(s) · ( p/N · αₜ₋₁(off) + (1−p) Σₘ P(s|m) αₜ₋₁(m) ),   γ = α·β,   presence = 1 − γ(off)\n"
+             "αₜ(s) = C · e^λ(s) · ( p/N · αₜ₋₁(off) + (1−p) Σₘ P(s|m) αₜ₋₁(m) ),   γ = α·β,   presence = 1 − γ(off)\n"
              "v(t, f) = max over the tracks of presence(t) · share of f's cell in the track's band",
              "s, m  states in a corridor about the track; off: no signal\n"
              "p  probability of an onset or an end, e^(−T/2), T threshold\n"
