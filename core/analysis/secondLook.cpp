@@ -74,9 +74,8 @@ namespace {
     public:
         SecondLook(const Analysis &analysis, const RunContext &context)
             : m_analysis(analysis), m_context(context), m_frames(*analysis.frames), m_cells(m_frames.grid().size()),
-              m_spectrogram(*m_frames.spectrogram()), m_explanations(m_cells, [&](double bins) {
-                  return leakageBound(m_spectrogram.settings().window, bins / m_spectrogram.binsPerCell());
-              })
+              m_spectrogram(*m_frames.spectrogram()),
+              m_explanations(m_cells, leakageAround(leakageBound, 0.0), leakageAround(leakageAt, 0.05))
         {
             m_model.axis = &analysis.model.space.axes().front();
             m_model.likelihood = analysis.model.likelihood;
@@ -142,6 +141,17 @@ namespace {
                 m_accepted = 0;
                 lookAtAll(searchBehind(m_analysis, m_explanations, context.part(0.0, 0.7)), {}, context.part(0.7, 1.0));
             }
+        }
+
+        /// The window's leakage over a distance in bins that is known to `error` cells.
+        std::function<double(double)> leakageAround(double (*leakage)(WindowShape, double), double error) const
+        {
+            return
+                [=, shape = m_spectrogram.settings().window, binsPerCell = m_spectrogram.binsPerCell()](double bins) {
+                    const double cells = bins / binsPerCell;
+                    return std::max({leakage(shape, std::max(0.0, cells - error)), leakage(shape, cells),
+                                     leakage(shape, cells + error)});
+                };
         }
 
         std::vector<Track> relinked(std::vector<Track> tracks) const

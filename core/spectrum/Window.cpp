@@ -134,4 +134,21 @@ double leakageBound(WindowShape shape, double distanceCells)
     return ratioFromDb(db);
 }
 
+double leakageAt(WindowShape shape, double distanceCells)
+{
+    constexpr int points = 256; // exact for cosine sums, up to rounding
+    const double distance = std::abs(distanceCells);
+    if (distance > mainLobeHalfWidth(shape) + 1.0)
+        return leakageBound(shape, distance);
+    double transform = 0.0;
+    double sum = 0.0;
+    for (int n = 0; n < points; ++n) {
+        const double fraction = (n + 0.5) / points;
+        const double value = shapeAt(shape, fraction);
+        transform += value * std::cos(2.0 * std::numbers::pi * distance * (fraction - 0.5));
+        sum += value;
+    }
+    return transform * transform / (sum * sum);
+}
+
 } // namespace faintline

@@ -33,4 +33,8 @@ double mainLobeHalfWidth(WindowShape shape);
 /// lobes by their envelope; those of a sampled window alias at half the sample rate and are up to 6 dB higher there.
 double leakageBound(WindowShape shape, double distanceCells);
 
+/// Leakage |W(Δ)|²/|W(0)|² at a distance of Δ resolution cells, as a power ratio: the window's transform up to one cell
+/// beyond its main lobe, leakageBound() further out.
+double leakageAt(WindowShape shape, double distanceCells);
+
 } // namespace faintline

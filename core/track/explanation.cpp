@@ -13,20 +13,27 @@ namespace {
     constexpr double margin = 2.0;
     constexpr double negligible = 0.02; ///< relative to the noise
     constexpr double farthestCells = 4096.0;
+    constexpr double steadyCells = 0.1; ///< per frame
 
 } // namespace
 
-Explanations::Explanations(Index cells, const std::function<double(double)> &leakage)
+Explanations::Explanations(Index cells, const std::function<double(double)> &bound,
+                           const std::function<double(double)> &exact)
 {
     const double farthest = std::min(farthestCells, double(cells));
-    for (double distance = 0.0; distance <= farthest; distance += 1.0 / perCell)
-        m_leakage.push_back(float(leakage(distance)));
+    for (double distance = 0.0; distance <= farthest; distance += 1.0 / perCell) {
+        m_bound.push_back(float(bound(distance)));
+        m_exact.push_back(std::min(m_bound.back(), float(exact(distance))));
+    }
 }
 
-double Explanations::leakageAt(double distance) const
+/// Whether a signal is as narrow as the window allows, as far as is known.
+bool Explanations::isSharp(const ExplainedSignal &signal, std::size_t at)
 {
-    const auto at = std::size_t(distance * perCell);
-    return double(at < m_leakage.size() ? m_leakage[at] : m_leakage.back());
+    const std::size_t before = at > 0 ? at - 1 : 0;
+    const std::size_t after = std::min(at + 1, signal.positions.size() - 1);
+    return !signal.skirts.empty()
+           && std::abs(signal.positions[after] - signal.positions[before]) <= steadyCells * double(after - before);
 }
 
 std::span<const float> Explanations::skirtAt(const ExplainedSignal &signal, std::size_t at) const
@@ -40,9 +47,9 @@ std::span<const float> Explanations::skirtAt(const ExplainedSignal &signal, std:
 double Explanations::reachAt(const ExplainedSignal &signal, std::size_t at) const
 {
     const double least = negligible / (margin * std::max(1e-3, double(signal.levels[at])));
-    const auto end = std::partition_point(m_leakage.begin(), m_leakage.end(),
-                                          [least](float share) { return double(share) > least; });
-    return std::max(double(end - m_leakage.begin()) / perCell, double(skirtAt(signal, at).size()));
+    const auto end =
+        std::partition_point(m_bound.begin(), m_bound.end(), [least](float share) { return double(share) > least; });
+    return std::max(double(end - m_bound.begin()) / perCell, double(skirtAt(signal, at).size()));
 }
 
 void Explanations::add(ExplainedSignal signal)
@@ -89,12 +96,13 @@ void Explanations::read(Index frame, Index firstCell, std::span<float> floor) co
         const auto level = double(signal.levels[at]);
         const std::span<const float> skirt = skirtAt(signal, at);
         const double end = reachAt(signal, at);
+        const std::vector<float> &leakage = isSharp(signal, at) ? m_exact : m_bound;
         const auto size = double(floor.size());
         const auto first = Index(std::clamp(std::floor(position - end), 0.0, size));
         const auto last = Index(std::clamp(std::ceil(position + end) + 1.0, 0.0, size));
         for (Index cell = first; cell < last; ++cell) {
             const double distance = std::abs(double(cell) - position);
-            double share = leakageAt(distance);
+            double share = double(leakage[std::min(std::size_t(distance * perCell), leakage.size() - 1)]);
             if (const auto step = std::size_t(std::lround(distance)); step < skirt.size())
                 share = std::max(share, double(skirt[step]));
             floor[std::size_t(cell)] *= float(1.0 + margin * level * share);

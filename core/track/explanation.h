@@ -27,13 +27,15 @@ struct ExplainedSignal {
 ///
 ///   floor(t, n) = Π 1 + 2·A_t·max(|W(n - f_t)|², e(|n - f_t|))
 ///
-/// The factor 2 allows an explanation to be 3 dB too low before the remainder of the signal gathers evidence: explained
-/// power is constant, not exponential. One frame is added at either end, because windows overlap.
+/// W is the window's transform beside a signal whose skirts were measured and which moves by a tenth of a cell per frame
+/// at most; beside others, which may be wider than the window's main lobe, it is an upper bound. The factor 2 allows an
+/// explanation to be 3 dB too low before the remainder of the signal gathers evidence: explained power is constant, not
+/// exponential. One frame is added at either end, because windows overlap.
 class Explanations
 {
 public:
-    /// `leakage`: |W|² at a distance in cells of an axis with `cells` cells.
-    Explanations(Index cells, const std::function<double(double)> &leakage);
+    /// `bound`, `exact`: |W|² at a distance in cells of an axis with `cells` cells.
+    Explanations(Index cells, const std::function<double(double)> &bound, const std::function<double(double)> &exact);
 
     void add(ExplainedSignal signal);
 
@@ -55,13 +57,14 @@ private:
     template <class Take>
     void forEachAt(Index frame, Index firstCell, Index count, Take take) const;
 
-    double leakageAt(double distance) const;
+    static bool isSharp(const ExplainedSignal &signal, std::size_t at);
     double reachAt(const ExplainedSignal &signal, std::size_t at) const;
     std::span<const float> skirtAt(const ExplainedSignal &signal, std::size_t at) const;
 
     std::vector<ExplainedSignal> m_signals;
     std::vector<std::vector<Entry>> m_byTime; ///< for each block of 64 frames
-    std::vector<float> m_leakage;             ///< at multiples of 1/16 cell
+    std::vector<float> m_bound;               ///< at multiples of 1/16 cell
+    std::vector<float> m_exact;               ///< at the same, at most the bound
 };
 
 } // namespace faintline

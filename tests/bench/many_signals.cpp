@@ -1,6 +1,6 @@
 // Signals beside each other, crossing and meeting: what the tracks make of them.
 //
-//     faintline-many-known [--seeds N] [--first N] [--only TEXT] [--tracks] [name=value …]
+//     faintline-many-signals [--seeds N] [--first N] [--only TEXT] [--tracks] [name=value …]
 //
 // One row for each scene of tests/support/manySignals.cpp, mean over the seeds: coverage, best single track and largest
 // number of fragments of the worse signal (whistles: mean of all), swaps and false tracks in all, 90 % error in cells,

@@ -25,6 +25,9 @@ private slots:
     void leakageIsBounded();
     void boundFallsWithDistance_data() { shapes(); }
     void boundFallsWithDistance();
+    void leakageNearTheMainLobe_data() { shapes(); }
+    void leakageNearTheMainLobe();
+    void leakageOfHann();
 
 private:
     static void shapes()
@@ -149,6 +152,29 @@ void tst_Window::boundFallsWithDistance()
         before = bound;
     }
     QVERIFY(before < 1e-8);
+}
+
+void tst_Window::leakageNearTheMainLobe()
+{
+    QFETCH(int, shape);
+    const auto window = static_cast<WindowShape>(shape);
+    const std::vector<float> samples = sampleWindow(window, 2048);
+    const double end = mainLobeHalfWidth(window) + 1.0;
+    for (double distance = 0.0; distance < end; distance += 0.03)
+        QVERIFY(std::abs(leakageAt(window, distance) - response(samples, distance)) < 1e-5 * leakageBound(window, 0.0));
+    QVERIFY(leakageAt(window, mainLobeHalfWidth(window)) < 1e-9);
+    QCOMPARE(leakageAt(window, end + 0.01), leakageBound(window, end + 0.01));
+    QCOMPARE(leakageAt(window, -0.7), leakageAt(window, 0.7));
+}
+
+void tst_Window::leakageOfHann()
+{
+    for (const double distance : {0.3, 0.5, 1.5, 1.75, 1.9, 2.1, 2.5}) {
+        const double pi = std::numbers::pi;
+        const double transform = std::sin(pi * distance) / (pi * distance * (1.0 - distance * distance));
+        QVERIFY(std::abs(leakageAt(WindowShape::Hann, distance) - transform * transform)
+                < 1e-5 * transform * transform);
+    }
 }
 
 QTEST_APPLESS_MAIN(tst_Window)
