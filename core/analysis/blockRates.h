@@ -20,7 +20,8 @@ namespace faintline {
 ///   P(V_B > T) = Σ_k Σ_i ω_ki 1(V_ki > T) / Σ_j e^(α_j V_ki)/Z_j,   ω_ki the final weights of run k, Σ_i ω_ki = 1
 ///
 /// Errors are those of independent repetitions. Source: Del Moral and Garnier 2005, Genealogical particle analysis of
-/// rare events; Veach and Guibas 1995. Oracle: a sum of exponentials is a gamma variable (tests/analysis/tst_blockRates).
+/// rare events; Veach and Guibas 1995. Oracle: a sum of exponentials is a gamma variable
+/// (tests/analysis/tst_blockRates).
 ///
 /// `makeDetector` makes the detector that runs from a block's first frame on; it must be able to save its state. Empty
 /// if it cannot, or if the errors exceed a half before rates are rare. Cost: some 10⁶ frames of the small band.
