@@ -70,8 +70,8 @@ public:
     void restoreSplitters(const QByteArray &state);
 
 public slots:
-    /// Marks the event, moves the cursor to it and scrolls it into view. Of an event below the shown threshold, only the
-    /// track is scrolled into view.
+    /// Marks the event, moves the cursor to it and scrolls it into view. If the event is below the shown threshold, its
+    /// track is only scrolled into view.
     void selectEvent(int id);
     virtual void stepFrames(int frames) = 0;
     virtual void setPlaying(bool isPlaying);
