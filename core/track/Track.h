@@ -28,7 +28,7 @@ struct SmoothedPoint {
     double deviation() const { return std::max(0.1, double(high - low) / 3.2897); }
 };
 
-/// From this frame on, a track belongs to another model of the bank (track/rivalModels.h).
+/// From this frame on, a track belongs to another model of the bank (RivalModels.h).
 struct ModelChange {
     Index frame = 0;
     std::size_t model = 0; ///< index in the bank
@@ -60,11 +60,11 @@ struct Track {
     std::size_t model = 0;                 ///< index of the bank's model that found it
     double detectStatistic = 0.0;          ///< the detector's statistic at the detection, in its own unit
     std::vector<SmoothedPoint> smoothed{}; ///< one per point; empty without the second pass
-    double windowSeconds =
-        0.0;                   ///< T_FT of the longer window that found it (analysis/steadyLines.h); 0: the frames' own
+    /// T_FT of the longer window that found it (analysis/steadyLines.h); 0: the frames' own.
+    double windowSeconds = 0.0;
     bool isSubtracted = false; ///< from the recording whose frames are displayed (analysis/subtractLines.h)
-    std::vector<ModelChange>
-        modelChanges{}; ///< ordered by frame; the points' planes are those of the model at their frame
+    /// Ordered by frame; the points' planes are those of the model at their frame.
+    std::vector<ModelChange> modelChanges{};
 
     /// The model that follows it at its newest point.
     std::size_t lastModel() const { return modelChanges.empty() ? model : modelChanges.back().model; }
