@@ -60,11 +60,11 @@ struct Track {
     std::size_t model = 0;                 ///< index of the bank's model that found it
     double detectStatistic = 0.0;          ///< the detector's statistic at the detection, in its own unit
     std::vector<SmoothedPoint> smoothed{}; ///< one per point; empty without the second pass
-    /// T_FT of the longer window that found it (analysis/steadyLines.h); 0: the frames' own.
-    double windowSeconds = 0.0;
+    double windowSeconds =
+        0.0;                   ///< T_FT of the longer window that found it (analysis/steadyLines.h); 0: the frames' own
     bool isSubtracted = false; ///< from the recording whose frames are displayed (analysis/subtractLines.h)
-    /// Ordered by frame; the points' planes are those of the model at their frame.
-    std::vector<ModelChange> modelChanges{};
+    std::vector<ModelChange>
+        modelChanges{}; ///< ordered by frame; the points' planes are those of the model at their frame
 
     /// The model that follows it at its newest point.
     std::size_t lastModel() const { return modelChanges.empty() ? model : modelChanges.back().model; }
