@@ -9,8 +9,7 @@
 
 namespace faintline {
 
-/// The other models of a bank, which follow each track beside its own model and take over where they explain it
-/// better.
+/// The other models of a bank, which follow each track beside its own and take over where they explain it better.
 ///
 /// A target changes its model from one frame to the next with a small probability p, as with interacting multiple
 /// models (Blom & Bar-Shalom 1988; p = 0.05 is usual). The best path of model j through a track's window is then
