@@ -31,6 +31,7 @@ def read(file):
 
 PRODUCT = {file: read(file) for file in sources("core", "widgets", "app")}
 TESTS = {file: read(file) for file in sources("tests")}
+OTHERS = {file: read(file) for file in sources("python", "vamp", "examples")}
 
 
 def count(pattern, files=PRODUCT, without=()):
@@ -126,7 +127,7 @@ def ratio(product, tests):
 def formatted():
     """Files that clang-format would change; nothing where it is not installed."""
     try:
-        said = subprocess.run(["clang-format", "--dry-run", *PRODUCT, *TESTS], text=True, stderr=subprocess.PIPE, check=False).stderr
+        said = subprocess.run(["clang-format", "--dry-run", *PRODUCT, *TESTS, *OTHERS], text=True, stderr=subprocess.PIPE, check=False).stderr
     except FileNotFoundError:
         return "?"
     return len(set(re.findall(r"^(\S+?):\d+:\d+: warning", said, re.M)))
@@ -156,7 +157,7 @@ def main():
             t for f, t in TESTS.items() if not f.startswith(("tests/app", "tests/widgets"))) / length(
             t for f, t in PRODUCT.items() if f.startswith("core/"))
         row(f"lines of tests a line of {product}", f"{tested:.2f}", aim)
-    everything = [line for text in (*PRODUCT.values(), *TESTS.values()) for line in text.split("\n")]
+    everything = [line for text in (*PRODUCT.values(), *TESTS.values(), *OTHERS.values()) for line in text.split("\n")]
     row(f"lines over {COLUMNS} columns", sum(len(line) > COLUMNS for line in everything), "0")
     row("files that clang-format would change", formatted(), "0")
 

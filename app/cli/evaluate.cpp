@@ -6,6 +6,7 @@
 #include "base/fileName.h"
 #include "base/json.h"
 #include "base/oneLine.h"
+#include "evaluate/experiments/SweepTrials.h"
 #include "evaluate/experiments/campaignCharts.h"
 #include "evaluate/experiments/campaignCurve.h"
 #include "evaluate/experiments/sweepCurve.h"

@@ -1,5 +1,6 @@
 #include "app/control/Experiments.h"
 
+#include "evaluate/experiments/SweepTrials.h"
 #include "widgets/base/labelText.h"
 
 #include <algorithm>

@@ -18,8 +18,8 @@ class PingMap;
 class WaterfallView;
 
 /// Layers of the detector's output besides the statistic: winning rate, path age, resets, inhibited cells, presence of
-/// the tracks, instead of the statistic or over it; and the best state at the cursor. Each kind of frames has a plane on
-/// which they are shown.
+/// the tracks, instead of the statistic or over it; and the best state at the cursor. Each kind of frames has a plane
+/// on which they are shown.
 ///
 /// Computed for the visible part on a worker by repeating the run (LayerReplay), or from the tracks; the newest view
 /// wins. Nothing is computed while no layer is shown and the cursor is not watched.

@@ -180,6 +180,16 @@ namespace {
         return tests.selected() < 0 ? nullptr : &tests.walks()[std::size_t(tests.selected())];
     }
 
+    /// A measure of the selected walk.
+    template <class F>
+    Measure ofWalk(F f)
+    {
+        return [f](WindowParts &window) -> Value {
+            const auto *walk = selectedWalk(window);
+            return walk ? Value(f(*walk)) : std::nullopt;
+        };
+    }
+
     const std::map<std::string, Measure> &measures()
     {
         static const std::map<std::string, Measure> table{
@@ -228,17 +238,11 @@ namespace {
                             ? analysis.calibration->eventRateAt(analysis.threshold) * analysis.cellFramesPerHour
                             : 0.0;
              })},
-            {"walks.selected",
-             [](WindowParts &window) -> Value {
-                 const auto *walk = selectedWalk(window);
-                 return walk ? Value(std::string(walk->first.hasTarget ? "target" : "noise")) : std::nullopt;
-             }},
+            {"walks.selected", ofWalk([](const SequentialTests::Walk &walk) {
+                 return std::string(walk.first.hasTarget ? "target" : "noise");
+             })},
             {"walks.stage", [](WindowParts &window) -> Value { return double(window.sequentialTests().stage()); }},
-            {"walks.stages",
-             [](WindowParts &window) -> Value {
-                 const auto *walk = selectedWalk(window);
-                 return walk ? Value(double(walk->second.stages)) : std::nullopt;
-             }},
+            {"walks.stages", ofWalk([](const SequentialTests::Walk &walk) { return double(walk.second.stages); })},
         };
         return table;
     }

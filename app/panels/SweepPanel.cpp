@@ -3,6 +3,7 @@
 #include "app/document/Document.h"
 #include "app/panels/StartColumn.h"
 #include "app/panels/SweepForm.h"
+#include "evaluate/experiments/SweepTrials.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "widgets/plot/ChartPlot.h"
 

@@ -88,6 +88,8 @@ MainWindow::MainWindow(std::unique_ptr<QSettings> memory, const QString &recover
     buildToolBar();
     connectDocument();
     connectController();
+    connectWelcome();
+    connectEvents();
     connectViews();
     connectSurvey();
     connectTargets();

@@ -119,6 +119,8 @@ private:
     void buildToolBar();
     void connectDocument();
     void connectController();
+    void connectWelcome(); ///< and the lessons
+    void connectEvents();
     void connectViews();
     void connectSurvey();
     void connectTargets();

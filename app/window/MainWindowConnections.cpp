@@ -157,7 +157,7 @@ void MainWindow::connectController()
     });
 }
 
-void MainWindow::connectViews()
+void MainWindow::connectWelcome()
 {
     connect(m_welcome, &WelcomePage::openRequested, this, &MainWindow::chooseFile);
     connect(m_welcome, &WelcomePage::pathChosen, this, [this](const QString &path) { open(path); });
@@ -173,7 +173,11 @@ void MainWindow::connectViews()
             [](bool isPresenting) { Theme::setPlotScale(isPresenting ? 1.5 : 1.0); });
     connect(m_presentAction, &QAction::toggled, m_lessons, &LessonGuide::present);
     connect(m_welcome, &WelcomePage::failed, this, &MainWindow::showError);
+}
 
+/// Connects everything in which an event can be selected, and what is done with events.
+void MainWindow::connectEvents()
+{
     const auto goTo = [this](int id) {
         bench().selectEvent(id);
         m_events->setSelectedEvent(id);
@@ -186,10 +190,15 @@ void MainWindow::connectViews()
     connect(m_reviews, &EventReviews::classNamesChanged, this,
             [this](const QStringList &names) { m_memory.setClassNames(names); });
     connect(&m_reviews->files(), &EventFiles::failed, this, &MainWindow::showError);
+    connect(&m_reviews->files(), &EventFiles::written, this, &MainWindow::showWritten);
     connect(&m_reviews->files(), &EventFiles::told, this, [this](const QString &where, const QString &what) {
         m_messages->showMessage(MessageBar::Kind::Notice, where, what);
     });
     connect(m_compare, &ComparePanel::eventActivated, this, goTo);
+}
+
+void MainWindow::connectViews()
+{
     connect(m_workbench->output(), &WaterfallView::orientationChanged, m_compare->picture(),
             &WaterfallView::setOrientation);
     WaterfallView *output = m_workbench->output();
@@ -219,7 +228,6 @@ void MainWindow::connectViews()
     connect(m_chartMenus, &ChartMenus::failed, this, &MainWindow::showError);
     connect(m_chartMenus, &ChartMenus::written, this, &MainWindow::showWritten);
     connect(m_views, &WindowViews::written, this, &MainWindow::showWritten);
-    connect(&m_reviews->files(), &EventFiles::written, this, &MainWindow::showWritten);
     connect(m_sequential, &SequentialPanel::written, this, &MainWindow::showWritten);
     connect(m_doppler, &DopplerPanel::written, this, &MainWindow::showWritten);
     connect(m_doppler, &DopplerPanel::failed, this, &MainWindow::showError);

@@ -204,6 +204,8 @@ void Bench::selectEvent(int id)
         if (axis)
             view->setSelectedEvent(id);
     markSelected(id);
+    if (const Track *track = m_document.track(id); track && !track->points.empty())
+        reveal(*track);
     for (const Event &event : m_document.shownEvents())
         if (event.id == id)
             goTo(event);

@@ -70,7 +70,9 @@ public:
     void restoreSplitters(const QByteArray &state);
 
 public slots:
-    void selectEvent(int id); ///< marks the event, moves the cursor to it and scrolls it into view
+    /// Marks the event, moves the cursor to it and scrolls it into view. If the event is below the shown threshold, its
+    /// track is only scrolled into view.
+    void selectEvent(int id);
     virtual void stepFrames(int frames) = 0;
     virtual void setPlaying(bool isPlaying);
 
@@ -109,7 +111,8 @@ protected:
     void showTruth();
     virtual void showMarks() {}                        ///< of planes, after the events have changed
     virtual void markSelected(int) {}                  ///< a track, in planes
-    virtual void goTo(const Event &event) = 0;         ///< moves the cursor to it and scrolls it into view
+    virtual void reveal(const Track &) {}              ///< scrolls it into view, shown or not
+    virtual void goTo(const Event &event) = 0;         ///< moves the cursor to it and scrolls the cursor into view
     virtual void setColourBarShown(bool isShown) = 0;  ///< that of the statistic
     virtual void showStatisticUnit(const QString &) {} ///< beside the statistic's picture
     /// What is shown instead of the analysis's statistic: computed with changed settings; null if there is none.

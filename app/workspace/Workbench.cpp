@@ -286,12 +286,15 @@ void Workbench::readCursor()
         emit readingChanged({});
 }
 
+void Workbench::reveal(const Track &track)
+{
+    m_document.viewport().reveal(trackBox(track, *m_document.analysis()));
+}
+
 void Workbench::goTo(const Event &event)
 {
-    if (const Track *track = m_document.track(event.id); track && !track->points.empty()) {
-        m_document.viewport().reveal(trackBox(*track, *m_document.analysis()));
+    if (m_document.track(event.id)) // not of a run in progress
         m_document.viewport().setCursor({event.detectSeconds, event.position.back()});
-    }
 }
 
 void Workbench::stepFrames(int frames)

@@ -57,6 +57,7 @@ protected:
     void showStatistic() override;
     void showThreshold() override;
     void readCursor() override;
+    void reveal(const Track &track) override;
     void goTo(const Event &event) override;
     void setColourBarShown(bool isShown) override;
     void showStatisticUnit(const QString &unit) override;

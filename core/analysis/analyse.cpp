@@ -128,6 +128,30 @@ namespace {
         ConventionalTracker m_conventional;
     };
 
+    /// Replaces the chain's tracks by what remains once all of them are known, and adds the lines that were subtracted.
+    void settleTracks(Analysis &analysis, const AnalysisRequest &request, const std::vector<Track> &subtracted,
+                      const RunContext &context)
+    {
+        if (looksTwice(analysis)) {
+            const SecondLookDepth depth = request.depth == AnalysisDepth::Trial ? SecondLookDepth::Tracks
+                                          : request.keepsFirstTracks            ? SecondLookDepth::SignalsBesideTracks
+                                                                                : SecondLookDepth::Signals;
+            SecondView seen =
+                lookTwice(analysis, std::move(analysis.tracks), subtracted, depth, context.part(0.0, 0.5));
+            analysis.tracks = std::move(seen.tracks);
+            analysis.firstTracks = std::move(seen.first);
+            analysis.areas = std::move(seen.areas);
+        }
+        analysis.tracks = withoutLoneTeeth(analysis, std::move(analysis.tracks), context.part(0.5, 0.6));
+        analysis.tracks = withoutGhosts(analysis, std::move(analysis.tracks));
+        if (!subtracted.empty()) {
+            analysis.tracks.insert(analysis.tracks.end(), subtracted.begin(), subtracted.end());
+            numberByDetection(analysis.tracks);
+        }
+        if (request.depth != AnalysisDepth::Trial)
+            holdAgainstOwnNoise(analysis, context.part(0.6, 1.0));
+    }
+
     /// Streams the frames through the chain and sets the rest of the analysis. `subtracted`: lines that were removed
     /// before the frames were made.
     void run(Analysis &analysis, const RunContext &context, const AnalysisRequest &request,
@@ -173,24 +197,7 @@ namespace {
         pictures.finish();
         pings.finish();
         analysis.tracks = chain->takeJoinedTracks();
-        if (looksTwice(analysis)) {
-            const SecondLookDepth depth = request.depth == AnalysisDepth::Trial ? SecondLookDepth::Tracks
-                                          : request.keepsFirstTracks            ? SecondLookDepth::SignalsBesideTracks
-                                                                                : SecondLookDepth::Signals;
-            SecondView seen =
-                lookTwice(analysis, std::move(analysis.tracks), subtracted, depth, context.part(0.9, 0.95));
-            analysis.tracks = std::move(seen.tracks);
-            analysis.firstTracks = std::move(seen.first);
-            analysis.areas = std::move(seen.areas);
-        }
-        analysis.tracks = withoutLoneTeeth(analysis, std::move(analysis.tracks), context.part(0.95, 0.96));
-        analysis.tracks = withoutGhosts(analysis, std::move(analysis.tracks));
-        if (!subtracted.empty()) {
-            analysis.tracks.insert(analysis.tracks.end(), subtracted.begin(), subtracted.end());
-            numberByDetection(analysis.tracks);
-        }
-        if (request.depth != AnalysisDepth::Trial)
-            holdAgainstOwnNoise(analysis, context.part(0.96, 1.0));
+        settleTracks(analysis, request, subtracted, context.part(0.9, 1.0));
     }
 
     /// An unfinished recording has no length from which to choose a window.

@@ -69,7 +69,7 @@ std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &setting
     const bool isMoving = settings.model.motion == Motion::Slopes
                           && (settings.model.lowestSlope != 0.0 || settings.model.highestSlope != 0.0);
     const double steepest = std::max(std::abs(settings.model.lowestSlope), std::abs(settings.model.highestSlope));
-    // Less than a twentieth of the false alarms is lost at the ends, which lie as many steps away as at one bin a frame.
+    // Less than a twentieth of the false alarms is lost at the ends, as many steps away as at one bin a frame.
     constexpr Index wideAtOneBin = 256;
     const auto wideEnough = Index(double(wideAtOneBin) * std::clamp(steepest, 1.0, 4.0));
     // From here on the loss at the ends hardly depends on the width. Narrow bands are as measured with 64 bins.

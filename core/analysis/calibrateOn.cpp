@@ -52,6 +52,19 @@ namespace {
         }
     }
 
+    /// A chain for each threshold, null for the first one if it is left out: most events cross it, which costs most.
+    std::vector<std::unique_ptr<DetectionChain>> chainsAt(const std::vector<double> &thresholds, AnalysisPlan plan,
+                                                          bool isWithoutFirst)
+    {
+        std::vector<std::unique_ptr<DetectionChain>> chains;
+        for (const double threshold : thresholds) {
+            plan.threshold = threshold;
+            const bool isLeftOut = isWithoutFirst && chains.empty();
+            chains.push_back(isLeftOut ? nullptr : makeChain(plan, makePathDetector(plan), false));
+        }
+        return chains;
+    }
+
 } // namespace
 
 NoiseSegments rememberedSegments(NoiseSegments noise)
@@ -116,14 +129,8 @@ std::shared_ptr<const Calibration> calibrateOn(const NoiseSegments &noise, const
         [&](int number) {
             AnalysisPlan own = trial;
             own.frames = noise.segment(number);
-            std::vector<std::unique_ptr<DetectionChain>> chains;
-            for (const double threshold : thresholds) {
-                own.threshold = threshold;
-                const bool isLeftOut =
-                    !rare.isEmpty() && chains.empty() && (effort.isFirstEstimate || number % crowdedEvery != 0);
-                chains.push_back(isLeftOut ? nullptr : makeChain(own, makePathDetector(own), false));
-            }
-            return countEvents(*own.frames, chains);
+            const bool isWithoutFirst = !rare.isEmpty() && (effort.isFirstEstimate || number % crowdedEvery != 0);
+            return countEvents(*own.frames, chainsAt(thresholds, own, isWithoutFirst));
         },
         [&](const EventCounts &part) { add(part, counts); });
     if (rare.isEmpty())

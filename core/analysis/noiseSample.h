@@ -27,8 +27,8 @@ public:
     Index cells() const { return m_cells; }
     float at(Index row, Index cell) const { return m_y[std::size_t(row * m_cells + cell)]; }
 
-    /// Values of a bin, in any order; empty if their median exceeds that of noise, because the bin holds a steady line, or
-    /// if too few are known.
+    /// Values of a bin, in any order; empty if their median exceeds that of noise, because the bin holds a steady line,
+    /// or if too few are known.
     std::vector<float> noiseIn(Index cell) const;
 
 private:

@@ -16,7 +16,7 @@ bool looksTwice(const AnalysisPlan &analysis);
 struct SecondView {
     std::vector<Track> tracks; ///< lines, by detection
     std::vector<Area> areas;   ///< by time
-    std::vector<Track> first;  ///< the tracks after step 4, by detection, if they were asked for and steps 5 and 6 taken
+    std::vector<Track> first;  ///< tracks after step 4, by detection; if requested and if steps 5 and 6 were taken
 };
 
 /// How far the second pass goes: to the tracks of the chain; or also to signals hidden by them, and to identities; or

@@ -23,7 +23,7 @@ namespace {
     constexpr float most = 0.5f;                 ///< ln; of a correction
     constexpr double significant = 4.0;          ///< standard errors of a smooth correction
     constexpr double perError = 30.0;            ///< d ln(rate of false alarms)/dε for an excess ε of y
-    constexpr double evidence = 12.0;            ///< nat of a false alarm, with usual orders …
+    constexpr double evidence = 12.0;            ///< nat of a false alarm, at usual rates …
     constexpr double perExcess = 50.0;           ///< … and d ln rate/dε of those
     constexpr float clipped = 5.0f;              ///< y of a line, at most
     constexpr Index windowsTogether = 8;         ///< of a run of frames
@@ -48,7 +48,7 @@ namespace {
         return isNear;
     }
 
-    /// ln; makes up for the error of a bin's level, and for frames of which only one in `alike` is evidence of its own.
+    /// ln; compensates for the error of a bin's level, and for frames of which only one in `alike` is independent.
     double marginOf(double alike, double error)
     {
         return 0.5 * perError * error * error + evidence / perExcess * (1.0 - 1.0 / alike);

@@ -7,14 +7,14 @@
 
 namespace faintline {
 
-/// Least-squares polynomial through positions that are one frame apart: a straight line, or a parabola where its
-/// curvature is more than three of its standard deviations.
+/// Least-squares polynomial through positions that are one frame apart: a straight line, or a parabola if its curvature
+/// exceeds three standard errors.
 ///
 ///   f(t) = Σ c_k P_k(t),   P_0 = 1,  P_1 = t,  P_2 = t² - mean(t²),   t = frame - middle
 ///
-/// are orthogonal, so the variance of f(t) is Σ P_k(t)²·var c_k. Variances are 6 times those of independent errors,
-/// because positions of neighbouring frames are measured from the same samples and averaged along the path; the
-/// residual's is at least (`leastDeviation`)². Fewer than three points have no slope: its variance is infinite.
+/// The P_k are orthogonal, so the variance of f(t) is Σ P_k(t)²·var c_k. Variances are 6 times those of independent
+/// errors, because neighbouring frames share samples and positions are averaged along the path. The variance of the
+/// residuals is at least (`leastDeviation`)². Fewer than three points have no slope: its variance is infinite.
 class PolynomialFit
 {
 public:

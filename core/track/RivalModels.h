@@ -9,17 +9,17 @@
 
 namespace faintline {
 
-/// The other models of a bank, which follow each track beside its own model and take over where they explain it better.
+/// The other models of a bank, which follow each track beside its own and take over where they explain it better.
 ///
-/// A target changes its model from one frame to the next with a small probability p, as with interacting multiple models
-/// (Blom & Bar-Shalom 1988; p = 0.05 is usual). The best path of model j through a track's window is then
+/// A target changes its model from one frame to the next with a small probability p, as with interacting multiple
+/// models (Blom & Bar-Shalom 1988; p = 0.05 is usual). The best path of model j through a track's window is then
 ///
 ///   u_j(t, n) = λ + ln K_j + max( max_m [ln P_j(n|m) + u_j(t-1, m)],  max_m [ln P_j(n|m) + u_i(t-1, m)] + ln p )
 ///
 /// where i is the model that follows the track. For each of the last 16 frames and each other model there is one rival,
-/// which holds the paths that changed to it in that frame; so this is exact, except that a change shows its worth within
-/// 16 frames. When max u_j > max u_i, model j takes over, and model i becomes a rival from then on. A rival continues the
-/// track's level as well, less the cost of the change. Cost: that of 16 trackers per track and other model.
+/// which holds the paths that changed to it in that frame. This is exact as long as a change pays off within 16 frames.
+/// When max u_j > max u_i, model j takes over, and model i becomes a rival from then on. A rival continues the track's
+/// level as well, less the cost of the change. Cost: that of 16 trackers per track and other model.
 class RivalModels
 {
 public:

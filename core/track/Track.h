@@ -28,7 +28,7 @@ struct SmoothedPoint {
     double deviation() const { return std::max(0.1, double(high - low) / 3.2897); }
 };
 
-/// From this frame on, a track belongs to another model of the bank (track/rivalModels.h).
+/// From this frame on, a track belongs to another model of the bank (RivalModels.h).
 struct ModelChange {
     Index frame = 0;
     std::size_t model = 0; ///< index in the bank

@@ -11,7 +11,7 @@ namespace {
 
     constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
-    /// Numbers of pairs, by connected component of the graph that they form.
+    /// Indices of pairs, grouped by connected component of the graph that they form.
     std::vector<std::vector<std::size_t>> componentsOf(const std::vector<PairCost> &pairs,
                                                        const std::vector<std::size_t> &chosen)
     {
@@ -41,7 +41,7 @@ namespace {
         return components;
     }
 
-    /// One component: rows are its `from`, columns its `to`, then one column for each row that stands for "nothing".
+    /// One component: its `from` are rows, its `to` columns, followed by one column per row that means "nothing".
     class Component
     {
     public:

@@ -17,9 +17,9 @@ struct PairCost {
 ///
 ///   Σ cost of the pairs + unassigned · (number of `from` without a pair)
 ///
-/// is minimal. Returns the chosen pairs' numbers, ascending; pairs that cost `unassigned` or more are never chosen. Each
-/// connected component is solved separately, by shortest augmenting paths (the Hungarian algorithm; Kuhn 1955, Munkres
-/// 1957), O(n³) in its size. Oracle: enumeration of all assignments.
+/// is minimal. Returns the indices of the chosen pairs, ascending; pairs that cost `unassigned` or more are never
+/// chosen. Each connected component is solved separately, by shortest augmenting paths (the Hungarian algorithm; Kuhn
+/// 1955, Munkres 1957), O(n³) in its size. Oracle: enumeration of all assignments.
 std::vector<std::size_t> assign(const std::vector<PairCost> &pairs, double unassigned);
 
 } // namespace faintline

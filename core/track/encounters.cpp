@@ -70,7 +70,7 @@ namespace {
         return way;
     }
 
-    /// A run, and how it goes on in direction ±1, as far as a fit determines that.
+    /// A run and its extrapolation in direction ±1, as far as a fit determines it.
     Way extended(const Track &track, const Run &run, Index direction, const EncounterRule &rule)
     {
         Way way = measured(track, run);
@@ -97,7 +97,7 @@ namespace {
         return way;
     }
 
-    /// Frames in which two ways are near or cross.
+    /// Frames in which two paths are near or cross.
     std::vector<Frames> meetings(const Way &a, const Way &b, const EncounterRule &rule)
     {
         std::vector<Frames> result;
@@ -198,8 +198,8 @@ namespace {
                 }
         }
 
-        /// Where a track is lost beside others, the encounter lasts as long as their ways up to there are near if they
-        /// are continued: what is seen later may be either of them.
+        /// If a track is lost beside others, the encounter lasts as long as the extrapolated paths stay near each
+        /// other: a signal that is seen later may be any of them.
         void markWhereLost(std::size_t lost, const std::vector<std::vector<Run>> &runs, Index direction)
         {
             const bool isForward = direction > 0;

@@ -6,22 +6,23 @@
 
 namespace faintline {
 
-/// Conditions for an encounter of two tracks.
+/// Conditions for an encounter of two tracks. Distances are in cells of the axis.
 struct EncounterRule {
-    double near = 0.0;           ///< distance within which two tracks may have changed places, cells of the axis
-    double endNear = 0.0;        ///< distance of a track's end from another one
+    double near = 0.0;           ///< distance within which two tracks may exchange their signals
+    double endNear = 0.0;        ///< distance of a track's end from another track
     Index endFrames = 3;         ///< frames on either side of such an end
-    Index joined = 0;            ///< encounters up to this many frames apart are one
-    Index widening = 0;          ///< frames by which an encounter is longer at both ends
-    Index fitFrames = 1;         ///< at either end of a track, from which its way beyond is extrapolated
-    Index extension = 0;         ///< number of frames by which it is at most
-    double farthest = 0.0;       ///< largest standard deviation of an extrapolated position, cells of the axis
-    double leastDeviation = 0.1; ///< of measured positions, cells of the axis
+    Index joined = 0;            ///< largest distance in frames of encounters that are merged into one
+    Index widening = 0;          ///< frames by which an encounter is extended at both ends
+    Index fitFrames = 1;         ///< frames at each end of a track from which its path is extrapolated
+    Index extension = 0;         ///< largest number of extrapolated frames
+    double farthest = 0.0;       ///< largest standard deviation of an extrapolated position
+    double leastDeviation = 0.1; ///< smallest standard deviation of a measured position
 };
 
-/// Which points of each track lie in an encounter with another one: the two are nearer than `near` or their difference
-/// changes sign, or the other one ends within `endNear`. A track that is lost in an encounter is still there: where it
-/// ends, its way is extrapolated (PolynomialFit), as far as it is known. Tracks without the second pass have none.
+/// Determines which points of each track lie in an encounter with another track: the two are closer than `near`, or
+/// cross, or the other track ends within `endNear`. A signal whose track is lost in an encounter is assumed to
+/// continue: the path is extrapolated beyond the track's end (PolynomialFit) as long as its position is known well
+/// enough. Tracks without the second pass have no encounters.
 std::vector<std::vector<bool>> encounters(const std::vector<Track> &tracks, const EncounterRule &rule);
 
 } // namespace faintline

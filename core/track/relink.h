@@ -20,10 +20,10 @@ struct RelinkRule {
 /// Assigns the pieces of tracks before and after encounters anew, and joins the pieces of one signal.
 ///
 /// Where two signals meet, a path may go over from one to the other at no cost, and one of the two trackers ends. All
-/// tracks are therefore cut where two of them are nearer than 1.8 resolution cells or cross (such frames less than 0.7 m
-/// apart count as one encounter, widened by m/5 at both ends), and around an end of a track within 3 cells of another.
-/// Pieces are then linked by a minimal-cost assignment (assign.h). From the end of piece a to the beginning of piece b, g
-/// frames later,
+/// tracks are therefore cut where two of them are nearer than 1.8 resolution cells or cross (such frames less than
+/// 0.7 m apart count as one encounter, widened by m/5 at both ends), and around an end of a track within 3 cells of
+/// another. Pieces are then linked by a minimal-cost assignment (assign.h). From the end of piece a to the beginning of
+/// piece b, g frames later,
 ///
 ///   cost = ½[(f_a - f_b)²/V + ln(V/v0) + (s_a - s_b)²/W + (L_a - L_b)²/(3 dB)²]
 ///
@@ -37,8 +37,8 @@ struct RelinkRule {
 /// A link is possible if it costs less than T and the signal could have been seen in few frames of the gap: those that
 /// are not within 2.5 cells of any track are at most m/5, and times D at most T (for longer ones see joinTracks.h). Two
 /// tracks of which one's end and the other's beginning were seen together for m/5 frames or more are two signals. A
-/// track's own way costs T·0.9 at most, so that it is kept unless there is a better one; no link costs T. Between linked
-/// pieces of different tracks, a cubic curve replaces what the tracks had there.
+/// track's own way costs T·0.9 at most, so that it is kept unless there is a better one; no link costs T. Between
+/// linked pieces of different tracks, a cubic curve replaces what the tracks had there.
 ///
 /// Tracks without the second pass are left as they are. The result is not ordered. Deterministic.
 std::vector<Track> relink(std::vector<Track> tracks, const RelinkRule &rule);

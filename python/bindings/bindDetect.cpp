@@ -95,13 +95,17 @@ void bindDetect(py::module_ &module)
         py::arg("progress") = py::none(),
         R"(Finds lines in a recording, or signals in ready-made frames; gives the same bytes as faintline-cli detect.
 
-x: a Recording, Frames, a path, or samples in an array of shape (samples,) or (samples, channels), complex for I/Q; an array needs rate (Hz).
-preset: a name of faintline.presets(). settings: a dict by full names, {"spectrogram.windowSeconds": 0.5}. Keywords: the same by a setting's
-short name in snake case, window_seconds=0.5, false_alarms_per_hour=1, if only one setting has that name (faintline.describe() lists both). If
-no window is set, it is chosen for the recording.
-threads: 0 for as many as the machine has; results do not depend on it. progress: called as progress(fraction, what) about ten times a second.
+x: a Recording, Frames, a path, or samples in an array of shape (samples,) or (samples, channels), complex for I/Q. An
+array requires rate (Hz).
+preset: a name of faintline.presets().
+settings: a dict by full names, {"spectrogram.windowSeconds": 0.5}.
+Keywords: the same settings by short names in snake case, window_seconds=0.5, false_alarms_per_hour=1, if only one
+setting has that name (faintline.describe() lists both). If no window is set, it is chosen for the recording.
+threads: 0 for as many as the machine has. Results do not depend on it.
+progress: called as progress(fraction, what) about ten times a second.
 
-Returns a Result. Raises Error for settings out of range and for recordings without a usable sample; KeyboardInterrupt stops it.)");
+Returns a Result. Raises Error for settings out of range and for recordings without a usable sample. KeyboardInterrupt
+stops the run.)");
 }
 
 } // namespace faintline::python

@@ -159,19 +159,23 @@ void bindDetector(py::module_ &module)
     u(n, t) = λ(n, t) + max(ln K + max over m of [ln P(n|m) + u(m, t-1)], 0),    D(t, cell) = max over rates
 
 grid: an Axis, or a list of them, slowest first.
-model: a dict, or the path of a JSON file: "axes", one law for each axis of the grid (keys rates, ratesPerCell, rateChange, step, round,
-transition, renormalised); "likelihood", {"kind": "rice", "r0": 0.5}, "exponential", "swerling4" or "linear", for power whose noise has mean 1, by
-default {"kind": "given"}: frames contain log-likelihood ratios λ themselves, any finite numbers, NaN for cells that were not observed; "reset",
-{"law": "fixed", "lnK": -0.5}, "half", "mean" or "none"; "semiring", "max" or "sum".
+model: a dict, or the path of a JSON file, with the keys
+  "axes": one law for each axis of the grid (keys rates, ratesPerCell, rateChange, step, round, transition,
+    renormalised).
+  "likelihood": {"kind": "rice", "r0": 0.5}, "exponential", "swerling4" or "linear" for power whose noise has mean 1.
+    The default, {"kind": "given"}, takes frames of log-likelihood ratios λ: any finite numbers, NaN for cells that
+    were not observed.
+  "reset": {"law": "fixed", "lnK": -0.5}, "half", "mean" or "none".
+  "semiring": "max" or "sum".
 
 Source: Billon 2005, section 3. Use one object per thread. Raises Error with the name of the key.)")
         .def(py::init(&makeDetector), py::arg("grid"), py::arg("model"))
-        .def(
-            "update", &StreamDetector::update, py::arg("frame"), py::kw_only(), py::arg("threads") = 1,
-            py::arg("progress") = py::none(),
-            R"(Processes one frame, an array of the grid's shape, or several along an additional first axis; returns the statistic, float32 of that shape.
+        .def("update", &StreamDetector::update, py::arg("frame"), py::kw_only(), py::arg("threads") = 1,
+             py::arg("progress") = py::none(),
+             R"(Processes one frame, an array of the grid's shape, or several along an additional first axis.
 
-The result does not depend on the number of frames per call or on the number of threads. Raises Error for an invalid shape or value.)")
+Returns the statistic, float32 of that shape. The result does not depend on the number of frames per call or on the
+number of threads. Raises Error for an invalid shape or value.)")
         .def_property_readonly("axes", &StreamDetector::axes)
         .def_property_readonly("frames", &StreamDetector::frames, "Number of frames processed.")
         .def_property_readonly("scores", &StreamDetector::scores,

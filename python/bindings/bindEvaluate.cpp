@@ -104,12 +104,15 @@ void bindEvaluate(py::module_ &module)
                py::arg("out") = py::none(), py::arg("threads") = 0, py::arg("progress") = py::none(),
                R"(Estimates the detection probability of an experiment by Monte Carlo simulation.
 
-experiment: a dict, or the path of a JSON file, as faintline-cli evaluate takes it: {"kind": "lines", "snrDb": [-3, 0, 3], "runs": 8, …}, of kind
-lines, injection or sweep. seed: in place of the experiment's. out: a .csv to write the curve to; completed runs are stored beside it,
-so that a later call resumes an interrupted experiment.
+experiment: a dict, or the path of a JSON file, in the format of faintline-cli evaluate, {"kind": "lines",
+"snrDb": [-3, 0, 3], "runs": 8, …}; the kind is lines, injection or sweep.
+seed: replaces the experiment's.
+out: a .csv file for the curve. Completed runs are stored beside it, so that a later call resumes an interrupted
+experiment.
 
-Returns a structured array with one record per point: detector, snr_db, pd, pd_low, pd_high (95 % interval), trials, threshold; for a sweep: value, pd,
-pd_low, pd_high, trials, false_alarms_per_hour and its interval, latency_s, threshold. Raises Error with the name of the key.)");
+Returns a structured array with one record per point: detector, snr_db, pd, pd_low, pd_high (95 % interval), trials,
+threshold; for a sweep: value, pd, pd_low, pd_high, trials, false_alarms_per_hour and its interval, latency_s,
+threshold. Raises Error with the name of the key.)");
 }
 
 } // namespace faintline::python

@@ -94,8 +94,9 @@ void bindExplanation(py::module_ &module)
         .def_property_readonly("steps", &steps,
                                R"(The path since its last reset, a structured array with one record per frame.
 
-t (s), f (Hz; with several axes one field for each) and rate (cells per frame), then the terms in nat: llr (λ), ln_transition (ln P), ln_k, their
-running sum, and runner_up_margin, the margin over the second best predecessor (inf: there is no other).)")
+Fields: t (s), f (Hz; with several axes, one field for each), rate (cells per frame), then the terms in nat: llr (λ),
+ln_transition (ln P), ln_k, their running sum, and runner_up_margin, the margin over the second-best predecessor (inf if
+there is no other).)")
         .def("__repr__", &textOf);
 }
 

@@ -103,8 +103,13 @@ void bindFrames(py::module_ &module)
 {
     py::class_<HeldFrames>(module, "Frames", R"(Frames of normalised power on a grid, the input of a detector.
 
-Frames(y, axes=None, time=None) creates them from an array y of shape (frames, cells…): power over mean noise power, so noise has mean 1;
-finite and not negative, NaN for cells that were not observed. axes: one Axis per cell axis; time: seconds from frame to frame, or an Axis.
+Frames(y, axes=None, time=None) creates them from an array.
+
+y: shape (frames, cells…), power over mean noise power, so that noise has mean 1; finite and not negative, NaN for cells
+that were not observed.
+axes: one Axis per cell axis.
+time: seconds from frame to frame, or an Axis.
+
 Raises Error for other values and for axes of a different size.)")
         .def(py::init(&framesOfArray), py::arg("y"), py::arg("axes") = py::none(), py::arg("time") = py::none())
         .def_property_readonly(

@@ -89,13 +89,20 @@ void bindOpen(py::module_ &module)
         py::arg("path"),
         R"(Opens a recording or ready-made frames, by content; reads only headers.
 
-path: audio (WAV, FLAC, …), SigMF, GWOSC strain (.hdf5), raw samples (give raw_type, such as "ci16_le", and raw_rate in Hz), a NumPy file of normalised frames
-(.npy, axes in NAME.grid.json beside it), recorded pings (.npy, or .h5 with a dataset "pings"), which are normalised, power over time and frequency (sigproc .fil, filterbank .h5), or a scene to simulate (.json).
-A folder, a list of names (.timeline) or a Python list of names is one recording: its files in the order of their time stamps, gaps not observed.
-Options: iq=True treats two channels as I and Q; raw_type, raw_rate, raw_channels, raw_header (bytes before the samples).
+path: one of
+  audio (WAV, FLAC, …), SigMF, GWOSC strain (.hdf5);
+  raw samples (give raw_type, such as "ci16_le", and raw_rate in Hz);
+  a NumPy file of normalised frames (.npy, axes in NAME.grid.json beside it);
+  recorded pings (.npy, or .h5 with a dataset "pings"), which are normalised;
+  power over time and frequency (sigproc .fil, filterbank .h5);
+  a scene to simulate (.json);
+  a folder, a list of names (.timeline) or a Python list of names, which is one recording: its files in the order of
+    their time stamps, gaps not observed.
+iq: True takes two channels as I and Q.
+raw_type, raw_rate, raw_channels, raw_header: format of raw samples; raw_header in bytes before the samples.
 
-Returns a Recording, or normalised Frames if the file contains power over time and frequency. Raises Error with the path, the reason and what would
-be accepted.)");
+Returns a Recording, or normalised Frames if the file contains power over time and frequency. Raises Error with the
+path, the reason and what would be accepted.)");
 }
 
 } // namespace faintline::python

@@ -185,15 +185,21 @@ namespace {
 
     F(t, n) = loglik(t, n) + max over m of [F(t-1, m) + ln P(n|m)],    F(0, n) = loglik(0, n) + ln initial(n)
 
-loglik: shape (frames, cells…), log-likelihoods or ratios of them; -inf for impossible cells, NaN for cells that were not observed.
-law: the motion of a state along the cells, a dict, with several axes a list of dicts: {"rates": [-1, 0, 1], "rateChange": [h0, h1]}, states of cell and
-rate, r' = r ± i with probability h_i, moved by the mean of the rates ("ratesPerCell": q for rates in 1/q cell per frame); or {"step": [q0, q1]}, a
-random walk; "cyclic": True for an axis that wraps; "renormalised": True to distribute the probability of moves off the ends over the others instead of
-losing it; or a matrix P(from, to).
+loglik: shape (frames, cells…), log-likelihoods or ratios of them; -inf for impossible cells, NaN for cells that were
+not observed.
+law: the motion of a state along the cells, a dict; with several axes, a list of dicts:
+  {"rates": [-1, 0, 1], "rateChange": [h0, h1]}: states of cell and rate; r' = r ± i with probability h_i, moved by the
+    mean of both rates ("ratesPerCell": q for rates in 1/q cell per frame);
+  {"step": [q0, q1]}: a random walk;
+  "cyclic": True for an axis that wraps;
+  "renormalised": True to distribute the probability of moves off the ends over the others instead of losing it;
+  or a matrix P(from, to).
 initial: probability of every cell, or of every state (rates…, cells…); None for uniform.
 
-Returns a Path: cells, int64 of shape (frames,), with several axes (frames, axes); rates, cells per frame; score, ln of the path's probability with
-its evidence. Ties: the lowest state. In double precision; the law is never expanded to a matrix, so a frame costs states × moves.
+Returns a Path: cells, int64 of shape (frames,), with several axes (frames, axes); rates, cells per frame; score, ln of
+the path's probability with its evidence. Ties are resolved to the lowest state. Computed in double precision. The law
+is never expanded to a matrix, so a frame costs states × moves.
+
 Source: Viterbi 1967; Grossi and Lops 2006, Algorithm 3.2. Raises Error if no path is possible.)";
 
     constexpr const char *forwardBackwardText =
@@ -201,8 +207,10 @@ Source: Viterbi 1967; Grossi and Lops 2006, Algorithm 3.2. Raises Error if no pa
 
 loglik, law, initial: as for faintline.viterbi.
 
-Returns a Posterior: p, float64 of the shape of loglik, with a sum of 1 in each frame; p_states, the same for every state (frames, rates…, cells…);
-log_evidence, ln of the sum over all paths. Computed in logarithms. Source: Baum and others 1970. Raises Error if no path is possible.)";
+Returns a Posterior: p, float64 of the shape of loglik, which sums to 1 in each frame; p_states, the same for every
+state (frames, rates…, cells…); log_evidence, ln of the sum over all paths. Computed in logarithms.
+
+Source: Baum and others 1970. Raises Error if no path is possible.)";
 
 } // namespace
 

@@ -113,8 +113,9 @@ void bindRecording(py::module_ &module)
     py::class_<HeldRecording>(module, "Recording",
                               R"(A recording with random access to its samples, which are not held in memory.
 
-Created by faintline.open, faintline.simulate, or as Recording(samples, rate) from an array of shape (samples,) or (samples, channels).
-Complex samples are I/Q. Signed integers are scaled to ±1 at full scale, floats keep their unit. Single-precision arrays are not copied.)")
+Created by faintline.open, faintline.simulate, or as Recording(samples, rate) from an array of shape (samples,) or
+(samples, channels). Complex samples are I/Q. Signed integers are scaled to ±1 at full scale; floats keep their unit.
+Single-precision arrays are not copied.)")
         .def(py::init(&recordingOfArray), py::arg("samples"), py::arg("rate"), py::arg("centre_hz") = 0.0)
         .def_property_readonly("path",
                                [](const HeldRecording &self) { return pythonPath(self.recording->info().path); })
@@ -141,9 +142,10 @@ Samples that are not finite read as 0. Raises Error if the channel or the first 
         .def(
             "save", &save, py::arg("path"), py::kw_only(), py::arg("type") = "float32", py::arg("threads") = 0,
             py::arg("progress") = py::none(),
-            R"(Writes the recording in the format of the extension: .wav, .flac, .w64, .aiff, .caf, .au, or a SigMF pair (.sigmf-meta).
+            R"(Writes the recording in the format of the extension: .wav, .flac, .w64, .aiff, .caf, .au, or a SigMF pair
+(.sigmf-meta).
 
-type is "float32" or "int16" (clipped at ±1). The file appears only when it is complete. Raises Error.)")
+type: "float32" or "int16" (clipped at ±1). The file appears only when it is complete. Raises Error.)")
         .def("__repr__", &textOf);
 }
 

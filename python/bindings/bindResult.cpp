@@ -121,9 +121,9 @@ void bindResult(py::module_ &module)
             "events", [](const Result &self) { return eventArray(*self.analysis()); },
             R"(The detected signals, a structured array with one record per event, ordered by onset, then frequency.
 
-Fields as the columns of the command line's CSV: event, t_onset, t_detect, t_end (s), f (Hz at detection; with several axes one field for each),
-drift_hz_per_s, statistic (unit: statistic_unit), confirmed, open, and, if tracks had a second pass, snr_db, band_hz,
-noise_probability, window_s. f is an offset from the recording's centre_hz.)")
+The fields are the columns of the command line's CSV: event, t_onset, t_detect, t_end (s), f (Hz at detection; with
+several axes, one field for each), drift_hz_per_s, statistic (unit: statistic_unit), confirmed, open, and, if tracks had
+a second pass, snr_db, band_hz, noise_probability, window_s. f is an offset from the recording's centre_hz.)")
         .def_property_readonly(
             "areas", [](const Result &self) { return areaArray(*self.analysis()); },
             R"(Areas of raised level without a line: bursts, clouds, hums. A structured array, ordered by onset.
@@ -135,18 +135,19 @@ Fields: t_onset, t_end (s), f_low, f_high (Hz), level_db (minimum level above th
             [](Result &self) {
                 return wholeArray(self, self.input({0, py::none()}));
             },
-            R"(Normalised power, float32 of shape (frames, cells…): noise has mean 1, NaN denotes cells that were not observed.
+            R"(Normalised power, float32 of shape (frames, cells…): noise has mean 1; cells not observed are NaN.
 
-Computed on first access, then kept by the result; the array is a view of it. Raises Error for more than 2**31 values.)")
+Computed on first access, then kept by the result; the array is a view of it. Raises Error for more than 2**31
+values.)")
         .def_property_readonly(
             "statistic",
             [](Result &self) {
                 return wholeArray(self, self.statistic({0, py::none()}));
             },
-            R"(The detector's statistic, float32 of shape (frames, cells…), in statistic_unit; -inf where no decision was made.
+            R"(The detector's statistic, float32 of shape (frames, cells…), in statistic_unit; -inf if undecided.
 
-Computed by a second run of the detector on first access, then kept by the result; the array is a view of it. The values are those of
-the command line's --statistic. Raises Error for more than 2**31 values.)")
+Computed by a second run of the detector on first access, then kept by the result; the array is a view of it. The values
+are those of the command line's --statistic. Raises Error for more than 2**31 values.)")
         .def_property_readonly(
             "time", [](const Result &self) { return self.analysis()->time(); },
             "The time axis: middle of each window, s.")
@@ -173,18 +174,21 @@ the command line's --statistic. Raises Error for more than 2**31 values.)")
             "All settings in use, a dict by full names, with the chosen window.")
         .def_property_readonly("window_choice", &windowChoice,
                                "Reason for the window if it was chosen automatically; otherwise None.")
-        .def(
-            "explain", &explainAt, py::arg("time"), py::kw_only(), py::arg("progress") = py::none(),
-            R"(Explains the statistic of a cell: explain(time, frequency), with several axes explain(time, position, position, …).
+        .def("explain", &explainAt, py::arg("time"), py::kw_only(), py::arg("progress") = py::none(),
+             R"(Explains the statistic of a cell: explain(time, frequency), or explain(time, position, position, …).
 
-time in s, frequency in Hz (the last axis's unit); the nearest frame and cell are used. Returns an Explanation. Raises Error for a time
-outside the recording.)")
+time in s, frequency in Hz (the last axis's unit). The nearest frame and cell are used. Returns an Explanation. Raises
+Error for a time outside the recording.)")
         .def("save", &save, py::kw_only(), py::arg("events") = py::none(), py::arg("tracks") = py::none(),
              py::arg("statistic") = py::none(), py::arg("progress") = py::none(),
              R"(Writes the same files as the command line, byte for byte, in the format of the extension.
 
-events: .csv, .json, .txt (Audacity labels) or .sigmf-meta; tracks: .csv or .json; statistic: .npy. Files appear together when all are
-complete. If the source is a file, NAME.provenance.json is written beside each, from which faintline-cli replay reproduces it. Raises Error.)")
+events: .csv, .json, .txt (Audacity labels) or .sigmf-meta.
+tracks: .csv or .json.
+statistic: .npy.
+
+The files appear together when all are complete. If the source is a file, NAME.provenance.json is written beside each,
+from which faintline-cli replay reproduces it. Raises Error.)")
         .def("__repr__", &textOf);
 }
 

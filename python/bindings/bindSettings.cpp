@@ -59,10 +59,11 @@ namespace {
 
 void bindSettings(py::module_ &module)
 {
-    module.def(
-        "describe", &describe, py::arg("beginning") = "",
-        R"(All settings whose full name has this prefix: a list of dicts with name, keyword (None where only the full name is unambiguous), unit,
-default, minimum, maximum, choices, label, meaning and advice. Raises Error, with the nearest names, if there is none.)");
+    module.def("describe", &describe, py::arg("beginning") = "",
+               R"(All settings whose full name has this prefix.
+
+Returns a list of dicts with name, keyword (None if only the full name is unambiguous), unit, default, minimum, maximum,
+choices, label, meaning and advice. Raises Error, with the nearest names, if there is none.)");
     module.def("presets", &presetSentences, "The presets: a dict of names and descriptions.");
 }
 

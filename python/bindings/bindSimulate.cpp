@@ -68,11 +68,11 @@ void bindSimulate(py::module_ &module)
         R"(Simulates a recording of known lines in noise, pings with known targets, or a radar's scans, with the truth.
 
 scene: a dict, or the path of a JSON file, such as {"kind": "lines", "sampleRateHz": 400, "durationSeconds": 60,
-"lines": [{"snrDb": 3, "frequencyHz": 100, "driftHzPerSecond": 0.1}]}; omitted keys have their defaults.
-seed: in place of the scene's, 0 or more.
+"lines": [{"snrDb": 3, "frequencyHz": 100, "driftHzPerSecond": 0.1}]}. Omitted keys have their defaults.
+seed: replaces the scene's; 0 or more.
 
-Returns a Recording (lines) or Frames (pings, scans), computed when they are read; .truth describes the signals.
-Raises Error with the name of the key.)");
+Returns a Recording (lines) or Frames (pings, scans), computed when they are read; .truth describes the signals. Raises
+Error with the name of the key.)");
 }
 
 } // namespace faintline::python

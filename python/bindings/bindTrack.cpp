@@ -117,7 +117,7 @@ for frames with several axes, for the linear likelihood, and with both_ways=Fals
         .def_property_readonly("open", member(&Track::isOpen),
                                "Whether the track was still followed when the data ended.")
         .def_property_readonly("model", member(&Track::model),
-                               "Number of the model of a bank that detected the signal; the track may change to others.")
+                               "Index in the bank of the model that detected the signal; the track may change it.")
         .def("__len__", [](const HeldTrack &self) { return self.track().points.size(); })
         .def("__repr__", &textOf);
 }

@@ -171,7 +171,8 @@ constexpr double falseAlarmsPerRecording = 1.0;
 
 } // namespace
 
-/// Reliability of what a track states about itself: its 5-95 % band, its onset and end, and the probability that it is noise.
+/// Reliability of what a track states about itself: its 5-95 % band, its onset and end, and the probability that it is
+/// noise.
 /// FAINTLINE_COVERAGE=1 build/tests/tst_coverage prints the tables of docs/performance.md.
 class tst_coverage : public QObject
 {

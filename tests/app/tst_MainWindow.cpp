@@ -361,6 +361,25 @@ private slots:
         QCOMPARE(window->eventTable().selectedEvent(), first);
     }
 
+    void anEventBelowTheThresholdIsScrolledTo()
+    {
+        auto window = this->window();
+        QVERIFY(openAndSettle(*window, m_scene));
+        Document &document = window->document();
+        const Event event = document.shownEvents().front();
+        Viewport &viewport = document.viewport();
+        const Viewport::Point elsewhere{1.0, 480.0};
+        viewport.setCursor(elsewhere);
+        viewport.zoomTo({0.0, 2.0}, {470.0, 490.0});
+        QVERIFY(!viewport.frequency().contains(event.position.front()));
+        document.setShownThreshold(1e6);
+        QVERIFY(document.shownEvents().empty());
+        emit window->eventTable().eventActivated(event.id);
+        QVERIFY(viewport.frequency().contains(event.position.front()));
+        QVERIFY(viewport.time().contains(event.onsetSeconds));
+        QCOMPARE(*viewport.cursor(), elsewhere); // no event is shown that it could move to
+    }
+
     void f1ShowsTheKeysAndAnyKeyTakesThemAway()
     {
         auto window = this->window();

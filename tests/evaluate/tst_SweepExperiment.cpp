@@ -1,4 +1,5 @@
 #include "evaluate/experiments/Campaign.h"
+#include "evaluate/experiments/SweepTrials.h"
 #include "evaluate/experiments/campaignCurve.h"
 #include "evaluate/experiments/sweepCurve.h"
 #include "exchange/CampaignFile.h"

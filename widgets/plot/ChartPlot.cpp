@@ -9,6 +9,7 @@
 #include "widgets/plot/ChartKey.h"
 #include "widgets/plot/NumberScaleDraw.h"
 #include "widgets/plot/PowerScaleDraw.h"
+#include "widgets/plot/chartSpans.h"
 
 #include <qwt_plot.h>
 #include <qwt_plot_curve.h>
@@ -35,21 +36,6 @@ namespace {
     QString words(const std::string &text)
     {
         return labelText(text);
-    }
-
-    Span spanOf(const std::vector<double> &values)
-    {
-        if (values.empty())
-            return {0.0, 1.0};
-        const auto [low, high] = std::minmax_element(values.begin(), values.end());
-        return {*low, *high};
-    }
-
-    /// Adds a margin on both sides; a single value is centred.
-    Span aired(Span span, double share)
-    {
-        const double air = span.high > span.low ? share * (span.high - span.low) : 0.5;
-        return {span.low - air, span.high + air};
     }
 
     QString valueText(double value)
@@ -259,28 +245,9 @@ void ChartPlot::resizeEvent(QResizeEvent *event)
 
 void ChartPlot::layAxes()
 {
-    const ChartItems items = this->items();
-    std::vector<double> xs;
-    std::vector<double> ys;
-    bool areShares = true; // probabilities use all of 0 … 1
-    for (std::size_t i = 0; i < m_chart.curves.size(); ++i) {
-        for (const Curve::Point &point : m_chart.curves[i].points) {
-            areShares = areShares && point.y >= 0.0 && point.y <= 1.0;
-            xs.push_back(items.abscissa(point.x));
-            if (!isShown(i) || (m_chart.isLogarithmicY && point.y <= 0.0))
-                continue;
-            ys.push_back(items.ordinate(point.y));
-            if (point.interval.low < point.interval.high && !(m_chart.isLogarithmicY && point.interval.low <= 0.0)) {
-                ys.push_back(items.ordinate(point.interval.low));
-                ys.push_back(items.ordinate(point.interval.high));
-            }
-        }
-    }
-    if (m_leastOrdinates)
-        ys.insert(ys.end(), {items.ordinate(m_leastOrdinates->low), items.ordinate(m_leastOrdinates->high)});
+    const auto [x, y] = chartSpans(
+        m_chart, items(), [this](std::size_t curve) { return isShown(curve); }, m_leastOrdinates);
     const QSize size = m_plot->canvas()->contentsRect().size();
-    const Span x = aired(spanOf(xs), 0.03);
-    const Span y = areShares && !m_chart.isLogarithmicY ? Span{-0.02, 1.02} : aired(spanOf(ys), 0.05);
     m_plot->setAxisScaleDiv(QwtAxis::XBottom, m_chart.isLogarithmicX
                                                   ? digitScaleDiv(x)
                                                   : linearScaleDiv(x, std::clamp(size.width() / 60, 2, 12)));

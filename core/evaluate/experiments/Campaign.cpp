@@ -5,6 +5,7 @@
 #include "base/fileName.h"
 #include "base/wholeNumber.h"
 #include "evaluate/experiments/InjectionTrials.h"
+#include "evaluate/experiments/SweepTrials.h"
 #include "evaluate/experiments/lineRuns.h"
 #include "recording/openRecording.h"
 

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "base/RunContext.h"
+#include "evaluate/experiments/RunOutcome.h"
+#include "evaluate/experiments/SweepExperiment.h"
+#include "recording/Recording.h"
+#include "recording/Truth.h"
+
+#include <vector>
+
+namespace faintline {
+
+/// Result of one run of a sweep as a RunOutcome: noise = {{false alarms, observed seconds}}, signal = {{{seconds from
+/// the line's start to its detection}}}, -∞ if it was missed.
+RunOutcome sweepOutcome(int run, std::ptrdiff_t falseAlarms, double seconds, double latencySeconds);
+
+/// Shared by all runs of a sweep: the recording, and a calibration for each value.
+class SweepTrials
+{
+public:
+    /// `recording` may be null for simulated noise. Calibrates each value. Throws Error, Cancelled.
+    SweepTrials(const SweepExperiment &experiment, RecordingPointer recording, const RunContext &context = {});
+
+    /// The thresholds, one per value.
+    const std::vector<double> &thresholds() const { return m_thresholds; }
+
+    /// Executes the given runs on context.threads threads. Depends only on the experiment and the recording.
+    std::vector<RunOutcome> run(const std::vector<int> &runs, const RunContext &context = {},
+                                const RunSink &sink = {}) const;
+
+    /// One trial regenerated: the recording with its line, and the line's truth. The settings select the stretch.
+    struct Made {
+        RecordingPointer recording;
+        TruthLine truth;
+        AnalysisSettings settings; ///< with the run's value
+    };
+    Made remake(int run) const;
+
+    /// Processor seconds per hour of recording, value by value (measureCost); varies between calls.
+    std::vector<double> costs(const RunContext &context = {}) const;
+
+private:
+    struct Placement;
+    LineSettings lineAt(const Placement &placement) const; ///< relative to the start of its stretch
+    Made simulate(const LineSettings &line, const Placement &placement, const AnalysisSettings &settings) const;
+    Made inject(LineSettings line, const Placement &placement, const AnalysisSettings &settings) const;
+
+    SweepExperiment m_experiment; ///< with known window length
+    RecordingPointer m_recording;
+    std::vector<double> m_thresholds;
+};
+
+} // namespace faintline

@@ -1,0 +1,86 @@
+// Colours of a WaterfallPicture: its map, and the values of the first and last colour.
+
+#include "widgets/waterfall/WaterfallPicture.h"
+
+#include "widgets/waterfall/RasterItem.h"
+
+#include <algorithm>
+
+namespace faintline {
+
+void WaterfallPicture::countHistogram()
+{
+    const QSize size = canvas()->contentsRect().size();
+    if (!m_picture || size.isEmpty() || m_frequency.count == 0)
+        return;
+    const double cells =
+        visible().frequency.width() / m_frequency.step / (isTimeVertical() ? size.width() : size.height());
+    if (!m_levels.count(*m_shown, framesPerPixel(), cells))
+        return;
+    emit histogramChanged();
+    if (m_levels.isAutomatic())
+        applyRange(automaticRange());
+}
+
+Span WaterfallPicture::automaticRange() const
+{
+    return m_picture ? m_levels.suggested(m_picture->scale(), m_threshold) : range();
+}
+
+void WaterfallPicture::applyRange(const Span &range)
+{
+    m_raster->setColours(*m_colourMap, range);
+    if (range == m_levels.range())
+        return;
+    m_levels.setRange(range);
+    emit rangeChanged(range.low, range.high);
+}
+
+void WaterfallPicture::setRange(double low, double high)
+{
+    m_levels.setAutomatic(false);
+    applyRange(m_levels.byHand(low, high, m_picture ? &m_picture->scale() : nullptr));
+    replot();
+}
+
+void WaterfallPicture::setAutomaticRange()
+{
+    m_levels.setAutomatic(true);
+    applyRange(automaticRange());
+    replot();
+}
+
+double WaterfallPicture::levelStep() const
+{
+    return valueUnit() == tr("dB") ? 1.0 : 0.5;
+}
+
+void WaterfallPicture::stepBlack(int steps)
+{
+    const double step = levelStep();
+    setRange(std::min(range().low + steps * step, range().high - step), range().high);
+}
+
+void WaterfallPicture::stepWhite(int steps)
+{
+    const double step = levelStep();
+    setRange(range().low, std::max(range().high + steps * step, range().low + step));
+}
+
+void WaterfallPicture::setColourMap(const QString &name)
+{
+    const ColourMap &map = ColourMap::named(name);
+    if (&map == m_colourMap)
+        return;
+    m_colourMap = &map;
+    m_raster->setColours(map, range());
+    replot();
+    emit colourMapChanged(map.name());
+}
+
+void WaterfallPicture::cycleColourMap()
+{
+    setColourMap(ColourMap::next(m_colourMap->name()));
+}
+
+} // namespace faintline
