@@ -16,7 +16,7 @@ bool looksTwice(const AnalysisPlan &analysis);
 struct SecondView {
     std::vector<Track> tracks; ///< lines, by detection
     std::vector<Area> areas;   ///< by time
-    std::vector<Track> first;  ///< the tracks after step 4, by detection, if they were asked for and steps 5 and 6 taken
+    std::vector<Track> first; ///< the tracks after step 4, by detection, if they were asked for and steps 5 and 6 taken
 };
 
 /// How far the second pass goes: to the tracks of the chain; or also to signals hidden by them, and to identities; or
@@ -40,6 +40,9 @@ enum class SecondLookDepth { Tracks, Signals, SignalsBesideTracks };
 ///   5. signals that they hide are searched for behind them (searchBehind.h), which then take the same steps, until
 ///      nothing more is found;
 ///   6. where signals met, the pieces of tracks before and after are assigned to each other anew (relink.h).
+///
+/// The ends of the resulting tracks are still generous, for comparison with other windows and for subtraction; they are
+/// trimmed at the very end of an analysis (trimEnds.h).
 ///
 /// Steps 5 and 6 are left out at depth Tracks, and for families, whose members lie beside each other.
 ///
