@@ -62,7 +62,8 @@ struct Analysis : AnalysisPlan {
     /// Tracks that the recording's own noise explains (overOwnNoise.h), not among `tracks`.
     std::vector<Track> explainedByNoise;
     /// The tracks before signals were searched for behind others and identities assigned (secondLook.h), including
-    /// those that the noise explains; kept while a window is chosen, because trials of other windows have no others.
+    /// those that the noise explains, untrimmed; kept while a window is chosen, because trials of other windows have no
+    /// others.
     std::vector<Track> firstTracks;
     std::vector<Area> areas; ///< regions of raised level without a line, ordered by time (secondLook.h)
     /// For frames on several axes: the tracks found by thresholding each frame separately.

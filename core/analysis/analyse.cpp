@@ -14,6 +14,7 @@
 #include "spectrum/NoiseNormaliser.h"
 #include "spectrum/pictureCuts.h"
 #include "track/numberByDetection.h"
+#include "track/trimEnds.h"
 
 #include <algorithm>
 
@@ -144,6 +145,8 @@ namespace {
         }
         analysis.tracks = withoutLoneTeeth(analysis, std::move(analysis.tracks), context.part(0.5, 0.6));
         analysis.tracks = withoutGhosts(analysis, std::move(analysis.tracks));
+        if (request.keepsFirstTracks && analysis.firstTracks.empty()) // families
+            analysis.firstTracks = analysis.tracks;
         if (!subtracted.empty()) {
             analysis.tracks.insert(analysis.tracks.end(), subtracted.begin(), subtracted.end());
             numberByDetection(analysis.tracks);
@@ -270,6 +273,25 @@ namespace {
         return analysis;
     }
 
+    /// Both, if lines are to be subtracted and there are any; else the recording as it is.
+    std::shared_ptr<Analysis> analyseWithRest(RecordingPointer recording, const AnalysisSettings &settings,
+                                              const RunContext &context, const Analysis *lent,
+                                              const AnalysisRequest &request)
+    {
+        if (!settings.subtract.lines)
+            return analyseAsItIs(recording, settings, context, lent, request);
+        const bool isWhole = request.depth == AnalysisDepth::Whole;
+        const std::shared_ptr<Analysis> first = analyseAsItIs(
+            recording, settings, context.part(0.0, 0.4), lent,
+            {.calibration = request.calibration, .depth = isWhole ? AnalysisDepth::Tracks : request.depth});
+        const std::vector<Track> strong = tracksToSubtract(*first);
+        if (!strong.empty())
+            return analyseRest(first, strong, context.part(0.4, 1.0), request);
+        if (!isWhole && !request.statistic)
+            return first;
+        return analyseAsItIs(recording, settings, context.part(0.4, 1.0), first.get(), request);
+    }
+
 } // namespace
 
 std::shared_ptr<Analysis> analyse(RecordingPointer recording, const AnalysisSettings &settings,
@@ -277,19 +299,11 @@ std::shared_ptr<Analysis> analyse(RecordingPointer recording, const AnalysisSett
 {
     checkSettings(settings);
     checkWindow(settings);
-    const Analysis *lent = lender(previous, recording);
-    if (!settings.subtract.lines)
-        return analyseAsItIs(recording, settings, context, lent, request);
-    const bool isWhole = request.depth == AnalysisDepth::Whole;
-    const std::shared_ptr<Analysis> first =
-        analyseAsItIs(recording, settings, context.part(0.0, 0.4), lent,
-                      {.calibration = request.calibration, .depth = isWhole ? AnalysisDepth::Tracks : request.depth});
-    const std::vector<Track> strong = tracksToSubtract(*first);
-    if (!strong.empty())
-        return analyseRest(first, strong, context.part(0.4, 1.0), request);
-    if (!isWhole && !request.statistic)
-        return first;
-    return analyseAsItIs(recording, settings, context.part(0.4, 1.0), first.get(), request);
+    const std::shared_ptr<Analysis> analysis =
+        analyseWithRest(recording, settings, context, lender(previous, recording), request);
+    if (request.depth != AnalysisDepth::Trial)
+        analysis->tracks = withEndsTrimmed(std::move(analysis->tracks));
+    return analysis;
 }
 
 namespace {
@@ -349,6 +363,7 @@ namespace {
                 regulationBand(analysis.model, resetRule(*smd, analysis.calibration->lnK), context.part(0.0, 0.1));
         ProgressPublisher nothing;
         run(analysis, context.part(0.1, 1.0), {.statistic = sink}, nothing);
+        analysis.tracks = withEndsTrimmed(std::move(analysis.tracks));
     }
 
 } // namespace

@@ -15,8 +15,8 @@ namespace faintline {
 using StatisticSink = std::function<void(Index firstFrame, std::span<const float> statistic)>;
 
 /// Scope of an analysis: everything; its tracks, without pictures and checkpoints; or a trial of its settings, whose
-/// tracks are also not tested against the recording's own noise (overOwnNoise.h), and which is not searched for signals
-/// behind others (secondLook.h).
+/// tracks are also not tested against the recording's own noise (overOwnNoise.h), which is not searched for signals
+/// behind others (secondLook.h), and whose tracks are not trimmed to their signals (trimEnds.h).
 enum class AnalysisDepth { Whole, Tracks, Trial };
 
 /// What an analysis delivers while it runs, and how far it goes.

@@ -357,8 +357,8 @@ namespace {
                 const TrackPoint &before = pointAt(found, strip.firstFrame + at);
                 track.points.push_back(
                     {strip.firstFrame + at, Index(std::lround(position)), before.plane, before.statistic});
-                track.smoothed.push_back({position, seen.presence.low[i], seen.presence.high[i],
-                                          seen.presence.present[i], float(seen.levels[i])});
+                track.smoothed.push_back(
+                    {position, seen.presence.low[i], seen.presence.high[i], seen.endsBy[i], float(seen.levels[i])});
             }
             return track;
         }

@@ -41,6 +41,9 @@ enum class SecondLookDepth { Tracks, Signals, SignalsBesideTracks };
 ///      nothing more is found;
 ///   6. where signals met, the pieces of tracks before and after are assigned to each other anew (relink.h).
 ///
+/// The ends of the resulting tracks are still generous, for comparison with other windows and for subtraction; they are
+/// trimmed at the very end of an analysis (trimEnds.h).
+///
 /// Steps 5 and 6 are left out at depth Tracks, and for families, whose members lie beside each other.
 ///
 /// `subtracted`: lines that were removed before the frames were made (subtractLines.h). Their remainders and skirts are

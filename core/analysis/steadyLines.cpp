@@ -2,6 +2,7 @@
 
 #include "analysis/sureStatistic.h"
 #include "track/numberByDetection.h"
+#include "track/trimEnds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -204,7 +205,7 @@ std::vector<Track> withSteadyLines(const Analysis &chosen, const Analysis &longe
     const Comparison comparison(chosen, longer);
     std::vector<Track> lines;
     std::vector<bool> isReplaced(chosen.tracks.size(), false);
-    for (const Track &track : longer.tracks) {
+    for (const Track &track : withEndsTrimmed(longer.tracks)) {
         if (track.peakStatistic < sureStatistic(longer) || !standsStill(track, longer))
             continue;
         Track line = comparison.onChosenFrames(track);

@@ -20,7 +20,7 @@ struct SmoothedPoint {
     double position = 0.0; ///< in cells, with subcell precision
     float low = 0.0f;      ///< 5 % quantile of the posterior, cells
     float high = 0.0f;     ///< 95 %
-    float presence = 0.0f; ///< probability that the signal is present
+    float presence = 0.0f; ///< probability that the signal is present (BothWays::endsBy)
     float level = 0.0f;    ///< mean signal power over the noise's along the path
 
     /// Standard deviation of the position in cells, from the 5-95 % band, whose width is 3.29 deviations for a normal

@@ -40,10 +40,12 @@ namespace {
             BothWays seen = alongCentres();
             for (int round = 0; round < 2; ++round) {
                 seen.levels = levels(seen);
-                seen.presence = presenceIn(corridor(seen, false), *m_model.axis, lnChange(), m_strip.firstFrame);
+                seen.presence = presenceIn(corridor(seen, Level::Own), *m_model.axis, lnChange(), m_strip.firstFrame);
                 seen.positions = seen.presence.mean;
             }
             seen.levels = levels(seen);
+            seen.endsBy =
+                presenceIn(corridor(seen, Level::Expected), *m_model.axis, lnChange(), m_strip.firstFrame).present;
             seen.gains = gains(seen);
             seen.positions = refined(seen);
             return seen;
@@ -51,15 +53,23 @@ namespace {
 
         std::vector<double> slopeChanges()
         {
-            return expectedSlopeChanges(corridor(run(), false), *m_model.axis, lnChange(), m_strip.firstFrame);
+            return expectedSlopeChanges(corridor(run(), Level::Own), *m_model.axis, lnChange(), m_strip.firstFrame);
         }
 
         double strongest()
         {
-            return strongestPath(corridor(alongCentres(), true), *m_model.axis, m_model.lnK, m_strip.firstFrame);
+            return strongestPath(corridor(alongCentres(), Level::OfDesign), *m_model.axis, m_model.lnK,
+                                 m_strip.firstFrame);
         }
 
     private:
+        /// The level for which a frame's evidence is computed.
+        enum class Level {
+            OfDesign, ///< the detector's
+            Own,      ///< mean over ±12 frames
+            Expected  ///< if the signal goes on as in the 24 frames before or after
+        };
+
         BothWays alongCentres() const
         {
             BothWays seen;
@@ -99,8 +109,23 @@ namespace {
                                                       .first->second;
         }
 
-        /// `byDesign`: uses the detector's likelihood instead of that at the track's own level.
-        Corridor corridor(const BothWays &seen, bool byDesign)
+        /// The largest mean over ±12 frames about a frame, 12 frames before and 12 frames after it. About the frame
+        /// alone, a signal that ends would be expected ever fainter, and its end never be certain.
+        static double expectedLevel(const std::vector<double> &levels, Index at)
+        {
+            const Index last = std::ssize(levels) - 1;
+            return std::max({levels[std::size_t(at)], levels[std::size_t(std::max<Index>(0, at - levelFrames))],
+                             levels[std::size_t(std::min(last, at + levelFrames))]});
+        }
+
+        const Likelihood &likelihoodFor(const BothWays &seen, Index at, Level level)
+        {
+            if (level == Level::OfDesign)
+                return m_model.likelihood;
+            return likelihoodAt(level == Level::Own ? seen.levels[std::size_t(at)] : expectedLevel(seen.levels, at));
+        }
+
+        Corridor corridor(const BothWays &seen, Level level)
         {
             const Index half = inBins(corridorCells, m_model.binsPerCell);
             const Index cells = m_model.axis->cells;
@@ -115,7 +140,7 @@ namespace {
                     y[std::size_t(i)] = m_strip.valueAt(at, first + i);
                 const std::span<float> lambda =
                     std::span(result.lambda).subspan(std::size_t(at * result.width), y.size());
-                (byDesign ? m_model.likelihood : likelihoodAt(seen.levels[std::size_t(at)])).apply(y, lambda);
+                likelihoodFor(seen, at, level).apply(y, lambda);
                 for (Index i = 0; i < result.width; ++i)
                     if (first + i < 0 || first + i >= cells)
                         lambda[std::size_t(i)] = -std::numeric_limits<float>::infinity();

@@ -25,6 +25,9 @@ struct BothWays {
     std::vector<double> levels;    ///< signal power over the noise's, mean along the path over ±12 frames
     /// Gain of the mean path in each frame under the detector's recursion: λ + ln K + ln h(0), nat.
     std::vector<double> gains;
+    /// Probability that the signal is present, with the level of the 24 frames before or after: where it begins and
+    /// ends.
+    std::vector<float> endsBy;
 };
 
 /// Half width in bins of the strip that lookBothWays needs.
@@ -41,6 +44,9 @@ Index corridorHalfWidth(double binsPerCell);
 ///   an onset or an end costs max(T/2, 2) nat, T the threshold
 ///   f(t) = maximum of the power averaged along the mean path over ±clamp(10/r, 1, 8) frames, by a parabola through its
 ///          logarithm, at most one bin from the mean
+///
+/// Presence is then computed once more, along the same corridor, for the level that a frame has if the signal goes on
+/// as before or after it: the largest r of t, t - 12 and t + 12.
 ///
 /// The stronger a line, the sooner its end is recognised, limited to SNR 4, so that a keyed line stays one track.
 BothWays lookBothWays(const PathStrip &strip, const BothWaysModel &model);

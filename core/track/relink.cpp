@@ -62,6 +62,17 @@ namespace {
         Index longestAbsence() const { return m() / 5; }
         double cells(double resolutionCells) const { return resolutionCells * m_rule.binsPerCell; }
 
+        /// Whether its track has another piece before this one.
+        bool isAfterAnother(std::size_t number) const
+        {
+            return number > 0 && m_pieces[number - 1].track == m_pieces[number].track;
+        }
+
+        bool isBeforeAnother(std::size_t number) const
+        {
+            return number + 1 < m_pieces.size() && isAfterAnother(number + 1);
+        }
+
         Index startOf(const Piece &piece) const { return m_tracks[piece.track].points[piece.from].frame; }
         Index endOf(const Piece &piece) const { return m_tracks[piece.track].points[piece.to - 1].frame; }
 
@@ -206,9 +217,7 @@ namespace {
         {
             const Piece &a = m_pieces[from];
             const Piece &b = m_pieces[to];
-            const bool isLast = from + 1 == m_pieces.size() || m_pieces[from + 1].track != a.track;
-            const bool isFirst = to == 0 || m_pieces[to - 1].track != b.track;
-            return isLast && isFirst
+            return !isBeforeAnother(from) && !isAfterAnother(to)
                    && m_tracks[a.track].points.back().frame - m_tracks[b.track].points.front().frame >= m() / 5;
         }
 
@@ -256,7 +265,7 @@ namespace {
                     if (const double cost = costOf(a, b); cost < m_rule.threshold && !isAbsent(a, b))
                         pairs.push_back({i, *at, cost});
                 }
-                if (i + 1 < m_pieces.size() && m_pieces[i + 1].track == a.track)
+                if (isBeforeAnother(i))
                     pairs.push_back({i, i + 1, std::min(costOf(a, m_pieces[i + 1]), ownWay * m_rule.threshold)});
             }
             for (const std::size_t chosen : assign(pairs, m_rule.threshold)) {
@@ -275,7 +284,7 @@ namespace {
             std::vector<std::size_t> best(m_tracks.size(), none); // piece with the largest gain of each track
             for (std::size_t i = 0; i < m_pieces.size(); ++i) {
                 std::size_t &piece = best[m_pieces[i].track];
-                if (piece == none || gainOf(m_pieces[i]) > gainOf(m_pieces[piece]))
+                if (piece == none || gainOf(i) > gainOf(piece))
                     piece = i;
             }
             std::vector<Track> result;
@@ -289,14 +298,13 @@ namespace {
                     result.push_back(std::move(m_tracks[m_pieces[first].track])); // no other chain needs it
                     continue;
                 }
-                double gain = 0.0;
-                bool hasBest = false;
-                for (const std::size_t i : chain) {
-                    gain += gainOf(m_pieces[i]);
-                    hasBest = hasBest || best[m_pieces[i].track] == i;
-                }
-                if (hasBest || gain >= m_rule.threshold)
-                    result.push_back(joined(chain, std::max(gain, m_rule.threshold)));
+                Track track = joined(chain);
+                const bool hasBest = std::any_of(chain.begin(), chain.end(),
+                                                 [&](std::size_t i) { return best[m_pieces[i].track] == i; });
+                if (!hasBest && track.peakStatistic < m_rule.threshold)
+                    continue;
+                track.peakStatistic = std::max(track.peakStatistic, m_rule.threshold);
+                result.push_back(std::move(track));
             }
             for (Track &track : m_tracks)
                 if (track.smoothed.empty() && !track.points.empty())
@@ -310,38 +318,44 @@ namespace {
             const std::size_t track = m_pieces[chain.front()].track;
             const bool isOne =
                 std::all_of(chain.begin(), chain.end(), [&](std::size_t i) { return m_pieces[i].track == track; });
-            const bool hasFirst = chain.front() == 0 || m_pieces[chain.front() - 1].track != track;
-            const bool hasLast = chain.back() + 1 == m_pieces.size() || m_pieces[chain.back() + 1].track != track;
             const bool hasAll = chain.back() - chain.front() + 1 == chain.size();
-            return isOne && hasFirst && hasLast && hasAll;
+            return isOne && hasAll && !isAfterAnother(chain.front()) && !isBeforeAnother(chain.back());
         }
 
-        /// Gain of the path's statistic along a piece.
-        double gainOf(const Piece &piece) const
+        /// First point of a piece with half of the encounter before it.
+        std::size_t firstWithHalf(std::size_t number) const
         {
-            const std::vector<TrackPoint> &points = m_tracks[piece.track].points;
-            return std::max(0.0,
-                            points[piece.to - 1].statistic - (piece.from > 0 ? points[piece.from - 1].statistic : 0.0));
+            return isAfterAnother(number) ? (m_pieces[number - 1].to + m_pieces[number].from) / 2 : 0;
         }
 
-        /// First point that belongs to a piece if nothing is linked before it: half of the encounter there.
+        /// One past the last point of a piece with half of the encounter behind it.
+        std::size_t endWithHalf(std::size_t number) const
+        {
+            return isBeforeAnother(number) ? (m_pieces[number].to + m_pieces[number + 1].from) / 2
+                                           : m_tracks[m_pieces[number].track].points.size();
+        }
+
+        /// Gain of the path's statistic along a piece and half of the encounters on either side.
+        double gainOf(std::size_t number) const
+        {
+            const std::vector<TrackPoint> &points = m_tracks[m_pieces[number].track].points;
+            const std::size_t first = firstWithHalf(number);
+            return points[endWithHalf(number) - 1].statistic - (first > 0 ? points[first - 1].statistic : 0.0);
+        }
+
+        /// First point that belongs to a piece if nothing is linked before it.
         std::size_t firstPoint(std::size_t number) const
         {
-            const Piece &piece = m_pieces[number];
-            if (number == 0 || m_pieces[number - 1].track != piece.track)
-                return 0;
-            return m_next[number - 1] == none ? (m_pieces[number - 1].to + piece.from) / 2 : piece.from;
+            return isAfterAnother(number) && m_next[number - 1] != none ? m_pieces[number].from : firstWithHalf(number);
         }
 
         std::size_t endPoint(std::size_t number) const
         {
-            const Piece &piece = m_pieces[number];
-            if (number + 1 == m_pieces.size() || m_pieces[number + 1].track != piece.track)
-                return m_tracks[piece.track].points.size();
-            return m_previous[number + 1] == none ? (piece.to + m_pieces[number + 1].from) / 2 : piece.to;
+            return isBeforeAnother(number) && m_previous[number + 1] != none ? m_pieces[number].to
+                                                                             : endWithHalf(number);
         }
 
-        Track joined(const std::vector<std::size_t> &chain, double statistic) const
+        Track joined(const std::vector<std::size_t> &chain) const
         {
             const Track &first = m_tracks[m_pieces[chain.front()].track];
             Track track = first.withoutPoints();
@@ -352,12 +366,13 @@ namespace {
                                          : isOwnBefore ? m_pieces[chain[i - 1]].to
                                                        : piece.from;
                 if (i > 0 && !isOwnBefore)
-                    bridge(track, m_pieces[chain[i - 1]], piece);
+                    bridge(track, chain[i - 1], chain[i]);
                 append(track, m_tracks[piece.track], from, i + 1 == chain.size() ? endPoint(chain[i]) : piece.to);
             }
             track.onsetFrame = track.points.front().frame;
             track.endFrame = track.points.back().frame;
-            track.peakStatistic = statistic;
+            const std::vector<double> scores = scoresOf(track);
+            track.peakStatistic = *std::max_element(scores.begin(), scores.end());
             describe(track, chain);
             return track;
         }
@@ -373,9 +388,42 @@ namespace {
             }
         }
 
-        /// Fills the gap between two pieces.
-        void bridge(Track &track, const Piece &a, const Piece &b) const
+        /// Gain of a track's statistic in a frame in which it is there.
+        static double gainAt(const Track &track, Index frame)
         {
+            const auto i = std::size_t(frame - track.points.front().frame);
+            return track.points[i].statistic - (i > 0 ? track.points[i - 1].statistic : 0.0);
+        }
+
+        /// Score of a path along a track's points by itself. It begins anew where the statistic falls below its start,
+        /// as it does where a lost signal was found again (joinTracks.h).
+        static std::vector<double> scoresOf(const Track &track)
+        {
+            std::vector<double> scores;
+            double score = 0.0;
+            for (const TrackPoint &point : track.points)
+                scores.push_back(score = std::max(0.0, score + gainAt(track, point.frame)));
+            return scores;
+        }
+
+        /// Gain of the statistic in a frame between two linked pieces: of the first one's track up to the middle, then
+        /// of the second one's; where one of these has its end, of the other.
+        double gainBetween(std::size_t from, std::size_t to, Index frame) const
+        {
+            const Track &a = m_tracks[m_pieces[from].track];
+            const Track &b = m_tracks[m_pieces[to].track];
+            const bool isFirstHalf = 2 * frame <= endOf(m_pieces[from]) + startOf(m_pieces[to]);
+            const bool isInA = frame <= a.points.back().frame && (isFirstHalf || !isBeforeAnother(from));
+            const bool isInB = frame >= b.points.front().frame && (!isFirstHalf || !isAfterAnother(to));
+            return isInA && (isFirstHalf || !isInB) ? gainAt(a, frame) : isInB ? gainAt(b, frame) : 0.0;
+        }
+
+        /// Fills the gap between two pieces. What their tracks gained there is evidence for the signals that meet,
+        /// whichever of them a track followed.
+        void bridge(Track &track, std::size_t last, std::size_t next) const
+        {
+            const Piece &a = m_pieces[last];
+            const Piece &b = m_pieces[next];
             const Index gap = startOf(b) - endOf(a);
             const PolynomialFit before = fitAtEnd(a, gap);
             const PolynomialFit after = fitAtStart(b, gap);
@@ -383,8 +431,10 @@ namespace {
             const SmoothedPoint to = pointsOf(b).front();
             const TrackPoint end = track.points.back();
             Index frame = end.frame;
+            double statistic = end.statistic;
             for (const double position : wayBetween(a, b)) {
                 const double share = double(++frame - end.frame) / double(gap);
+                statistic += gainBetween(last, next, frame);
                 const auto mixed = [&](float x, float y) {
                     return float((1.0 - share) * double(x) + share * double(y));
                 };
@@ -392,7 +442,7 @@ namespace {
                                     * std::sqrt(std::min(before.positionVarianceAt(double(frame)),
                                                          after.positionVarianceAt(double(frame))));
                 const double place = std::clamp(position, 0.0, double(m_rule.cells - 1));
-                track.points.push_back({frame, Index(std::lround(place)), end.plane, end.statistic});
+                track.points.push_back({frame, Index(std::lround(place)), end.plane, statistic});
                 track.smoothed.push_back({place, float(place - half), float(place + half),
                                           mixed(from.presence, to.presence), mixed(from.level, to.level)});
             }
@@ -411,10 +461,10 @@ namespace {
                     && (!detected || own.detectFrame < detected->detectFrame))
                     detected = &own;
             }
+            const std::vector<double> scores = scoresOf(track);
             const auto reached =
-                std::find_if(track.points.begin(), track.points.end(),
-                             [this](const TrackPoint &point) { return point.statistic >= m_rule.threshold; });
-            const Index own = reached == track.points.end() ? track.endFrame : reached->frame;
+                std::find_if(scores.begin(), scores.end(), [this](double score) { return score >= m_rule.threshold; });
+            const Index own = reached == scores.end() ? track.endFrame : track.onsetFrame + (reached - scores.begin());
             track.detectFrame = detected ? detected->detectFrame : own;
             const Track &last = m_tracks[m_pieces[chain.back()].track];
             track.isOpen = last.isOpen && track.endFrame == last.endFrame;

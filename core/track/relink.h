@@ -40,6 +40,10 @@ struct RelinkRule {
 /// track's own way costs T·0.9 at most, so that it is kept unless there is a better one; no link costs T. Between
 /// linked pieces of different tracks, a cubic curve replaces what the tracks had there.
 ///
+/// There the statistic goes on with what the first track gained up to the middle, then the second one; where one of
+/// these has its end, with what the other gained. Frames of an encounter are evidence for the signals that meet,
+/// whichever of them a track followed: two tracks that change places have as much together as before.
+///
 /// Tracks without the second pass are left as they are. The result is not ordered. Deterministic.
 std::vector<Track> relink(std::vector<Track> tracks, const RelinkRule &rule);
 

@@ -82,6 +82,8 @@ class tst_bothWays : public QObject
 
 private slots:
     void aLineIsThereFromOnsetToEnd();
+    void endsAreSeenSoon_data();
+    void endsAreSeenSoon();
     void positionsAreBelowACell();
     void levelsAreMeansAlongThePath();
     void gainsAreTheDetectorsAccount();
@@ -104,6 +106,30 @@ void tst_bothWays::aLineIsThereFromOnsetToEnd()
         if (frame > onset + 4 && frame < ending - 5)
             QVERIFY2(present > 0.9f, qPrintable(QString("frame %1: %2").arg(frame).arg(double(present))));
     }
+}
+
+void tst_bothWays::endsAreSeenSoon_data()
+{
+    QTest::addColumn<double>("snr");
+    QTest::newRow("6 dB") << 4.0;
+    QTest::newRow("10 dB") << 10.0;
+}
+
+// A line that begins and ends is expected at its own level beside it, and not at what is left of that in a mean over
+// frames with and without it.
+void tst_bothWays::endsAreSeenSoon()
+{
+    QFETCH(double, snr);
+    constexpr int runs = 10;
+    int late = 0;
+    for (int run = 0; run < runs; ++run) {
+        const std::vector<float> present = lookBothWays(strip(snr, std::uint64_t(20 + run)), model()).endsBy;
+        for (Index frame = onset + 4; frame < ending - 4; ++frame)
+            QVERIFY2(present[std::size_t(frame)] > 0.5f, qPrintable(QString::number(frame)));
+        late += present[std::size_t(onset - 5)] > 0.5f ? 1 : 0;
+        late += present[std::size_t(ending + 4)] > 0.5f ? 1 : 0;
+    }
+    QVERIFY2(late <= 2, qPrintable(QString::number(late)));
 }
 
 void tst_bothWays::positionsAreBelowACell()

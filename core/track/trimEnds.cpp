@@ -1,0 +1,42 @@
+#include "track/trimEnds.h"
+
+#include "track/numberByDetection.h"
+
+#include <algorithm>
+
+namespace faintline {
+
+namespace {
+
+    void trimEnds(Track &track)
+    {
+        const auto isPresent = [](const SmoothedPoint &point) { return point.presence > 0.5f; };
+        const auto first = std::find_if(track.smoothed.begin(), track.smoothed.end(), isPresent);
+        if (first == track.smoothed.end())
+            return;
+        const auto from = first - track.smoothed.begin();
+        const auto end = std::find_if(track.smoothed.rbegin(), track.smoothed.rend(), isPresent).base();
+        const auto to = end - track.smoothed.begin();
+        track.isOpen = track.isOpen && end == track.smoothed.end();
+        track.smoothed.erase(end, track.smoothed.end());
+        track.smoothed.erase(track.smoothed.begin(), track.smoothed.begin() + from);
+        track.points.erase(track.points.begin() + to, track.points.end());
+        track.points.erase(track.points.begin(), track.points.begin() + from);
+        track.onsetFrame = track.points.front().frame;
+        track.endFrame = track.points.back().frame;
+        track.detectFrame = std::clamp(track.detectFrame, track.onsetFrame, track.endFrame);
+        if (track.confirmFrame >= 0)
+            track.confirmFrame = std::clamp(track.confirmFrame, track.detectFrame, track.endFrame);
+    }
+
+} // namespace
+
+std::vector<Track> withEndsTrimmed(std::vector<Track> tracks)
+{
+    for (Track &track : tracks)
+        trimEnds(track);
+    numberByDetection(tracks);
+    return tracks;
+}
+
+} // namespace faintline
