@@ -96,7 +96,7 @@ void MainWindow::buildPanels()
     m_events->setEmptySentence(tr("No event at this threshold."));
     m_reviews = new EventReviews(
         m_document, *m_events,
-        {m_workbench->input(), m_workbench->output(), m_pings->rangeHistory(), m_pings->bearingHistory()}, this);
+        {m_workbench->input(), m_workbench->output(), m_pings->alongHistory(), m_pings->acrossHistory()}, this);
     m_reviews->setClassNames(m_memory.classNames());
     m_reviews->addMaps({m_pings->input(), m_pings->output()});
     m_boxAnalysis = new BoxAnalysis(m_document, m_controller, {m_workbench->input(), m_workbench->output()}, this);
