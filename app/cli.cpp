@@ -3,6 +3,7 @@
 
 #include "base/Error.h"
 #include "base/Interruption.h"
+#include "base/editDistance.h"
 #include "base/oneLine.h"
 #include "base/standardStreams.h"
 
@@ -41,7 +42,7 @@ void addCommands(CLI::App &app, faintline::cli::Common &common)
         add(app, common);
 }
 
-/// The first unknown word in place of a command.
+/// What is wrong with the first word in place of a command; empty if it is one.
 std::string unknownCommand(const CLI::App &app, const std::vector<std::string> &arguments)
 {
     const std::vector<std::string> rest = faintline::cli::fromCommandOn(arguments);
@@ -50,7 +51,15 @@ std::string unknownCommand(const CLI::App &app, const std::vector<std::string> &
     const std::vector<const CLI::App *> commands = app.get_subcommands([](const CLI::App *) { return true; });
     const bool isKnown = std::any_of(commands.begin(), commands.end(),
                                      [&](const CLI::App *one) { return one->get_name() == rest.front(); });
-    return isKnown ? std::string() : rest.front();
+    if (isKnown)
+        return {};
+    const auto distanceOf = [&](const CLI::App *one) { return faintline::editDistance(one->get_name(), rest.front()); };
+    const CLI::App *nearest = *std::ranges::min_element(commands, {}, distanceOf);
+    constexpr std::size_t fewLetters = 2;
+    const std::string meant =
+        distanceOf(nearest) <= fewLetters ? "did you mean " + nearest->get_name() + "? (" : std::string();
+    return rest.front() + ": unknown command; " + meant + programName + " --help lists the commands"
+           + (meant.empty() ? "" : ")");
 }
 
 int complain(const std::string &message, int code)
@@ -85,8 +94,8 @@ int main(int argc, char **argv)
             app.exit(error); // --help, --version
             return faintline::flushStandardOutput() ? 0 : complain(unwritable, 1);
         }
-        if (const std::string word = unknownCommand(app, common.arguments); !word.empty())
-            return complain(word + ": unknown command; " + programName + " --help lists the commands", 2);
+        if (const std::string why = unknownCommand(app, common.arguments); !why.empty())
+            return complain(why, 2);
         return complain(std::string("command line: ") + error.what(), 2);
     } catch (const faintline::Error &error) {
         return complain(error.what(), error.kind() == faintline::Error::Kind::Mistake ? 2 : 1);

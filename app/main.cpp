@@ -105,8 +105,11 @@ namespace {
 
     int runWindow(int argc, char *argv[], const std::vector<std::string> &files, const OpenOptions &options)
     {
-        keepNoHoles(1 << 20); // returns the memory of temporary results of tuning
+        keepNoHoles(1 << 20);                                // returns the memory of temporary results of tuning
+        const QByteArray scale = qgetenv("QT_SCALE_FACTOR"); // the user's wish, which pictures do not depend on
         Theme::prepareEnvironment();
+        if (!scale.isEmpty())
+            qputenv("QT_SCALE_FACTOR", scale);
         const QtMessageHandler before = qInstallMessageHandler(missScreen);
         QApplication application(argc, argv);
         qInstallMessageHandler(before);

@@ -110,7 +110,7 @@ Vamp::Plugin::ProgramList DetectorPlugin::getPrograms() const
 {
     ProgramList names;
     for (const Preset &preset : presets())
-        if (!preset.name.starts_with("sonar")) // these presets need frames with two axes
+        if (!preset.name.starts_with("sonar") && preset.name != "radar") // these presets need frames with several axes
             names.push_back(preset.name);
     return names;
 }

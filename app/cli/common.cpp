@@ -1,6 +1,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/inRange.h"
 
+#include "analysis/firstSettings.h"
 #include "analysis/slopeUnit.h"
 #include "base/AtomicFile.h"
 #include "base/json.h"
@@ -160,7 +161,7 @@ AnalysisSettings AnalysisOptions::settings() const
     if (!preset.empty())
         settings = faintline::preset(preset).settings;
     else if (session.empty() && !named && from.pings)
-        settings = faintline::preset("sonar").settings;
+        settings = firstSettings(pingGrid(*from.pings));
     if (channel >= 0)
         setSetting(settings, "selection.channel", std::to_string(channel));
     std::vector<std::string> all = part.assignments();

@@ -65,7 +65,10 @@ namespace {
     /// What was found of known targets.
     void printScore(const Analysis &analysis, const PingTruth &truth)
     {
-        const TrackScore score = scoreTracks(analysis.tracks, truth, analysis.grid(), {3, 1});
+        const std::vector<Axis> &axes = analysis.grid().axes;
+        std::vector<Index> gate(axes.size(), 1);
+        gate.front() = 3;
+        const TrackScore score = scoreTracks(analysis.tracks, truth, analysis.grid(), gate);
         for (std::size_t i = 0; i < score.targets.size(); ++i) {
             const TargetScore &own = score.targets[i];
             std::printf("target %zu: ", i + 1);
@@ -73,12 +76,14 @@ namespace {
                 std::printf("not found\n");
                 continue;
             }
-            std::printf("detected in its ping %td, %s, %d track(s), RMS error %.2f range cells and %.2f beams, "
-                        "followed in %td of %td pings\n",
+            std::printf("detected in its ping %td, %s, %d track(s), RMS error %.2f range cells and %.2f beams",
                         own.detectLatency,
                         own.isConfirmed() ? ("confirmed in " + std::to_string(own.confirmLatency)).c_str()
                                           : "not confirmed",
-                        own.tracks, own.rmsCells[0], own.rmsCells[1], own.matchedPoints, own.presentPings);
+                        own.tracks, own.rmsCells[0], own.rmsCells[1]);
+            for (std::size_t axis = 2; axis < axes.size(); ++axis)
+                std::printf(", %.2f cells of %s", own.rmsCells[axis], oneLine(axes[axis].name).c_str());
+            std::printf(", followed in %td of %td pings\n", own.matchedPoints, own.presentPings);
         }
         std::printf("false tracks: %d, of them confirmed: %d\n", score.falseTracks, score.falseConfirmed);
     }

@@ -43,7 +43,7 @@ namespace {
             writeTextFile(truth, scanTruth(scene, trajectory).dump(2) + "\n");
     }
 
-    /// Frames of shape (pings, ranges, beams), and the grid they lie on beside them: NAME.npy, NAME.grid.json.
+    /// Frames of shape (pings, ranges, beams …), and the grid they lie on beside them: NAME.npy, NAME.grid.json.
     void simulatePings(PingScene scene, int seed, const std::string &out, const std::string &truth,
                        const RunContext &context)
     {
@@ -52,7 +52,10 @@ namespace {
         if (seed >= 0)
             scene.seed = seed;
         const SimulatedPings pings(scene);
-        NumPyWriter writer(out, {pings.time().count, pings.grid().axes[0].count, pings.grid().axes[1].count});
+        std::vector<Index> shape{pings.time().count};
+        for (const Axis &axis : pings.grid().axes)
+            shape.push_back(axis.count);
+        NumPyWriter writer(out, shape);
         std::vector<float> y(std::size_t(pings.grid().size()));
         for (Index ping = 0; ping < pings.time().count; ++ping) {
             context.checkpoint(double(ping) / double(pings.time().count), "simulating pings");

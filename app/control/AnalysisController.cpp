@@ -301,7 +301,7 @@ AnalysisController::Opening AnalysisController::openNow(const QString &path, con
         return {std::move(opened), settings, {}, {}, warning};
     }
     const Session session = readSession(name);
-    OpenedSource opened = openSource(session.source, session.settings.pings, context);
+    OpenedSource opened = openSource(session.source, normalisationBy(session.settings), context);
     kindOf(opened); // throws for frames that cannot be shown
     return {std::move(opened),
             session.settings,

@@ -13,6 +13,7 @@ Comparer::Comparer(Document &document, QObject *parent) : QObject(parent), m_doc
         m_runner.cancel();
         m_result.reset();
         m_cost.reset();
+        m_keptSource.reset();
         emit changed();
     });
     connect(&document, &Document::analysisChanged, this, &Comparer::compare);
@@ -29,6 +30,7 @@ void Comparer::keep()
     if (!m_document.analysis())
         return;
     m_kept = m_document.analysis();
+    m_keptSource = m_document.source();
     m_cost.reset();
     emit keptChanged();
     compare();
@@ -36,9 +38,7 @@ void Comparer::keep()
 
 bool Comparer::isOfWhatIsOpen() const
 {
-    if (!m_kept)
-        return false;
-    return m_kept->recording ? m_kept->recording == m_document.recording() : m_kept->frames == m_document.frames();
+    return m_kept && m_keptSource == m_document.source();
 }
 
 void Comparer::computeHere()
@@ -48,8 +48,9 @@ void Comparer::computeHere()
     m_runner.start([this, opened = m_document.openedSource(), settings = m_kept->settings,
                     previous = m_document.analysis()](const RunContext &context) -> JobRunner::Delivery {
         auto analysis = analyse(opened, settings, context, previous.get());
-        return [this, analysis = std::move(analysis)] {
+        return [this, analysis = std::move(analysis), source = opened.source] {
             m_kept = analysis;
+            m_keptSource = source;
             m_cost.reset();
             emit keptChanged();
             compare();

@@ -70,6 +70,9 @@ private:
 
     Document &m_document;
     std::shared_ptr<const Analysis> m_kept;
+    /// What A was computed from; nothing after another opening. Frames from a file are no identity: settings may
+    /// normalise them anew.
+    std::optional<Source> m_keptSource;
     std::optional<Result> m_result;
     std::optional<Cost> m_cost;
     bool m_isActive = false;

@@ -12,13 +12,15 @@ std::optional<FramePlace> cursorOf(const Viewport &lines)
 
 std::optional<FramePlace> cursorOf(const PingViewports &pings)
 {
-    const PingViewports::Place &place = pings.place();
-    return FramePlace{place.seconds, {place.range, place.bearing}};
+    return FramePlace{pings.place().seconds, pings.place().position};
 }
 
 std::optional<FramePlace> cursorOf(Document &document, const PingViewports &pings)
 {
-    return document.frameKind().isSeenSingly ? cursorOf(pings) : cursorOf(document.viewport());
+    if (!document.frameKind().isSeenSingly)
+        return cursorOf(document.viewport());
+    const bool isOfThese = document.frames() && pings.place().position.size() == document.frames()->grid().axes.size();
+    return isOfThese ? cursorOf(pings) : std::nullopt; // otherwise of frames that were open before
 }
 
 } // namespace faintline

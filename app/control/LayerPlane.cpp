@@ -67,19 +67,20 @@ PingLayerPlane::PingLayerPlane(PingMap &map, PingViewports &viewports, QObject *
     map.polar()->canvas()->installEventFilter(watcher);
     connect(&viewports.map(), &Viewport::spanChanged, this, &LayerPlane::spanChanged);
     connect(&viewports, &PingViewports::placeChanged, this, &LayerPlane::cursorChanged);
+    connect(&viewports, &PingViewports::planeChanged, this, &LayerPlane::cursorChanged);
     connect(&map, &PingMap::polarChanged, this, &LayerPlane::shapeChanged);
 }
 
 LayerWindow PingLayerPlane::window(const Analysis &analysis) const
 {
-    const auto [ranges, bearings] = axes(analysis);
+    const auto [rows, columns] = axes(analysis);
     const Viewport &viewport = m_viewports.map();
-    const auto [firstRange, endRange] = cellsOf(ranges, viewport.time());
+    const auto [firstRow, endRow] = cellsOf(rows, viewport.time());
     // On a cyclic axis, the ends of a full view are neighbours.
-    const bool isAllRound = viewport.frequency().width() > bearings.step * double(bearings.count - 1);
-    const auto [firstBeam, endBeam] =
-        isAllRound ? std::pair(Index(0), bearings.count) : cellsOf(bearings, viewport.frequency());
-    LayerWindow window{firstRange, endRange, firstBeam, endBeam, ranges.count, bearings.count};
+    const bool isAllRound = viewport.frequency().width() > columns.step * double(columns.count - 1);
+    const auto [firstColumn, endColumn] =
+        isAllRound ? std::pair(Index(0), columns.count) : cellsOf(columns, viewport.frequency());
+    LayerWindow window{firstRow, endRow, firstColumn, endColumn, rows.count, columns.count};
     if (m_map.isPolar()) {
         const PolarView &polar = *m_map.polar();
         const double perPixel = polar.invTransform(QwtAxis::XBottom, 1.0) - polar.invTransform(QwtAxis::XBottom, 0.0);
@@ -94,7 +95,7 @@ LayerWindow PingLayerPlane::window(const Analysis &analysis) const
 
 std::pair<Axis, Axis> PingLayerPlane::axes(const Analysis &analysis) const
 {
-    return {analysis.grid().axes[0], analysis.grid().axes[1]};
+    return {analysis.grid().axes[shown().along], analysis.grid().axes[shown().across]};
 }
 
 void PingLayerPlane::replot()

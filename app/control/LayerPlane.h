@@ -2,6 +2,7 @@
 
 #include "app/control/FramePlace.h"
 #include "app/document/FrameKind.h"
+#include "base/FramePlane.h"
 
 #include <QObject>
 
@@ -27,8 +28,10 @@ public:
     LayerItem &item() const { return m_item; } ///< owned by the view
     WaterfallView &view() const { return m_view; }
 
-    /// Whether the picture shows a single frame, its rows along the frame's first axis; otherwise rows are frames.
+    /// Whether the picture shows a plane of a single frame; otherwise rows are frames.
     virtual bool isOfOneFrame() const = 0;
+    /// That plane; for frames on one axis, the initial one.
+    virtual const FramePlane &shown() const = 0;
     virtual std::optional<FramePlace> cursor() const = 0;
     /// The visible part, with a resolution limited to its pixels.
     virtual LayerWindow window(const Analysis &analysis) const = 0;
@@ -58,6 +61,7 @@ public:
     LineLayerPlane(WaterfallView &view, Viewport &viewport, QObject *watcher);
 
     bool isOfOneFrame() const override { return false; }
+    const FramePlane &shown() const override { return m_shown; }
     std::optional<FramePlace> cursor() const override { return cursorOf(m_viewport); }
     LayerWindow window(const Analysis &analysis) const override;
     std::pair<Axis, Axis> axes(const Analysis &analysis) const override;
@@ -65,15 +69,17 @@ public:
 
 private:
     const Viewport &m_viewport;
+    FramePlane m_shown;
 };
 
-/// Range × bearing of one ping, as a plane or from above.
+/// Two axes of one ping, as a plane or from above.
 class PingLayerPlane : public LayerPlane
 {
 public:
     PingLayerPlane(PingMap &map, PingViewports &viewports, QObject *watcher);
 
     bool isOfOneFrame() const override { return true; }
+    const FramePlane &shown() const override { return m_viewports.plane(); }
     std::optional<FramePlace> cursor() const override { return cursorOf(m_viewports); }
     LayerWindow window(const Analysis &analysis) const override;
     std::pair<Axis, Axis> axes(const Analysis &analysis) const override;

@@ -57,8 +57,9 @@ void OutputLayers::add(LayerPlane *plane)
 
 LayerPlane &OutputLayers::plane() const
 {
-    const auto own = std::find_if(m_planes.begin(), m_planes.end(),
-                                  [this](const LayerPlane *one) { return &one->kind() == &m_document.frameKind(); });
+    const auto own = std::find_if(m_planes.begin(), m_planes.end(), [this](const LayerPlane *one) {
+        return one->kind().isShownLike(m_document.frameKind());
+    });
     return own == m_planes.end() ? *m_planes.front() : **own;
 }
 
@@ -71,12 +72,12 @@ bool OutputLayers::isOffered(OutputLayer layer) const
 {
     if (layer == OutputLayer::Presence)
         return &m_document.frameKind() == &lineFrames();
-    return layer != OutputLayer::SecondRate || m_document.frameKind().rates.size() > 1;
+    return layer != OutputLayer::SecondRate || m_document.frameKind().isSeenSingly;
 }
 
 bool OutputLayers::isPossible() const
 {
-    return m_document.analysis() && &plane().kind() == &m_document.frameKind();
+    return m_document.analysis() && plane().kind().isShownLike(m_document.frameKind());
 }
 
 bool OutputLayers::eventFilter(QObject *watched, QEvent *event)
@@ -103,9 +104,9 @@ QString OutputLayers::heading() const
 {
     switch (m_layer) {
     case OutputLayer::Rate:
-        return tr("Winning %1 of each cell").arg(m_document.frameKind().rates.front());
+        return tr("Winning %1 of each cell").arg(rateName(plane().shown().along));
     case OutputLayer::SecondRate:
-        return tr("Winning %1 of each cell").arg(m_document.frameKind().rates.back());
+        return tr("Winning %1 of each cell").arg(rateName(plane().shown().across));
     case OutputLayer::Age:
         return tr("Age of each cell's best path");
     case OutputLayer::Reset:
@@ -118,6 +119,12 @@ QString OutputLayers::heading() const
         break;
     }
     return tr("Statistic D");
+}
+
+QString OutputLayers::rateName(std::size_t axis) const
+{
+    const Grid grid = m_document.plan() ? m_document.plan()->grid() : Grid();
+    return m_document.frameKind().rateName(axis < grid.axes.size() ? grid.axes[axis] : Axis());
 }
 
 void OutputLayers::cycleLayer()
@@ -158,7 +165,7 @@ void OutputLayers::followSpan()
 
 void OutputLayers::followCursor(const LayerPlane &of)
 {
-    if (&of.kind() != &m_document.frameKind() || !isWanted())
+    if (!of.kind().isShownLike(m_document.frameKind()) || !isWanted())
         return;
     if (of.isOfOneFrame()) // results for another frame are removed at once
         show();
@@ -173,13 +180,17 @@ OutputLayers::Place OutputLayers::placeOf(const FramePlace &place) const
     for (std::size_t axis = 0; axis < place.position.size(); ++axis)
         cell.push_back(grid.axes[axis].nearest(place.position[axis]));
     const Index frame = analysis.time().nearest(place.seconds);
-    return {frame, grid.cell(cell), plane().isOfOneFrame() ? cell.front() : frame, cell.back()};
+    if (!plane().isOfOneFrame())
+        return {frame, grid.cell(cell), frame, cell.back()};
+    const FramePlane &shown = plane().shown();
+    return {frame, grid.cell(cell), cell[shown.along], cell[shown.across]};
 }
 
 std::optional<OutputLayers::Place> OutputLayers::cursor() const
 {
     const auto at = plane().cursor();
-    return at ? std::optional(placeOf(*at)) : std::nullopt;
+    return at && at->position.size() == m_document.analysis()->grid().axes.size() ? std::optional(placeOf(*at))
+                                                                                  : std::nullopt;
 }
 
 /// The frame that a picture shows, if it shows a single one.
@@ -196,20 +207,20 @@ void OutputLayers::compute()
     const bool wantsPicture = m_layer != OutputLayer::Statistic;
     const LayerWindow wanted = plane().window(*analysis);
     const std::optional<Place> cursor = this->cursor();
-    m_runner.start([this, analysis, cursor, frame = singleFrame(cursor), wantsPicture, wanted,
+    m_runner.start([this, analysis, cursor, frame = singleFrame(cursor), wantsPicture, wanted, shown = plane().shown(),
                     isOfTracks = m_layer == OutputLayer::Presence](const RunContext &context) -> JobRunner::Delivery {
         if (!m_replay || m_replay->analysis() != analysis)
             m_replay = std::make_shared<LayerReplay>(
                 analysis, memoryShares::orSome(memoryShares::layerReplay, 4 * bytesOfStates(*analysis)));
-        Result result{analysis, {}, {}, cursor, frame};
+        Result result{analysis, {}, {}, cursor, frame, shown};
         if (wantsPicture)
             result.picture =
                 std::make_shared<const LayerPicture>(isOfTracks ? presencePicture(*analysis, wanted)
-                                                     : frame    ? layerPictureOf(*m_replay, *frame, wanted, context)
-                                                                : layerPicture(*m_replay, wanted, context));
+                                                     : frame ? layerPictureOf(*m_replay, *frame, wanted, shown, context)
+                                                             : layerPicture(*m_replay, wanted, context));
         if (cursor)
             result.atCursor = readCell(
-                *analysis, m_replay->at(cursor->frame, context, {cursor->cell, cursor->cell + 1}), cursor->cell);
+                *analysis, m_replay->at(cursor->frame, context, {cursor->cell, cursor->cell + 1}), cursor->cell, shown);
         return [this, result] {
             if (m_document.analysis() != result.analysis)
                 return;
@@ -226,7 +237,7 @@ std::optional<CellReading> OutputLayers::readingAt(const FramePlace &at) const
     if (!analysis || m_result.analysis != analysis)
         return {};
     const Place place = placeOf(at);
-    if (m_result.frame && m_result.frame != place.frame)
+    if (m_result.frame && (m_result.frame != place.frame || m_result.shown != plane().shown()))
         return {};
     if (m_result.atCursor && m_result.cursor == place)
         return m_result.atCursor;
@@ -248,7 +259,7 @@ void OutputLayers::show()
     const bool isKnown = analysis && m_result.analysis == analysis && m_result.picture
                          && m_layer != OutputLayer::Statistic
                          && (m_layer == OutputLayer::Presence) == !m_result.picture->presence.empty();
-    if (!isKnown || m_result.frame != singleFrame(cursor())) {
+    if (!isKnown || m_result.frame != singleFrame(cursor()) || m_result.shown != plane.shown()) {
         item.setPicture(nullptr, {}, {});
         return plane.replot();
     }
@@ -263,9 +274,9 @@ void OutputLayers::showLayer(LayerItem &item)
 {
     switch (m_layer) {
     case OutputLayer::Rate:
-        return showRates(item, 0);
+        return showRates(item, plane().shown().along);
     case OutputLayer::SecondRate:
-        return showRates(item, 1);
+        return showRates(item, plane().shown().across);
     case OutputLayer::Age:
         return showAges(item);
     case OutputLayer::Reset:
@@ -284,7 +295,7 @@ void OutputLayers::showRates(LayerItem &item, std::size_t axis)
     const double largest = largestRate(*m_document.analysis(), axis);
     const QString name = QString::fromStdString(m_document.analysis()->grid().axes[axis].unit);
     const FrequencyUnit unit = name == QLatin1String("Hz") ? rateUnit(largest) : FrequencyUnit{name + "/s", 1.0};
-    const QString title = tr("Winning %1 (%2)").arg(m_document.frameKind().rates[axis], unit.name);
+    const QString title = tr("Winning %1 (%2)").arg(rateName(axis), unit.name);
     item.setLayer(m_layer, {-largest, largest}, title, unit.hz);
 }
 

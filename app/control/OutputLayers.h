@@ -73,6 +73,7 @@ private:
         std::optional<CellReading> atCursor;
         std::optional<Place> cursor;
         std::optional<Index> frame; ///< the only frame in the picture
+        FramePlane shown;           ///< of that frame
     };
 
     void add(LayerPlane *plane);
@@ -83,6 +84,7 @@ private:
     void followSpan();
     void followCursor(const LayerPlane &of);
     void compute();
+    QString rateName(std::size_t axis) const;
     Place placeOf(const FramePlace &place) const;
     std::optional<Place> cursor() const;
     std::optional<Index> singleFrame(const std::optional<Place> &cursor) const;

@@ -11,7 +11,7 @@ namespace {
 
     ScenePlace placeOf(const PingMarks::Place &place)
     {
-        return {place.range, place.bearing};
+        return {place.along, place.across};
     }
 
 } // namespace
@@ -28,6 +28,7 @@ SceneEditor::SceneEditor(Document &document, const PingViewports &viewports, QOb
             setRateUnit(rateUnitOf(*scene()));
         emit sceneChanged();
     });
+    connect(&viewports, &PingViewports::planeChanged, this, &SceneEditor::mapChanged);
     connect(&document, &Document::settingsChanged, this, [this] {
         emit sceneChanged();
         keepSelection();
@@ -220,13 +221,18 @@ void SceneEditor::abandon()
     keepSelection();
 }
 
+SceneEditor::Place SceneEditor::cursor() const
+{
+    const std::vector<double> &position = m_viewports.place().position;
+    return position.size() < 2 ? Place() : Place{position[0], position[1]};
+}
+
 void SceneEditor::addTarget()
 {
     if (!scene())
         return;
-    const PingViewports::Place &cursor = m_viewports.place();
     const int target = int(scene()->targets.size());
-    setDraft(withTargetAt({cursor.range, cursor.bearing}));
+    setDraft(withTargetAt(cursor()));
     commit(tr("Place a target"));
     select(target < int(scene()->targets.size()) ? TargetHandle{target, 0} : TargetHandle{});
 }
@@ -235,10 +241,9 @@ void SceneEditor::addLeg()
 {
     if (!scene() || m_selected.isNone())
         return;
-    const PingViewports::Place &cursor = m_viewports.place();
     try {
         const int target = m_selected.target;
-        setDraft(withLeg(*scene(), target, {cursor.range, cursor.bearing}));
+        setDraft(withLeg(*scene(), target, cursor()));
         commit(tr("Draw a leg"));
         select({target, int(scene()->targets[std::size_t(target)].legs.size())});
     } catch (const Error &error) {

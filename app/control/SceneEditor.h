@@ -62,7 +62,11 @@ public:
     void removeSelected();
     void clear();
 
+    /// Whether the maps show range and bearing, on which targets are placed.
+    bool isOnMap() const { return m_viewports.plane().along == 0 && m_viewports.plane().across == 1; }
+
 signals:
+    void mapChanged(); ///< they may show other axes
     void sceneChanged();
     void selectionChanged();
     void placingChanged(bool isPlacing);
@@ -72,6 +76,7 @@ signals:
 private:
     enum class Gesture { None, Move, Draw };
 
+    Place cursor() const;
     PingScene withTargetAt(const Place &place) const;
     PingScene withLeg(const PingScene &scene, int target, const Place &place) const;
     void keepSelection();

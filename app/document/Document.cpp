@@ -112,9 +112,9 @@ void Document::setSaved(const QString &sessionPath)
 void Document::setAnalysis(std::shared_ptr<const Analysis> analysis, std::vector<Event> events)
 {
     m_analysis = std::move(analysis);
-    if (m_opened.frames) { // recorded pings may have been normalised anew
+    if (m_opened.frames) { // they may have been normalised anew
         m_opened.frames = m_analysis->frames;
-        m_opened.pings = m_analysis->settings.pings;
+        m_opened.normalisation = normalisationBy(m_analysis->settings);
     }
     m_provisional.reset();
     m_events = std::move(events);

@@ -1,7 +1,5 @@
 #include "app/document/FrameKind.h"
 
-#include "base/Error.h"
-
 #include <QCoreApplication>
 
 namespace faintline {
@@ -23,8 +21,7 @@ const FrameKind &lineFrames()
         .cellsPerFrame = tr("bins/frame"),
         .cellPerFrame = tr("bin/frame"),
         .signal = tr("a line"),
-        .rates = {tr("slope")},
-        .preset = {},
+        .rate = tr("slope"),
         .ageUnit = {},
         .handLineHint = tr("Press Draw and drag a line through the input where you expect a signal. Cover the "
                            "statistic first to make it a prediction."),
@@ -41,8 +38,7 @@ const FrameKind &pingFrames()
         .cellsPerFrame = tr("cells/ping"),
         .cellPerFrame = tr("cell/ping"),
         .signal = tr("a target"),
-        .rates = {tr("range rate"), tr("bearing rate")},
-        .preset = "sonar",
+        .rate = tr("%1 rate"),
         .ageUnit = tr("pings"),
         .handLineHint = tr("Lines can be drawn through recordings, not through pings."),
         .sections = {QStringLiteral("conventional")},
@@ -52,17 +48,26 @@ const FrameKind &pingFrames()
     return kind;
 }
 
-const FrameKind &frameKindOf(const Grid &grid, const std::string &where)
+const FrameKind &scanFrames()
 {
-    switch (const std::size_t count = grid.axes.size()) {
-    case 1:
+    static const FrameKind kind = [] {
+        FrameKind scans = pingFrames();
+        scans.frame = tr("scan");
+        scans.frames = tr("scans");
+        scans.cellsPerFrame = tr("cells/scan");
+        scans.cellPerFrame = tr("cell/scan");
+        scans.ageUnit = tr("scans");
+        scans.handLineHint = tr("Lines can be drawn through recordings, not through scans.");
+        return scans;
+    }();
+    return kind;
+}
+
+const FrameKind &frameKindOf(const Grid &grid)
+{
+    if (grid.isSpectrum())
         return lineFrames();
-    case 2:
-        return pingFrames();
-    default:
-        throw Error(where, "has frames on " + std::to_string(count)
-                               + " axes; at most two can be shown (faintline-cli sequential accepts more)");
-    }
+    return grid.axes.size() == 2 ? pingFrames() : scanFrames();
 }
 
 } // namespace faintline

@@ -9,20 +9,19 @@
 
 namespace faintline {
 
-/// Operations and terms for the frames of a source. There are two kinds: frames of a recording's spectrum, with cells
-/// over frequency, and sonar pings, with cells over range and bearing.
+/// Operations and terms for the frames of a source. There are three kinds: frames of a recording's spectrum, with cells
+/// over frequency; sonar pings, with cells over range and bearing; and a radar's scans, with cells over more axes.
 ///
 /// All differences in their treatment are defined here, instead of by counting axes.
 struct FrameKind {
-    QString frame;              ///< "frame", "ping"
-    QString frames;             ///< "frames", "pings"
-    QString cellsPerFrame;      ///< the unit of rates: "bins/frame", "cells/ping"
-    QString cellPerFrame;       ///< of fractions of it: "bin/frame", "cell/ping"
-    QString signal;             ///< what is detected: "a line", "a target"
-    std::vector<QString> rates; ///< along each axis: "slope"; "range rate", "bearing rate"
-    std::string preset;         ///< initial preset for a source; empty: the defaults
-    QString ageUnit;            ///< of the age of paths; empty: s or h
-    QString handLineHint;       ///< how a line is drawn by hand, or why none can be
+    QString frame;         ///< "frame", "ping"
+    QString frames;        ///< "frames", "pings"
+    QString cellsPerFrame; ///< the unit of rates: "bins/frame", "cells/ping"
+    QString cellPerFrame;  ///< of fractions of it: "bin/frame", "cell/ping"
+    QString signal;        ///< what is detected: "a line", "a target"
+    QString rate;          ///< along an axis of the name %1: "slope"; "%1 rate"
+    QString ageUnit;       ///< of the age of paths; empty: s or h
+    QString handLineHint;  ///< how a line is drawn by hand, or why none can be
     /// Sections of the settings for this kind alone.
     std::vector<QString> sections;
 
@@ -31,14 +30,18 @@ struct FrameKind {
     bool takesBoxes = true;
     /// Each frame is a separate picture. The one under the cursor is shown.
     bool isSeenSingly = false;
+
+    /// Whether the same parts of the window show frames of the other kind.
+    bool isShownLike(const FrameKind &other) const { return isSeenSingly == other.isSeenSingly; }
+    QString rateName(const Axis &axis) const { return rate.arg(QString::fromStdString(axis.name)); }
 };
 
-/// The kind of frames on a grid of one or two axes. There is one object per kind, so their addresses can be compared.
-/// Throws Error naming `where` for more axes.
-const FrameKind &frameKindOf(const Grid &grid, const std::string &where = "frames");
+/// The kind of frames on a grid. There is one object per kind, so their addresses can be compared.
+const FrameKind &frameKindOf(const Grid &grid);
 
 /// The kind of a recording's frames.
 const FrameKind &lineFrames();
-const FrameKind &pingFrames();
+const FrameKind &pingFrames(); ///< two axes
+const FrameKind &scanFrames(); ///< more axes, of which two are shown at a time
 
 } // namespace faintline

@@ -21,7 +21,7 @@ namespace {
     {
         checkKeys(json, "view",
                   {"seconds", "hz", "cursor", "orientation", "colourMap", "logarithmic", "radio", "firstChannel",
-                   "bearing", "cursorBearing", "polar"});
+                   "bearing", "cursorBearing", "polar", "axes", "position", "sliced"});
         ViewState view;
         if (json.contains("seconds") && json.contains("hz"))
             view.visible = {spanFromJson(json["seconds"]), spanFromJson(json["hz"])};
@@ -32,6 +32,12 @@ namespace {
         if (json.contains("cursorBearing"))
             view.cursorBearing = json["cursorBearing"].get<double>();
         view.isPolar = json.value("polar", false);
+        if (json.contains("axes"))
+            view.axes = {wholeNumber<std::size_t>(json["axes"].at(0), "axes"),
+                         wholeNumber<std::size_t>(json["axes"].at(1), "axes")};
+        if (json.contains("position"))
+            view.position = json["position"].get<std::vector<double>>();
+        view.isSliced = json.value("sliced", false);
         view.orientation = QString::fromStdString(json.value("orientation", std::string()));
         view.colourMap = QString::fromStdString(json.value("colourMap", std::string()));
         view.isLogarithmic = json.value("logarithmic", false);
@@ -58,6 +64,12 @@ Json toJson(const ViewState &view)
         json["cursorBearing"] = *view.cursorBearing;
     if (view.isPolar)
         json["polar"] = true;
+    if (view.axes)
+        json["axes"] = {view.axes->first, view.axes->second};
+    if (!view.position.empty())
+        json["position"] = view.position;
+    if (view.isSliced)
+        json["sliced"] = true;
     json["orientation"] = view.orientation.toStdString();
     json["colourMap"] = view.colourMap.toStdString();
     if (view.isLogarithmic)

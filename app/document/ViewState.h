@@ -6,6 +6,8 @@
 #include <QString>
 
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace faintline {
 
@@ -23,6 +25,11 @@ struct ViewState {
     std::optional<Span> bearing{}; ///< visible
     std::optional<double> cursorBearing{};
     bool isPolar = false;
+
+    // For frames on more than two axes; the frequency and the bearing above are then along and across the map.
+    std::optional<std::pair<std::size_t, std::size_t>> axes{}; ///< along, across
+    std::vector<double> position{};                            ///< of the cursor, on all axes
+    bool isSliced = false;                                     ///< hidden axes are cut at the cursor
 };
 
 /// As a session keeps it.

@@ -1,5 +1,6 @@
 #include "app/document/sourceAt.h"
 
+#include "analysis/firstSettings.h"
 #include "app/base/filePath.h"
 #include "base/json.h"
 #include "recording/AudioRecording.h"
@@ -28,13 +29,12 @@ QString nameOf(const Source &source)
 
 const FrameKind &kindOf(const OpenedSource &opened)
 {
-    return opened.frames ? frameKindOf(opened.frames->grid(), opened.source.path) : lineFrames();
+    return opened.frames ? frameKindOf(opened.frames->grid()) : lineFrames();
 }
 
 AnalysisSettings firstSettings(const OpenedSource &opened)
 {
-    const std::string &name = kindOf(opened).preset;
-    return name.empty() ? AnalysisSettings() : preset(name).settings;
+    return opened.frames ? firstSettings(opened.frames->grid()) : AnalysisSettings();
 }
 
 bool needsRawOptions(const QString &path, const OpenOptions &options)

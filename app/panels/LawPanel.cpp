@@ -36,7 +36,9 @@ namespace {
 
     QString slopeTitle(const FrameKind &kind, int perBin)
     {
-        const QString rate = kind.rates.size() == 1 ? kind.rates.front() : LawPanel::tr("either rate");
+        const QString rate = &kind == &lineFrames()   ? kind.rate
+                             : &kind == &pingFrames() ? LawPanel::tr("either rate")
+                                                      : LawPanel::tr("any rate");
         const QString unit = perBin == 1 ? kind.cellsPerFrame
                                          : QStringLiteral("1/%1 %2").arg(QString::number(perBin), kind.cellPerFrame);
         return LawPanel::tr("Change of %1 (%2)").arg(rate, unit);
@@ -81,7 +83,8 @@ std::vector<LawPanel::Law> LawPanel::lawsOf(const Analysis &analysis) const
 {
     const ModelSettings &model = m_document.settings().model;
     const FrameKind &kind = m_document.frameKind();
-    const auto rates = int(kind.rates.size());
+    const std::vector<Axis> &grid = analysis.grid().axes;
+    const auto rates = int(grid.size());
     if (model.motion == Motion::Slopes)
         return {{QStringLiteral("model.slopeChange"), slopeTitle(kind, model.slopesPerBin), model.slopeChange,
                  analysis.model.space.axes().front().rateCount - 1, rates}};
@@ -92,9 +95,9 @@ std::vector<LawPanel::Law> LawPanel::lawsOf(const Analysis &analysis) const
             {{}, tr("Rates do not change from %1 to %1 (%2)").arg(kind.frame, kind.cellsPerFrame), {1.0}, 0, rates}};
     const std::vector<KinematicAxis> &axes = turningSpace(analysis).axes();
     const auto title = [&](const QString &rate) { return tr("Change of %1 (%2)").arg(rate, kind.cellsPerFrame); };
-    return {{QStringLiteral("model.rangeRateChange"), title(kind.rates[0]), model.rangeRateChange,
+    return {{QStringLiteral("model.rangeRateChange"), title(kind.rateName(grid[0])), model.rangeRateChange,
              axes[0].rateCount - 1, 1},
-            {QStringLiteral("model.bearingRateChange"), title(kind.rates[1]), model.bearingRateChange,
+            {QStringLiteral("model.bearingRateChange"), title(kind.rateName(grid[1])), model.bearingRateChange,
              axes[1].rateCount - 1, 1}};
 }
 
@@ -102,7 +105,7 @@ void LawPanel::show()
 {
     const auto &analysis = m_document.analysis();
     if (!analysis || analysis->model.space.axes().empty()
-        || analysis->model.space.axes().size() != m_document.frameKind().rates.size())
+        || analysis->model.space.axes().size() != analysis->grid().axes.size())
         return;
     std::vector<Law> laws = lawsOf(*analysis);
     while (m_laws.size() > laws.size()) {

@@ -119,12 +119,15 @@ void PipelinePanel::showSettings()
     m_form->setSettings(m_document.settings());
     m_form->setHzPerSecondOfABinAFrame(
         m_document.recording() ? hzPerSecondOfABinAFrame(m_document.settings(), m_document.recording()->info()) : 0.0);
-    for (const char *stage : {"selection", "spectrogram", "noise", "family", "subtract"})
-        m_form->setSectionShown(QString::fromLatin1(stage), m_document.isEmpty() || m_document.recording());
+    const bool hasSamples = m_document.isEmpty() || m_document.recording();
+    for (const char *stage : {"spectrogram", "family", "subtract"})
+        m_form->setSectionShown(QString::fromLatin1(stage), hasSamples);
+    for (const char *stage : {"selection", "noise"})
+        m_form->setSectionShown(QString::fromLatin1(stage), hasSamples || m_document.openedSource().isPower);
     m_form->setSectionShown(QStringLiteral("pings"), m_document.openedSource().isRecordedPings());
     for (const FrameKind *kind : {&lineFrames(), &pingFrames()})
         for (const QString &section : kind->sections)
-            m_form->setSectionShown(section, kind == &m_document.frameKind());
+            m_form->setSectionShown(section, kind->isShownLike(m_document.frameKind()));
     int taken = 1;
     while (taken < m_preset->count() && withSelection(presetAt(taken).settings) != m_document.settings())
         ++taken;

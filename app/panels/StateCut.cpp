@@ -24,11 +24,10 @@ namespace {
     std::vector<Axis> readableAxes(const Analysis &analysis, std::size_t model)
     {
         std::vector<Axis> axes = stateAxes(analysis, model);
-        const FrameKind &kind = frameKindOf(analysis.grid());
-        if (kind.rates.size() > 1)
+        if (!analysis.grid().isSpectrum())
             return axes;
         Axis &rate = axes.back();
-        rate.name = kind.rates.front().toStdString();
+        rate.name = lineFrames().rateName(analysis.grid().axes.front()).toStdString();
         if (rate.unit != "Hz/s")
             return axes;
         const FrequencyUnit unit = rateUnit(std::max(std::abs(rate.first), std::abs(rate.last())));

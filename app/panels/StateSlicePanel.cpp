@@ -304,8 +304,8 @@ void StateSlicePanel::followCursor()
     }
     PingViewports::Place place = m_viewports.place();
     const auto take = [&](std::size_t axis, double value) {
-        if (axis < 2)
-            (axis == 0 ? place.range : place.bearing) = value;
+        if (axis < place.position.size())
+            place.position[axis] = value;
     };
     take(m_shownAxes.first, m_viewport.cursor()->seconds);
     take(m_shownAxes.second, m_viewport.cursor()->hz);

@@ -113,6 +113,7 @@ void TargetsPanel::addLayers(PingMap &map)
 
 void TargetsPanel::connectInputs()
 {
+    connect(m_editor, &SceneEditor::mapChanged, this, &TargetsPanel::updateLayers);
     connect(m_place, &QPushButton::toggled, m_editor, &SceneEditor::setPlacing);
     connect(m_addTarget, &QPushButton::clicked, m_editor, &SceneEditor::addTarget);
     connect(m_addLeg, &QPushButton::clicked, m_editor, &SceneEditor::addLeg);
@@ -163,7 +164,7 @@ void TargetsPanel::setActive(bool isActive)
 /// Without an analysis the maps have no axes to place anything on.
 void TargetsPanel::updateLayers()
 {
-    const bool isShown = m_isActive && m_editor->scene() && m_document.analysis();
+    const bool isShown = m_isActive && m_editor->scene() && m_editor->isOnMap() && m_document.analysis();
     for (TargetLayer *layer : m_layers)
         layer->setActive(isShown);
 }

@@ -3,6 +3,7 @@
 #include "app/control/AnalysisController.h"
 #include "app/control/RecordingCheck.h"
 #include "app/document/statisticUnit.h"
+#include "app/panels/MainSettings.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/quantities.h"
 #include "widgets/plot/ExceedancePlot.h"
@@ -12,11 +13,13 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include <algorithm>
+
 namespace faintline {
 
-ThresholdPanel::ThresholdPanel(ExceedancePlot &plot, AnalysisController &controller, RecordingCheck &check,
-                               QWidget *parent)
-    : QWidget(parent), m_plot(plot), m_controller(controller), m_check(check), m_row(new QWidget),
+ThresholdPanel::ThresholdPanel(ExceedancePlot &plot, MainSettings &main, AnalysisController &controller,
+                               RecordingCheck &check, QWidget *parent)
+    : QWidget(parent), m_plot(plot), m_main(main), m_controller(controller), m_check(check), m_row(new QWidget),
       m_sentence(new QLabel), m_cure(new QPushButton)
 {
     m_sentence->setObjectName(QStringLiteral("ownNoise"));
@@ -31,11 +34,40 @@ ThresholdPanel::ThresholdPanel(ExceedancePlot &plot, AnalysisController &control
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
+    layout->setSizeConstraint(QLayout::SetNoConstraint); // otherwise the settings would keep the panel tall
     layout->addWidget(&plot, 1);
     layout->addWidget(m_row);
+    layout->addWidget(&main);
+    main.hide();
+    connect(&main, &MainSettings::applicableChanged, this, &ThresholdPanel::showWhatFits);
     connect(m_cure, &QPushButton::clicked, this, &ThresholdPanel::cure);
     connect(&check, &RecordingCheck::changed, this, &ThresholdPanel::refresh);
     refresh();
+}
+
+void ThresholdPanel::setMainSettingsWanted(bool areWanted)
+{
+    m_areMainWanted = areWanted;
+    showWhatFits();
+}
+
+void ThresholdPanel::showWhatFits()
+{
+    constexpr int lowestPlot = 120;
+    m_main.setVisible(m_areMainWanted && m_main.isApplicable() && height() >= m_main.sizeHint().height() + lowestPlot);
+}
+
+QSize ThresholdPanel::minimumSizeHint() const
+{
+    const int row = m_row->isHidden() ? 0 : m_row->sizeHint().height();
+    const QSize plot = m_plot.minimumSizeHint();
+    return {std::max(plot.width(), m_main.minimumSizeHint().width()), plot.height() + row};
+}
+
+void ThresholdPanel::resizeEvent(QResizeEvent *event)
+{
+    showWhatFits();
+    QWidget::resizeEvent(event);
 }
 
 void ThresholdPanel::refresh()

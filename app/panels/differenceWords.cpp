@@ -10,7 +10,7 @@ QString differenceWords(const SettingDifference &difference)
         const QString word = QString::fromStdString(text);
         if (word.isEmpty())
             return QStringLiteral("–");
-        return difference.field.kind == FieldKind::Choice ? choiceLabel(word) : word;
+        return difference.field.kind == FieldKind::Choice ? choiceLabel(difference.field, word) : word;
     };
     const QString name = QString::fromStdString(difference.field.name);
     const QString label = name == QLatin1String("detector.kind") ? stageLabel(QStringLiteral("detector"))

@@ -30,6 +30,12 @@ Json toJson(const RenderOptions &options, const std::string &view)
     tell("range", options.range);
     tell("bearing", options.bearing);
     tell("step", options.step);
+    if (!options.position.empty())
+        json["position"] = options.position;
+    if (!options.axes.empty())
+        json["axes"] = options.axes;
+    if (options.isSliced)
+        json["sliced"] = true;
     if (options.scale != 1.0)
         json["scale"] = options.scale;
     if (options.layer != "statistic")
@@ -61,6 +67,9 @@ RenderOptions renderOptionsFromJson(const Json &json)
     take("frequency", options.hz);
     take("range", options.range);
     take("bearing", options.bearing);
+    options.position = json.value("position", std::vector<double>());
+    options.axes = json.value("axes", std::vector<std::string>());
+    options.isSliced = json.value("sliced", false);
     options.layer = json.value("layer", options.layer);
     options.isLayerOver = json.value("overlay", false);
     options.isFocused = json.value("focused", true);

@@ -23,6 +23,9 @@ struct RenderOptions {
     std::optional<double> hz;
     std::optional<double> range; ///< of pings
     std::optional<double> bearing;
+    std::vector<double> position;  ///< of the cursor in pings or scans, on every axis; empty: as range and bearing say
+    std::vector<std::string> axes; ///< names of the two shown, of frames on more than two
+    bool isSliced = false;         ///< the other axes are cut at the cursor; otherwise their maxima are shown
     std::string layer = "statistic"; ///< of the output (outputLayerNames)
     bool isLayerOver = false;        ///< over the statistic
     std::string theme = "light";

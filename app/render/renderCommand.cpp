@@ -85,7 +85,7 @@ namespace {
             explainCursor(window);
         for (const std::string &view : views)
             if (isOf(WindowView::Of::Pings, view) && !window.pingBench().isInUse())
-                throw Error("--view " + view, "requires pings on range and bearing");
+                throw Error("--view " + view, "requires pings or scans");
             else if (isOf(WindowView::Of::Survey, view))
                 throw Error("--view " + view, "requires a survey (.sqlite)");
         if (has("latency"))
@@ -108,7 +108,18 @@ namespace {
 
     void placeCursor(MainWindow &window, const RenderOptions &options)
     {
-        window.bench().setPlace({options.seconds, options.hz, options.range, options.bearing});
+        PingBench &pings = window.pingBench();
+        const std::size_t axes = pings.isInUse() ? window.document().analysis()->grid().axes.size() : 1;
+        if (!options.position.empty() && options.position.size() != axes)
+            throw Error("--position", "has " + std::to_string(options.position.size()) + " numbers; the frames have "
+                                          + std::to_string(axes) + " axes");
+        if ((!options.axes.empty() || options.isSliced) && axes < 3)
+            throw Error(options.axes.empty() ? "--slice" : "--axes", "requires frames on more than two axes");
+        if (!options.axes.empty())
+            pings.setAxes(options.axes);
+        window.bench().setPlace({options.seconds, options.hz, options.range, options.bearing, options.position});
+        if (options.isSliced)
+            pings.setSliced(true);
     }
 
     /// Provenance of what the window shows; for a radar's scans, the settings of their test.

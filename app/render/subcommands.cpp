@@ -79,6 +79,20 @@ CLI::App *addRender(CLI::App &program, RenderOptions &options, std::string &size
     command->add_option("--range", options.range, "Range of the cursor in pings, in the unit of the range axis");
     command->add_option("--bearing", options.bearing, "Bearing of the cursor in pings, degrees");
     command
+        ->add_option("--axes", options.axes,
+                     "Names of the two axes shown, of scans on more than two axes, separated by a comma, such as "
+                     "range,Doppler; by default the first two")
+        ->delimiter(',')
+        ->expected(2)
+        ->allow_extra_args(false);
+    command->add_flag("--slice", options.isSliced, "Cut the other axes at the cursor instead of showing their maxima");
+    command
+        ->add_option("--position", options.position,
+                     "Position of the cursor in pings or scans: one number for each axis, in its unit, separated by "
+                     "commas")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    command
         ->add_option("--layer", options.layer,
                      "Layer of the output: statistic, rate, bearing-rate (pings only), age, reset, inhibited or "
                      "presence (lines only)")
@@ -153,6 +167,9 @@ void checkNumbers(const RenderOptions &options)
     for (const auto &[name, number] : numbers)
         if (number && !std::isfinite(*number))
             throw Error(name, "must be a finite number");
+    for (const double number : options.position)
+        if (!std::isfinite(number))
+            throw Error("--position", "must consist of finite numbers");
 }
 
 } // namespace faintline

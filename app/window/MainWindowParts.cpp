@@ -18,6 +18,7 @@
 #include "app/panels/HandLinePanel.h"
 #include "app/panels/InfoPanel.h"
 #include "app/panels/LatencyPanel.h"
+#include "app/panels/MainSettings.h"
 #include "app/panels/NoiseFitPanel.h"
 #include "app/panels/PipelinePanel.h"
 #include "app/panels/ReproductionPanel.h"
@@ -42,6 +43,7 @@
 #include "widgets/plot/StripPlot.h"
 #include "widgets/waterfall/OverviewStrip.h"
 
+#include <QDockWidget>
 #include <QLabel>
 #include <QStackedWidget>
 #include <QStatusBar>
@@ -96,7 +98,7 @@ void MainWindow::buildPanels()
     m_events->setEmptySentence(tr("No event at this threshold."));
     m_reviews = new EventReviews(
         m_document, *m_events,
-        {m_workbench->input(), m_workbench->output(), m_pings->rangeHistory(), m_pings->bearingHistory()}, this);
+        {m_workbench->input(), m_workbench->output(), m_pings->alongHistory(), m_pings->acrossHistory()}, this);
     m_reviews->setClassNames(m_memory.classNames());
     m_reviews->addMaps({m_pings->input(), m_pings->output()});
     m_boxAnalysis = new BoxAnalysis(m_document, m_controller, {m_workbench->input(), m_workbench->output()}, this);
@@ -131,9 +133,12 @@ void MainWindow::buildDocks()
 {
     using Place = Panels::Place;
     m_panels->add(QStringLiteral("pipelineDock"), tr("Pipeline"), m_pipeline, Place::Left);
+    auto *main = new MainSettings(m_document, m_controller);
+    auto *threshold = new ThresholdPanel(*m_threshold, *main, m_controller, m_check);
     // The threshold is above the events so that both are visible while dragging.
-    m_panels->add(QStringLiteral("thresholdDock"), tr("Threshold"),
-                  new ThresholdPanel(*m_threshold, m_controller, m_check), Place::RightTop);
+    m_panels->add(QStringLiteral("thresholdDock"), tr("Threshold"), threshold, Place::RightTop);
+    connect(static_cast<QDockWidget *>(m_pipeline->parentWidget()), &QDockWidget::visibilityChanged, threshold,
+            [threshold](bool isVisible) { threshold->setMainSettingsWanted(!isVisible); });
     m_panels->add(QStringLiteral("eventsDock"), tr("Events"), m_events, Place::RightBottom);
     m_panels->add(QStringLiteral("whyDock"), tr("Why"), m_why, Place::RightBottom);
     m_panels->add(QStringLiteral("noiseDock"), tr("Noise"), m_info, Place::RightBottom);

@@ -118,7 +118,7 @@ void Panels::takeDefault()
     }
     m_window.resizeDocks({left, right}, {width * 16 / 100, std::max(narrowestColumn, width * 18 / 100)},
                          Qt::Horizontal);
-    m_window.resizeDocks({right, first(Place::RightBottom)}, isNarrow ? QList<int>{1, 1} : QList<int>{4, 5},
+    m_window.resizeDocks({right, first(Place::RightBottom)}, isNarrow ? QList<int>{5, 3} : QList<int>{4, 5},
                          Qt::Vertical);
 }
 

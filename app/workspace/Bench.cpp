@@ -43,7 +43,7 @@ Bench::Bench(Document &document, const FrameKind &kind, std::chrono::millisecond
 
 bool Bench::isInUse() const
 {
-    return &m_document.frameKind() == &m_kind;
+    return m_document.frameKind().isShownLike(m_kind);
 }
 
 // ---- parts ---------------------------------------------------------------------------------------------------------
@@ -60,6 +60,13 @@ void Bench::addHistory(WaterfallView &view, QWidget &pane, std::size_t axis)
     m_historyPanes->addWidget(&pane);
     m_stack->add(view, pane);
     connect(&view, &WaterfallView::orientationChanged, this, [this, &view] { arrange(view); });
+}
+
+void Bench::setHistoryAxis(const WaterfallView &view, std::size_t axis)
+{
+    for (Picture &picture : m_pictures)
+        if (picture.view == &view)
+            picture.axis = axis;
 }
 
 void Bench::add(const Picture &picture)

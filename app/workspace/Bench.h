@@ -19,7 +19,8 @@ class OutputLayers;
 class TimeStack;
 
 /// Central part of the window while a document is open: the pictures and the navigation in them. There is one bench for
-/// each kind of frames; it follows the document only while the document's frames are of its kind.
+/// frames that form one picture and one for frames that are seen singly; it follows the document only while the
+/// document's frames are of its sort.
 ///
 /// A bench consists of *planes* (two axes of one frame), *histories* (one axis over time, with the events, tracks and
 /// truth along it) and *strips* (curves over time). Bench links them, shows what they have in common and steps through
@@ -35,6 +36,8 @@ public:
         std::optional<double> hz;
         std::optional<double> range;
         std::optional<double> bearing;
+        /// Of pings and scans, one per axis of the grid, in its unit; empty: as range and bearing say, the first two.
+        std::vector<double> position{};
     };
 
     /// `stepInterval`: between two steps while frames are played.
@@ -87,6 +90,8 @@ protected:
     /// Adds a picture of one axis of the frames over time, or of the largest values along it. `pane`: the view, or the
     /// widget that contains it.
     void addHistory(WaterfallView &view, QWidget &pane, std::size_t axis);
+    /// Makes it the history of another axis; `showEvents` and `showTruth` then draw its marks.
+    void setHistoryAxis(const WaterfallView &view, std::size_t axis);
     /// Stacks the parts with these initial heights; the first takes what the window has left.
     void addRows(const std::vector<std::pair<QWidget *, int>> &rows);
     static QSplitter *newSplitter(Qt::Orientation orientation);

@@ -1,6 +1,7 @@
 #include "app/workspace/PingBar.h"
 
 #include "widgets/base/Theme.h"
+#include "widgets/base/quantities.h"
 
 #include <QCheckBox>
 #include <QHBoxLayout>
@@ -35,14 +36,13 @@ namespace {
 } // namespace
 
 PingBar::PingBar(QWidget *parent)
-    : QWidget(parent), m_slider(new QSlider(Qt::Horizontal)),
+    : QWidget(parent), m_slider(new QSlider(Qt::Horizontal)), m_previous(button(tr("−1"), {})),
+      m_next(button(tr("+1"), {})),
       m_polar(checkBox(tr("From above"), tr("Range and bearing as seen from above, north up (P)"))),
       m_reading(new QLabel)
 {
     m_slider->setRange(0, 0);
     m_slider->setPageStep(10);
-    m_slider->setAccessibleName(tr("Ping"));
-    m_slider->setToolTip(tr("The ping shown; J and L step, Space plays, Shift+Space plays backwards"));
     connect(m_slider, &QSlider::valueChanged, this, [this](int value) { emit pingRequested(value); });
     m_reading->setFont(Theme::font(12));
     m_reading->setTextFormat(Qt::PlainText);
@@ -55,17 +55,24 @@ PingBar::PingBar(QWidget *parent)
     layout->setSpacing(0);
     layout->addLayout(buildRow());
     layout->addWidget(m_reading);
+    setFrameName(tr("ping"));
+}
+
+void PingBar::setFrameName(const QString &name)
+{
+    m_slider->setAccessibleName(capitalised(name));
+    m_slider->setToolTip(tr("The %1 shown; J and L step, Space plays, Shift+Space plays backwards").arg(name));
+    m_previous->setToolTip(tr("One %1 back (J)").arg(name));
+    m_next->setToolTip(tr("One %1 forward (L)").arg(name));
 }
 
 QLayout *PingBar::buildRow()
 {
     auto *backward = button(tr("◀"), tr("Play backwards (Shift+Space)"));
-    auto *previous = button(tr("−1"), tr("One ping back (J)"));
-    auto *next = button(tr("+1"), tr("One ping forward (L)"));
     auto *play = button(tr("▶"), tr("Play (Space)"));
     connect(backward, &QToolButton::clicked, this, &PingBar::backwardClicked);
-    connect(previous, &QToolButton::clicked, this, [this] { emit stepRequested(-1); });
-    connect(next, &QToolButton::clicked, this, [this] { emit stepRequested(1); });
+    connect(m_previous, &QToolButton::clicked, this, [this] { emit stepRequested(-1); });
+    connect(m_next, &QToolButton::clicked, this, [this] { emit stepRequested(1); });
     connect(play, &QToolButton::clicked, this, &PingBar::playClicked);
     auto *inhibition = checkBox(tr("Inhibited"), tr("Show the inhibited boxes around tracks"));
     inhibition->setChecked(true);
@@ -80,9 +87,9 @@ QLayout *PingBar::buildRow()
     row->setContentsMargins(8, 2, 8, 0);
     row->setSpacing(6);
     row->addWidget(backward);
-    row->addWidget(previous);
+    row->addWidget(m_previous);
     row->addWidget(m_slider, 1);
-    row->addWidget(next);
+    row->addWidget(m_next);
     row->addWidget(play);
     row->addSpacing(10);
     for (QCheckBox *box : {inhibition, conventional, m_polar})
@@ -105,6 +112,11 @@ void PingBar::setPing(Index ping)
 void PingBar::setPolar(bool isPolar)
 {
     m_polar->setChecked(isPolar);
+}
+
+void PingBar::setPolarPossible(bool isPossible)
+{
+    m_polar->setEnabled(isPossible);
 }
 
 void PingBar::setReading(const QString &words)

@@ -7,6 +7,7 @@
 class QCheckBox;
 class QLabel;
 class QSlider;
+class QToolButton;
 
 namespace faintline {
 
@@ -21,6 +22,9 @@ public:
     void setPingCount(Index count);
     void setPing(Index ping);
     void setPolar(bool isPolar);
+    void setPolarPossible(bool isPossible);
+    /// "ping", "scan": what is stepped through.
+    void setFrameName(const QString &name);
     void setReading(const QString &words);
     QString reading() const;
 
@@ -37,6 +41,8 @@ private:
     QLayout *buildRow();
 
     QSlider *m_slider;
+    QToolButton *m_previous;
+    QToolButton *m_next;
     QCheckBox *m_polar;
     QLabel *m_reading;
 };

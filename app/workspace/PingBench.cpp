@@ -1,12 +1,14 @@
 #include "app/workspace/PingBench.h"
 
 #include "app/control/OutputLayers.h"
+#include "app/workspace/AxesBar.h"
 #include "app/workspace/PingBar.h"
 #include "app/workspace/PingRegulation.h"
 #include "app/workspace/pingReading.h"
 #include "app/workspace/strongestPlace.h"
 #include "spectrum/pictureCuts.h"
 #include "widgets/base/TimeStack.h"
+#include "widgets/base/labelText.h"
 #include "widgets/pings/PingMap.h"
 #include "widgets/pings/PolarView.h"
 
@@ -14,6 +16,7 @@
 #include <QSplitter>
 
 #include <algorithm>
+#include <tuple>
 
 namespace faintline {
 
@@ -26,16 +29,17 @@ namespace {
 PingBench::PingBench(Document &document, OutputLayers &layers, QWidget *parent)
     : Bench(document, pingFrames(), stepInterval, parent), m_layers(layers), m_viewports(document.viewport()),
       m_input(new PingMap(tr("Input (dB over noise)"), m_viewports.map())),
-      m_output(new PingMap(tr("Statistic D (nat)"), m_viewports.map())), m_bar(new PingBar),
-      m_rangeHistory(new WaterfallView(tr("D over range, best bearing"))),
-      m_bearingHistory(new WaterfallView(tr("D over bearing, best range"))),
-      m_regulation(new PingRegulation(m_viewports.rangeTime())), m_maps(newSplitter(Qt::Horizontal))
+      m_output(new PingMap(tr("Statistic D (nat)"), m_viewports.map())), m_bar(new PingBar), m_axesBar(new AxesBar),
+      m_alongHistory(new WaterfallView(tr("D over range, best bearing"))),
+      m_acrossHistory(new WaterfallView(tr("D over bearing, best range"))),
+      m_regulation(new PingRegulation(m_viewports.alongTime())), m_maps(newSplitter(Qt::Horizontal))
 {
     setObjectName(QStringLiteral("pingBench"));
     layOut();
     buildHistories();
     linkViews();
     linkBar();
+    linkAxes();
     layers.addPings(*m_output, m_viewports);
     connect(&layers, &OutputLayers::layerChanged, this, &PingBench::showHeading);
     whenInUse(&layers, &OutputLayers::readingChanged, &PingBench::readCursor);
@@ -79,6 +83,7 @@ void PingBench::setEmptySentence(const QString &sentence)
         map->setPicture(nullptr, {});
     m_regulation->clear(sentence);
     m_bar->setReading({});
+    m_axesBar->setGrid({});
 }
 
 // ---- what is shown -------------------------------------------------------------------------------------------------
@@ -88,20 +93,51 @@ void PingBench::showAnalysis()
     const Analysis &analysis = *m_document.analysis();
     const Grid &grid = analysis.grid();
     const bool isFirst = takeFirstAnalysis();
-    showHeading();
     if (isFirst)
         followExtents();
+    showHeading();
     // Only on the map: maxima over an axis exceed the threshold nearly everywhere.
     m_output->plane()->setThreshold(analysis.threshold);
-    m_rangeHistory->setPicture(analysis.statisticAlong[0], grid.axes[0]);
-    m_bearingHistory->setPicture(analysis.statisticAlong[1], grid.axes[1]);
-    showTruth();
+    m_axesBar->setGrid(grid);
     m_regulation->show(analysis);
     m_bar->setPingCount(analysis.time().count);
+    m_bar->setFrameName(m_document.frameKind().frame);
     m_shownPing = -1;
     if (isFirst)
         placeCursor();
+    showAxes();
+}
+
+/// What depends on the axes shown, besides the maps.
+void PingBench::showAxes()
+{
+    const Analysis &analysis = *m_document.analysis();
+    const Grid &grid = analysis.grid();
+    const FramePlane &plane = m_viewports.plane();
+    const auto nameOf = [&](std::size_t axis) { return labelText(grid.axes[axis].name, mostUnitLetters); };
+    const auto show = [&](WaterfallView &history, std::size_t axis, std::size_t other) {
+        history.setHeading(grid.axes.size() == 2 ? tr("D over %1, best %2").arg(nameOf(axis), nameOf(other))
+                                                 : tr("D over %1, largest over the other axes").arg(nameOf(axis)));
+        history.setPicture(analysis.statisticAlong[axis], grid.axes[axis]);
+        setHistoryAxis(history, axis);
+    };
+    show(*m_alongHistory, plane.along, plane.across);
+    show(*m_acrossHistory, plane.across, plane.along);
+    m_bar->setPolarPossible(isPolarPossible());
+    if (!isPolarPossible())
+        setPolar(false);
+    showTruth();
+    showEvents();
+    m_shownPing = -1;
     followPlace();
+}
+
+/// Seen from above, or from the side: a distance, and an angle in degrees.
+bool PingBench::isPolarPossible() const
+{
+    const std::vector<Axis> &axes = m_document.analysis()->grid().axes;
+    const FramePlane &plane = m_viewports.plane();
+    return axes.size() == 2 || (axes[plane.across].unit == "°" && axes[plane.along].name == "range");
 }
 
 void PingBench::setColourBarShown(bool isShown)
@@ -124,23 +160,26 @@ void PingBench::followExtents()
     const Analysis &analysis = *m_document.analysis();
     const auto whole = [](const Axis &axis) { return Span{axis.value(-0.5), axis.value(double(axis.count) - 0.5)}; };
     constexpr double fewestCells = 4.0;
-    const Axis &range = analysis.grid().axes[0];
-    const Axis &bearing = analysis.grid().axes[1];
-    m_viewports.setExtents(whole(analysis.time()), whole(range), whole(bearing),
-                           {fewestCells * analysis.time().step, fewestCells * range.step, fewestCells * bearing.step});
+    const auto extent = [&](const Axis &axis) { return PingViewports::Extent{whole(axis), fewestCells * axis.step}; };
+    std::vector<PingViewports::Extent> extents;
+    for (const Axis &axis : analysis.grid().axes)
+        extents.push_back(extent(axis));
+    m_isSliced = false;
+    m_viewports.setExtents(extent(analysis.time()), std::move(extents));
 }
 
 void PingBench::placeCursor()
 {
-    const Viewport::Box &map = m_viewports.map().full();
-    const double middle = m_viewports.rangeTime().full().time.middle();
-    m_viewports.setPlace(
-        strongestPlace(m_document).value_or(PingViewports::Place{middle, map.time.middle(), map.frequency.middle()}));
+    PingViewports::Place middle{m_viewports.alongTime().full().time.middle(), {}};
+    for (const Axis &axis : m_document.analysis()->grid().axes)
+        middle.position.push_back(axis.value(0.5 * double(axis.count - 1)));
+    m_viewports.setPlace(strongestPlace(m_document).value_or(middle));
 }
 
 QString PingBench::hint() const
 {
-    return tr("J and L step through the pings, Space plays them, P shows them from above, N goes to the next track.");
+    return tr("J and L step through the %1, Space plays them, P shows them from above, N goes to the next track.")
+        .arg(m_document.frameKind().frames);
 }
 
 QWidget *PingBench::inputView() const
@@ -161,15 +200,22 @@ WaterfallView *PingBench::firstView() const
 Bench::Place PingBench::place() const
 {
     const PingViewports::Place &place = m_viewports.place();
-    return {place.seconds, {}, place.range, place.bearing};
+    const auto on = [&](std::size_t axis) {
+        return axis < place.position.size() ? std::optional(place.position[axis]) : std::nullopt;
+    };
+    return {place.seconds, {}, on(0), on(1), place.position};
 }
 
 void PingBench::setPlace(const Place &wanted)
 {
     PingViewports::Place place = m_viewports.place();
     place.seconds = wanted.seconds.value_or(place.seconds);
-    place.range = wanted.range.value_or(place.range);
-    place.bearing = wanted.bearing.value_or(place.bearing);
+    for (std::size_t axis = 0; axis < place.position.size(); ++axis) {
+        if (axis < wanted.position.size())
+            place.position[axis] = wanted.position[axis];
+        else if (const auto &value = axis == 0 ? wanted.range : wanted.bearing; axis < 2 && value)
+            place.position[axis] = *value;
+    }
     m_viewports.setPlace(place);
 }
 
@@ -183,9 +229,13 @@ void PingBench::followPlace()
     if (!m_document.analysis())
         return;
     const Analysis &analysis = *m_document.analysis();
+    cut();
+    m_axesBar->show(m_viewports.plane(), m_viewports.place().position, m_isSliced);
     if (const Index now = ping(); now != m_shownPing) {
         m_shownPing = now;
-        m_input->setPicture(pictureOfFrame(*analysis.input, analysis.grid(), now), analysis.grid().axes[1]);
+        const FramePlane &plane = m_viewports.plane();
+        m_input->setPicture(pictureOfFrame(*analysis.input, analysis.grid(), now, plane),
+                            analysis.grid().axes[plane.across]);
         showStatistic();
         m_bar->setPing(now);
         showMarks();
@@ -209,9 +259,10 @@ void PingBench::showStatistic()
         return;
     const Analysis &analysis = *m_document.analysis();
     const PeakPyramid *now = provisional();
-    m_output->setPicture(now ? pictureOfFrame(*now, analysis.grid(), 0)
-                             : pictureOfFrame(*analysis.statistic, analysis.grid(), m_shownPing),
-                         analysis.grid().axes[1]);
+    const FramePlane &plane = m_viewports.plane();
+    m_output->setPicture(now ? pictureOfFrame(*now, analysis.grid(), 0, plane)
+                             : pictureOfFrame(*analysis.statistic, analysis.grid(), m_shownPing, plane),
+                         analysis.grid().axes[plane.across]);
     showHeading();
 }
 
@@ -219,21 +270,23 @@ void PingBench::showMarks()
 {
     if (m_shownPing < 0)
         return;
-    m_marks = pingMarks(*m_document.analysis(), m_document.shownTracks(), m_document.pingTruth(), m_shownPing);
+    m_marks = pingMarks(*m_document.analysis(), m_document.shownTracks(), m_document.pingTruth(), m_shownPing,
+                        m_viewports.plane());
     m_input->setMarks(m_marks);
     m_output->setMarks(m_marks);
 }
 
-void PingBench::read(double range, double bearing)
+void PingBench::read(double along, double across)
 {
     if (m_shownPing >= 0)
-        m_bar->setReading(pingReading({*m_document.analysis(), *m_input, *m_output, m_layers, m_marks}, m_shownPing,
-                                      {range, bearing}));
+        m_bar->setReading(
+            pingReading({*m_document.analysis(), *m_input, *m_output, m_layers, m_marks, m_viewports.plane()},
+                        m_shownPing, {along, across}));
 }
 
 void PingBench::readCursor()
 {
-    read(m_viewports.place().range, m_viewports.place().bearing);
+    read(m_viewports.along(), m_viewports.across());
 }
 
 QString PingBench::reading() const
@@ -251,8 +304,8 @@ void PingBench::showPing(Index ping)
     PingViewports::Place place = m_viewports.place();
     place.seconds = time.value(double(std::clamp<Index>(ping, 0, time.count - 1)));
     m_viewports.setPlace(place);
-    const double range = place.range;
-    m_viewports.rangeTime().reveal({{place.seconds, place.seconds}, {range, range}});
+    const double along = m_viewports.along();
+    m_viewports.alongTime().reveal({{place.seconds, place.seconds}, {along, along}});
 }
 
 void PingBench::stepFrames(int frames)
@@ -268,10 +321,10 @@ void PingBench::markSelected(int track)
 
 void PingBench::goTo(const Event &event)
 {
-    const double range = event.position[0], bearing = event.position[1];
-    m_viewports.setPlace({event.detectSeconds, range, bearing});
-    m_viewports.map().reveal({{range, range}, {bearing, bearing}});
-    m_viewports.rangeTime().reveal({{event.onsetSeconds, event.endSeconds}, {range, range}});
+    m_viewports.setPlace({event.detectSeconds, event.position});
+    const double along = m_viewports.along(), across = m_viewports.across();
+    m_viewports.map().reveal({{along, along}, {across, across}});
+    m_viewports.alongTime().reveal({{event.onsetSeconds, event.endSeconds}, {along, along}});
 }
 
 void PingBench::setPlayingBackward(bool isPlaying)
@@ -285,8 +338,97 @@ int PingBench::framesToPlay(int direction) const
     return m_document.analysis() && next >= 0 && next < m_document.analysis()->time().count ? direction : 0;
 }
 
+// ---- axes ----------------------------------------------------------------------------------------------------------
+
+void PingBench::setAxes(std::size_t along, std::size_t across)
+{
+    const std::vector<AxesBar::Pair> pairs =
+        m_document.analysis() ? pairsOfAxes(m_document.analysis()->grid()) : std::vector<AxesBar::Pair>();
+    const auto found = std::ranges::find_if(pairs, [&](const AxesBar::Pair &pair) {
+        return pair == AxesBar::Pair(along, across) || pair == AxesBar::Pair(across, along);
+    });
+    if (found == pairs.end())
+        throw Error("axes", "must be two different axes of the frames");
+    FramePlane plane;
+    std::tie(plane.along, plane.across) = *found;
+    if (plane.along == m_viewports.plane().along && plane.across == m_viewports.plane().across)
+        return;
+    m_viewports.setPlane(plane);
+    showAxes();
+    showHeading();
+}
+
+void PingBench::setAxes(const std::vector<std::string> &names)
+{
+    const std::vector<Axis> axes = m_document.analysis() ? m_document.analysis()->grid().axes : std::vector<Axis>();
+    std::string known;
+    for (const Axis &axis : axes)
+        known += (known.empty() ? "" : ", ") + axis.name;
+    std::vector<std::size_t> found;
+    for (const std::string &name : names) {
+        const auto at = std::ranges::find(axes, name, &Axis::name);
+        if (at == axes.end())
+            throw Error("--axes " + name, known.empty() ? "requires pings or scans" : "must be one of " + known);
+        found.push_back(std::size_t(at - axes.begin()));
+    }
+    if (found.size() != 2 || found[0] == found[1])
+        throw Error("--axes", "must be two different axes of " + known);
+    setAxes(found[0], found[1]);
+}
+
+void PingBench::setSliced(bool isSliced)
+{
+    m_isSliced = isSliced;
+    followPlace();
+}
+
+/// Cuts hidden axes at the cursor, or none.
+void PingBench::cut()
+{
+    const std::vector<Axis> &axes = m_document.analysis()->grid().axes;
+    const PingViewports::Place &place = m_viewports.place();
+    FramePlane plane = m_viewports.plane();
+    plane.cuts.clear();
+    for (std::size_t axis = 0; m_isSliced && axes.size() > 2 && axis < place.position.size(); ++axis)
+        plane.cuts.push_back(plane.isShown(axis) ? std::nullopt
+                                                 : std::optional(axes[axis].nearest(place.position[axis])));
+    if (plane == m_viewports.plane())
+        return;
+    m_viewports.setPlane(plane);
+    m_shownPing = -1;
+}
+
+/// Where maxima are shown, a click goes to the cell behind the place that has the largest D.
+void PingBench::goBehind()
+{
+    if (m_isSliced || !m_document.analysis() || !isInUse() || m_document.analysis()->grid().axes.size() == 2)
+        return;
+    const Analysis &analysis = *m_document.analysis();
+    const Grid &grid = analysis.grid();
+    const FramePlane &plane = m_viewports.plane();
+    const std::vector<double> behind = grid.position(
+        strongestCell(*analysis.statistic, grid, ping(), plane, grid.axes[plane.along].nearest(m_viewports.along()),
+                      grid.axes[plane.across].nearest(m_viewports.across())));
+    PingViewports::Place place = m_viewports.place();
+    for (std::size_t axis = 0; axis < behind.size(); ++axis)
+        if (!plane.isShown(axis))
+            place.position[axis] = behind[axis];
+    m_viewports.setPlace(place);
+}
+
+void PingBench::goToCell(std::size_t axis, Index cell)
+{
+    PingViewports::Place place = m_viewports.place();
+    if (!m_document.analysis() || axis >= place.position.size())
+        return;
+    place.position[axis] = m_document.analysis()->grid().axes[axis].value(double(cell));
+    m_viewports.setPlace(place);
+}
+
 void PingBench::setPolar(bool isPolar)
 {
+    if (isPolar && m_document.analysis() && isInUse() && !isPolarPossible())
+        return;
     m_input->setPolar(isPolar);
     m_output->setPolar(isPolar);
 }
@@ -297,12 +439,17 @@ ViewState PingBench::viewState() const
 {
     ViewState view;
     if (!m_viewports.map().isEmpty()) {
-        if (!m_viewports.rangeTime().showsAll() || !m_viewports.bearingTime().showsAll()) {
-            view.visible = m_viewports.rangeTime().visible();
+        if (!m_viewports.alongTime().showsAll() || !m_viewports.acrossTime().showsAll()) {
+            view.visible = m_viewports.alongTime().visible();
             view.bearing = m_viewports.map().frequency();
         }
-        view.cursor = Viewport::Point{m_viewports.place().seconds, m_viewports.place().range};
-        view.cursorBearing = m_viewports.place().bearing;
+        view.cursor = Viewport::Point{m_viewports.place().seconds, m_viewports.along()};
+        view.cursorBearing = m_viewports.across();
+        if (m_viewports.place().position.size() > 2) {
+            view.axes = {m_viewports.plane().along, m_viewports.plane().across};
+            view.position = m_viewports.place().position;
+            view.isSliced = m_isSliced;
+        }
     }
     view.isPolar = m_output->isPolar();
     view.colourMap = m_output->plane()->colourMap().name();
@@ -311,16 +458,37 @@ ViewState PingBench::viewState() const
 
 void PingBench::restore(const ViewState &view)
 {
+    restoreAxes(view);
     if (view.visible)
-        m_viewports.rangeTime().zoomTo(view.visible->time, view.visible->frequency);
+        m_viewports.alongTime().zoomTo(view.visible->time, view.visible->frequency);
     if (view.bearing)
         m_viewports.map().zoomTo(m_viewports.map().time(), *view.bearing);
-    if (view.cursor)
-        m_viewports.setPlace(
-            {view.cursor->seconds, view.cursor->hz, view.cursorBearing.value_or(m_viewports.place().bearing)});
+    if (view.cursor) {
+        PingViewports::Place place = m_viewports.place();
+        place.seconds = view.cursor->seconds;
+        if (view.position.size() == place.position.size()) {
+            place.position = view.position;
+        } else if (place.position.size() >= 2) {
+            place.position[0] = view.cursor->hz;
+            place.position[1] = view.cursorBearing.value_or(place.position[1]);
+        }
+        m_viewports.setPlace(place);
+    }
     setPolar(view.isPolar);
     if (!view.colourMap.isEmpty())
         m_output->plane()->setColourMap(view.colourMap);
+}
+
+/// Of a session of frames on more than two axes; ignored if it does not fit these frames.
+void PingBench::restoreAxes(const ViewState &view)
+{
+    const std::size_t count = m_document.analysis() ? m_document.analysis()->grid().axes.size() : 0;
+    if (!view.axes || count <= 2)
+        return;
+    const auto [along, across] = *view.axes;
+    if (along < count && across < count && along != across)
+        setAxes(along, across);
+    m_isSliced = view.isSliced;
 }
 
 } // namespace faintline

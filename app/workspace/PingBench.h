@@ -8,15 +8,18 @@ class QSplitter;
 
 namespace faintline {
 
+class AxesBar;
 class PingBar;
 class PingMap;
 class PingRegulation;
 
-/// Sonar pings: input and statistic of one ping as maps of range × bearing; below, range and bearing of the tracks
-/// against time, and ln K. What runs along time from left to right is above each other on one time axis.
+/// Sonar pings and a radar's scans: input and statistic of one ping as maps of two of its axes, such as range × bearing;
+/// below, both axes of the tracks against time, and ln K. What runs along time from left to right is above each other
+/// on one time axis.
 ///
-/// The ping at the cursor is shown. All pictures share one range, one bearing and one time axis (PingViewports). Keys:
-/// J and L step, Space plays, Shift+Space plays backwards, P shows the map from above.
+/// The ping at the cursor is shown. All pictures share the two axes and one time axis (PingViewports). Axes that are not
+/// shown are reduced to their maxima, or cut at the cursor. Keys: J and L step, Space plays, Shift+Space plays backwards,
+/// P shows the map from above.
 class PingBench : public Bench
 {
     Q_OBJECT
@@ -27,8 +30,8 @@ public:
 
     PingMap *input() const { return m_input; }
     PingMap *output() const { return m_output; }
-    WaterfallView *rangeHistory() const { return m_rangeHistory; }
-    WaterfallView *bearingHistory() const { return m_bearingHistory; }
+    WaterfallView *alongHistory() const { return m_alongHistory; }
+    WaterfallView *acrossHistory() const { return m_acrossHistory; }
     QWidget *inputView() const override;
     QWidget *outputView() const override;
     WaterfallView *firstView() const override;
@@ -43,6 +46,14 @@ public:
     void setPlace(const Place &place) override;
 
     Index ping() const; ///< the ping shown
+
+    /// The axes shown. Throws Error if the grid does not have both, or if they are the same.
+    void setAxes(std::size_t along, std::size_t across);
+    /// By their names, as on the command line.
+    void setAxes(const std::vector<std::string> &names);
+    /// Whether hidden axes are cut at the cursor; otherwise their maxima are shown.
+    bool isSliced() const { return m_isSliced; }
+    void setSliced(bool isSliced);
     QString reading() const;
 
     void setEmptySentence(const QString &sentence) override;
@@ -80,20 +91,29 @@ private:
     void followExtents();
     void placeCursor();
     void followPlace();
-    void read(double range, double bearing);
+    void linkAxes();
+    void showAxes();
+    void cut();
+    void goBehind();
+    void goToCell(std::size_t axis, Index cell);
+    void restoreAxes(const ViewState &view);
+    bool isPolarPossible() const;
+    void read(double along, double across);
 
     OutputLayers &m_layers;
     PingViewports m_viewports;
     PingMap *m_input;
     PingMap *m_output;
-    PingBar *m_bar; ///< below the maps
-    WaterfallView *m_rangeHistory;
-    WaterfallView *m_bearingHistory;
+    PingBar *m_bar;     ///< below the maps
+    AxesBar *m_axesBar; ///< above them
+    WaterfallView *m_alongHistory;
+    WaterfallView *m_acrossHistory;
     PingRegulation *m_regulation;
     QSplitter *m_maps;
     PingMarks m_marks;
     Index m_shownPing = -1; ///< ping shown in the maps; -1: none
     bool m_areMapsFirst = false;
+    bool m_isSliced = false;
 };
 
 } // namespace faintline

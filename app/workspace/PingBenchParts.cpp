@@ -1,5 +1,6 @@
 // Parts of the bench of pings, their layout and their links.
 
+#include "app/workspace/AxesBar.h"
 #include "app/workspace/PingBar.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/PingRegulation.h"
@@ -15,7 +16,7 @@ namespace faintline {
 void PingBench::layOut()
 {
     constexpr int lowestHistory = 96; // pixels, of one above the other
-    for (WaterfallView *view : {m_rangeHistory, m_bearingHistory})
+    for (WaterfallView *view : {m_alongHistory, m_acrossHistory})
         view->setMinimumHeight(lowestHistory);
     m_maps->addWidget(m_input);
     m_maps->addWidget(m_output);
@@ -23,12 +24,13 @@ void PingBench::layOut()
     auto *column = new QVBoxLayout(mapsAndBar);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(0);
+    column->addWidget(m_axesBar);
     column->addWidget(m_maps, 1);
     column->addWidget(m_bar);
     addPlane(*m_output->plane());
     addPlane(*m_input->plane());
-    addHistory(*m_rangeHistory, *m_rangeHistory, 0);
-    addHistory(*m_bearingHistory, *m_bearingHistory, 1);
+    addHistory(*m_alongHistory, *m_alongHistory, 0);
+    addHistory(*m_acrossHistory, *m_acrossHistory, 1);
     timeStack().add(m_regulation->plot(), *m_regulation);
     addRows({{mapsAndBar, 450}, {historyPanes(), 250}, {m_regulation, 120}});
 }
@@ -38,10 +40,10 @@ void PingBench::buildHistories()
 {
     m_input->setObjectName(QStringLiteral("pingInput"));
     m_output->setObjectName(QStringLiteral("pingOutput"));
-    m_rangeHistory->setViewport(&m_viewports.rangeTime());
-    m_bearingHistory->setViewport(&m_viewports.bearingTime());
-    m_rangeHistory->setOrientation(WaterfallView::Orientation::LeftToRight); // the other follows
-    arrange(*m_rangeHistory);
+    m_alongHistory->setViewport(&m_viewports.alongTime());
+    m_acrossHistory->setViewport(&m_viewports.acrossTime());
+    m_alongHistory->setOrientation(WaterfallView::Orientation::LeftToRight); // the other follows
+    arrange(*m_alongHistory);
 }
 
 void PingBench::linkBar()
@@ -56,6 +58,15 @@ void PingBench::linkBar()
     }
     connect(m_bar, &PingBar::polarToggled, this, &PingBench::setPolar);
     connect(m_output, &PingMap::polarChanged, m_bar, &PingBar::setPolar);
+}
+
+void PingBench::linkAxes()
+{
+    connect(m_axesBar, &AxesBar::axesChosen, this, qOverload<std::size_t, std::size_t>(&PingBench::setAxes));
+    connect(m_axesBar, &AxesBar::slicedChosen, this, &PingBench::setSliced);
+    connect(m_axesBar, &AxesBar::cellChosen, this, &PingBench::goToCell);
+    connect(&m_viewports, &PingViewports::cursorMoved, this, &PingBench::goBehind);
+    connect(&m_document, &Document::opened, this, [this] { m_viewports.setPlane({}); });
 }
 
 void PingBench::linkViews()

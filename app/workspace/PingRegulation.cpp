@@ -1,6 +1,7 @@
 #include "app/workspace/PingRegulation.h"
 
 #include "analysis/regulation.h"
+#include "app/document/FrameKind.h"
 #include "app/workspace/RegulationPlot.h"
 
 #include <QLabel>
@@ -30,12 +31,14 @@ void PingRegulation::show(const Analysis &analysis)
     m_plot->setBand(band.deviation > 0.0 ? std::optional(Span{band.low(), band.high()}) : std::nullopt);
     const std::vector<Index> dragged = draggedFrames(analysis);
     m_dragged->setVisible(!dragged.empty());
+    const FrameKind &kind = frameKindOf(analysis.grid());
     if (!dragged.empty())
-        m_dragged->setText(tr("⚠ ln K lies below its noise band in %1 of %2 pings, first in ping %3. Signals without a "
+        m_dragged->setText(tr("⚠ ln K lies below its noise band in %1 of %2 %4, first in %5 %3. Signals without a "
                               "track lower it, and with it every other statistic.")
                                .arg(dragged.size())
                                .arg(analysis.lnK.size())
-                               .arg(dragged.front() + 1));
+                               .arg(dragged.front() + 1)
+                               .arg(kind.frames, kind.frame));
 }
 
 void PingRegulation::clear(const QString &emptySentence)

@@ -1,6 +1,8 @@
 #include "app/workspace/pingReading.h"
 
 #include "app/control/OutputLayers.h"
+#include "app/document/FrameKind.h"
+#include "spectrum/pictureCuts.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 #include "widgets/pings/PingMap.h"
@@ -32,7 +34,7 @@ namespace {
 
     QString valueText(const WaterfallView &view, const PingMarks::Place &place)
     {
-        const auto there = view.valueAt(place.range, place.bearing);
+        const auto there = view.valueAt(place.along, place.across);
         return there ? numberText(*there, 1) : QStringLiteral("–");
     }
 
@@ -41,30 +43,44 @@ namespace {
         return numberText(perSecond, decimalsFor(axis.step / time.step)) + unitText(axis) + QStringLiteral("/s");
     }
 
+    QString hiddenText(const Grid &grid, const FramePlane &plane, const std::vector<double> &position)
+    {
+        QStringList words;
+        for (std::size_t axis = 0; axis < position.size(); ++axis)
+            if (!plane.isShown(axis))
+                words << labelText(grid.axes[axis].name, mostUnitLetters) + QLatin1Char(' ')
+                             + axisText(grid.axes[axis], position[axis]);
+        return words.isEmpty() ? QString() : QStringLiteral(" (%1)").arg(words.join(QStringLiteral(", ")));
+    }
+
 } // namespace
 
 QString pingReading(const PingPictures &pictures, Index ping, const PingMarks::Place &place)
 {
     const Axis &time = pictures.analysis.time();
-    const Axis &ranges = pictures.analysis.grid().axes[0];
-    const Axis &bearings = pictures.analysis.grid().axes[1];
-    const PingMarks::Place cell{ranges.value(double(ranges.nearest(place.range))),
-                                bearings.value(double(bearings.nearest(place.bearing)))};
+    const Grid &grid = pictures.analysis.grid();
+    const Axis &along = grid.axes[pictures.plane.along];
+    const Axis &across = grid.axes[pictures.plane.across];
+    const Index row = along.nearest(place.along);
+    const Index column = across.nearest(place.across);
+    const PingMarks::Place cell{along.value(double(row)), across.value(double(column))};
+    const std::vector<double> position =
+        grid.position(strongestCell(*pictures.analysis.statistic, grid, ping, pictures.plane, row, column));
     QStringList words{
-        tr("ping %1/%2").arg(ping + 1).arg(time.count),
+        tr("%1 %2/%3").arg(frameKindOf(grid).frame).arg(ping + 1).arg(time.count),
         secondsText(time.value(double(ping)), 1.0),
-        axisText(ranges, cell.range),
-        axisText(bearings, cell.bearing),
+        axisText(along, cell.along),
+        axisText(across, cell.across) + hiddenText(grid, pictures.plane, position),
         tr("y %1 dB").arg(valueText(*pictures.input.plane(), cell)),
         tr("D %1 %2").arg(valueText(*pictures.output.plane(), cell), pictures.output.plane()->valueUnit())};
-    if (const auto best = pictures.layers.readingAt({time.value(double(ping)), {cell.range, cell.bearing}}))
+    if (const auto best = pictures.layers.readingAt({time.value(double(ping)), position}))
         words << tr("best state %1, %2")
-                     .arg(rateText(ranges, time, best->ratePerSecond),
-                          rateText(bearings, time, best->secondRatePerSecond))
+                     .arg(rateText(along, time, best->ratePerSecond), rateText(across, time, best->secondRatePerSecond))
               << tr("path age %1").arg(std::lround(best->ageSeconds / time.step));
     if (const PingMarks::Box *box = pictures.marks.boxAt(cell))
-        words << (box->pings == 1 ? tr("inhibited: track %1, from now on").arg(box->track)
-                                  : tr("inhibited: track %1, %2 pings").arg(box->track).arg(box->pings));
+        words << (box->pings == 1
+                      ? tr("inhibited: track %1, from now on").arg(box->track)
+                      : tr("inhibited: track %1, %2 %3").arg(box->track).arg(box->pings).arg(frameKindOf(grid).frames));
     return words.join(QStringLiteral(" · "));
 }
 

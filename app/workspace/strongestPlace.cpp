@@ -22,9 +22,7 @@ std::optional<PingViewports::Place> strongestPlace(const Document &document)
     const auto at = std::find_if(track->points.begin(), track->points.end(),
                                  [&](const TrackPoint &point) { return point.frame >= middle; });
     const TrackPoint &point = at == track->points.end() ? track->points.back() : *at;
-    const std::vector<Index> c = analysis.grid().coordinates(point.cell);
-    return PingViewports::Place{analysis.time().value(double(point.frame)), analysis.grid().axes[0].value(double(c[0])),
-                                analysis.grid().axes[1].value(double(c[1]))};
+    return PingViewports::Place{analysis.time().value(double(point.frame)), analysis.grid().position(point.cell)};
 }
 
 } // namespace faintline

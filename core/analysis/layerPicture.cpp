@@ -88,9 +88,10 @@ namespace {
     class LayerPainter
     {
     public:
-        LayerPainter(const Analysis &analysis, const LayerWindow &window, Index rows, Index columns)
+        LayerPainter(const Analysis &analysis, const LayerWindow &window, Index rows, Index columns,
+                     const FramePlane &plane = {})
             : m_rows(rows), m_columns(columns), m_frameSeconds(float(analysis.time().step)),
-              m_rates(ratesOfPlanes(analysis, 0)), m_secondRates(ratesOfPlanes(analysis, 1))
+              m_rates(ratesOfPlanes(analysis, plane.along)), m_secondRates(ratesOfPlanes(analysis, plane.across))
         {
             picture = pixelsOf(window, rows, columns);
             const auto size = std::size_t(picture.rows * picture.columns);
@@ -109,11 +110,14 @@ namespace {
             return std::min((picture.firstColumn + picture.columns) * picture.perColumn, m_columns);
         }
 
-        /// Paints one row of the window, whose first cell is `first` of the layers.
-        void paintRow(Index row, const CellLayers &layers, Index first)
+        /// Paints one row of the window; `cellsOf` calls a function with each cell of a column.
+        template <class CellsOf>
+        void paintRow(Index row, const CellLayers &layers, CellsOf &&cellsOf)
         {
-            for (Index column = firstColumn(); column < endColumn(); ++column)
-                paint(std::size_t(picture.pixelAt(row, column)), layers, std::size_t(first + column));
+            for (Index column = firstColumn(); column < endColumn(); ++column) {
+                const auto pixel = std::size_t(picture.pixelAt(row, column));
+                cellsOf(column, [&](Index cell) { paint(pixel, layers, std::size_t(cell)); });
+            }
         }
 
         LayerPicture picture;
@@ -152,19 +156,24 @@ LayerPicture layerPicture(LayerReplay &replay, const LayerWindow &window, const 
         const double done = double(frame - first) / double(end - first);
         context.checkpoint(done, "layers");
         painter.paintRow(frame,
-                         replay.at(frame, context.part(done, done), {painter.firstColumn(), painter.endColumn()}), 0);
+                         replay.at(frame, context.part(done, done), {painter.firstColumn(), painter.endColumn()}),
+                         [](Index column, auto paint) { paint(column); });
     }
     return std::move(painter.picture);
 }
 
-LayerPicture layerPictureOf(LayerReplay &replay, Index ping, const LayerWindow &window, const RunContext &context)
+LayerPicture layerPictureOf(LayerReplay &replay, Index ping, const LayerWindow &window, const FramePlane &plane,
+                            const RunContext &context)
 {
     const Analysis &analysis = *replay.analysis();
-    const Index columns = analysis.grid().axes[1].count;
-    LayerPainter painter(analysis, window, analysis.grid().axes[0].count, columns);
+    const CellsBehind cells(analysis.grid(), plane);
+    LayerPainter painter(analysis, window, cells.rows(), cells.columns(), plane);
     const CellLayers &layers = replay.at(ping, context);
     for (Index row = painter.firstRow(); row < painter.endRow(); ++row)
-        painter.paintRow(row, layers, row * columns);
+        painter.paintRow(row, layers, [&](Index column, auto paint) {
+            for (const Index behind : cells.hidden())
+                paint(cells.first(row, column) + behind);
+        });
     return std::move(painter.picture);
 }
 
@@ -178,12 +187,15 @@ double largestRate(const Analysis &analysis, std::size_t axis)
     return (cellsPerFrame > 0.0 ? cellsPerFrame : 1.0) * rateUnit(analysis, axis);
 }
 
-CellReading readCell(const Analysis &analysis, const CellLayers &layers, Index cell)
+CellReading readCell(const Analysis &analysis, const CellLayers &layers, Index cell, const FramePlane &plane)
 {
     const auto i = std::size_t(cell);
     const std::vector<double> rates = analysis.modelAt(layers.model[i]).space.ratesOfPlane(layers.plane[i]);
-    return {rates[0] * rateUnit(analysis, 0), rates.size() > 1 ? rates[1] * rateUnit(analysis, 1) : 0.0,
-            double(layers.age[i]) * analysis.time().step, layers.isInhibited[i] != 0, double(layers.statistic[i])};
+    const auto rate = [&](std::size_t axis) {
+        return axis < rates.size() ? rates[axis] * rateUnit(analysis, axis) : 0.0;
+    };
+    return {rate(plane.along), rate(plane.across), double(layers.age[i]) * analysis.time().step,
+            layers.isInhibited[i] != 0, double(layers.statistic[i])};
 }
 
 CellReading readPixel(const LayerPicture &picture, Index pixel)

@@ -2,6 +2,7 @@
 
 #include "analysis/ChainReplay.h"
 #include "base/Checkpoints.h"
+#include "base/FramePlane.h"
 #include "base/memoryShares.h"
 #include "model/MarkovModel.h"
 
@@ -103,7 +104,7 @@ private:
 /// A layer displayed instead of the statistic, or over it.
 enum class OutputLayer {
     Statistic,  ///< no layer: D itself
-    Rate,       ///< winning rate along the first axis, in its unit per second
+    Rate,       ///< winning rate along the first axis shown, in its unit per second
     SecondRate, ///< the same along the second one, for pings
     Age,        ///< path age since the last reset, s
     Reset,      ///< fraction of the cell's states that were reset
@@ -114,7 +115,7 @@ inline constexpr std::array<std::string_view, 7> outputLayerNames{"statistic", "
                                                                   "reset",     "inhibited", "presence"};
 
 /// The displayed part in rows and columns, and the maximum number of either in the picture. For a recording a row is a
-/// frame and a column a cell; for one ping a row is a cell of the first axis, a column one of the second.
+/// frame and a column a cell; for one ping a row is a cell of the plane's axis `along`, a column one of `across`.
 struct LayerWindow {
     Index beginRow = 0, endRow = 0;
     Index beginColumn = 0, endColumn = 0;
@@ -147,8 +148,10 @@ LayerPicture pixelsOf(const LayerWindow &window, Index rows, Index columns);
 
 /// For lines: frames × cells.
 LayerPicture layerPicture(LayerReplay &replay, const LayerWindow &window, const RunContext &context = {});
-/// For one ping. Precondition: the grid has two axes.
-LayerPicture layerPictureOf(LayerReplay &replay, Index ping, const LayerWindow &window, const RunContext &context = {});
+/// For a plane of one ping. Its rates are those along the axes shown; of the cells behind a place, the one with the
+/// largest D is shown. Precondition: the grid has both axes of the plane.
+LayerPicture layerPictureOf(LayerReplay &replay, Index ping, const LayerWindow &window, const FramePlane &plane = {},
+                            const RunContext &context = {});
 
 /// Tracks as the two-sided second pass sees them (secondLook.h), and nothing else:
 ///
@@ -164,13 +167,13 @@ double largestRate(const Analysis &analysis, std::size_t axis);
 
 /// Values of one cell.
 struct CellReading {
-    double ratePerSecond = 0.0;       ///< of its best state, along the first axis
+    double ratePerSecond = 0.0;       ///< of its best state, along the first axis shown
     double secondRatePerSecond = 0.0; ///< along the second one, if there is one
     double ageSeconds = 0.0;
     bool isInhibited = false;
     double statistic = 0.0; ///< D
 };
-CellReading readCell(const Analysis &analysis, const CellLayers &layers, Index cell);
+CellReading readCell(const Analysis &analysis, const CellLayers &layers, Index cell, const FramePlane &plane = {});
 /// Values of one pixel.
 CellReading readPixel(const LayerPicture &picture, Index pixel);
 

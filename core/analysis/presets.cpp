@@ -47,6 +47,21 @@ namespace {
         return model;
     }
 
+    /// Targets on more than two axes, whose rates on each are small: every rate more is a factor of the states.
+    AnalysisSettings radarSettings(AnalysisSettings sonar)
+    {
+        sonar.model.motion = Motion::Slopes;
+        sonar.model.lowestSlope = -1.0;
+        sonar.model.highestSlope = 1.0;
+        sonar.model.slopeChange = {0.8, 0.1};
+        sonar.decide.thresholdNats = 30.0; // more cells, and more paths that leave a track's box
+        sonar.decide.linkCells = {2.0, 1.0};
+        sonar.decide.inhibitCells = {2.0, 1.0};
+        sonar.decide.forgetCells = {4.0, 1.0};
+        sonar.track.windowCells = {4.0, 1.0};
+        return sonar;
+    }
+
     /// Parsons' chain with constants that proved useful (README of the core).
     AnalysisSettings sonarSettings()
     {
@@ -99,6 +114,7 @@ const std::vector<Preset> &presets()
         whistles.model = laws::glide();
         AnalysisSettings sonar = sonarSettings();
         all.push_back({"sonar", "Active sonar, targets that turn: Parsons' manoeuvring model.", sonar});
+        const AnalysisSettings radar = radarSettings(sonar);
         sonar.model.motion = Motion::NonManoeuvring;
         sonar.decide.thresholdNats = 40.0;
         sonar.track.decayNats = 1.0;
@@ -106,6 +122,10 @@ const std::vector<Preset> &presets()
             {"sonarSteady", "Active sonar, targets that keep their rates: Parsons' non-manoeuvring model.", sonar});
         sonar.model.motion = Motion::Bank;
         all.push_back({"sonarBank", "Active sonar, both models in parallel at equal false-alarm probability.", sonar});
+
+        all.push_back({"radar",
+                       "Radar scans on up to four axes: targets that move by at most one cell per scan on each.",
+                       radar});
 
         AnalysisSettings narrowband;
         narrowband.model = driftingLaw();

@@ -51,6 +51,21 @@ namespace {
         return names;
     }
 
+    /// Columns of the events of a bank: the model that found it, and the others that took over, "t:name;…".
+    const std::vector<std::string> bankNames{"model", "model_changes"};
+    std::string bankTexts(const Event &e)
+    {
+        std::string changes;
+        for (const auto &[seconds, model] : e.modelChanges)
+            changes += (changes.empty() ? "" : ";") + formatNumber(seconds) + ":" + nameOfBankModel(model);
+        return nameOfBankModel(e.model) + "," + changes;
+    }
+
+    std::string modelOf(const TrackPoint &point, const Track &track)
+    {
+        return nameOfBankModel(modelAt(point.frame, track.model, track.modelChanges));
+    }
+
     /// Columns of tracks that were smoothed from both ends.
     const std::vector<std::string> smoothedNames{"snr_db", "band_hz", "noise_probability", "window_s"};
     std::vector<double> smoothedOf(const Event &e)
@@ -139,7 +154,7 @@ namespace {
         const bool isSeenTwice = looksTwice(analysis);
         std::string text =
             joined(std::vector<std::string>{"track", "t", joined(positionNames(analysis.grid())), "statistic"})
-            + (isSeenTwice ? "," + joined(smoothedColumns) : "") + "\n";
+            + (isSeenTwice ? "," + joined(smoothedColumns) : "") + (analysis.isBank() ? ",model" : "") + "\n";
         for (const Track &track : tracks)
             for (std::size_t i = 0; i < track.points.size(); ++i) {
                 const TrackPoint &point = track.points[i];
@@ -147,6 +162,8 @@ namespace {
                         + joined(track.positionOf(i, analysis.grid())) + "," + formatNumber(point.statistic);
                 if (isSeenTwice)
                     text += "," + joined(numbersOf(track.smoothed[i], analysis.grid().axes.back()));
+                if (analysis.isBank())
+                    text += "," + modelOf(point, track);
                 text += "\n";
             }
         return text;
@@ -175,6 +192,9 @@ namespace {
                 for (const SmoothedPoint &point : track.smoothed)
                     values.push_back(numbersOf(point, analysis.grid().axes.back())[column]);
             }
+            for (const TrackPoint &point : track.points)
+                if (analysis.isBank())
+                    one["model"].push_back(modelOf(point, track));
             json.push_back(std::move(one));
         }
         return json.dump() + "\n";
@@ -220,6 +240,8 @@ std::string eventsCsv(const AnalysisPlan &plan, const std::vector<Event> &events
     const bool subtracts = plan.settings.subtract.lines;
     if (subtracts)
         names.push_back("subtracted");
+    if (plan.isBank())
+        names.insert(names.end(), bankNames.begin(), bankNames.end());
     std::string text = joined(names) + "\n";
     for (const Event &e : events) {
         const std::vector<std::string> cells{
@@ -231,7 +253,7 @@ std::string eventsCsv(const AnalysisPlan &plan, const std::vector<Event> &events
                 + (!subtracts       ? ""
                    : e.isSubtracted ? ",1"
                                     : ",0")
-                + "\n";
+                + (plan.isBank() ? "," + bankTexts(e) : "") + "\n";
     }
     return text;
 }
@@ -270,8 +292,11 @@ std::string eventsJson(const AnalysisPlan &plan, const std::vector<Event> &event
     json["lnK"] = plan.calibration->lnK;
     json["settings"] = parseJson(settingsToJson(plan.settings), "settings");
     json["events"] = Json::array();
-    for (const Event &e : events)
+    for (const Event &e : events) {
         json["events"].push_back(eventJson(e, plan.grid()));
+        if (plan.isBank())
+            json["events"].back()["model"] = nameOfBankModel(e.model);
+    }
     if (looksTwice(plan))
         json["areas"] = Json::array();
     for (const AreaEvent &area : areas)

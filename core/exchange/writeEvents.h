@@ -15,7 +15,8 @@ namespace faintline {
 /// names it), confirmed, open; on several axes AXIS_per_s of each. Numbers are in the C locale, in the shortest form
 /// that reads back the same. Lines with a two-sided second pass also have snr_db (mean, in one window), band_hz (width
 /// of the position's 5-95 % band) and noise_probability (probability that noise alone produces such an event in this
-/// recording). Areas, which are not events, are in the .json ("areas": t_onset, t_end, f_low, f_high, level_db) and in
+/// recording). A bank's events have model (that found it) and model_changes ("t:model;…", the times in s from which on
+/// other models followed it). Areas, which are not events, are in the .json ("areas": t_onset, t_end, f_low, f_high, level_db) and in
 /// the .sigmf-meta with the label "area". Files appear only when complete. Throws Error for an unknown extension or a
 /// full disk.
 void writeEvents(const Analysis &analysis, const std::string &path);
@@ -32,7 +33,7 @@ void checkEventsPath(const std::string &path);
 void checkTracksPath(const std::string &path);
 
 /// Writes the tracks: .csv with one row per frame of each track (track, t, f, statistic; after a two-sided second pass
-/// also f_low and f_high, 5 and 95 % of the position, presence, a probability, and snr_db), or .json. The statistic is
+/// also f_low and f_high, 5 and 95 % of the position, presence, a probability, and snr_db; for a bank also model, which followed it in that frame), or .json. The statistic is
 /// the score of the track's path, in nats for every detector: if it has no paths, that of the sequential Markov
 /// detector that guides it.
 void writeTracks(const Analysis &analysis, const std::string &path);

@@ -243,6 +243,22 @@ namespace {
         return text + "</table>\n";
     }
 
+    std::string areasTable(const Analysis &analysis)
+    {
+        const std::vector<AreaEvent> areas = areaEvents(analysis);
+        if (areas.empty())
+            return {};
+        const std::string unit = " (" + analysis.grid().axes.back().unit + ")";
+        std::string text =
+            "<h2>Areas of raised level without a line</h2>\n<table class=\"numbers\">\n"
+            + numbers({"From (s)", "To (s)", "Lowest" + unit, "Highest" + unit, "Level, at least (dB)"}, 5, "th");
+        for (const AreaEvent &area : areas)
+            text += numbers({fixed(area.onsetSeconds, 2), fixed(area.endSeconds, 2), fixed(area.low, 2),
+                             fixed(area.high, 2), fixed(area.levelDb, 1)},
+                            5);
+        return text + "</table>\n";
+    }
+
     std::string annotationsTable(const std::vector<Annotation> &boxes)
     {
         if (boxes.empty())
@@ -346,8 +362,8 @@ std::string reportHtml(const Analysis &analysis, const ReportMaterial &material)
         text += "<figure><img alt=\"" + escaped(picture.title) + "\" width=\"" + std::to_string(picture.width)
                 + "\" height=\"" + std::to_string(picture.height) + "\" src=\"data:image/png;base64,"
                 + base64(picture.png) + "\"><figcaption>" + escaped(picture.title) + "</figcaption></figure>\n";
-    text +=
-        "</div>\n<h2>Events</h2>\n" + eventsTable(analysis, material) + annotationsTable(material.annotations.boxes);
+    text += "</div>\n<h2>Events</h2>\n" + eventsTable(analysis, material) + areasTable(analysis)
+            + annotationsTable(material.annotations.boxes);
     text += "<h2>Threshold and calibration</h2>\n" + calibrationFacts(analysis);
     if (!material.ladders.empty()) {
         text += "<h2>Path breakdown of detections</h2>\n<p>The best path up to the moment of detection, term by term "

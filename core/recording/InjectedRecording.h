@@ -8,6 +8,8 @@ namespace faintline {
 struct InjectedLine {
     LineSettings line;
     double amplitude = 0.0;
+
+    bool operator==(const InjectedLine &) const = default;
 };
 
 /// Checks the list `name` of at most 1000 lines to add to a recording; injections are stacked, and each keeps its own

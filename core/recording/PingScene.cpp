@@ -69,6 +69,8 @@ const std::vector<Field<PingLeg>> &PingLeg::fields()
         field(&S::rangeRateMetresPerSecond, "rangeRateMetresPerSecond", "m/s", -1e6, 1e6,
               "Rate of range, outward positive."),
         field(&S::bearingRateDegreesPerSecond, "bearingRateDegreesPerSecond", "°/s", -360.0, 360.0, "Rate of bearing."),
+        field(&S::elevationRateDegreesPerSecond, "elevationRateDegreesPerSecond", "°/s", -360.0, 360.0,
+              "Rate of elevation, if the scene has elevations."),
         field(&S::rangeCellsPerPing, "rangeCellsPerPing", "cells/ping", -1e4, 1e4,
               "Rate of range in cells; adds to the one in m/s."),
         field(&S::beamsPerPing, "beamsPerPing", "beams/ping", -1e3, 1e3,
@@ -95,6 +97,8 @@ const std::vector<Field<PingTarget>> &PingTarget::fields()
               "one in every ping (2 and 4)."),
         field(&S::rangeMetres, "rangeMetres", "m", 0.0, 1e9, "Range at which the target appears."),
         field(&S::bearingDegrees, "bearingDegrees", "°", -360.0, 720.0, "Bearing at which the target appears."),
+        field(&S::elevationDegrees, "elevationDegrees", "°", -90.0, 90.0,
+              "Elevation at which the target appears, if the scene has elevations."),
         field(&S::appearPing, "appearPing", "ping", 0.0, 1e6, "First ping with the target, counted from 0."),
         field(&S::vanishPing, "vanishPing", "ping", 0.0, 1e6, "First ping without the target; 0: it stays to the end."),
         field(&S::weaveCellsPerPing, "weaveCellsPerPing", "cells/ping", 0.0, 1e4,
@@ -134,6 +138,16 @@ const std::vector<Field<PingScene>> &PingScene::fields()
         field(&S::beamStepDegrees, "beamStepDegrees", "°", 0.0, 360.0,
               "Bearing step between beams; 0: full circle, "
               "360°/beams."),
+        field(&S::elevationCells, "elevationCells", "cells", 1.0, 1e3,
+              "Number of elevations in a ping; 1: no axis of elevation."),
+        field(&S::firstElevationDegrees, "firstElevationDegrees", "°", -90.0, 90.0, "Elevation of the first cell."),
+        field(&S::elevationStepDegrees, "elevationStepDegrees", "°", 1e-3, 90.0, "Step between elevations."),
+        field(&S::dopplerCells, "dopplerCells", "cells", 1.0, 1e4,
+              "Number of Doppler cells in a ping; 1: no axis of range rates."),
+        field(&S::firstDopplerMetresPerSecond, "firstDopplerMetresPerSecond", "m/s", -1e6, 1e6,
+              "Range rate of the first Doppler cell, outward positive."),
+        field(&S::dopplerStepMetresPerSecond, "dopplerStepMetresPerSecond", "m/s", 1e-6, 1e6,
+              "Range rate between Doppler cells."),
         field(&S::looks, "looks", "", 1.0, 1000.0, "Number of powers averaged in a cell."),
         field(&S::seed, "seed", "", 0.0, 2147483647.0,
               "Seed of the random numbers; the same seed gives the same pings."),
@@ -145,8 +159,15 @@ Grid pingGrid(const PingScene &scene)
 {
     const double step = scene.beamStepDegrees > 0.0 ? scene.beamStepDegrees : 360.0 / scene.beams;
     const bool isAllRound = std::abs(step * scene.beams - 360.0) < 1e-9 * 360.0;
-    return {{{"range", "m", scene.firstRangeMetres, scene.rangeStepMetres, scene.rangeCells, false},
-             {"bearing", "°", scene.firstBearingDegrees, step, scene.beams, isAllRound}}};
+    Grid grid{{{"range", "m", scene.firstRangeMetres, scene.rangeStepMetres, scene.rangeCells, false},
+               {"bearing", "°", scene.firstBearingDegrees, step, scene.beams, isAllRound}}};
+    if (scene.elevationCells > 1)
+        grid.axes.push_back(
+            {"elevation", "°", scene.firstElevationDegrees, scene.elevationStepDegrees, scene.elevationCells, false});
+    if (scene.dopplerCells > 1)
+        grid.axes.push_back({"Doppler", "m/s", scene.firstDopplerMetresPerSecond, scene.dopplerStepMetresPerSecond,
+                             scene.dopplerCells, false});
+    return grid;
 }
 
 Axis pingTime(const PingScene &scene)
@@ -166,10 +187,11 @@ double backgroundPower(const PingScene &scene, Index rangeCell)
 void checkScene(const PingScene &scene)
 {
     checkFields(scene, PingScene::fields());
-    const double cells = double(scene.rangeCells) * scene.beams;
+    const double cells = double(scene.rangeCells) * scene.beams * scene.elevationCells * scene.dopplerCells;
     if (cells > 1e7)
         throw fieldError("rangeCells", std::to_string(scene.rangeCells),
-                         "times beams gives " + formatNumber(cells) + " cells; at most 1e7 are possible");
+                         "times the cells of the other axes gives " + formatNumber(cells)
+                             + " cells; at most 1e7 are possible");
     if (scene.beamStepDegrees * scene.beams > 360.0 * (1.0 + 1e-9))
         throw fieldError("beamStepDegrees", formatNumber(scene.beamStepDegrees),
                          "times beams is more than 360°; at most " + formatNumber(360.0 / scene.beams) + "°");
@@ -177,6 +199,9 @@ void checkScene(const PingScene &scene)
         checkFields(*scene.reverberation, Reverberation::fields(), "reverberation");
         if (scene.firstRangeMetres <= 0.0)
             throw Error("firstRangeMetres = 0", "must be above 0 with reverberation, whose level refers to it");
+        if (scene.reverberation->normalisation == PingNormalisation::Estimated
+            && scene.elevationCells * scene.dopplerCells > 1)
+            throw fieldError("reverberation.normalisation", "estimated", "requires pings on range and bearing only");
         constexpr int fewestCells = 32;
         if (scene.reverberation->normalisation == PingNormalisation::Estimated && cells < fewestCells)
             throw fieldError("reverberation.normalisation", "estimated",

@@ -27,7 +27,8 @@ struct PingLeg {
     double bearingRateDegreesPerSecond = 0.0;
     double rangeCellsPerPing = 0.0;
     double beamsPerPing = 0.0;
-    int turnPings = 1; ///< pings over which the rates change from the previous leg's to these
+    int turnPings = 1;                          ///< pings over which the rates change from the previous leg's to these
+    double elevationRateDegreesPerSecond = 0.0; ///< has no effect without elevations
 
     static const std::vector<Field<PingLeg>> &fields();
     bool operator==(const PingLeg &) const = default;
@@ -36,7 +37,8 @@ struct PingLeg {
 /// A point target: start, motion, strength.
 ///
 /// With v(k) the rate k pings after it appears, its position is p(k+1) = p(k) + (v(k) + v(k+1))/2 on each axis, and it
-/// fills the nearest cell. Bearings wrap; a target beyond the range cells is silent until it returns.
+/// fills the nearest cell. Bearings wrap; a target beyond the cells of another axis is silent until it returns. On a
+/// Doppler axis it is at its own range rate.
 ///
 /// With fluctuation S is multiplied by a power of mean 1: one for the whole track (Swerling 1 and 3), or one for each
 /// ping (2 and 4). A track and not a leg is the look of cases 1 and 3, because legs describe the motion: a detector
@@ -52,6 +54,7 @@ struct PingTarget {
     double weaveCellsPerPing = 0.0; ///< amplitude of a sinusoid added to the range rate
     double weavePings = 20.0;       ///< its period
     std::vector<PingLeg> legs;      ///< in order; without legs the target is stationary
+    double elevationDegrees = 0.0;  ///< at which it appears; has no effect without elevations
 
     /// The target's own members, without legs.
     static const std::vector<Field<PingTarget>> &fields();
@@ -77,7 +80,8 @@ struct Reverberation {
 };
 
 /// A scene of active sonar pings to simulate: a grid of range × bearing, targets, noise. The defaults are Parsons'
-/// simulation (2008, section 3): 2500 range cells of 10 m, 20 beams over 360°, a ping every 40 s.
+/// simulation (2008, section 3): 2500 range cells of 10 m, 20 beams over 360°, a ping every 40 s. A radar's scans have
+/// two more axes, elevation and Doppler; with a single cell an axis does not exist.
 struct PingScene {
     int pings = 60;
     double priSeconds = 40.0; ///< between pings
@@ -87,7 +91,13 @@ struct PingScene {
     int beams = 20;
     double firstBearingDegrees = 0.0;
     double beamStepDegrees = 0.0; ///< 0: beams over 360°, 360°/beams
-    int looks = 1;                ///< M: powers averaged in a cell; y is χ² with 2M degrees of freedom and mean 1
+    int elevationCells = 1;
+    double firstElevationDegrees = 0.0;
+    double elevationStepDegrees = 2.0;
+    int dopplerCells = 1;
+    double firstDopplerMetresPerSecond = 0.0; ///< range rate, outward positive
+    double dopplerStepMetresPerSecond = 10.0;
+    int looks = 1; ///< M: powers averaged in a cell; y is χ² with 2M degrees of freedom and mean 1
     int seed = 1;
     std::optional<Reverberation> reverberation;
     std::vector<PingTarget> targets;
@@ -97,7 +107,8 @@ struct PingScene {
     bool operator==(const PingScene &) const = default;
 };
 
-/// Axes of a ping: range, then bearing. The bearing is cyclic if the beams cover 360°.
+/// Axes of a ping: range, bearing, then elevation and Doppler if there are any. The bearing is cyclic if the beams cover
+/// 360°.
 Grid pingGrid(const PingScene &scene);
 
 /// Times of the pings.

@@ -18,6 +18,10 @@ namespace {
             field(&S::firstPing, "firstPing", "ping", 0.0, 1e9, "First ping of the lists."),
             field(&S::rangeMetres, "rangeMetres", "m", -1e15, 1e15, "Range, one value per ping."),
             field(&S::bearingDegrees, "bearingDegrees", "°", -1e15, 1e15, "Bearing, one value per ping."),
+            field(&S::elevationDegrees, "elevationDegrees", "°", -1e15, 1e15,
+                  "Elevation, one value per ping; empty without such an axis."),
+            field(&S::dopplerMetresPerSecond, "dopplerMetresPerSecond", "m/s", -1e15, 1e15,
+                  "Range rate, one value per ping; empty without such an axis."),
             field(&S::cell, "cell", "", -1.0, 1e15, "Cell of the grid that the target occupies; -1 outside the grid."),
         };
         return table;
@@ -33,7 +37,8 @@ namespace {
             const PingLeg &leg = target.legs[i];
             const LegRates own = ratesOf(leg, scene.priSeconds, grid);
             const double share = i == 0 ? 1.0 : std::min(1.0, double(k - begin + 1) / leg.turnPings);
-            rates = {std::lerp(before.range, own.range, share), std::lerp(before.bearing, own.bearing, share)};
+            rates = {std::lerp(before.range, own.range, share), std::lerp(before.bearing, own.bearing, share),
+                     std::lerp(before.elevationDegrees, own.elevationDegrees, share)};
             if (leg.pings == 0 || k < begin + leg.pings)
                 break;
             before = own;
@@ -41,6 +46,12 @@ namespace {
         }
         rates.range += target.weaveCellsPerPing * std::sin(2.0 * std::numbers::pi * k / target.weavePings);
         return rates;
+    }
+
+    /// The cell of a position on one axis, given in cells.
+    Index cellOf(double position)
+    {
+        return Index(std::floor(position + 0.5));
     }
 
     TruthTarget truthOf(const PingTarget &target, const PingScene &scene, const Grid &grid)
@@ -52,6 +63,7 @@ namespace {
         truth.firstPing = target.appearPing;
         double r = range.position(target.rangeMetres);
         double b = bearing.position(target.bearingDegrees);
+        double elevation = target.elevationDegrees;
         const int end = target.vanishPing == 0 ? scene.pings : std::min(target.vanishPing, scene.pings);
         LegRates rates = ratesAt(0, target, scene, grid);
         for (int ping = target.appearPing; ping < end; ++ping) {
@@ -59,10 +71,20 @@ namespace {
                 b -= double(bearing.count) * std::floor((b + 0.5) / double(bearing.count));
             truth.rangeMetres.push_back(range.value(r));
             truth.bearingDegrees.push_back(bearing.value(b));
-            truth.cell.push_back(double(grid.cell({Index(std::floor(r + 0.5)), Index(std::floor(b + 0.5))})));
+            std::vector<Index> cell{cellOf(r), cellOf(b)};
+            if (scene.elevationCells > 1) {
+                truth.elevationDegrees.push_back(elevation);
+                cell.push_back(cellOf(grid.axes[cell.size()].position(elevation)));
+            }
+            if (scene.dopplerCells > 1) {
+                truth.dopplerMetresPerSecond.push_back(rates.range * range.step / scene.priSeconds);
+                cell.push_back(cellOf(grid.axes[cell.size()].position(truth.dopplerMetresPerSecond.back())));
+            }
+            truth.cell.push_back(double(grid.cell(cell)));
             const LegRates next = ratesAt(ping + 1 - target.appearPing, target, scene, grid);
             r += 0.5 * (rates.range + next.range);
             b += 0.5 * (rates.bearing + next.bearing);
+            elevation += 0.5 * (rates.elevationDegrees + next.elevationDegrees);
             rates = next;
         }
         return truth;
@@ -74,6 +96,15 @@ Index TruthTarget::cellAt(Index ping) const
 {
     const Index k = ping - firstPing;
     return k >= 0 && k < std::ssize(cell) ? Index(cell[std::size_t(k)]) : -1;
+}
+
+double TruthTarget::positionOn(std::size_t axis, const Grid &grid, std::size_t i) const
+{
+    std::vector<double> known;
+    for (const auto *values : {&rangeMetres, &bearingDegrees, &elevationDegrees, &dopplerMetresPerSecond})
+        if (!values->empty())
+            known.push_back((*values)[i]);
+    return known.size() == grid.axes.size() ? known[axis] : grid.position(Index(cell[i]))[axis];
 }
 
 PingTruth pingTruth(const PingScene &scene)
@@ -89,8 +120,12 @@ Json toJson(const PingTruth &truth)
 {
     Json json;
     json["targets"] = Json::array();
-    for (const TruthTarget &target : truth.targets)
-        json["targets"].push_back(writeFields(target, fields()));
+    for (const TruthTarget &target : truth.targets) {
+        Json &entry = json["targets"].emplace_back(writeFields(target, fields()));
+        for (const char *name : {"elevationDegrees", "dopplerMetresPerSecond"})
+            if (entry[name].empty())
+                entry.erase(name);
+    }
     return json;
 }
 
@@ -105,8 +140,14 @@ PingTruth pingTruthFromJson(const Json &json)
         const std::string name = "targets[" + std::to_string(truth.targets.size()) + "]";
         TruthTarget &target = truth.targets.emplace_back();
         readFields(entry, fields(), target, name);
-        if (target.rangeMetres.size() != target.cell.size() || target.bearingDegrees.size() != target.cell.size())
-            throw Error(name, "must have equally many values of rangeMetres, bearingDegrees and cell");
+        const auto fits = [&](const std::vector<double> &values) { return values.size() == target.cell.size(); };
+        const auto mayBeMissing = [&](const std::vector<double> &values) { return values.empty() || fits(values); };
+        if (!fits(target.rangeMetres) || !fits(target.bearingDegrees) || !mayBeMissing(target.elevationDegrees)
+            || !mayBeMissing(target.dopplerMetresPerSecond))
+            throw Error(
+                name,
+                "must have equally many values of rangeMetres, bearingDegrees and cell, and of elevationDegrees and "
+                "dopplerMetresPerSecond if given");
     }
     return truth;
 }

@@ -12,11 +12,16 @@ struct TruthTarget {
     double snrDb = 0.0;
     int firstPing = 0;
     std::vector<double> rangeMetres;
-    std::vector<double> bearingDegrees; ///< wrapped into the grid's turn if the beams cover 360°
-    std::vector<double> cell;           ///< flat index of the cell it fills; -1 if beyond the grid
+    std::vector<double> bearingDegrees;           ///< wrapped into the grid's turn if the beams cover 360°
+    std::vector<double> cell;                     ///< flat index of the cell it fills; -1 if beyond the grid
+    std::vector<double> elevationDegrees{};       ///< empty if the grid has no elevations
+    std::vector<double> dopplerMetresPerSecond{}; ///< its range rate; empty if the grid has no Doppler axis
 
     /// The cell it fills in a ping, or -1 if it is absent.
     Index cellAt(Index ping) const;
+
+    /// Its position on an axis in its i-th ping, in which it fills a cell: as precisely as known, at least the cell's.
+    double positionOn(std::size_t axis, const Grid &grid, std::size_t i) const;
 
     bool operator==(const TruthTarget &) const = default;
 };
@@ -30,7 +35,8 @@ struct PingTruth {
 
 PingTruth pingTruth(const PingScene &scene);
 
-/// {"targets": [{"snrDb": …, "firstPing": …, "rangeMetres": […], "bearingDegrees": […], "cell": […]}]}
+/// {"targets": [{"snrDb": …, "firstPing": …, "rangeMetres": […], "bearingDegrees": […], "cell": […]}]}, and
+/// "elevationDegrees" and "dopplerMetresPerSecond" on grids with these axes.
 Json toJson(const PingTruth &truth);
 
 /// Throws Error naming the key.

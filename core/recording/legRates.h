@@ -4,10 +4,11 @@
 
 namespace faintline {
 
-/// Rates in cells and beams per ping.
+/// Rates in cells, beams and degrees of elevation per ping.
 struct LegRates {
     double range = 0.0;
     double bearing = 0.0;
+    double elevationDegrees = 0.0;
 };
 
 /// The rates of a leg; those in physical units and those in cells add up. `grid`: the scene's, as `pingGrid` makes it.

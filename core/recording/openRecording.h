@@ -13,6 +13,8 @@ struct OpenOptions {
     double rawRateHz = 0.0; ///< sample rate of a raw file
     int rawChannels = 1;
     Index rawHeaderBytes = 0;
+
+    bool operator==(const OpenOptions &) const = default;
 };
 
 /// Opens a recording: a folder or list as many files (Timeline); raw samples if rawType is given; SigMF by either of

@@ -14,10 +14,10 @@ namespace faintline {
 namespace {
 
     /// Without the added lines and the truth beside the file.
-    OpenedSource openBase(const Source &source, const PingNoiseSettings &pingNoise = {}, const RunContext &context = {})
+    OpenedSource openBase(const Source &source, const FramesOptions &normalisation = {}, const RunContext &context = {})
     {
         OpenedSource opened{source, {}, {}};
-        opened.pings = pingNoise;
+        opened.normalisation = normalisation;
         opened.source.injections.clear();
         if (source.pings) {
             const auto pings = std::make_shared<SimulatedPings>(*source.pings);
@@ -30,7 +30,8 @@ namespace {
         } else if (source.hasSamples()) {
             opened.recording = openRecording(source.path, source.options);
         } else {
-            opened.frames = openFrames(source.path, {{}, {}, pingNoise}, context);
+            opened.frames = openFrames(source.path, normalisation, context);
+            opened.isPower = opened.frames && opened.frames->grid().isSpectrum() && openPower(source.path);
         }
         return opened;
     }
@@ -46,13 +47,13 @@ namespace {
             opened.truth = truthBeside(path);
     }
 
-    /// The frames at hand, unless the settings ask for another normalisation of recorded pings.
+    /// The frames at hand, unless the settings ask for another normalisation.
     NormalisedFramesPointer framesFor(const OpenedSource &opened, const AnalysisSettings &settings,
                                       const RunContext &context)
     {
-        if (!opened.isRecordedPings() || settings.pings == opened.pings)
+        if (opened.isNormalisedFor(settings))
             return opened.frames;
-        return openFrames(opened.source.path, {settings.selection, settings.noise, settings.pings}, context);
+        return openFrames(opened.source.path, normalisationBy(settings), context);
     }
 
     OpenedSource withInjections(OpenedSource opened, const std::vector<Source::Injection> &injections)
@@ -103,9 +104,22 @@ Source sourceOfScene(const Json &scene, const std::string &path)
     return source;
 }
 
-OpenedSource openSource(const Source &source, const PingNoiseSettings &pings, const RunContext &context)
+FramesOptions normalisationBy(const AnalysisSettings &settings)
 {
-    OpenedSource opened = openBase(source, pings, context);
+    return {settings.selection, settings.noise, settings.pings};
+}
+
+bool OpenedSource::isNormalisedFor(const AnalysisSettings &settings) const
+{
+    const FramesOptions wanted = normalisationBy(settings);
+    if (isPower)
+        return wanted.selection == normalisation.selection && wanted.noise == normalisation.noise;
+    return !isRecordedPings() || wanted.pings == normalisation.pings;
+}
+
+OpenedSource openSource(const Source &source, const FramesOptions &normalisation, const RunContext &context)
+{
+    OpenedSource opened = openBase(source, normalisation, context);
     readTruthBeside(opened);
     return withInjections(std::move(opened), source.injections);
 }

@@ -2,6 +2,7 @@
 
 #include "analysis/analyse.h"
 #include "base/json.h"
+#include "exchange/openFrames.h"
 #include "recording/InjectedRecording.h"
 #include "recording/LineScene.h"
 #include "recording/PingScene.h"
@@ -31,8 +32,11 @@ struct Source {
         InjectedLine line;
         int channel = 0;
         std::uint64_t seed = 1;
+        bool operator==(const Injection &) const = default;
     };
     std::vector<Injection> injections{};
+
+    bool operator==(const Source &) const = default;
 
     bool isSimulated() const { return scene || pings; }
     /// Whether it is a stack of ready-made frames, a NumPy file.
@@ -47,11 +51,15 @@ struct OpenedSource {
     RecordingPointer recording;
     Truth truth; ///< of a simulated recording, or in a file beside a recording; with the lines added
     NormalisedFramesPointer frames{};
-    PingTruth pingTruth{};     ///< of simulated pings, or in a file beside pings
-    PingNoiseSettings pings{}; ///< with which recorded pings were normalised
+    PingTruth pingTruth{};         ///< of simulated pings, or in a file beside pings
+    FramesOptions normalisation{}; ///< with which the frames of a file were normalised
+    bool isPower = false;          ///< frames made from the power in a file, which the settings may normalise anew
 
     /// Whether they are frames on several axes from a file, which the settings may normalise anew.
     bool isRecordedPings() const { return frames && !frames->grid().isSpectrum() && !source.isSimulated(); }
+
+    /// Whether these settings ask for the frames as they are.
+    bool isNormalisedFor(const AnalysisSettings &settings) const;
 };
 
 /// The source that a path denotes: a scene for a JSON file, otherwise a file that is not read yet. Throws Error.
@@ -60,13 +68,17 @@ Source sourceOf(const std::string &path, const OpenOptions &options = {});
 /// The source of a scene's JSON, which `path` names. Throws Error.
 Source sourceOfScene(const Json &scene, const std::string &path);
 
-/// Opens or simulates, with the truth beside the file; recorded pings are normalised. Throws Error, Cancelled.
-OpenedSource openSource(const Source &source, const PingNoiseSettings &pings = {}, const RunContext &context = {});
+/// How settings normalise the frames of a file.
+FramesOptions normalisationBy(const AnalysisSettings &settings);
+
+/// Opens or simulates, with the truth beside the file; recorded pings and power are normalised. Throws Error,
+/// Cancelled.
+OpenedSource openSource(const Source &source, const FramesOptions &normalisation = {}, const RunContext &context = {});
 
 /// Only the samples, with the lines added. Throws Error for frames.
 RecordingPointer openSamples(const Source &source);
 
-/// Runs the pipeline on an opened source; recorded pings are normalised as the settings ask.
+/// Runs the pipeline on an opened source; recorded pings and power are normalised as the settings ask.
 std::shared_ptr<const Analysis> analyse(const OpenedSource &opened, const AnalysisSettings &settings,
                                         const RunContext &context = {}, const Analysis *previous = nullptr,
                                         const AnalysisRequest &request = {});

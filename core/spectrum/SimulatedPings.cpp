@@ -80,9 +80,9 @@ void SimulatedPings::readPing(Index ping, std::span<float> y) const
             kept.insert(kept.end(), noise.begin() + 2 * cell, noise.begin() + 2 * cell + 2);
     }
     const float share = 1.0f / float(m_scene.looks);
-    const Index beams = m_scene.beams;
+    const Index perRange = grid().stride(0);
     for (Index range = 0; range < m_scene.rangeCells; ++range)
-        for (float &value : y.subspan(std::size_t(range * beams), std::size_t(beams)))
+        for (float &value : y.subspan(std::size_t(range * perRange), std::size_t(perRange)))
             value *= share * m_background[std::size_t(range)];
     if (!occupied.empty())
         addEchoes(ping, kept, y);
@@ -91,7 +91,7 @@ void SimulatedPings::readPing(Index ping, std::span<float> y) const
         divideByEstimate(y);
     else if (m_scene.reverberation)
         for (Index range = 0; range < m_scene.rangeCells; ++range)
-            for (float &value : y.subspan(std::size_t(range * beams), std::size_t(beams)))
+            for (float &value : y.subspan(std::size_t(range * perRange), std::size_t(perRange)))
                 value /= m_background[std::size_t(range)];
 }
 
@@ -123,7 +123,7 @@ void SimulatedPings::addEchoes(Index ping, std::span<const float> noise, std::sp
     }
     std::size_t number = 0;
     for (const auto &[cell, sum] : sums) {
-        const double background = double(m_background[std::size_t(cell / m_scene.beams)]);
+        const double background = double(m_background[std::size_t(cell / grid().stride(0))]);
         // The noise's phase is uniform and independent in each look, so the echo's phase need not be drawn.
         double total = 0.0;
         for (int look = 0; look < m_scene.looks; ++look) {

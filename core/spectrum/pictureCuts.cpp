@@ -17,6 +17,11 @@ namespace {
         return time;
     }
 
+    std::span<const std::uint8_t> rowOf(const PeakPyramid &picture, Index frame)
+    {
+        return picture.row(0, std::clamp<Index>(frame / picture.framesPerRow(0), 0, picture.rowCount(0) - 1));
+    }
+
 } // namespace
 
 std::shared_ptr<const PeakPyramid> pictureAlong(const PeakPyramid &picture, const Grid &grid, std::size_t axis)
@@ -39,16 +44,26 @@ std::shared_ptr<const PeakPyramid> pictureAlong(const PeakPyramid &picture, cons
     return result;
 }
 
-std::shared_ptr<const PeakPyramid> pictureOfFrame(const PeakPyramid &picture, const Grid &grid, Index frame)
+std::shared_ptr<const PeakPyramid> pictureOfFrame(const PeakPyramid &picture, const Grid &grid, Index frame,
+                                                  const FramePlane &plane)
 {
-    const Index columns = grid.axes[1].count;
-    const std::span<const std::uint8_t> row =
-        picture.row(0, std::clamp<Index>(frame / picture.framesPerRow(0), 0, picture.rowCount(0) - 1));
-    auto result = std::make_shared<PeakPyramid>(grid.axes[0], columns, picture.scale());
-    for (Index i = 0; i < grid.axes[0].count; ++i)
-        result->appendBytes(row.subspan(std::size_t(i * columns), std::size_t(columns)));
+    const std::span<const std::uint8_t> values = rowOf(picture, frame);
+    const CellsBehind cells(grid, plane);
+    auto result = std::make_shared<PeakPyramid>(grid.axes[plane.along], cells.columns(), picture.scale());
+    std::vector<std::uint8_t> line(std::size_t(cells.columns()));
+    for (Index row = 0; row < cells.rows(); ++row) {
+        for (Index column = 0; column < cells.columns(); ++column)
+            line[std::size_t(column)] = values[std::size_t(cells.largest(values, row, column))];
+        result->appendBytes(line);
+    }
     result->finish();
     return result;
+}
+
+Index strongestCell(const PeakPyramid &picture, const Grid &grid, Index frame, const FramePlane &plane, Index row,
+                    Index column)
+{
+    return CellsBehind(grid, plane).largest(rowOf(picture, frame), row, column);
 }
 
 std::shared_ptr<const PeakPyramid> pictureOf(const Axis &rows, const Axis &columns, std::span<const float> values,

@@ -25,7 +25,7 @@ struct HeldRecording {
 struct HeldFrames {
     NormalisedFramesPointer frames;
     Json truth;
-    bool isPings = false; ///< sonar pings; their settings start from the preset "sonar"
+    bool isPings = false; ///< sonar pings or scans; their settings start from those of `firstSettings`
     /// For a file of power, from which settings select a part, which is normalised again.
     std::shared_ptr<const PowerFrames> power{};
     std::vector<std::string> arguments{}; ///< as for a recording

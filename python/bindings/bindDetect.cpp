@@ -1,6 +1,7 @@
 #include "bindings/bind.h"
 
 #include "analysis/chooseWindow.h"
+#include "analysis/firstSettings.h"
 #include "analysis/slopeUnit.h"
 #include "bindings/Result.h"
 #include "bindings/Source.h"
@@ -51,7 +52,7 @@ namespace {
     std::shared_ptr<Result> detectIn(const HeldFrames &held, const AskedSettings &asked, const RunOptions &options)
     {
         const AnalysisSettings settings =
-            settingsFromPython(asked, held.isPings ? preset("sonar").settings : AnalysisSettings());
+            settingsFromPython(asked, held.isPings ? firstSettings(held.frames->grid()) : AnalysisSettings());
         std::shared_ptr<const Analysis> analysis;
         runInterruptibly(options, [&](const RunContext &context) {
             const NormalisedFramesPointer frames = framesFor(held, settings, context.part(0.0, held.power ? 0.1 : 0.0));

@@ -2,7 +2,6 @@
 
 #include "app/control/FramePlace.h"
 #include "app/document/Document.h"
-#include "base/Error.h"
 
 #include <QtTest>
 
@@ -39,25 +38,23 @@ void tst_FrameKind::aGridHasAKind()
     QCOMPARE(&frameKindOf(spectrum()), &lineFrames());
     QCOMPARE(&frameKindOf(ping()), &pingFrames());
     Grid scan = ping();
-    scan.axes.push_back(scan.axes.front());
-    try {
-        frameKindOf(scan, "scan.npy");
-        QFAIL("three axes have a kind");
-    } catch (const Error &error) {
-        QCOMPARE(error.where(), std::string("scan.npy"));
-        QVERIFY(error.why().starts_with("has frames on 3 axes"));
+    for (int axes = 3; axes <= 4; ++axes) {
+        scan.axes.push_back(scan.axes.front());
+        QCOMPARE(&frameKindOf(scan), &scanFrames());
     }
+    QVERIFY(scanFrames().isShownLike(pingFrames()) && !scanFrames().isShownLike(lineFrames()));
 }
 
 void tst_FrameKind::everyKindHasItsWords()
 {
-    for (const auto &[kind, axes] : {std::pair(&lineFrames(), 1), std::pair(&pingFrames(), 2)}) {
-        QCOMPARE(int(kind->rates.size()), axes);
+    for (const FrameKind *kind : {&lineFrames(), &pingFrames(), &scanFrames()}) {
         for (const QString &words :
-             {kind->frame, kind->frames, kind->cellsPerFrame, kind->cellPerFrame, kind->signal, kind->rates.back()})
+             {kind->frame, kind->frames, kind->cellsPerFrame, kind->cellPerFrame, kind->signal, kind->rate})
             QVERIFY(!words.isEmpty());
         QVERIFY(kind->cellsPerFrame.endsWith(kind->frame));
     }
+    QCOMPARE(lineFrames().rateName(spectrum().axes[0]), QString("slope"));
+    QCOMPARE(pingFrames().rateName(ping().axes[1]), QString("bearing rate"));
 }
 
 void tst_FrameKind::nothingIsOpenLikeLines()
@@ -104,7 +101,7 @@ void tst_FrameKind::theCursorIsThatOfTheKind()
     document.viewport().setCursor({3.0, 5.0});
     QCOMPARE(cursorOf(document, pings)->position, std::vector<double>{5.0});
     open(document, ping());
-    pings.setPlace({4.0, 2.0, 180.0});
+    pings.setPlace({4.0, {2.0, 180.0}});
     QCOMPARE(cursorOf(document, pings)->seconds, 4.0);
     QCOMPARE(cursorOf(document, pings)->position, (std::vector<double>{2.0, 180.0}));
 }

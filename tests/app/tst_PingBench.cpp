@@ -2,6 +2,7 @@
 
 #include "app/base/MessageBar.h"
 #include "app/base/filePath.h"
+#include "app/control/Comparer.h"
 #include "app/control/OutputLayers.h"
 #include "app/openWindow.h"
 #include "app/panels/LatencyPanel.h"
@@ -171,10 +172,10 @@ private slots:
         QVERIFY(openWithNineRates(*w, path("pings.json")));
         PingBench &bench = w->pingBench();
         bench.showPing(8);
-        const WaterfallView &history = *bench.rangeHistory();
+        const WaterfallView &history = *bench.alongHistory();
         const Axis &time = w->document().analysis()->time();
         const QPointF at = history.positionOf({time.value(17.0), 3800.0});
-        QTest::mouseClick(bench.rangeHistory()->canvas(), Qt::LeftButton, {}, at.toPoint());
+        QTest::mouseClick(bench.alongHistory()->canvas(), Qt::LeftButton, {}, at.toPoint());
         QCOMPARE(bench.ping(), Index(17));
         QVERIFY(std::abs(bench.viewports().map().cursor()->seconds - 3800.0) < 20.0);
     }
@@ -186,7 +187,7 @@ private slots:
         const Event event = w->document().shownEvents().front();
         w->pingBench().selectEvent(event.id);
         QCOMPARE(w->pingBench().viewports().place().seconds, event.detectSeconds);
-        QCOMPARE(w->pingBench().viewports().place().bearing, event.position[1]);
+        QCOMPARE(w->pingBench().viewports().across(), event.position[1]);
         // The cell it was found in is now kept from the detector for it.
         QVERIFY2(w->pingBench().reading().contains(QStringLiteral("inhibited: track %1").arg(event.id)),
                  qPrintable(w->pingBench().reading()));
@@ -348,7 +349,7 @@ private slots:
         const auto w = window();
         QVERIFY(openWithNineRates(*w, path("pings.json")));
         PingBench &bench = w->pingBench();
-        bench.viewports().setPlace({400.0, 3600.0, 90.0});
+        bench.viewports().setPlace({400.0, {3600.0, 90.0}});
         bench.viewports().map().zoomTo({3400.0, 3800.0}, {0.0, 225.0});
         bench.setPolar(true);
         Session session;
@@ -361,7 +362,7 @@ private slots:
         QVERIFY(back.source.pings);
         QCOMPARE(*back.source.pings, *session.source.pings);
         QVERIFY(openAndSettle(*w, path("s.faintline")));
-        QCOMPARE(bench.viewports().place(), (PingViewports::Place{400.0, 3600.0, 90.0}));
+        QCOMPARE(bench.viewports().place(), (PingViewports::Place{400.0, {3600.0, 90.0}}));
         QCOMPARE(bench.viewports().map().time(), (Span{3400.0, 3800.0}));
         QCOMPARE(bench.viewports().map().frequency(), (Span{0.0, 225.0}));
         QVERIFY(bench.output()->isPolar());
@@ -472,11 +473,17 @@ private slots:
         QVERIFY(document.isCurrent());
         QVERIFY(document.analysis()->tracks.size() >= 2);
         const NormalisedFramesPointer before = document.frames();
+        w->comparer().keep();
+        w->comparer().setActive(true);
         w->controller().edit("pings.guardCells", 5, "Change guard cells");
         QVERIFY(settle(*w));
         QVERIFY(document.isCurrent());
+        // The same pings, normalised anew, are still compared.
+        QVERIFY(w->comparer().isOfWhatIsOpen());
+        QTRY_VERIFY(w->comparer().result() && w->comparer().result()->b == document.analysis());
+        QCOMPARE(w->comparer().result()->a->frames, before);
         QVERIFY(document.frames() != before);
-        QCOMPARE(document.openedSource().pings.guardCells, 5);
+        QCOMPARE(document.openedSource().normalisation.pings.guardCells, 5);
         document.undoStack().undo();
         QVERIFY(settle(*w));
         QVERIFY(document.isCurrent());
@@ -489,7 +496,8 @@ private slots:
         writeSession(pathBytes(path("raw.faintline")), session);
         QVERIFY(openAndSettle(*w, path("raw.faintline")));
         QCOMPARE(document.settings().pings.guardCells, 4);
-        QCOMPARE(document.openedSource().pings.guardCells, 4);
+        QVERIFY(!w->comparer().isOfWhatIsOpen());
+        QCOMPARE(document.openedSource().normalisation.pings.guardCells, 4);
     }
 
     void aMistakeIsALine()
@@ -619,12 +627,12 @@ private slots:
         for (const bool isPolar : {false, true}) {
             bench.setPolar(isPolar);
             QCOMPARE(bench.output()->trackAt(place), track.id);
-            QCOMPARE(bench.output()->trackAt({place.range + 300.0, place.bearing + 90.0}), 0);
+            QCOMPARE(bench.output()->trackAt({place.along + 300.0, place.across + 90.0}), 0);
         }
         bench.setPolar(false);
         // A right click on it says whom the keys are about.
         QMenu menu;
-        emit bench.output()->plane()->contextMenuRequested(&menu, place.range, place.bearing);
+        emit bench.output()->plane()->contextMenuRequested(&menu, place.along, place.across);
         const QList<QAction *> offered = menu.actions();
         QVERIFY(std::any_of(offered.begin(), offered.end(),
                             [](const QAction *action) { return action->shortcut() == Qt::Key_X; }));
@@ -640,7 +648,7 @@ private slots:
         QTest::keyClick(bench.output()->plane(), Qt::Key_U);
         QVERIFY(bench.output()->grab().toImage() == before);
         QMenu nothing;
-        emit bench.output()->plane()->contextMenuRequested(&nothing, place.range + 300.0, place.bearing + 90.0);
+        emit bench.output()->plane()->contextMenuRequested(&nothing, place.along + 300.0, place.across + 90.0);
         QVERIFY(nothing.isEmpty());
     }
 

@@ -114,14 +114,14 @@ void tst_TargetTable::badInputGivesOneLine()
 void tst_TargetTable::everythingIsReachedByKeyboard()
 {
     PingViewports::Place cursor = bench().viewports().place();
-    cursor.range = 3500.0;
-    cursor.bearing = 180.0;
+    cursor.position[0] = 3500.0;
+    cursor.position[1] = 180.0;
     bench().viewports().setPlace(cursor);
     panel().addTargetButton()->setFocus();
     QTest::keyClick(panel().addTargetButton(), Qt::Key_Space);
     QCOMPARE(scene().targets.size(), std::size_t(2));
     QCOMPARE(last().rangeMetres, 3500.0);
-    cursor.range = 3600.0;
+    cursor.position[0] = 3600.0;
     bench().viewports().setPlace(cursor);
     panel().addLegButton()->setFocus();
     QTest::keyClick(panel().addLegButton(), Qt::Key_Space);

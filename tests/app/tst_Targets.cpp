@@ -130,7 +130,7 @@ void tst_Targets::escapeAbandonsTheDragThenEndsPlacing()
     QVERIFY(!panel().placeButton()->isChecked());
     QTest::mouseClick(canvas(), Qt::LeftButton, {}, at(3300.0, 45.0));
     QCOMPARE(scene().targets.size(), std::size_t(1));
-    QVERIFY(std::abs(bench().viewports().place().range - 3300.0) < 10.0); // a click places the cursor again
+    QVERIFY(std::abs(bench().viewports().along() - 3300.0) < 10.0); // a click places the cursor again
     startPlacing();
     QTest::keyClick(panel().placeButton(), Qt::Key_Escape);
     QVERIFY(!panel().editor().isPlacing());

@@ -156,14 +156,14 @@ private slots:
     {"snrDb": 15, "rangeMetres": 3500, "bearingDegrees": 90}]})")));
         const PingBench &bench = window->pingBench();
         QCoreApplication::processEvents();
-        const WaterfallView &range = *bench.rangeHistory(), &bearing = *bench.bearingHistory();
+        const WaterfallView &range = *bench.alongHistory(), &bearing = *bench.acrossHistory();
         const auto *regulation = bench.findChildren<StripPlot *>().front();
         QVERIFY(regulation->isVisible());
         QVERIFY(cornerOf(bearing, *window).y() >= cornerOf(range, *window).y() + range.height());
         QVERIFY(edges(range, *window) == edges(bearing, *window));
         QVERIFY(edges(range, *window) == edges(*regulation, *window));
         QVERIFY(!labelsTime(range) && !labelsTime(bearing) && labelsTime(*regulation));
-        bench.bearingHistory()->setOrientation(Orientation::NewestOnTop);
+        bench.acrossHistory()->setOrientation(Orientation::NewestOnTop);
         QCoreApplication::processEvents();
         QCOMPARE(range.orientation(), Orientation::NewestOnTop);
         QCOMPARE(cornerOf(range, *window).y(), cornerOf(bearing, *window).y());

@@ -26,6 +26,7 @@ private slots:
     void audacityLabels();
     void sigmfAnnotations();
     void severalAxes();
+    void aBanksModels();
     void nothingFound();
     void refusals();
 
@@ -190,6 +191,33 @@ void tst_writeEvents::severalAxes()
     const Json json = parseJson(written(analysis, "s.json").toStdString(), "s.json");
     QCOMPARE(json["events"][1]["bearing"].get<double>(), 90.0);
     QCOMPARE(json["events"][1]["range"].get<double>(), 100.0);
+}
+
+void tst_writeEvents::aBanksModels()
+{
+    // Found by the first model; the second one takes over in frame 4, the first one again in frame 5.
+    Analysis analysis = twoTracks();
+    analysis.bank.resize(2);
+    analysis.tracks[0].modelChanges = {{4, 1}, {5, 0}};
+    analysis.tracks[1].model = 1;
+    const QByteArray events = written(analysis, "b.csv");
+    QVERIFY(events.startsWith(
+        "event,t_onset,t_detect,t_end,f,drift_hz_per_s,statistic,confirmed,open,model,model_changes\n"));
+    QVERIFY(events.contains(",0,1,manoeuvring,\n"));
+    QVERIFY(events.endsWith(",1,0,nonManoeuvring,2.25:manoeuvring;2.75:nonManoeuvring\n"));
+    const QByteArray tracks = written(analysis, "bt.csv", true);
+    QVERIFY(tracks.startsWith("track,t,f,statistic,model\n"
+                              "1,1.25,1010,2,nonManoeuvring\n"
+                              "1,1.75,1012.5,13,nonManoeuvring\n"
+                              "1,2.25,1015,14.75,manoeuvring\n"
+                              "1,2.75,1017.5,9.5,nonManoeuvring\n"));
+    QVERIFY(tracks.contains("\n2,0.75,1002.5,0.1,manoeuvring\n"));
+    const Json json = parseJson(written(analysis, "b.json").toStdString(), "b.json");
+    QCOMPARE(json["events"][1]["model"].get<std::string>(), std::string("nonManoeuvring"));
+    QCOMPARE(json["events"][1]["model_changes"][0]["t"].get<double>(), 2.25);
+    const Json along = parseJson(written(analysis, "bt.json", true).toStdString(), "bt.json");
+    QCOMPARE(along[0]["model"].size(), std::size_t(4));
+    QCOMPARE(along[0]["model"][2].get<std::string>(), std::string("manoeuvring"));
 }
 
 void tst_writeEvents::nothingFound()

@@ -14,6 +14,7 @@ class tst_writeReport : public QObject
 private slots:
     void wellFormedAndTheSameAgain();
     void whoseLaddersAreShown();
+    void areasAreListed();
 };
 
 namespace {
@@ -98,6 +99,21 @@ void tst_writeReport::whoseLaddersAreShown()
     QCOMPARE(idsOf(annotations), (std::vector<int>{13, 12, 11, 10, 9, 8, 7, 6, 5, 4}));
     annotations.reviews = withVerdict(annotations.reviews, analysis, all, {2, 3}, Verdict::Accepted);
     QCOMPARE(idsOf(annotations), (std::vector<int>{2, 3}));
+}
+
+void tst_writeReport::areasAreListed()
+{
+    Analysis analysis = tracksOf(1);
+    QVERIFY(reportHtml(analysis, {}).find("Areas") == std::string::npos);
+    // Frames every 0.5 s from 0.25 s on, bins of 2.5 Hz from 1000 Hz on; the second one is hardly raised.
+    analysis.areas = {{2, 6, 40, 60, 4.0}, {2, 6, 80, 90, 1.1}};
+    const std::string page = reportHtml(analysis, {});
+    QCOMPARE(fault(page), QString());
+    QVERIFY(page.find("<h2>Areas of raised level without a line</h2>") != std::string::npos);
+    QVERIFY(page.find("<td class=\"n\">1.25</td><td class=\"n\">3.25</td><td class=\"n\">1100.00</td>"
+                      "<td class=\"n\">1150.00</td><td class=\"n\">6.0</td>")
+            != std::string::npos);
+    QVERIFY(page.find("1200.00") == std::string::npos);
 }
 
 QTEST_GUILESS_MAIN(tst_writeReport)

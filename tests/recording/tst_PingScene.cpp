@@ -63,6 +63,7 @@ private slots:
     void appearsAndVanishes();
     void weavingReturns();
     void reverberationFalls();
+    void fourAxes();
     void jsonRoundTrip();
     void truthRoundTrip();
     void refusals_data();
@@ -180,6 +181,45 @@ void tst_PingScene::reverberationFalls()
     QVERIFY(std::abs(backgroundPower(scene, 1) - 26.0) < 1e-9); // twice the range, a quarter
 }
 
+void tst_PingScene::fourAxes()
+{
+    PingScene scene = smallScene();
+    scene.priSeconds = 2.0;
+    scene.elevationCells = 5;
+    scene.elevationStepDegrees = 3.0;
+    scene.dopplerCells = 4;
+    scene.firstDopplerMetresPerSecond = -15.0;
+    scene.dopplerStepMetresPerSecond = 10.0;
+    scene.targets = {targetAt(50, 2, {leg(4, 0, 0), leg(0, 0, 0)})};
+    scene.targets[0].elevationDegrees = 3.0;
+    scene.targets[0].legs[0].rangeRateMetresPerSecond = 5.0;       // a cell in a ping
+    scene.targets[0].legs[0].elevationRateDegreesPerSecond = 0.75; // half a cell in a ping
+    scene.targets[0].legs[1].rangeRateMetresPerSecond = -15.0;
+    const Grid grid = pingGrid(scene);
+    QCOMPARE(grid.axes.size(), std::size_t(4));
+    QCOMPARE(grid.axes[2].name, std::string("elevation"));
+    QCOMPARE(grid.axes[3].unit, std::string("m/s"));
+    const TruthTarget truth = pingTruth(scene).targets[0];
+    // Before the turn it approaches the next Doppler cell at 5 m/s; from ping 4 on it closes at 15 m/s.
+    QCOMPARE(grid.coordinates(truth.cellAt(0)), (std::vector<Index>{50, 2, 1, 2}));
+    QCOMPARE(grid.coordinates(truth.cellAt(2)), (std::vector<Index>{52, 2, 2, 2}));
+    QCOMPARE(grid.coordinates(truth.cellAt(4)), (std::vector<Index>{52, 2, 3, 0}));
+    QCOMPARE(grid.coordinates(truth.cellAt(6)), (std::vector<Index>{46, 2, 3, 0}));
+    QCOMPARE(truth.positionOn(3, grid, 0), 5.0);
+    QCOMPARE(truth.positionOn(2, grid, 1), 4.5);
+    TruthTarget other = truth; // of a grid with axes of its own, only the cells are known
+    other.dopplerMetresPerSecond.clear();
+    QCOMPARE(other.positionOn(3, grid, 0), grid.axes[3].value(2));
+    QVERIFY(pingSceneFromJson(toJson(scene)) == scene);
+    QVERIFY(pingTruthFromJson(toJson(pingTruth(scene))) == pingTruth(scene));
+    PingScene flat = smallScene();
+    flat.targets = {targetAt(50, 2, {})};
+    QVERIFY(toJson(pingTruth(flat)).dump().find("elevation") == std::string::npos);
+    // A target faster than the Doppler axis is silent.
+    scene.targets[0].legs[0].rangeRateMetresPerSecond = 50.0;
+    QCOMPARE(pingTruth(scene).targets[0].cellAt(1), Index(-1));
+}
+
 void tst_PingScene::jsonRoundTrip()
 {
     PingScene scene = smallScene();
@@ -239,6 +279,12 @@ void tst_PingScene::refusals_data()
     QTest::newRow("fluctuates twice")
         << R"({"kind": "pings", "targets": [{"rangeMetres": 4000, "echo": "fluctuating", "fluctuation": "swerling1"}]})"
         << "targets[0].fluctuation";
+    QTest::newRow("too many cells of four axes")
+        << R"({"kind": "pings", "rangeCells": 1000, "beams": 100, "elevationCells": 10, "dopplerCells": 100})"
+        << "rangeCells";
+    QTest::newRow("estimates on more axes")
+        << R"({"kind": "pings", "elevationCells": 4, "reverberation": {"normalisation": "estimated"}})"
+        << "reverberation.normalisation";
     QTest::newRow("reverberation at no range") << R"({"kind": "pings", "firstRangeMetres": 0, "reverberation": {}})"
                                                << "firstRangeMetres";
 }

@@ -1,5 +1,7 @@
 #include "session/Session.h"
 
+#include "base/Random.h"
+#include "exchange/openFrames.h"
 #include "support/errors.h"
 
 #include <QDir>
@@ -74,6 +76,40 @@ private slots:
         writeSession(path("old/s.faintline").toStdString(), sessionOf(path("old/a.raw")));
         QVERIFY(QDir(m_folder.path()).rename("old", "new"));
         QCOMPARE(readSession(path("new/s.faintline").toStdString()).source.path, path("new/a.raw").toStdString());
+    }
+
+    /// Power in a file over time and frequency, analysed with settings of its noise and of its part.
+    void powerIsNormalisedAsTheSettingsAsk()
+    {
+        QByteArray header = "{'descr': '<f4', 'fortran_order': False, 'shape': (60, 40), }";
+        header = header.leftJustified(128 - 10 - 1, ' ') + '\n';
+        QByteArray bytes = QByteArray("\x93NUMPY\x01\x00", 8) + char(header.size()) + '\0' + header;
+        Random random(131, 0);
+        for (int i = 0; i < 60 * 40; ++i) {
+            const auto value = float(random.exponential());
+            bytes.append(reinterpret_cast<const char *>(&value), sizeof value);
+        }
+        writeFile(path("p.npy"), bytes);
+        writeFile(path("p.grid.json"), R"({"values": "power", "time": {"step": 0.5},
+            "axes": [{"name": "frequency", "unit": "Hz", "first": 100, "step": 2}]})");
+        const std::string file = path("p.npy").toStdString();
+        AnalysisSettings settings;
+        settings.detector = EnergySettings{};
+        settings.noise.halfWidthCells = 4;
+        settings.selection.fromSeconds = 5.0;
+        const OpenedSource opened = openSource(sourceOf(file));
+        QVERIFY(opened.isPower);
+        const auto analysis = analyse(opened, settings);
+        const auto wanted = openFrames(file, {settings.selection, settings.noise});
+        const auto valuesOf = [](const NormalisedFrames &frames) {
+            std::vector<float> y(std::size_t(frames.time().count * frames.grid().size()));
+            frames.read(0, frames.time().count, y);
+            return y;
+        };
+        QCOMPARE(analysis->time(), wanted->time());
+        QVERIFY(valuesOf(*analysis->frames) == valuesOf(*wanted));
+        QVERIFY(opened.isNormalisedFor(AnalysisSettings()));
+        QVERIFY(valuesOf(*analyse(opened, AnalysisSettings())->frames) == valuesOf(*opened.frames));
     }
 
     void noticesAnotherRecording()

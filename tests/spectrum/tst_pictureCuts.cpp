@@ -58,6 +58,46 @@ private slots:
         QCOMPARE(valuesOf(*pictureOfFrame(*pings(), grid(), 7)), valuesOf(*frame));
     }
 
+    /// Every pair of axes, with maxima and with cuts, against loops over all cells.
+    void planesOfFourAxes()
+    {
+        const Grid scan{{{"range", "m", 0.0, 1.0, 3, false},
+                         {"bearing", "°", 0.0, 1.0, 4, true},
+                         {"elevation", "°", 0.0, 1.0, 2, false},
+                         {"Doppler", "m/s", 0.0, 1.0, 5, false}}};
+        std::vector<float> values;
+        for (Index cell = 0; cell < scan.size(); ++cell)
+            values.push_back(0.25f * float(7 * cell % scan.size() % 60)); // steps of the scale, in no order
+        PeakPyramid picture(Axis{"time", "s", 0.0, 1.0, 1, false}, scan.size(), ByteScale(ByteScale::Kind::ScoreNats));
+        picture.append(values);
+        picture.finish();
+        for (std::size_t along = 0; along < 4; ++along)
+            for (std::size_t across = 0; across < 4; ++across)
+                for (int cuts = 0; along != across && cuts < 4; ++cuts) {
+                    FramePlane plane{along, across, {2, 3, 1, 4}};
+                    for (std::size_t axis = 0, hidden = 0; axis < 4; ++axis)
+                        if (!plane.isShown(axis) && !(cuts >> hidden++ & 1))
+                            plane.cuts[axis].reset();
+                    std::vector<double> expected(std::size_t(scan.axes[along].count * scan.axes[across].count), -1e9);
+                    for (Index cell = 0; cell < scan.size(); ++cell) {
+                        const std::vector<Index> at = scan.coordinates(cell);
+                        bool isCutAway = false;
+                        for (std::size_t axis = 0; axis < 4; ++axis)
+                            isCutAway |= plane.cutOf(axis) && *plane.cutOf(axis) != at[axis];
+                        double &most = expected[std::size_t(at[along] * scan.axes[across].count + at[across])];
+                        if (!isCutAway)
+                            most = std::max(most, double(values[std::size_t(cell)]));
+                    }
+                    const auto frame = pictureOfFrame(picture, scan, 0, plane);
+                    QCOMPARE(frame->time(), scan.axes[along]);
+                    QCOMPARE(valuesOf(*frame), expected);
+                    const Index behind = strongestCell(picture, scan, 0, plane, 1, 1);
+                    const std::vector<Index> at = scan.coordinates(behind);
+                    QVERIFY(at[along] == 1 && at[across] == 1);
+                    QCOMPARE(double(values[std::size_t(behind)]), expected[std::size_t(scan.axes[across].count + 1)]);
+                }
+    }
+
     void mergedFramesAreShownAsTheirMaximum()
     {
         auto picture = std::make_shared<PeakPyramid>(Axis{"time", "s", 0.0, 1.0, 16, false}, 6,

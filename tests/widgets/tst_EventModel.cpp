@@ -33,6 +33,7 @@ private slots:
     void reviewsOfOtherEventsAreIgnored();
     void hostileNotesStayOnOneLine();
     void ofPingsRangeAndBearing();
+    void aColumnForEachAxis();
     void unitsFollowTheStatistic();
     void windowsAreToldWhereTheyDiffer();
     void everyCellCanBeHeard();
@@ -215,6 +216,27 @@ void tst_EventModel::hostileNotesStayOnOneLine()
     QVERIFY(!note.contains(QLatin1Char('\n')) && !note.contains(QChar(0x202e)));
     const QString tip = m_model->index(0, EventModel::Note).data(Qt::ToolTipRole).toString();
     QVERIFY2(tip.contains("&lt;b&gt;two"), qPrintable(tip.left(60))); // a tool tip would take it for HTML
+}
+
+void tst_EventModel::aColumnForEachAxis()
+{
+    Event event = test::event(1, 1.0, 2.0, 0.0);
+    event.position = {1250.0, 45.0, 6.0, -30.0};
+    event.ratesPerSecond = {-2.5, 0.125, 0.0, 0.0};
+    m_model->setEvents({event});
+    m_model->setAxes({{"range", "m", 0.0, 10.0, 100, false},
+                      {"bearing", "°", 0.0, 3.0, 8, false},
+                      {"elevation", "°", 0.0, 3.0, 4, false},
+                      {"Doppler", "m/s", -50.0, 20.0, 6, false}});
+    const auto heading = [&](int column) { return m_model->headerData(column, Qt::Horizontal, Qt::DisplayRole); };
+    QCOMPARE(heading(EventModel::Bearing).toString(), QString::fromUtf8("Bearing (°)"));
+    QCOMPARE(heading(EventModel::FourthAxis).toString(), QString("Doppler (m/s)"));
+    QCOMPARE(text(EventModel::Bearing), QString("45.0"));
+    QCOMPARE(text(EventModel::ThirdAxis), QString("6.0"));
+    QCOMPARE(text(EventModel::FourthAxis), QString::fromUtf8("−30.0"));
+    QVERIFY(m_model->hasColumn(EventModel::FourthAxis));
+    m_model->setAxes({{"frequency", "Hz", 0.0, 1.0, 100, false}});
+    QVERIFY(!m_model->hasColumn(EventModel::Bearing) && !m_model->hasColumn(EventModel::ThirdAxis));
 }
 
 void tst_EventModel::ofPingsRangeAndBearing()

@@ -89,11 +89,11 @@ private slots:
         QCOMPARE(marks.tracks.size(), std::size_t(1));
         QCOMPARE(marks.tracks[0].id, 4);
         QCOMPARE(marks.tracks[0].places.size(), std::size_t(3));
-        QCOMPARE(marks.tracks[0].places.back().range, 1140.0);
-        QCOMPARE(marks.tracks[0].places.back().bearing, 180.0);
+        QCOMPARE(marks.tracks[0].places.back().along, 1140.0);
+        QCOMPARE(marks.tracks[0].places.back().across, 180.0);
         QVERIFY(marks.tracks[0].isConfirmed);
         QVERIFY(marks.detections.empty());
-        QCOMPARE(pingMarks(analysis, tracks, {}, 3, 2).tracks[0].places.size(), std::size_t(2)); // a shorter tail
+        QCOMPARE(pingMarks(analysis, tracks, {}, 3, {}, 2).tracks[0].places.size(), std::size_t(2)); // a shorter tail
         // Before its detection it is known only by hindsight.
         QVERIFY(!pingMarks(analysis, tracks, {}, 1).tracks[0].isDetected);
         QCOMPARE(pingMarks(analysis, tracks, {}, 2).detections.size(), std::size_t(1));
@@ -112,8 +112,8 @@ private slots:
         QVERIFY(west && east && west != east);
         QCOMPARE(west->track, 7);
         QCOMPARE(west->pings, 3); // the one before was another time
-        QCOMPARE(east->range.low, 1165.0);
-        QCOMPARE(east->range.high, 1235.0);
+        QCOMPARE(east->along.low, 1165.0);
+        QCOMPARE(east->along.high, 1235.0);
         QVERIFY(!marks.boxAt({1200.0, 90.0}));
         QVERIFY(!marks.boxAt({1240.0, 0.0}));
         QVERIFY(pingMarks(analysis, {}, {}, 2).boxes.empty());
@@ -129,7 +129,7 @@ private slots:
         QVERIFY(pingMarks(analysis, {}, truth, 0).truth.empty());
         const PingMarks marks = pingMarks(analysis, {}, truth, 2);
         QCOMPARE(marks.truth.size(), std::size_t(1));
-        QCOMPARE(marks.truth[0].places.back().range, 1110.0);
+        QCOMPARE(marks.truth[0].places.back().along, 1110.0);
         QVERIFY(pingMarks(analysis, {}, truth, 3).truth.empty()); // beyond the ranges
         const auto lines = truthAlong(truth, grid(), analysis.time(), 1);
         QCOMPARE(lines.size(), std::size_t(1));
@@ -157,12 +157,12 @@ private slots:
     {
         Viewport rangeTime;
         PingViewports viewports(rangeTime);
-        viewports.setExtents({-20.0, 220.0}, {995.0, 1495.0}, {-22.5, 337.5}, {40.0, 40.0, 45.0});
+        viewports.setExtents({{-20.0, 220.0}, 40.0}, {{{995.0, 1495.0}, 40.0}, {{-22.5, 337.5}, 45.0}});
         viewports.map().zoomTo({1100.0, 1200.0}, {0.0, 90.0});
         QCOMPARE(rangeTime.frequency().low, 1100.0);
-        QCOMPARE(viewports.bearingTime().frequency().high, 90.0);
+        QCOMPARE(viewports.acrossTime().frequency().high, 90.0);
         QCOMPARE(rangeTime.time(), (Span{-20.0, 220.0}));
-        viewports.bearingTime().zoomTo({40.0, 120.0}, {0.0, 180.0});
+        viewports.acrossTime().zoomTo({40.0, 120.0}, {0.0, 180.0});
         QCOMPARE(rangeTime.time(), (Span{40.0, 120.0}));
         QCOMPARE(viewports.map().frequency(), (Span{0.0, 180.0}));
         QCOMPARE(viewports.map().time(), (Span{1100.0, 1200.0}));
@@ -172,16 +172,16 @@ private slots:
     {
         Viewport rangeTime;
         PingViewports viewports(rangeTime);
-        viewports.setExtents({-20.0, 220.0}, {995.0, 1495.0}, {-22.5, 337.5}, {40.0, 40.0, 45.0});
+        viewports.setExtents({{-20.0, 220.0}, 40.0}, {{{995.0, 1495.0}, 40.0}, {{-22.5, 337.5}, 45.0}});
         QSignalSpy changed(&viewports, &PingViewports::placeChanged);
-        viewports.setPlace({80.0, 1200.0, 90.0});
+        viewports.setPlace({80.0, {1200.0, 90.0}});
         QCOMPARE(changed.count(), 1);
         viewports.map().setCursor({1300.0, 45.0});
         QCOMPARE(changed.count(), 2);
         QVERIFY(rangeTime.cursor() == (Viewport::Point{80.0, 1300.0}));
-        QVERIFY(viewports.bearingTime().cursor() == (Viewport::Point{80.0, 45.0}));
-        viewports.bearingTime().setCursor({120.0, 300.0});
-        QVERIFY(viewports.place() == (PingViewports::Place{120.0, 1300.0, 300.0}));
+        QVERIFY(viewports.acrossTime().cursor() == (Viewport::Point{80.0, 45.0}));
+        viewports.acrossTime().setCursor({120.0, 300.0});
+        QVERIFY(viewports.place() == (PingViewports::Place{120.0, {1300.0, 300.0}}));
         QVERIFY(viewports.map().cursor() == (Viewport::Point{1300.0, 300.0}));
     }
 

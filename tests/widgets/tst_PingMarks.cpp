@@ -19,8 +19,35 @@ private slots:
     void targetsBecomeLines();
     void targetsBeyondTheGridLeaveAGap();
     void theOldestBoxIsOnTop();
+    void marksOnOtherAxes();
+    void marksNearACut();
 
 private:
+    /// One ping of range × bearing × elevation × Doppler with a track, a target and an inhibited box.
+    struct Scan {
+        Analysis analysis;
+        std::vector<Track> tracks;
+        PingTruth truth;
+    };
+    static Scan scan()
+    {
+        Scan scan;
+        const Grid grid{{{"range", "m", 1000.0, 10.0, 20, false},
+                         {"bearing", "deg", 0.0, 45.0, 8, true},
+                         {"elevation", "deg", 0.0, 2.0, 5, false},
+                         {"Doppler", "m/s", -40.0, 20.0, 5, false}}};
+        scan.analysis.frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, 2, false}, grid,
+                                                            std::vector<float>(std::size_t(2 * grid.size())));
+        Track track;
+        track.id = 7;
+        track.onsetFrame = 0;
+        track.detectFrame = track.endFrame = 1;
+        track.points = {{0, grid.cell({4, 7, 1, 3}), 0, 5.0}, {1, grid.cell({5, 0, 2, 3}), 0, 9.0}};
+        scan.tracks = {track};
+        scan.truth.targets.push_back({9.0, 1, {1051.0}, {2.0}, {double(grid.cell({5, 0, 2, 3}))}, {4.5}, {19.0}});
+        scan.analysis.inhibitions = {{}, {{7, {{5, 0, 2, 3}, {2, 1, 1, 1}}}}};
+        return scan;
+    }
     const Grid m_grid{{{"range", "m", 1000.0, 10.0, 100, false}, {"bearing", "deg", 0.0, 18.0, 20, true}}};
     const Axis m_time{"time", "s", 0.0, 40.0, 10, false};
 
@@ -120,6 +147,45 @@ void tst_PingMarks::theOldestBoxIsOnTop()
     QCOMPARE(marks.boxAt({1075.0, 30.0})->pings, 9);
     QCOMPARE(marks.boxAt({1010.0, 10.0})->track, 5);
     QVERIFY(!marks.boxAt({1300.0, 30.0}));
+}
+
+void tst_PingMarks::marksOnOtherAxes()
+{
+    const Scan given = scan();
+    const PingMarks marks = pingMarks(given.analysis, given.tracks, given.truth, 1, {3, 2, {}});
+    QCOMPARE(marks.tracks.size(), std::size_t(1));
+    QCOMPARE(marks.tracks[0].places.size(), std::size_t(2));
+    QCOMPARE(marks.tracks[0].places[0].along, 20.0); // Doppler
+    QCOMPARE(marks.tracks[0].places[0].across, 2.0); // elevation
+    QCOMPARE(marks.tracks[0].places[1].across, 4.0);
+    QCOMPARE(marks.detections[0].place.across, 4.0);
+    QCOMPARE(marks.truth[0].places[0].along, 19.0); // as precisely as known
+    QCOMPARE(marks.truth[0].places[0].across, 4.5);
+    QCOMPARE(marks.boxes.size(), std::size_t(1));
+    QCOMPARE(marks.boxes[0].along, (Span{-10.0, 50.0}));
+    QCOMPARE(marks.boxes[0].across, (Span{1.0, 7.0}));
+    // Across the bearings the box wraps.
+    QCOMPARE(pingMarks(given.analysis, given.tracks, given.truth, 1, {0, 1, {}}).boxes.size(), std::size_t(2));
+    // The same places over time.
+    const Grid &grid = given.analysis.grid();
+    QCOMPARE(tracksAlong(given.tracks, grid, 3)[0].points[1].cell, Index(3));
+    QCOMPARE(truthAlong(given.truth, grid, given.analysis.time(), 2)[0].frequencyHz, std::vector<double>{4.5});
+}
+
+/// A cut shows what passes through its cell or a neighbour of it, on a cyclic axis the shorter way.
+void tst_PingMarks::marksNearACut()
+{
+    const Scan given = scan();
+    const auto cutAt = [&](std::optional<Index> bearing, std::optional<Index> elevation) {
+        return pingMarks(given.analysis, given.tracks, given.truth, 1, {0, 3, {{}, bearing, elevation, {}}});
+    };
+    QCOMPARE(cutAt({}, 2).tracks[0].places.size(), std::size_t(2)); // elevations 1 and 2
+    QCOMPARE(cutAt({}, 3).tracks[0].places.size(), std::size_t(1));
+    QVERIFY(cutAt({}, 4).tracks.empty() && cutAt({}, 4).truth.empty() && cutAt({}, 4).boxes.empty());
+    QCOMPARE(cutAt(7, {}).tracks[0].places.size(), std::size_t(2)); // bearings 7 and 0 are neighbours
+    QVERIFY(cutAt(3, {}).tracks.empty());
+    QCOMPARE(cutAt({}, 3).boxes.size(), std::size_t(1));
+    QCOMPARE(cutAt({}, 3).truth.size(), std::size_t(1));
 }
 
 QTEST_MAIN(tst_PingMarks)

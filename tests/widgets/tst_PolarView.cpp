@@ -115,8 +115,8 @@ void tst_PolarView::placesReadBack()
     QFETCH(double, range);
     QFETCH(double, bearing);
     const PingMarks::Place place = m_polar->placeAt(m_polar->positionOf({range, bearing}));
-    QVERIFY(std::abs(place.range - range) < 1e-6);
-    QVERIFY(std::abs(place.bearing - bearing) < 1e-6); // on the axis: -22°, not 338°
+    QVERIFY(std::abs(place.along - range) < 1e-6);
+    QVERIFY(std::abs(place.across - bearing) < 1e-6); // on the axis: -22°, not 338°
 }
 
 void tst_PolarView::coloursFollowThePlane()
@@ -167,7 +167,7 @@ void tst_PolarView::ctrlAndWheelZoomAboutThePointer()
     wheel(m_polar->positionOf(place), 2, Qt::ControlModifier);
     QVERIFY(m_isWheelTaken);
     QVERIFY(std::abs(m_viewport.time().width() - 500.0 / 1.5625) < 1e-6);
-    QVERIFY(m_viewport.time().contains(place.range) && m_viewport.frequency().contains(place.bearing));
+    QVERIFY(m_viewport.time().contains(place.along) && m_viewport.frequency().contains(place.across));
     wheel(m_polar->positionOf(place), -2, Qt::ControlModifier);
     QVERIFY(std::abs(m_viewport.time().width() - 500.0) < 1e-6);
 }

@@ -64,6 +64,7 @@ private slots:
     void listsKeepTheirCommas();
     void integersAreEmittedWhenTheyAreWhole();
     void choicesGoByTheirNames();
+    void aChoiceIsNamedBySetting();
     void flagsByKey();
     void aMistakeIsForgottenWithIt_data();
     void aMistakeIsForgottenWithIt();
@@ -230,6 +231,22 @@ void tst_SettingRow::choicesGoByTheirNames()
     row.setValue(std::string("rectangular"));
     QCOMPARE(box->currentIndex(), 1);
     QCOMPARE(edited.count(), 1);
+}
+
+/// Two settings whose values share a name in files.
+void tst_SettingRow::aChoiceIsNamedBySetting()
+{
+    FieldInfo likelihood = info(FieldKind::Choice);
+    likelihood.name = "model.likelihood";
+    likelihood.choices = {"rice", "exponential"};
+    QCOMPARE(qobject_cast<QComboBox *>(make(likelihood, std::string("rice")).editor())->itemText(1),
+             QString("fluctuating"));
+    FieldInfo weights = info(FieldKind::Choice);
+    weights.name = "integrator.shape";
+    weights.choices = {"boxcar", "exponential"};
+    SettingRow &row = make(weights, std::string("exponential"));
+    QCOMPARE(qobject_cast<QComboBox *>(row.editor())->itemText(1), QString("exponential"));
+    QVERIFY(row.editor()->toolTip().contains("Default: exponential"));
 }
 
 void tst_SettingRow::flagsByKey()

@@ -25,6 +25,7 @@ private slots:
 
     void aPeakOfOneFrameIsDrawn();
     void gapsAreLeftOut();
+    void titlesFitLowStrips();
     void profileFollowsTheCursor();
     void stripScrollsZoomsAndPlacesTheCursor();
     void overviewBoxIsDragged();
@@ -63,6 +64,22 @@ void tst_strips::aPeakOfOneFrameIsDrawn()
     QVERIFY(drawn);
     QVERIFY(drawn->dataSize() < 2000);
     QCOMPARE(drawn->maxYValue(), 42.0);
+}
+
+void tst_strips::titlesFitLowStrips()
+{
+    StripPlot plot(QString::fromUtf8("D (× noise)"));
+    plot.setViewport(&m_viewport);
+    plot.setSeries("D", test::timeAxis(4, 250.0), {1.0f, 2.0f, 3.0f, 4.0f});
+    plot.setMinimumSize(1, 1);
+    for (const int height : {240, 100, 240}) {
+        test::show(plot, {400, height});
+        const QwtText title = plot.axisTitle(QwtAxis::YLeft);
+        const int length = QFontMetrics(title.font()).horizontalAdvance(title.text());
+        QVERIFY2(length <= plot.canvas()->height(),
+                 qPrintable(QString("%1 %2").arg(length).arg(plot.canvas()->height())));
+        QCOMPARE(title.font() == Theme::plotTitleFont(), height == 240); // where there is room, as everywhere
+    }
 }
 
 void tst_strips::gapsAreLeftOut()

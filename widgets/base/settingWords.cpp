@@ -57,8 +57,12 @@ QString stageLabel(const QString &prefix)
     return found != labels.constEnd() ? *found : capitalised(spelled(prefix));
 }
 
-QString choiceLabel(const QString &choice)
+QString choiceLabel(const FieldInfo &setting, const QString &choice)
 {
+    static const QHash<QString, QString> ofSetting{
+        {"likelihood.exponential", "fluctuating"},
+        {"shape.exponential", "exponential"},
+    };
     static const QHash<QString, QString> labels{
         {"auto", "found automatically"},
         {"hann", "Hann"},
@@ -66,7 +70,6 @@ QString choiceLabel(const QString &choice)
         {"blackman", "Blackman"},
         {"blackmanHarris", "Blackman–Harris"},
         {"rice", "constant (Rice)"},
-        {"exponential", "fluctuating"},
         {"swerling4", "fluctuating (Swerling 4)"},
         {"linear", "plain power"},
         {"halfDown", "half rounds down"},
@@ -92,6 +95,9 @@ QString choiceLabel(const QString &choice)
         {"pfaPerCell", "Pfa per cell"},
         {"thresholdNats", "nats"},
     };
+    const QString name = QString::fromStdString(setting.name).section(QLatin1Char('.'), -1);
+    if (const auto own = ofSetting.constFind(name + QLatin1Char('.') + choice); own != ofSetting.constEnd())
+        return *own;
     const auto found = labels.constFind(choice);
     return found != labels.constEnd() ? *found : spelled(choice);
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/Field.h"
+
 #include <QString>
 
 namespace faintline {
@@ -13,7 +15,8 @@ QString settingLabel(const QString &name);
 /// "smd" → "Sequential Markov".
 QString stageLabel(const QString &prefix);
 
-/// "halfDown" → "half rounds down".
-QString choiceLabel(const QString &choice);
+/// A value of a setting: "halfDown" → "half rounds down". Settings may share the name of a value and differ in its
+/// meaning.
+QString choiceLabel(const FieldInfo &setting, const QString &choice);
 
 } // namespace faintline

@@ -25,7 +25,7 @@ namespace {
             {"dur", [](const Event &e) { return e.endSeconds - e.onsetSeconds; }},
             {"f", [](const Event &e) { return e.position.empty() ? 0.0 : e.position.back(); }},
             {"range", [](const Event &e) { return e.position.empty() ? 0.0 : e.position.front(); }},
-            {"bearing", [](const Event &e) { return e.position.empty() ? 0.0 : e.position.back(); }},
+            {"bearing", [](const Event &e) { return e.position.size() < 2 ? 0.0 : e.position[1]; }},
             {"drift", [](const Event &e) { return e.driftPerSecond; }},
             {"stat", [](const Event &e) { return e.statistic; }},
             {"d", [](const Event &e) { return e.statistic; }},

@@ -57,7 +57,11 @@ double EventModel::sortValue(const Event &event, int column) const
     case Radio:
         return event.position.empty() ? 0.0 : event.position.front();
     case Bearing:
-        return event.position.empty() ? 0.0 : event.position.back();
+    case ThirdAxis:
+    case FourthAxis: {
+        const std::size_t axis = axisOf(Column(column));
+        return event.position.empty() ? 0.0 : event.position[std::min(axis, event.position.size() - 1)];
+    }
     case Drift:
         return hasBearing() && !event.ratesPerSecond.empty() ? event.ratesPerSecond.front() : event.driftPerSecond;
     case Statistic:
@@ -172,7 +176,11 @@ QString EventModel::text(const Event &event, int column) const
                    ? QStringLiteral("–")
                    : numberText(event.position.front(), hasBearing() ? decimalsFor(m_axes.front().step) : 2);
     case Bearing:
-        return event.position.empty() ? QStringLiteral("–") : numberText(event.position.back(), 1);
+    case ThirdAxis:
+    case FourthAxis: {
+        const std::size_t axis = axisOf(Column(column));
+        return axis < event.position.size() ? numberText(event.position[axis], 1) : QStringLiteral("–");
+    }
     case Drift:
         return powerText(sortValue(event, Drift), 3);
     case Statistic:
@@ -264,9 +272,16 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
     if (role == Qt::TextAlignmentRole)
         return QVariant::fromValue(alignmentOf(section));
     const auto unit = [this](std::size_t axis) { return labelText(m_axes[axis].unit, mostUnitLetters); };
+    const auto nameOf = [this](std::size_t axis) { return capitalised(labelText(m_axes[axis].name, mostUnitLetters)); };
+    const auto heading = [&](std::size_t axis) {
+        return axis < m_axes.size() ? QStringLiteral("%1 (%2)").arg(nameOf(axis), unit(axis))
+                                    : tr("Axis %1").arg(axis + 1);
+    };
     const QString names[] = {tr("№"),
-                             hasBearing() ? tr("Range (%1)").arg(unit(0)) : tr("f (Hz)"),
-                             hasBearing() ? tr("Bearing (%1)").arg(unit(1)) : tr("Bearing"),
+                             hasBearing() ? heading(0) : tr("f (Hz)"),
+                             hasBearing() ? heading(1) : tr("Bearing"),
+                             heading(2),
+                             heading(3),
                              tr("Onset"),
                              tr("Det."),
                              tr("Conf."),
@@ -283,10 +298,10 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
                              tr("Note")};
     const QString tips[] = {
         tr("Number, in order of detection"),
-        hasBearing()     ? tr("Range at detection")
-        : m_axes.empty() ? tr("Frequency at detection")
-                         : tr("%1 at detection").arg(capitalised(labelText(m_axes.front().name, mostUnitLetters))),
-        tr("Bearing at detection"),
+        m_axes.empty() ? tr("Frequency at detection") : tr("%1 at detection").arg(nameOf(0)),
+        tr("%1 at detection").arg(hasBearing() ? nameOf(1) : tr("Bearing")),
+        tr("%1 at detection").arg(hasColumn(ThirdAxis) ? nameOf(2) : QString()),
+        tr("%1 at detection").arg(hasColumn(FourthAxis) ? nameOf(3) : QString()),
         tr("Onset: time of the last reset of the detecting path, from the first sample; s, from ten "
            "minutes on h:min:s"),
         tr("Detected: time at which the statistic first exceeded the threshold"),

@@ -21,7 +21,9 @@ public:
     enum Column {
         Id,
         Frequency,
-        Bearing,
+        Bearing, ///< along the second axis, if there is one
+        ThirdAxis,
+        FourthAxis,
         Onset,
         Detection,
         Confirmation,
@@ -51,6 +53,9 @@ public:
     /// bearing.
     void setAxes(const std::vector<Axis> &axes);
     bool hasBearing() const { return m_axes.size() > 1; }
+    /// Whether a column of a position is on an axis of the frames.
+    bool hasColumn(Column column) const { return axisOf(column) < m_axes.size(); }
+    static std::size_t axisOf(Column column) { return std::size_t(column) - Frequency; }
     /// Sets the recording's start time (UTC) and the frequency that corresponds to 0 Hz.
     void setOrigin(std::optional<double> startUnixSeconds, double centreHz);
     bool hasUtc() const { return m_startUnixSeconds.has_value(); }

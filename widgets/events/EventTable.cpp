@@ -105,8 +105,8 @@ void EventTable::setUpTable()
     m_table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
     m_table->setAccessibleName(tr("Events"));
     m_table->installEventFilter(this);
-    for (const int column :
-         {EventModel::Bearing, EventModel::Window, EventModel::Utc, EventModel::Radio, EventModel::Class})
+    for (const int column : {EventModel::Bearing, EventModel::ThirdAxis, EventModel::FourthAxis, EventModel::Window,
+                             EventModel::Utc, EventModel::Radio, EventModel::Class})
         m_table->setColumnHidden(column, true);
     connect(m_table, &QTableView::clicked, this, [this](const QModelIndex &index) {
         if (selectedEvents().size() == 1) // otherwise several are being selected
@@ -199,7 +199,8 @@ void EventTable::setStatisticUnit(const QString &unit)
 void EventTable::setAxes(const std::vector<Axis> &axes)
 {
     m_model->setAxes(axes);
-    m_table->setColumnHidden(EventModel::Bearing, !m_model->hasBearing());
+    for (const auto column : {EventModel::Bearing, EventModel::ThirdAxis, EventModel::FourthAxis})
+        m_table->setColumnHidden(column, !m_model->hasColumn(column));
 }
 
 void EventTable::setOrigin(std::optional<double> startUnixSeconds, double centreHz)

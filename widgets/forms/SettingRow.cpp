@@ -40,8 +40,8 @@ namespace {
             lines << SettingRow::tr("Range: %1 … %2%3")
                          .arg(QString::fromStdString(formatNumber(info.minimum)),
                               QString::fromStdString(formatNumber(info.maximum)), unit);
-        const QString defaultText =
-            info.kind == FieldKind::Choice ? choiceLabel(shownText(defaultValue)) : shownText(defaultValue) + unit;
+        const QString defaultText = info.kind == FieldKind::Choice ? choiceLabel(info, shownText(defaultValue))
+                                                                   : shownText(defaultValue) + unit;
         lines << SettingRow::tr("Default: %1")
                      .arg(info.kind == FieldKind::Flag
                               ? (std::get<bool>(defaultValue) ? SettingRow::tr("on") : SettingRow::tr("off"))
@@ -168,7 +168,7 @@ void SettingRow::makeEditor()
         box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
         box->setMinimumContentsLength(6);
         for (const std::string &choice : m_info.choices)
-            box->addItem(choiceLabel(QString::fromStdString(choice)), QString::fromStdString(choice));
+            box->addItem(choiceLabel(m_info, QString::fromStdString(choice)), QString::fromStdString(choice));
         connect(box, &QComboBox::activated, this, [this, box] { accept(box->currentData().toString().toStdString()); });
         m_editor = box;
         break;

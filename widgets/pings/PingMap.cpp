@@ -18,8 +18,8 @@ PingMap::PingMap(const QString &heading, Viewport &viewport, QWidget *parent)
       m_plane(new WaterfallView(heading)),
       m_overlay(new PingOverlayItem([this](const PingMarks::Place &place, const QwtScaleMap &x, const QwtScaleMap &y) {
           return m_plane->orientation() == WaterfallView::Orientation::LeftToRight
-                     ? QPointF(x.transform(place.range), y.transform(place.bearing))
-                     : QPointF(x.transform(place.bearing), y.transform(place.range));
+                     ? QPointF(x.transform(place.along), y.transform(place.across))
+                     : QPointF(x.transform(place.across), y.transform(place.along));
       }))
 {
     m_plane->setViewport(&viewport);
@@ -92,7 +92,7 @@ int PingMap::trackAt(const PingMarks::Place &place) const
 {
     constexpr double reach = 14.0; // pixels
     const auto on = [this](const PingMarks::Place &where) {
-        return isPolar() ? m_polar->positionOf(where) : m_plane->positionOf({where.range, where.bearing});
+        return isPolar() ? m_polar->positionOf(where) : m_plane->positionOf({where.along, where.across});
     };
     int nearest = 0;
     double least = reach;

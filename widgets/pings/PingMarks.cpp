@@ -7,11 +7,34 @@ namespace faintline {
 
 namespace {
 
-    PingMarks::Place placeOf(const Grid &grid, Index cell)
-    {
-        const Index beams = grid.axes[1].count;
-        return {grid.axes[0].value(double(cell / beams)), grid.axes[1].value(double(cell % beams))};
-    }
+    /// The plane on which marks are placed.
+    struct MarkedPlane {
+        const Grid &grid;
+        const FramePlane &plane;
+
+        const Axis &along() const { return grid.axes[plane.along]; }
+        const Axis &across() const { return grid.axes[plane.across]; }
+
+        /// Empty if the cell is farther from a cut than its neighbours.
+        std::optional<PingMarks::Place> placeOf(Index cell) const
+        {
+            const std::vector<Index> coordinates = grid.coordinates(cell);
+            if (!isIn(coordinates, std::vector<Index>(coordinates.size(), 1)))
+                return {};
+            return PingMarks::Place{along().value(double(coordinates[plane.along])),
+                                    across().value(double(coordinates[plane.across]))};
+        }
+
+        /// Whether all cuts lie within centre ± halfWidth, in cells.
+        bool isIn(const std::vector<Index> &centre, const std::vector<Index> &halfWidth) const
+        {
+            for (std::size_t axis = 0; axis < centre.size(); ++axis)
+                if (const std::optional<Index> cut = plane.cutOf(axis);
+                    cut && std::abs(grid.axes[axis].steps(centre[axis], *cut)) > halfWidth[axis])
+                    return false;
+            return true;
+        }
+    };
 
     /// The spans of cells centre ± half on an axis: two if they wrap around the end of a cyclic axis.
     std::vector<Span> spansOf(const Axis &axis, Index centre, Index half)
@@ -44,18 +67,21 @@ namespace {
         return count;
     }
 
-    std::vector<PingMarks::Box> boxesOf(const Analysis &analysis, Index ping)
+    std::vector<PingMarks::Box> boxesOf(const Analysis &analysis, Index ping, const MarkedPlane &on)
     {
         std::vector<PingMarks::Box> boxes;
-        const Grid &grid = analysis.grid();
+        const auto spans = [](const Axis &axis, std::size_t i, const CellBox &box) {
+            return spansOf(axis, box.centre[i], box.halfWidth[i]);
+        };
         for (const auto &[track, box] : analysis.inhibitions[std::size_t(ping)])
-            for (const Span &range : spansOf(grid.axes[0], box.centre[0], box.halfWidth[0]))
-                for (const Span &bearing : spansOf(grid.axes[1], box.centre[1], box.halfWidth[1]))
-                    boxes.push_back({track, pingsInhibited(analysis, track, ping), range, bearing});
+            if (on.isIn(box.centre, box.halfWidth))
+                for (const Span &along : spans(on.along(), on.plane.along, box))
+                    for (const Span &across : spans(on.across(), on.plane.across, box))
+                        boxes.push_back({track, pingsInhibited(analysis, track, ping), along, across});
         return boxes;
     }
 
-    std::optional<PingMarks::Trail> trailOf(const Track &track, const Grid &grid, Index ping, Index tailPings)
+    std::optional<PingMarks::Trail> trailOf(const Track &track, const MarkedPlane &on, Index ping, Index tailPings)
     {
         PingMarks::Trail trail{
             track.id, {}, ping >= track.detectFrame, track.isConfirmed && ping >= track.confirmFrame};
@@ -63,21 +89,24 @@ namespace {
             return {};
         for (const TrackPoint &point : track.points)
             if (point.frame <= ping && point.frame > ping - tailPings)
-                trail.places.push_back(placeOf(grid, point.cell));
+                if (const auto place = on.placeOf(point.cell))
+                    trail.places.push_back(*place);
         return trail.places.empty() ? std::nullopt : std::optional(trail);
     }
 
-    std::optional<PingMarks::Trail> trailOf(const TruthTarget &target, int id, Index ping, Index tailPings)
+    std::optional<PingMarks::Trail> trailOf(const TruthTarget &target, int id, const MarkedPlane &on, Index ping,
+                                            Index tailPings)
     {
         if (target.cellAt(ping) < 0)
             return {};
         PingMarks::Trail trail{id, {}, true, true};
         for (Index k = std::max<Index>(target.firstPing, ping - tailPings + 1); k <= ping; ++k) {
             const auto i = std::size_t(k - target.firstPing);
-            if (target.cell[i] >= 0.0)
-                trail.places.push_back({target.rangeMetres[i], target.bearingDegrees[i]});
+            if (target.cell[i] >= 0.0 && on.placeOf(Index(target.cell[i])))
+                trail.places.push_back(
+                    {target.positionOn(on.plane.along, on.grid, i), target.positionOn(on.plane.across, on.grid, i)});
         }
-        return trail;
+        return trail.places.empty() ? std::nullopt : std::optional(trail);
     }
 
     bool isJump(const Axis &axis, double from, double to)
@@ -90,30 +119,30 @@ namespace {
 const PingMarks::Box *PingMarks::boxAt(const Place &place) const
 {
     const auto found = std::find_if(boxes.begin(), boxes.end(), [&](const Box &box) {
-        return box.range.contains(place.range) && box.bearing.contains(place.bearing);
+        return box.along.contains(place.along) && box.across.contains(place.across);
     });
     return found == boxes.end() ? nullptr : &*found;
 }
 
 PingMarks pingMarks(const Analysis &analysis, const std::vector<Track> &tracks, const PingTruth &truth, Index ping,
-                    Index tailPings)
+                    const FramePlane &plane, Index tailPings)
 {
     PingMarks marks;
-    const Grid &grid = analysis.grid();
+    const MarkedPlane on{analysis.grid(), plane};
     for (const Track &track : tracks) {
-        if (auto trail = trailOf(track, grid, ping, tailPings))
+        if (auto trail = trailOf(track, on, ping, tailPings))
             marks.tracks.push_back(std::move(*trail));
         if (track.detectFrame == ping && !marks.tracks.empty() && marks.tracks.back().id == track.id)
             marks.detections.push_back({track.id, marks.tracks.back().places.back()});
     }
     for (const Track &track : analysis.conventional)
-        if (auto trail = trailOf(track, grid, ping, tailPings))
+        if (auto trail = trailOf(track, on, ping, tailPings))
             marks.conventional.push_back(std::move(*trail));
     for (std::size_t i = 0; i < truth.targets.size(); ++i)
-        if (auto trail = trailOf(truth.targets[i], int(i) + 1, ping, tailPings))
+        if (auto trail = trailOf(truth.targets[i], int(i) + 1, on, ping, tailPings))
             marks.truth.push_back(std::move(*trail));
     if (analysis.settings.decide.inhibits && ping < std::ssize(analysis.inhibitions))
-        marks.boxes = boxesOf(analysis, ping);
+        marks.boxes = boxesOf(analysis, ping, on);
     return marks;
 }
 
@@ -160,7 +189,7 @@ std::vector<TruthLine> truthAlong(const PingTruth &truth, const Grid &grid, cons
                 isOn = false;
                 continue;
             }
-            const double here = axis == 0 ? target.rangeMetres[i] : target.bearingDegrees[i];
+            const double here = target.positionOn(axis, grid, i);
             if (!isOn || isJump(grid.axes[axis], lines.back().frequencyHz.back(), here)) {
                 TruthLine line;
                 line.snrDb = target.snrDb;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/analyse.h"
+#include "base/FramePlane.h"
 #include "recording/PingTruth.h"
 #include "recording/Truth.h"
 #include "widgets/base/Span.h"
@@ -10,11 +11,11 @@
 
 namespace faintline {
 
-/// Marks on the map of one ping, in the units of the range and the bearing axis.
+/// Marks on the map of one ping, in the units of the two axes shown.
 struct PingMarks {
     struct Place {
-        double range = 0.0;
-        double bearing = 0.0;
+        double along = 0.0;  ///< such as range
+        double across = 0.0; ///< such as bearing
     };
     /// Positions in the last pings, oldest first; the last one is that of this ping.
     struct Trail {
@@ -27,8 +28,8 @@ struct PingMarks {
     struct Box {
         int track = 0;
         int pings = 0; ///< consecutive pings, including this one, with an inhibited box for that track
-        Span range;
-        Span bearing;
+        Span along;
+        Span across;
     };
     /// A track that starts in this ping.
     struct Detection {
@@ -46,11 +47,12 @@ struct PingMarks {
     const Box *boxAt(const Place &place) const;
 };
 
-/// The marks of one ping of an analysis on two axes, for these tracks and for the known targets.
+/// The marks of one ping of an analysis on a plane of its axes, for these tracks and for the known targets. Where
+/// hidden axes are cut, only what lies in the cut's cell or a neighbour of it is marked.
 PingMarks pingMarks(const Analysis &analysis, const std::vector<Track> &tracks, const PingTruth &truth, Index ping,
-                    Index tailPings = 12);
+                    const FramePlane &plane = {}, Index tailPings = 12);
 
-/// Projection of tracks on two axes to one axis: the same tracks on a grid of that axis. A path that wraps around the
+/// Projection of tracks on several axes to one axis: the same tracks on a grid of that axis. A path that wraps around the
 /// end of a cyclic axis is cut into tracks of the same number.
 std::vector<Track> tracksAlong(const std::vector<Track> &tracks, const Grid &grid, std::size_t axis);
 

@@ -99,9 +99,9 @@ void PingOverlayItem::drawBoxes(const Canvas &canvas) const
     for (const PingMarks::Box &box : marks.boxes) {
         QPolygonF outline;
         for (int i = 0; i <= steps; ++i)
-            outline << canvas.at({box.range.low, between(box.bearing, i)});
+            outline << canvas.at({box.along.low, between(box.across, i)});
         for (int i = steps; i >= 0; --i)
-            outline << canvas.at({box.range.high, between(box.bearing, i)});
+            outline << canvas.at({box.along.high, between(box.across, i)});
         canvas.painter.setPen(QPen(QColor(255, 255, 255, 150), 1.0, Qt::DotLine));
         canvas.painter.drawPolygon(outline);
     }
@@ -121,7 +121,7 @@ void PingOverlayItem::drawTrail(const Canvas &canvas, const PingMarks::Trail &tr
         line.clear();
     };
     for (std::size_t i = 0; i < trail.places.size(); ++i) {
-        if (i > 0 && turn > 0.0 && 2.0 * std::abs(trail.places[i].bearing - trail.places[i - 1].bearing) > turn)
+        if (i > 0 && turn > 0.0 && 2.0 * std::abs(trail.places[i].across - trail.places[i - 1].across) > turn)
             draw();
         line << canvas.at(trail.places[i]);
     }

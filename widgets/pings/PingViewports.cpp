@@ -2,22 +2,55 @@
 
 #include <QScopedValueRollback>
 
+#include <algorithm>
+
 namespace faintline {
 
-PingViewports::PingViewports(Viewport &rangeTime, QObject *parent) : QObject(parent), m_rangeTime(rangeTime)
+PingViewports::PingViewports(Viewport &alongTime, QObject *parent) : QObject(parent), m_alongTime(alongTime)
 {
-    for (Viewport *viewport : {&m_rangeTime, &m_map, &m_bearingTime}) {
+    for (Viewport *viewport : {&m_alongTime, &m_map, &m_acrossTime}) {
         connect(viewport, &Viewport::spanChanged, this, [this, viewport] { followSpans(*viewport); });
         connect(viewport, &Viewport::cursorChanged, this, [this, viewport] { followCursor(*viewport); });
     }
 }
 
-void PingViewports::setExtents(const Span &time, const Span &range, const Span &bearing, const Place &smallest)
+void PingViewports::setExtents(const Extent &time, std::vector<Extent> axes)
+{
+    m_time = time;
+    m_axes = std::move(axes);
+    const bool isOther = m_plane != FramePlane();
+    m_plane = {};
+    m_place.position.resize(m_axes.size());
+    showAxes();
+    if (isOther)
+        emit planeChanged();
+}
+
+void PingViewports::showAxes()
 {
     const QScopedValueRollback following(m_isFollowing, true);
-    m_map.setExtents(range, bearing, smallest.range, smallest.bearing);
-    m_bearingTime.setExtents(time, bearing, smallest.seconds, smallest.bearing);
-    m_rangeTime.setExtents(time, range, smallest.seconds, smallest.range);
+    const Extent &along = m_axes[m_plane.along];
+    const Extent &across = m_axes[m_plane.across];
+    m_map.setExtents(along.whole, across.whole, along.smallest, across.smallest);
+    m_acrossTime.setExtents(m_time.whole, across.whole, m_time.smallest, across.smallest);
+    m_alongTime.setExtents(m_time.whole, along.whole, m_time.smallest, along.smallest);
+}
+
+void PingViewports::setPlane(const FramePlane &plane)
+{
+    if (plane == m_plane)
+        return;
+    const bool areOthers = plane.along != m_plane.along || plane.across != m_plane.across;
+    const bool isOpen = !m_map.isEmpty() && !m_alongTime.isEmpty();
+    m_plane = plane;
+    if (areOthers && isOpen && std::max(plane.along, plane.across) < m_axes.size()) {
+        const Span time = m_alongTime.time();
+        showAxes();
+        if (time != m_time.whole)
+            m_alongTime.zoomTo(time, m_alongTime.frequency());
+        placeCursors();
+    }
+    emit planeChanged();
 }
 
 void PingViewports::setPlace(const Place &place)
@@ -32,39 +65,40 @@ void PingViewports::setPlace(const Place &place)
 void PingViewports::placeCursors()
 {
     const QScopedValueRollback following(m_isFollowing, true);
-    m_rangeTime.setCursor({m_place.seconds, m_place.range});
-    m_map.setCursor({m_place.range, m_place.bearing});
-    m_bearingTime.setCursor({m_place.seconds, m_place.bearing});
+    m_alongTime.setCursor({m_place.seconds, along()});
+    m_map.setCursor({along(), across()});
+    m_acrossTime.setCursor({m_place.seconds, across()});
 }
 
 void PingViewports::followSpans(Viewport &from)
 {
     // A viewport without extents belongs to a source that is no longer open.
-    if (m_isFollowing || m_map.isEmpty() || m_rangeTime.isEmpty())
+    if (m_isFollowing || m_map.isEmpty() || m_alongTime.isEmpty())
         return;
     const QScopedValueRollback following(m_isFollowing, true);
-    const Span time = &from == &m_bearingTime ? m_bearingTime.time() : m_rangeTime.time();
-    const Span range = &from == &m_rangeTime ? m_rangeTime.frequency() : m_map.time();
-    const Span bearing = &from == &m_bearingTime ? m_bearingTime.frequency() : m_map.frequency();
-    m_map.stretch(range, bearing);
-    m_rangeTime.stretch(time, range);
-    m_bearingTime.stretch(time, bearing);
+    const Span time = &from == &m_acrossTime ? m_acrossTime.time() : m_alongTime.time();
+    const Span along = &from == &m_alongTime ? m_alongTime.frequency() : m_map.time();
+    const Span across = &from == &m_acrossTime ? m_acrossTime.frequency() : m_map.frequency();
+    m_map.stretch(along, across);
+    m_alongTime.stretch(time, along);
+    m_acrossTime.stretch(time, across);
 }
 
 void PingViewports::followCursor(Viewport &from)
 {
-    if (m_isFollowing || !from.cursor())
+    if (m_isFollowing || !from.cursor() || std::max(m_plane.along, m_plane.across) >= m_place.position.size())
         return;
     const Viewport::Point &point = *from.cursor();
     Place place = m_place;
     if (&from == &m_map) {
-        place.range = point.seconds;
-        place.bearing = point.hz;
+        place.position[m_plane.along] = point.seconds;
+        place.position[m_plane.across] = point.hz;
     } else {
         place.seconds = point.seconds;
-        (&from == &m_rangeTime ? place.range : place.bearing) = point.hz;
+        place.position[&from == &m_alongTime ? m_plane.along : m_plane.across] = point.hz;
     }
     setPlace(place);
+    emit cursorMoved();
 }
 
 } // namespace faintline

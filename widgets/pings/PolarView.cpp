@@ -33,7 +33,7 @@ namespace {
 
     QPointF fromAbove(const PingMarks::Place &place)
     {
-        return {place.range * std::sin(place.bearing * degree), place.range * std::cos(place.bearing * degree)};
+        return {place.along * std::sin(place.across * degree), place.along * std::cos(place.across * degree)};
     }
 
     /// Bounding box of a ring sector, seen from above.
@@ -206,13 +206,13 @@ bool PolarView::eventFilter(QObject *watched, QEvent *event)
         emit hoverEnded();
     if (event->type() == QEvent::MouseMove) {
         const PingMarks::Place place = placeAt(static_cast<QMouseEvent *>(event)->position());
-        m_view.valueAt(place.range, place.bearing) ? emit hovered(place.range, place.bearing) : emit hoverEnded();
+        m_view.valueAt(place.along, place.across) ? emit hovered(place.along, place.across) : emit hoverEnded();
     }
     if (event->type() == QEvent::MouseButtonPress && static_cast<QMouseEvent *>(event)->button() == Qt::LeftButton) {
         setFocus(Qt::MouseFocusReason);
         const PingMarks::Place place = placeAt(static_cast<QMouseEvent *>(event)->position());
-        if (m_view.valueAt(place.range, place.bearing))
-            viewport->setCursor({place.range, place.bearing});
+        if (m_view.valueAt(place.along, place.across))
+            viewport->setCursor({place.along, place.across});
         return true;
     }
     return ThemedPlot::eventFilter(watched, event);
@@ -224,7 +224,7 @@ void PolarView::wheelEvent(QWheelEvent *event)
     if (!viewport || viewport->isEmpty() || !event->modifiers().testFlag(Qt::ControlModifier))
         return event->ignore();
     const PingMarks::Place place = placeAt(canvas()->mapFrom(this, event->position()));
-    viewport->zoomAt(std::pow(1.25, event->angleDelta().y() / 120.0), {place.range, place.bearing});
+    viewport->zoomAt(std::pow(1.25, event->angleDelta().y() / 120.0), {place.along, place.across});
     event->accept();
 }
 
@@ -238,7 +238,7 @@ void PolarView::contextMenuEvent(QContextMenuEvent *event)
     QMenu menu(this);
     addCommands(menu, m_view);
     const PingMarks::Place place = placeAt(canvas()->mapFrom(this, event->pos()));
-    emit m_view.contextMenuRequested(&menu, place.range, place.bearing);
+    emit m_view.contextMenuRequested(&menu, place.along, place.across);
     menu.exec(event->globalPos());
 }
 

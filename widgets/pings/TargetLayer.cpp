@@ -79,7 +79,7 @@ private:
             line.clear();
         };
         for (std::size_t i = 0; i < path.size(); ++i) {
-            if (i > 0 && turn > 0.0 && 2.0 * std::abs(path[i].bearing - path[i - 1].bearing) > turn)
+            if (i > 0 && turn > 0.0 && 2.0 * std::abs(path[i].across - path[i - 1].across) > turn)
                 draw();
             line << m_layer.m_positionOf(path[i]);
         }
@@ -129,7 +129,7 @@ TargetLayer::TargetLayer(WaterfallView &view)
             return Place{point.seconds, point.hz};
         },
         [&view](const Place &place) {
-            return view.positionOf({place.range, place.bearing});
+            return view.positionOf({place.along, place.across});
         },
         [&view] {
             const Axis &bearing = view.frequencyAxis();

@@ -271,6 +271,9 @@ void ExceedancePlot::nameCurves()
 
 void ExceedancePlot::layAxes()
 {
+    constexpr int enoughForAll = 150; // pixels
+    setAxisTitle(QwtAxis::YRight,
+                 canvas()->height() < enoughForAll ? tr("Cells per bin") : tr("Cells per bin of width ¼"));
     const Span span = natSpan();
     const QSize size = canvas()->contentsRect().size();
     setAxisScaleDiv(QwtAxis::XBottom, linearScaleDiv(span, std::clamp(size.width() / 60, 2, 10)));

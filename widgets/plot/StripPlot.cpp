@@ -42,6 +42,21 @@ namespace {
         return result;
     }
 
+    /// Writes the title of an ordinate as small as the plot is low; Qwt would cut it.
+    void fitTitle(QwtPlot &plot, const QwtAxisId &axis)
+    {
+        constexpr int smallest = 8; // pixels
+        QwtText title = plot.axisTitle(axis);
+        QFont font = Theme::plotTitleFont();
+        while (font.pixelSize() > smallest
+               && QFontMetrics(font).horizontalAdvance(title.text()) > plot.canvas()->height())
+            font.setPixelSize(font.pixelSize() - 1);
+        if (title.font() == font)
+            return;
+        title.setFont(font);
+        plot.setAxisTitle(axis, title);
+    }
+
 } // namespace
 
 StripPlot::StripPlot(const QString &ordinate, QWidget *parent)
@@ -292,6 +307,8 @@ void StripPlot::followSpan()
                                                    m_startUnixSeconds.value_or(0.0)));
     updateOrdinate(Side::Left);
     updateOrdinate(Side::Right);
+    for (const QwtAxisId axis : {QwtAxis::YLeft, QwtAxis::YRight})
+        fitTitle(*this, axis);
     // Wide enough for most figures, so that the canvases of strips above each other are aligned.
     steadyAxes(*this, QStringLiteral("−0.000"), timeDraw.widestLabel(m_viewport ? m_viewport->full().time : span));
     const bool hasRight = isAxisVisible(QwtAxis::YRight) || m_series.empty();

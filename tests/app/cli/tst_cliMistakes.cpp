@@ -36,7 +36,9 @@ void tst_cliMistakes::mistakes_data()
         QTest::newRow(name) << arguments << QString::fromUtf8(message);
     };
     row("nothing asked", {}, "command line: A subcommand is required");
-    row("no such command", {"dtect"}, "dtect: unknown command; faintline-cli --help lists the commands");
+    row("no such command", {"dtect"},
+        "dtect: unknown command; did you mean detect? (faintline-cli --help lists the commands)");
+    row("no command like this", {"whistle"}, "whistle: unknown command; faintline-cli --help lists the commands");
     row("no such command after an option", {"--threads", "2", "dtect", "line.wav"}, "dtect: unknown command");
     row("no such option", {"detect", "line.wav", "--summery"},
         "command line: The following argument was not expected: --summery");
