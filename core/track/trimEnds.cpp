@@ -8,17 +8,19 @@ namespace faintline {
 
 namespace {
 
+    constexpr Index edgeFrames = 1; ///< of a signal that fills part of their window: windows overlap
+
     void trimEnds(Track &track)
     {
         const auto isPresent = [](const SmoothedPoint &point) { return point.presence > 0.5f; };
         const auto first = std::find_if(track.smoothed.begin(), track.smoothed.end(), isPresent);
         if (first == track.smoothed.end())
             return;
-        const auto from = first - track.smoothed.begin();
-        const auto end = std::find_if(track.smoothed.rbegin(), track.smoothed.rend(), isPresent).base();
-        const auto to = end - track.smoothed.begin();
-        track.isOpen = track.isOpen && end == track.smoothed.end();
-        track.smoothed.erase(end, track.smoothed.end());
+        const auto last = std::find_if(track.smoothed.rbegin(), track.smoothed.rend(), isPresent).base();
+        const auto from = std::max<Index>(0, first - track.smoothed.begin() - edgeFrames);
+        const auto to = std::min(std::ssize(track.smoothed), last - track.smoothed.begin() + edgeFrames);
+        track.isOpen = track.isOpen && to == std::ssize(track.smoothed);
+        track.smoothed.erase(track.smoothed.begin() + to, track.smoothed.end());
         track.smoothed.erase(track.smoothed.begin(), track.smoothed.begin() + from);
         track.points.erase(track.points.begin() + to, track.points.end());
         track.points.erase(track.points.begin(), track.points.begin() + from);

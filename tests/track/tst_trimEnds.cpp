@@ -41,9 +41,10 @@ private slots:
         QTest::addColumn<int>("last");
         QTest::addColumn<bool>("isOpen");
         QTest::newRow("present throughout") << QList<float>{0.9f, 1.0f, 0.8f} << 100 << 102 << true;
-        QTest::newRow("later, and ended") << QList<float>{0.1f, 0.6f, 1.0f, 0.7f, 0.4f, 0.0f} << 101 << 103 << false;
-        QTest::newRow("keyed") << QList<float>{0.4f, 0.9f, 0.1f, 0.0f, 0.9f} << 101 << 104 << true;
-        QTest::newRow("in one frame") << QList<float>{0.2f, 0.6f, 0.3f} << 101 << 101 << false;
+        QTest::newRow("later, and ended")
+            << QList<float>{0.0f, 0.1f, 0.6f, 1.0f, 0.7f, 0.4f, 0.0f} << 101 << 105 << false;
+        QTest::newRow("keyed") << QList<float>{0.1f, 0.4f, 0.9f, 0.1f, 0.0f, 0.9f} << 101 << 105 << true;
+        QTest::newRow("in one frame") << QList<float>{0.0f, 0.2f, 0.6f, 0.3f, 0.0f} << 101 << 103 << false;
         QTest::newRow("nowhere certain") << QList<float>{0.2f, 0.5f, 0.3f} << 100 << 102 << true;
     }
 
@@ -67,18 +68,18 @@ private slots:
 
     void detectionIsInside()
     {
-        const QList<float> presence{0.1f, 0.2f, 0.9f, 0.9f, 0.2f, 0.1f};
+        const QList<float> presence{0.0f, 0.2f, 0.9f, 0.9f, 0.2f, 0.1f};
         QCOMPARE(trimmed(presence, 103).detectFrame, Index(103)); // as it was
-        QCOMPARE(trimmed(presence, 100).detectFrame, Index(102));
-        QCOMPARE(trimmed(presence, 105).detectFrame, Index(103));
+        QCOMPARE(trimmed(presence, 100).detectFrame, Index(101));
+        QCOMPARE(trimmed(presence, 105).detectFrame, Index(104));
         Track confirmed = track(presence, 103);
         confirmed.confirmFrame = 105;
-        QCOMPARE(withEndsTrimmed({confirmed}).front().confirmFrame, Index(103));
+        QCOMPARE(withEndsTrimmed({confirmed}).front().confirmFrame, Index(104));
     }
 
     void numberedByDetection()
     {
-        const auto tracks = withEndsTrimmed({track({0.0f, 0.0f, 0.9f}, 100), track({0.9f, 0.9f, 0.9f}, 101)});
+        const auto tracks = withEndsTrimmed({track({0.0f, 0.0f, 0.0f, 0.9f}, 100), track({0.9f, 0.9f, 0.9f}, 101)});
         QCOMPARE(tracks[0].detectFrame, Index(101));
         QCOMPARE(tracks[0].id, 1);
         QCOMPARE(tracks[1].detectFrame, Index(102));
