@@ -46,10 +46,11 @@ namespace {
     void fitTitle(QwtPlot &plot, const QwtAxisId &axis)
     {
         constexpr int smallest = 8; // pixels
+        constexpr int margin = 4;   // that Qwt leaves at the ends of a title
         QwtText title = plot.axisTitle(axis);
         QFont font = Theme::plotTitleFont();
         while (font.pixelSize() > smallest
-               && QFontMetrics(font).horizontalAdvance(title.text()) > plot.canvas()->height())
+               && QFontMetrics(font).horizontalAdvance(title.text()) > plot.canvas()->height() - margin)
             font.setPixelSize(font.pixelSize() - 1);
         if (title.font() == font)
             return;
