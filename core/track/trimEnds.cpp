@@ -35,6 +35,9 @@ namespace {
 
 std::vector<Track> withEndsTrimmed(std::vector<Track> tracks)
 {
+    const bool areSeenTwice = std::ranges::any_of(tracks, [](const Track &track) { return !track.smoothed.empty(); });
+    if (!areSeenTwice) // numbered by a chain, of which a listener may have told
+        return tracks;
     for (Track &track : tracks)
         trimEnds(track);
     numberByDetection(tracks);

@@ -6,13 +6,13 @@
 
 namespace faintline {
 
-/// Tracks from the first to the last frame in which their signal is more likely present than not
-/// (SmoothedPoint::presence), with all frames between these and one more at both ends, whose windows overlap with theirs:
-/// there a signal is weaker than its level, because it fills part of the window. A track without such a frame, or without the second pass,
-/// stays as it is. A detection outside is moved to the nearer end. Ordered and numbered by detection.
+/// Cuts each track to the frames from the first to the last one in which its signal is more likely present than not
+/// (SmoothedPoint::presence), and one more at both ends: windows overlap, and there the signal fills only a part of its
+/// window. Tracks without such a frame are not cut. A detection outside is moved to the nearer end. The result is
+/// ordered and numbered by detection; tracks of which none was seen in a second pass are returned as they are.
 ///
-/// This is the last step before tracks are reported. Windows are compared, lines are subtracted, and pieces are linked
-/// by the untrimmed tracks, which are longer where a signal fades.
+/// This is the last step before tracks are reported. The choice of the window, the subtraction of lines and the linking
+/// of pieces use the untrimmed tracks, which are longer where a signal fades.
 std::vector<Track> withEndsTrimmed(std::vector<Track> tracks);
 
 } // namespace faintline

@@ -88,9 +88,16 @@ private slots:
 
     void withoutTheSecondPassNothingChanges()
     {
-        Track plain = track({0.0f, 0.9f, 0.0f}, 102);
-        plain.smoothed.clear();
-        QCOMPARE(withEndsTrimmed({plain}).front().points.size(), std::size_t(3));
+        Track later = track({0.0f, 0.9f, 0.0f}, 102);
+        Track earlier = track({0.0f, 0.9f, 0.0f}, 101);
+        later.id = 3;
+        earlier.id = 4;
+        for (Track *plain : {&later, &earlier})
+            plain->smoothed.clear();
+        const auto tracks = withEndsTrimmed({later, earlier});
+        QCOMPARE(tracks[0].id, 3);
+        QCOMPARE(tracks[1].id, 4);
+        QCOMPARE(tracks[0].points.size(), std::size_t(3));
     }
 };
 
