@@ -86,7 +86,7 @@ namespace {
     int runRender(int argc, char *argv[], const Screen &wanted, const Options &options, void (*draw)(const Options &))
     {
         qInstallMessageHandler(keepQuiet);
-        Theme::prepareEnvironment();
+        Theme::prepareForPictures();
         const auto screen = use(wanted);
         QApplication application(argc, argv);
         draw(options);
@@ -105,11 +105,8 @@ namespace {
 
     int runWindow(int argc, char *argv[], const std::vector<std::string> &files, const OpenOptions &options)
     {
-        keepNoHoles(1 << 20);                                // returns the memory of temporary results of tuning
-        const QByteArray scale = qgetenv("QT_SCALE_FACTOR"); // the user's wish, which pictures do not depend on
+        keepNoHoles(1 << 20); // returns the memory of temporary results of tuning
         Theme::prepareEnvironment();
-        if (!scale.isEmpty())
-            qputenv("QT_SCALE_FACTOR", scale);
         const QtMessageHandler before = qInstallMessageHandler(missScreen);
         QApplication application(argc, argv);
         qInstallMessageHandler(before);

@@ -22,6 +22,7 @@ const FrameKind &lineFrames()
         .cellPerFrame = tr("bin/frame"),
         .signal = tr("a line"),
         .rate = tr("slope"),
+        .anyRate = tr("slope"),
         .ageUnit = {},
         .handLineHint = tr("Press Draw and drag a line through the input where you expect a signal. Cover the "
                            "statistic first to make it a prediction."),
@@ -39,6 +40,7 @@ const FrameKind &pingFrames()
         .cellPerFrame = tr("cell/ping"),
         .signal = tr("a target"),
         .rate = tr("%1 rate"),
+        .anyRate = tr("either rate"),
         .ageUnit = tr("pings"),
         .handLineHint = tr("Lines can be drawn through recordings, not through pings."),
         .sections = {QStringLiteral("conventional")},
@@ -56,6 +58,7 @@ const FrameKind &scanFrames()
         scans.frames = tr("scans");
         scans.cellsPerFrame = tr("cells/scan");
         scans.cellPerFrame = tr("cell/scan");
+        scans.anyRate = tr("any rate");
         scans.ageUnit = tr("scans");
         scans.handLineHint = tr("Lines can be drawn through recordings, not through scans.");
         return scans;

@@ -20,6 +20,7 @@ struct FrameKind {
     QString cellPerFrame;  ///< of fractions of it: "bin/frame", "cell/ping"
     QString signal;        ///< what is detected: "a line", "a target"
     QString rate;          ///< along an axis of the name %1: "slope"; "%1 rate"
+    QString anyRate;       ///< along any one of the axes: "slope", "either rate"
     QString ageUnit;       ///< of the age of paths; empty: s or h
     QString handLineHint;  ///< how a line is drawn by hand, or why none can be
     /// Sections of the settings for this kind alone.

@@ -36,12 +36,9 @@ namespace {
 
     QString slopeTitle(const FrameKind &kind, int perBin)
     {
-        const QString rate = &kind == &lineFrames()   ? kind.rate
-                             : &kind == &pingFrames() ? LawPanel::tr("either rate")
-                                                      : LawPanel::tr("any rate");
         const QString unit = perBin == 1 ? kind.cellsPerFrame
                                          : QStringLiteral("1/%1 %2").arg(QString::number(perBin), kind.cellPerFrame);
-        return LawPanel::tr("Change of %1 (%2)").arg(rate, unit);
+        return LawPanel::tr("Change of %1 (%2)").arg(kind.anyRate, unit);
     }
 
     QString perSecond(double rate, const QString &unit)

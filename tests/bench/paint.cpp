@@ -170,7 +170,7 @@ private:
 
 int main(int argc, char **argv)
 {
-    Theme::prepareEnvironment();
+    Theme::prepareForPictures();
     QApplication application(argc, argv);
     Theme::apply(Theme::Kind::Light);
     MainWindow window;

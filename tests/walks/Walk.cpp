@@ -120,7 +120,7 @@ namespace {
 
 int Walk::run(int argc, char **argv, void (*way)(Walk &))
 {
-    Theme::prepareEnvironment();
+    Theme::prepareForPictures();
     QApplication application(argc, argv);
     QApplication::setApplicationName(QStringLiteral("faintline"));
     QApplication::setQuitOnLastWindowClosed(false);

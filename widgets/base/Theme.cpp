@@ -135,8 +135,14 @@ namespace {
 
 void Theme::prepareEnvironment()
 {
-    for (const char *name : {"QT_SCALE_FACTOR", "QT_FONT_DPI", "QT_STYLE_OVERRIDE", "QT_QPA_PLATFORMTHEME"})
+    for (const char *name : {"QT_FONT_DPI", "QT_STYLE_OVERRIDE", "QT_QPA_PLATFORMTHEME"})
         qunsetenv(name);
+}
+
+void Theme::prepareForPictures()
+{
+    prepareEnvironment();
+    qunsetenv("QT_SCALE_FACTOR");
 }
 
 void Theme::apply(Kind kind)

@@ -46,8 +46,10 @@ public:
         QColor curves[8]; ///< distinguishable without colour vision, used in this order
     };
 
-    /// Removes environment variables that would change sizes or style. Call before creating QApplication.
+    /// Removes environment variables that would change fonts or style. Call before creating QApplication.
     static void prepareEnvironment();
+    /// Also removes the user's scale, on which rendered pictures do not depend.
+    static void prepareForPictures();
 
     /// Sets style, palette, fonts, C locale and a non-blinking text cursor. May be called again to change the theme of
     /// a running program.
