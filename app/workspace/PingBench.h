@@ -14,12 +14,12 @@ class PingMap;
 class PingRegulation;
 
 /// Sonar pings and a radar's scans: input and statistic of one ping as maps of two of its axes, such as range × bearing;
-/// below, both axes of the tracks against time, and ln K. What runs along time from left to right is above each other
-/// on one time axis.
+/// below, the tracks along both axes against time, and ln K. Pictures whose time runs from left to right are stacked on
+/// one time axis.
 ///
 /// The ping at the cursor is shown. All pictures share the two axes and one time axis (PingViewports). Axes that are not
-/// shown are reduced to their maxima, or cut at the cursor. Keys: J and L step, Space plays, Shift+Space plays backwards,
-/// P shows the map from above.
+/// shown are reduced to their maxima, or cut at the cursor. Keys: J and L step, Space plays, Shift+Space plays
+/// backwards, P shows the map from above.
 class PingBench : public Bench
 {
     Q_OBJECT

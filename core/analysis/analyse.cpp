@@ -273,7 +273,7 @@ namespace {
         return analysis;
     }
 
-    /// Both, if lines are to be subtracted and there are any; else the recording as it is.
+    /// Subtracts lines and analyses the rest, if that is requested and there are any; otherwise the recording as it is.
     std::shared_ptr<Analysis> analyseWithRest(RecordingPointer recording, const AnalysisSettings &settings,
                                               const RunContext &context, const Analysis *lent,
                                               const AnalysisRequest &request)

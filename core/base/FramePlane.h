@@ -27,8 +27,8 @@ struct FramePlane {
 
 /// The cells behind each place of a plane.
 ///
-/// The flat index of a cell is the sum of one offset for its place and one for the hidden axes, so the latter are listed
-/// once: { Σ over hidden axes of stride·index }, in ascending order.
+/// The flat index of a cell is the sum of one offset for its place and one for the hidden axes, so the latter are
+/// listed once: { Σ over hidden axes of stride·index }, in ascending order.
 class CellsBehind
 {
 public:

@@ -15,10 +15,10 @@ namespace faintline {
 /// names it), confirmed, open; on several axes AXIS_per_s of each. Numbers are in the C locale, in the shortest form
 /// that reads back the same. Lines with a two-sided second pass also have snr_db (mean, in one window), band_hz (width
 /// of the position's 5-95 % band) and noise_probability (probability that noise alone produces such an event in this
-/// recording). A bank's events have model (that found it) and model_changes ("t:model;…", the times in s from which on
-/// other models followed it). Areas, which are not events, are in the .json ("areas": t_onset, t_end, f_low, f_high, level_db) and in
-/// the .sigmf-meta with the label "area". Files appear only when complete. Throws Error for an unknown extension or a
-/// full disk.
+/// recording). A bank's events have model (which found the event) and model_changes ("t:model;…", the times in s from
+/// which other models followed it). Areas, which are not events, are in the .json ("areas": t_onset, t_end, f_low,
+/// f_high, level_db) and in the .sigmf-meta with the label "area". Files appear only when complete. Throws Error for an
+/// unknown extension or a full disk.
 void writeEvents(const Analysis &analysis, const std::string &path);
 
 /// The text of such a .csv or .json file, for a list of events.
@@ -33,9 +33,9 @@ void checkEventsPath(const std::string &path);
 void checkTracksPath(const std::string &path);
 
 /// Writes the tracks: .csv with one row per frame of each track (track, t, f, statistic; after a two-sided second pass
-/// also f_low and f_high, 5 and 95 % of the position, presence, a probability, and snr_db; for a bank also model, which followed it in that frame), or .json. The statistic is
-/// the score of the track's path, in nats for every detector: if it has no paths, that of the sequential Markov
-/// detector that guides it.
+/// also f_low and f_high, 5 and 95 % of the position, presence, a probability, and snr_db; for a bank also the model
+/// that followed it in that frame), or .json. The statistic is the score of the track's path, in nats for every
+/// detector: if it has no paths, that of the sequential Markov detector that guides it.
 void writeTracks(const Analysis &analysis, const std::string &path);
 /// The same for the tracks of these events only.
 void writeTracksOf(const std::vector<Event> &events, const Analysis &analysis, const std::string &path);

@@ -107,8 +107,8 @@ struct PingScene {
     bool operator==(const PingScene &) const = default;
 };
 
-/// Axes of a ping: range, bearing, then elevation and Doppler if there are any. The bearing is cyclic if the beams cover
-/// 360°.
+/// Axes of a ping: range, bearing, then elevation and Doppler if there are any. The bearing is cyclic if the beams
+/// cover 360°.
 Grid pingGrid(const PingScene &scene);
 
 /// Times of the pings.

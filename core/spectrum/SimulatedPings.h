@@ -6,7 +6,8 @@
 
 namespace faintline {
 
-/// A scene of sonar pings, or of a radar's scans, as normalised frames: a pure function of (scene, ping), computed when read.
+/// A scene of sonar pings, or of a radar's scans, as normalised frames: a pure function of (scene, ping), computed when
+/// read.
 ///
 ///   y(r, b) = [ (1/M) Σ_l |√m(r) n_l + echo|² + … ] / m̂(r, b)
 ///

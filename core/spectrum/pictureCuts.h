@@ -13,8 +13,8 @@ namespace faintline {
 /// One axis against time: the maximum over the other axes, with the cells of that axis.
 std::shared_ptr<const PeakPyramid> pictureAlong(const PeakPyramid &picture, const Grid &grid, std::size_t axis);
 
-/// A plane of the frame of that number, with its axis `along` in place of time: the maxima over hidden axes that are not
-/// cut. Precondition: the grid has both axes of the plane.
+/// A plane of the frame of that number, with its axis `along` in place of time: the maxima over hidden axes that are
+/// not cut. Precondition: the grid has both axes of the plane.
 std::shared_ptr<const PeakPyramid> pictureOfFrame(const PeakPyramid &picture, const Grid &grid, Index frame,
                                                   const FramePlane &plane = {});
 

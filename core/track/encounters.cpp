@@ -144,10 +144,6 @@ namespace {
         }
     }
 
-} // namespace
-
-namespace {
-
     class Encounters
     {
     public:

@@ -27,10 +27,10 @@ struct ExplainedSignal {
 ///
 ///   floor(t, n) = Π 1 + 2·A_t·max(|W(n - f_t)|², e(|n - f_t|))
 ///
-/// W is the window's transform beside a signal whose skirts were measured and which moves by a tenth of a cell per frame
-/// at most; beside others, which may be wider than the window's main lobe, it is an upper bound. The factor 2 allows an
-/// explanation to be 3 dB too low before the remainder of the signal gathers evidence: explained power is constant, not
-/// exponential. One frame is added at either end, because windows overlap.
+/// W is the window's transform beside a signal whose skirts were measured and which moves by a tenth of a cell per
+/// frame at most; beside others, which may be wider than the window's main lobe, it is an upper bound. The factor 2
+/// allows an explanation to be 3 dB too low before the remainder of the signal gathers evidence: explained power is
+/// constant, not exponential. One frame is added at either end, because windows overlap.
 class Explanations
 {
 public:

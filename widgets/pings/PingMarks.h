@@ -52,8 +52,8 @@ struct PingMarks {
 PingMarks pingMarks(const Analysis &analysis, const std::vector<Track> &tracks, const PingTruth &truth, Index ping,
                     const FramePlane &plane = {}, Index tailPings = 12);
 
-/// Projection of tracks on several axes to one axis: the same tracks on a grid of that axis. A path that wraps around the
-/// end of a cyclic axis is cut into tracks of the same number.
+/// Projection of tracks on several axes to one axis: the same tracks on a grid of that axis. A path that wraps around
+/// the end of a cyclic axis is cut into tracks of the same number.
 std::vector<Track> tracksAlong(const std::vector<Track> &tracks, const Grid &grid, std::size_t axis);
 
 /// The same for events …
