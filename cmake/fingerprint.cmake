@@ -8,7 +8,7 @@ foreach(folder IN LISTS FOLDERS)
 endforeach()
 list(SORT hashes)
 string(SHA256 fingerprint "${hashes}")
-file(WRITE ${OUT} "#include \"analysis/sourceFingerprint.h\"
+file(WRITE ${OUT} "#include \"calibration/sourceFingerprint.h\"
 
 std::string_view faintline::sourceFingerprint()
 {

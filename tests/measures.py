@@ -87,6 +87,16 @@ def rooms(folder):
     return len({room(file) for file in inside}), len(arrows)
 
 
+def largest_room(folder):
+    """The folder at any depth with the most units directly in it, and their number."""
+    units = defaultdict(set)
+    for file in PRODUCT:
+        if file.startswith(folder + "/"):
+            units[os.path.dirname(file)].add(unit(file))
+    room = max(units, key=lambda folder: len(units[folder]))
+    return f"{len(units[room])}: {room.removeprefix(folder + '/')}"
+
+
 def functions():
     """(file, lines, parameters) of each function that is defined."""
     for file, text in PRODUCT.items():
@@ -144,8 +154,10 @@ def main():
     row("dynamic_cast in core / elsewhere", f"{count(r'dynamic_cast<', without=('app', 'widgets'))} / {count(r'dynamic_cast<', without=('core',))}", "0 / 0")
     row("circles of units", len(circles()), "0")
     row("axes.size(), but for loops over the axes", count(r"axes\.size\(\)(?!; \+\+)"), "8")
-    for folder, aim in (("app", "14 (40)"), ("widgets", "7 (10)"), ("core/evaluate", "7 (12)")):
+    for folder, aim in (("core", "14 (91)"), ("app", "14 (40)"), ("widgets", "7 (10)"), ("core/evaluate", "7 (12)")):
         row(f"rooms of {folder} (arrows)", "{} ({})".format(*rooms(folder)), aim)
+    for folder in ("core", "app", "widgets"):
+        row(f"units in the largest room of {folder}", largest_room(folder), "40")
     all_functions = list(functions())
     row("functions over 60 lines", sum(lines > 60 for _, lines, _ in all_functions), "6")
     row("functions with more than five parameters", sum(n > 5 for *_, n in all_functions), "10")

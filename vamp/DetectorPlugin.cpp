@@ -2,9 +2,9 @@
 
 #include "analysis/chooseWindow.h"
 #include "analysis/events.h"
-#include "analysis/slopeUnit.h"
 #include "base/Error.h"
 #include "exchange/writeEvents.h"
+#include "plan/slopeUnit.h"
 #include "recording/ArrayRecording.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/Analysis.h"
-#include "analysis/AnalysisSettings.h"
+#include "plan/AnalysisSettings.h"
 
 #include <vamp-sdk/Plugin.h>
 

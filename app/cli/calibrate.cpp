@@ -1,11 +1,11 @@
 #include "app/cli/commands.h"
 #include "app/cli/inRange.h"
 
-#include "analysis/Calibration.h"
 #include "analysis/chooseWindow.h"
-#include "analysis/falseAlarmWords.h"
-#include "analysis/surrogates.h"
 #include "base/json.h"
+#include "calibration/calibrate.h"
+#include "calibration/falseAlarmWords.h"
+#include "inspect/surrogates.h"
 #include "spectrum/Spectrogram.h"
 
 #include <CLI/CLI.hpp>

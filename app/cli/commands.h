@@ -2,10 +2,10 @@
 
 #include "app/cli/PartOptions.h"
 
-#include "analysis/AnalysisSettings.h"
 #include "base/Error.h"
 #include "base/RunContext.h"
 #include "base/Shard.h"
+#include "plan/AnalysisSettings.h"
 #include "recording/openRecording.h"
 #include "session/Session.h"
 #include "spectrum/SimulatedPings.h"

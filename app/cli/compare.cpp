@@ -4,7 +4,6 @@
 
 #include "analysis/analyse.h"
 #include "analysis/chooseWindow.h"
-#include "analysis/slopeUnit.h"
 #include "base/AtomicFile.h"
 #include "base/Error.h"
 #include "base/oneLine.h"
@@ -13,6 +12,7 @@
 #include "evaluate/comparison/settingDifferences.h"
 #include "evaluate/experiments/measureCost.h"
 #include "exchange/writeComparison.h"
+#include "plan/slopeUnit.h"
 
 #include <CLI/CLI.hpp>
 

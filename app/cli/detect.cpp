@@ -5,7 +5,6 @@
 
 #include "analysis/analyse.h"
 #include "analysis/chooseWindow.h"
-#include "analysis/judgeByBoxes.h"
 #include "analysis/subtractLines.h"
 #include "base/AtomicFile.h"
 #include "base/json.h"
@@ -20,6 +19,7 @@
 #include "exchange/readAnnotations.h"
 #include "exchange/writeEvents.h"
 #include "exchange/writeReviewed.h"
+#include "inspect/judgeByBoxes.h"
 #include "recording/truthBeside.h"
 #include "spectrum/noiseMean.h"
 

@@ -2,12 +2,12 @@
 
 #include "analysis/analyse.h"
 #include "analysis/chooseWindow.h"
-#include "analysis/explain.h"
-#include "analysis/familyTeeth.h"
 #include "base/json.h"
 #include "base/logmath.h"
 #include "base/oneLine.h"
 #include "exchange/openFrames.h"
+#include "inspect/explain.h"
+#include "inspect/familyTeeth.h"
 
 #include <CLI/CLI.hpp>
 

@@ -2,8 +2,8 @@
 #include "app/cli/inRange.h"
 #include "app/cli/provenance.h"
 
-#include "analysis/scaledInjection.h"
 #include "base/AtomicFile.h"
+#include "plan/scaledInjection.h"
 #include "recording/writeRecording.h"
 
 #include <CLI/CLI.hpp>

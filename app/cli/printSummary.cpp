@@ -1,16 +1,16 @@
 #include "app/cli/printSummary.h"
 
-#include "analysis/advice.h"
 #include "analysis/chooseWindow.h"
 #include "analysis/events.h"
-#include "analysis/falseAlarmWords.h"
-#include "analysis/noiseLaw.h"
 #include "analysis/regulation.h"
 #include "analysis/subtractLines.h"
 #include "base/oneLine.h"
+#include "calibration/falseAlarmWords.h"
 #include "detect/SumDetector.h"
 #include "detect/makeDetector.h"
 #include "detect/statisticDecimals.h"
+#include "inspect/advice.h"
+#include "inspect/noiseLaw.h"
 
 #include <cstdio>
 

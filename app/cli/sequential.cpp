@@ -1,13 +1,13 @@
 #include "app/cli/commands.h"
 
 #include "analysis/analyse.h"
-#include "analysis/lineSequentialModel.h"
-#include "analysis/plan.h"
+#include "analysis/preparePlan.h"
 #include "base/AtomicFile.h"
 #include "base/json.h"
 #include "detect/Sprt.h"
 #include "detect/averagedStages.h"
 #include "exchange/ModelFile.h"
+#include "plan/lineSequentialModel.h"
 
 #include <CLI/CLI.hpp>
 

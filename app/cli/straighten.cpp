@@ -4,10 +4,10 @@
 
 #include "analysis/chooseWindow.h"
 #include "analysis/events.h"
-#include "analysis/straighten.h"
 #include "analysis/subtractLines.h"
 #include "base/AtomicFile.h"
 #include "base/Field.h"
+#include "inspect/straighten.h"
 #include "recording/writeRecording.h"
 
 #include <CLI/CLI.hpp>

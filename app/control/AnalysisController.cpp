@@ -1,10 +1,10 @@
 #include "app/control/AnalysisController.h"
 
 #include "analysis/chooseWindow.h"
-#include "analysis/knownCalibration.h"
-#include "analysis/scaledInjection.h"
-#include "analysis/slopeUnit.h"
 #include "app/base/filePath.h"
+#include "calibration/knownCalibration.h"
+#include "plan/scaledInjection.h"
+#include "plan/slopeUnit.h"
 #include "session/Session.h"
 #include "spectrum/NormalisedPings.h"
 #include "spectrum/noiseMean.h"

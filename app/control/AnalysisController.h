@@ -1,9 +1,9 @@
 #pragma once
 
-#include "analysis/previewStatistic.h"
 #include "app/base/JobRunner.h"
 #include "app/document/Document.h"
 #include "app/document/ViewState.h"
+#include "inspect/previewStatistic.h"
 
 #include <QObject>
 

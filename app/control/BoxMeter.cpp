@@ -1,7 +1,7 @@
 #include "app/control/BoxMeter.h"
 
-#include "analysis/boxLevels.h"
 #include "app/document/Document.h"
+#include "inspect/boxLevels.h"
 #include "widgets/base/cellsOf.h"
 #include "widgets/base/quantities.h"
 

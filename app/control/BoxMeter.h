@@ -8,7 +8,7 @@ namespace faintline {
 
 class Document;
 
-/// Measures the area SNR of the measured box (core/analysis/boxLevels.h), from the frames themselves, in the
+/// Measures the area SNR of the measured box (core/inspect/boxLevels.h), from the frames themselves, in the
 /// background.
 class BoxMeter : public QObject
 {

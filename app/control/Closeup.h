@@ -1,8 +1,8 @@
 #pragma once
 
-#include "analysis/closeup.h"
 #include "app/base/JobRunner.h"
 #include "app/document/Document.h"
+#include "inspect/closeup.h"
 
 #include <QTimer>
 

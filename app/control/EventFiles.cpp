@@ -1,12 +1,12 @@
 #include "app/control/EventFiles.h"
 
-#include "analysis/judgeByBoxes.h"
 #include "app/base/filePath.h"
 #include "app/base/writeAndReport.h"
 #include "app/control/thresholdWords.h"
 #include "exchange/readAnnotations.h"
 #include "exchange/writeEvents.h"
 #include "exchange/writeReviewed.h"
+#include "inspect/judgeByBoxes.h"
 
 #include <QAction>
 #include <QFileDialog>

@@ -1,6 +1,6 @@
 #include "app/control/LayerPlane.h"
 
-#include "analysis/outputLayers.h"
+#include "inspect/outputLayers.h"
 #include "widgets/base/cellsOf.h"
 #include "widgets/pings/PingMap.h"
 #include "widgets/pings/PolarLayerItem.h"

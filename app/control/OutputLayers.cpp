@@ -1,7 +1,7 @@
 #include "app/control/OutputLayers.h"
 
-#include "analysis/chain.h"
 #include "app/control/LayerPlane.h"
+#include "plan/chain.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/quantities.h"
 #include "widgets/waterfall/LayerItem.h"

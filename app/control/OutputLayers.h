@@ -1,9 +1,9 @@
 #pragma once
 
-#include "analysis/outputLayers.h"
 #include "app/base/JobRunner.h"
 #include "app/control/FramePlace.h"
 #include "app/document/Document.h"
+#include "inspect/outputLayers.h"
 
 #include <QTimer>
 

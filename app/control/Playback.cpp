@@ -1,7 +1,7 @@
 #include "app/control/Playback.h"
 
-#include "analysis/straighten.h"
 #include "app/document/Document.h"
+#include "inspect/straighten.h"
 #include "spectrum/BandRecording.h"
 
 #include <QActionGroup>

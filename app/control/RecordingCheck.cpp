@@ -1,7 +1,7 @@
 #include "app/control/RecordingCheck.h"
 
-#include "analysis/slopeUnit.h"
 #include "app/document/Document.h"
+#include "plan/slopeUnit.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "analysis/advice.h"
-#include "analysis/noiseLaw.h"
-#include "analysis/surrogates.h"
 #include "app/base/JobRunner.h"
+#include "inspect/advice.h"
+#include "inspect/noiseLaw.h"
+#include "inspect/surrogates.h"
 
 #include <QObject>
 

@@ -1,8 +1,8 @@
 #include "app/control/SequentialTests.h"
 
-#include "analysis/lineSequentialModel.h"
 #include "app/document/FrameKind.h"
 #include "base/parallel.h"
+#include "plan/lineSequentialModel.h"
 
 #include <algorithm>
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "analysis/AnalysisSettings.h"
 #include "app/base/JobRunner.h"
 #include "detect/inspectStages.h"
 #include "evaluate/sequential/ScanTest.h"
 #include "evaluate/sequential/scanCurves.h"
+#include "plan/AnalysisSettings.h"
 #include "spectrum/NormalisedFrames.h"
 
 #include <QObject>

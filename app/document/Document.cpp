@@ -1,6 +1,6 @@
 #include "app/document/Document.h"
 
-#include "analysis/slopeUnit.h"
+#include "plan/slopeUnit.h"
 
 #include <QUndoCommand>
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "analysis/Review.h"
 #include "analysis/analyse.h"
 #include "app/base/filePath.h"
 #include "app/document/sourceAt.h"
+#include "inspect/Review.h"
 #include "live/LiveHistory.h"
 #include "widgets/base/Viewport.h"
 

@@ -1,8 +1,8 @@
 #include "app/document/sourceAt.h"
 
-#include "analysis/firstSettings.h"
 #include "app/base/filePath.h"
 #include "base/json.h"
+#include "plan/firstSettings.h"
 #include "recording/AudioRecording.h"
 #include "recording/RawRecording.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/AnalysisSettings.h"
 #include "app/lessons/LessonCondition.h"
+#include "plan/AnalysisSettings.h"
 #include "widgets/base/Span.h"
 
 #include <QString>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/channelPicture.h"
 #include "app/base/JobRunner.h"
+#include "inspect/channelPicture.h"
 
 #include <QWidget>
 

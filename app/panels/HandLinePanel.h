@@ -1,8 +1,8 @@
 #pragma once
 
-#include "analysis/pathEvidence.h"
 #include "app/base/JobRunner.h"
 #include "app/document/Document.h"
+#include "inspect/pathEvidence.h"
 
 #include <QWidget>
 

@@ -10,8 +10,8 @@
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 
-#include "analysis/falseAlarmWords.h"
 #include "analysis/subtractLines.h"
+#include "calibration/falseAlarmWords.h"
 
 #include <QCoreApplication>
 #include <QLabel>

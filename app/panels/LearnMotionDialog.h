@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/learnMotion.h"
 #include "app/base/JobRunner.h"
+#include "inspect/learnMotion.h"
 
 #include <QDialog>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/surrogates.h"
+#include "inspect/surrogates.h"
 
 #include <QWidget>
 

@@ -1,9 +1,9 @@
 #include "app/panels/NoiseFitPanel.h"
 
-#include "analysis/Calibration.h"
 #include "app/base/VisibilityWatcher.h"
 #include "app/base/readingTable.h"
 #include "app/document/Document.h"
+#include "plan/Calibration.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 #include "widgets/plot/ChartPlot.h"

@@ -1,9 +1,9 @@
 #include "app/panels/PipelinePanel.h"
 
 #include "analysis/chooseWindow.h"
-#include "analysis/slopeUnit.h"
 #include "app/control/AnalysisController.h"
 #include "app/document/OwnPresets.h"
+#include "plan/slopeUnit.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "spectrum/NormalisedPings.h"
 #include "widgets/base/Theme.h"

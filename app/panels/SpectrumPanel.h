@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/spectra.h"
 #include "app/base/JobRunner.h"
+#include "inspect/spectra.h"
 #include "widgets/base/Span.h"
 
 #include <QWidget>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/StateReplay.h"
 #include "app/control/FramePlace.h"
+#include "inspect/StateReplay.h"
 #include "widgets/waterfall/SliceMarks.h"
 
 #include <QString>

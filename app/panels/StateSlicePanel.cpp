@@ -1,8 +1,8 @@
 #include "app/panels/StateSlicePanel.h"
 
-#include "analysis/chain.h"
 #include "app/base/VisibilityWatcher.h"
 #include "app/panels/LawPanel.h"
+#include "plan/chain.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 #include "widgets/waterfall/ColourBar.h"

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/straighten.h"
 #include "app/base/JobRunner.h"
+#include "inspect/straighten.h"
 
 #include <QDialog>
 

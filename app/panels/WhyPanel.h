@@ -1,8 +1,8 @@
 #pragma once
 
-#include "analysis/explain.h"
-#include "analysis/familyTeeth.h"
 #include "app/base/JobRunner.h"
+#include "inspect/explain.h"
+#include "inspect/familyTeeth.h"
 
 #include <QElapsedTimer>
 #include <QWidget>

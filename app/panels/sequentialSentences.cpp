@@ -1,7 +1,7 @@
 #include "app/panels/sequentialSentences.h"
 
-#include "analysis/lineSequentialModel.h"
 #include "app/control/SequentialTests.h"
+#include "plan/lineSequentialModel.h"
 #include "widgets/base/quantities.h"
 
 #include <QCoreApplication>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/AnalysisSettings.h"
 #include "app/render/RenderOptions.h"
+#include "plan/AnalysisSettings.h"
 
 namespace faintline {
 

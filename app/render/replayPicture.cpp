@@ -1,6 +1,5 @@
 #include "app/render/replayPicture.h"
 
-#include "analysis/CalibrationStore.h"
 #include "app/base/filePath.h"
 #include "app/document/Provenance.h"
 #include "app/document/ViewState.h"
@@ -14,6 +13,7 @@
 #include "base/oneLine.h"
 #include "base/readingJson.h"
 #include "base/wholeNumber.h"
+#include "calibration/CalibrationStore.h"
 #include "session/Session.h"
 
 #include <QDir>

@@ -1,6 +1,6 @@
 #include "analysis/ProgressPublisher.h"
 
-#include "analysis/knownCalibration.h"
+#include "calibration/knownCalibration.h"
 #include "spectrum/quickLook.h"
 
 namespace faintline {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "analysis/AnalysisSettings.h"
 #include "analysis/PicturesSoFar.h"
 #include "base/RunContext.h"
+#include "plan/AnalysisSettings.h"
 #include "spectrum/Spectrogram.h"
 
 #include <chrono>

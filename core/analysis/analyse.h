@@ -4,6 +4,7 @@
 #include "analysis/PicturesSoFar.h"
 #include "analysis/events.h"
 #include "base/RunContext.h"
+#include "calibration/calibrate.h"
 
 #include <functional>
 #include <memory>

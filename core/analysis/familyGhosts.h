@@ -1,6 +1,7 @@
 #pragma once
 
-#include "analysis/Analysis.h"
+#include "plan/AnalysisPlan.h"
+#include "track/Track.h"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #include "analysis/pathStrips.h"
 
-#include "analysis/chain.h"
+#include "plan/chain.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,6 +1,7 @@
 #include "analysis/regulation.h"
 
 #include "base/Random.h"
+#include "calibration/calibrate.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #include "analysis/searchBehind.h"
 
-#include "analysis/chain.h"
 #include "analysis/sureStatistic.h"
+#include "plan/chain.h"
 #include "spectrum/FrameStream.h"
 
 #include <algorithm>

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "analysis/Analysis.h"
+#include "plan/AnalysisPlan.h"
 #include "spectrum/FrequencyCurve.h"
+#include "track/Track.h"
 
 namespace faintline {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/Analysis.h"
+#include "plan/AnalysisPlan.h"
 
 namespace faintline {
 

@@ -1,11 +1,11 @@
 #include "exchange/writeDoppler.h"
 
-#include "analysis/doppler/dopplerFit.h"
 #include "base/AtomicFile.h"
 #include "base/Error.h"
 #include "base/Field.h"
 #include "base/fileName.h"
 #include "base/json.h"
+#include "inspect/doppler/dopplerFit.h"
 
 #include <algorithm>
 #include <cmath>

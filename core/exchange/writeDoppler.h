@@ -1,9 +1,9 @@
 #pragma once
 
-#include "analysis/doppler/DopplerPass.h"
-#include "analysis/doppler/dopplerTrack.h"
 #include "analysis/events.h"
 #include "evaluate/experiments/Chart.h"
+#include "inspect/doppler/DopplerPass.h"
+#include "inspect/doppler/dopplerTrack.h"
 
 #include <optional>
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/Review.h"
-#include "analysis/explain.h"
+#include "inspect/Review.h"
+#include "inspect/explain.h"
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/Review.h"
+#include "inspect/Review.h"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/AnalysisSettings.h"
 #include "live/SigmfRecorder.h"
+#include "plan/AnalysisSettings.h"
 
 #include <cstddef>
 #include <string>

@@ -1,7 +1,7 @@
 #include "live/LiveHistory.h"
 
-#include "analysis/chain.h"
 #include "base/memoryShares.h"
+#include "plan/chain.h"
 #include "spectrum/CausalSpectrogram.h"
 #include "spectrum/Family.h"
 

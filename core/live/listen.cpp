@@ -1,13 +1,13 @@
 #include "live/listen.h"
 
-#include "analysis/chain.h"
 #include "analysis/events.h"
-#include "analysis/plan.h"
-#include "analysis/slopeUnit.h"
+#include "analysis/preparePlan.h"
 #include "base/Error.h"
 #include "live/Hearing.h"
 #include "live/StreamRecording.h"
 #include "live/streamInfo.h"
+#include "plan/chain.h"
+#include "plan/slopeUnit.h"
 #include "spectrum/CausalSpectrogram.h"
 
 #include <algorithm>

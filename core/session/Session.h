@@ -1,8 +1,8 @@
 #pragma once
 
-#include "analysis/AnalysisSettings.h"
-#include "analysis/Review.h"
 #include "base/json.h"
+#include "inspect/Review.h"
+#include "plan/AnalysisSettings.h"
 #include "session/Source.h"
 
 #include <string>

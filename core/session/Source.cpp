@@ -1,10 +1,10 @@
 #include "session/Source.h"
 
 #include "analysis/chooseWindow.h"
-#include "analysis/slopeUnit.h"
 #include "base/fileName.h"
 #include "base/json.h"
 #include "exchange/openFrames.h"
+#include "plan/slopeUnit.h"
 #include "recording/SimulatedRecording.h"
 #include "recording/truthBeside.h"
 #include "spectrum/SimulatedPings.h"

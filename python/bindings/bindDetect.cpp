@@ -1,13 +1,13 @@
 #include "bindings/bind.h"
 
 #include "analysis/chooseWindow.h"
-#include "analysis/firstSettings.h"
-#include "analysis/slopeUnit.h"
 #include "bindings/Result.h"
 #include "bindings/Source.h"
 #include "bindings/jsonFromPython.h"
 #include "bindings/settingsFromPython.h"
 #include "exchange/openFrames.h"
+#include "plan/firstSettings.h"
+#include "plan/slopeUnit.h"
 #include "spectrum/NormalisedPower.h"
 
 #include <pybind11/stl.h>

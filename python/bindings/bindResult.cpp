@@ -1,6 +1,5 @@
 #include "bindings/bind.h"
 
-#include "analysis/explain.h"
 #include "base/AtomicFile.h"
 #include "bindings/HeldTrack.h"
 #include "bindings/Result.h"
@@ -10,6 +9,7 @@
 #include "bindings/jsonFromPython.h"
 #include "exchange/NumPy.h"
 #include "exchange/writeEvents.h"
+#include "inspect/explain.h"
 
 #include <pybind11/stl.h>
 

@@ -1,9 +1,9 @@
 #include "bindings/bind.h"
 
-#include "analysis/AnalysisSettings.h"
 #include "base/json.h"
 #include "bindings/jsonFromPython.h"
 #include "bindings/settingsFromPython.h"
+#include "plan/AnalysisSettings.h"
 
 namespace faintline::python {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/explain.h"
+#include "inspect/explain.h"
 
 #include <memory>
 

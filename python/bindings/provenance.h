@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/AnalysisSettings.h"
+#include "plan/AnalysisSettings.h"
 
 #include <string>
 #include <utility>

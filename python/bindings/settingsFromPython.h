@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/AnalysisSettings.h"
+#include "plan/AnalysisSettings.h"
 
 #include <pybind11/pybind11.h>
 

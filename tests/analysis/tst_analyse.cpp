@@ -1,6 +1,6 @@
 #include "analysis/analyse.h"
-#include "analysis/explain.h"
 #include "base/Random.h"
+#include "inspect/explain.h"
 #include "recording/SimulatedRecording.h"
 #include "support/recordings.h"
 

@@ -1,5 +1,5 @@
 #include "analysis/analyse.h"
-#include "analysis/scaledInjection.h"
+#include "plan/scaledInjection.h"
 #include "recording/InjectedRecording.h"
 #include "recording/SimulatedRecording.h"
 #include "recording/openRecording.h"

@@ -1,7 +1,7 @@
 #include "analysis/chooseWindow.h"
 #include "analysis/events.h"
-#include "analysis/noiseLaw.h"
 #include "base/Random.h"
+#include "inspect/noiseLaw.h"
 #include "recording/ArrayRecording.h"
 #include "recording/InjectedRecording.h"
 #include "spectrum/normalise.h"

@@ -1,9 +1,9 @@
 #include "analysis/analyse.h"
-#include "analysis/boxLevels.h"
-#include "analysis/explain.h"
-#include "analysis/pathEvidence.h"
 #include "base/Random.h"
 #include "detect/makeDetector.h"
+#include "inspect/boxLevels.h"
+#include "inspect/explain.h"
+#include "inspect/pathEvidence.h"
 #include "support/frames.h"
 
 #include <QtTest>

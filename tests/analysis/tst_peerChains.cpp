@@ -1,7 +1,7 @@
-#include "analysis/Calibration.h"
 #include "analysis/analyse.h"
-#include "analysis/chain.h"
 #include "base/Random.h"
+#include "calibration/calibrate.h"
+#include "plan/chain.h"
 
 #include <QtTest>
 

@@ -1,7 +1,7 @@
 #include "analysis/analyse.h"
-#include "analysis/lineHeight.h"
 #include "analysis/smoothFrequency.h"
 #include "base/Error.h"
+#include "inspect/lineHeight.h"
 #include "recording/SimulatedRecording.h"
 #include "spectrum/StraightenedRecording.h"
 

@@ -1,12 +1,12 @@
 // Listening in the window: a pipe is fed, and what is to be seen then.
 
-#include "analysis/slopeUnit.h"
 #include "app/Feeder.h"
 #include "app/base/MessageBar.h"
 #include "app/panels/ListenDialog.h"
 #include "app/workspace/LiveBar.h"
 #include "app/workspace/Workbench.h"
 #include "exchange/writeEvents.h"
+#include "plan/slopeUnit.h"
 #include "widgets/base/diskRoom.h"
 #include "widgets/events/EventTable.h"
 

@@ -1,12 +1,12 @@
 // A radar's scans on four axes in the window: two axes shown, the others by maximum or slice.
 
-#include "analysis/outputLayers.h"
 #include "app/control/OutputLayers.h"
 #include "app/openWindow.h"
 #include "app/welcome/WelcomePage.h"
 #include "app/workspace/AxesBar.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
+#include "inspect/outputLayers.h"
 #include "session/Session.h"
 #include "spectrum/pictureCuts.h"
 #include "support/errors.h"

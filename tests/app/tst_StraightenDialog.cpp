@@ -1,7 +1,7 @@
-#include "analysis/straighten.h"
 #include "app/openWindow.h"
 #include "app/panels/StraightenDialog.h"
 #include "base/json.h"
+#include "inspect/straighten.h"
 #include "recording/SimulatedRecording.h"
 #include "recording/writeRecording.h"
 #include "support/recordings.h"

@@ -29,8 +29,8 @@ private:
 
 namespace {
 
-const QStringList order{"base",     "recording", "spectrum", "model",   "detect", "track",
-                        "analysis", "evaluate",  "exchange", "session", "live"};
+const QStringList order{"base",        "recording", "spectrum", "model",    "detect",   "track",   "plan",
+                        "calibration", "analysis",  "inspect",  "evaluate", "exchange", "session", "live"};
 const QStringList widgetOrder{"base", "plot", "waterfall", "pings", "events", "forms"};
 const QStringList appOrder{"cli",   "base",    "document", "control", "workspace", "panels",
                            "views", "lessons", "help",     "welcome", "window",    "render"};

@@ -6,8 +6,8 @@
 // A tile is 16 frames × 200 resolution cells, and others for comparison. --dump writes PREFIX.s.npy and PREFIX.y.npy,
 // frames × bins.
 
-#include "analysis/AnalysisSettings.h"
 #include "exchange/NumPy.h"
+#include "plan/AnalysisSettings.h"
 #include "recording/openRecording.h"
 #include "spectrum/NoiseNormaliser.h"
 

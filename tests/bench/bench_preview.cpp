@@ -1,7 +1,7 @@
 // A changed detector: what is seen at once, beside the whole analysis that follows. 2000 cells × 1000 frames, one
 // thread.
 
-#include "analysis/previewStatistic.h"
+#include "inspect/previewStatistic.h"
 #include "recording/SimulatedRecording.h"
 
 #include <benchmark/benchmark.h>

@@ -6,7 +6,7 @@
 // number of fragments of the worse signal (whistles: mean of all), swaps and false tracks in all, 90 % error in cells,
 // precision. --tracks lists the tracks.
 
-#include "analysis/AnalysisSettings.h"
+#include "plan/AnalysisSettings.h"
 #include "support/manySignals.h"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // Prints a number for what each stage of the chain makes of simulated input. Linked twice, with the core as it is and
 // with one that has no loops for newer processors: what both print must be the same.
 
-#include "analysis/AnalysisSettings.h"
 #include "base/Random.h"
 #include "detect/ModelBank.h"
+#include "plan/AnalysisSettings.h"
 #include "recording/SimulatedRecording.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "spectrum/PeakPyramid.h"

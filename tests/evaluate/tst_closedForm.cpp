@@ -1,3 +1,4 @@
+#include "calibration/calibrate.h"
 #include "evaluate/theory/boxExceedance.h"
 #include "evaluate/theory/closedForm.h"
 

@@ -1,8 +1,8 @@
 #include "evaluate/experiments/showTrial.h"
 
-#include "analysis/chain.h"
 #include "evaluate/experiments/campaignCharts.h"
 #include "evaluate/experiments/peers.h"
+#include "plan/chain.h"
 
 #include <QtTest>
 

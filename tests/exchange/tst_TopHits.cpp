@@ -1,10 +1,10 @@
 #include "exchange/TopHits.h"
 
 #include "analysis/analyse.h"
-#include "analysis/slopeUnit.h"
 #include "base/Random.h"
 #include "exchange/findCadence.h"
 #include "exchange/openFrames.h"
+#include "plan/slopeUnit.h"
 #include "support/errors.h"
 #include "support/recordings.h"
 

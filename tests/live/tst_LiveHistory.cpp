@@ -1,8 +1,8 @@
 #include "live/LiveHistory.h"
 
 #include "analysis/analyse.h"
-#include "analysis/closeup.h"
 #include "exchange/writeEvents.h"
+#include "inspect/closeup.h"
 #include "recording/SigmfRecording.h"
 #include "recording/SimulatedRecording.h"
 #include "recording/Timeline.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/familyTeeth.h"
+#include "inspect/familyTeeth.h"
 
 #include <QString>
 

@@ -1,6 +1,6 @@
 #include "widgets/base/settingWords.h"
 
-#include "analysis/AnalysisSettings.h"
+#include "plan/AnalysisSettings.h"
 #include "widgets/base/quantities.h"
 
 #include <QHash>

@@ -6,7 +6,7 @@
 #include "widgets/forms/FormSection.h"
 #include "widgets/forms/SettingRow.h"
 
-#include "analysis/slopeUnit.h"
+#include "plan/slopeUnit.h"
 
 #include <QFontMetrics>
 #include <QLabel>

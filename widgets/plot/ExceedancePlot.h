@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/Calibration.h"
+#include "plan/Calibration.h"
 #include "widgets/base/Span.h"
 #include "widgets/base/ThemedPlot.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/outputLayers.h"
+#include "inspect/outputLayers.h"
 #include "widgets/base/Span.h"
 
 #include <qwt_plot_item.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/Review.h"
+#include "inspect/Review.h"
 #include "recording/Truth.h"
 #include "track/Track.h"
 #include "widgets/waterfall/Sidebands.h"

@@ -1,7 +1,8 @@
 #include "evaluate/comparison/noiseFit.h"
 
-#include "analysis/Calibration.h"
 #include "base/Random.h"
+#include "calibration/fitReset.h"
+#include "plan/Calibration.h"
 
 #include <algorithm>
 #include <cmath>

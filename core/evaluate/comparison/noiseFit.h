@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/AnalysisSettings.h"
 #include "base/RunContext.h"
+#include "plan/AnalysisSettings.h"
 #include "spectrum/NormalisedFrames.h"
 
 #include <cstdint>

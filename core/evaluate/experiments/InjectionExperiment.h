@@ -1,8 +1,8 @@
 #pragma once
 
-#include "analysis/AnalysisSettings.h"
 #include "base/json.h"
 #include "evaluate/experiments/LineExperiment.h"
+#include "plan/AnalysisSettings.h"
 
 #include <cstddef>
 #include <string>

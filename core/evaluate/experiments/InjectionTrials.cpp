@@ -1,13 +1,13 @@
 #include "evaluate/experiments/InjectionTrials.h"
 
-#include "analysis/Calibration.h"
-#include "analysis/chain.h"
-#include "analysis/slopeUnit.h"
 #include "base/Error.h"
 #include "base/Random.h"
 #include "base/parallel.h"
+#include "calibration/calibrate.h"
 #include "evaluate/experiments/SignalMask.h"
 #include "evaluate/experiments/measuredThreshold.h"
+#include "plan/chain.h"
+#include "plan/slopeUnit.h"
 #include "recording/InjectedRecording.h"
 #include "spectrum/NoiseNormaliser.h"
 
@@ -55,13 +55,13 @@ namespace {
     }
 
     /// Mask of everything that the detectors' chains track, including the boxes that were inhibited meanwhile.
-    SignalMask signalsFoundBy(const std::vector<Analysis> &analyses, const RunContext &context)
+    SignalMask signalsFoundBy(const std::vector<AnalysisPlan> &plans, const RunContext &context)
     {
-        const NormalisedFrames &frames = *analyses.front().frames;
+        const NormalisedFrames &frames = *plans.front().frames;
         SignalMask mask(frames.time().count, frames.grid().size());
         std::vector<std::unique_ptr<DetectionChain>> chains;
-        for (const Analysis &analysis : analyses)
-            chains.push_back(makeChain(analysis));
+        for (const AnalysisPlan &plan : plans)
+            chains.push_back(makeChain(plan));
         std::vector<float> statistic(std::size_t(frames.grid().size()));
         forEachFrame(frames, context, "searching for signals", [&](Index frame, std::span<float> y) {
             for (const auto &chain : chains) {
@@ -73,9 +73,9 @@ namespace {
         });
         for (std::size_t d = 0; d < chains.size(); ++d) {
             chains[d]->finish();
-            const SpectrogramSettings &settings = analyses[d].settings.spectrogram;
-            const auto aside = Index(
-                std::ceil(analyses[d].settings.decide.inhibitCells.front() * frameGeometry(settings).binsPerCell));
+            const SpectrogramSettings &settings = plans[d].settings.spectrogram;
+            const auto aside =
+                Index(std::ceil(plans[d].settings.decide.inhibitCells.front() * frameGeometry(settings).binsPerCell));
             for (const Track &track : chains[d]->tracks())
                 for (const TrackPoint &point : track.points)
                     mask.add(point.frame, point.cell - aside, point.cell + aside);
@@ -91,15 +91,15 @@ namespace {
     };
 
     /// Largest statistic of every detector in each block of the recording that does not consist of signals alone.
-    std::vector<std::vector<float>> blockMaxima(const std::vector<Analysis> &analyses, const SignalMask &mask,
+    std::vector<std::vector<float>> blockMaxima(const std::vector<AnalysisPlan> &plans, const SignalMask &mask,
                                                 Index blockFrames, Index blockBins, const RunContext &context)
     {
-        const NormalisedFrames &frames = *analyses.front().frames;
+        const NormalisedFrames &frames = *plans.front().frames;
         const Index bins = frames.grid().size();
         const Index columns = std::max<Index>(1, bins / blockBins);
         std::vector<std::unique_ptr<Detector>> detectors;
-        for (const Analysis &analysis : analyses)
-            detectors.push_back(makeDetector(analysis));
+        for (const AnalysisPlan &plan : plans)
+            detectors.push_back(makeDetector(plan));
         std::vector<std::vector<float>> maxima(detectors.size());
         std::vector<std::vector<float>> open(detectors.size());
         std::vector<bool> isFree(static_cast<std::size_t>(columns));
@@ -168,7 +168,7 @@ InjectionTrials::InjectionTrials(const InjectionExperiment &experiment, Recordin
     const double cellFramesPerHour = double(shared->spectrogram->frequency().count) * 3600.0 / time.step;
     const double ordered = experiment.falseAlarmsPerHour / cellFramesPerHour;
     const auto frames = framesOf(shared->spectrogram, shared->background, experiment.settings.noise);
-    std::vector<Analysis> analyses;
+    std::vector<AnalysisPlan> plans;
     for (std::size_t d = 0; d < experiment.detectors.size(); ++d) {
         const AnalysisSettings settings =
             withSlopesInBins(settingsOf(experiment, d), shared->spectrogram->recording().info());
@@ -177,22 +177,22 @@ InjectionTrials::InjectionTrials(const InjectionExperiment &experiment, Recordin
                                                context.part(0.2 + 0.6 * double(d) / n, 0.2 + 0.6 * double(d + 1) / n));
         const auto *smd = std::get_if<SmdSettings>(&settings.detector);
         shared->rules.push_back(smd ? resetRule(*smd, calibration->lnK) : ResetRule{});
-        Analysis analysis;
-        analysis.settings = settings;
-        analysis.frames = frames;
-        analysis.model = makeModel(settings.model, frames->grid());
-        analysis.calibration = calibration;
-        analysis.threshold = calibration->thresholdForEventRate(certainSignals * ordered);
-        analyses.push_back(std::move(analysis));
+        AnalysisPlan plan;
+        plan.settings = settings;
+        plan.frames = frames;
+        plan.model = makeModel(settings.model, frames->grid());
+        plan.calibration = calibration;
+        plan.threshold = calibration->thresholdForEventRate(certainSignals * ordered);
+        plans.push_back(std::move(plan));
     }
-    shared->signals = signalsFoundBy(analyses, context.part(0.8, 0.9));
+    shared->signals = signalsFoundBy(plans, context.part(0.8, 0.9));
     const auto blockFrames = std::max<Index>(1, Index(std::lround(experiment.durationSeconds / time.step)));
     const auto blockBins = Index(std::lround(cellsOfBlock * shared->spectrogram->binsPerCell()));
-    const auto maxima = blockMaxima(analyses, *shared->signals, blockFrames, blockBins, context.part(0.9, 1.0));
+    const auto maxima = blockMaxima(plans, *shared->signals, blockFrames, blockBins, context.part(0.9, 1.0));
     const double falseAlarms =
         ordered * shared->signals->freeShare() * double(time.count) * double(frames->grid().size());
-    for (std::size_t d = 0; d < analyses.size(); ++d)
-        m_thresholds.push_back(measuredThreshold(maxima[d], falseAlarms, *analyses[d].calibration, ordered));
+    for (std::size_t d = 0; d < plans.size(); ++d)
+        m_thresholds.push_back(measuredThreshold(maxima[d], falseAlarms, *plans[d].calibration, ordered));
     m_shared = std::move(shared);
 }
 

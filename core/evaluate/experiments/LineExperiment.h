@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/AnalysisSettings.h"
 #include "base/json.h"
+#include "plan/AnalysisSettings.h"
 #include "recording/LineScene.h"
 
 #include <string>

@@ -1,9 +1,9 @@
 #include "evaluate/experiments/PingExperiment.h"
 
-#include "analysis/chain.h"
 #include "base/Error.h"
 #include "base/parallel.h"
 #include "detect/Smd.h"
+#include "plan/chain.h"
 #include "spectrum/SimulatedPings.h"
 
 namespace faintline {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "analysis/AnalysisSettings.h"
 #include "base/RunContext.h"
 #include "evaluate/comparison/trackScore.h"
+#include "plan/AnalysisSettings.h"
 
 #include <cstdint>
 #include <vector>

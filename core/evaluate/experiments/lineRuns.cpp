@@ -1,10 +1,11 @@
 #include "evaluate/experiments/lineRuns.h"
 
-#include "analysis/Calibration.h"
-#include "analysis/noiseCounts.h"
 #include "base/logmath.h"
 #include "base/parallel.h"
+#include "calibration/fitReset.h"
+#include "calibration/noiseCounts.h"
 #include "evaluate/experiments/NoisyField.h"
+#include "plan/Calibration.h"
 
 #include <algorithm>
 #include <cmath>

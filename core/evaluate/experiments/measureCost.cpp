@@ -1,6 +1,6 @@
 #include "evaluate/experiments/measureCost.h"
 
-#include "analysis/chain.h"
+#include "plan/chain.h"
 
 #include <algorithm>
 #include <ctime>

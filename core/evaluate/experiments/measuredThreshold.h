@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/Calibration.h"
+#include "plan/Calibration.h"
 
 #include <vector>
 

@@ -1,9 +1,9 @@
 #include "exchange/survey/SurveyOrigin.h"
 
-#include "analysis/sourceFingerprint.h"
 #include "base/Error.h"
 #include "base/readingJson.h"
 #include "base/wholeNumber.h"
+#include "calibration/sourceFingerprint.h"
 #include "evaluate/comparison/settingDifferences.h"
 
 namespace faintline {

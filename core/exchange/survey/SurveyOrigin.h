@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/AnalysisSettings.h"
+#include "plan/AnalysisSettings.h"
 #include "recording/openRecording.h"
 
 #include <string>
@@ -18,7 +18,7 @@ struct SurveyOrigin {
     std::string settings; ///< JSON of those that differ from the defaults
     std::string reading;  ///< JSON of the OpenOptions
     std::string version;  ///< of the program
-    std::string sources;  ///< fingerprint of the program's sources (analysis/sourceFingerprint.h)
+    std::string sources;  ///< fingerprint of the program's sources (calibration/sourceFingerprint.h)
     std::string shard;    ///< "2/8": part of the recordings (base/Shard.h); empty: all
 
     bool operator==(const SurveyOrigin &) const = default;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/Review.h"
 #include "analysis/events.h"
+#include "inspect/Review.h"
 
 #include <cstdint>
 #include <optional>

@@ -1,13 +1,13 @@
 #include "exchange/survey/surveyRecording.h"
 
 #include "analysis/chooseWindow.h"
-#include "analysis/slopeUnit.h"
 #include "base/fileName.h"
 #include "base/logmath.h"
 #include "base/oneLine.h"
 #include "detect/SumDetector.h"
 #include "exchange/openFrames.h"
 #include "exchange/reviewedText.h"
+#include "plan/slopeUnit.h"
 #include "recording/SigmfRecording.h"
 #include "recording/fileHash.h"
 

@@ -1,9 +1,9 @@
 #include "analysis/analyse.h"
-#include "analysis/explain.h"
 #include "app/cli/CommandLineTest.h"
 #include "base/json.h"
 #include "exchange/NumPy.h"
 #include "exchange/writeEvents.h"
+#include "inspect/explain.h"
 #include "recording/openRecording.h"
 
 #include <QtTest>

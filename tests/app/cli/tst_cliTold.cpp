@@ -1,6 +1,6 @@
-#include "analysis/AnalysisSettings.h"
 #include "app/cli/CommandLineTest.h"
 #include "base/json.h"
+#include "plan/AnalysisSettings.h"
 
 #include <QtTest>
 

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "base/RunContext.h"
+#include "calibration/CalibrationEffort.h"
+#include "calibration/measureRareRates.h"
+#include "plan/AnalysisPlan.h"
+
+#include <optional>
+
+namespace faintline {
+
+// Splitting on noise like that of a calibration.
+
+/// Rates of rare excursions on noise of known level, in a small cyclic band in which all cells are equivalent. The plan
+/// has a model, frames like those of the noise, and the calibration's K.
+RareRates followTail(const AnalysisPlan &plan, const CalibrationEffort &effort, const RunContext &context);
+
+/// As `followTail`, in `bins` bins with two ends, or in a cyclic band if `bins` is not given.
+RareRates followBand(const AnalysisSettings &bare, double lnK, std::optional<Index> bins,
+                     const SplittingSettings &splitting, const RunContext &context);
+
+} // namespace faintline

@@ -1,0 +1,27 @@
+#include "inspect/advice.h"
+
+#include <cmath>
+
+namespace faintline {
+
+void setWindow(Advice &advice, double seconds)
+{
+    const double decade = std::pow(10.0, std::floor(std::log10(seconds)) - 1.0);
+    const double digits = std::round(seconds / decade);
+    // 10⁻ⁿ has no exact double; an integer divided by 10ⁿ reads back as written
+    const double rounded = decade < 1.0 ? digits / std::round(1.0 / decade) : digits * std::round(decade);
+    advice.settings.spectrogram.windowSeconds = rounded;
+    advice.remedy = "use a window of " + formatNumber(rounded) + " s";
+}
+
+std::vector<Advice> advise(const Analysis &analysis, const RunContext &context)
+{
+    std::vector<Advice> all;
+    for (std::optional<Advice> one : {adviceOnConstantCells(analysis, context), adviceOnChannels(analysis, context),
+                                      adviceOnSlopes(analysis), adviceOnCloseLines(analysis)})
+        if (one)
+            all.push_back(std::move(*one));
+    return all;
+}
+
+} // namespace faintline

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "inspect/doppler/CorrelatedErrors.h"
+#include "inspect/doppler/DopplerPass.h"
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <vector>
+
+namespace faintline {
+
+/// The four parameters of a pass, in the order of their coordinates.
+enum class DopplerParameter { RestHz, Speed, Range, Closest };
+
+/// Coordinates in which a fit is well conditioned: all near 1, unbounded, and weakly correlated where the pass is
+/// observed. F and S are the centre and span of the track's frequencies, M and L those of its times.
+///
+///   x0 = (f0 - F)/S,  x1 = ln(β/(1 - β)) with β = v/c,  x2 = ln(T/L) with T = R/v,  x3 = (t0 + R/c - M)/L
+using DopplerCoordinates = Eigen::Vector4d;
+
+/// Weighted residuals of a track's points for a pass, whitened if their errors are correlated.
+///
+/// Profiles hold one parameter and minimise over the others. The parameter's own coordinate z replaces the coordinate
+/// of the same index: z0 = x0, z1 = x1, z2 = ln(R/(c·L)), z3 = (t0 - M)/L.
+class DopplerProblem
+{
+public:
+    DopplerProblem(const std::vector<DopplerPoint> &points, double propagation);
+
+    std::size_t count() const { return m_points.size(); } ///< number of points in the fit
+    double spanSeconds() const { return m_spanSeconds; }
+
+    DopplerPass passOf(const DopplerCoordinates &x) const;
+    DopplerCoordinates coordinatesOf(const DopplerPass &pass) const;
+    double ownCoordinate(DopplerParameter parameter, const DopplerCoordinates &x) const;
+    /// Value of the parameter, in its unit.
+    double valueOf(DopplerParameter parameter, double ownCoordinate) const;
+    /// Coordinate of a value, f0 ≥ 0.
+    double coordinateOfRest(double hz) const { return (hz - m_middleHz) / m_spanHz; }
+
+    /// The same problem with other points in the same coordinates and uncorrelated errors.
+    DopplerProblem with(std::vector<DopplerPoint> points) const;
+
+    /// Estimates the correlation of the errors from the residuals of a pass. Gaps of four steps end a stretch. Errors
+    /// that appear to cancel, with n_eff above 1.5 n, are treated as independent: few residuals look so by chance.
+    void estimateCorrelation(const DopplerCoordinates &x);
+    const CorrelatedErrors &errors() const { return m_errors; }
+
+    /// Whitened (measured - fitted)/deviation and, if requested, its derivatives with respect to x.
+    Eigen::VectorXd residuals(const DopplerCoordinates &x, Eigen::MatrixXd *derivatives = nullptr) const;
+    double cost(const DopplerCoordinates &x) const { return residuals(x).squaredNorm(); }
+
+    /// Minimum cost of a straight line f = a + b·t instead of a pass.
+    double straightLineCost() const;
+
+    /// The nearest local minimum of the cost, by Levenberg-Marquardt (Eigen): over all coordinates, or over those of
+    /// three parameters while one is held at its own coordinate.
+    DopplerCoordinates minimum(const DopplerCoordinates &from) const;
+    DopplerCoordinates minimum(const DopplerCoordinates &from, DopplerParameter held, double ownCoordinate) const;
+
+private:
+    std::vector<DopplerPoint> m_points;
+    double m_propagation;
+    double m_middleHz = 0.0;
+    double m_spanHz = 1.0;
+    double m_middleSeconds = 0.0;
+    double m_spanSeconds = 1.0;
+    CorrelatedErrors m_errors;
+};
+
+} // namespace faintline

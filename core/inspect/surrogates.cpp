@@ -1,0 +1,63 @@
+#include "inspect/surrogates.h"
+
+#include "base/Error.h"
+#include "base/Interval.h"
+#include "spectrum/NoiseNormaliser.h"
+#include "spectrum/SurrogateRecording.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    constexpr double wantedEvents = 30.0;
+    constexpr std::uint64_t firstSeed = 4000;
+
+} // namespace
+
+SurrogateCount countOnSurrogates(RecordingPointer recording, const AnalysisSettings &settings, int runs,
+                                 const RunContext &context)
+{
+    if (runs < 1)
+        throw Error("surrogates", "must be at least 1");
+    checkSettings(settings);
+    checkHasOneChannel(settings, "is not possible with surrogates, which have one channel");
+    const Spectrogram spectrogram(recording, settings.spectrogram, settings.selection);
+    const auto background = estimateBackground(spectrogram, settings.noise, context.part(0.0, 0.05));
+    const auto calibration = calibrateBand(settings, spectrogram, context.part(0.05, 0.2));
+    const double cellFramesPerHour = cellFramesInAnHour(settings.family, spectrogram);
+
+    SurrogateCount result;
+    result.runs = runs;
+    result.hours = runs * double(spectrogram.time().count) * spectrogram.time().step / 3600.0;
+    const double nats = thresholdNats(settings.decide, *calibration, cellFramesPerHour);
+    result.orderPerHour = std::max(calibration->eventRateAt(nats) * cellFramesPerHour, wantedEvents / result.hours);
+    AnalysisSettings counting = settings;
+    counting.decide.by = DecideSettings::By::FalseAlarmsPerHour;
+    counting.decide.falseAlarmsPerHour = result.orderPerHour;
+    for (int run = 0; run < runs; ++run) {
+        const auto surrogate =
+            std::make_shared<SurrogateRecording>(spectrogram, background, firstSeed + std::uint64_t(run));
+        const auto analysis =
+            analyse(surrogate, counting, context.part(0.2 + 0.8 * run / runs, 0.2 + 0.8 * (run + 1) / runs));
+        result.threshold = analysis->threshold;
+        result.events += std::ssize(analysis->tracks);
+    }
+    result.ordered = result.orderPerHour * result.hours;
+    const auto events = double(result.events);
+    result.ratio = events / result.ordered;
+    const Interval counted = poissonInterval(result.events);
+    result.interval = {counted.low / result.ordered, counted.high / result.ordered};
+    if (result.events > 0 && !result.interval.contains(1.0)) {
+        constexpr double near = 0.5;
+        const double slope = std::log(calibration->eventRateAt(result.threshold - near)
+                                      / calibration->eventRateAt(result.threshold + near))
+                             / (2.0 * near);
+        result.correction = std::log(result.ratio) / slope;
+    }
+    return result;
+}
+
+} // namespace faintline

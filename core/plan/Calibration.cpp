@@ -1,0 +1,113 @@
+#include "plan/Calibration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace faintline {
+
+double Calibration::eventRateAt(double nats) const
+{
+    if (!rates.isEmpty())
+        return std::exp(rates.lnRateAt(nats));
+    return eventRate * std::exp(-tailSlope * (nats - anchorNats));
+}
+
+double Calibration::thresholdForEventRate(double eventsPerCellFrame) const
+{
+    if (rates.isEmpty())
+        return anchorNats + std::log(eventRate / eventsPerCellFrame) / tailSlope;
+    double low = rates.levels.front() - 100.0 / tailSlope;
+    double high = rates.levels.back() + 1000.0 / tailSlope;
+    for (int i = 0; i < 200; ++i) {
+        const double middle = 0.5 * (low + high);
+        (eventRateAt(middle) > eventsPerCellFrame ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+double Calibration::rateUncertaintyAt(double nats) const
+{
+    const double error =
+        rates.isEmpty() ? std::hypot(relativeError, (nats - anchorNats) * slopeError) : rates.relativeErrorAt(nats);
+    return std::exp(1.96 * error);
+}
+
+double Calibration::thresholdUncertainty(double eventsPerCellFrame) const
+{
+    const double threshold = thresholdForEventRate(eventsPerCellFrame);
+    constexpr double near = 0.5;
+    const double slope = std::log(eventRateAt(threshold - near) / eventRateAt(threshold + near)) / (2.0 * near);
+    return std::log(rateUncertaintyAt(threshold)) / slope;
+}
+
+double Calibration::exceedanceAt(double nats) const
+{
+    // Simulated down to levels exceeded by more than a thousand cells, extrapolated with the tail's slope beyond.
+    std::size_t last = exceedance.size() - 1;
+    const double least = 1e-4;
+    while (last > 0 && exceedance[last] < least)
+        --last;
+    if (nats <= levels.front())
+        return exceedance.front();
+    if (nats >= levels[last])
+        return exceedance[last] * eventRateAt(nats)
+               / eventRateAt(levels[last]); // time above a level per event is nearly constant
+    const double position = (nats - levels.front()) / (levels[1] - levels[0]);
+    const auto lower = std::size_t(position);
+    const double fraction = position - double(lower);
+    return std::exp((1.0 - fraction) * std::log(exceedance[lower]) + fraction * std::log(exceedance[lower + 1]));
+}
+
+double Calibration::thresholdForPfa(double probability) const
+{
+    double low = levels.front();
+    double high = levels.back() + 1000.0 / tailSlope;
+    for (int i = 0; i < 100; ++i) {
+        const double middle = 0.5 * (low + high);
+        (exceedanceAt(middle) > probability ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+double Calibration::levelExceededBy(double probability) const
+{
+    if (levels.empty())
+        return -std::numeric_limits<double>::infinity();
+    const auto first = std::find_if(exceedance.begin(), exceedance.end(), [&](double p) { return p <= probability; });
+    return levels[std::min(std::size_t(first - exceedance.begin()), levels.size() - 1)];
+}
+
+double thresholdNats(const DecideSettings &decide, const Calibration &calibration, double cellFramesPerHour)
+{
+    switch (decide.by) {
+    case DecideSettings::By::FalseAlarmsPerHour:
+        return calibration.thresholdForEventRate(decide.falseAlarmsPerHour / cellFramesPerHour);
+    case DecideSettings::By::PfaPerCell:
+        return calibration.thresholdForPfa(decide.pfaPerCell);
+    case DecideSettings::By::Nats:
+        break;
+    }
+    return decide.thresholdNats;
+}
+
+ResetRule resetRule(const SmdSettings &settings, double lnK)
+{
+    switch (settings.reset) {
+    case SmdSettings::Reset::Calibrated:
+    case SmdSettings::Reset::Fixed:
+        return {ResetLaw::Fixed, lnK};
+    case SmdSettings::Reset::Half:
+        return {ResetLaw::Half, lnK};
+    case SmdSettings::Reset::Mean:
+        return {ResetLaw::Mean};
+    }
+    return {};
+}
+
+FrameGeometry frameGeometry(const SpectrogramSettings &settings)
+{
+    return {double(settings.stepsPerWindow), double(settings.binsPerCell)};
+}
+
+} // namespace faintline

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "detect/PathDetector.h"
+#include "plan/AnalysisPlan.h"
+#include "track/DetectionChain.h"
+
+#include <memory>
+
+namespace faintline {
+
+/// Number of states of the model, or of all models of the bank.
+Index stateCount(const AnalysisPlan &plan);
+/// Memory for the scores of all states.
+std::size_t bytesOfStates(const AnalysisPlan &plan);
+
+/// The detection chain of a plan, at its first frame.
+std::unique_ptr<DetectionChain> makeChain(const AnalysisPlan &plan);
+/// The same without tracing tracks back to their onset, for callers that only need scores.
+std::unique_ptr<DetectionChain> makeScoringChain(const AnalysisPlan &plan);
+
+/// The plan's detector, or bank of detectors, at its first frame.
+std::unique_ptr<Detector> makeDetector(const AnalysisPlan &plan);
+/// The same with paths from which tracks can start: a detector without paths is guided by one with paths.
+std::unique_ptr<PathDetector> makePathDetector(const AnalysisPlan &plan);
+
+/// The chain around a detector that may already have settled on noise. `looksBack`: whether tracks are traced back to
+/// their onset, which is not needed for counting.
+std::unique_ptr<DetectionChain> makeChain(const AnalysisPlan &plan, std::unique_ptr<PathDetector> detector,
+                                          bool looksBack = true);
+
+/// Excluded cells, where no signal is looked for, for frames of lines.
+std::vector<CellBox> excludedBoxes(const AnalysisPlan &plan);
+
+} // namespace faintline

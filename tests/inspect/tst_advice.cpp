@@ -1,0 +1,121 @@
+#include "analysis/analyse.h"
+#include "inspect/advice.h"
+#include "recording/ArrayRecording.h"
+#include "recording/SimulatedRecording.h"
+
+#include <QtTest>
+
+#include <cmath>
+
+using namespace faintline;
+
+namespace {
+
+LineSettings line(double hz, double hzPerSecond, double seconds)
+{
+    LineSettings settings;
+    settings.snrDb = 14.0;
+    settings.frequencyHz = hz;
+    settings.driftHzPerSecond = hzPerSecond;
+    settings.durationSeconds = seconds;
+    return settings;
+}
+
+RecordingPointer noiseWith(std::vector<LineSettings> lines, int seed = 1)
+{
+    LineScene scene;
+    scene.sampleRateHz = 400.0;
+    scene.durationSeconds = 60.0;
+    scene.noise.deviation = 1.0;
+    scene.seed = seed;
+    scene.lines = std::move(lines);
+    return std::make_shared<SimulatedRecording>(scene);
+}
+
+/// The same 50 samples again and again: frames that begin 50 samples apart are all alike.
+RecordingPointer withoutNoise()
+{
+    const auto samples = std::make_shared<std::vector<float>>();
+    for (int i = 0; i < 24'000; ++i)
+        samples->push_back(float((i % 50) * (i % 50) % 37) - 18.0f);
+    const ArrayLayout layout{.sampleRateHz = 400.0, .sampleCount = std::ssize(*samples)};
+    return std::make_shared<ArrayRecording>("pattern", std::shared_ptr<const float>(samples, samples->data()), layout);
+}
+
+std::shared_ptr<const Analysis> inWindow(RecordingPointer recording, double seconds)
+{
+    AnalysisSettings settings;
+    settings.spectrogram.windowSeconds = seconds;
+    return analyse(std::move(recording), settings);
+}
+
+} // namespace
+
+/// What is said of an analysis before its numbers are taken at their word, and that the remedy is one.
+class tst_advice : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void noiseNeedsNone()
+    {
+        for (int seed = 1; seed <= 10; ++seed)
+            QVERIFY(advise(*inWindow(noiseWith({}, seed), 0.25)).empty());
+    }
+
+    void aLineFasterThanTheModel()
+    {
+        // One bin a frame is 2 Hz in 0.125 s.
+        const auto recording = noiseWith({line(20.0, 22.0, 7.0)});
+        const auto advice = adviceOnSlopes(*inWindow(recording, 0.25));
+        QVERIFY(advice);
+        QVERIFY2(advice->sentence.find("as fast as the model allows, 16 Hz/s") != std::string::npos,
+                 advice->sentence.c_str());
+        QCOMPARE(advice->remedy, std::string("use a window of 0.13 s"));
+        QCOMPARE(advice->settings.spectrogram.windowSeconds, 0.13);
+        QVERIFY(!adviceOnSlopes(*analyse(recording, advice->settings)));
+    }
+
+    void aLineThatTheModelFollows()
+    {
+        QVERIFY(!adviceOnSlopes(*inWindow(noiseWith({line(20.0, 8.0, 20.0)}), 0.25)));
+        QVERIFY(!adviceOnSlopes(*inWindow(noiseWith({line(50.0, 0.0, 0.0)}), 0.25)));
+    }
+
+    void linesTooClose()
+    {
+        // A cell is 2 Hz.
+        const auto recording = noiseWith({line(100.0, 0.0, 0.0), line(105.0, 0.0, 0.0)});
+        const auto advice = adviceOnCloseLines(*inWindow(recording, 0.5));
+        QVERIFY(advice);
+        QVERIFY2(advice->sentence.find("1 pair of tracks runs less than 3 cells apart, e.g. 5") != std::string::npos,
+                 advice->sentence.c_str());
+        QVERIFY(std::abs(advice->settings.spectrogram.windowSeconds - 0.8) < 0.03);
+        QVERIFY(!adviceOnCloseLines(*analyse(recording, advice->settings)));
+    }
+
+    void linesFarEnoughApart()
+    {
+        QVERIFY(!adviceOnCloseLines(*inWindow(noiseWith({line(100.0, 0.0, 0.0), line(110.0, 0.0, 0.0)}), 0.5)));
+    }
+
+    /// In the window that would separate them, they would drift faster than the model allows.
+    void noLongerWindowForFastLines()
+    {
+        const auto recording = noiseWith({line(20.0, 2.5, 50.0), line(25.0, 2.5, 50.0)});
+        QVERIFY(!adviceOnCloseLines(*inWindow(recording, 0.5)));
+    }
+
+    void noNoise()
+    {
+        const auto advice = adviceOnConstantCells(*inWindow(withoutNoise(), 0.25));
+        QVERIFY(advice);
+        QVERIFY(advice->remedy.empty());
+        QCOMPARE(advise(*inWindow(withoutNoise(), 0.25)).front().name, std::string("constantCells"));
+    }
+
+    void strongLinesInNoise() { QVERIFY(!adviceOnConstantCells(*inWindow(noiseWith({line(50.0, 0.0, 0.0)}), 0.25))); }
+};
+
+QTEST_GUILESS_MAIN(tst_advice)
+#include "tst_advice.moc"
