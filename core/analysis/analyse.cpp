@@ -223,7 +223,7 @@ namespace {
     }
 
     /// Sends the frames of a recording through the chain, once.
-    std::shared_ptr<Analysis> analyseAsItIs(RecordingPointer recording, const AnalysisSettings &settings,
+    std::shared_ptr<Analysis> analyseAsItIs(const RecordingPointer &recording, const AnalysisSettings &settings,
                                             const RunContext &context, const Analysis *previous,
                                             const AnalysisRequest &request)
     {
@@ -274,14 +274,14 @@ namespace {
     }
 
     /// Subtracts lines and analyses the rest, if that is requested and there are any; otherwise the recording as it is.
-    std::shared_ptr<Analysis> analyseWithRest(RecordingPointer recording, const AnalysisSettings &settings,
+    std::shared_ptr<Analysis> analyseWithRest(const RecordingPointer &recording, const AnalysisSettings &settings,
                                               const RunContext &context, const Analysis *lent,
                                               const AnalysisRequest &request)
     {
         if (!settings.subtract.lines)
             return analyseAsItIs(recording, settings, context, lent, request);
         const bool isWhole = request.depth == AnalysisDepth::Whole;
-        const std::shared_ptr<Analysis> first = analyseAsItIs(
+        std::shared_ptr<Analysis> first = analyseAsItIs(
             recording, settings, context.part(0.0, 0.4), lent,
             {.calibration = request.calibration, .depth = isWhole ? AnalysisDepth::Tracks : request.depth});
         const std::vector<Track> strong = tracksToSubtract(*first);
@@ -299,7 +299,7 @@ std::shared_ptr<Analysis> analyse(RecordingPointer recording, const AnalysisSett
 {
     checkSettings(settings);
     checkWindow(settings);
-    const std::shared_ptr<Analysis> analysis =
+    std::shared_ptr<Analysis> analysis =
         analyseWithRest(recording, settings, context, lender(previous, recording), request);
     if (request.depth != AnalysisDepth::Trial)
         analysis->tracks = withEndsTrimmed(std::move(analysis->tracks));

@@ -78,13 +78,13 @@ std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &setting
     const auto endsDoNotMeet = Index(64.0 * (isNarrow ? 1.0 : std::clamp(0.5 * steepest, 1.0, 2.0)));
     if (bins >= wideEnough || !isMoving)
         return calibrate(settings, context, depth);
-    const auto wide = calibrate(settings, context.part(0.0, 0.6), depth);
+    auto wide = calibrate(settings, context.part(0.0, 0.6), depth);
     if (wide->rates.isEmpty())
         return wide;
     const AnalysisSettings bare = dimensionless(settings);
     const Index simulated = std::min(bins, endsDoNotMeet);
     const SplittingSettings splitting = effortOf(depth).splitting;
-    const auto narrow = keptCalibration(
+    auto narrow = keptCalibration(
         "band of " + std::to_string(simulated) + " " + calibrationKey(bare, depth),
         [&]() -> std::shared_ptr<const Calibration> {
             const RareRates closed = followBand(bare, wide->lnK, {}, splitting, context.part(0.6, 0.8));

@@ -33,6 +33,7 @@ namespace {
             context.checkpoint(double(done) / count, "calibrating the threshold on noise");
             const int round = std::min(std::max(1, context.threads), count - done);
             std::vector<std::future<decltype(work(0))>> futures;
+            futures.reserve(std::size_t(round));
             for (int i = 0; i < round; ++i)
                 futures.push_back(std::async(round > 1 ? std::launch::async : std::launch::deferred,
                                              [&work, number = done + i] { return work(number); }));
