@@ -30,6 +30,7 @@ private slots:
     void showingValuesEmitsNothing();
     void backToTheDefault();
     void errorsFromOutside();
+    void foldedFieldsAreScrolledTo();
     void theWheelChangesNothingInPassing();
     void slopesStepAlongTheirSet();
     void slopesInEitherUnit();
@@ -159,6 +160,15 @@ void tst_SettingsForm::errorsFromOutside()
     QCOMPARE(errors().size(), 2);
     m_form->setSettings({});
     QVERIFY(errors().isEmpty());
+}
+
+void tst_SettingsForm::foldedFieldsAreScrolledTo()
+{
+    const QString name = "track.bothWays"; // the last but those of single kinds of frames
+    QVERIFY(m_form->editor(name)->visibleRegion().isEmpty());
+    m_form->reveal(name);
+    const QWidget *field = m_form->editor(name);
+    QCOMPARE(field->visibleRegion().boundingRect(), field->rect());
 }
 
 void tst_SettingsForm::theWheelChangesNothingInPassing()

@@ -1,13 +1,14 @@
 #include "widgets/forms/SettingsForm.h"
 
+#include "plan/slopeUnit.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/settingWords.h"
 #include "widgets/forms/FormSection.h"
 #include "widgets/forms/SettingRow.h"
 
-#include "plan/slopeUnit.h"
-
+#include <QCoreApplication>
+#include <QEvent>
 #include <QFontMetrics>
 #include <QLabel>
 #include <QPushButton>
@@ -35,6 +36,15 @@ namespace {
     QString numberOf(double value)
     {
         return QString::number(value, 'g', 4).replace(QLatin1Char('-'), QChar(0x2212));
+    }
+
+    /// Lays out the contents around a row now, instead of on return to the event loop, so that its place is known.
+    void layOut(QScrollArea &area, const QWidget *row)
+    {
+        for (QWidget *around = row->parentWidget(); around != area.viewport(); around = around->parentWidget())
+            around->layout()->activate();
+        QEvent contentsChanged(QEvent::LayoutRequest);
+        QCoreApplication::sendEvent(&area, &contentsChanged);
     }
 
 } // namespace
@@ -184,6 +194,7 @@ void SettingsForm::reveal(const QString &name)
     if (!row)
         return;
     section(prefixOf(name)).reveal(row);
+    layOut(*m_scroll, row);
     m_scroll->ensureWidgetVisible(row);
     row->editor()->setFocus(Qt::OtherFocusReason);
 }
