@@ -254,7 +254,7 @@ void EventReviews::askForLabel()
 
 void EventReviews::fillContextMenu(QMenu &menu, double seconds, double hz)
 {
-    if (!m_document.frameKind().takesBoxes)
+    if (!m_document.isOnePicture())
         return;
     menu.addSeparator();
     menu.addAction(m_addBox);

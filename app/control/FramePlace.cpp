@@ -19,7 +19,7 @@ std::optional<FramePlace> cursorOf(Document &document, const PingViewports &ping
 {
     if (!document.frameKind().isSeenSingly)
         return cursorOf(document.viewport());
-    const bool isOfThese = document.frames() && pings.place().position.size() == document.frames()->grid().axes.size();
+    const bool isOfThese = document.frames() && document.frames()->grid().fits(pings.place().position);
     return isOfThese ? cursorOf(pings) : std::nullopt; // otherwise of frames that were open before
 }
 

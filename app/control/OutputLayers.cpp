@@ -124,7 +124,7 @@ QString OutputLayers::heading() const
 QString OutputLayers::rateName(std::size_t axis) const
 {
     const Grid grid = m_document.plan() ? m_document.plan()->grid() : Grid();
-    return m_document.frameKind().rateName(axis < grid.axes.size() ? grid.axes[axis] : Axis());
+    return m_document.frameKind().rateName(grid.hasAxis(axis) ? grid.axes[axis] : Axis());
 }
 
 void OutputLayers::cycleLayer()
@@ -189,8 +189,7 @@ OutputLayers::Place OutputLayers::placeOf(const FramePlace &place) const
 std::optional<OutputLayers::Place> OutputLayers::cursor() const
 {
     const auto at = plane().cursor();
-    return at && at->position.size() == m_document.analysis()->grid().axes.size() ? std::optional(placeOf(*at))
-                                                                                  : std::nullopt;
+    return at && m_document.analysis()->grid().fits(at->position) ? std::optional(placeOf(*at)) : std::nullopt;
 }
 
 /// The frame that a picture shows, if it shows a single one.

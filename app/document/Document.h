@@ -88,6 +88,8 @@ public:
     /// `events`: those of the analysis.
     void setAnalysis(std::shared_ptr<const Analysis> analysis, std::vector<Event> events);
     const std::shared_ptr<const Analysis> &analysis() const { return m_analysis; }
+    /// Whether the frames form one picture of time × frequency, in which boxes apply.
+    bool isOnePicture() const { return frameKind().takesBoxes; }
     /// The same if it is one picture of time × frequency, parts of which can be measured and analysed; otherwise null.
     std::shared_ptr<const Analysis> lineAnalysis() const { return isOnePicture() ? m_analysis : nullptr; }
     bool isCurrent() const;
@@ -141,7 +143,6 @@ private:
 
     State state() const { return {m_opened, m_settings, m_annotations}; }
     void apply(const State &state);
-    bool isOnePicture() const { return frameKind().takesBoxes; } ///< of time × frequency
     bool isShown(const Event &event) const { return event.statistic >= m_shownThreshold; }
     std::ptrdiff_t shownCount() const;
 

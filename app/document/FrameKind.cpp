@@ -60,6 +60,7 @@ const FrameKind &scanFrames()
         scans.cellPerFrame = tr("cell/scan");
         scans.anyRate = tr("any rate");
         scans.ageUnit = tr("scans");
+        scans.hasHiddenAxes = true;
         scans.handLineHint = tr("Lines can be drawn through recordings, not through scans.");
         return scans;
     }();
@@ -70,7 +71,7 @@ const FrameKind &frameKindOf(const Grid &grid)
 {
     if (grid.isSpectrum())
         return lineFrames();
-    return grid.axes.size() == 2 ? pingFrames() : scanFrames();
+    return grid.isSurface() ? pingFrames() : scanFrames();
 }
 
 } // namespace faintline

@@ -31,6 +31,8 @@ struct FrameKind {
     bool takesBoxes = true;
     /// Each frame is a separate picture. The one under the cursor is shown.
     bool isSeenSingly = false;
+    /// Two of its axes are shown at a time; the others are reduced to maxima, or cut.
+    bool hasHiddenAxes = false;
 
     /// Whether the same parts of the window show frames of the other kind.
     bool isShownLike(const FrameKind &other) const { return isSeenSingly == other.isSeenSingly; }

@@ -243,7 +243,7 @@ void ComparePanel::updateButtons()
 void ComparePanel::showPicture()
 {
     const auto &result = m_comparer.result();
-    m_picturePane->setVisible(m_document.frameKind().takesBoxes);
+    m_picturePane->setVisible(m_document.isOnePicture());
     m_picture->setEmptySentence(m_comparer.kept()
                                     ? tr("The difference appears here if A and B are of the same "
                                          "recording.")

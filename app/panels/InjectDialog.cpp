@@ -1,6 +1,7 @@
 #include "app/panels/InjectDialog.h"
 
 #include "base/Error.h"
+#include "widgets/base/Span.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
 
@@ -18,10 +19,10 @@ namespace faintline {
 
 namespace {
 
-    QDoubleSpinBox *number(double value, double low, double high, double step, int decimals, const QString &suffix)
+    QDoubleSpinBox *number(double value, const Span &range, double step, int decimals, const QString &suffix)
     {
         auto *box = new QDoubleSpinBox;
-        box->setRange(low, high);
+        box->setRange(range.low, range.high);
         box->setDecimals(decimals);
         box->setSingleStep(step);
         box->setValue(value);
@@ -40,13 +41,13 @@ InjectDialog::InjectDialog(const RecordingInfo &recording, double startSeconds, 
     const double length = recording.durationSeconds();
     const double cell = 1.0 / windowSeconds;
     const double band = recording.sampleRateHz;
-    m_snr = number(0.0, -60, 120, 1, 1, tr(" dB"));
-    m_start = number(std::clamp(startSeconds, 0.0, length), 0, length, 1, 2, tr(" s"));
-    m_duration = number(std::min(100.0 * windowSeconds, length - m_start->value()), 0, length, 1, 2, tr(" s"));
-    m_frequency = number(frequencyHz, recording.centreHz - band, recording.centreHz + band, cell, 2, tr(" Hz"));
-    m_drift = number(0.0, -1e6, 1e6, 0.1 * cell * cell, 3, tr(" Hz/s"));
-    m_wander = number(0.0, 0, 1e6, cell, 2, tr(" Hz"));
-    m_wanderTime = number(15.0 * windowSeconds, 1e-3, 1e6, windowSeconds, 2, tr(" s"));
+    m_snr = number(0.0, {-60, 120}, 1, 1, tr(" dB"));
+    m_start = number(std::clamp(startSeconds, 0.0, length), {0, length}, 1, 2, tr(" s"));
+    m_duration = number(std::min(100.0 * windowSeconds, length - m_start->value()), {0, length}, 1, 2, tr(" s"));
+    m_frequency = number(frequencyHz, {recording.centreHz - band, recording.centreHz + band}, cell, 2, tr(" Hz"));
+    m_drift = number(0.0, {-1e6, 1e6}, 0.1 * cell * cell, 3, tr(" Hz/s"));
+    m_wander = number(0.0, {0, 1e6}, cell, 2, tr(" Hz"));
+    m_wanderTime = number(15.0 * windowSeconds, {1e-3, 1e6}, windowSeconds, 2, tr(" s"));
     m_snr->setToolTip(tr("Power over the local noise power, in one window of %1 s").arg(windowSeconds, 0, 'g', 3));
     m_duration->setToolTip(tr("0 extends the line to the end of the recording"));
 

@@ -101,8 +101,7 @@ std::vector<LawPanel::Law> LawPanel::lawsOf(const Analysis &analysis) const
 void LawPanel::show()
 {
     const auto &analysis = m_document.analysis();
-    if (!analysis || analysis->model.space.axes().empty()
-        || analysis->model.space.axes().size() != analysis->grid().axes.size())
+    if (!analysis || analysis->model.space.axes().empty() || !analysis->grid().fits(analysis->model.space.axes()))
         return;
     std::vector<Law> laws = lawsOf(*analysis);
     while (m_laws.size() > laws.size()) {

@@ -12,9 +12,9 @@ class ExceedancePlot;
 class MainSettings;
 class RecordingCheck;
 
-/// The threshold's plot, and the main settings while the pipeline's form is not visible. If the recording's noise is not
-/// the noise of the calibration, a sentence below offers a button: first to count the false alarms on such noise, then
-/// to correct the threshold.
+/// The threshold's plot, and the main settings while the pipeline's form is not visible. If the recording's noise is
+/// not the noise of the calibration, a sentence below offers a button: first to count the false alarms on such noise,
+/// then to correct the threshold.
 class ThresholdPanel : public QWidget
 {
     Q_OBJECT

@@ -109,11 +109,11 @@ namespace {
     void placeCursor(MainWindow &window, const RenderOptions &options)
     {
         PingBench &pings = window.pingBench();
-        const std::size_t axes = pings.isInUse() ? window.document().analysis()->grid().axes.size() : 1;
-        if (!options.position.empty() && options.position.size() != axes)
+        const Grid grid = pings.isInUse() ? window.document().analysis()->grid() : Grid{{Axis()}};
+        if (!options.position.empty() && !grid.fits(options.position))
             throw Error("--position", "has " + std::to_string(options.position.size()) + " numbers; the frames have "
-                                          + std::to_string(axes) + " axes");
-        if ((!options.axes.empty() || options.isSliced) && axes < 3)
+                                          + grid.axisCountWords());
+        if ((!options.axes.empty() || options.isSliced) && !frameKindOf(grid).hasHiddenAxes)
             throw Error(options.axes.empty() ? "--slice" : "--axes", "requires frames on more than two axes");
         if (!options.axes.empty())
             pings.setAxes(options.axes);

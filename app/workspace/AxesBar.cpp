@@ -1,5 +1,6 @@
 #include "app/workspace/AxesBar.h"
 
+#include "app/document/FrameKind.h"
 #include "base/Field.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
@@ -118,7 +119,7 @@ void AxesBar::setGrid(const Grid &grid)
     for (const auto &[along, across] : pairsOfAxes(grid))
         m_pairs->addItem(QStringLiteral("%1 × %2").arg(nameOf(grid.axes[along]), nameOf(grid.axes[across])));
     placeBoxes();
-    setVisible(grid.axes.size() > 2);
+    setVisible(frameKindOf(grid).hasHiddenAxes);
 }
 
 void AxesBar::placeBoxes()

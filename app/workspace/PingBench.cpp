@@ -116,8 +116,9 @@ void PingBench::showAxes()
     const FramePlane &plane = m_viewports.plane();
     const auto nameOf = [&](std::size_t axis) { return labelText(grid.axes[axis].name, mostUnitLetters); };
     const auto show = [&](WaterfallView &history, std::size_t axis, std::size_t other) {
-        history.setHeading(grid.axes.size() == 2 ? tr("D over %1, best %2").arg(nameOf(axis), nameOf(other))
-                                                 : tr("D over %1, largest over the other axes").arg(nameOf(axis)));
+        history.setHeading(frameKindOf(grid).hasHiddenAxes
+                               ? tr("D over %1, largest over the other axes").arg(nameOf(axis))
+                               : tr("D over %1, best %2").arg(nameOf(axis), nameOf(other)));
         history.setPicture(analysis.statisticAlong[axis], grid.axes[axis]);
         setHistoryAxis(history, axis);
     };
@@ -135,9 +136,10 @@ void PingBench::showAxes()
 /// Seen from above, or from the side: a distance, and an angle in degrees.
 bool PingBench::isPolarPossible() const
 {
-    const std::vector<Axis> &axes = m_document.analysis()->grid().axes;
+    const Grid &grid = m_document.analysis()->grid();
     const FramePlane &plane = m_viewports.plane();
-    return axes.size() == 2 || (axes[plane.across].unit == "°" && axes[plane.along].name == "range");
+    return !frameKindOf(grid).hasHiddenAxes
+           || (grid.axes[plane.across].unit == "°" && grid.axes[plane.along].name == "range");
 }
 
 void PingBench::setColourBarShown(bool isShown)
@@ -385,13 +387,14 @@ void PingBench::setSliced(bool isSliced)
 /// Cuts hidden axes at the cursor, or none.
 void PingBench::cut()
 {
-    const std::vector<Axis> &axes = m_document.analysis()->grid().axes;
+    const Grid &grid = m_document.analysis()->grid();
     const PingViewports::Place &place = m_viewports.place();
     FramePlane plane = m_viewports.plane();
     plane.cuts.clear();
-    for (std::size_t axis = 0; m_isSliced && axes.size() > 2 && axis < place.position.size(); ++axis)
+    const bool isCut = m_isSliced && frameKindOf(grid).hasHiddenAxes;
+    for (std::size_t axis = 0; isCut && axis < place.position.size(); ++axis)
         plane.cuts.push_back(plane.isShown(axis) ? std::nullopt
-                                                 : std::optional(axes[axis].nearest(place.position[axis])));
+                                                 : std::optional(grid.axes[axis].nearest(place.position[axis])));
     if (plane == m_viewports.plane())
         return;
     m_viewports.setPlane(plane);
@@ -401,7 +404,7 @@ void PingBench::cut()
 /// Where maxima are shown, a click goes to the cell behind the place that has the largest D.
 void PingBench::goBehind()
 {
-    if (m_isSliced || !m_document.analysis() || !isInUse() || m_document.analysis()->grid().axes.size() == 2)
+    if (m_isSliced || !m_document.analysis() || !isInUse() || !frameKindOf(m_document.analysis()->grid()).hasHiddenAxes)
         return;
     const Analysis &analysis = *m_document.analysis();
     const Grid &grid = analysis.grid();
@@ -482,11 +485,11 @@ void PingBench::restore(const ViewState &view)
 /// Of a session of frames on more than two axes; ignored if it does not fit these frames.
 void PingBench::restoreAxes(const ViewState &view)
 {
-    const std::size_t count = m_document.analysis() ? m_document.analysis()->grid().axes.size() : 0;
-    if (!view.axes || count <= 2)
+    const auto &analysis = m_document.analysis();
+    if (!view.axes || !analysis || !frameKindOf(analysis->grid()).hasHiddenAxes)
         return;
     const auto [along, across] = *view.axes;
-    if (along < count && across < count && along != across)
+    if (analysis->grid().hasAxis(along) && analysis->grid().hasAxis(across) && along != across)
         setAxes(along, across);
     m_isSliced = view.isSliced;
 }

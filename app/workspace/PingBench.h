@@ -13,12 +13,12 @@ class PingBar;
 class PingMap;
 class PingRegulation;
 
-/// Sonar pings and a radar's scans: input and statistic of one ping as maps of two of its axes, such as range × bearing;
-/// below, the tracks along both axes against time, and ln K. Pictures whose time runs from left to right are stacked on
-/// one time axis.
+/// Sonar pings and a radar's scans: input and statistic of one ping as maps of two of its axes, such as range ×
+/// bearing; below, the tracks along both axes against time, and ln K. Pictures whose time runs from left to right are
+/// stacked on one time axis.
 ///
-/// The ping at the cursor is shown. All pictures share the two axes and one time axis (PingViewports). Axes that are not
-/// shown are reduced to their maxima, or cut at the cursor. Keys: J and L step, Space plays, Shift+Space plays
+/// The ping at the cursor is shown. All pictures share the two axes and one time axis (PingViewports). Axes that are
+/// not shown are reduced to their maxima, or cut at the cursor. Keys: J and L step, Space plays, Shift+Space plays
 /// backwards, P shows the map from above.
 class PingBench : public Bench
 {

@@ -15,6 +15,11 @@ Index Grid::size() const
     return product;
 }
 
+std::string Grid::axisCountWords() const
+{
+    return std::to_string(axes.size()) + (isSpectrum() ? " axis" : " axes");
+}
+
 Index Grid::stride(std::size_t axis) const
 {
     return std::accumulate(axes.begin() + Index(axis) + 1, axes.end(), Index(1),

@@ -2,6 +2,7 @@
 
 #include "base/Axis.h"
 
+#include <string>
 #include <vector>
 
 namespace faintline {
@@ -16,6 +17,17 @@ struct Grid {
 
     /// Whether a frame is a spectrum (one axis) rather than a ping or a scan (several axes).
     bool isSpectrum() const { return axes.size() == 1; }
+    /// Whether a frame is a surface (two axes), such as a ping over range and bearing, which is shown as a whole.
+    bool isSurface() const { return axes.size() == 2; }
+    bool hasAxis(std::size_t axis) const { return axis < axes.size(); }
+    /// Whether a list has one element per axis, as the coordinates and positions of this grid have.
+    template <class Value>
+    bool fits(const std::vector<Value> &values) const
+    {
+        return values.size() == axes.size();
+    }
+    /// "1 axis", "3 axes".
+    std::string axisCountWords() const;
 
     /// Memory stride between neighbouring cells along one axis.
     Index stride(std::size_t axis) const;

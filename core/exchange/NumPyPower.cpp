@@ -26,8 +26,8 @@ NumPyPower::NumPyPower(const std::string &path, const std::string &gridPath)
 {
     const GridFile grid = readGridFile(gridPath, m_layout.shape);
     if (!grid.grid.isSpectrum())
-        throw Error(path, "holds power on " + std::to_string(grid.grid.axes.size())
-                              + " axes; only (frames, frequencies) can be normalised");
+        throw Error(path,
+                    "holds power on " + grid.grid.axisCountWords() + "; only (frames, frequencies) can be normalised");
     m_info.path = path;
     m_info.container = "NumPy spectrogram";
     m_info.sampleType = m_layout.isDouble ? "float64" : "float32";

@@ -183,9 +183,9 @@ SignalPath pathOf(const Analysis &analysis, const Event &event)
     return path;
 }
 
-std::optional<double> distance(const SignalPath &a, const SignalPath &b, const std::vector<Axis> &axes)
+std::optional<double> distance(const SignalPath &a, const SignalPath &b, const Grid &grid)
 {
-    if (a.tolerance.size() != b.tolerance.size() || a.tolerance.size() != axes.size())
+    if (!grid.fits(a.tolerance) || !grid.fits(b.tolerance))
         return {};
     const double begin = std::max(a.seconds.front(), b.seconds.front());
     const double end = std::min(a.seconds.back(), b.seconds.back());
@@ -193,11 +193,12 @@ std::optional<double> distance(const SignalPath &a, const SignalPath &b, const s
     if (end < begin || end - begin < leastShare * shorter)
         return {};
     double sum = 0.0;
-    for (std::size_t axis = 0; axis < axes.size(); ++axis) {
+    for (std::size_t axis = 0; axis < grid.axes.size(); ++axis) {
         double mean = 0.0;
         for (std::size_t i = 0; i < mostInstants; ++i) {
             const double seconds = std::lerp(begin, end, double(i) / double(mostInstants - 1));
-            mean += std::abs(wrapped(at(a, seconds, axis) - at(b, seconds, axis), axes[axis])) / double(mostInstants);
+            mean +=
+                std::abs(wrapped(at(a, seconds, axis) - at(b, seconds, axis), grid.axes[axis])) / double(mostInstants);
         }
         const double inTolerances = mean / std::max(a.tolerance[axis], b.tolerance[axis]);
         if (!(inTolerances <= 1.0))
@@ -217,7 +218,7 @@ std::vector<int> matchReviews(const Analysis &analysis, const std::vector<Event>
         const SignalPath path = reviews.empty() ? SignalPath() : pathOf(analysis, event);
         for (std::size_t i = 0; i < reviews.size(); ++i)
             for (const SignalPath &known : reviews[i].paths)
-                if (const auto apart = distance(path, known, analysis.grid().axes); apart && *apart < least) {
+                if (const auto apart = distance(path, known, analysis.grid()); apart && *apart < least) {
                     nearest = int(i);
                     least = *apart;
                 }

@@ -75,7 +75,7 @@ SignalPath pathOf(const Analysis &analysis, const Event &event);
 /// least half of the shorter one's time and are there, on average, at most two cells (of the coarser run) apart on each
 /// axis. Reviews are matched in this way when threshold or settings change, because events have no identity across
 /// runs.
-std::optional<double> distance(const SignalPath &a, const SignalPath &b, const std::vector<Axis> &axes);
+std::optional<double> distance(const SignalPath &a, const SignalPath &b, const Grid &grid);
 
 /// For each event the index of the review with the nearest path, or -1 if none is of its signal. Cost: events × paths.
 std::vector<int> matchReviews(const Analysis &analysis, const std::vector<Event> &events,

@@ -20,9 +20,8 @@ SonarMotion manoeuvring(int reach)
 
 MarkovModel sonarModel(const Grid &grid, const SonarMotion &motion)
 {
-    if (const std::size_t count = grid.axes.size(); count != 2)
-        throw Error("model.motion", "requires frames on range and bearing; the frames have " + std::to_string(count)
-                                        + (count == 1 ? " axis" : " axes"));
+    if (!grid.isSurface())
+        throw Error("model.motion", "requires frames on range and bearing; the frames have " + grid.axisCountWords());
     const Axis &range = grid.axes[0];
     const Axis &bearing = grid.axes[1];
     const auto kinematic = [](const Axis &axis, int fastest, const std::vector<double> &rateChange) {

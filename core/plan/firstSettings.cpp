@@ -6,7 +6,7 @@ AnalysisSettings firstSettings(const Grid &grid)
 {
     if (grid.isSpectrum())
         return {};
-    return preset(grid.axes.size() == 2 ? "sonar" : "radar").settings;
+    return preset(grid.isSurface() ? "sonar" : "radar").settings;
 }
 
 } // namespace faintline

@@ -104,7 +104,7 @@ double TruthTarget::positionOn(std::size_t axis, const Grid &grid, std::size_t i
     for (const auto *values : {&rangeMetres, &bearingDegrees, &elevationDegrees, &dopplerMetresPerSecond})
         if (!values->empty())
             known.push_back((*values)[i]);
-    return known.size() == grid.axes.size() ? known[axis] : grid.position(Index(cell[i]))[axis];
+    return grid.fits(known) ? known[axis] : grid.position(Index(cell[i]))[axis];
 }
 
 PingTruth pingTruth(const PingScene &scene)

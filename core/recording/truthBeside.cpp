@@ -38,7 +38,7 @@ Truth truthBeside(const std::string &path)
 
 PingTruth pingTruthBeside(const std::string &path, const Grid &grid)
 {
-    if (grid.axes.size() != 2)
+    if (!grid.isSurface())
         return {};
     PingTruth truth = readBeside(path, pingTruthFromJson);
     const auto isOutside = [&](double cell) { return cell >= double(grid.size()); };

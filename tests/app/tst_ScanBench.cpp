@@ -30,8 +30,8 @@ const char *const scene = R"({"kind": "pings", "pings": 20, "priSeconds": 2, "ra
     "rangeStepMetres": 150, "beams": 8, "firstBearingDegrees": -12, "beamStepDegrees": 3, "elevationCells": 4,
     "elevationStepDegrees": 3, "dopplerCells": 6, "firstDopplerMetresPerSecond": -50, "dopplerStepMetresPerSecond": 20,
     "seed": 5, "targets": [{"snrDb": 11, "rangeMetres": 6500, "bearingDegrees": -3, "elevationDegrees": 6,
-    "appearPing": 2, "legs": [{"rangeRateMetresPerSecond": 50}]}, {"snrDb": 11, "rangeMetres": 7700, "bearingDegrees": 6,
-    "elevationDegrees": 3, "appearPing": 2, "legs": [{"rangeRateMetresPerSecond": -30}]}]})";
+    "appearPing": 2, "legs": [{"rangeRateMetresPerSecond": 50}]}, {"snrDb": 11, "rangeMetres": 7700,
+    "bearingDegrees": 6, "elevationDegrees": 3, "appearPing": 2, "legs": [{"rangeRateMetresPerSecond": -30}]}]})";
 
 } // namespace
 

@@ -273,15 +273,16 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
         return QVariant::fromValue(alignmentOf(section));
     const auto unit = [this](std::size_t axis) { return labelText(m_axes[axis].unit, mostUnitLetters); };
     const auto nameOf = [this](std::size_t axis) { return capitalised(labelText(m_axes[axis].name, mostUnitLetters)); };
-    const auto heading = [&](std::size_t axis) {
-        return axis < m_axes.size() ? QStringLiteral("%1 (%2)").arg(nameOf(axis), unit(axis))
-                                    : tr("Axis %1").arg(axis + 1);
+    const auto heading = [&](Column column) {
+        const std::size_t axis = axisOf(column);
+        return hasColumn(column) ? QStringLiteral("%1 (%2)").arg(nameOf(axis), unit(axis))
+                                 : tr("Axis %1").arg(axis + 1);
     };
     const QString names[] = {tr("№"),
-                             hasBearing() ? heading(0) : tr("f (Hz)"),
-                             hasBearing() ? heading(1) : tr("Bearing"),
-                             heading(2),
-                             heading(3),
+                             hasBearing() ? heading(Frequency) : tr("f (Hz)"),
+                             hasBearing() ? heading(Bearing) : tr("Bearing"),
+                             heading(ThirdAxis),
+                             heading(FourthAxis),
                              tr("Onset"),
                              tr("Det."),
                              tr("Conf."),

@@ -52,7 +52,7 @@ public:
     /// The axes of the events' positions; with two axes, the first takes the frequency's column, the second is the
     /// bearing.
     void setAxes(const std::vector<Axis> &axes);
-    bool hasBearing() const { return m_axes.size() > 1; }
+    bool hasBearing() const { return hasColumn(Bearing); }
     /// Whether a column of a position is on an axis of the frames.
     bool hasColumn(Column column) const { return axisOf(column) < m_axes.size(); }
     static std::size_t axisOf(Column column) { return std::size_t(column) - Frequency; }
