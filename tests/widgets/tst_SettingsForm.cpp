@@ -167,6 +167,7 @@ void tst_SettingsForm::foldedFieldsAreScrolledTo()
     const QString name = "track.bothWays"; // the last but those of single kinds of frames
     QVERIFY(m_form->editor(name)->visibleRegion().isEmpty());
     m_form->reveal(name);
+    QCoreApplication::processEvents(); // lays out what was unfolded
     const QWidget *field = m_form->editor(name);
     QCOMPARE(field->visibleRegion().boundingRect(), field->rect());
 }
