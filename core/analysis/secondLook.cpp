@@ -253,6 +253,7 @@ namespace {
             m_model.lnK.assign(m_analysis.lnK.begin() + strip.firstFrame,
                                m_analysis.lnK.begin() + strip.firstFrame + strip.frameCount());
             if (isLineOverFloor(*piece.track, strip)) {
+                m_model.ends = {.absentBefore = piece.isFirst(), .absentAfter = piece.isLast()};
                 const BothWays seen = lookBothWays(strip, m_model);
                 for (const Stretch &stretch : stretchesOf(piece, seen))
                     propose(piece, seen, stretch);

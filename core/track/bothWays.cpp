@@ -45,7 +45,8 @@ namespace {
             }
             seen.levels = levels(seen);
             seen.endsBy =
-                presenceIn(corridor(seen, Level::Expected), *m_model.axis, lnChange(), m_strip.firstFrame).present;
+                presenceIn(corridor(seen, Level::Expected), *m_model.axis, lnChange(), m_strip.firstFrame, m_model.ends)
+                    .present;
             seen.gains = gains(seen);
             seen.positions = refined(seen);
             return seen;

@@ -16,6 +16,7 @@ struct BothWaysModel {
     double threshold = 0.0; ///< nat
     double binsPerCell = 1.0;
     std::vector<double> lnK; ///< for each frame of the strip
+    CorridorEnds ends;       ///< of the strip, for BothWays::endsBy
 };
 
 /// A track estimated from past and future; one value per frame of its strip.
@@ -46,7 +47,8 @@ Index corridorHalfWidth(double binsPerCell);
 ///          logarithm, at most one bin from the mean
 ///
 /// Presence is then computed once more, along the same corridor, for the level that a frame has if the signal goes on
-/// as before or after it: the largest r of t, t - 12 and t + 12.
+/// as before or after it: the largest r of t, t - 12 and t + 12; at the ends of a track's strip the
+/// signal is absent. Otherwise noise before it would count as signal, as an onset inside the strip costs T/2.
 ///
 /// The stronger a line, the sooner its end is recognised, limited to SNR 4, so that a keyed line stays one track.
 BothWays lookBothWays(const PathStrip &strip, const BothWaysModel &model);

@@ -63,10 +63,20 @@ namespace {
 
         Index states() const { return m_states; }
 
-        Weights start() const
+        /// Before the first frame.
+        Weights start(bool isAbsent) const
         {
-            Weights weights(std::size_t(m_states) + 1, 0.5 / double(m_states));
-            weights.back() = 0.5;
+            const double on = isAbsent ? m_change : 0.5;
+            Weights weights(std::size_t(m_states) + 1, on / double(m_states));
+            weights.back() = 1.0 - on;
+            return weights;
+        }
+
+        /// β of the last frame.
+        Weights end(bool isAbsent) const
+        {
+            Weights weights(std::size_t(m_states) + 1, isAbsent ? m_change : 1.0);
+            weights.back() = isAbsent ? 1.0 - m_change : 1.0;
             return weights;
         }
 
@@ -208,18 +218,18 @@ namespace {
 
     /// Calls take(frame, α of the previous frame, α, β) for each frame, the last one first.
     template <class Take>
-    void forwardBackward(const Chain &chain, Index frames, Take take)
+    void forwardBackward(const Chain &chain, Index frames, CorridorEnds ends, Take take)
     {
         // α at the beginning of each chunk; inside a chunk it is recomputed on the way back.
         const auto chunk = std::max<Index>(16, Index(std::sqrt(double(frames))));
         std::vector<Weights> starts;
-        Weights alpha = chain.start();
+        Weights alpha = chain.start(ends.absentBefore);
         for (Index frame = 0; frame < frames; ++frame) {
             if (frame % chunk == 0)
                 starts.push_back(alpha);
             alpha = chain.forward(alpha, frame);
         }
-        Weights beta(alpha.size(), 1.0);
+        Weights beta = chain.end(ends.absentAfter);
         for (Index first = (std::ssize(starts) - 1) * chunk; first >= 0; first -= chunk) {
             const Index end = std::min(frames, first + chunk);
             std::vector<Weights> alphas{starts[std::size_t(first / chunk)]};
@@ -236,13 +246,14 @@ namespace {
 
 } // namespace
 
-Presence presenceIn(const Corridor &corridor, const KinematicAxis &axis, double lnChange, Index firstStep)
+Presence presenceIn(const Corridor &corridor, const KinematicAxis &axis, double lnChange, Index firstStep,
+                    CorridorEnds ends)
 {
     const Chain chain(corridor, axis, lnChange, firstStep);
     const auto count = std::size_t(corridor.frameCount());
     Presence result{std::vector<float>(count), std::vector<double>(count), std::vector<float>(count),
                     std::vector<float>(count)};
-    forwardBackward(chain, corridor.frameCount(),
+    forwardBackward(chain, corridor.frameCount(), ends,
                     [&](Index frame, const Weights &, const Weights &alpha, const Weights &beta) {
                         chain.addTo(result, alpha, beta, frame);
                     });
@@ -254,7 +265,7 @@ std::vector<double> expectedSlopeChanges(const Corridor &corridor, const Kinemat
 {
     const Chain chain(corridor, axis, lnChange, firstStep);
     std::vector<double> changes(axis.rateChange.size());
-    forwardBackward(chain, corridor.frameCount(),
+    forwardBackward(chain, corridor.frameCount(), {},
                     [&](Index frame, const Weights &before, const Weights &, const Weights &beta) {
                         if (frame > 0)
                             chain.addChangesTo(changes, before, beta, frame);

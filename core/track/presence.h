@@ -16,6 +16,12 @@ struct Corridor {
     Index frameCount() const { return Index(firstCells.size()); }
 };
 
+/// What is known of the signal before a corridor's first frame and after its last one.
+struct CorridorEnds {
+    bool absentBefore = false; ///< it begins in the corridor, or not at all; else both states are equally probable
+    bool absentAfter = false;
+};
+
 /// Whether a signal is present, and where, given all frames before and after. One value per frame of the corridor.
 struct Presence {
     std::vector<float> present;   ///< probability
@@ -31,9 +37,12 @@ struct Presence {
 ///
 /// p = e^{lnChange}: for lnChange = -T/2 an interruption must be as significant as a detection. P is the axis's law in
 /// step firstStep, firstStep + 1, …; probability that leaves the corridor is lost. Both states are equally probable
-/// before the first frame. Source: Baum and others 1970. Oracle: enumeration of all sequences. Cost: frames × moves ×
+/// before the first frame and after the last one, unless `ends` says that the signal is absent there: a signal that is
+/// present from the first frame on then costs as much as one that begins later, p, so that the evidence alone decides
+/// where it begins. Source: Baum and others 1970. Oracle: enumeration of all sequences. Cost: frames × moves ×
 /// width, three times; memory: √frames.
-Presence presenceIn(const Corridor &corridor, const KinematicAxis &axis, double lnChange, Index firstStep);
+Presence presenceIn(const Corridor &corridor, const KinematicAxis &axis, double lnChange, Index firstStep,
+                    CorridorEnds ends = {});
 
 /// Expected number of slope changes by 0, 1, … steps of the slope set between frames for a signal in the corridor,
 /// given all of its frames and presence in both frames (Baum's ξ, summed over cells and directions). Has as many values

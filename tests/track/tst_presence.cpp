@@ -58,8 +58,10 @@ double transition(const KinematicAxis &axis, const Corridor &corridor, Index fra
 
 /// Every sequence of states, with its weight, given to take(sequence, weight).
 template <class Take>
-void enumerate(const KinematicAxis &axis, const Corridor &corridor, double change, Index firstStep, Take take)
+void enumerate(const KinematicAxis &axis, const Corridor &corridor, double change, Index firstStep, Take take,
+               CorridorEnds ends = {})
 {
+    const double onAtFirst = ends.absentBefore ? change : 0.5;
     std::vector<State> states{{-1, 0}};
     for (int rate = 0; rate < axis.rateCount; ++rate)
         for (Index cell = 0; cell < corridor.width; ++cell)
@@ -67,14 +69,15 @@ void enumerate(const KinematicAxis &axis, const Corridor &corridor, double chang
     std::vector<State> sequence;
     const auto descend = [&](auto &&self, double weight) -> void {
         const Index frame = std::ssize(sequence);
-        if (frame == corridor.frameCount()) {
-            take(sequence, weight);
+        if (!sequence.empty() && frame == corridor.frameCount()) {
+            const double onAtLast = ends.absentAfter ? change : 0.5;
+            take(sequence, weight * (sequence.back().rate < 0 ? 1.0 - onAtLast : onAtLast));
             return;
         }
         for (const State &state : states) {
             double w = weight;
             if (frame == 0)
-                w *= state.rate < 0 ? 0.5 : 0.5 / double(states.size() - 1);
+                w *= state.rate < 0 ? 1.0 - onAtFirst : onAtFirst / double(states.size() - 1);
             else
                 w *= transition(axis, corridor, frame, sequence.back(), state, change, firstStep);
             if (state.rate >= 0)
@@ -100,35 +103,42 @@ class tst_presence : public QObject
 private slots:
     void isTheSumOverAllSequences_data();
     void isTheSumOverAllSequences();
-    void slopeChangesAreTheSumOverAllSequences_data() { isTheSumOverAllSequences_data(); }
+    void slopeChangesAreTheSumOverAllSequences_data();
     void slopeChangesAreTheSumOverAllSequences();
     void strongestPathIsTheBestOfAll();
     void chunksChangeNothing();
     void aLineIsThereWhileItIs();
+    void evidenceAloneDecidesWhereItBegins();
 };
 
 void tst_presence::isTheSumOverAllSequences_data()
 {
     QTest::addColumn<int>("firstStep");
-    QTest::newRow("even") << 0;
-    QTest::newRow("odd") << 7;
+    QTest::addColumn<CorridorEnds>("ends");
+    QTest::newRow("even") << 0 << CorridorEnds();
+    QTest::newRow("odd") << 7 << CorridorEnds();
+    QTest::newRow("absent before") << 0 << CorridorEnds{true, false};
+    QTest::newRow("absent before and after") << 7 << CorridorEnds{true, true};
 }
 
 void tst_presence::isTheSumOverAllSequences()
 {
     QFETCH(int, firstStep);
+    QFETCH(CorridorEnds, ends);
     const KinematicAxis axis = halfBins(12);
     const Corridor corridor = smallCorridor(3);
     const double lnChange = std::log(0.07);
-    const Presence found = presenceIn(corridor, axis, lnChange, firstStep);
+    const Presence found = presenceIn(corridor, axis, lnChange, firstStep, ends);
     for (Index frame = 0; frame < corridor.frameCount(); ++frame) {
         std::vector<double> cells(std::size_t(corridor.width));
         double off = 0.0;
-        enumerate(axis, corridor, std::exp(lnChange), firstStep,
-                  [&](const std::vector<State> &sequence, double weight) {
-                      const State &state = sequence[std::size_t(frame)];
-                      (state.rate < 0 ? off : cells[std::size_t(state.cell)]) += weight;
-                  });
+        enumerate(
+            axis, corridor, std::exp(lnChange), firstStep,
+            [&](const std::vector<State> &sequence, double weight) {
+                const State &state = sequence[std::size_t(frame)];
+                (state.rate < 0 ? off : cells[std::size_t(state.cell)]) += weight;
+            },
+            ends);
         const double on = cells[0] + cells[1] + cells[2];
         const auto at = std::size_t(frame);
         const auto first = double(corridor.firstCells[at]);
@@ -140,6 +150,13 @@ void tst_presence::isTheSumOverAllSequences()
         if (cells[2] > 0.05 * on)
             QVERIFY(std::abs(double(found.high[at]) - (first + 2.5 - 0.05 * on / cells[2])) < 1e-5);
     }
+}
+
+void tst_presence::slopeChangesAreTheSumOverAllSequences_data()
+{
+    QTest::addColumn<int>("firstStep");
+    QTest::newRow("even") << 0;
+    QTest::newRow("odd") << 7;
 }
 
 void tst_presence::slopeChangesAreTheSumOverAllSequences()
@@ -234,6 +251,27 @@ void tst_presence::aLineIsThereWhileItIs()
             QVERIFY(found.present[frame] > 0.99f);
             QVERIFY(std::abs(found.mean[frame] - 57.0) < 0.1);
         }
+}
+
+// 20 frames before a line say nothing of it. It may have begun in any of them; only if the onset costs nothing before
+// the first frame, it seems to have been there all the time.
+void tst_presence::evidenceAloneDecidesWhereItBegins()
+{
+    const KinematicAxis axis = halfBins(400);
+    Corridor corridor;
+    corridor.width = 13;
+    for (Index frame = 0; frame < 100; ++frame) {
+        corridor.firstCells.push_back(50);
+        for (Index cell = 0; cell < 13; ++cell)
+            corridor.lambda.push_back(cell != 7 ? -2.0f : frame < 20 ? 0.22f : 1.0f); // 0.22: -ln P(stay)
+    }
+    const std::vector<float> free = presenceIn(corridor, axis, -7.0, 0).present;
+    const std::vector<float> known = presenceIn(corridor, axis, -7.0, 0, {.absentBefore = true}).present;
+    QVERIFY(free[3] > 0.9f);
+    QVERIFY(known[3] < 0.3f);
+    QVERIFY(known[10] < 0.6f);
+    QVERIFY(known[25] > 0.99f);
+    QVERIFY(known[99] > 0.99f);
 }
 
 QTEST_APPLESS_MAIN(tst_presence)
