@@ -274,8 +274,9 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
     const auto unit = [this](std::size_t axis) { return labelText(m_axes[axis].unit, mostUnitLetters); };
     const auto nameOf = [this](std::size_t axis) { return capitalised(labelText(m_axes[axis].name, mostUnitLetters)); };
     const auto heading = [&](std::size_t axis) {
-        return axis < m_axes.size() ? QStringLiteral("%1 (%2)").arg(nameOf(axis), unit(axis))
-                                    : tr("Axis %1").arg(axis + 1);
+        if (axis >= m_axes.size())
+            return tr("Axis %1").arg(axis + 1);
+        return unit(axis).isEmpty() ? nameOf(axis) : QStringLiteral("%1 (%2)").arg(nameOf(axis), unit(axis));
     };
     const QString names[] = {tr("№"),
                              hasBearing() ? heading(0) : tr("f (Hz)"),
