@@ -23,13 +23,14 @@ namespace {
     constexpr int longestClass = 40; ///< characters shown
     constexpr int keys = 9;          ///< that assign a class
 
-    /// "accepted, 12.3 … 45.6 s at 71.20: a note"
-    QString lineOf(const Review &review)
+    /// "accepted, 12.3 s … 45.6 s at 71.20 Hz: a note"
+    QString lineOf(const Review &review, const QString &unit)
     {
         const SignalPath &path = review.paths.front();
-        QString line = QStringLiteral("%1 … %2 at %3")
-                           .arg(secondsText(path.seconds.front(), 0.1), secondsText(path.seconds.back(), 0.1),
-                                numberText(path.position.front().front(), 2));
+        QString line =
+            QStringLiteral("%1 … %2 at %3")
+                .arg(secondsText(path.seconds.front(), 0.1), secondsText(path.seconds.back(), 0.1),
+                     QStringLiteral("%1 %2").arg(numberText(path.position.front().front(), 2), unit).trimmed());
         const QString verdict = review.verdict == Verdict::Accepted   ? EventReviews::tr("accepted")
                                 : review.verdict == Verdict::Rejected ? EventReviews::tr("rejected")
                                                                       : QString();
@@ -312,9 +313,11 @@ void EventReviews::showUnmatched()
     if (m_document.analysis())
         m_unmatched = unmatchedReviews(*m_document.analysis(), m_document.shownEvents(), reviews);
     std::erase_if(m_unmatched, [&](std::size_t index) { return reviews[index].paths.empty(); }); // without a position
+    const QString unit =
+        m_unmatched.empty() ? QString() : labelText(m_document.analysis()->grid().axes.front().unit, mostUnitLetters);
     QStringList lines;
     for (const std::size_t index : m_unmatched)
-        lines << lineOf(reviews[index]);
+        lines << lineOf(reviews[index], unit);
     m_table.setUnmatched(lines);
 }
 

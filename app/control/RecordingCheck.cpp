@@ -31,7 +31,10 @@ RecordingCheck::RecordingCheck(const Document &document, QObject *parent) : QObj
         connect(runner, &JobRunner::cancelled, this, &RecordingCheck::end);
         connect(runner, &JobRunner::failed, this, &RecordingCheck::end);
     }
-    connect(&document, &Document::opened, this, &RecordingCheck::forget);
+    connect(&document, &Document::opened, this, [this] {
+        m_correction.reset();
+        forget();
+    });
     connect(&document, &Document::settingsChanged, this, &RecordingCheck::forget);
     connect(&document, &Document::analysisChanged, this, &RecordingCheck::look);
 }
@@ -85,6 +88,7 @@ void RecordingCheck::stopCount()
 void RecordingCheck::setCount(const SurrogateCount &count)
 {
     m_count = count;
+    m_correction = corrected();
     emit changed();
 }
 
@@ -96,6 +100,11 @@ std::optional<AnalysisSettings> RecordingCheck::corrected() const
     after.decide.by = DecideSettings::By::Nats;
     after.decide.thresholdNats = std::round(100.0 * (m_document.analysis()->threshold + m_count->correction)) / 100.0;
     return after;
+}
+
+bool RecordingCheck::isCorrected() const
+{
+    return m_correction && *m_correction == m_document.settings();
 }
 
 AnalysisSettings RecordingCheck::remedied(const Advice &advice) const

@@ -42,6 +42,8 @@ public:
     /// The settings with the threshold that gives the specified rate on noise like this recording's; nothing if that
     /// was not counted, or if the threshold already gives it.
     std::optional<AnalysisSettings> corrected() const;
+    /// Whether the settings are those that `corrected` gave last for the open source.
+    bool isCorrected() const;
     /// The settings with an advice's remedy, and slopes in their original unit.
     AnalysisSettings remedied(const Advice &advice) const;
 
@@ -60,6 +62,7 @@ private:
     std::optional<NoiseLawCheck> m_law;
     std::vector<Advice> m_advice;
     std::optional<SurrogateCount> m_count;
+    std::optional<AnalysisSettings> m_correction; ///< after the last count
     std::optional<Error> m_failure;
     JobRunner m_lookRunner;
     JobRunner m_countRunner; ///< last, so that its jobs end first

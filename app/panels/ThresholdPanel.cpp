@@ -53,8 +53,9 @@ void ThresholdPanel::setMainSettingsWanted(bool areWanted)
 
 void ThresholdPanel::showWhatFits()
 {
-    constexpr int lowestPlot = 120;
-    m_main.setVisible(m_areMainWanted && m_main.isApplicable() && height() >= m_main.sizeHint().height() + lowestPlot);
+    constexpr int lowestPlot = 140;
+    const int below = m_main.sizeHint().height() + (m_row->isHidden() ? 0 : m_row->sizeHint().height());
+    m_main.setVisible(m_areMainWanted && m_main.isApplicable() && height() >= below + lowestPlot);
 }
 
 QSize ThresholdPanel::minimumSizeHint() const
@@ -81,18 +82,23 @@ void ThresholdPanel::refresh()
     if (const auto corrected = m_check.corrected())
         return say(tr("This noise gives %1 times the specified false alarms.").arg(powerText(count->ratio)),
                    tr("Set to %1 %2").arg(numberText(corrected->decide.thresholdNats, 2), statisticUnit(*corrected)));
+    if (!count && m_check.isCorrected())
+        return say(tr("The threshold is corrected for this noise."), {});
     if (isOff && !count)
         return say(m_check.law()->isMore() ? tr("Expect more false alarms on this noise.")
                                            : tr("Expect fewer false alarms on this noise."),
                    tr("Count them"));
     m_row->hide();
+    showWhatFits();
 }
 
 void ThresholdPanel::say(const QString &sentence, const QString &cure)
 {
     m_sentence->setText(sentence);
     m_cure->setText(cure);
+    m_cure->setVisible(!cure.isEmpty());
     m_row->show();
+    showWhatFits();
 }
 
 /// Present text of the button.

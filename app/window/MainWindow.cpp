@@ -68,6 +68,15 @@ namespace {
         return ExceedancePlot::Unit::FalseAlarmsPerHour;
     }
 
+    /// Qt moves the panels behind a tab off the window and leaves them visible.
+    bool isBehindTab(const QWidget *widget)
+    {
+        for (; widget && !widget->isWindow(); widget = widget->parentWidget())
+            if (const auto *dock = qobject_cast<const QDockWidget *>(widget))
+                return dock->visibleRegion().isEmpty();
+        return false;
+    }
+
 } // namespace
 
 MainWindow::MainWindow(std::unique_ptr<QSettings> memory, const QString &recoveryFolder, QWidget *parent)
@@ -242,6 +251,17 @@ void MainWindow::closeEvent(QCloseEvent *event)
     m_welcome->stop();
     m_controller.stop();
     event->accept();
+}
+
+bool MainWindow::focusNextPrevChild(bool next)
+{
+    const QWidget *first = focusWidget();
+    while (QMainWindow::focusNextPrevChild(next)) {
+        if (focusWidget() == first || !isBehindTab(focusWidget()))
+            return true;
+        first = first ? first : focusWidget();
+    }
+    return false;
 }
 
 void MainWindow::saveLayout()

@@ -94,6 +94,8 @@ signals:
 
 protected:
     void closeEvent(QCloseEvent *event) override;
+    /// Tab passes over panels that lie behind another one's tab.
+    bool focusNextPrevChild(bool next) override;
 
 private:
     void buildCentre();

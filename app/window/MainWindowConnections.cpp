@@ -88,6 +88,8 @@ void MainWindow::connectDocument()
         // Clear everything from the previous document.
         m_events->setEvents({});
         m_events->filter()->clear();
+        m_threshold->setHistogram({});
+        m_threshold->setCalibration({}, 0.0);
         for (Bench *one : std::initializer_list<Bench *>{m_workbench, m_pings})
             one->setEmptySentence(tr("Estimating the noise of %1 …").arg(m_document.sourceName()));
         if (m_pages->currentWidget() != m_welcome)

@@ -32,7 +32,10 @@ Bench::Bench(Document &document, const FrameKind &kind, std::chrono::millisecond
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(m_rows);
 
-    connect(&document, &Document::opened, this, &Bench::forgetAnalysis);
+    connect(&document, &Document::opened, this, [this] {
+        forgetAnalysis();
+        showSelected(0);
+    });
     whenInUse(&document, &Document::analysisChanged, &Bench::showAnalysis);
     whenInUse(&document, &Document::provisionalChanged, &Bench::showStatistic);
     whenInUse(&document, &Document::shownThresholdChanged, &Bench::showThreshold);
@@ -205,12 +208,17 @@ void Bench::showTruth()
 
 // ---- moving about --------------------------------------------------------------------------------------------------
 
-void Bench::selectEvent(int id)
+void Bench::showSelected(int id)
 {
     for (const auto &[view, axis] : m_pictures)
         if (axis)
             view->setSelectedEvent(id);
     markSelected(id);
+}
+
+void Bench::selectEvent(int id)
+{
+    showSelected(id);
     if (const Track *track = m_document.track(id); track && !track->points.empty())
         reveal(*track);
     for (const Event &event : m_document.shownEvents())

@@ -115,6 +115,7 @@ protected:
 
     void showTruth();
     virtual void showMarks() {}                        ///< of planes, after the events have changed
+    void showSelected(int id);                         ///< an event in all pictures; 0: none
     virtual void markSelected(int) {}                  ///< a track, in planes
     virtual void reveal(const Track &) {}              ///< scrolls it into view, shown or not
     virtual void goTo(const Event &event) = 0;         ///< moves the cursor to it and scrolls the cursor into view

@@ -55,10 +55,7 @@ namespace {
     const std::vector<std::string> bankNames{"model", "model_changes"};
     std::string bankTexts(const Event &e)
     {
-        std::string changes;
-        for (const auto &[seconds, model] : e.modelChanges)
-            changes += (changes.empty() ? "" : ";") + formatNumber(seconds) + ":" + nameOfBankModel(model);
-        return nameOfBankModel(e.model) + "," + changes;
+        return nameOfBankModel(e.model) + "," + modelChangesText(e);
     }
 
     std::string modelOf(const TrackPoint &point, const Track &track)
@@ -225,6 +222,14 @@ void checkEventsPath(const std::string &path)
 void checkTracksPath(const std::string &path)
 {
     checkExtension(path, {".csv", ".json"}, ".csv or .json");
+}
+
+std::string modelChangesText(const Event &event)
+{
+    std::string text;
+    for (const auto &[seconds, model] : event.modelChanges)
+        text += (text.empty() ? "" : ";") + formatNumber(seconds) + ":" + nameOfBankModel(model);
+    return text;
 }
 
 std::string eventsCsv(const AnalysisPlan &plan, const std::vector<Event> &events)

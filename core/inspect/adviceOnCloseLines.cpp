@@ -114,10 +114,11 @@ namespace {
     std::string sentenceOf(const ClosePairs &close, const Axis &axis)
     {
         char text[160];
-        std::snprintf(text, sizeof text, "%d pair%s of tracks %s less than 3 cells apart, e.g. %.2g %s at %.6g %s",
-                      close.count, close.count == 1 ? "" : "s", close.count == 1 ? "runs" : "run",
-                      close.bins * axis.step, oneLine(axis.unit).c_str(), axis.value(close.position),
-                      oneLine(axis.unit).c_str());
+        const double apart = close.bins * axis.step;
+        const int decimals = std::max(0, 1 - int(std::floor(std::log10(apart)))); // two digits at least
+        std::snprintf(text, sizeof text, "%d pair%s of tracks %s less than 3 cells apart, e.g. %.*f %s at %.6g %s",
+                      close.count, close.count == 1 ? "" : "s", close.count == 1 ? "runs" : "run", decimals, apart,
+                      oneLine(axis.unit).c_str(), axis.value(close.position), oneLine(axis.unit).c_str());
         return std::string(text) + "; the window is too short to separate lines this close";
     }
 

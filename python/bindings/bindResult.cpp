@@ -123,7 +123,9 @@ void bindResult(py::module_ &module)
 
 The fields are the columns of the command line's CSV: event, t_onset, t_detect, t_end (s), f (Hz at detection; with
 several axes, one field for each), drift_hz_per_s, statistic (unit: statistic_unit), confirmed, open, and, if tracks had
-a second pass, snr_db, band_hz, noise_probability, window_s. f is an offset from the recording's centre_hz.)")
+a second pass, snr_db, band_hz, noise_probability, window_s. With subtract.lines, subtracted follows; with two models
+in parallel (preset sonarBank), model, which found the event, and model_changes, "t:name;…". f is an offset from the
+recording's centre_hz.)")
         .def_property_readonly(
             "areas", [](const Result &self) { return areaArray(*self.analysis()); },
             R"(Areas of raised level without a line: bursts, clouds, hums. A structured array, ordered by onset.

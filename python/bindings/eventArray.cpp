@@ -2,6 +2,7 @@
 
 #include "analysis/secondLook.h"
 #include "bindings/arrays.h"
+#include "exchange/writeEvents.h"
 
 namespace faintline::python {
 
@@ -17,6 +18,19 @@ namespace {
         for (std::size_t i = 0; i < all.size(); ++i)
             values.mutable_at(i) = static_cast<T>(take(all[i]));
         return {name, values};
+    }
+
+    /// The models of a bank, as in the command line's CSV.
+    void addModels(std::vector<Column> &columns, const std::vector<Event> &found)
+    {
+        std::vector<std::string> models;
+        std::vector<std::string> changes;
+        for (const Event &e : found) {
+            models.push_back(nameOfBankModel(e.model));
+            changes.push_back(modelChangesText(e));
+        }
+        columns.push_back({"model", textColumn(models)});
+        columns.push_back({"model_changes", textColumn(changes)});
     }
 
 } // namespace
@@ -50,6 +64,10 @@ py::array eventArray(const Analysis &analysis)
         number("noise_probability", [](const Event &e) { return e.noiseProbability; });
         number("window_s", [](const Event &e) { return e.windowSeconds; });
     }
+    if (analysis.settings.subtract.lines)
+        truth("subtracted", [](const Event &e) { return e.isSubtracted; });
+    if (analysis.isBank())
+        addModels(columns, found);
     return tableOf(columns);
 }
 

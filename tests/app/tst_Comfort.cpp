@@ -175,6 +175,8 @@ private slots:
             bool canHaveFocus = false;
             for (const QWidget *child : dock->widget()->findChildren<QWidget *>())
                 canHaveFocus |= (child->focusPolicy() & Qt::TabFocus) && child->isVisible() && child->isEnabled();
+        for (const QDockWidget *dock : reached) // not one behind another's tab
+            QVERIFY2(!dock->visibleRegion().isEmpty(), qPrintable(dock->windowTitle()));
             if (isSeen && canHaveFocus)
                 QVERIFY2(reached.count(dock), qPrintable(dock->windowTitle()));
         }

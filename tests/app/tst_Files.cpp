@@ -6,10 +6,13 @@
 #include "app/document/recordingFiles.h"
 #include "app/openWindow.h"
 #include "app/views/WindowViews.h"
+#include "app/workspace/Workbench.h"
 #include "recording/SimulatedRecording.h"
 #include "recording/writeRecording.h"
 #include "session/Session.h"
 #include "widgets/events/EventTable.h"
+#include "widgets/plot/ExceedancePlot.h"
+#include "widgets/waterfall/WaterfallView.h"
 
 #include <QDir>
 #include <QDropEvent>
@@ -73,14 +76,22 @@ private slots:
             settings.selection.highHz = 80.0;
         }));
         window->eventTable().filter()->setText("stat>5");
+        window->workbench().selectEvent(3);
+        QCOMPARE(window->workbench().output()->selectedEvent(), 3);
+        bool isPlotEmpty = false;
+        connect(&window->document(), &Document::opened, this,
+                [&] { isPlotEmpty = !window->thresholdPlot().isAxisVisible(QwtAxis::XBottom); });
         QTest::keyClick(window.get(), Qt::Key_PageDown, Qt::ControlModifier);
         QVERIFY(settle(*window));
+        QVERIFY(isPlotEmpty); // until the calibration of the new recording
+        QVERIFY(window->thresholdPlot().isAxisVisible(QwtAxis::XBottom));
         QCOMPARE(window->document().sourcePath(), path("night 10.wav"));
         const AnalysisSettings &settings = window->document().settings();
         QCOMPARE(settings.spectrogram.windowSeconds, 0.5);
         QCOMPARE(settings.selection.highHz, 80.0);
         QCOMPARE(settings.selection.fromSeconds, 0.0);
         QCOMPARE(window->eventTable().filter()->text(), QString());
+        QCOMPARE(window->workbench().output()->selectedEvent(), 0);
         QTest::keyClick(window.get(), Qt::Key_PageDown, Qt::ControlModifier);
         QVERIFY(window->messages().text().contains("This is the last recording of its folder."));
         QTest::keyClick(window.get(), Qt::Key_PageUp, Qt::ControlModifier);

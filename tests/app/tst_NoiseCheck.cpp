@@ -103,6 +103,12 @@ private slots:
         QVERIFY(settle(window->recordingCheck()));
         QVERIFY(!cure->isVisible()); // of other settings it was said
         QCOMPARE(window->thresholdPlot().labelText().count('\n'), 0);
+        QVERIFY(sentence->isVisible());
+        QCOMPARE(sentence->text(), QString("The threshold is corrected for this noise."));
+        QTest::keyClick(window.get(), Qt::Key_Z, Qt::ControlModifier);
+        QVERIFY(settle(*window));
+        QVERIFY(settle(window->recordingCheck()));
+        QVERIFY(!sentence->isVisible());
     }
 
 private:

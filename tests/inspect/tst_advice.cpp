@@ -94,6 +94,27 @@ private slots:
         QVERIFY(!adviceOnCloseLines(*analyse(recording, advice->settings)));
     }
 
+    void distancesAreWrittenPlainly()
+    {
+        LineScene scene; // a cell is 50 Hz
+        scene.sampleRateHz = 4000.0;
+        scene.durationSeconds = 20.0;
+        scene.noise.deviation = 1.0;
+        for (const double hz : {600.0, 720.0}) {
+            LineSettings settings;
+            settings.snrDb = 14.0;
+            settings.referenceSeconds = 0.02;
+            settings.frequencyHz = hz;
+            settings.durationSeconds = 20.0;
+            scene.lines.push_back(settings);
+        }
+        const auto advice = adviceOnCloseLines(*inWindow(std::make_shared<SimulatedRecording>(scene), 0.02));
+        QVERIFY(advice);
+        QVERIFY2(advice->sentence.find("e.g. 1") != std::string::npos
+                     && advice->sentence.find("e+") == std::string::npos,
+                 advice->sentence.c_str());
+    }
+
     void linesFarEnoughApart()
     {
         QVERIFY(!adviceOnCloseLines(*inWindow(noiseWith({line(100.0, 0.0, 0.0), line(110.0, 0.0, 0.0)}), 0.5)));

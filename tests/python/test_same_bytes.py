@@ -75,6 +75,17 @@ class SameBytes(InFolder):
         for name in table.dtype.names:
             self.assertTrue(np.array_equal(result.events[name].astype(float), table[name]), name)
 
+    def test_models_of_a_bank(self):
+        scene = {"kind": "pings", "pings": 20, "targets": [{"snrDb": 12, "rangeMetres": 5000, "bearingDegrees": 10}]}
+        (self.folder / "pings.json").write_text(json.dumps(scene))
+        self.command_line("detect", "pings.json", "--preset", "sonarBank", "--events", "c.csv")
+        lines = [line.split(",") for line in (self.folder / "c.csv").read_text().splitlines()]
+        events = fl.detect(fl.simulate(scene), preset="sonarBank").events
+        self.assertEqual(list(events.dtype.names), lines[0])
+        self.assertGreater(len(events), 0)
+        for name in ("model", "model_changes"):
+            self.assertEqual(list(events[name]), [line[lines[0].index(name)] for line in lines[1:]])
+
     def test_pings_and_stacks(self):
         scene = {"kind": "pings", "pings": 20, "targets": [{"snrDb": 12, "rangeMetres": 5000, "bearingDegrees": 10}]}
         (self.folder / "pings.json").write_text(json.dumps(scene))

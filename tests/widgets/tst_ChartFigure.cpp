@@ -53,6 +53,33 @@ private slots:
         QCOMPARE(plot.grab().toImage(), before);
     }
 
+    void nothingOfAPlotIsClipped()
+    {
+        ExceedancePlot plot;
+        plot.resize(230, 170);
+        auto calibration = std::make_shared<Calibration>();
+        calibration->anchorNats = 5.0;
+        calibration->eventRate = 1e-3;
+        calibration->tailSlope = 0.5;
+        plot.setCalibration(calibration, 1e6);
+        plot.setHistogram({20000.0, 3000.0, 500.0, 80.0, 9.0});
+        plot.show();
+        ChartFigure figure(plot, {});
+        const QImage image = figure.grab().toImage();
+        const auto dark = [&](const QRect &part) {
+            int count = 0;
+            for (int y = part.top(); y <= part.bottom(); ++y)
+                for (int x = part.left(); x <= part.right(); ++x)
+                    count += image.pixelColor(x, y).lightness() < 160;
+            return count;
+        };
+        const int below = 4 + 240; // the plot
+        QVERIFY2(dark({200, below - 20, 350, 20}) > 60, "the title below");
+        QVERIFY2(dark({745, 30, 14, 190}) > 60, "the title on the right");
+        QVERIFY2(dark({710, 10, 30, 110}) > 60, "the upper labels on the right");
+        QVERIFY2(dark({1, 30, 14, 190}) > 60, "the title on the left");
+    }
+
     void numbersOfACurve()
     {
         ExceedancePlot plot;
@@ -65,6 +92,10 @@ private slots:
         plot.setCalibration(calibration, 1e6);
         const QString csv = QString::fromStdString(plotCsv(plot, true));
         QVERIFY2(csv.startsWith("curve,x,y\n\"noise, fitted law\",5,1000"), qPrintable(csv.left(80)));
+        plot.setHistogram({20000.0, 0.0, 7.0});
+        const QStringList rows = QString::fromStdString(plotCsv(plot, true)).split('\n').filter("\"recorded cells\"");
+        QCOMPARE(rows.size(), 2);
+        QVERIFY(rows[0].endsWith(",20000") && rows[1].endsWith(",7"));
     }
 
 private:

@@ -77,6 +77,11 @@ void tst_EventTable::numbersAreNotCutShort()
 {
     m_table->setEvents(
         {test::event(1, 5.0, 20.0, 20150.25, 31.0), test::event(2, 40000.0, 90000.0, -23999.5, 123456.7)});
+    EventReview accepted; // has a mark before its number
+    accepted.event = 2;
+    accepted.verdict = Verdict::Accepted;
+    m_table->setReviews({accepted});
+    QCOMPARE(m_table->table()->model()->index(1, EventModel::Id).data().toString(), QString("✓ 2"));
     const QTableView &table = *m_table->table();
     for (int row = 0; row < 2; ++row)
         for (int column = 0; column <= EventModel::Drift; ++column) {

@@ -65,6 +65,7 @@ private slots:
     void integersAreEmittedWhenTheyAreWhole();
     void choicesGoByTheirNames();
     void aChoiceIsNamedBySetting();
+    void aZeroThatIsNoSizeIsAWord();
     void flagsByKey();
     void aMistakeIsForgottenWithIt_data();
     void aMistakeIsForgottenWithIt();
@@ -247,6 +248,30 @@ void tst_SettingRow::aChoiceIsNamedBySetting()
     SettingRow &row = make(weights, std::string("exponential"));
     QCOMPARE(qobject_cast<QComboBox *>(row.editor())->itemText(1), QString("exponential"));
     QVERIFY(row.editor()->toolTip().contains("Default: exponential"));
+}
+
+void tst_SettingRow::aZeroThatIsNoSizeIsAWord()
+{
+    FieldInfo length = seconds();
+    length.name = "spectrogram.windowSeconds";
+    SettingRow row(length, 0.0);
+    auto *line = qobject_cast<QLineEdit *>(row.editor());
+    QCOMPARE(line->text(), QString("automatic"));
+    QVERIFY(line->toolTip().contains("Default: automatic<"));
+    QSignalSpy edited(&row, &SettingRow::edited);
+    line->setText("2");
+    line->setModified(true);
+    emit line->editingFinished();
+    QCOMPARE(std::get<double>(edited.takeFirst()[0].value<FieldValue>()), 2.0);
+    for (const char *text : {"Automatic", "0"}) {
+        row.setValue(2.0);
+        QCOMPARE(line->text(), QString("2"));
+        line->setText(text);
+        line->setModified(true);
+        emit line->editingFinished();
+        QCOMPARE(std::get<double>(edited.takeFirst()[0].value<FieldValue>()), 0.0);
+        QCOMPARE(line->text(), QString("automatic"));
+    }
 }
 
 void tst_SettingRow::flagsByKey()

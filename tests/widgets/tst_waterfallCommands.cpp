@@ -229,6 +229,10 @@ void tst_waterfallCommands::everyEntryDoesWhatItSays()
     QCOMPARE(m_view->colourMap().name(), QString("viridis"));
     entry(menu, "Automatic range")->trigger();
     QVERIFY(m_view->isRangeAutomatic());
+    const Span automatic = m_view->range();
+    entry(menu, "Automatic range")->trigger(); // once more: the colours stay as they are
+    QVERIFY(!m_view->isRangeAutomatic());
+    QVERIFY(m_view->range() == automatic);
     entry(menu, "Grid")->trigger();
     QVERIFY(m_view->layers().testFlag(WaterfallView::GridLayer));
     entry(menu, "Harmonics of the cursor")->trigger();

@@ -23,7 +23,8 @@ QString titleOf(const Axis &axis)
 
 QString valueText(const Axis &axis, double value, double resolution)
 {
-    return numberText(value, decimalsFor(resolution)) + QLatin1Char(' ') + labelText(axis.unit, mostUnitLetters);
+    const QString number = numberText(value, decimalsFor(resolution));
+    return axis.unit.empty() ? number : number + QLatin1Char(' ') + labelText(axis.unit, mostUnitLetters);
 }
 
 } // namespace faintline

@@ -275,8 +275,9 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
     const auto nameOf = [this](std::size_t axis) { return capitalised(labelText(m_axes[axis].name, mostUnitLetters)); };
     const auto heading = [&](Column column) {
         const std::size_t axis = axisOf(column);
-        return hasColumn(column) ? QStringLiteral("%1 (%2)").arg(nameOf(axis), unit(axis))
-                                 : tr("Axis %1").arg(axis + 1);
+        if (!hasColumn(column))
+            return tr("Axis %1").arg(axis + 1);
+        return unit(axis).isEmpty() ? nameOf(axis) : QStringLiteral("%1 (%2)").arg(nameOf(axis), unit(axis));
     };
     const QString names[] = {tr("№"),
                              hasBearing() ? heading(Frequency) : tr("f (Hz)"),

@@ -149,11 +149,17 @@ void EventTable::narrowColumns()
     }
 }
 
+/// Width of a cell's whole text.
+int EventTable::widthOf(int row, int column) const
+{
+    const int room = 2 * (style()->pixelMetric(QStyle::PM_FocusFrameHMargin, nullptr, m_table) + 1) + 2;
+    return m_table->fontMetrics().horizontalAdvance(m_model->index(row, column).data().toString()) + room;
+}
+
 /// Numbers are never truncated: columns fit their smallest and largest values.
 void EventTable::widenColumns()
 {
     const int rows = m_model->rowCount();
-    const int room = 2 * (style()->pixelMetric(QStyle::PM_FocusFrameHMargin, nullptr, m_table) + 1) + 2;
     for (int column = EventModel::Id; rows > 0 && column <= EventModel::Drift; ++column) {
         const auto value = [&](int row) { return m_model->index(row, column).data(EventModel::SortRole).toDouble(); };
         int least = 0;
@@ -163,8 +169,7 @@ void EventTable::widenColumns()
             most = value(row) > value(most) ? row : most;
         }
         for (const int row : {least, most}) {
-            const int width =
-                m_table->fontMetrics().horizontalAdvance(m_model->index(row, column).data().toString()) + room;
+            const int width = widthOf(row, column);
             if (!m_table->isColumnHidden(column) && width > m_table->columnWidth(column))
                 m_table->setColumnWidth(column, width);
         }
@@ -176,7 +181,10 @@ void EventTable::setReviews(const std::vector<EventReview> &reviews)
     const int selected = selectedEvent();
     m_model->setReviews(reviews);
     m_table->setColumnHidden(EventModel::Class, !m_model->hasClasses());
-    m_proxy->setFilter(m_proxy->filter()); // the filter may depend on reviews
+    m_proxy->setFilter(m_proxy->filter());              // the filter may depend on reviews
+    for (int row = 0; row < m_model->rowCount(); ++row) // "✓ 12" is wider than "12"
+        m_table->setColumnWidth(EventModel::Id,
+                                std::max(m_table->columnWidth(EventModel::Id), widthOf(row, EventModel::Id)));
     if (selected != 0 && selectedEvent() != selected)
         setSelectedEvent(selected);
     updateCount();

@@ -73,6 +73,7 @@ private:
     void updateCount();
     void narrowColumns();
     void widenColumns();
+    int widthOf(int row, int column) const;
 
     EventModel *m_model;
     EventProxy *m_proxy;

@@ -31,6 +31,13 @@ namespace {
         return fractionText(value);
     }
 
+    /// As in the form: a number of 0 by what it means.
+    QString shownText(const FieldInfo &info, const FieldValue &value)
+    {
+        const QString word = wordForZero(QString::fromStdString(info.name));
+        return !word.isEmpty() && value == FieldValue(0.0) ? word : shownText(value);
+    }
+
     /// The sentence, followed by the accepted range, the default and the advice.
     QString toolTipOf(const FieldInfo &info, const FieldValue &defaultValue)
     {
@@ -40,8 +47,11 @@ namespace {
             lines << SettingRow::tr("Range: %1 … %2%3")
                          .arg(QString::fromStdString(formatNumber(info.minimum)),
                               QString::fromStdString(formatNumber(info.maximum)), unit);
+        const QString word = wordForZero(QString::fromStdString(info.name));
         const QString defaultText = info.kind == FieldKind::Choice ? choiceLabel(info, shownText(defaultValue))
-                                                                   : shownText(defaultValue) + unit;
+                                    : defaultValue == FieldValue(0.0) && !word.isEmpty()
+                                        ? word
+                                        : shownText(defaultValue) + unit;
         lines << SettingRow::tr("Default: %1")
                      .arg(info.kind == FieldKind::Flag
                               ? (std::get<bool>(defaultValue) ? SettingRow::tr("on") : SettingRow::tr("off"))
@@ -213,6 +223,9 @@ void SettingRow::acceptText(const QString &text)
     // A comma in a number is taken for a decimal point; in a list it separates.
     const QString plain =
         m_info.kind == FieldKind::Number ? text.trimmed().replace(QLatin1Char(','), QLatin1Char('.')) : text.trimmed();
+    if (const QString word = wordForZero(QString::fromStdString(m_info.name));
+        !word.isEmpty() && plain.compare(word, Qt::CaseInsensitive) == 0)
+        return accept(0.0);
     try {
         accept(parseFieldValue(m_info, QString(plain).replace(QChar(0x2212), QLatin1Char('-')).toStdString()));
     } catch (const Error &error) {
@@ -259,8 +272,9 @@ void SettingRow::setValue(const FieldValue &value)
         static_cast<ArrowBox *>(arrows)->line()->setText(shownText(value));
     else if (auto *edit = qobject_cast<QLineEdit *>(m_editor)) {
         const QString word = QString::fromStdString(formatFieldValue(m_info, value));
-        edit->setText(word == QString::fromStdString(m_info.wordForAll) ? word : shownText(value));
+        edit->setText(word == QString::fromStdString(m_info.wordForAll) ? word : shownText(m_info, value));
         edit->setCursorPosition(0);
+        m_unit->setVisible(edit->text().isEmpty() || edit->text() != wordForZero(QString::fromStdString(m_info.name)));
     }
     m_reset->setVisible(value != m_default);
     const int size = m_label->font().pixelSize(); // larger in presentations

@@ -4,6 +4,9 @@
 #include "widgets/base/labelText.h"
 #include "widgets/plot/ChartPlot.h"
 
+#include <qwt_plot.h>
+#include <qwt_plot_renderer.h>
+
 #include <QLabel>
 #include <QPainter>
 #include <QVBoxLayout>
@@ -25,7 +28,13 @@ namespace {
         plot.resize(before.expandedTo(leastPlotSize));
         QPicture picture;
         QPainter painter(&picture);
-        plot.render(&painter);
+        if (auto *chart = qobject_cast<QwtPlot *>(&plot)) { // rendered as a widget, titles and labels would be clipped
+            QwtPlotRenderer renderer;
+            renderer.setDiscardFlag(QwtPlotRenderer::DiscardBackground);
+            renderer.render(chart, &painter, chart->rect());
+        } else {
+            plot.render(&painter);
+        }
         painter.end();
         picture.setBoundingRect(plot.rect());
         plot.resize(before);

@@ -265,6 +265,7 @@ void ExceedancePlot::nameCurves()
     name(*m_closedForm, tr("closed form"));
     name(*m_measured, tr("this recording"));
     name(*m_selection, tr("the measured box"));
+    m_histogram->setTitle(tr("recorded cells"));
     if (m_histogram->dataSize() > 0)
         m_key->entries.push_back({tr("recorded cells"), QPen(m_histogram->brush().color()), true});
 }

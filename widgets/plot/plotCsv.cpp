@@ -4,6 +4,7 @@
 
 #include <qwt_plot.h>
 #include <qwt_plot_curve.h>
+#include <qwt_plot_histogram.h>
 #include <qwt_text.h>
 
 #include <cmath>
@@ -36,6 +37,14 @@ std::string plotCsv(const QwtPlot &plot, bool isLogarithmicY)
             csv += name + "," + formatNumber(point.x()) + ","
                    + formatNumber(isLogarithmicY ? std::pow(10.0, point.y()) : point.y()) + "\n";
         }
+    }
+    for (const QwtPlotItem *item : plot.itemList(QwtPlotItem::Rtti_PlotHistogram)) {
+        const auto &histogram = static_cast<const QwtPlotHistogram &>(*item);
+        const std::string name = quoted(histogram.title().text());
+        for (std::size_t i = 0; histogram.isVisible() && i < histogram.dataSize(); ++i)
+            if (const QwtIntervalSample bin = histogram.sample(int(i)); bin.value > histogram.baseline())
+                csv += name + "," + formatNumber(0.5 * (bin.interval.minValue() + bin.interval.maxValue())) + ","
+                       + formatNumber(isLogarithmicY ? std::round(std::pow(10.0, bin.value)) : bin.value) + "\n";
     }
     return csv;
 }

@@ -26,7 +26,8 @@ namespace {
 
     bool measuresTime(const Axis &axis)
     {
-        return axis.unit == "s" || axis.unit.empty();
+        const bool isPlain = axis.unit.empty() && (axis.name.empty() || axis.name == "time");
+        return axis.unit == "s" || isPlain;
     }
 
 } // namespace

@@ -216,7 +216,10 @@ void addCommands(QMenu &menu, MarkedWaterfall &shown)
     addOrientations(*menu.addMenu(tr("Orientation")), view);
     addColours(*menu.addMenu(tr("Colours")), view);
     Commands(shown).check(menu, tr("Automatic range"), QStringLiteral("A"), view->isRangeAutomatic(),
-                          [view] { view->setAutomaticRange(); });
+                          [view](bool isOn) {
+                              const Span now = view->range();
+                              isOn ? view->setAutomaticRange() : view->setRange(now.low, now.high); // kept
+                          });
     addLayers(*menu.addMenu(tr("Show")), view);
     menu.addSeparator();
     addMeasures(menu, view);
