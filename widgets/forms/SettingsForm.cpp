@@ -178,12 +178,19 @@ void SettingsForm::setNote(const QString &name, const QString &note)
         row->setNote(note);
 }
 
+bool SettingsForm::isOffered(const QString &name) const
+{
+    const SettingRow *row = m_rows.value(name);
+    return row && !row->isHidden() && !m_sections.value(prefixOf(name))->isHidden();
+}
+
 void SettingsForm::reveal(const QString &name)
 {
     SettingRow *row = m_rows.value(name);
     if (!row)
         return;
     section(prefixOf(name)).reveal(row);
+    m_scroll->widget()->layout()->activate(); // what was unfolded has its place now
     m_scroll->ensureWidgetVisible(row);
     row->editor()->setFocus(Qt::OtherFocusReason);
 }
