@@ -108,6 +108,7 @@ namespace {
                                       {"F1   ?", "this list of keys"},
                                       {"Shift + F1", "the equation of the view"},
                                       {"F5", "presentation; Escape leaves it"},
+                                      {"F11", "maximise the panel with the focus, or put it back"},
                                       {"Ctrl + Q", "quit"}}};
         return section;
     }

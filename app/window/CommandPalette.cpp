@@ -25,7 +25,10 @@ namespace {
 
 } // namespace
 
-CommandPalette::CommandPalette(QWidget *window) : QFrame(window), m_line(new QLineEdit), m_list(new QListWidget)
+CommandPalette::CommandPalette(QWidget *window)
+    : QFrame(window, Qt::Popup) // a window of its own, above floating panels
+      ,
+      m_line(new QLineEdit), m_list(new QListWidget)
 {
     setObjectName(QStringLiteral("commandPalette"));
     setFrameShape(QFrame::StyledPanel);
@@ -51,8 +54,8 @@ void CommandPalette::open(const QList<QAction *> &commands)
     m_previousFocus = QApplication::focusWidget();
     m_commands.clear();
     collect(commands, {});
-    setGeometry((parentWidget()->width() - paletteWidth) / 2, parentWidget()->height() / 8, paletteWidth,
-                paletteHeight);
+    const QPoint corner((parentWidget()->width() - paletteWidth) / 2, parentWidget()->height() / 8);
+    setGeometry(QRect(parentWidget()->mapToGlobal(corner), QSize(paletteWidth, paletteHeight)));
     m_line->clear();
     filter({});
     show();
@@ -66,6 +69,8 @@ void CommandPalette::collect(const QList<QAction *> &actions, const QString &pat
         if (action->isSeparator() || !action->isVisible() || !action->isEnabled())
             continue;
         const QString name = path + plain(action->text());
+        if (action->menu())
+            emit action->menu()->aboutToShow(); // some are filled only then
         if (action->menu())
             collect(action->menu()->actions(), name + QStringLiteral(": "));
         else

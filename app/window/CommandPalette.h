@@ -11,7 +11,7 @@ class QListWidget;
 namespace faintline {
 
 /// Finds every command of the window by name: type some of its letters and press Enter. The letters need not be
-/// adjacent: "nofi" finds "Noise fit". Arrow keys choose, Escape closes.
+/// adjacent: "nofi" finds "Noise fit". Arrow keys choose, Escape closes. A popup, so that no floating panel covers it.
 class CommandPalette : public QFrame
 {
     Q_OBJECT

@@ -268,6 +268,7 @@ void MainWindow::saveLayout()
 {
     if (m_pages->currentWidget() == m_welcome || m_presentAction->isChecked())
         return;
+    m_panels->restoreMaximised();
     const ViewState view = m_workbench->viewState();
     WindowMemory::Layout layout = m_memory.layout(); // keeps the layout of the hidden bench
     (&bench() == m_pings ? layout.pingSplitters : layout.splitters) = bench().saveSplitters();

@@ -166,6 +166,7 @@ private:
     void setTheme(Theme::Kind kind);
     void about();
     void showEquation(); ///< of the current view
+    void showPalette();
 
     void fillRecentMenu();
     void saveLayout();
@@ -199,6 +200,7 @@ private:
     KeysOverlay *m_keys = nullptr;
     EquationSheet *m_equation = nullptr;
     CommandPalette *m_palette = nullptr;
+    QMenu *m_settingsMenu = nullptr; ///< of the palette
     QMenu *m_recentMenu = nullptr;
     QMenu *m_panelsMenu = nullptr;
     QAction *m_stopAction = nullptr;

@@ -136,8 +136,13 @@ void MainWindow::openScenario(ScenarioCard *card)
 void MainWindow::newScene()
 {
     const auto next = [this] {
+        // The layout is taken when the scene is open.
+        const auto show = [this] {
+            showWorkbench();
+            showTargets();
+        };
+        connect(&m_document, &Document::opened, this, show, Qt::SingleShotConnection);
         openNow(openSeaPath());
-        showTargets();
     };
     if (mayLeave(tr("opening a new scene"), next))
         next();

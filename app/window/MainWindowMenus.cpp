@@ -22,6 +22,7 @@
 #include "app/window/Panels.h"
 #include "app/window/ToolBar.h"
 #include "app/window/currentView.h"
+#include "app/window/settingCommands.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
 #include "widgets/base/icon.h"
@@ -29,6 +30,7 @@
 
 #include <QMenu>
 #include <QMenuBar>
+#include <QStackedWidget>
 #include <QToolButton>
 
 namespace faintline {
@@ -223,9 +225,21 @@ void MainWindow::buildHelpMenu()
     menu->addAction(tr("&Equation of this view"), QKeySequence(Qt::SHIFT | Qt::Key_F1), this,
                     &MainWindow::showEquation);
     addLessonMenu(*menu);
-    menu->addAction(tr("&Find a command…"), QKeySequence(Qt::CTRL | Qt::Key_K), this,
-                    [this] { m_palette->open(menuBar()->actions()); });
+    m_settingsMenu = new QMenu(tr("Setting"), this);
+    menu->addAction(tr("&Find a command or setting…"), QKeySequence(Qt::CTRL | Qt::Key_K), this,
+                    &MainWindow::showPalette);
     menu->addAction(tr("&About Faintline"), this, &MainWindow::about);
+}
+
+void MainWindow::showPalette()
+{
+    m_settingsMenu->clear();
+    QList<QAction *> commands = menuBar()->actions();
+    if (m_pages->currentWidget() != m_welcome) {
+        listSettings(*m_settingsMenu, *m_pipeline->form(), [this] { m_panels->show(m_pipeline); });
+        commands << m_settingsMenu->menuAction();
+    }
+    m_palette->open(commands);
 }
 
 void MainWindow::addLessonMenu(QMenu &menu)

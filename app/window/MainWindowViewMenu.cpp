@@ -83,6 +83,9 @@ void MainWindow::buildViewMenu()
     m_panelsMenu->addSeparator();
     for (const QString &name : Panels::layoutNames())
         m_panelsMenu->addAction(tr("Layout: %1").arg(name), m_panels, [this, name] { m_panels->takeLayout(name); });
+    addViewAction(*menu, tr("Ma&ximise panel"), Qt::Key_F11, [this] {
+        m_panels->toggleMaximised();
+    })->setToolTip(tr("Give the whole window to the panel that has the focus, or put it back"));
     addPresentation(*menu);
     addThemeMenu(*menu);
 }

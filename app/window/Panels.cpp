@@ -3,6 +3,7 @@
 #include "app/window/scaleText.h"
 
 #include <QAction>
+#include <QApplication>
 #include <QChildEvent>
 #include <QDockWidget>
 #include <QLayout>
@@ -15,6 +16,7 @@
 #include <QToolBar>
 
 #include <algorithm>
+#include <utility>
 
 namespace faintline {
 
@@ -22,9 +24,11 @@ namespace {
 
     /// Pixels; in a narrower window all panels share one column, which leaves room for the pictures.
     constexpr int twoColumnsFrom = 1500;
-    constexpr int narrowestColumn = 268;
+    constexpr int narrowestColumn = 280;
     /// Height that a panel at the bottom leaves to the pictures.
     constexpr int leastPictures = 350;
+    /// Height to which panels below the threshold can be reduced, also those whose content wishes for more.
+    constexpr int leastPanel = 165;
     /// Size of a panel's text in presentations; on smaller screens the pictures need the room.
     constexpr double presentedText = 1.4;
 
@@ -76,6 +80,8 @@ void Panels::add(const QString &name, const QString &title, QWidget *panel, Plac
     auto *dock = new QDockWidget(title);
     dock->setObjectName(name);
     dock->setWidget(panel);
+    if (place == Place::RightBottom)
+        panel->setMinimumHeight(std::min(leastPanel, panel->minimumSizeHint().height()));
     m_window.addDockWidget(areaOf(place), dock);
     if (QDockWidget *before = last(place)) {
         m_window.tabifyDockWidget(before, dock);
@@ -118,8 +124,9 @@ void Panels::takeDefault()
     }
     m_window.resizeDocks({left, right}, {width * 16 / 100, std::max(narrowestColumn, width * 18 / 100)},
                          Qt::Horizontal);
-    m_window.resizeDocks({right, first(Place::RightBottom)}, isNarrow ? QList<int>{5, 3} : QList<int>{4, 5},
-                         Qt::Vertical);
+    const int height = m_window.height() * 3 / 4; // of the column; sizes below the panels' minimum would not count
+    const int top = isNarrow ? height * 2 / 3 : height * 4 / 9;
+    m_window.resizeDocks({right, first(Place::RightBottom)}, {top, height - top}, Qt::Vertical);
 }
 
 void Panels::show(QWidget *panel)
@@ -166,6 +173,38 @@ void Panels::takeLayout(const QString &name)
     for (const QString &shown : layout.docks)
         if (QDockWidget *own = dock(shown); own && m_window.dockWidgetArea(own) == Qt::BottomDockWidgetArea)
             raiseFromBottom(own, 48);
+}
+
+void Panels::toggleMaximised()
+{
+    if (restoreMaximised())
+        return;
+    QDockWidget *chosen = nullptr;
+    for (QWidget *widget = QApplication::focusWidget(); widget && !chosen; widget = widget->parentWidget())
+        chosen = qobject_cast<QDockWidget *>(widget);
+    for (const Entry &entry : m_entries)
+        if (!chosen && entry.place == Place::Bottom && !entry.dock->visibleRegion().isEmpty())
+            chosen = entry.dock;
+    if (!chosen)
+        return;
+    m_before = chosen->isFloating() ? chosen->geometry() : QRect();
+    m_maximised = chosen;
+    chosen->setFloating(true);
+    chosen->setGeometry(QRect(m_window.mapToGlobal(QPoint()), m_window.size()));
+    chosen->activateWindow();
+}
+
+bool Panels::restoreMaximised()
+{
+    QDockWidget *dock = std::exchange(m_maximised, nullptr);
+    if (!dock || !dock->isFloating() || dock->isHidden())
+        return false;
+    if (m_before.isValid())
+        dock->setGeometry(m_before);
+    else
+        dock->setFloating(false);
+    dock->raise();
+    return true;
 }
 
 QDockWidget *Panels::dock(const QString &name) const

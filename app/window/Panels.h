@@ -3,6 +3,8 @@
 #include <QByteArray>
 #include <QList>
 #include <QObject>
+#include <QPointer>
+#include <QRect>
 #include <QStringList>
 
 #include <vector>
@@ -45,8 +47,14 @@ public:
     /// take.
     bool eventFilter(QObject *watched, QEvent *event) override;
 
+    /// Puts a maximised panel back; returns whether there was one.
+    bool restoreMaximised();
+
 public slots:
     void takeDefault();
+    /// Gives the window's whole place to the panel that has the focus, otherwise to the one at the bottom; or puts it
+    /// back.
+    void toggleMaximised();
     /// Shows only the pictures, in full screen.
     void setPresenting(bool isPresenting);
 
@@ -65,6 +73,8 @@ private:
     std::vector<Entry> m_entries;
     QByteArray m_default;
     QByteArray m_beforePresenting;
+    QPointer<QDockWidget> m_maximised;
+    QRect m_before; ///< place of a maximised panel that floated; invalid: it was docked
     bool m_isRearranging = false;
 };
 

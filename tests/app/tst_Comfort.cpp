@@ -1,11 +1,15 @@
 // A walk over all widgets of the window in all its layouts: each can be named, reached, and no key means two things.
 
+#include "app/document/FrameKind.h"
 #include "app/openWindow.h"
 #include "app/panels/InjectDialog.h"
 #include "app/panels/OpenOptionsDialog.h"
+#include "app/panels/PipelinePanel.h"
+#include "app/window/CommandPalette.h"
 #include "app/window/Panels.h"
 #include "app/window/ToolBar.h"
 #include "app/workspace/Workbench.h"
+#include "widgets/forms/SettingsForm.h"
 #include "widgets/waterfall/WaterfallView.h"
 
 #include <QAbstractButton>
@@ -16,8 +20,10 @@
 #include <QDockWidget>
 #include <QLabel>
 #include <QLineEdit>
+#include <QListWidget>
 #include <QMenu>
 #include <QMenuBar>
+#include <QRegularExpression>
 #include <QStyleOptionComboBox>
 #include <QTabBar>
 #include <QToolButton>
@@ -169,17 +175,68 @@ private slots:
             }
         }
         QVERIFY(isCentreReached);
+        for (const QDockWidget *dock : reached) // not one behind another's tab
+            QVERIFY2(!dock->visibleRegion().isEmpty(), qPrintable(dock->windowTitle()));
         for (QDockWidget *dock : m_window->findChildren<QDockWidget *>()) {
             const bool isSeen =
                 dock->widget() && dock->widget()->isVisible() && !dock->widget()->visibleRegion().isEmpty();
             bool canHaveFocus = false;
             for (const QWidget *child : dock->widget()->findChildren<QWidget *>())
                 canHaveFocus |= (child->focusPolicy() & Qt::TabFocus) && child->isVisible() && child->isEnabled();
-        for (const QDockWidget *dock : reached) // not one behind another's tab
-            QVERIFY2(!dock->visibleRegion().isEmpty(), qPrintable(dock->windowTitle()));
             if (isSeen && canHaveFocus)
                 QVERIFY2(reached.count(dock), qPrintable(dock->windowTitle()));
         }
+    }
+
+    void thePaletteHasEverySetting()
+    {
+        m_window->activateWindow();
+        QVERIFY(QTest::qWaitForWindowActive(m_window.get()));
+        auto *palette = m_window->findChild<CommandPalette *>();
+        QTest::keyClick(m_window.get(), Qt::Key_K, Qt::ControlModifier);
+        QVERIFY(palette->isVisible() && palette->isWindow()); // so that no floating panel covers it
+        QStringList entries;
+        for (int i = 0; i < palette->list()->count(); ++i)
+            entries << palette->list()->item(i)->text();
+        int count = 0;
+        for (const auto &field : AnalysisSettings::fields()) {
+            const QString stage = QString::fromStdString(field.name).section('.', 0, 0);
+            const bool isOfPings = stage == "pings" || std::ranges::count(pingFrames().sections, stage) > 0;
+            const QString label = QString::fromStdString(labelOf(field));
+            if (isOfPings || !field.get(m_window->document().settings()))
+                continue;
+            ++count;
+            const auto isIt = [&](const QString &entry) {
+                return entry.startsWith("Setting: ") && entry.endsWith(": " + label);
+            };
+            QVERIFY2(std::ranges::any_of(entries, isIt), field.name.c_str());
+        }
+        QCOMPARE(entries.filter(QRegularExpression("^Setting: ")).size(), count);
+        QTest::keyClicks(palette->line(), "setting excluded");
+        QTest::keyClick(palette->line(), Qt::Key_Escape);
+        // The choice of a setting goes to its row, also where that is folded away.
+        QTest::keyClick(m_window.get(), Qt::Key_K, Qt::ControlModifier);
+        QTest::keyClicks(palette->line(), "Setting: Signal model: Slopes per bin");
+        QTest::keyClick(palette->line(), Qt::Key_Return);
+        QWidget *editor = m_window->pipeline().form()->editor("model.slopesPerBin");
+        QTRY_VERIFY(editor->hasFocus() && !editor->visibleRegion().isEmpty());
+    }
+
+    void aPanelTakesTheWholeWindowAndGoesBack()
+    {
+        auto *panels = m_window->findChild<Panels *>();
+        panels->takeLayout("Evaluate");
+        auto *dock = m_window->findChild<QDockWidget *>("evaluateDock");
+        m_window->activateWindow();
+        QVERIFY(QTest::qWaitForWindowActive(m_window.get()));
+        m_window->workbench().input()->setFocus();
+        QTest::keyClick(m_window.get(), Qt::Key_F11);
+        QTRY_COMPARE(dock->geometry(), QRect(m_window->mapToGlobal(QPoint()), m_window->size()));
+        QVERIFY(dock->isFloating());
+        QTest::keyClick(m_window.get(), Qt::Key_F11);
+        QVERIFY(!dock->isFloating());
+        QTRY_VERIFY(!dock->visibleRegion().isEmpty() && dock->height() < m_window->height() / 2);
+        panels->takeLayout(Panels::layoutNames().first());
     }
 
     void picturesHaveTheRoom_data()

@@ -2,6 +2,8 @@
 
 #include "app/TargetsTest.h"
 #include "app/document/Recovery.h"
+#include "app/welcome/WelcomePage.h"
+#include "app/workspace/PingBench.h"
 #include "session/Session.h"
 #include "spectrum/SimulatedPings.h"
 #include "widgets/pings/PolarView.h"
@@ -37,6 +39,7 @@ private slots:
     void aSavedSceneIsSimulatedByTheCommandLine();
     void unsavedTargetsSurvive();
     void aNewSceneHasNoTargets();
+    void onTheWelcomePageANewSceneShowsItsPanel();
     void otherPingsAreNotEdited();
 };
 
@@ -264,6 +267,16 @@ void tst_Targets::aNewSceneHasNoTargets()
     QVERIFY(panel().sentence().startsWith("No targets"));
     QCOMPARE(panel().editor().rateUnit(), RateUnit::PerSecond);
     m_window->controller().stop();
+}
+
+void tst_Targets::onTheWelcomePageANewSceneShowsItsPanel()
+{
+    const auto window = newWindow();
+    QVERIFY(window->welcome().isVisible());
+    window->newScene();
+    QTRY_VERIFY_WITH_TIMEOUT(window->pingBench().isVisible(), patience);
+    QTRY_VERIFY(!window->targets().visibleRegion().isEmpty());
+    window->controller().stop();
 }
 
 void tst_Targets::otherPingsAreNotEdited()

@@ -188,6 +188,12 @@ void SettingsForm::setNote(const QString &name, const QString &note)
         row->setNote(note);
 }
 
+bool SettingsForm::isOffered(const QString &name) const
+{
+    const SettingRow *row = m_rows.value(name);
+    return row && !row->isHidden() && !m_sections.value(prefixOf(name))->isHidden();
+}
+
 void SettingsForm::reveal(const QString &name)
 {
     SettingRow *row = m_rows.value(name);

@@ -45,6 +45,8 @@ public:
 
     /// Shows or hides a section; stages that the open source does not use are hidden.
     void setSectionShown(const QString &prefix, bool isShown);
+    /// Whether a field applies to the open source and the settings; it may be folded away.
+    bool isOffered(const QString &name) const;
     /// Scrolls to a field, unfolds its section and gives it the focus.
     void reveal(const QString &name);
 

@@ -272,7 +272,9 @@ void ExceedancePlot::nameCurves()
 
 void ExceedancePlot::layAxes()
 {
-    constexpr int enoughForAll = 150; // pixels
+    constexpr int enoughForAll = 150;   // pixels
+    constexpr int enoughForTitle = 190; // of the whole plot; below, the label of the threshold names the unit
+    setAxisTitle(QwtAxis::XBottom, height() < enoughForTitle ? QString() : tr("Statistic D (%1)").arg(m_statisticUnit));
     setAxisTitle(QwtAxis::YRight,
                  canvas()->height() < enoughForAll ? tr("Cells per bin") : tr("Cells per bin of width ¼"));
     const Span span = natSpan();
