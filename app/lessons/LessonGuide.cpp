@@ -26,6 +26,7 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QMainWindow>
+#include <QScreen>
 #include <QTabWidget>
 #include <QUrl>
 
@@ -274,6 +275,8 @@ void LessonGuide::arrange()
         m_parts.bench().setPlace({step.cursorSeconds, step.cursorHz, step.cursorRange, step.cursorBearing});
     QWidget *target = widgetNamed(step.point);
     reveal(target);
+    takeOneColumn();
+    reveal(target);
     m_frame->pointAt(target);
 }
 
@@ -336,15 +339,43 @@ void LessonGuide::showPanel()
 void LessonGuide::present(bool isPresenting)
 {
     m_panel->setLarge(isPresenting);
+    m_isPresenting = isPresenting;
     if (isRunning() && isPresenting && m_isReady && !m_isAtEnd) {
         for (const QString &name : now().show)
             reveal(widgetNamed(name));
-        reveal(widgetNamed(now().point));
+        QWidget *target = widgetNamed(now().point);
+        reveal(target);
+        takeOneColumn();
+        reveal(target); // in front of the step's other panels
         if (auto *below = m_window.findChild<QDockWidget *>(QStringLiteral("pipelineDock"));
             below && below->isVisible())
             m_window.resizeDocks({m_dock, below}, {2, 1}, Qt::Vertical);
         m_frame->follow();
     }
+}
+
+/// On a small screen a presented lesson shares its column with the panels of the step, which leaves the pictures their
+/// width. The end of the presentation restores the layout.
+void LessonGuide::takeOneColumn()
+{
+    constexpr int twoColumnsFrom = 1500;                                             // pixels
+    const int width = std::max(m_window.width(), m_window.screen()->size().width()); // full screen comes later
+    if (!m_isPresenting || width >= twoColumnsFrom)
+        return;
+    QDockWidget *below = nullptr;
+    for (auto *dock : m_window.findChildren<QDockWidget *>(Qt::FindDirectChildrenOnly)) {
+        if (dock == m_dock || dock->isHidden() || dock->isFloating()
+            || m_window.dockWidgetArea(dock) == Qt::BottomDockWidgetArea)
+            continue;
+        if (!below && m_window.dockWidgetArea(m_dock) != Qt::RightDockWidgetArea)
+            m_window.addDockWidget(Qt::RightDockWidgetArea, m_dock, Qt::Vertical);
+        below ? m_window.tabifyDockWidget(below, dock) : m_window.splitDockWidget(m_dock, dock, Qt::Vertical);
+        below = below ? below : dock;
+    }
+    if (!below)
+        return;
+    m_window.resizeDocks({m_dock, below}, {1, 1}, Qt::Vertical);
+    m_window.resizeDocks({m_dock}, {width * panelPercent / 100}, Qt::Horizontal);
 }
 
 void LessonGuide::leave()

@@ -75,6 +75,7 @@ private:
     void showExperiment();
     void arrange();
     void showPanel();
+    void takeOneColumn();
     void reveal(QWidget *widget);
     bool isBusy() const;
 
@@ -83,6 +84,7 @@ private:
     Lesson m_lesson;
     LessonAnswers m_answers;
     int m_step = -1;
+    bool m_isPresenting = false;
     bool m_isAtEnd = false;
     QString m_opened;                 ///< opened by this lesson, and still open
     QMap<QString, int> m_experiments; ///< started by this lesson: ids by path

@@ -178,6 +178,7 @@ private slots:
     void openingSomethingElseLeaves();
     void presentedItIsLargerAndStays();
     void presentedTheStepKeepsItsPanel();
+    void presentedOnASmallScreenItSharesAColumn();
     void presentedTheFormIsLarger();
     void escapeLeavesAPresentationFromAnyField();
     void menuPaletteAndWelcomePageOfferThem();
@@ -548,6 +549,21 @@ void tst_Lessons::presentedTheStepKeepsItsPanel()
     QVERIFY(!window->findChild<QDockWidget *>("thresholdDock")->isVisible());
     guide.leave();
     QTest::keyClick(window.get(), Qt::Key_F5);
+}
+
+/// On a small screen the panels of the step lie below the lesson, and the pictures keep their width.
+void tst_Lessons::presentedOnASmallScreenItSharesAColumn()
+{
+    const auto window = newWindow({1280, 800});
+    LessonGuide &guide = window->lessonGuide();
+    guide.start(readLesson(":/lessons/thresholds.json"), 0);
+    QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
+    QCOMPARE(window->dockWidgetArea(guide.dock()), Qt::LeftDockWidgetArea);
+    QTest::keyClick(window.get(), Qt::Key_F5);
+    QCOMPARE(window->dockWidgetArea(guide.dock()), Qt::RightDockWidgetArea); // widths: walks/teacher.cpp
+    QVERIFY(guide.panel().isVisible());
+    QTest::keyClick(window.get(), Qt::Key_F5);
+    QCOMPARE(window->dockWidgetArea(guide.dock()), Qt::LeftDockWidgetArea);
 }
 
 /// On a large screen: also a label that becomes bold. Afterwards everything is as before.

@@ -55,6 +55,10 @@ void present(Walk &walk)
     walk.hand.press("F5");
     walk.waitUntil("a full screen",
                    [&] { return walk.window().isFullScreen() && walk.window().size() == QSize(1280, 800); });
+    walk.waitUntil("wide pictures", [&] {
+        const Workbench &bench = walk.window().workbench();
+        return bench.input()->width() >= 350 && bench.output()->width() >= 350;
+    });
     walk.takePicture("teacher-presentation");
     walk.hand.press("Escape");
     walk.waitUntil("the window again", [&] {
