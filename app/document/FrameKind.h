@@ -36,7 +36,10 @@ struct FrameKind {
 
     /// Whether the same parts of the window show frames of the other kind.
     bool isShownLike(const FrameKind &other) const { return isSeenSingly == other.isSeenSingly; }
-    QString rateName(const Axis &axis) const { return rate.arg(QString::fromStdString(axis.name)); }
+    QString rateName(const Axis &axis) const
+    {
+        return QString(rate).replace(QStringLiteral("%1"), QString::fromStdString(axis.name));
+    }
 };
 
 /// The kind of frames on a grid. There is one object per kind, so their addresses can be compared.

@@ -52,7 +52,10 @@ void TrialWindow::show(const ShownTrial &trial, const QString &title, const QStr
     const Analysis &analysis = *trial.analysis;
     setWindowTitle(title);
     m_sentence->setText(sentence);
-    m_document.setOpened({{}, analysis.recording, trial.truth}, analysis.settings);
+    OpenedSource opened;
+    opened.recording = analysis.recording;
+    opened.truth = trial.truth;
+    m_document.setOpened(std::move(opened), analysis.settings);
     m_readOut->setStatisticUnit(statisticUnit(analysis.settings));
     m_readOut->setResolution(analysis.time().step, analysis.grid().axes.back().step);
     m_document.setAnalysis(trial.analysis, events(analysis));
