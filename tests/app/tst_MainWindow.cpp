@@ -211,7 +211,7 @@ private slots:
             strongest = std::max(strongest, event.statistic);
             weakest = std::min(weakest, event.statistic);
         }
-        const double between = std::min(0.5 * (weakest + strongest), weakest + 2.0);
+        const double between = std::min(0.5 * (weakest + strongest), weakest + 1.0); // on the axis
         QVERIFY(before.size() >= 2 && between > weakest);
 
         // While it moves: fewer events, at once, and nothing runs.
