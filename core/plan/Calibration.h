@@ -18,7 +18,7 @@ namespace faintline {
 /// needed; a straight line is not used, because near the 50 % rule the tail is curved. δ: ratio of the chain's count to
 /// S at two thresholds, one where events crowd each other out (some 800, in a tenth of the noise) and one where they do
 /// not (some 400); linear between them, constant beyond. Above the second one S gives the shape and the count the
-/// height. Oracle: brute force over 200 hours (README of the core).
+/// height. Oracle: brute force over 200 hours (docs/performance.md).
 ///
 /// Detectors that decide at the ends of blocks have S from blocks under tilted laws (`measureBlockRates`). Without S
 /// (several axes, short windows such as that of P out of N), ln(rate) = ln(eventRate) - θ(T - u), fitted by maximum

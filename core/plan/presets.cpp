@@ -62,7 +62,7 @@ namespace {
         return sonar;
     }
 
-    /// Parsons' chain with constants that proved useful (README of the core).
+    /// Parsons' chain, with the constants of docs/theory.md, *Active sonar*.
     AnalysisSettings sonarSettings()
     {
         AnalysisSettings sonar;
