@@ -2,6 +2,7 @@
 
 #include "app/base/MessageBar.h"
 #include "app/base/filePath.h"
+#include "app/base/screenSizes.h"
 #include "app/base/writeAndReport.h"
 #include "app/document/scanScenario.h"
 #include "app/lessons/LessonPanel.h"
@@ -274,9 +275,7 @@ void LessonGuide::arrange()
     if (step.cursorSeconds || step.cursorRange || step.cursorBearing)
         m_parts.bench().setPlace({step.cursorSeconds, step.cursorHz, step.cursorRange, step.cursorBearing});
     QWidget *target = widgetNamed(step.point);
-    reveal(target);
-    takeOneColumn();
-    reveal(target);
+    pointOut(target);
     m_frame->pointAt(target);
 }
 
@@ -343,10 +342,7 @@ void LessonGuide::present(bool isPresenting)
     if (isRunning() && isPresenting && m_isReady && !m_isAtEnd) {
         for (const QString &name : now().show)
             reveal(widgetNamed(name));
-        QWidget *target = widgetNamed(now().point);
-        reveal(target);
-        takeOneColumn();
-        reveal(target); // in front of the step's other panels
+        pointOut(widgetNamed(now().point));
         if (auto *below = m_window.findChild<QDockWidget *>(QStringLiteral("pipelineDock"));
             below && below->isVisible())
             m_window.resizeDocks({m_dock, below}, {2, 1}, Qt::Vertical);
@@ -354,11 +350,18 @@ void LessonGuide::present(bool isPresenting)
     }
 }
 
+/// Reveals what a step points to, in front of the step's other panels.
+void LessonGuide::pointOut(QWidget *target)
+{
+    reveal(target);
+    takeOneColumn();
+    reveal(target);
+}
+
 /// On a small screen a presented lesson shares its column with the panels of the step, which leaves the pictures their
 /// width. The end of the presentation restores the layout.
 void LessonGuide::takeOneColumn()
 {
-    constexpr int twoColumnsFrom = 1500;                                             // pixels
     const int width = std::max(m_window.width(), m_window.screen()->size().width()); // full screen comes later
     if (!m_isPresenting || width >= twoColumnsFrom)
         return;

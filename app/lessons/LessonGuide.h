@@ -75,6 +75,7 @@ private:
     void showExperiment();
     void arrange();
     void showPanel();
+    void pointOut(QWidget *target);
     void takeOneColumn();
     void reveal(QWidget *widget);
     bool isBusy() const;

@@ -26,14 +26,12 @@ namespace {
 } // namespace
 
 CommandPalette::CommandPalette(QWidget *window)
-    : QFrame(window, Qt::Popup) // a window of its own, above floating panels
-      ,
-      m_line(new QLineEdit), m_list(new QListWidget)
+    : QFrame(window, Qt::Popup), m_line(new QLineEdit), m_list(new QListWidget)
 {
     setObjectName(QStringLiteral("commandPalette"));
     setFrameShape(QFrame::StyledPanel);
     setAutoFillBackground(true);
-    m_line->setPlaceholderText(tr("Type a command"));
+    m_line->setPlaceholderText(tr("Type a command or setting"));
     m_line->setAccessibleName(tr("Command"));
     m_list->setAccessibleName(tr("Commands"));
     m_list->setFocusPolicy(Qt::NoFocus);
@@ -69,12 +67,12 @@ void CommandPalette::collect(const QList<QAction *> &actions, const QString &pat
         if (action->isSeparator() || !action->isVisible() || !action->isEnabled())
             continue;
         const QString name = path + plain(action->text());
-        if (action->menu())
-            emit action->menu()->aboutToShow(); // some are filled only then
-        if (action->menu())
-            collect(action->menu()->actions(), name + QStringLiteral(": "));
-        else
+        if (QMenu *menu = action->menu()) {
+            emit menu->aboutToShow(); // some are filled only then
+            collect(menu->actions(), name + QStringLiteral(": "));
+        } else {
             m_commands.append({name, action});
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 #include "app/window/Panels.h"
 
+#include "app/base/screenSizes.h"
 #include "app/window/scaleText.h"
 
 #include <QAction>
@@ -22,8 +23,6 @@ namespace faintline {
 
 namespace {
 
-    /// Pixels; in a narrower window all panels share one column, which leaves room for the pictures.
-    constexpr int twoColumnsFrom = 1500;
     constexpr int narrowestColumn = 280;
     /// Height that a panel at the bottom leaves to the pictures.
     constexpr int leastPictures = 350;

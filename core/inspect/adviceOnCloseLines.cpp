@@ -115,7 +115,7 @@ namespace {
     {
         char text[160];
         const double apart = close.bins * axis.step;
-        const int decimals = std::max(0, 1 - int(std::floor(std::log10(apart)))); // two digits at least
+        const int decimals = apart > 0.0 ? std::clamp(1 - int(std::floor(std::log10(apart))), 0, 12) : 0; // two digits
         std::snprintf(text, sizeof text, "%d pair%s of tracks %s less than 3 cells apart, e.g. %.*f %s at %.6g %s",
                       close.count, close.count == 1 ? "" : "s", close.count == 1 ? "runs" : "run", decimals, apart,
                       oneLine(axis.unit).c_str(), axis.value(close.position), oneLine(axis.unit).c_str());

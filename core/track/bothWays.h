@@ -47,8 +47,9 @@ Index corridorHalfWidth(double binsPerCell);
 ///          logarithm, at most one bin from the mean
 ///
 /// Presence is then computed once more, along the same corridor, for the level that a frame has if the signal goes on
-/// as before or after it: the largest r of t, t - 12 and t + 12; at the ends of a track's strip the
-/// signal is absent. Otherwise noise before it would count as signal, as an onset inside the strip costs T/2.
+/// as before or after it: the largest r of t, t - 12 and t + 12. If the signal is absent outside the strip (`ends`),
+/// the evidence alone decides where it begins and ends; otherwise noise before it would count as signal, because an
+/// onset inside the strip costs T/2.
 ///
 /// The stronger a line, the sooner its end is recognised, limited to SNR 4, so that a keyed line stays one track.
 BothWays lookBothWays(const PathStrip &strip, const BothWaysModel &model);

@@ -181,10 +181,12 @@ void EventTable::setReviews(const std::vector<EventReview> &reviews)
     const int selected = selectedEvent();
     m_model->setReviews(reviews);
     m_table->setColumnHidden(EventModel::Class, !m_model->hasClasses());
-    m_proxy->setFilter(m_proxy->filter());              // the filter may depend on reviews
-    for (int row = 0; row < m_model->rowCount(); ++row) // "✓ 12" is wider than "12"
-        m_table->setColumnWidth(EventModel::Id,
-                                std::max(m_table->columnWidth(EventModel::Id), widthOf(row, EventModel::Id)));
+    m_proxy->setFilter(m_proxy->filter()); // the filter may depend on reviews
+    int width = m_table->columnWidth(EventModel::Id);
+    for (const EventReview &review : reviews) // "✓ 12" is wider than "12"
+        if (const int row = m_model->rowOf(review.event); row >= 0 && review.verdict != Verdict::None)
+            width = std::max(width, widthOf(row, EventModel::Id));
+    m_table->setColumnWidth(EventModel::Id, width);
     if (selected != 0 && selectedEvent() != selected)
         setSelectedEvent(selected);
     updateCount();

@@ -31,11 +31,20 @@ namespace {
         return fractionText(value);
     }
 
-    /// As in the form: a number of 0 by what it means.
+    QString wordForZero(const FieldInfo &info)
+    {
+        return faintline::wordForZero(QString::fromStdString(info.name));
+    }
+
+    /// Whether a number of 0 is shown by what it means.
+    bool isWord(const FieldInfo &info, const FieldValue &value)
+    {
+        return value == FieldValue(0.0) && !wordForZero(info).isEmpty();
+    }
+
     QString shownText(const FieldInfo &info, const FieldValue &value)
     {
-        const QString word = wordForZero(QString::fromStdString(info.name));
-        return !word.isEmpty() && value == FieldValue(0.0) ? word : shownText(value);
+        return isWord(info, value) ? wordForZero(info) : shownText(value);
     }
 
     /// The sentence, followed by the accepted range, the default and the advice.
@@ -47,11 +56,10 @@ namespace {
             lines << SettingRow::tr("Range: %1 … %2%3")
                          .arg(QString::fromStdString(formatNumber(info.minimum)),
                               QString::fromStdString(formatNumber(info.maximum)), unit);
-        const QString word = wordForZero(QString::fromStdString(info.name));
-        const QString defaultText = info.kind == FieldKind::Choice ? choiceLabel(info, shownText(defaultValue))
-                                    : defaultValue == FieldValue(0.0) && !word.isEmpty()
-                                        ? word
-                                        : shownText(defaultValue) + unit;
+        const QString defaultText =
+            info.kind == FieldKind::Choice
+                ? choiceLabel(info, shownText(defaultValue))
+                : shownText(info, defaultValue) + (isWord(info, defaultValue) ? QString() : unit);
         lines << SettingRow::tr("Default: %1")
                      .arg(info.kind == FieldKind::Flag
                               ? (std::get<bool>(defaultValue) ? SettingRow::tr("on") : SettingRow::tr("off"))
@@ -223,8 +231,7 @@ void SettingRow::acceptText(const QString &text)
     // A comma in a number is taken for a decimal point; in a list it separates.
     const QString plain =
         m_info.kind == FieldKind::Number ? text.trimmed().replace(QLatin1Char(','), QLatin1Char('.')) : text.trimmed();
-    if (const QString word = wordForZero(QString::fromStdString(m_info.name));
-        !word.isEmpty() && plain.compare(word, Qt::CaseInsensitive) == 0)
+    if (isWord(m_info, 0.0) && plain.compare(wordForZero(m_info), Qt::CaseInsensitive) == 0)
         return accept(0.0);
     try {
         accept(parseFieldValue(m_info, QString(plain).replace(QChar(0x2212), QLatin1Char('-')).toStdString()));
@@ -274,7 +281,7 @@ void SettingRow::setValue(const FieldValue &value)
         const QString word = QString::fromStdString(formatFieldValue(m_info, value));
         edit->setText(word == QString::fromStdString(m_info.wordForAll) ? word : shownText(m_info, value));
         edit->setCursorPosition(0);
-        m_unit->setVisible(edit->text().isEmpty() || edit->text() != wordForZero(QString::fromStdString(m_info.name)));
+        m_unit->setVisible(!isWord(m_info, value));
     }
     m_reset->setVisible(value != m_default);
     const int size = m_label->font().pixelSize(); // larger in presentations
