@@ -7,6 +7,7 @@
 #include <QLineEdit>
 #include <QListWidget>
 #include <QMenu>
+#include <QRegularExpression>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -17,6 +18,7 @@ namespace {
 
     constexpr int paletteWidth = 520;
     constexpr int paletteHeight = 360;
+    constexpr int bestOfLetters = 4; ///< score of a letter that begins a word
 
     QString plain(QString text)
     {
@@ -85,10 +87,12 @@ int CommandPalette::match(const QString &name, const QString &typed)
         if (at < 0)
             return -1;
         const bool beginsWord = at == 0 || !name[at - 1].isLetterOrNumber();
-        score += beginsWord ? 4 : at == last + 1 ? 3 : 1;
+        score += beginsWord ? bestOfLetters : at == last + 1 ? 3 : 1;
         last = at;
     }
-    return score;
+    const QRegularExpression asItStands(QStringLiteral("\\b") + QRegularExpression::escape(typed),
+                                        QRegularExpression::CaseInsensitiveOption);
+    return name.contains(asItStands) ? score + bestOfLetters * int(typed.size()) : score;
 }
 
 void CommandPalette::filter(const QString &typed)

@@ -26,6 +26,7 @@ public:
     QListWidget *list() const { return m_list; }
 
     /// How well a name matches the typed text: larger is better, negative if the letters do not occur in this order.
+    /// Names in which the text begins a word come first.
     static int match(const QString &name, const QString &typed);
 
 protected:

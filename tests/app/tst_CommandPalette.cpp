@@ -38,6 +38,8 @@ void tst_CommandPalette::letters()
     QFETCH(bool, fits);
     QCOMPARE(CommandPalette::match("Noise fit", typed) >= 0, fits);
     QVERIFY(CommandPalette::match("Noise fit", "nf") > CommandPalette::match("Confirm", "nf"));
+    QVERIFY(CommandPalette::match("Setting: Signal model: Lowest slope", "slope")
+            > CommandPalette::match("Setting: Family of lines: Present", "slope"));
 }
 
 void tst_CommandPalette::whatWasChosenIsDone()
