@@ -44,7 +44,7 @@ namespace {
     Index blindCells(const Analysis &analysis)
     {
         const SelectionSettings &selection = analysis.settings.selection;
-        if (!analysis.recording || analysis.recording->info().isComplex || selection.lowHz < selection.highHz)
+        if (!analysis.recording || analysis.recording->info().isComplex || !isWholeBand(selection))
             return 0;
         const std::vector<double> &cells = analysis.settings.decide.inhibitCells;
         const double half = cells.empty() ? 0.0 : cells.back();

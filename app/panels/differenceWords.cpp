@@ -2,6 +2,8 @@
 
 #include "widgets/base/settingWords.h"
 
+#include <algorithm>
+
 namespace faintline {
 
 QString differenceWords(const SettingDifference &difference)
@@ -15,8 +17,10 @@ QString differenceWords(const SettingDifference &difference)
     const QString name = QString::fromStdString(difference.field.name);
     const QString label = name == QLatin1String("detector.kind") ? stageLabel(QStringLiteral("detector"))
                                                                  : QString::fromStdString(labelOf(difference.field));
-    const QString unit =
-        difference.field.unit.empty() ? QString() : QLatin1Char(' ') + QString::fromStdString(difference.field.unit);
+    const bool isNumber = !std::ranges::count(difference.field.words, difference.b, &ValueWord::word);
+    const QString unit = isNumber && !difference.field.unit.empty()
+                             ? QLatin1Char(' ') + QString::fromStdString(difference.field.unit)
+                             : QString();
     return QStringLiteral("%1 %2 → %3%4").arg(label, value(difference.a), value(difference.b), unit);
 }
 

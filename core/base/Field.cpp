@@ -29,6 +29,38 @@ namespace {
         return info.unit.empty() ? text : text + " " + info.unit;
     }
 
+    std::string orWords(const FieldInfo &info)
+    {
+        std::string text;
+        for (const ValueWord &one : info.words)
+            text += ", or \"" + one.word + "\"";
+        return text;
+    }
+
+    std::string inLowerCase(std::string_view text)
+    {
+        std::string lower(text);
+        for (char &c : lower)
+            if (c >= 'A' && c <= 'Z')
+                c = char(c - 'A' + 'a');
+        return lower;
+    }
+
+    FieldValue valueOf(FieldKind kind, double number)
+    {
+        if (kind == FieldKind::Integer)
+            return int(number);
+        return kind == FieldKind::Numbers ? FieldValue(std::vector{number}) : FieldValue(number);
+    }
+
+    std::optional<FieldValue> parseWord(const FieldInfo &info, std::string_view text)
+    {
+        for (const ValueWord &one : info.words)
+            if (inLowerCase(text) == one.word)
+                return valueOf(info.kind, one.value);
+        return std::nullopt;
+    }
+
     std::optional<bool> parseFlag(std::string_view text)
     {
         if (text == "true" || text == "1" || text == "on" || text == "yes")
@@ -131,26 +163,26 @@ std::string formatFieldValue(const FieldValue &value)
     return std::visit(Formatter{}, value);
 }
 
-namespace {
-
-    bool isAll(const FieldInfo &info, const FieldValue &value)
-    {
-        return !info.wordForAll.empty() && value == FieldValue(std::vector{-1.0});
-    }
-
-} // namespace
+std::string wordOf(const FieldInfo &info, const FieldValue &value)
+{
+    for (const ValueWord &one : info.words)
+        if (value == valueOf(info.kind, one.value))
+            return one.word;
+    return {};
+}
 
 std::string formatFieldValue(const FieldInfo &info, const FieldValue &value)
 {
-    return isAll(info, value) ? info.wordForAll : formatFieldValue(value);
+    const std::string word = wordOf(info, value);
+    return word.empty() ? formatFieldValue(value) : word;
 }
 
 void checkFieldValue(const FieldInfo &info, const FieldValue &value)
 {
-    if (isAll(info, value))
+    if (!wordOf(info, value).empty())
         return;
     const std::string text = formatFieldValue(value);
-    const std::string orAll = info.wordForAll.empty() ? "" : ", or \"" + info.wordForAll + "\"";
+    const std::string orWord = orWords(info);
     const auto inRange = [&](double number) { return number >= info.minimum && number <= info.maximum; };
     switch (info.kind) {
     case FieldKind::Flag:
@@ -159,18 +191,18 @@ void checkFieldValue(const FieldInfo &info, const FieldValue &value)
         break;
     case FieldKind::Integer:
         if (!std::holds_alternative<int>(value) || !inRange(std::get<int>(value)))
-            refuse(info, text, rangeText(info) + ", a whole number");
+            refuse(info, text, rangeText(info) + ", a whole number" + orWord);
         break;
     case FieldKind::Number:
         if (!std::holds_alternative<double>(value) || !inRange(std::get<double>(value)))
-            refuse(info, text, rangeText(info));
+            refuse(info, text, rangeText(info) + orWord);
         break;
     case FieldKind::Numbers:
         if (!std::holds_alternative<std::vector<double>>(value))
-            refuse(info, text, "must be a list of numbers" + orAll);
+            refuse(info, text, "must be a list of numbers" + orWord);
         for (double number : std::get<std::vector<double>>(value))
             if (!inRange(number))
-                refuse(info, text, "each number " + rangeText(info) + orAll);
+                refuse(info, text, "each number " + rangeText(info) + orWord);
         break;
     case FieldKind::Choice: {
         bool known = false;
@@ -191,6 +223,8 @@ Error fieldError(const std::string &name, const std::string &value, std::string 
 
 FieldValue parseFieldValue(const FieldInfo &info, std::string_view text)
 {
+    if (const std::optional<FieldValue> named = parseWord(info, text))
+        return *named;
     FieldValue value = std::string(text);
     switch (info.kind) {
     case FieldKind::Flag:
@@ -207,9 +241,7 @@ FieldValue parseFieldValue(const FieldInfo &info, std::string_view text)
             value = *number;
         break;
     case FieldKind::Numbers:
-        if (!info.wordForAll.empty() && text == info.wordForAll)
-            value = std::vector{-1.0};
-        else if (auto numbers = parseNumbers(text))
+        if (auto numbers = parseNumbers(text))
             value = std::move(*numbers);
         break;
     case FieldKind::Choice:

@@ -17,6 +17,12 @@ using FieldValue = std::variant<bool, int, double, std::string, std::vector<doub
 
 enum class FieldKind { Flag, Integer, Number, Choice, Numbers };
 
+/// A value that is read and shown by a word: 0 as "automatic".
+struct ValueWord {
+    double value = 0.0;
+    std::string word;
+};
+
 /// Describes one setting independently of the object that holds it; used by forms, documentation, checks and JSON.
 struct FieldInfo {
     std::string name; ///< "spectrogram.windowSeconds"
@@ -29,7 +35,7 @@ struct FieldInfo {
     std::string advice;               ///< when to change it, what that costs, and its source
     std::string example;              ///< of what to type into an empty field
     std::vector<std::string> choices; ///< names of an enumeration's values
-    std::string wordForAll;           ///< for Numbers: word for the single value -1, such as "all"; "" if there is none
+    std::vector<ValueWord> words; ///< for numbers that are no sizes, in or out of range; of Numbers, for a list of one
     FieldKind kind = FieldKind::Number;
 };
 
@@ -44,6 +50,12 @@ struct Field : FieldInfo {
     Field advanced() const { return with(&FieldInfo::isAdvanced, true); }
     Field advised(std::string text) const { return with(&FieldInfo::advice, std::move(text)); }
     Field withExample(std::string text) const { return with(&FieldInfo::example, std::move(text)); }
+    Field withWord(double value, std::string word) const
+    {
+        Field result = *this;
+        result.words.push_back({value, std::move(word)});
+        return result;
+    }
 
 private:
     template <class T>
@@ -62,7 +74,10 @@ std::string labelOf(const FieldInfo &info);
 /// "halfDown" → "half down".
 std::string spelledOut(std::string_view camelCase);
 
-/// Converts text to a value of the field's kind and checks its range.
+/// The field's word for a value; "" if it has none.
+std::string wordOf(const FieldInfo &info, const FieldValue &value);
+
+/// Converts text, which may be one of the field's words in any case, to a value of its kind and checks the range.
 /// Throws Error naming the field, the text, and what would be accepted.
 FieldValue parseFieldValue(const FieldInfo &info, std::string_view text);
 

@@ -146,7 +146,7 @@ FieldValue fieldValueFromJson(const Json &value, const FieldInfo &info)
         result = std::vector{value.get<double>()}; // a list of one
     } else if (value.is_number()) {
         result = value.get<double>();
-    } else if (value.is_string() && !info.wordForAll.empty()) {
+    } else if (value.is_string() && !info.words.empty()) {
         return parseFieldValue(info, value.get<std::string>());
     } else if (value.is_array() && info.kind == FieldKind::Numbers
                && std::all_of(value.begin(), value.end(), [](const Json &one) { return one.is_number(); })) {

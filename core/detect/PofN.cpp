@@ -96,7 +96,8 @@ const std::vector<Field<PofNSettings>> &PofNSettings::fields()
             .labelled("Event threshold r1")
             .advised("Lower it for weaker signals, and raise P to keep the number of false alarms. Exponential noise "
                      "exceeds r1 in a fraction e^-r1 of the cells."),
-        field(&S::r2, "r2", "", 0.0, 1e6, "Second threshold, on the mean of the P largest; 0: none.")
+        field(&S::r2, "r2", "", 0.0, 1e6, "Second threshold, on the mean of the P largest, or \"none\".")
+            .withWord(0.0, "none")
             .labelled("Mean threshold r2")
             .advanced()
             .advised("Raise it to require that events are strong as well as frequent."),

@@ -170,8 +170,8 @@ namespace {
             const std::optional<FieldValue> value = field.get(settings);
             if (!value || *value == defaultValue(field))
                 continue;
-            rows += cells({field.name, formatFieldValue(*value), formatFieldValue(defaultValue(field)), field.unit,
-                           field.sentence});
+            rows += cells({field.name, formatFieldValue(field, *value), formatFieldValue(field, defaultValue(field)),
+                           field.unit, field.sentence});
         }
         if (rows.empty())
             return "<p>All settings have their defaults.</p>\n";

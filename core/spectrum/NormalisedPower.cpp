@@ -244,7 +244,7 @@ PowerPart partOf(const PowerInfo &info, const SelectionSettings &selection)
     const double end = selection.toSeconds > 0.0 ? selection.toSeconds : info.time.last() + info.time.step;
     std::tie(part.firstFrame, part.frames) =
         between(info.time, selection.fromSeconds, end, "selection.fromSeconds, selection.toSeconds");
-    if (selection.lowHz < selection.highHz)
+    if (!isWholeBand(selection))
         std::tie(part.firstCell, part.cells) =
             between(info.frequency, selection.lowHz, selection.highHz, "selection.lowHz, selection.highHz");
     return part;

@@ -61,13 +61,39 @@ namespace {
     /// … and the first of several becomes the channel for everything that uses one.
     Field<SelectionSettings> together(Field<SelectionSettings> field)
     {
-        field.wordForAll = "all";
+        field.words = {{-1.0, "all"}};
         field.set = [inner = field.set](SelectionSettings &selection, const FieldValue &value) {
             inner(selection, value);
             if (!selection.channels.empty())
                 selection.channel = std::max(0, int(selection.channels.front()));
         };
         return field;
+    }
+
+    constexpr double lowestHz = -1e12; ///< beyond any band
+    constexpr double highestHz = 1e12;
+
+    /// The lower or upper edge of the band. Tables and files know the whole band by its two open edges, so that either
+    /// one can be given alone.
+    Field<SelectionSettings> edge(double SelectionSettings::*member, std::string name, std::string sentence)
+    {
+        const bool isLow = member == &SelectionSettings::lowHz;
+        const double open = isLow ? lowestHz : highestHz;
+        auto result = field(member, std::move(name), "Hz", lowestHz, highestHz, std::move(sentence))
+                          .withWord(open, isLow ? "lowest" : "highest");
+        result.get = [member, open](const SelectionSettings &selection) -> std::optional<FieldValue> {
+            return isWholeBand(selection) ? open : selection.*member;
+        };
+        result.set = [member](SelectionSettings &selection, const FieldValue &value) {
+            if (isWholeBand(selection)) {
+                selection.lowHz = lowestHz;
+                selection.highHz = highestHz;
+            }
+            selection.*member = std::get<double>(value);
+            if (selection.lowHz <= lowestHz && selection.highHz >= highestHz)
+                selection.lowHz = selection.highHz = 0.0;
+        };
+        return result;
     }
 
     constexpr std::size_t mostChannels = 64; ///< summed
@@ -84,8 +110,10 @@ const std::vector<Field<SpectrogramSettings>> &SpectrogramSettings::fields()
     using S = SpectrogramSettings;
     static const std::vector<Field<S>> table{
         field(&S::windowSeconds, "windowSeconds", "s", 0.0, 1e6,
-              "Length T_FT of the sliding Fourier window; 0 chooses it from the recording's length and rate and, with "
+              "Length T_FT of the sliding Fourier window; \"automatic\" chooses it from the recording's length and "
+              "rate and, with "
               "the default slopes, from the tracks found.")
+            .withWord(0.0, "automatic")
             .labelled("Window length")
             .advised("Lengthen it for steady lines: a line that stays within one cell gains 3 dB with each doubling. "
                      "Shorten it for lines that drift by more than a cell in a window. The number of cells per second "
@@ -129,21 +157,25 @@ const std::vector<Field<SelectionSettings>> &SelectionSettings::fields()
         field(&S::fromSeconds, "fromSeconds", "s", 0.0, 1e12, "Start of the part analysed, from the first sample.")
             .labelled("From")
             .advised("A shorter part tries settings sooner: time is proportional to its length."),
-        field(&S::toSeconds, "toSeconds", "s", 0.0, 1e12, "End of the part analysed; 0 is the end of the recording.")
+        field(&S::toSeconds, "toSeconds", "s", 0.0, 1e12, "End of the part analysed, or \"end\" of the recording.")
+            .withWord(0.0, "end")
             .labelled("To")
             .advised("A shorter part tries settings sooner: time is proportional to its length."),
-        field(&S::lowHz, "lowHz", "Hz", -1e12, 1e12,
-              "Lower edge of the band; the whole band is used if it equals the "
-              "upper edge.")
+        edge(&S::lowHz, "lowHz", "Lower edge of the band, or \"lowest\".")
             .labelled("Lower edge")
             .advised("A narrower band takes less time and memory, and permits a lower threshold for the same number of "
                      "false alarms."),
-        field(&S::highHz, "highHz", "Hz", -1e12, 1e12, "Upper edge of the band.")
+        edge(&S::highHz, "highHz", "Upper edge of the band, or \"highest\".")
             .labelled("Upper edge")
             .advised("A narrower band takes less time and memory, and permits a lower threshold for the same number of "
                      "false alarms."),
     };
     return table;
+}
+
+bool isWholeBand(const SelectionSettings &selection)
+{
+    return selection.lowHz == selection.highHz;
 }
 
 void checkChannels(const SelectionSettings &selection)
@@ -289,7 +321,7 @@ void Spectrogram::selectBand()
     const double highHz = m_selection.highHz;
     if (lowHz > highHz)
         throw fieldError("selection.lowHz", formatNumber(lowHz), "must not lie above selection.highHz");
-    if (!(lowHz < highHz))
+    if (isWholeBand(m_selection))
         return;
     const Index low = Index(std::ceil(std::max(0.0, whole.position(lowHz) - 1e-9)));
     const Index high = Index(std::floor(std::min(double(whole.count - 1), whole.position(highHz) + 1e-9)));
@@ -370,7 +402,7 @@ void Spectrogram::transformFrame(std::span<const float> samples, Fft::Buffer &bu
 
 bool Spectrogram::hasRealEnds() const
 {
-    return !m_recording->info().isComplex && !(m_selection.lowHz < m_selection.highHz);
+    return !m_recording->info().isComplex && isWholeBand(m_selection);
 }
 
 double Spectrogram::windowSeconds() const

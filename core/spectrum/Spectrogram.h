@@ -38,6 +38,9 @@ struct SelectionSettings {
     bool operator==(const SelectionSettings &) const = default;
 };
 
+/// Whether the band has no limits.
+bool isWholeBand(const SelectionSettings &selection);
+
 /// Checks conditions across fields. Throws Error naming the field.
 void checkChannels(const SelectionSettings &selection);
 

@@ -9,7 +9,7 @@ Spectrogram coarseFrames(const Spectrogram &spectrogram, const NormaliserSetting
     coarse.stepsPerWindow = stepsPerWindow;
     coarse.binsPerCell = 1;
     SelectionSettings wide = spectrogram.selection();
-    if (wide.lowHz < wide.highHz) {
+    if (!isWholeBand(wide)) {
         const double margin = 2.0 * settings.halfWidthCells / coarse.windowSeconds;
         wide.lowHz -= margin;
         wide.highHz += margin;

@@ -2,6 +2,8 @@
 
 #include "base/Error.h"
 #include "base/Random.h"
+#include "base/json.h"
+#include "support/errors.h"
 
 #include <QtTest>
 
@@ -12,6 +14,9 @@
 #include <locale>
 
 using namespace faintline;
+
+Q_DECLARE_METATYPE(FieldValue)
+Q_DECLARE_METATYPE(FieldKind)
 
 /// Settings as text: what is read, what is refused and in which words, and numbers in their shortest form.
 class tst_Field : public QObject
@@ -26,7 +31,8 @@ private slots:
     void refuses_data();
     void refuses();
     void refusalsNameTheirField();
-    void oneWordStandsForAll();
+    void wordsStandForValues_data();
+    void wordsStandForValues();
     void everythingPrintedReadsBack();
     void shortestForm_data();
     void shortestForm();
@@ -246,21 +252,35 @@ void tst_Field::refusalsNameTheirField()
     QCOMPARE(Error("x.wav", "is empty").field(), std::string());
 }
 
-void tst_Field::oneWordStandsForAll()
+void tst_Field::wordsStandForValues_data()
 {
+    QTest::addColumn<FieldKind>("kind");
+    QTest::addColumn<FieldValue>("value");
+    QTest::newRow("number") << FieldKind::Number << FieldValue(-1.0);
+    QTest::newRow("integer") << FieldKind::Integer << FieldValue(-1);
+    QTest::newRow("list") << FieldKind::Numbers << FieldValue(std::vector{-1.0});
+}
+
+void tst_Field::wordsStandForValues()
+{
+    QFETCH(FieldKind, kind);
+    QFETCH(FieldValue, value);
     FieldInfo info;
-    info.name = "selection.channels";
-    info.kind = FieldKind::Numbers;
+    info.name = "stage.setting";
+    info.kind = kind;
     info.maximum = 9.0;
-    info.wordForAll = "all";
-    const FieldValue all = parseFieldValue(info, "all");
-    QVERIFY(all == FieldValue(std::vector{-1.0}));
-    QCOMPARE(formatFieldValue(info, all), std::string("all"));
-    QVERIFY(parseFieldValue(info, formatFieldValue(all)) == all);
-    QCOMPARE(formatFieldValue(info, std::vector{0.0, 2.0}), std::string("0, 2"));
-    for (const char *wrong : {"0, -1", "every", "10"})
-        QVERIFY_EXCEPTION_THROWN(parseFieldValue(info, wrong), Error);
-    info.wordForAll.clear();
+    info.words = {{-1.0, "all"}};
+    for (const char *text : {"all", "All", "ALL"})
+        QVERIFY(parseFieldValue(info, text) == value);
+    QCOMPARE(formatFieldValue(info, value), std::string("all"));
+    QVERIFY(parseFieldValue(info, formatFieldValue(value)) == value);
+    QVERIFY(fieldValueFromJson(Json("all"), info) == value);
+    QCOMPARE(formatFieldValue(info, parseFieldValue(info, "2")), std::string("2"));
+    for (const char *wrong : {"every", "10", "-2", "0, -1"}) {
+        QVERIFY2(QString::fromStdString(test::errorOf([&] { parseFieldValue(info, wrong); })).contains("or \"all\""),
+                 wrong);
+    }
+    info.words.clear();
     QVERIFY_EXCEPTION_THROWN(parseFieldValue(info, "all"), Error);
     QVERIFY_EXCEPTION_THROWN(parseFieldValue(info, "-1"), Error);
 }

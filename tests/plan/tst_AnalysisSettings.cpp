@@ -18,6 +18,8 @@ private slots:
     void roundTripOfRandomSettings();
     void settingAThresholdChoosesIt();
     void jsonKeepsTheChoice();
+    void eachEdgeOfTheBandCanBeGivenAlone();
+    void wordsOfNumbersAreRead();
     void refusals();
     void everyRuleRefusesItsSetting_data();
     void everyRuleRefusesItsSetting();
@@ -106,6 +108,47 @@ void tst_AnalysisSettings::jsonKeepsTheChoice()
     setSetting(settings, "decide.pfaPerCell", "1e-5");
     setSetting(settings, "decide.by", "falseAlarmsPerHour");
     QVERIFY(settingsFromJson(settingsToJson(settings), "test") == settings);
+}
+
+void tst_AnalysisSettings::eachEdgeOfTheBandCanBeGivenAlone()
+{
+    using Words = std::pair<std::string, std::string>;
+    const auto words = [](const AnalysisSettings &settings) {
+        const auto word = [&](const auto &field) { return formatFieldValue(field, *field.get(settings)); };
+        return Words(word(settingField("selection.lowHz")), word(settingField("selection.highHz")));
+    };
+    const auto again = [](const AnalysisSettings &settings) {
+        return settingsFromJson(settingsToJson(settings), "test") == settings
+               && settingsFromJson(settingsToJson(settings, false), "test") == settings;
+    };
+    AnalysisSettings settings;
+    QVERIFY(words(settings) == Words("lowest", "highest") && isWholeBand(settings.selection));
+    setSetting(settings, "selection.lowHz", "100");
+    QVERIFY(words(settings) == Words("100", "highest") && !isWholeBand(settings.selection) && again(settings));
+    setSetting(settings, "selection.lowHz", "lowest");
+    QVERIFY(settings == AnalysisSettings());
+    setSetting(settings, "selection.highHz", "80");
+    QVERIFY(words(settings) == Words("lowest", "80") && !isWholeBand(settings.selection) && again(settings));
+    setSetting(settings, "selection.lowHz", "0");
+    QVERIFY(words(settings) == Words("0", "80") && again(settings));
+    setSetting(settings, "selection.highHz", "0");
+    QVERIFY(isWholeBand(settings.selection)); // as in earlier files
+    const char *earlier = R"({"selection.lowHz": 0, "selection.highHz": 0})";
+    QVERIFY(settingsFromJson(earlier, "test") == AnalysisSettings());
+}
+
+void tst_AnalysisSettings::wordsOfNumbersAreRead()
+{
+    AnalysisSettings settings;
+    settings.spectrogram.windowSeconds = 0.5;
+    settings.selection.toSeconds = 20.0;
+    setSetting(settings, "spectrogram.windowSeconds", "automatic");
+    setSetting(settings, "selection.toSeconds", "end");
+    QVERIFY(settings == AnalysisSettings());
+    setSetting(settings, "detector.kind", "pOfN");
+    setSetting(settings, "pOfN.r2", "none");
+    QCOMPARE(std::get<PofNSettings>(settings.detector).r2, 0.0);
+    QVERIFY(contains(errorOf([&] { setSetting(settings, "selection.toSeconds", "ende"); }), "or \"end\""));
 }
 
 void tst_AnalysisSettings::refusals()

@@ -253,7 +253,7 @@ void tst_SettingRow::aChoiceIsNamedBySetting()
 void tst_SettingRow::aZeroThatIsNoSizeIsAWord()
 {
     FieldInfo length = seconds();
-    length.name = "spectrogram.windowSeconds";
+    length.words = {{0.0, "automatic"}};
     SettingRow row(length, 0.0);
     auto *line = qobject_cast<QLineEdit *>(row.editor());
     QCOMPARE(line->text(), QString("automatic"));

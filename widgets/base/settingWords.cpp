@@ -102,14 +102,4 @@ QString choiceLabel(const FieldInfo &setting, const QString &choice)
     return found != labels.constEnd() ? *found : spelled(choice);
 }
 
-QString wordForZero(const QString &name)
-{
-    static const QHash<QString, QString> words{
-        {"spectrogram.windowSeconds", "automatic"},
-        {"selection.toSeconds", "end"},
-        {"pOfN.r2", "none"},
-    };
-    return words.value(name);
-}
-
 } // namespace faintline

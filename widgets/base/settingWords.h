@@ -19,7 +19,4 @@ QString stageLabel(const QString &prefix);
 /// meaning.
 QString choiceLabel(const FieldInfo &setting, const QString &choice);
 
-/// What a number of 0 means for a setting, if it is not a size: "automatic" of the window's length; else empty.
-QString wordForZero(const QString &name);
-
 } // namespace faintline

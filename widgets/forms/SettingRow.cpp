@@ -31,20 +31,23 @@ namespace {
         return fractionText(value);
     }
 
-    QString wordForZero(const FieldInfo &info)
+    QString wordFor(const FieldInfo &info, const FieldValue &value)
     {
-        return faintline::wordForZero(QString::fromStdString(info.name));
-    }
-
-    /// Whether a number of 0 is shown by what it means.
-    bool isWord(const FieldInfo &info, const FieldValue &value)
-    {
-        return value == FieldValue(0.0) && !wordForZero(info).isEmpty();
+        return QString::fromStdString(wordOf(info, value));
     }
 
     QString shownText(const FieldInfo &info, const FieldValue &value)
     {
-        return isWord(info, value) ? wordForZero(info) : shownText(value);
+        const QString word = wordFor(info, value);
+        return word.isEmpty() ? shownText(value) : word;
+    }
+
+    QString orWords(const FieldInfo &info)
+    {
+        QString text;
+        for (const ValueWord &one : info.words)
+            text += SettingRow::tr(", or “%1”").arg(QString::fromStdString(one.word));
+        return text;
     }
 
     /// The sentence, followed by the accepted range, the default and the advice.
@@ -54,12 +57,13 @@ namespace {
         QStringList lines{QString::fromStdString(info.sentence).toHtmlEscaped()};
         if (info.kind == FieldKind::Integer || info.kind == FieldKind::Number || info.kind == FieldKind::Numbers)
             lines << SettingRow::tr("Range: %1 … %2%3")
-                         .arg(QString::fromStdString(formatNumber(info.minimum)),
-                              QString::fromStdString(formatNumber(info.maximum)), unit);
+                             .arg(QString::fromStdString(formatNumber(info.minimum)),
+                                  QString::fromStdString(formatNumber(info.maximum)), unit)
+                         + orWords(info);
         const QString defaultText =
             info.kind == FieldKind::Choice
                 ? choiceLabel(info, shownText(defaultValue))
-                : shownText(info, defaultValue) + (isWord(info, defaultValue) ? QString() : unit);
+                : shownText(info, defaultValue) + (wordFor(info, defaultValue).isEmpty() ? unit : QString());
         lines << SettingRow::tr("Default: %1")
                      .arg(info.kind == FieldKind::Flag
                               ? (std::get<bool>(defaultValue) ? SettingRow::tr("on") : SettingRow::tr("off"))
@@ -231,8 +235,6 @@ void SettingRow::acceptText(const QString &text)
     // A comma in a number is taken for a decimal point; in a list it separates.
     const QString plain =
         m_info.kind == FieldKind::Number ? text.trimmed().replace(QLatin1Char(','), QLatin1Char('.')) : text.trimmed();
-    if (isWord(m_info, 0.0) && plain.compare(wordForZero(m_info), Qt::CaseInsensitive) == 0)
-        return accept(0.0);
     try {
         accept(parseFieldValue(m_info, QString(plain).replace(QChar(0x2212), QLatin1Char('-')).toStdString()));
     } catch (const Error &error) {
@@ -278,10 +280,9 @@ void SettingRow::setValue(const FieldValue &value)
     else if (auto *arrows = qobject_cast<QAbstractSpinBox *>(m_editor))
         static_cast<ArrowBox *>(arrows)->line()->setText(shownText(value));
     else if (auto *edit = qobject_cast<QLineEdit *>(m_editor)) {
-        const QString word = QString::fromStdString(formatFieldValue(m_info, value));
-        edit->setText(word == QString::fromStdString(m_info.wordForAll) ? word : shownText(m_info, value));
+        edit->setText(shownText(m_info, value));
         edit->setCursorPosition(0);
-        m_unit->setVisible(!isWord(m_info, value));
+        m_unit->setVisible(wordFor(m_info, value).isEmpty());
     }
     m_reset->setVisible(value != m_default);
     const int size = m_label->font().pixelSize(); // larger in presentations

@@ -7,7 +7,7 @@ namespace {
     std::string textOf(const Field<AnalysisSettings> &field, const AnalysisSettings &settings)
     {
         const std::optional<FieldValue> value = field.get(settings);
-        return value ? formatFieldValue(*value) : std::string();
+        return value ? formatFieldValue(field, *value) : std::string();
     }
 
     /// Whether a field is a way to specify the threshold that is not in use.
@@ -24,7 +24,7 @@ namespace {
     {
         const std::string &held = difference.a.empty() ? difference.b : difference.a;
         return (difference.a.empty() || difference.b.empty())
-               && held == formatFieldValue(defaultValue(settingField(difference.field.name)));
+               && held == formatFieldValue(difference.field, defaultValue(settingField(difference.field.name)));
     }
 
 } // namespace

@@ -140,9 +140,11 @@ LineSettings SweepTrials::lineAt(const Placement &placement) const
     if (m_recording)
         info = m_recording->info();
     const SelectionSettings &selection = m_experiment.settings.selection;
-    const bool hasBand = selection.lowHz < selection.highHz;
-    const double lowest = hasBand ? selection.lowHz : info.isComplex ? -0.5 * info.sampleRateHz : 0.0;
-    const double highest = hasBand ? selection.highHz : 0.5 * info.sampleRateHz;
+    const bool isWhole = isWholeBand(selection);
+    const double start = info.isComplex ? -0.5 * info.sampleRateHz : 0.0;
+    const double end = 0.5 * info.sampleRateHz;
+    const double lowest = isWhole ? start : std::max(start, selection.lowHz);
+    const double highest = isWhole ? end : std::min(end, selection.highHz);
     const double travel = m_experiment.driftHzPerSecond * m_experiment.durationSeconds;
     const double low = lowest + bandMargin * (highest - lowest) + 4.0 * m_experiment.wanderHz + std::max(0.0, -travel);
     const double high = highest - bandMargin * (highest - lowest) - 4.0 * m_experiment.wanderHz - std::max(0.0, travel);

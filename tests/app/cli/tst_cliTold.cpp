@@ -84,6 +84,7 @@ void tst_cliTold::describesEverySetting()
                         "    False alarms per hour of recording that the threshold permits on noise.\n"
                         "    Raise it to find weaker signals among more false ones. It applies to the whole band, so a "
                         "wide band needs a higher threshold than a narrow one. Source: Billon 2005, section 3.\n"));
+    QVERIFY(run({"describe", "spectrogram.windowSeconds"}).out.contains("| automatic; default automatic\n"));
 }
 
 void tst_cliTold::simulatesTheSameAgain()
