@@ -42,9 +42,8 @@ namespace {
     {
         QStringList axes;
         for (const Axis &axis : frames.grid().axes)
-            axes << (axis.name.starts_with("axis ") // of a file that does not name its axes
-                         ? QString::number(axis.count)
-                         : QStringLiteral("%1 %2").arg(axis.count).arg(labelText(axis.name, mostUnitLetters)));
+            axes << (axis.isNamed ? QStringLiteral("%1 %2").arg(axis.count).arg(labelText(axis.name, mostUnitLetters))
+                                  : QString::number(axis.count));
         const QString words = QObject::tr("%1 %2, every %3 s · %4")
                                   .arg(frames.time().count)
                                   .arg(frameKindOf(frames.grid()).frames)

@@ -19,6 +19,7 @@ struct Axis {
     double step = 1.0;
     Index count = 0;
     bool cyclic = false;
+    bool isNamed = true; ///< false: its source gives no name, and `name` only numbers it
 
     double value(double index) const { return first + index * step; }
 
@@ -46,6 +47,12 @@ struct Axis {
         if (cyclic && 2 * direct > count)
             return direct - count;
         return cyclic && 2 * direct < -count ? direct + count : direct;
+    }
+
+    /// An axis whose source says nothing but how many cells it has; `number` counts from 1.
+    static Axis unnamed(std::size_t number, Index count)
+    {
+        return {"axis " + std::to_string(number), "", 0.0, 1.0, count, false, false};
     }
 
     double last() const { return value(double(count - 1)); }

@@ -65,7 +65,8 @@ GridFile readGridFile(const std::string &path, const std::vector<Index> &stackSh
                                               + std::to_string(shape[i + 1]) + " cells there");
         file.grid.axes.push_back({text(axis, where, "name", "axis " + std::to_string(i + 1)),
                                   text(axis, where, "unit", ""), number(axis, where, "first", 0.0),
-                                  number(axis, where, "step", 1.0), shape[i + 1], flag(axis, where, "cyclic")});
+                                  number(axis, where, "step", 1.0), shape[i + 1], flag(axis, where, "cyclic"),
+                                  axis.contains("name")});
         if (!(file.grid.axes.back().step > 0.0))
             throw Error(where + ".step", "must be above 0");
     }
@@ -87,13 +88,16 @@ std::string gridFileText(const GridFile &file)
 {
     Json json;
     json["axes"] = Json::array();
-    for (const Axis &axis : file.grid.axes)
-        json["axes"].push_back({{"name", axis.name},
-                                {"unit", axis.unit},
-                                {"first", axis.first},
-                                {"step", axis.step},
-                                {"count", axis.count},
-                                {"cyclic", axis.cyclic}});
+    for (const Axis &axis : file.grid.axes) {
+        Json one = {{"unit", axis.unit},
+                    {"first", axis.first},
+                    {"step", axis.step},
+                    {"count", axis.count},
+                    {"cyclic", axis.cyclic}};
+        if (axis.isNamed)
+            one["name"] = axis.name;
+        json["axes"].push_back(std::move(one));
+    }
     json["time"] = {{"first", file.time.first}, {"step", file.time.step}};
     if (file.isPower)
         json["values"] = "power";
@@ -107,7 +111,7 @@ GridFile plainGrid(const std::vector<Index> &shape)
     GridFile file;
     file.time = {"time", "s", 0.0, 1.0, shape[0], false};
     for (std::size_t i = 1; i < shape.size(); ++i)
-        file.grid.axes.push_back({"axis " + std::to_string(i), "", 0.0, 1.0, shape[i], false});
+        file.grid.axes.push_back(Axis::unnamed(i, shape[i]));
     return file;
 }
 

@@ -48,8 +48,7 @@ namespace {
             grid.axes = py::cast<std::vector<Axis>>(axes);
         else
             for (std::size_t i = 1; i <= cellAxes; ++i)
-                grid.axes.push_back(
-                    {"axis " + std::to_string(i), "", 0.0, 1.0, values.shape(static_cast<py::ssize_t>(i)), false});
+                grid.axes.push_back(Axis::unnamed(i, values.shape(static_cast<py::ssize_t>(i))));
         if (grid.axes.size() != cellAxes)
             throw Error("axes", "must be one Axis for each of the frames' " + std::to_string(cellAxes) + " cell axes");
         for (std::size_t i = 0; i < cellAxes; ++i)

@@ -416,7 +416,15 @@ void tst_ModelFile::gridNamesTheAxes()
     writeBytes(path("g.json"), R"({"axes": [{}]})"); // all of it has a default
     const GridFile plain = readGridFile(path("g.json"), {7, 20});
     QVERIFY((plain.time == Axis{"time", "s", 0.0, 1.0, 7, false}));
-    QVERIFY((plain.grid == Grid{{{"axis 1", "", 0.0, 1.0, 20, false}}}));
+    QVERIFY((plain.grid == Grid{{{"axis 1", "", 0.0, 1.0, 20, false, false}}}));
+    for (const GridFile &one : {file, plain}) { // a number does not become a name by being written
+        writeBytes(path("again.json"), QByteArray::fromStdString(gridFileText(one)));
+        const std::vector<Index> shape =
+            one.grid.axes.size() == 2 ? std::vector<Index>{7, 20, 3} : std::vector<Index>{7, 20};
+        QVERIFY(readGridFile(path("again.json"), shape).grid == one.grid);
+        QVERIFY(readGridFile(path("again.json"), shape).time == one.time);
+    }
+    QVERIFY(plainGrid({7, 20}).grid == plain.grid);
 }
 
 void tst_ModelFile::gridRefusals_data()
