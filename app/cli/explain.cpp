@@ -89,7 +89,8 @@ namespace {
         }
         std::printf("%12s", "t (s)");
         for (const Axis &axis : grid.axes)
-            std::printf(" %14s %8s", oneLine(axis.name + " (" + axis.unit + ")").c_str(), "rate");
+            std::printf(" %14s %8s",
+                        oneLine(axis.unit.empty() ? axis.name : axis.name + " (" + axis.unit + ")").c_str(), "rate");
         std::printf(" %10s %10s %10s %12s\n", "llr", "ln P", "ln K", "sum");
     }
 

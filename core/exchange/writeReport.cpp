@@ -113,9 +113,9 @@ namespace {
         return name;
     }
 
-    std::string heading(const Axis &axis)
+    std::string inUnit(const std::string &name, const std::string &unit)
     {
-        return capitalised(axis.name) + " (" + axis.unit + ")";
+        return unit.empty() ? name : name + " (" + unit + ")";
     }
 
     /// A unit in which rates along an axis need few digits.
@@ -129,7 +129,7 @@ namespace {
         for (const Event &event : events)
             largest = std::max(largest, std::abs(event.ratesPerSecond[i]));
         if (axis.unit != "Hz" || largest >= 0.1 || largest == 0.0)
-            return {axis.unit + "/s", 1.0};
+            return {axis.unit.empty() ? "1/s" : axis.unit + "/s", 1.0};
         return largest >= 1e-4 ? RateUnit{"mHz/s", 1e3} : RateUnit{"\u00b5Hz/s", 1e6};
     }
 
@@ -206,7 +206,7 @@ namespace {
         const std::vector<Axis> &axes = analysis.grid().axes;
         std::vector<std::string> names{"No.", "Onset (s)", "Detected (s)", "End (s)"};
         for (const Axis &axis : axes)
-            names.push_back(heading(axis));
+            names.push_back(inUnit(capitalised(axis.name), axis.unit));
         std::vector<RateUnit> units;
         for (const Axis &axis : axes) {
             units.push_back(rateUnit(axis, material.events, units.size()));
@@ -248,10 +248,11 @@ namespace {
         const std::vector<AreaEvent> areas = areaEvents(analysis);
         if (areas.empty())
             return {};
-        const std::string unit = " (" + analysis.grid().axes.back().unit + ")";
+        const std::string &unit = analysis.grid().axes.back().unit;
         std::string text =
             "<h2>Areas of raised level without a line</h2>\n<table class=\"numbers\">\n"
-            + numbers({"From (s)", "To (s)", "Lowest" + unit, "Highest" + unit, "Level, at least (dB)"}, 5, "th");
+            + numbers({"From (s)", "To (s)", inUnit("Lowest", unit), inUnit("Highest", unit), "Level, at least (dB)"},
+                      5, "th");
         for (const AreaEvent &area : areas)
             text += numbers({fixed(area.onsetSeconds, 2), fixed(area.endSeconds, 2), fixed(area.low, 2),
                              fixed(area.high, 2), fixed(area.levelDb, 1)},
@@ -290,7 +291,7 @@ namespace {
                            + (decided > why.threshold ? " above" : " below") + " the threshold</summary>\n";
         std::vector<std::string> names{"t (s)"};
         for (const Axis &axis : axes)
-            names.push_back(heading(axis));
+            names.push_back(inUnit(capitalised(axis.name), axis.unit));
         names.insert(names.end(), {"ln likelihood ratio", "ln P(transition)", "ln K", "Sum (nat)"});
         text += "<table class=\"numbers\">\n" + numbers(names, names.size(), "th");
         const std::size_t first = why.steps.size() > mostRungs ? why.steps.size() - mostRungs : 0;

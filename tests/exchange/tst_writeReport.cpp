@@ -15,16 +15,16 @@ private slots:
     void wellFormedAndTheSameAgain();
     void whoseLaddersAreShown();
     void areasAreListed();
+    void axesWithoutAUnitHaveNoParentheses();
 };
 
 namespace {
 
-Analysis tracksOf(int count)
+Analysis tracksOf(int count, const Grid &grid = {{{"frequency", "Hz", 1000.0, 2.5, 100, false}}})
 {
     Analysis analysis;
-    analysis.frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.25, 0.5, 10, false},
-                                                   Grid{{{"frequency", "Hz", 1000.0, 2.5, 100, false}}},
-                                                   std::vector<float>(1000, 1.0f));
+    analysis.frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.25, 0.5, 10, false}, grid,
+                                                   std::vector<float>(std::size_t(10 * grid.size()), 1.0f));
     Calibration calibration;
     calibration.levels = {0.0, 10.0};
     calibration.exceedance = {0.5, 1e-4};
@@ -114,6 +114,17 @@ void tst_writeReport::areasAreListed()
                       "<td class=\"n\">1150.00</td><td class=\"n\">6.0</td>")
             != std::string::npos);
     QVERIFY(page.find("1200.00") == std::string::npos);
+}
+
+void tst_writeReport::axesWithoutAUnitHaveNoParentheses()
+{
+    const Analysis analysis = tracksOf(1, {{Axis::unnamed(1, 20), Axis::unnamed(2, 5)}});
+    ReportMaterial material;
+    material.events = events(analysis);
+    const std::string page = reportHtml(analysis, material);
+    QVERIFY(page.find("Axis 1</th>") != std::string::npos);
+    QVERIFY(page.find("Axis 2 rate (1/s)</th>") != std::string::npos);
+    QVERIFY(page.find("()") == std::string::npos);
 }
 
 QTEST_GUILESS_MAIN(tst_writeReport)

@@ -235,6 +235,9 @@ void tst_EventModel::aColumnForEachAxis()
     QCOMPARE(text(EventModel::ThirdAxis), QString("6.0"));
     QCOMPARE(text(EventModel::FourthAxis), QString::fromUtf8("−30.0"));
     QVERIFY(m_model->hasColumn(EventModel::FourthAxis));
+    m_model->setAxes({Axis::unnamed(1, 50), Axis::unnamed(2, 8)});
+    QCOMPARE(heading(EventModel::Frequency).toString(), QString("Axis 1"));
+    QCOMPARE(heading(EventModel::Bearing).toString(), QString("Axis 2"));
     m_model->setAxes({{"frequency", "Hz", 0.0, 1.0, 100, false}});
     QVERIFY(!m_model->hasColumn(EventModel::Bearing) && !m_model->hasColumn(EventModel::ThirdAxis));
 }
