@@ -311,7 +311,7 @@ private slots:
         QVERIFY(list->isVisible());
         QCOMPARE(list->count(), 1);
         const QString line = list->item(0)->text();
-        QVERIFY2(line.startsWith("rejected, ") && line.endsWith(": a fan"), qPrintable(line));
+        QVERIFY2(line.startsWith("rejected, ") && line.endsWith(" Hz: a fan"), qPrintable(line));
         document().viewport().clearCursor();
         emit list->itemClicked(list->item(0));
         QVERIFY(document().viewport().cursor());
