@@ -24,8 +24,8 @@ namespace faintline {
 namespace {
 
     constexpr int narrowestColumn = 280;
-    /// Height that a panel at the bottom leaves to the pictures.
-    constexpr int leastPictures = 350;
+    /// Height that a panel at the bottom leaves to the pictures: 350 pixels, and what pings have below them.
+    constexpr int leastPictures = 415;
     /// Height to which panels below the threshold can be reduced, also those whose content wishes for more.
     constexpr int leastPanel = 165;
     /// Size of a panel's text in presentations; on smaller screens the pictures need the room.

@@ -51,11 +51,15 @@ PingBench::PingBench(Document &document, OutputLayers &layers, QWidget *parent)
 
 void PingBench::showWhatFits()
 {
-    constexpr int enoughForHistories = 460;
-    constexpr int enoughForAll = 580;
-    const int more = m_areMapsFirst ? 320 : 0;
-    historyPanes()->setVisible(height() >= enoughForHistories + more);
-    m_regulation->setVisible(height() >= enoughForAll + more);
+    constexpr int leastMaps = 350;
+    constexpr int histories = 200; // with their splitter
+    constexpr int regulation = 85;
+    const int others = m_bar->sizeHint().height() + (m_axesBar->isHidden() ? 0 : m_axesBar->sizeHint().height());
+    const int more = m_areMapsFirst ? 220 : 0;
+    const int room = height() - others - leastMaps - more;
+    historyPanes()->setVisible(room >= histories);
+    m_regulation->setVisible(room >= histories + regulation);
+    m_maps->setMinimumHeight(std::min(leastMaps, std::max(0, height() - others)));
 }
 
 void PingBench::setMapsFirst(bool areFirst)

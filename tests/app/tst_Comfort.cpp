@@ -8,8 +8,10 @@
 #include "app/window/CommandPalette.h"
 #include "app/window/Panels.h"
 #include "app/window/ToolBar.h"
+#include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
 #include "widgets/forms/SettingsForm.h"
+#include "widgets/pings/PingMap.h"
 #include "widgets/waterfall/WaterfallView.h"
 
 #include <QAbstractButton>
@@ -52,6 +54,21 @@ bool isInner(const QWidget *widget)
             && (parent->inherits("QAbstractSpinBox") || parent->inherits("QComboBox")
                 || widget->inherits("QScrollBar")))
            || widget->inherits("QComboBoxListView") || widget->inherits("QComboBoxPrivateContainer");
+}
+
+/// Every layout leaves its pictures 350 pixels of height, and their canvases that width; nothing forces the window wider.
+void lookAtLayouts(MainWindow &window, const QSize &size, const std::vector<WaterfallView *> &views, int canvas)
+{
+    window.resize(size);
+    for (const QString &layout : Panels::layoutNames()) {
+        window.findChild<Panels *>()->takeLayout(layout);
+        QCoreApplication::processEvents();
+        QCOMPARE(window.size(), size);
+        for (const WaterfallView *view : views)
+            QVERIFY2(view->canvas()->width() >= canvas && view->height() >= 350,
+                     qPrintable(layout + QStringLiteral(": %1, %2").arg(view->canvas()->width()).arg(view->height())));
+    }
+    window.findChild<Panels *>()->takeLayout(Panels::layoutNames().first());
 }
 
 /// A row of tabs speaks through its tabs; a hidden message has nothing to say yet, nor has a sheet whose panel shows no
@@ -251,17 +268,24 @@ private slots:
     {
         QFETCH(QSize, size);
         QFETCH(int, canvas);
-        m_window->resize(size);
-        for (const QString &layout : Panels::layoutNames()) {
-            m_window->findChild<Panels *>()->takeLayout(layout);
-            QCoreApplication::processEvents();
-            QCOMPARE(m_window->size(), size); // nothing forces it wider
-            for (const WaterfallView *view : {m_window->workbench().input(), m_window->workbench().output()})
-                QVERIFY2(
-                    view->canvas()->width() >= canvas && view->height() >= 350,
-                    qPrintable(layout + QStringLiteral(": %1, %2").arg(view->canvas()->width()).arg(view->height())));
-        }
-        m_window->findChild<Panels *>()->takeLayout(Panels::layoutNames().first());
+        const Workbench &bench = m_window->workbench();
+        lookAtLayouts(*m_window, size, {bench.input(), bench.output()}, canvas);
+    }
+
+    void mapsHaveTheRoom_data() { picturesHaveTheRoom_data(); }
+
+    void mapsHaveTheRoom()
+    {
+        QFETCH(QSize, size);
+        const auto window = newWindow(size);
+        QVERIFY(openAndSettle(*window, writeFile(m_folder, "pings.json",
+                                                 R"({"kind": "pings", "pings": 8, "rangeCells": 60, "beams": 8,
+                                                     "targets": [{"rangeMetres": 3300, "bearingDegrees": 90}]})")));
+        const PingBench &bench = window->pingBench();
+        lookAtLayouts(*window, size, {bench.input()->plane(), bench.output()->plane()}, 330);
+        window->resize(QSize(size.width(), 2000));
+        QCoreApplication::processEvents();
+        QVERIFY(bench.histories()->isVisible());
     }
 
     void toolsSayWhatTheyAre()

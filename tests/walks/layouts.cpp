@@ -1,8 +1,10 @@
 // A small screen: every named layout leaves the pictures room.
 
 #include "app/window/Panels.h"
+#include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
 #include "walks/Walk.h"
+#include "widgets/pings/PingMap.h"
 #include "widgets/waterfall/WaterfallView.h"
 
 #include <QScreen>
@@ -12,33 +14,46 @@ using namespace faintline::test;
 
 namespace {
 
-constexpr int leastWidth = 350; // pixels
+constexpr int least = 350; // pixels
 
-bool isWideEnough(const QWidget &picture)
+bool isLargeEnough(const QWidget &picture)
 {
-    return picture.isVisible() && !picture.visibleRegion().isEmpty() && picture.width() >= leastWidth;
+    return picture.isVisible() && !picture.visibleRegion().isEmpty() && picture.width() >= least
+           && picture.height() >= least;
 }
 
+/// `name`: of the picture that is taken.
 void lookAtPictures(Walk &walk, const QString &name)
 {
-    Workbench &bench = walk.window().workbench();
-    walk.waitUntil("wide pictures in " + name,
-                   [&] { return isWideEnough(*bench.input()) && isWideEnough(*bench.output()); });
+    walk.waitUntil("large pictures in " + name, [&] {
+        if (walk.window().pingBench().isVisible()) {
+            const PingBench &bench = walk.window().pingBench();
+            return isLargeEnough(*bench.input()) && isLargeEnough(*bench.output());
+        }
+        const Workbench &bench = walk.window().workbench();
+        return isLargeEnough(*bench.input()) && isLargeEnough(*bench.output());
+    });
     walk.waitUntil("a window within the screen",
                    [&] { return walk.window().screen()->availableGeometry().contains(walk.window().frameGeometry()); });
     walk.takePicture("layout-" + name.toLower().replace(u' ', u'-'));
 }
 
-void goThrough(Walk &walk)
+void lookAtLayouts(Walk &walk, const QString &scenario)
 {
-    walk.start({":/scenarios/faint-drifting-line.json"});
-    walk.waitForText("faint-drifting-line");
+    walk.start({":/scenarios/" + scenario.toStdString() + ".json"});
+    walk.waitForText(scenario);
     walk.waitForResults();
-    lookAtPictures(walk, "first start");
+    lookAtPictures(walk, scenario);
     for (const QString &name : Panels::layoutNames()) {
         walk.choose({"View", "Panels", "Layout: " + name});
-        lookAtPictures(walk, name);
+        lookAtPictures(walk, scenario + " " + name);
     }
+}
+
+void goThrough(Walk &walk)
+{
+    lookAtLayouts(walk, "sonar-crossing-targets");
+    lookAtLayouts(walk, "faint-drifting-line");
     walk.choose({"View", "Theme", "Light"});
     walk.choose({"View", "Panels", "Layout: Lines"});
     lookAtPictures(walk, "lines in light");
