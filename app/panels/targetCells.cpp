@@ -26,6 +26,8 @@ namespace {
         switch (column) {
         case TargetColumn::Snr:
             return infoNamed(PingTarget::fields(), "snrDb");
+        case TargetColumn::Fluctuation:
+            return infoNamed(PingTarget::fields(), "fluctuation");
         case TargetColumn::Range:
             return infoNamed(PingTarget::fields(), "rangeMetres");
         case TargetColumn::Bearing:
@@ -52,6 +54,8 @@ namespace {
             return tr("Target");
         case TargetColumn::Snr:
             return tr("SNR");
+        case TargetColumn::Fluctuation:
+            return tr("Fluctuation");
         case TargetColumn::Range:
             return tr("Range");
         case TargetColumn::Bearing:
@@ -82,6 +86,24 @@ namespace {
         return (isOfLeg(column) ? tr("%1, leg %2, %3").arg(target).arg(std::max(row.leg, 0) + 1).arg(word)
                                 : tr("%1, %2").arg(target, word))
             .toStdString();
+    }
+
+    /// "swerling1" → "Swerling 1"
+    QString textOf(Fluctuation fluctuation)
+    {
+        return fluctuation == Fluctuation::None ? tr("none") : tr("Swerling %1").arg(int(fluctuation));
+    }
+
+    /// From its text, in any case and with or without blanks, its name or its number.
+    Fluctuation fluctuationOf(const FieldInfo &info, const QString &text)
+    {
+        QString plain = text.toLower().remove(QLatin1Char(' '));
+        if (plain == QLatin1String("0") || plain == tr("none"))
+            plain = QStringLiteral("none");
+        else if (plain.size() == 1 && plain[0].isDigit())
+            plain.prepend(QStringLiteral("swerling"));
+        const auto name = std::get<std::string>(parseFieldValue(info, plain.toStdString()));
+        return static_cast<Fluctuation>(std::ranges::find(fluctuationNames, name) - fluctuationNames.begin());
     }
 
     bool canLastToTheEnd(TargetColumn column)
@@ -226,6 +248,7 @@ QString titleOf(TargetColumn column, RateUnit unit)
     case TargetColumn::Until:
         return tr("Until");
     case TargetColumn::Target:
+    case TargetColumn::Fluctuation:
     case TargetColumn::Leg:
     case TargetColumn::Pings:
         return wordOf(column);
@@ -239,6 +262,9 @@ QString sentenceOf(TargetColumn column, RateUnit unit)
     switch (column) {
     case TargetColumn::Target:
         return tr("Number of the target on the map.");
+    case TargetColumn::Fluctuation:
+        return QString::fromStdString(infoOf(column, unit).sentence)
+               + tr(" Type 1 to 4, or “none” for constant power.");
     case TargetColumn::Leg:
         return tr("Number of the target's leg.");
     case TargetColumn::From:
@@ -261,6 +287,8 @@ QString textOf(const PingScene &scene, const TargetRow &row, TargetColumn column
         return row.leg < 0 ? QString() : QString::number(row.leg + 1);
     if (isOfLeg(column) ? row.leg < 0 : !row.isFirst())
         return {};
+    if (column == TargetColumn::Fluctuation)
+        return textOf(scene.targets[std::size_t(row.target)].fluctuation);
     const double number = numberIn(scene, row, column, unit);
     return canLastToTheEnd(column) && number == 0.0 ? tr("end") : QString::number(number, 'g', digits);
 }
@@ -278,6 +306,11 @@ PingScene withText(const PingScene &scene, const TargetRow &row, TargetColumn co
             throw fieldError(info.name, plain.toStdString(),
                              "must be a number of pings, because another leg follows this one");
         setNumber(after, row, column, 0.0, unit);
+        return after;
+    }
+    if (column == TargetColumn::Fluctuation) {
+        after.targets[std::size_t(row.target)].fluctuation = fluctuationOf(info, plain);
+        checkScene(after);
         return after;
     }
     const FieldValue value = parseFieldValue(info, plain.toStdString());

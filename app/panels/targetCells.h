@@ -12,7 +12,7 @@ namespace faintline {
 /// The targets of a ping scene as a table of numbers: a row for each leg, and one for a target without legs. A target's
 /// own numbers stand in its first row. Pings are counted from 1, as in the read-out.
 
-enum class TargetColumn { Target, Snr, Range, Bearing, From, Until, Leg, Pings, RangeRate, BearingRate, Turn };
+enum class TargetColumn { Target, Snr, Fluctuation, Range, Bearing, From, Until, Leg, Pings, RangeRate, BearingRate, Turn };
 constexpr int targetColumnCount = int(TargetColumn::Turn) + 1;
 
 struct TargetRow {
@@ -35,7 +35,7 @@ bool isOfLeg(TargetColumn column);
 /// Whether a number can be typed into this cell. In the row of a target without legs it makes the first leg.
 bool isEditable(const TargetRow &row, TargetColumn column);
 
-/// The text of a cell, with at most six digits; "end" for a duration to the end; empty for a cell without a value.
+/// The text of a cell, with at most six digits; "Swerling 1" for a fluctuation; "end" for a duration to the end; empty for a cell without a value.
 QString textOf(const PingScene &scene, const TargetRow &row, TargetColumn column, RateUnit unit);
 
 /// The scene with the number that was typed into a cell. Throws Error naming target, leg and column, and what would be

@@ -76,6 +76,14 @@ void tst_TargetTable::typedNumbersChangeTheScene()
     QCOMPARE(m_window->document().undoStack().count(), 8);
     type(0, TargetColumn::Snr, "14.5"); // the same again is no change
     QCOMPARE(m_window->document().undoStack().count(), 8);
+    QCOMPARE(cell(0, TargetColumn::Fluctuation), QString("none"));
+    for (const char *text : {"3", "Swerling 3", "swerling3"}) {
+        type(0, TargetColumn::Fluctuation, "none");
+        QVERIFY(scene().targets[0].fluctuation == Fluctuation::None);
+        type(0, TargetColumn::Fluctuation, text);
+        QVERIFY(scene().targets[0].fluctuation == Fluctuation::Swerling3);
+        QCOMPARE(cell(0, TargetColumn::Fluctuation), QString("Swerling 3"));
+    }
 }
 
 void tst_TargetTable::badInputGivesOneLine_data()
@@ -85,6 +93,9 @@ void tst_TargetTable::badInputGivesOneLine_data()
     QTest::addColumn<QString>("line");
     QTest::newRow("no number") << int(TargetColumn::Snr) << "loud"
                                << "Target T1, SNR = loud: must lie in -60 … 80 dB";
+    QTest::newRow("no case of Swerling's")
+        << int(TargetColumn::Fluctuation) << "5"
+        << "Target T1, fluctuation = swerling5: must be one of none, swerling1, swerling2, swerling3, swerling4";
     QTest::newRow("off the map") << int(TargetColumn::Range) << "9000"
                                  << "Target T1, range = 9000: must lie in 3000 … 4190 m";
     QTest::newRow("after the end") << int(TargetColumn::From) << "25"
