@@ -5,7 +5,10 @@
 #include "app/control/EventFiles.h"
 #include "app/control/EventReviews.h"
 #include "app/document/saveView.h"
+#include "app/panels/ChannelsPanel.h"
 #include "app/panels/EvaluatePanel.h"
+#include "app/panels/NoiseFitPanel.h"
+#include "app/panels/SpectrumPanel.h"
 #include "app/panels/SweepPanel.h"
 #include "app/views/WindowParts.h"
 #include "app/views/chartCaption.h"
@@ -62,13 +65,15 @@ QString ChartMenus::captionFor(const QWidget &chart) const
 {
     const auto of = [this](int experiment) {
         const Experiments::Entry *entry = m_parts.experiments().entry(experiment);
-        return entry ? captionOf(*entry) : captionOf(m_parts.document());
+        return entry ? captionOf(*entry) : captionOf(m_parts.document(), CaptionOf::Statistic);
     };
     if (m_parts.evaluation().isAncestorOf(&chart))
         return of(m_parts.evaluation().shown());
     if (m_parts.sweep().isAncestorOf(&chart))
         return of(m_parts.sweep().shown());
-    return captionOf(m_parts.document());
+    const bool isOfInput = m_parts.spectrum().isAncestorOf(&chart) || m_parts.channels().isAncestorOf(&chart)
+                           || m_parts.noiseFit().isAncestorOf(&chart);
+    return captionOf(m_parts.document(), isOfInput ? CaptionOf::Input : CaptionOf::Statistic);
 }
 
 void ChartMenus::ask(QWidget &chart)

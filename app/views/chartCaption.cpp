@@ -1,7 +1,13 @@
 #include "app/views/chartCaption.h"
 
+#include "app/panels/experimentWords.h"
+#include "evaluate/comparison/settingDifferences.h"
+#include "widgets/base/settingWords.h"
+
 #include <QCoreApplication>
 #include <QStringList>
+
+#include <algorithm>
 
 namespace faintline {
 
@@ -14,37 +20,7 @@ namespace {
         return QCoreApplication::translate("chartCaption", text);
     }
 
-    QString wordOf(const Json &value)
-    {
-        return value.is_string() ? QString::fromStdString(value.get<std::string>())
-                                 : QString::fromStdString(value.dump());
-    }
-
-    bool isPlain(const Json &list)
-    {
-        return std::none_of(list.begin(), list.end(), [](const Json &value) { return value.is_structured(); });
-    }
-
-    void addTo(QStringList &parts, const QString &name, const Json &json)
-    {
-        const QString prefix = name.isEmpty() ? QString() : name + QLatin1Char('.');
-        if (json.is_object()) {
-            for (const auto &[key, value] : json.items())
-                addTo(parts, prefix + QString::fromStdString(key), value);
-        } else if (json.is_array() && !isPlain(json)) {
-            for (std::size_t i = 0; i < json.size(); ++i)
-                addTo(parts, prefix + QString::number(i + 1), json[i]);
-        } else if (json.is_array()) {
-            QStringList words;
-            for (const Json &value : json)
-                words << wordOf(value);
-            parts << QStringLiteral("%1 = %2").arg(name, words.join(QStringLiteral(", ")));
-        } else {
-            parts << QStringLiteral("%1 = %2").arg(name, wordOf(json));
-        }
-    }
-
-    QString joined(QStringList parts)
+    QString joined(const QStringList &parts)
     {
         const QString program = QStringLiteral("Faintline " FAINTLINE_VERSION);
         QString text = parts.join(QStringLiteral("; "));
@@ -53,32 +29,76 @@ namespace {
         return text.isEmpty() ? program : QStringLiteral("%1. %2").arg(text, program);
     }
 
-    QStringList partsOf(const Json &json)
+    QString stageOf(const FieldInfo &field)
     {
-        QStringList parts;
-        addTo(parts, {}, json);
-        return parts;
+        return QString::fromStdString(field.name).section(QLatin1Char('.'), 0, 0);
+    }
+
+    /// "false alarms 2 1/h"
+    QString wordsOf(const SettingDifference &difference)
+    {
+        const FieldInfo &field = difference.field;
+        const QString text = QString::fromStdString(difference.b);
+        const bool isWord = std::ranges::count(field.words, difference.b, &ValueWord::word) > 0;
+        const bool isNumber = !isWord && field.kind != FieldKind::Choice && field.kind != FieldKind::Flag;
+        const QString value = field.kind == FieldKind::Choice ? choiceLabel(field, text)
+                              : field.kind == FieldKind::Flag ? (difference.b == "true" ? tr("on") : tr("off"))
+                                                              : text;
+        const QString label = QString::fromStdString(labelOf(field));
+        const QString unit = isNumber ? QString::fromStdString(field.unit) : QString();
+        const QString stage = stageLabel(stageOf(field));
+        const QString words = QStringLiteral("%1 %2 %3").arg(label, value, unit).trimmed();
+        return stage == label ? words : QStringLiteral("%1: %2").arg(stage, words);
+    }
+
+    /// The threshold in whatever way it is given, at its default as well.
+    SettingDifference thresholdOf(const AnalysisSettings &settings)
+    {
+        const Field<AnalysisSettings> &field =
+            settingField("decide." + std::string(DecideSettings::byNames[std::size_t(settings.decide.by)]));
+        return {field, {}, formatFieldValue(field, *field.get(settings))};
+    }
+
+    /// The settings that differ from the defaults.
+    QStringList settingsIn(const AnalysisSettings &settings, CaptionOf what)
+    {
+        static const QStringList ofInput{"selection", "spectrogram", "noise", "pings", "family"};
+        QStringList words;
+        for (const SettingDifference &difference : settingDifferences(AnalysisSettings(), settings)) {
+            const bool matters = what == CaptionOf::Statistic || ofInput.contains(stageOf(difference.field));
+            if (matters && !difference.b.empty())
+                words << wordsOf(difference.field.name == "decide.by" ? thresholdOf(settings) : difference);
+        }
+        words.removeDuplicates();
+        return words;
+    }
+
+    QStringList detectorsIn(const Experiment &experiment)
+    {
+        QStringList words;
+        for (const DetectorUnderTest &one : detectorsOf(experiment)) {
+            const QStringList settings = settingsIn(one.settings, CaptionOf::Statistic);
+            const QString name = QString::fromStdString(one.name);
+            words << (settings.isEmpty() ? name : QStringLiteral("%1 (%2)").arg(name, settings.join(", ")));
+        }
+        return words;
     }
 
 } // namespace
 
-QString captionOf(const Json &json)
-{
-    return joined(partsOf(json));
-}
-
-QString captionOf(const Document &document)
+QString captionOf(const Document &document, CaptionOf what)
 {
     if (document.isEmpty())
         return joined({});
-    return joined(QStringList{document.sourceName()} + partsOf(Json::parse(settingsToJson(document.settings()))));
+    return joined(QStringList{document.sourceName()} + settingsIn(document.settings(), what));
 }
 
 QString captionOf(const Experiments::Entry &entry)
 {
     QStringList parts{entry.name};
     if (entry.campaign)
-        parts << tr("%1 runs").arg(entry.runsDone()) << partsOf(toJson(entry.campaign->experiment));
+        parts << tr("%1 runs done").arg(entry.runsDone()) << experimentWords(entry.campaign->experiment)
+              << detectorsIn(entry.campaign->experiment);
     return joined(parts);
 }
 

@@ -7,15 +7,17 @@
 
 namespace faintline {
 
-/// Captions of exported charts: a description of the source in one paragraph.
+/// Captions of exported charts: a description of the source in one paragraph, in the window's words.
 
-/// The recording and the settings that differ from the defaults: "night.wav; spectrogram.windowSeconds = 0.5 s; …".
-QString captionOf(const Document &document);
+/// What a chart shows: power before the detector, which neither the detector nor the threshold changes, or its
+/// statistic.
+enum class CaptionOf { Input, Statistic };
 
-/// The experiment's name, its runs and its numbers: "Lines of 30 s; 200 runs; seed = 1; …".
+/// The recording and the settings that differ from the defaults and change the chart: "night.wav; Spectrogram: Window
+/// length 0.5 s; …".
+QString captionOf(const Document &document, CaptionOf what);
+
+/// The experiment's name, its runs and its detectors: "Lines; 200 runs done; 200 runs, -4 … 2 dB, …".
 QString captionOf(const Experiments::Entry &entry);
-
-/// Any JSON: "scene.snrDb = 3; runs.trials = 200"; lists of objects are numbered.
-QString captionOf(const Json &json);
 
 } // namespace faintline
