@@ -45,15 +45,21 @@ namespace {
                         advice.remedy.c_str());
     }
 
+    /// " Hz"; nothing for an axis without a unit.
+    std::string withBlank(const std::string &unit)
+    {
+        return unit.empty() ? unit : ' ' + oneLine(unit);
+    }
+
     void printEvent(const Analysis &analysis, const Event &e)
     {
         const DetectorSettings &detector = analysis.settings.detector;
         std::printf("%5d  %.6g … %.6g s, detected at %.6g s, at", e.id, e.onsetSeconds, e.endSeconds, e.detectSeconds);
         for (std::size_t axis = 0; axis < e.position.size(); ++axis)
-            std::printf(" %.8g %s", e.position[axis], oneLine(analysis.grid().axes[axis].unit).c_str());
+            std::printf(" %.8g%s", e.position[axis], withBlank(analysis.grid().axes[axis].unit).c_str());
         for (std::size_t axis = 0; axis < e.position.size(); ++axis)
-            std::printf(", %s%.3g %s/s", axis == 0 ? "drift " : "", e.ratesPerSecond[axis],
-                        oneLine(analysis.grid().axes[axis].unit).c_str());
+            std::printf(", %s%.3g%s/s", axis == 0 ? "drift " : "", e.ratesPerSecond[axis],
+                        withBlank(analysis.grid().axes[axis].unit).c_str());
         std::printf(", %.*f %s%s%s%s", statisticDecimals(detector), e.statistic,
                     std::string(statisticUnit(detector)).c_str(), e.isConfirmed ? "" : ", not confirmed",
                     e.isOpen ? ", present at the end" : "",

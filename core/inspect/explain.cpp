@@ -251,6 +251,13 @@ namespace {
         return grid.cell(coordinates);
     }
 
+    /// Whether the detector is kept from a box: places without a signal always, those of tracks unless it was switched
+    /// off.
+    bool isKept(const Analysis &analysis, const DetectionChain::Inhibition &inhibition)
+    {
+        return inhibition.track == 0 || analysis.settings.decide.inhibits;
+    }
+
     /// Explanation::inhibitedFor
     std::optional<int> inhibitedFor(const Analysis &analysis, const DetectionChain &chain, Index frame, Index cell)
     {
@@ -262,7 +269,8 @@ namespace {
         };
         std::optional<int> track;
         for (const DetectionChain::Inhibition &inhibition : chain.inhibitions())
-            if (!isNew(inhibition.track) && inhibition.box.contains(analysis.grid(), analysis.grid().coordinates(cell)))
+            if (isKept(analysis, inhibition) && !isNew(inhibition.track)
+                && inhibition.box.contains(analysis.grid(), analysis.grid().coordinates(cell)))
                 track = numberOf(inhibition, frame, analysis);
         return track;
     }

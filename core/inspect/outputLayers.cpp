@@ -282,8 +282,9 @@ void LayerReplay::project(std::span<const float> statistic)
                 m_layers.resetFraction[cell] = 0.0f; // a tracker's paths are not reset
             }
         }
-    for (const CellBox &box : chain.inhibited())
-        box.forEachCell(analysis()->grid(), [&](Index cell) { m_layers.isInhibited[std::size_t(cell)] = 1; });
+    for (const auto &[track, box] : chain.inhibitions())
+        if (track == 0 || analysis()->settings.decide.inhibits) // 0: where no signal is looked for
+            box.forEachCell(analysis()->grid(), [&](Index cell) { m_layers.isInhibited[std::size_t(cell)] = 1; });
 }
 
 } // namespace faintline

@@ -18,7 +18,7 @@ constexpr Index frameCount = 120;
 constexpr Index cellCount = 64;
 
 /// Noise with a line that climbs a cell every third frame from frame 30 to 89.
-std::shared_ptr<const Analysis> scaledInjection(SmdSettings::Reset reset)
+std::shared_ptr<const Analysis> scaledInjection(SmdSettings::Reset reset, bool inhibits = true)
 {
     std::vector<float> y(std::size_t(frameCount * cellCount));
     Random random(5, 1);
@@ -29,6 +29,7 @@ std::shared_ptr<const Analysis> scaledInjection(SmdSettings::Reset reset)
     settings.detector = SmdSettings{reset, 0.6};
     settings.decide.by = DecideSettings::By::Nats;
     settings.decide.thresholdNats = 14.0;
+    settings.decide.inhibits = inhibits;
     settings.model.slopeChange = {0.5, 0.2, 0.05};
     return analyse(test::framesOf(cellCount, std::move(y), 0.25, 0.5), settings);
 }
@@ -338,6 +339,19 @@ private slots:
         QCOMPARE(part.rows, Index(6));
         QCOMPARE(part.presence[std::size_t(part.pixelAt(4, 20))], 1.0f);
         QCOMPARE(std::count_if(part.presence.begin(), part.presence.end(), [](float v) { return v > 0.0f; }), 1);
+    }
+
+    void nothingIsInhibitedWhereThatIsSwitchedOff()
+    {
+        for (const bool inhibits : {true, false}) {
+            const auto analysis = scaledInjection(SmdSettings::Reset::Fixed, inhibits);
+            LayerReplay replay(analysis);
+            const Index cell = 20 + 50 / 3;
+            QCOMPARE(readCell(*analysis, replay.at(80), cell).isInhibited, inhibits);
+            const Axis &axis = analysis->grid().axes[0];
+            const Explanation why = explain(*analysis, analysis->time().value(80.0), {axis.value(double(cell))});
+            QCOMPARE(why.inhibitedFor.has_value(), inhibits);
+        }
     }
 
     void aCellsReading()
