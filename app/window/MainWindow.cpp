@@ -3,6 +3,7 @@
 #include "app/base/MessageBar.h"
 #include "app/base/distinctLabels.h"
 #include "app/base/filePath.h"
+#include "app/base/screenSizes.h"
 #include "app/control/OutputLayers.h"
 #include "app/control/Playback.h"
 #include "app/control/hint.h"
@@ -47,6 +48,7 @@
 #include <QFileDialog>
 #include <QLabel>
 #include <QMenu>
+#include <QMenuBar>
 #include <QMessageBox>
 #include <QStackedWidget>
 #include <QToolBar>
@@ -156,8 +158,7 @@ void MainWindow::showWorkbench()
     m_pages->setCurrentWidget(&bench());
     if (const QByteArray panels = m_memory.layout().panels; panels.isEmpty() || !restoreState(panels))
         m_panels->takeDefault();
-    for (QToolBar *bar : m_bottomBars)
-        bar->setVisible(!bench().hasReadOut());
+    showBars();
     for (QAction *action : m_viewActions)
         action->setEnabled(true);
     m_panelsMenu->setEnabled(true);
@@ -229,6 +230,22 @@ void MainWindow::showFailure(const Error &error)
     m_threshold->setCalibration({}, 0.0);
     m_events->setEvents({});
     showWorkbench();
+}
+
+/// Read-out and overview, of which low windows have the first alone.
+void MainWindow::showBars()
+{
+    for (QToolBar *bar : m_bottomBars)
+        bar->setVisible(!bench().hasReadOut() && (bar == m_bottomBars.front() || height() >= overviewFrom));
+}
+
+void MainWindow::resizeEvent(QResizeEvent *event)
+{
+    QMainWindow::resizeEvent(event);
+    const bool isOther = (event->oldSize().height() >= overviewFrom) != (height() >= overviewFrom);
+    const bool isPresenting = !menuBar()->isVisible();
+    if (isOther && !isPresenting && m_pages->currentWidget() == &bench())
+        showBars();
 }
 
 void MainWindow::closeEvent(QCloseEvent *event)

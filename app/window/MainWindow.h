@@ -94,10 +94,12 @@ signals:
 
 protected:
     void closeEvent(QCloseEvent *event) override;
+    void resizeEvent(QResizeEvent *event) override;
     /// Tab passes over panels that lie behind another one's tab.
     bool focusNextPrevChild(bool next) override;
 
 private:
+    void showBars();
     void buildCentre();
     void buildPanels();
     void buildDocks();

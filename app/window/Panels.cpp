@@ -28,6 +28,8 @@ namespace {
     constexpr int leastPictures = 415;
     /// Height to which panels below the threshold can be reduced, also those whose content wishes for more.
     constexpr int leastPanel = 165;
+    /// Size to which sheets at the bottom can be reduced, so that a window with them fits small screens.
+    constexpr QSize leastSheet(420, 90);
     /// Size of a panel's text in presentations; on smaller screens the pictures need the room.
     constexpr double presentedText = 1.4;
 
@@ -81,6 +83,8 @@ void Panels::add(const QString &name, const QString &title, QWidget *panel, Plac
     dock->setWidget(panel);
     if (place == Place::RightBottom)
         panel->setMinimumHeight(std::min(leastPanel, panel->minimumSizeHint().height()));
+    if (place == Place::Bottom)
+        panel->setMinimumSize(panel->minimumSizeHint().boundedTo(leastSheet));
     m_window.addDockWidget(areaOf(place), dock);
     if (QDockWidget *before = last(place)) {
         m_window.tabifyDockWidget(before, dock);
@@ -111,21 +115,39 @@ void Panels::takeDefault()
     for (QToolBar *bar : m_window.findChildren<QToolBar *>())
         if (bar->isHidden())
             hidden.push_back(bar);
+    const QSize size = m_window.size();
+    m_window.layout()->setSizeConstraint(
+        QLayout::SetNoConstraint); // what is restored may need more than a small screen
     m_window.restoreState(m_default);
     for (QToolBar *bar : hidden)
         bar->hide();
-    const int width = m_window.width();
+    arrangeColumns(size);
+    m_window.layout()->setSizeConstraint(QLayout::SetDefaultConstraint);
+}
+
+/// In a window of that size: two columns, one, or none beside the pictures.
+void Panels::arrangeColumns(const QSize &size)
+{
     QDockWidget *left = first(Place::Left), *right = first(Place::RightTop);
-    const bool isNarrow = width < twoColumnsFrom;
+    const bool isNarrow = size.width() < twoColumnsFrom;
     if (isNarrow) {
         m_window.tabifyDockWidget(right, left);
         right->raise();
     }
-    m_window.resizeDocks({left, right}, {width * 16 / 100, std::max(narrowestColumn, width * 18 / 100)},
+    m_window.resizeDocks({left, right}, {size.width() * 16 / 100, std::max(narrowestColumn, size.width() * 18 / 100)},
                          Qt::Horizontal);
-    const int height = m_window.height() * 3 / 4; // of the column; sizes below the panels' minimum would not count
-    const int top = isNarrow ? height * 2 / 3 : height * 4 / 9;
-    m_window.resizeDocks({right, first(Place::RightBottom)}, {top, height - top}, Qt::Vertical);
+    if (size.height() >= twoRowsFrom) {
+        const int height = size.height() * 3 / 4; // of the column; sizes below the panels' minimum would not count
+        const int top = isNarrow ? height * 2 / 3 : height * 4 / 9;
+        m_window.resizeDocks({right, first(Place::RightBottom)}, {top, height - top}, Qt::Vertical);
+        return;
+    }
+    for (const Entry &entry : m_entries)
+        if (entry.place == Place::RightBottom)
+            m_window.tabifyDockWidget(right, entry.dock);
+    right->raise();
+    if (size.width() < oneColumnFrom)
+        hide();
 }
 
 void Panels::show(QWidget *panel)

@@ -27,7 +27,7 @@ Bench::Bench(Document &document, const FrameKind &kind, std::chrono::millisecond
     : QWidget(parent), m_document(document), m_kind(kind), m_historyPanes(newSplitter(Qt::Horizontal)),
       m_rows(newSplitter(Qt::Vertical)), m_stack(new TimeStack(this)), m_player(stepInterval)
 {
-    setMinimumHeight(220); // pictures only: with the curves' height the window could not shrink enough to hide them
+    setMinimumSize(360, 100); // pictures only: with the curves and bars the window could not shrink enough to hide them
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(m_rows);

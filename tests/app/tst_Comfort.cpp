@@ -37,6 +37,10 @@ using namespace faintline::test;
 
 namespace {
 
+const QByteArray pingsText = R"({"kind": "pings", "pings": 8, "rangeCells": 60, "beams": 8,
+                                 "targets": [{"rangeMetres": 3300, "bearingDegrees": 90}]})";
+const QByteArray sceneText = R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": []})";
+
 /// What a screen reader says of a widget.
 QString spokenName(QWidget *widget)
 {
@@ -114,9 +118,7 @@ private slots:
     {
         Theme::apply(Theme::Kind::Light);
         m_window = newWindow({1280, 800});
-        QVERIFY(openAndSettle(
-            *m_window, writeFile(m_folder, "scene.json",
-                                 R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": []})")));
+        QVERIFY(openAndSettle(*m_window, writeFile(m_folder, "scene.json", sceneText)));
     }
     void cleanupTestCase() { m_window.reset(); }
 
@@ -278,14 +280,38 @@ private slots:
     {
         QFETCH(QSize, size);
         const auto window = newWindow(size);
-        QVERIFY(openAndSettle(*window, writeFile(m_folder, "pings.json",
-                                                 R"({"kind": "pings", "pings": 8, "rangeCells": 60, "beams": 8,
-                                                     "targets": [{"rangeMetres": 3300, "bearingDegrees": 90}]})")));
+        QVERIFY(openAndSettle(*window, writeFile(m_folder, "pings.json", pingsText)));
         const PingBench &bench = window->pingBench();
         lookAtLayouts(*window, size, {bench.input()->plane(), bench.output()->plane()}, 330);
         window->resize(QSize(size.width(), 2000));
         QCoreApplication::processEvents();
         QVERIFY(bench.histories()->isVisible());
+    }
+
+    void aSmallScreenIsEnough_data()
+    {
+        QTest::addColumn<QByteArray>("scene");
+        QTest::newRow("lines") << sceneText;
+        QTest::newRow("pings") << pingsText;
+    }
+
+    void aSmallScreenIsEnough() // 1280 × 800 pixels at twice the size
+    {
+        QFETCH(QByteArray, scene);
+        const QSize room(640, 376); // with the frame of a window manager
+        const auto window = newWindow(room);
+        window->resize(room); // before, its parts have not yet the window's fonts
+        QCoreApplication::processEvents();
+        QVERIFY2(window->size() == room,
+                 qPrintable(QString("welcome: %1 × %2").arg(window->width()).arg(window->height())));
+        QVERIFY(openAndSettle(*window, writeFile(m_folder, "small.json", scene)));
+        for (const QString &layout : Panels::layoutNames()) {
+            window->findChild<Panels *>()->takeLayout(layout);
+            window->resize(room);
+            QCoreApplication::processEvents();
+            QVERIFY2(window->size() == room,
+                     qPrintable(QString("%1: %2 × %3").arg(layout).arg(window->width()).arg(window->height())));
+        }
     }
 
     void toolsSayWhatTheyAre()

@@ -31,7 +31,7 @@ public:
     QPointF positionOf(const PingMarks::Place &place) const;
 
     QSize sizeHint() const override { return {420, 420}; }
-    QSize minimumSizeHint() const override { return {220, 180}; }
+    QSize minimumSizeHint() const override { return {110, 100}; }
 
 signals:
     void hovered(double range, double bearing);

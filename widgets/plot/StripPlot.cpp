@@ -414,7 +414,7 @@ QSize StripPlot::minimumSizeHint() const
     constexpr int least = 84;
     const int titleLength = QFontMetrics(Theme::plotTitleFont()).horizontalAdvance(axisTitle(QwtAxis::YLeft).text());
     const int timeAxis = hasTimeLabels() ? int(std::lround(48.0 * Theme::plotScale())) : 0;
-    return {220, std::max(least, titleLength + timeAxis)};
+    return {110, std::max(least, titleLength + timeAxis)};
 }
 
 } // namespace faintline

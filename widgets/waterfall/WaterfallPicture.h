@@ -100,7 +100,7 @@ public:
     QwtAxisId hzAxis() const { return isTimeVertical() ? QwtAxis::XBottom : QwtAxis::YLeft; }
 
     QSize sizeHint() const override { return {520, 420}; }
-    QSize minimumSizeHint() const override { return {220, 180}; }
+    QSize minimumSizeHint() const override { return {110, 100}; }
 
 public slots:
     void setOrientation(faintline::WaterfallPicture::Orientation orientation);
