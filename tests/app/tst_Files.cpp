@@ -17,6 +17,7 @@
 #include <QDir>
 #include <QDropEvent>
 #include <QLineEdit>
+#include <QMenu>
 #include <QMimeData>
 #include <QToolButton>
 
@@ -158,6 +159,15 @@ private slots:
         QCOMPARE(window->windowTitle(), QString("night 2.wav[*] — Faintline"));
         QVERIFY(openAndSettle(*window, path("site 2/night 2.wav")));
         QCOMPARE(window->windowTitle(), QString("night 2.wav (site 2)[*] — Faintline"));
+        QStringList entries; // of the menu of recent files
+        for (QMenu *menu : window->findChildren<QMenu *>()) {
+            emit menu->aboutToShow();
+            for (const QAction *action : menu->actions())
+                if (action->text().startsWith("night 2.wav"))
+                    entries << action->text();
+        }
+        QCOMPARE(entries, QStringList({"night 2.wav (site 2)",
+                                       QString("night 2.wav (%1)").arg(QFileInfo(m_folder.path()).fileName())}));
     }
 
     void exportsSayWhereTheyWrote()
