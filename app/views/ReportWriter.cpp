@@ -6,7 +6,9 @@
 #include "app/document/Provenance.h"
 #include "app/views/WindowViews.h"
 #include "base/AtomicFile.h"
+#include "widgets/base/Theme.h"
 
+#include <QApplication>
 #include <QBuffer>
 #include <QPixmap>
 #include <QWidget>
@@ -38,10 +40,31 @@ namespace {
         return {frequency.value(double(best))};
     }
 
+    /// The page is light, and so are its pictures, whatever the window looks like.
+    class LightWhile
+    {
+    public:
+        LightWhile() : m_before(Theme::kind(QApplication::palette())) { change(Theme::Kind::Light); }
+        ~LightWhile() { change(m_before); }
+        Q_DISABLE_COPY_MOVE(LightWhile)
+
+    private:
+        void change(Theme::Kind kind) const
+        {
+            if (m_before == Theme::Kind::Light)
+                return;
+            Theme::apply(kind);
+            QCoreApplication::sendPostedEvents(); // they bring the palette to the widgets
+        }
+
+        Theme::Kind m_before;
+    };
+
 } // namespace
 
 std::vector<ReportMaterial::Picture> reportPictures(const WindowViews &views)
 {
+    const LightWhile light;
     std::vector<ReportMaterial::Picture> pictures;
     const std::pair<const char *, QString> shown[] = {
         {"input", ReportWriter::tr("Input, dB over the noise")},

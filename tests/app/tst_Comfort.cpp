@@ -5,6 +5,8 @@
 #include "app/panels/InjectDialog.h"
 #include "app/panels/OpenOptionsDialog.h"
 #include "app/panels/PipelinePanel.h"
+#include "app/views/ReportWriter.h"
+#include "app/views/WindowViews.h"
 #include "app/window/CommandPalette.h"
 #include "app/window/Panels.h"
 #include "app/window/ToolBar.h"
@@ -355,6 +357,27 @@ private slots:
             Theme::apply(kind);
             QVERIFY(darkest(icon) > 180);
         }
+        Theme::apply(Theme::Kind::Light);
+    }
+
+    void picturesOfAReportAreLightAsItsPage()
+    {
+        const auto pictures = [this] {
+            QList<QImage> images;
+            for (const ReportMaterial::Picture &one : reportPictures(m_window->views()))
+                images << QImage::fromData(QByteArray::fromStdString(one.png), "PNG");
+            return images;
+        };
+        Theme::apply(Theme::Kind::Light);
+        const QList<QImage> light = pictures();
+        Theme::apply(Theme::Kind::Dark);
+        QCoreApplication::processEvents();
+        const QList<QImage> dark = pictures();
+        QCOMPARE(dark.size(), light.size());
+        for (int i = 0; i < light.size(); ++i)
+            QCOMPARE(dark[i].pixel(2, 2), light[i].pixel(2, 2)); // of the ground
+        QVERIFY(QColor(dark.last().pixel(2, 2)).lightness() > 200);
+        QVERIFY(Theme::kind(QApplication::palette()) == Theme::Kind::Dark);
         Theme::apply(Theme::Kind::Light);
     }
 
