@@ -130,13 +130,10 @@ MainWindow::~MainWindow()
     m_trials.reset();
 }
 
-void MainWindow::showWelcome()
+/// The document stays open.
+void MainWindow::putBenchAside()
 {
-    if (m_live->isRunning())
-        return void(mayLeave(tr("going to the welcome page"), [] {}));
-    m_lessons->leave();
     saveLayout();
-    m_presentAction->setChecked(false);
     m_pages->show();
     m_pages->setCurrentWidget(m_welcome);
     m_panels->hide();
@@ -145,6 +142,15 @@ void MainWindow::showWelcome()
     for (QAction *action : m_viewActions)
         action->setEnabled(false);
     m_panelsMenu->setEnabled(false);
+}
+
+void MainWindow::showWelcome()
+{
+    if (m_live->isRunning())
+        return void(mayLeave(tr("going to the welcome page"), [] {}));
+    m_lessons->leave();
+    m_presentAction->setChecked(false);
+    putBenchAside();
     m_welcome->setRecent(m_memory.recent());
     m_welcome->start();
 }

@@ -100,6 +100,7 @@ protected:
 
 private:
     void showBars();
+    void putBenchAside();
     void buildCentre();
     void buildPanels();
     void buildDocks();

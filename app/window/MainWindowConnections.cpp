@@ -167,6 +167,13 @@ void MainWindow::connectWelcome()
     connect(m_welcome, &WelcomePage::scansChosen, this, [this] { open(radarScenarioPath()); });
     connect(m_lessonList, &LessonList::chosen, this,
             [this](int lesson) { startLesson(lessons()[std::size_t(lesson)]); });
+    connect(m_lessons, &LessonGuide::runningChanged, this, [this](bool isRunning) {
+        if (isRunning || !m_pages->isHidden() || m_document.isEmpty())
+            return;
+        showWorkbench(); // put aside by the lesson
+        showTitle();
+        showHint();
+    });
     connect(m_lessons, &LessonGuide::lessonRequested, this,
             [this](int lesson) { startLesson(lessons()[std::size_t(lesson)]); });
     connect(m_lessons, &LessonGuide::written, this, &MainWindow::showWritten);

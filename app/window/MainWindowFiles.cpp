@@ -151,6 +151,8 @@ void MainWindow::newScene()
 void MainWindow::openScans(const ScanTest &test)
 {
     m_presentAction->setEnabled(true);
+    if (m_lessons->isRunning())
+        putBenchAside(); // a recording of before has nothing to do with the lesson
     showAlone(m_sequential, tr("Radar scans — Faintline"),
               tr("Click a walk to follow that test. J and L step through its stages."));
     m_sequential->start(test);

@@ -176,6 +176,7 @@ private slots:
     void whatIsShownBecomesALesson();
     void backGoesBackAndUndoUndoes();
     void openingSomethingElseLeaves();
+    void aLessonOfScansPutsTheRecordingAside();
     void presentedItIsLargerAndStays();
     void presentedTheStepKeepsItsPanel();
     void presentedOnASmallScreenItSharesAColumn();
@@ -501,6 +502,22 @@ void tst_Lessons::openingSomethingElseLeaves()
     QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
     window->showWelcome();
     QVERIFY(!guide.isRunning() && !guide.dock()->isVisible());
+}
+
+void tst_Lessons::aLessonOfScansPutsTheRecordingAside()
+{
+    const auto window = newWindow();
+    QVERIFY(openAndSettle(*window, QStringLiteral(":/scenarios/faint-drifting-line.json")));
+    const QString title = window->windowTitle();
+    QVERIFY(window->workbench().isVisible());
+    window->open(QStringLiteral(":/lessons/when-to-stop.json"));
+    QTRY_VERIFY_WITH_TIMEOUT(window->lessonGuide().isReady(), patience);
+    QVERIFY(window->sequential().isVisible());
+    QVERIFY(!window->workbench().isVisible());
+    QVERIFY2(window->windowTitle().startsWith("Radar scans"), qPrintable(window->windowTitle()));
+    window->lessonGuide().leave();
+    QVERIFY(window->workbench().isVisible());
+    QCOMPARE(window->windowTitle(), title);
 }
 
 void tst_Lessons::presentedItIsLargerAndStays()
