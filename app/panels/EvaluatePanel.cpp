@@ -5,6 +5,7 @@
 #include "app/panels/StartColumn.h"
 #include "evaluate/experiments/campaignCharts.h"
 #include "spectrum/Spectrogram.h"
+#include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 #include "widgets/plot/ChartPlot.h"
 
@@ -30,6 +31,22 @@ namespace {
             chart.curves.back().points.push_back({point.snrDb, point.pd, point.interval});
         }
         return chart;
+    }
+
+    /// Why curves that seem to be the same are not; empty if there is nothing to explain. `measured`: without the curve
+    /// of the operating point.
+    QString explanationOf(const Chart &measured, bool hasOperatingPoint)
+    {
+        QStringList sentences;
+        if (std::ranges::count(measured.curves, Curve::Kind::Theory, &Curve::kind) > 0)
+            sentences << EvaluatePanel::tr("Theory counts as many independent means in a block as lines fit into it. "
+                                           "The sliding mean has more, so "
+                                           "the measured curve lies below theory, by up to about 1 dB.");
+        if (hasOperatingPoint)
+            sentences << EvaluatePanel::tr(
+                "“T = …” is the threshold of this window; the other curves of Pd against SNR "
+                "are at the threshold of 1 false alarm per block.");
+        return sentences.isEmpty() ? QString() : asHtml(sentences.join(QStringLiteral(" ")));
     }
 
 } // namespace
@@ -191,12 +208,14 @@ void EvaluatePanel::showOperatingPoint(const Experiments::Entry &entry)
     const bool hasThreshold = entry.campaign && m_document.analysis();
     const AnalysisSettings &settings = m_document.settings();
     const double threshold = m_document.shownThreshold();
-    m_pd->setChart(
-        shown(m_pdChart, hasThreshold ? pdAtOperatingPoint(*entry.campaign, settings, threshold) : std::nullopt));
-    if (m_tabs->currentIndex() == 1 && m_snr->currentIndex() >= 0)
-        m_roc->setChart(shown(m_rocChart, hasThreshold
-                                              ? operatingPoint(*entry.campaign, shownSnr(), settings, threshold)
-                                              : std::nullopt));
+    const auto atThreshold = hasThreshold ? pdAtOperatingPoint(*entry.campaign, settings, threshold) : std::nullopt;
+    m_pd->setChart(shown(m_pdChart, atThreshold));
+    m_pd->setToolTip(explanationOf(m_pdChart, atThreshold.has_value()));
+    if (m_tabs->currentIndex() != 1 || m_snr->currentIndex() < 0)
+        return;
+    const auto point = hasThreshold ? operatingPoint(*entry.campaign, shownSnr(), settings, threshold) : std::nullopt;
+    m_roc->setChart(shown(m_rocChart, point));
+    m_roc->setToolTip(explanationOf(m_rocChart, point.has_value()));
 }
 
 std::size_t EvaluatePanel::shownSnr() const
