@@ -102,6 +102,17 @@ class Arrays(InFolder):
         middle = track.f[np.searchsorted(track.t, 15.0)]
         self.assertAlmostEqual(middle, 210 + 0.2 * 7, delta=1.0)
 
+    def test_subtracted_events_are_told(self):
+        line = SCENE["lines"][0] | {"durationSeconds": 20, "driftHzPerSecond": 0.0}
+        strong, weak = line | {"snrDb": 30, "startSeconds": 5}, line | {"frequencyHz": 230}
+        x = fl.simulate(SCENE | {"lines": [strong, weak]})
+        events = fl.detect(x, window_seconds=0.5, settings={"subtract.lines": True}).events
+        self.assertEqual(
+            [(round(float(event["f"])), bool(event["subtracted"])) for event in sorted(events, key=lambda e: e["f"])],
+            [(210, True), (230, False)],
+        )
+        self.assertNotIn("subtracted", fl.detect(x, window_seconds=0.5).events.dtype.names)
+
     def test_explain(self):
         result = fl.detect(fl.simulate(SCENE), window_seconds=0.5)
         event = result.events[np.argmax(result.events["statistic"])]
