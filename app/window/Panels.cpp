@@ -93,6 +93,10 @@ void Panels::add(const QString &name, const QString &title, QWidget *panel, Plac
         m_window.splitDockWidget(above, dock, Qt::Vertical);
     }
     dock->setHidden(place == Place::Bottom);
+    connect(dock->toggleViewAction(), &QAction::triggered, dock, [dock](bool isShown) {
+        if (isShown)
+            dock->raise(); // from behind other tabs
+    });
     m_entries.push_back({dock, place});
 }
 

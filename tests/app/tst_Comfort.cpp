@@ -243,6 +243,42 @@ private slots:
         QTRY_VERIFY(editor->hasFocus() && !editor->visibleRegion().isEmpty());
     }
 
+    void noPartOfTheWindowIsShownOnItsOwn()
+    {
+        class Watch : public QObject
+        {
+        public:
+            bool eventFilter(QObject *watched, QEvent *event) override
+            {
+                auto *widget = qobject_cast<QWidget *>(watched);
+                if (event->type() == QEvent::Show && widget && widget->isWindow()
+                    && !qobject_cast<QMainWindow *>(widget))
+                    shown << QString("%1 %2 “%3”")
+                                 .arg(widget->metaObject()->className(), widget->objectName(),
+                                      widget->property("text").toString());
+                return false;
+            }
+            QStringList shown;
+        } watch;
+        qApp->installEventFilter(&watch);
+        const auto window = newWindow();
+        QVERIFY(openAndSettle(*window, writeFile(m_folder, "alone.json", pingsText)));
+        QVERIFY2(watch.shown.isEmpty(), qPrintable(watch.shown.join(", ")));
+    }
+
+    void aPanelFromTheMenuIsInFront()
+    {
+        auto *panels = m_window->findChild<Panels *>();
+        panels->takeLayout(Panels::layoutNames().first());
+        for (const char *name : {"spectrumDock", "compareDock", "evaluateDock"}) {
+            auto *dock = m_window->findChild<QDockWidget *>(name);
+            dock->toggleViewAction()->trigger();
+            QCoreApplication::processEvents();
+            QVERIFY2(dock->isVisible() && !dock->visibleRegion().isEmpty(), name);
+        }
+        panels->takeLayout(Panels::layoutNames().first());
+    }
+
     void aPanelTakesTheWholeWindowAndGoesBack()
     {
         auto *panels = m_window->findChild<Panels *>();

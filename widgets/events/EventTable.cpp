@@ -40,8 +40,6 @@ EventTable::EventTable(QWidget *parent)
     m_empty->setForegroundRole(QPalette::PlaceholderText);
     m_empty->setMargin(16);
     auto *stack = new QStackedLayout;
-    stack->addWidget(m_empty);
-    stack->addWidget(m_table);
     m_count->setForegroundRole(QPalette::PlaceholderText);
 
     auto *top = new QHBoxLayout;
@@ -52,6 +50,8 @@ EventTable::EventTable(QWidget *parent)
     layout->setSpacing(4);
     layout->addLayout(top);
     layout->addLayout(stack, 1);
+    for (QWidget *page : {static_cast<QWidget *>(m_empty), static_cast<QWidget *>(m_table)})
+        stack->addWidget(page); // only now, because the first one is shown, alone if it has no parent
     layout->addWidget(m_unmatchedTitle);
     layout->addWidget(m_unmatched);
     setUpUnmatched();

@@ -106,8 +106,8 @@ namespace {
 
 SettingRow::SettingRow(const FieldInfo &info, const FieldValue &defaultValue, double stepsInOne, QWidget *parent)
     : QWidget(parent), m_info(info), m_default(defaultValue), m_value(defaultValue), m_stepsInOne(stepsInOne),
-      m_label(new QLabel(QString::fromStdString(labelOf(info)))), m_unit(new QLabel(QString::fromStdString(info.unit))),
-      m_reset(new QToolButton), m_message(plainLabel())
+      m_label(new QLabel(QString::fromStdString(labelOf(info)))),
+      m_unit(new QLabel(QString::fromStdString(info.unit), this)), m_reset(new QToolButton), m_message(plainLabel())
 {
     makeEditor();
     const QString label = m_label->text();
@@ -122,6 +122,7 @@ SettingRow::SettingRow(const FieldInfo &info, const FieldValue &defaultValue, do
     m_editor->setObjectName(QString::fromStdString(info.name));
 
     m_unit->setFont(Theme::font(12));
+    m_unit->setHidden(info.unit.empty());
     m_unit->setForegroundRole(QPalette::PlaceholderText);
     m_reset->setText(QStringLiteral("↺"));
     m_reset->setAutoRaise(true);
@@ -282,7 +283,7 @@ void SettingRow::setValue(const FieldValue &value)
     else if (auto *edit = qobject_cast<QLineEdit *>(m_editor)) {
         edit->setText(shownText(m_info, value));
         edit->setCursorPosition(0);
-        m_unit->setVisible(wordFor(m_info, value).isEmpty());
+        m_unit->setVisible(!m_info.unit.empty() && wordFor(m_info, value).isEmpty());
     }
     m_reset->setVisible(value != m_default);
     const int size = m_label->font().pixelSize(); // larger in presentations
