@@ -247,8 +247,8 @@ void addDescribe(CLI::App &app, Common &)
                 continue;
             any = true;
             std::printf("%s%s%s\n    %s; default %s\n    %s\n", field.name.c_str(), field.unit.empty() ? "" : ", ",
-                        field.unit.c_str(), rangeOf(field).c_str(), formatFieldValue(field, defaultValue(field)).c_str(),
-                        field.sentence.c_str());
+                        field.unit.c_str(), rangeOf(field).c_str(),
+                        formatFieldValue(field, defaultValue(field)).c_str(), field.sentence.c_str());
             if (!field.advice.empty())
                 std::printf("    %s\n", field.advice.c_str());
         }

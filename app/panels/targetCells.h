@@ -12,7 +12,20 @@ namespace faintline {
 /// The targets of a ping scene as a table of numbers: a row for each leg, and one for a target without legs. A target's
 /// own numbers stand in its first row. Pings are counted from 1, as in the read-out.
 
-enum class TargetColumn { Target, Snr, Fluctuation, Range, Bearing, From, Until, Leg, Pings, RangeRate, BearingRate, Turn };
+enum class TargetColumn {
+    Target,
+    Snr,
+    Fluctuation,
+    Range,
+    Bearing,
+    From,
+    Until,
+    Leg,
+    Pings,
+    RangeRate,
+    BearingRate,
+    Turn
+};
 constexpr int targetColumnCount = int(TargetColumn::Turn) + 1;
 
 struct TargetRow {

@@ -83,7 +83,7 @@ void tst_Evaluation::anExperimentGrowsAndEnds()
     fillForm(3);
     QCOMPARE(m_window->evaluation().column().note(), QString());
     const Chart &chart = m_window->evaluation().pd().chart();
-    QCOMPARE(chart.curves.size(), std::size_t(3)); // two measured, Marcum's Q
+    QCOMPARE(chart.curves.size(), std::size_t(3));                           // two measured, Marcum's Q
     QVERIFY(m_window->evaluation().pd().toolTip().contains("below theory")); // why Marcum's Q is beside its curve
     QCOMPARE(chart.curves[0].points.size(), std::size_t(2));
     QVERIFY(chart.curves[1].points[0].y > chart.curves[0].points[0].y); // who knows the duration is better
