@@ -61,6 +61,7 @@ namespace {
         result->tracks = analysis.tracks;
         result->explainedByNoise = analysis.explainedByNoise;
         result->firstTracks = analysis.firstTracks;
+        result->lnK = analysis.lnK;
         result->unsubtracted = analysis.unsubtracted;
         return result;
     }
@@ -289,7 +290,7 @@ std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording
     found->firstTracks = {};
     found->longer = std::move(longer);
     if (found->longer)
-        found->tracks = withSteadyLines(*found, *found->longer);
+        found->tracks = withSteadyLines(*found, *found->longer, context.part(detected, 1.0));
     choice.steadyLines = std::count_if(found->tracks.begin(), found->tracks.end(),
                                        [](const Track &track) { return track.windowSeconds > 0.0; });
     found->choice = std::move(choice);

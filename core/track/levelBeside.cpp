@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace faintline {
 
@@ -15,6 +16,8 @@ namespace {
     constexpr double deviations = 1.5;
     constexpr double framesPerWindow = 2.0; ///< more frames add hardly any information
     constexpr std::size_t fewestValues = 8;
+    constexpr double nearestOfSide = 1.5; ///< cells: outside the main lobe's upper 15 dB
+    constexpr double farthestOfSide = 3.5;
 
     /// Bins beside a path, nearest to farthest or the other way round.
     struct Side {
@@ -109,6 +112,31 @@ std::vector<double> levelBeside(const PathStrip &strip, double binsPerCell)
         }
     }
     return levels;
+}
+
+Index levelOfSidesHalfWidth(double binsPerCell)
+{
+    return Index(std::ceil(farthestOfSide * binsPerCell));
+}
+
+double levelOfSides(const PathStrip &strip, double binsPerCell)
+{
+    const auto nearest = Index(std::ceil(nearestOfSide * binsPerCell));
+    const Index farthest = levelOfSidesHalfWidth(binsPerCell);
+    double level = 1.0;
+    for (const Index side : {-1, 1}) {
+        double sum = 0.0;
+        std::size_t count = 0;
+        for (Index at = 0; at < strip.frameCount(); ++at)
+            for (Index bin = nearest; bin <= farthest; ++bin)
+                if (const float y = strip.valueAt(at, strip.centres[std::size_t(at)] + side * bin); y > 0.0f) {
+                    sum += std::log(double(y));
+                    ++count;
+                }
+        if (count >= fewestValues)
+            level = std::max(level, std::exp(sum / double(count) + std::numbers::egamma));
+    }
+    return level;
 }
 
 } // namespace faintline

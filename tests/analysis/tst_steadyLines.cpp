@@ -32,6 +32,25 @@ std::shared_ptr<const Analysis> analysed(const LineScene &scene, const AnalysisS
     return analyseInChosenWindow(std::make_shared<SimulatedRecording>(scene), settings, {}, previous);
 }
 
+struct Analyses {
+    std::shared_ptr<const Analysis> chosen; ///< windows of 25 ms, which suit the sweeps
+    std::shared_ptr<const Analysis> longer; ///< 100 ms
+};
+
+Analyses inBothWindows(const LineScene &scene)
+{
+    const auto recording = std::make_shared<SimulatedRecording>(scene);
+    AnalysisSettings settings;
+    settings.spectrogram.windowSeconds = 0.1;
+    const auto longer = analyse(recording, settings);
+    settings.spectrogram.windowSeconds = 0.025;
+    settings.model.lowestSlope = laws::glide().lowestSlope;
+    settings.model.highestSlope = laws::glide().highestSlope;
+    settings.model.slopesPerBin = laws::glide().slopesPerBin;
+    settings.model.slopeChange = laws::glide().slopeChange;
+    return {analyse(recording, settings), longer};
+}
+
 std::vector<Event> ofLongerWindow(const Analysis &analysis)
 {
     std::vector<Event> result;
@@ -54,6 +73,7 @@ private slots:
     void whatTheChosenWindowHasIsNotTakenTwice();
     void onePutsPiecesTogether();
     void noiseBringsNone();
+    void oneInAHumHasToBeSureOverIt();
     void aChangeOfTheThresholdAsksAgain();
 };
 
@@ -93,16 +113,7 @@ void tst_steadyLines::numbersFollowTheOrderOfDetection()
 /// Of a somewhat stronger line the shorter window finds several pieces.
 void tst_steadyLines::onePutsPiecesTogether()
 {
-    const auto recording = std::make_shared<SimulatedRecording>(sweepsBesideAFaintLine(3.0));
-    AnalysisSettings settings;
-    settings.spectrogram.windowSeconds = 0.1;
-    const auto longer = analyse(recording, settings);
-    settings.spectrogram.windowSeconds = 0.025;
-    settings.model.lowestSlope = laws::glide().lowestSlope;
-    settings.model.highestSlope = laws::glide().highestSlope;
-    settings.model.slopesPerBin = laws::glide().slopesPerBin;
-    settings.model.slopeChange = laws::glide().slopeChange;
-    const auto chosen = analyse(recording, settings);
+    const auto [chosen, longer] = inBothWindows(sweepsBesideAFaintLine(3.0));
     const auto near = [](const std::vector<Event> &all) {
         std::vector<Event> result;
         std::copy_if(all.begin(), all.end(), std::back_inserter(result),
@@ -142,6 +153,28 @@ void tst_steadyLines::noiseBringsNone()
     QVERIFY2(analysis->longer->tracks.size() > 800, qPrintable(QString::number(analysis->longer->tracks.size())));
     const std::size_t added = ofLongerWindow(*analysis).size();
     QVERIFY2(added <= 3, qPrintable(QString::number(added)));
+}
+
+/// A hum of eight cells of the longer window, in which nothing is found, brings a line above the sure statistic of the
+/// noise around it.
+void tst_steadyLines::oneInAHumHasToBeSureOverIt()
+{
+    LineScene scene = sweeps();
+    const double lineHz = 3040.0;
+    scene.lines.push_back(line(lineHz, 0.0, 0.0, scene.durationSeconds, -4.0, 0.025));
+    const auto isTheLine = [=](const Event &event) { return std::abs(event.position.front() - lineHz) < 5.0; };
+    const auto countIn = [&](const Analyses &both) {
+        return std::ranges::count_if(events(*both.chosen, withSteadyLines(*both.chosen, *both.longer)), isTheLine);
+    };
+    QCOMPARE(countIn(inBothWindows(scene)), 1);
+
+    constexpr int tones = 27; // three in a cell, at incommensurate frequencies
+    for (int i = 0; i < tones; ++i)
+        scene.lines.push_back(
+            line(lineHz - 40.0 + 3.0 * i + 0.75 * std::sin(17.0 * i), 0.0, 0.0, scene.durationSeconds, -15.0, 0.025));
+    const Analyses both = inBothWindows(scene);
+    QVERIFY(std::ranges::any_of(events(*both.longer), isTheLine));
+    QCOMPARE(countIn(both), 0);
 }
 
 void tst_steadyLines::aChangeOfTheThresholdAsksAgain()

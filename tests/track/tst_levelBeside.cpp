@@ -4,6 +4,7 @@
 #include <QtTest>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 using namespace faintline;
@@ -47,6 +48,9 @@ class tst_levelBeside : public QObject
     Q_OBJECT
 
 private slots:
+    void sidesOfALineAreNoise();
+    void sidesOfABandAreRaised();
+    void sidesHardlyDependOnSingleCells();
     void noiseIsNotRaised();
     void aCloudIsMeasured();
     void oneSideIsEnough();
@@ -106,6 +110,36 @@ void tst_levelBeside::whatWasNotObserved()
     std::fill(strip.y.begin(), strip.y.end(), std::numeric_limits<float>::quiet_NaN());
     for (const double level : levelBeside(strip, binsPerCell))
         QCOMPARE(level, 1.0);
+}
+
+/// Even beside a line of 20 dB with its main lobe, known or not to the last bin.
+void tst_levelBeside::sidesOfALineAreNoise()
+{
+    PathStrip strip = noise(400, 5);
+    raise(strip, 0, 400, -2, 2, 100.0f);
+    const double level = levelOfSides(strip, binsPerCell);
+    QVERIFY2(level >= 1.0 && level < 1.1, qPrintable(QString::number(level)));
+}
+
+/// The larger side counts.
+void tst_levelBeside::sidesOfABandAreRaised()
+{
+    PathStrip strip = noise(400, 6);
+    raise(strip, 0, 400, 0, 8, 2.5f);
+    QVERIFY(std::abs(levelOfSides(strip, binsPerCell) - 2.5) < 0.2);
+    for (Index at = 0; at < strip.frameCount(); ++at) // what is not observed does not count
+        for (Index bin = 1; bin <= 8; ++bin)
+            strip.row(at)[strip.halfWidth + bin] = std::numeric_limits<float>::quiet_NaN();
+    QVERIFY(levelOfSides(strip, binsPerCell) < 1.1);
+}
+
+/// A signal that crosses the side in one frame of twenty, 30 dB above the noise.
+void tst_levelBeside::sidesHardlyDependOnSingleCells()
+{
+    PathStrip strip = noise(400, 7);
+    for (Index at = 0; at < 400; at += 20)
+        raise(strip, at, at + 1, 3, 7, 1000.0f);
+    QVERIFY(levelOfSides(strip, binsPerCell) < 1.5); // the mean would be 51
 }
 
 QTEST_APPLESS_MAIN(tst_levelBeside)
