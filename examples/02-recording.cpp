@@ -15,7 +15,10 @@ int main(int argc, char **argv)
 try {
     std::string path = argc > 1 ? argv[1] : "example.wav";
     if (argc < 2) { // two minutes of noise with one line, to have something to open
-        LineScene scene{.sampleRateHz = 2000.0, .durationSeconds = 120.0, .seed = 7};
+        LineScene scene;
+        scene.sampleRateHz = 2000.0;
+        scene.durationSeconds = 120.0;
+        scene.seed = 7;
         scene.lines = {{.snrDb = 3.0, .startSeconds = 20.0, .durationSeconds = 80.0, .frequencyHz = 440.0}};
         writeRecording(SimulatedRecording(scene), path);
     }
