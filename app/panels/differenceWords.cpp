@@ -2,26 +2,52 @@
 
 #include "widgets/base/settingWords.h"
 
+#include <QCoreApplication>
+
 #include <algorithm>
 
 namespace faintline {
 
+namespace {
+
+    QString tr(const char *text)
+    {
+        return QCoreApplication::translate("differenceWords", text);
+    }
+
+    QString textOf(const FieldInfo &field, const std::string &value)
+    {
+        const QString text = QString::fromStdString(value);
+        if (field.kind == FieldKind::Choice)
+            return choiceLabel(field, text);
+        if (field.kind == FieldKind::Flag)
+            return text == QLatin1String("true") ? tr("on") : tr("off");
+        return text;
+    }
+
+    bool isNumber(const FieldInfo &field, const std::string &value)
+    {
+        return field.kind != FieldKind::Choice && field.kind != FieldKind::Flag
+               && !std::ranges::count(field.words, value, &ValueWord::word);
+    }
+
+} // namespace
+
+QString valueWords(const FieldInfo &field, const std::string &value)
+{
+    const QString unit = isNumber(field, value) ? QString::fromStdString(field.unit) : QString();
+    return unit.isEmpty() ? textOf(field, value) : textOf(field, value) + QLatin1Char(' ') + unit;
+}
+
 QString differenceWords(const SettingDifference &difference)
 {
-    const auto value = [&](const std::string &text) {
-        const QString word = QString::fromStdString(text);
-        if (word.isEmpty())
-            return QStringLiteral("–");
-        return difference.field.kind == FieldKind::Choice ? choiceLabel(difference.field, word) : word;
-    };
-    const QString name = QString::fromStdString(difference.field.name);
-    const QString label = name == QLatin1String("detector.kind") ? stageLabel(QStringLiteral("detector"))
-                                                                 : QString::fromStdString(labelOf(difference.field));
-    const bool isNumber = !std::ranges::count(difference.field.words, difference.b, &ValueWord::word);
-    const QString unit = isNumber && !difference.field.unit.empty()
-                             ? QLatin1Char(' ') + QString::fromStdString(difference.field.unit)
-                             : QString();
-    return QStringLiteral("%1 %2 → %3%4").arg(label, value(difference.a), value(difference.b), unit);
+    const FieldInfo &field = difference.field;
+    const QString dash = QStringLiteral("–");
+    const QString label =
+        field.name == "detector.kind" ? stageLabel(QStringLiteral("detector")) : QString::fromStdString(labelOf(field));
+    return QStringLiteral("%1 %2 → %3")
+        .arg(label, difference.a.empty() ? dash : textOf(field, difference.a),
+             difference.b.empty() ? dash : valueWords(field, difference.b));
 }
 
 } // namespace faintline

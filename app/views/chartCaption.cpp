@@ -1,13 +1,11 @@
 #include "app/views/chartCaption.h"
 
+#include "app/panels/differenceWords.h"
 #include "app/panels/experimentWords.h"
-#include "evaluate/comparison/settingDifferences.h"
 #include "widgets/base/settingWords.h"
 
 #include <QCoreApplication>
 #include <QStringList>
-
-#include <algorithm>
 
 namespace faintline {
 
@@ -38,16 +36,9 @@ namespace {
     QString wordsOf(const SettingDifference &difference)
     {
         const FieldInfo &field = difference.field;
-        const QString text = QString::fromStdString(difference.b);
-        const bool isWord = std::ranges::count(field.words, difference.b, &ValueWord::word) > 0;
-        const bool isNumber = !isWord && field.kind != FieldKind::Choice && field.kind != FieldKind::Flag;
-        const QString value = field.kind == FieldKind::Choice ? choiceLabel(field, text)
-                              : field.kind == FieldKind::Flag ? (difference.b == "true" ? tr("on") : tr("off"))
-                                                              : text;
         const QString label = QString::fromStdString(labelOf(field));
-        const QString unit = isNumber ? QString::fromStdString(field.unit) : QString();
         const QString stage = stageLabel(stageOf(field));
-        const QString words = QStringLiteral("%1 %2 %3").arg(label, value, unit).trimmed();
+        const QString words = QStringLiteral("%1 %2").arg(label, valueWords(field, difference.b));
         return stage == label ? words : QStringLiteral("%1: %2").arg(stage, words);
     }
 
