@@ -48,7 +48,8 @@ bool isOfLeg(TargetColumn column);
 /// Whether a number can be typed into this cell. In the row of a target without legs it makes the first leg.
 bool isEditable(const TargetRow &row, TargetColumn column);
 
-/// The text of a cell, with at most six digits; "Swerling 1" for a fluctuation; "end" for a duration to the end; empty for a cell without a value.
+/// The text of a cell, with at most six digits; "Swerling 1" for a fluctuation; "end" for a duration to the end; empty
+/// for a cell without a value.
 QString textOf(const PingScene &scene, const TargetRow &row, TargetColumn column, RateUnit unit);
 
 /// The scene with the number that was typed into a cell. Throws Error naming target, leg and column, and what would be

@@ -152,7 +152,7 @@ void MainWindow::openScans(const ScanTest &test)
 {
     m_presentAction->setEnabled(true);
     if (m_lessons->isRunning())
-        putBenchAside(); // a recording of before has nothing to do with the lesson
+        putBenchAside(); // an open recording has nothing to do with the lesson
     showAlone(m_sequential, tr("Radar scans — Faintline"),
               tr("Click a walk to follow that test. J and L step through its stages."));
     m_sequential->start(test);

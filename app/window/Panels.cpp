@@ -120,8 +120,7 @@ void Panels::takeDefault()
         if (bar->isHidden())
             hidden.push_back(bar);
     const QSize size = m_window.size();
-    m_window.layout()->setSizeConstraint(
-        QLayout::SetNoConstraint); // what is restored may need more than a small screen
+    m_window.layout()->setSizeConstraint(QLayout::SetNoConstraint); // the default may need more than a small screen
     m_window.restoreState(m_default);
     for (QToolBar *bar : hidden)
         bar->hide();

@@ -32,8 +32,7 @@ std::vector<std::unique_ptr<MainWindow>> programWindows(const std::vector<std::s
     for (std::size_t i = 0; i < std::max<std::size_t>(1, files.size()); ++i) {
         windows.push_back(std::make_unique<MainWindow>(WindowMemory::programStore(), Recovery::programFolder()));
         fitScreen(*windows.back());
-        windows.back()
-            ->show(); // first: Qt crashes where panels are arranged in a maximised window that is not yet shown
+        windows.back()->show(); // first: Qt crashes if panels are arranged in a maximised window before it is shown
         if (i < files.size())
             windows.back()->open(pathText(files[i]), options);
     }

@@ -61,7 +61,7 @@ namespace {
     /// … and the first of several becomes the channel for everything that uses one.
     Field<SelectionSettings> together(Field<SelectionSettings> field)
     {
-        field.words = {{-1.0, "all"}};
+        field = field.withWord(-1.0, "all");
         field.set = [inner = field.set](SelectionSettings &selection, const FieldValue &value) {
             inner(selection, value);
             if (!selection.channels.empty())
@@ -111,8 +111,7 @@ const std::vector<Field<SpectrogramSettings>> &SpectrogramSettings::fields()
     static const std::vector<Field<S>> table{
         field(&S::windowSeconds, "windowSeconds", "s", 0.0, 1e6,
               "Length T_FT of the sliding Fourier window; \"automatic\" chooses it from the recording's length and "
-              "rate and, with "
-              "the default slopes, from the tracks found.")
+              "rate and, with the default slopes, from the tracks found.")
             .withWord(0.0, "automatic")
             .labelled("Window length")
             .advised("Lengthen it for steady lines: a line that stays within one cell gains 3 dB with each doubling. "
