@@ -264,7 +264,8 @@ std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording
     AnalysisSettings asked = settings; // subtraction does not affect the choice
     asked.subtract.lines = false;
     const double searched = isChosen ? 0.0 : subtracts ? 0.4 : 0.7; // shares of the progress
-    const double detected = isChosen ? 0.6 : subtracts ? 0.8 : 1.0;
+    const double detected = isChosen ? 0.6 : subtracts ? 0.8 : 0.98;
+    const double compared = 0.98;
     WindowChoice choice;
     std::shared_ptr<const Analysis> longer;
     std::shared_ptr<Analysis> found;
@@ -285,12 +286,12 @@ std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording
         found = analyse(recording, ofTrial(choice, choice.chosen, settings), context.part(searched, detected),
                         isChosen ? previous : found.get(), wanted);
     if (longer && !isComplete) // after the pictures, which the user waits for
-        longer = analyse(recording, ofTrial(choice, choice.chosen + 1, settings), context.part(detected, 1.0),
+        longer = analyse(recording, ofTrial(choice, choice.chosen + 1, settings), context.part(detected, compared),
                          longer.get(), {.calibration = wanted.calibration, .depth = AnalysisDepth::Trial});
     found->firstTracks = {};
     found->longer = std::move(longer);
     if (found->longer)
-        found->tracks = withSteadyLines(*found, *found->longer, context.part(detected, 1.0));
+        found->tracks = withSteadyLines(*found, *found->longer, context.part(compared, 1.0));
     choice.steadyLines = std::count_if(found->tracks.begin(), found->tracks.end(),
                                        [](const Track &track) { return track.windowSeconds > 0.0; });
     found->choice = std::move(choice);

@@ -1,5 +1,6 @@
 #include "analysis/familyLoneTeeth.h"
 
+#include "analysis/pathStrips.h"
 #include "spectrum/Spectrogram.h"
 #include "spectrum/Window.h"
 #include "spectrum/familyMembers.h"
@@ -33,12 +34,9 @@ namespace {
         explicit LoneTeeth(const Analysis &analysis)
             : m_analysis(analysis), m_family(analysis.settings.family), m_axis(analysis.grid().axes.back()),
               m_spectrogram(*analysis.frames->spectrogram()), m_band(m_spectrogram.frequency()),
-              m_channels(analysis.lines.size()), m_values(m_family.members.size() * m_channels)
+              m_channels(analysis.lines.size()), m_values(m_family.members.size() * m_channels),
+              m_model(bothWaysModel(analysis))
         {
-            m_model.axis = &analysis.model.space.axes().front();
-            m_model.likelihood = analysis.model.likelihood;
-            m_model.threshold = analysis.threshold;
-            m_model.binsPerCell = m_spectrogram.binsPerCell();
         }
 
         Neighbourhood neighbourhoodOf(const Track &track) const
@@ -77,7 +75,7 @@ namespace {
         /// Whether it takes more than one member to explain a track.
         bool isFamily(const Neighbourhood &around)
         {
-            setLnK(around.strip);
+            setLnK(m_model, m_analysis, around.strip);
             std::size_t strongest = 0;
             double most = -std::numeric_limits<double>::infinity();
             for (std::size_t member = 0; member < m_family.members.size(); ++member)
@@ -90,12 +88,6 @@ namespace {
         }
 
     private:
-        void setLnK(const PathStrip &strip)
-        {
-            const auto first = m_analysis.lnK.begin() + strip.firstFrame;
-            m_model.lnK.assign(first, first + strip.frameCount());
-        }
-
         std::vector<Index> binsAt(Index cell) const
         {
             return memberBins(m_family, m_axis.value(double(cell)), m_band, m_spectrogram.hasRealEnds());

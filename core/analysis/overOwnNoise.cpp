@@ -28,15 +28,6 @@ namespace {
         return scatter * scatter;
     }
 
-    PathStrip stripOf(const Track &track)
-    {
-        PathStrip strip;
-        strip.firstFrame = track.points.front().frame;
-        for (const TrackPoint &point : track.points)
-            strip.centres.push_back(point.cell);
-        return strip;
-    }
-
     /// Fraction of a track's evidence that remains under the noise's own law.
     double shareLeft(const PathStrip &strip, const OwnNoiseLaw &law)
     {
@@ -67,11 +58,10 @@ void holdAgainstOwnNoise(Analysis &analysis, const RunContext &context)
     if (law.isAsAssumed())
         return;
     std::vector<Track> tracks = std::exchange(analysis.tracks, {});
-    std::vector<PathStrip> strips(tracks.size());
-    std::transform(tracks.begin(), tracks.end(), strips.begin(), stripOf);
-    std::vector<PathStrip *> wanted(strips.size());
-    std::transform(strips.begin(), strips.end(), wanted.begin(), [](PathStrip &strip) { return &strip; });
-    readStrips(analysis, std::move(wanted), context.part(0.5, 1.0), "testing tracks against the noise");
+    std::vector<PathStrip> strips;
+    for (const Track &track : tracks)
+        strips.push_back(stripAlong(track, 0));
+    readStrips(analysis, strips, context.part(0.5, 1.0), "testing tracks against the noise");
     for (std::size_t i = 0; i < tracks.size(); ++i) {
         const bool isKept =
             tracks[i].isSubtracted || tracks[i].peakStatistic * shareLeft(strips[i], law) >= analysis.threshold;

@@ -1,6 +1,7 @@
 #include "analysis/pathStrips.h"
 
 #include "plan/chain.h"
+#include "spectrum/Spectrogram.h"
 
 #include <algorithm>
 #include <limits>
@@ -59,6 +60,40 @@ void readStrips(const Analysis &analysis, std::vector<PathStrip *> strips, const
                 copyFrame(y, first + i - strip->firstFrame, *strip);
         }
     }
+}
+
+void readStrips(const Analysis &analysis, std::span<PathStrip> strips, const RunContext &context, std::string_view what)
+{
+    std::vector<PathStrip *> all;
+    for (PathStrip &strip : strips)
+        all.push_back(&strip);
+    readStrips(analysis, std::move(all), context, what);
+}
+
+PathStrip stripAlong(const Track &track, Index halfWidth)
+{
+    PathStrip strip;
+    strip.firstFrame = track.points.front().frame;
+    strip.halfWidth = halfWidth;
+    for (const TrackPoint &point : track.points)
+        strip.centres.push_back(point.cell);
+    return strip;
+}
+
+BothWaysModel bothWaysModel(const Analysis &analysis)
+{
+    BothWaysModel model;
+    model.axis = &analysis.model.space.axes().front();
+    model.likelihood = analysis.model.likelihood;
+    model.threshold = analysis.threshold;
+    model.binsPerCell = analysis.frames->spectrogram()->binsPerCell();
+    return model;
+}
+
+void setLnK(BothWaysModel &model, const Analysis &analysis, const PathStrip &strip)
+{
+    const auto first = analysis.lnK.begin() + strip.firstFrame;
+    model.lnK.assign(first, first + strip.frameCount());
 }
 
 } // namespace faintline

@@ -2,6 +2,7 @@
 
 #include "analysis/Analysis.h"
 #include "track/PathStrip.h"
+#include "track/bothWays.h"
 
 #include <span>
 #include <string_view>
@@ -12,5 +13,15 @@ namespace faintline {
 /// detector takes it, 0 in excluded cells. `what`: activity shown with the progress. Throws Cancelled.
 void readStrips(const Analysis &analysis, std::vector<PathStrip *> strips, const RunContext &context,
                 std::string_view what);
+void readStrips(const Analysis &analysis, std::span<PathStrip> strips, const RunContext &context,
+                std::string_view what);
+
+/// An empty strip along the cells of a track's path.
+PathStrip stripAlong(const Track &track, Index halfWidth);
+
+/// What the passes of track/bothWays need of an analysis of lines; lnK is that of a strip (setLnK).
+BothWaysModel bothWaysModel(const Analysis &analysis);
+
+void setLnK(BothWaysModel &model, const Analysis &analysis, const PathStrip &strip);
 
 } // namespace faintline

@@ -75,12 +75,9 @@ namespace {
         SecondLook(const Analysis &analysis, const RunContext &context)
             : m_analysis(analysis), m_context(context), m_frames(*analysis.frames), m_cells(m_frames.grid().size()),
               m_spectrogram(*m_frames.spectrogram()),
-              m_explanations(m_cells, leakageAround(leakageBound, 0.0), leakageAround(leakageAt, 0.05))
+              m_explanations(m_cells, leakageAround(leakageBound, 0.0), leakageAround(leakageAt, 0.05)),
+              m_model(bothWaysModel(analysis))
         {
-            m_model.axis = &analysis.model.space.axes().front();
-            m_model.likelihood = analysis.model.likelihood;
-            m_model.threshold = analysis.threshold;
-            m_model.binsPerCell = m_spectrogram.binsPerCell();
         }
 
         SecondView run(std::vector<Track> found, std::span<const Track> subtracted, SecondLookDepth depth)
@@ -250,8 +247,7 @@ namespace {
         void lookAt(TrackPiece &piece)
         {
             PathStrip &strip = piece.strip;
-            m_model.lnK.assign(m_analysis.lnK.begin() + strip.firstFrame,
-                               m_analysis.lnK.begin() + strip.firstFrame + strip.frameCount());
+            setLnK(m_model, m_analysis, strip);
             if (isLineOverFloor(*piece.track, strip)) {
                 m_model.ends = {.absentBefore = piece.isFirst(), .absentAfter = piece.isLast()};
                 const BothWays seen = lookBothWays(strip, m_model);

@@ -1,16 +1,13 @@
 #include "analysis/steadyLines.h"
 
-#include "analysis/pathStrips.h"
+#include "analysis/overSides.h"
 #include "analysis/sureStatistic.h"
-#include "track/bothWays.h"
-#include "track/levelBeside.h"
 #include "track/numberByDetection.h"
 #include "track/trimEnds.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 namespace faintline {
 
@@ -20,7 +17,6 @@ namespace {
     constexpr double nearCells = 2.0;     ///< in cells of the longer window
     constexpr double mostExplained = 0.5; ///< of the frames of a line that is not found yet
     constexpr double leastFollowed = 0.8; ///< of the frames of a piece
-    constexpr double lineCells = 1.0;     ///< half of the main lobe
 
     const Axis &frequencyOf(const Analysis &analysis)
     {
@@ -204,92 +200,6 @@ namespace {
         return true;
     }
 
-    /// Tests whether tracks of a window are lines or follow a wider band.
-    class BandTest
-    {
-    public:
-        BandTest(const Analysis &analysis, const std::vector<Track> &tracks)
-            : m_analysis(analysis), m_tracks(tracks), m_binsPerCell(analysis.frames->spectrogram()->binsPerCell())
-        {
-        }
-
-        /// Those that reach the statistic of a sure detection over the level on their sides.
-        std::vector<Track> lines(std::vector<Track> candidates, const RunContext &context) const
-        {
-            std::vector<PathStrip> strips;
-            std::ranges::transform(candidates, std::back_inserter(strips),
-                                   [this](const Track &t) { return around(t); });
-            std::vector<PathStrip *> wanted;
-            std::ranges::transform(strips, std::back_inserter(wanted), [](PathStrip &strip) { return &strip; });
-            readStrips(m_analysis, std::move(wanted), context, "comparing lines with their surroundings");
-            std::vector<Track> result;
-            for (std::size_t i = 0; i < candidates.size(); ++i)
-                if (statisticOverSides(std::move(strips[i])) >= sureStatistic(m_analysis))
-                    result.push_back(std::move(candidates[i]));
-            return result;
-        }
-
-    private:
-        PathStrip around(const Track &track) const
-        {
-            PathStrip strip;
-            strip.firstFrame = track.points.front().frame;
-            strip.halfWidth = levelOfSidesHalfWidth(m_binsPerCell);
-            for (const TrackPoint &point : track.points)
-                strip.centres.push_back(point.cell);
-            return strip;
-        }
-
-        double statisticOverSides(PathStrip strip) const
-        {
-            PathStrip sides = strip;
-            for (const Track &track : m_tracks)
-                removeSignal(sides, track);
-            keepLine(strip, float(levelOfSides(sides, m_binsPerCell)));
-            return strongestIn(strip, modelOf(strip));
-        }
-
-        BothWaysModel modelOf(const PathStrip &strip) const
-        {
-            const auto lnK = m_analysis.lnK.begin() + strip.firstFrame;
-            BothWaysModel model;
-            model.axis = &m_analysis.model.space.axes().front();
-            model.likelihood = m_analysis.model.likelihood;
-            model.threshold = m_analysis.threshold;
-            model.binsPerCell = m_binsPerCell;
-            model.lnK.assign(lnK, lnK + strip.frameCount());
-            return model;
-        }
-
-        Index halfLine() const { return Index(std::ceil(lineCells * m_binsPerCell)); }
-
-        /// Divides y by the level, and sets it to 0 beside the line.
-        void keepLine(PathStrip &strip, float level) const
-        {
-            for (Index at = 0; at < strip.frameCount(); ++at)
-                for (Index bin = -strip.halfWidth; bin <= strip.halfWidth; ++bin)
-                    strip.row(at)[strip.halfWidth + bin] *= std::abs(bin) <= halfLine() ? 1.0f / level : 0.0f;
-        }
-
-        void removeSignal(PathStrip &strip, const Track &track) const
-        {
-            const Index half = halfLine();
-            const Index end = strip.firstFrame + strip.frameCount();
-            for (const TrackPoint &point : track.points) {
-                if (point.frame < strip.firstFrame || point.frame >= end)
-                    continue;
-                const Index at = point.frame - strip.firstFrame;
-                const Index offset = point.cell - strip.firstCell(at);
-                for (Index i = std::max<Index>(0, offset - half); i <= std::min(strip.width() - 1, offset + half); ++i)
-                    strip.row(at)[i] = std::numeric_limits<float>::quiet_NaN();
-            }
-        }
-
-        const Analysis &m_analysis;
-        const std::vector<Track> &m_tracks;
-        double m_binsPerCell;
-    };
-
 } // namespace
 
 std::vector<Track> withSteadyLines(const Analysis &chosen, const Analysis &longer, const RunContext &context)
@@ -302,7 +212,7 @@ std::vector<Track> withSteadyLines(const Analysis &chosen, const Analysis &longe
     });
     std::vector<Track> lines;
     std::vector<bool> isReplaced(chosen.tracks.size(), false);
-    for (const Track &track : BandTest(longer, trimmed).lines(std::move(steady), context)) {
+    for (const Track &track : overSides(longer, std::move(steady), trimmed, context)) {
         Track line = comparison.onChosenFrames(track);
         const std::vector<bool> followers = comparison.followers(line);
         if (!isBetterKnown(line, chosen.tracks, followers) || !comparison.isMissed(track, followers))

@@ -13,9 +13,7 @@ namespace faintline {
 ///      their rate stays as specified;
 ///   2. it moves by at most a tenth of the longer window's cell per frame, on average. Paths on noise, and those of
 ///      signals that the shorter window also detects, move by more;
-///   3. it stands out of its surroundings: the score of the strongest path within a cell of it, over the level on its
-///      sides (levelOfSides), is sure as well. A band of a few cells has as good a path as a line. Cells within a cell
-///      of other tracks of `longer` do not belong to the sides;
+///   3. it stands out of its surroundings (overSides);
 ///   4. its statistic is larger than that of each track of `chosen` that follows it, within a cell of the chosen window
 ///      in four of five of that track's frames. It replaces these tracks, which are pieces of it;
 ///   5. over at least half of its frames, no other track of `chosen` comes within two of its cells. If that track moves

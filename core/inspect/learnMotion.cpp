@@ -54,10 +54,7 @@ namespace {
                 strip.centres.push_back(Index(std::lround(track->smoothed[i].position)));
             strips.push_back(std::move(strip));
         }
-        std::vector<PathStrip *> all;
-        for (PathStrip &strip : strips)
-            all.push_back(&strip);
-        readStrips(analysis, std::move(all), context, learning);
+        readStrips(analysis, strips, context, learning);
         return strips;
     }
 
@@ -81,11 +78,8 @@ namespace {
         ModelSettings settings = analysis.settings.model;
         settings.slopeChange = law;
         const MarkovModel markov = makeModel(settings, analysis.grid());
-        BothWaysModel model;
+        BothWaysModel model = bothWaysModel(analysis);
         model.axis = &markov.space.axes().front();
-        model.likelihood = analysis.model.likelihood;
-        model.threshold = analysis.threshold;
-        model.binsPerCell = spectrogramOf(analysis).binsPerCell();
         std::vector<double> changes(law.size());
         for (std::size_t i = 0; i < strips.size(); ++i) {
             context.checkpoint(double(i) / double(strips.size()), learning);

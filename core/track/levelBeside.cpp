@@ -16,7 +16,7 @@ namespace {
     constexpr double deviations = 1.5;
     constexpr double framesPerWindow = 2.0; ///< more frames add hardly any information
     constexpr std::size_t fewestValues = 8;
-    constexpr double nearestOfSide = 1.5; ///< cells: outside the main lobe's upper 15 dB
+    constexpr double nearestOfSide = 1.5; ///< cells; there the main lobe is 15 dB down
     constexpr double farthestOfSide = 3.5;
 
     /// Bins beside a path, nearest to farthest or the other way round.

@@ -21,11 +21,11 @@ std::vector<double> levelBeside(const PathStrip &strip, double binsPerCell);
 /// Half width in bins of the strip that levelBeside needs.
 Index levelBesideHalfWidth(double binsPerCell);
 
-/// Level on the sides of a line that stands still, over the noise's: the larger of both sides, at least 1.
+/// Level on the sides of a line that stands still, as power over the noise's: the larger of both sides, at least 1.
 ///
-/// All of its power is in the window's main lobe, so 1½ to 3½ resolution cells away there is the noise or a wider
-/// signal that includes the path. A side's level is the geometric mean of y over its observed cells, times e^γ (γ:
-/// Euler's constant), which is the mean of exponential cells and hardly depends on single high ones.
+/// The main lobe is 15 dB down at 1½ resolution cells (Hann), so from there to 3½ cells there is noise, or a wider
+/// signal that includes the path. A side's level is exp(mean of ln y + γ) over its observed cells, with Euler's
+/// constant γ. For exponential cells this is their mean, and single high cells hardly change it.
 double levelOfSides(const PathStrip &strip, double binsPerCell);
 
 /// Half width in bins of the strip that levelOfSides needs.
