@@ -37,6 +37,7 @@ private slots:
     void labelsAreWords();
     void flagsAreCheckBoxes();
     void thirdsAreFractions();
+    void onlyWhatAppliesIsShown();
 
 private:
     template <class Editor>
@@ -283,6 +284,52 @@ void tst_SettingsForm::flagsAreCheckBoxes()
     QCOMPARE(edited[0][0].value<FieldValue>(), FieldValue(false));
     row.setValue(true);
     QCOMPARE(edited.count(), 1);
+}
+
+/// Rows that the other settings make meaningless are not there, nor is "More" if it has no other row.
+void tst_SettingsForm::onlyWhatAppliesIsShown()
+{
+    AnalysisSettings settings;
+    const auto isShown = [&](const QString &name) {
+        m_form->setSettings(settings);
+        return !m_form->editor(name)->parentWidget()->isHidden();
+    };
+    const auto more = [&] {
+        for (QToolButton *button : m_form->findChildren<QToolButton *>())
+            if (button->accessibleName() == "More of " + stageLabel("smd"))
+                return button;
+        return static_cast<QToolButton *>(nullptr);
+    };
+    QVERIFY(!isShown("smd.lnK") && more()->isHidden());
+    std::get<SmdSettings>(settings.detector).reset = SmdSettings::Reset::Fixed;
+    QVERIFY(isShown("smd.lnK") && !more()->isHidden());
+
+    QVERIFY(!isShown("family.members") && !isShown("family.present") && isShown("family.relation"));
+    settings.family.relation = FamilySettings::Relation::Harmonics;
+    QVERIFY(isShown("family.members") && isShown("family.present"));
+
+    QVERIFY(!isShown("subtract.leastDb"));
+    settings.subtract.lines = true;
+    QVERIFY(isShown("subtract.leastDb"));
+
+    QVERIFY(isShown("model.slopeChange") && !isShown("model.rangeRateChange"));
+    settings.model.motion = Motion::Manoeuvring;
+    QVERIFY(!isShown("model.slopeChange") && isShown("model.rangeRateChange") && isShown("model.bearingRateChange"));
+
+    QVERIFY(isShown("decide.inhibitCells") && isShown("decide.forgetCells"));
+    settings.decide.inhibits = settings.decide.resets = false;
+    QVERIFY(!isShown("decide.inhibitCells") && !isShown("decide.forgetCells"));
+
+    QVERIFY(isShown("track.bothWays"));
+    settings.detector = PofNSettings();
+    QVERIFY(!isShown("track.bothWays") && !isShown("smd.reset") && isShown("pOfN.p"));
+    QVERIFY(m_form->isOffered("track.bothWays") && !m_form->isOffered("smd.reset")); // for the command palette
+
+    m_form->setError("family.members", "must differ"); // an error is seen where it is
+    settings = {};
+    m_form->setSettings(settings);
+    m_form->reveal("smd.lnK"); // and so is a row that a lesson points to
+    QVERIFY(m_form->editor("smd.lnK")->isVisible());
 }
 
 QTEST_MAIN(tst_SettingsForm)

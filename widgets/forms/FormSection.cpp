@@ -66,6 +66,14 @@ void FormSection::addRow(QWidget *row, bool isAdvanced)
     m_more->show();
 }
 
+void FormSection::offerMore()
+{
+    bool hasRows = false;
+    for (int i = 0; i < m_moreRows->count(); ++i)
+        hasRows |= m_moreRows->itemAt(i)->widget() && !m_moreRows->itemAt(i)->widget()->isHidden();
+    m_more->setVisible(hasRows);
+}
+
 void FormSection::setOpen(bool isOpen)
 {
     m_heading->setChecked(isOpen);
@@ -88,8 +96,10 @@ bool FormSection::isOpen() const
 void FormSection::reveal(QWidget *row)
 {
     setOpen(true);
-    if (m_moreBody->isAncestorOf(row))
+    if (m_moreBody->isAncestorOf(row)) {
+        m_more->show();
         setMoreOpen(true);
+    }
 }
 
 } // namespace faintline

@@ -21,6 +21,9 @@ public:
     void setMoreOpen(bool isOpen);
     bool isOpen() const;
 
+    /// "More" is offered if one of its rows is shown.
+    void offerMore();
+
     /// Unfolds everything that hides the row.
     void reveal(QWidget *row);
 

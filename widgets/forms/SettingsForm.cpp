@@ -6,6 +6,7 @@
 #include "widgets/base/settingWords.h"
 #include "widgets/forms/FormSection.h"
 #include "widgets/forms/SettingRow.h"
+#include "widgets/forms/settingApplies.h"
 
 #include <QCoreApplication>
 #include <QEvent>
@@ -121,7 +122,7 @@ void SettingsForm::setSettings(const AnalysisSettings &settings)
         const auto value = field.get(settings);
         if (!row)
             continue;
-        row->setVisible(value.has_value());
+        row->setVisible(settingApplies(field.name, settings));
         if (!value)
             continue;
         row->setValue(*value);
@@ -129,8 +130,10 @@ void SettingsForm::setSettings(const AnalysisSettings &settings)
             showSlope(name, std::get<double>(*value));
         used.insert(prefixOf(name));
     }
-    for (auto section = m_sections.begin(); section != m_sections.end(); ++section)
+    for (auto section = m_sections.begin(); section != m_sections.end(); ++section) {
         section.value()->setVisible(used.contains(section.key()));
+        section.value()->offerMore();
+    }
 }
 
 void SettingsForm::setHzPerSecondOfABinAFrame(double hzPerSecond)
@@ -164,8 +167,10 @@ void SettingsForm::setError(const QString &name, const QString &sentence)
 {
     if (SettingRow *row = m_rows.value(name)) {
         row->setError(sentence);
-        if (!sentence.isEmpty())
+        if (!sentence.isEmpty()) {
+            row->show(); // also if it does not apply
             section(prefixOf(name)).reveal(row);
+        }
         return;
     }
     QPalette palette = m_error->palette();
@@ -190,8 +195,8 @@ void SettingsForm::setNote(const QString &name, const QString &note)
 
 bool SettingsForm::isOffered(const QString &name) const
 {
-    const SettingRow *row = m_rows.value(name);
-    return row && !row->isHidden() && !m_sections.value(prefixOf(name))->isHidden();
+    return m_rows.contains(name) && settingField(name.toStdString()).get(m_settings).has_value()
+           && !m_sections.value(prefixOf(name))->isHidden();
 }
 
 void SettingsForm::reveal(const QString &name)
@@ -199,6 +204,7 @@ void SettingsForm::reveal(const QString &name)
     SettingRow *row = m_rows.value(name);
     if (!row)
         return;
+    row->show(); // also if it does not apply
     section(prefixOf(name)).reveal(row);
     layOut(*m_scroll, row);
     m_scroll->ensureWidgetVisible(row);

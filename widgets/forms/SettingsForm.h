@@ -45,7 +45,7 @@ public:
 
     /// Shows or hides a section; stages that the open source does not use are hidden.
     void setSectionShown(const QString &prefix, bool isShown);
-    /// Whether a field applies to the open source and the settings; it may be folded away.
+    /// Whether the open source and the selected detector have a setting; its row is not shown while it has no effect.
     bool isOffered(const QString &name) const;
     /// Scrolls to a field, unfolds its section and gives it the focus.
     void reveal(const QString &name);
