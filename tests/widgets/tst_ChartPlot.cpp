@@ -5,9 +5,11 @@
 
 #include <qwt_plot.h>
 #include <qwt_plot_curve.h>
+#include <qwt_symbol.h>
 #include <qwt_text.h>
 
 #include <QCheckBox>
+#include <QPainter>
 #include <QSignalSpy>
 #include <QtTest>
 
@@ -26,6 +28,7 @@ private slots:
     void cleanup() { m_view.reset(); }
 
     void drawsEveryCurve();
+    void symbolsAreToldApart();
     void theKeyTogglesAndRemembers();
     void hoverReadsAndClickAsks();
     void theoryCannotBeClicked();
@@ -83,6 +86,35 @@ void tst_ChartPlot::drawsEveryCurve()
     QVERIFY(colours.contains(theme.curves[0].rgb()));
     QVERIFY(colours.contains(theme.curves[1].rgb()));
     QVERIFY(!colours.contains(theme.curves[2].rgb()));
+}
+
+/// Symbols of eight curves, without their colours.
+void tst_ChartPlot::symbolsAreToldApart()
+{
+    Chart all{"Detection", "SNR (dB)", "Pd", false, false, {}};
+    for (int i = 0; i < 8; ++i)
+        all.curves.push_back({"curve " + std::to_string(i), Curve::Kind::Measured, {{1, 0.1 * i, {}}}});
+    m_view->setChart(all);
+    std::vector<QImage> pictures;
+    for (const Curve &curve : all.curves) {
+        const QwtSymbol &own = *item(QString::fromStdString(curve.name))->symbol();
+        const QwtSymbol black(own.style(), Qt::black, own.pen().widthF() > 0 ? QPen(Qt::black, 1.4) : QPen(),
+                              own.size());
+        QImage picture(15, 15, QImage::Format_Grayscale8);
+        picture.fill(Qt::white);
+        QPainter painter(&picture);
+        painter.setRenderHint(QPainter::Antialiasing);
+        black.drawSymbol(&painter, QPointF(7.5, 7.5));
+        painter.end();
+        for (const QImage &other : pictures) {
+            int different = 0;
+            for (int y = 0; y < 15; ++y)
+                for (int x = 0; x < 15; ++x)
+                    different += std::abs(picture.constScanLine(y)[x] - other.constScanLine(y)[x]) > 100 ? 1 : 0;
+            QVERIFY2(different >= 8, qPrintable(QString::fromStdString(curve.name)));
+        }
+        pictures.push_back(picture);
+    }
 }
 
 void tst_ChartPlot::theKeyTogglesAndRemembers()

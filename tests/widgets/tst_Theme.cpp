@@ -20,6 +20,8 @@
 #include <QSet>
 #include <QtTest>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 using namespace faintline;
@@ -36,6 +38,8 @@ private slots:
     void fontsHaveEverySignOfTheSources();
     void textCanBeRead_data();
     void textCanBeRead();
+    void curvesAreToldApart_data() { textCanBeRead_data(); }
+    void curvesAreToldApart();
     void kindIsFoundInThePalette();
     void mapsAreEven();
     void mapsByName();
@@ -53,6 +57,25 @@ private:
     {
         const auto [low, high] = std::minmax({luminance(a), luminance(b)});
         return (high + 0.05) / (low + 0.05);
+    }
+    /// CIELAB of a colour as it looks without red or green cones (Machado 2009; D65).
+    static std::array<double, 3> lab(const QColor &colour, const std::array<double, 9> &eye)
+    {
+        const auto linear = [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); };
+        const std::array rgb{linear(colour.redF()), linear(colour.greenF()), linear(colour.blueF())};
+        std::array<double, 3> seen{};
+        for (std::size_t i = 0; i < 3; ++i)
+            seen[i] = std::clamp(eye[3 * i] * rgb[0] + eye[3 * i + 1] * rgb[1] + eye[3 * i + 2] * rgb[2], 0.0, 1.0);
+        const auto f = [](double t) { return t > 0.008856 ? std::cbrt(t) : 7.787 * t + 16.0 / 116.0; };
+        const double x = f((0.4124 * seen[0] + 0.3576 * seen[1] + 0.1805 * seen[2]) / 0.9505);
+        const double y = f(0.2126 * seen[0] + 0.7152 * seen[1] + 0.0722 * seen[2]);
+        const double z = f((0.0193 * seen[0] + 0.1192 * seen[1] + 0.9505 * seen[2]) / 1.089);
+        return {116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)};
+    }
+    static double difference(const QColor &a, const QColor &b, const std::array<double, 9> &eye)
+    {
+        const auto p = lab(a, eye), q = lab(b, eye);
+        return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
     }
     /// L* of CIELAB.
     static double lightness(QRgb rgb)
@@ -120,6 +143,29 @@ void tst_Theme::textCanBeRead()
     QVERIFY(contrast(colours.threshold, colours.canvas) > 4.5);
     for (const QColor &curve : colours.curves)
         QVERIFY(contrast(curve, colours.canvas) > 3.0);
+}
+
+/// Any two curves of a chart differ clearly, and also for those who do not see red or green.
+void tst_Theme::curvesAreToldApart()
+{
+    QFETCH(Theme::Kind, kind);
+    const std::array<double, 9> all{1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const std::array<double, 9> noRed{0.152286, 1.052583,  -0.204868, 0.114503, 0.786281,
+                                      0.099216, -0.003882, -0.048116, 1.051998};
+    const std::array<double, 9> noGreen{0.367322, 0.860646,  -0.227968, 0.280085, 0.672501,
+                                        0.047413, -0.011820, 0.042940,  0.968881};
+    const auto &curves = Theme::colours(kind).curves;
+    for (std::size_t i = 0; i < std::size(curves); ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            const auto apart = [&](const auto &eye) { return difference(curves[i], curves[j], eye); };
+            QVERIFY2(apart(all) > 40.0 && apart(noRed) > 12.0 && apart(noGreen) > 12.0,
+                     qPrintable(QString("%1 and %2: %3, %4, %5")
+                                    .arg(j + 1)
+                                    .arg(i + 1)
+                                    .arg(apart(all))
+                                    .arg(apart(noRed))
+                                    .arg(apart(noGreen))));
+        }
 }
 
 void tst_Theme::kindIsFoundInThePalette()

@@ -241,15 +241,15 @@ const Theme::Colours &Theme::colours(Kind kind)
         c.cursor = QColor(0xffffff);
         c.contour = QColor(0x35e0c2);
         c.error = isDark ? QColor(0xff8f85) : QColor(0xb3261e);
-        // Okabe and Ito's colours, darkened or lightened to stand out from the canvas.
+        // Near Okabe and Ito's colours, moved apart so that any two differ for every kind of colour vision.
         c.curves[0] = isDark ? QColor(0x5fb0ef) : QColor(0x0a69ac);
         c.curves[1] = isDark ? QColor(0xf0a33c) : QColor(0xc96f00);
         c.curves[2] = isDark ? QColor(0x35c9a0) : QColor(0x00896a);
         c.curves[3] = isDark ? QColor(0xe08fbf) : QColor(0xb14d87);
-        c.curves[4] = isDark ? QColor(0xf0764a) : QColor(0xc03f00);
-        c.curves[5] = isDark ? QColor(0x9fd8f5) : QColor(0x3f9bd0);
-        c.curves[6] = isDark ? QColor(0xe6dc58) : QColor(0x8d8400);
-        c.curves[7] = isDark ? QColor(0xb9c0ca) : QColor(0x444b55);
+        c.curves[4] = isDark ? QColor(0xec4d63) : QColor(0xe70046);
+        c.curves[5] = isDark ? QColor(0x9d7bff) : QColor(0x5a3fc8);
+        c.curves[6] = isDark ? QColor(0xc3d875) : QColor(0x5e6500);
+        c.curves[7] = isDark ? QColor(0xd4d8d3) : QColor(0x4e3b36);
         if (k == Kind::HighContrast) {
             c.canvas = Qt::black;
             c.grid = QColor(255, 255, 255, 80);

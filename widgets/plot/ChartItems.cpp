@@ -24,7 +24,7 @@ namespace {
     constexpr std::size_t mostMarkers = 60; ///< more points are drawn as a line only, or as small points
 
     constexpr std::array<QwtSymbol::Style, 8> symbols{QwtSymbol::Ellipse,   QwtSymbol::Rect,      QwtSymbol::Diamond,
-                                                      QwtSymbol::UTriangle, QwtSymbol::DTriangle, QwtSymbol::Hexagon,
+                                                      QwtSymbol::UTriangle, QwtSymbol::DTriangle, QwtSymbol::XCross,
                                                       QwtSymbol::LTriangle, QwtSymbol::RTriangle};
 
     std::unique_ptr<QwtSymbol> symbolOf(Curve::Kind kind, std::size_t style, const QColor &colour, const QColor &canvas,
