@@ -33,6 +33,7 @@ private slots:
     void figuresKeepTheirPlaces();
     void theAgeIsShownWhereItIsKnown();
     void theNarrowestLineCutsNoFigureBeforeTheSlope();
+    void inANarrowLineNothingIsCut();
     void aLineForThoseWhoCannotSeeIt();
     void itIsCopied();
     void anEmptyLineIsNotCopied();
@@ -202,6 +203,34 @@ void tst_ReadOut::theNarrowestLineCutsNoFigureBeforeTheSlope()
         QVERIFY2(label->width() >= label->fontMetrics().horizontalAdvance(label->text()), name);
         QVERIFY2(label->mapTo(m_line.get(), QPoint(label->width(), 0)).x() <= m_line->width(), name);
     }
+}
+
+/// Names become symbols, and the last figures give way; what is shown is whole.
+void tst_ReadOut::inANarrowLineNothingIsCut()
+{
+    m_line->setStartUnixSeconds(1709164799.0);
+    m_line->setReading({3723.5, 9999.5, -33.3, 123.4, -12.345, 61.5});
+    for (const int width : {1280, 800, 640, 600, 1280}) {
+        m_line->resize(width, 26);
+        QCoreApplication::processEvents();
+        int shown = 0;
+        for (const QLabel *label : m_line->findChildren<QLabel *>()) {
+            if (!label->isVisible())
+                continue;
+            ++shown;
+            QVERIFY2(label->width() >= label->fontMetrics().horizontalAdvance(label->text()),
+                     qPrintable(QString("%1 at %2: %3 of %4")
+                                    .arg(label->text())
+                                    .arg(width)
+                                    .arg(label->width())
+                                    .arg(label->fontMetrics().horizontalAdvance(label->text()))));
+            QVERIFY2(label->mapTo(m_line.get(), QPoint(label->width(), 0)).x() <= m_line->width(),
+                     qPrintable(label->text()));
+        }
+        QCOMPARE(shown == 14, width == 1280); // seven figures with their names
+        QVERIFY(shown >= 8);
+    }
+    QVERIFY(m_line->text().contains("61.5 s")); // copied though it is not seen
 }
 
 void tst_ReadOut::aLineForThoseWhoCannotSeeIt()

@@ -12,6 +12,7 @@
 #include <QLabel>
 #include <QMenu>
 
+#include <algorithm>
 #include <cmath>
 
 namespace faintline {
@@ -39,14 +40,14 @@ ReadOut::ReadOut(QWidget *parent) : QWidget(parent)
     layout->setSizeConstraint(QLayout::SetNoConstraint); // in a narrow window the line is clipped, so that it does not
                                                          // widen the window
     setMinimumWidth(600);
-    m_time = addItem(tr("Time"), QStringLiteral("00:00:00.00"));
-    m_utc = addItem(tr("UTC"), QStringLiteral("0000-00-00 00:00:00.00"));
-    m_frequency = addItem(tr("Frequency"), QStringLiteral("0000.000 kHz"));
-    m_radio = addItem(tr("Radio"), QStringLiteral("000.000000 MHz"));
-    m_level = addItem(tr("Level"), QStringLiteral("−00.0 dB"));
-    m_statistic = addItem(tr("Statistic"), QStringLiteral("000.00 × noise"));
-    m_slope = addItem(tr("Slope"), QStringLiteral("−00.000 Hz/s"));
-    m_age = addItem(tr("Path"), {});
+    m_time = addItem(tr("Time"), tr("t"), QStringLiteral("00:00:00.00"));
+    m_utc = addItem(tr("UTC"), tr("UTC"), QStringLiteral("0000-00-00 00:00:00.00"));
+    m_frequency = addItem(tr("Frequency"), tr("f"), QStringLiteral("0000.000 kHz"));
+    m_radio = addItem(tr("Radio"), tr("RF"), QStringLiteral("000.000000 MHz"));
+    m_level = addItem(tr("Level"), tr("L"), QStringLiteral("−00.0 dB"));
+    m_statistic = addItem(tr("Statistic"), tr("D"), QStringLiteral("000.00 × noise"));
+    m_slope = addItem(tr("Slope"), tr("Slope"), QStringLiteral("−00.000 Hz/s"));
+    m_age = addItem(tr("Path"), tr("Path"), {});
     layout->addStretch(1);
     m_radio.box->setToolTip(tr("Radio frequency: the recording's centre frequency plus the offset"));
     m_level.box->setToolTip(tr("Power over the mean of the noise"));
@@ -60,9 +61,9 @@ ReadOut::ReadOut(QWidget *parent) : QWidget(parent)
     clear();
 }
 
-ReadOut::Item ReadOut::addItem(const QString &name, const QString &widest)
+ReadOut::Item ReadOut::addItem(const QString &name, const QString &brief, const QString &widest)
 {
-    Item item{new QWidget, new QLabel(name), new QLabel};
+    Item item{new QWidget, new QLabel(name), new QLabel, name, brief};
     item.name->setFont(Theme::font(12));
     item.name->setForegroundRole(QPalette::PlaceholderText);
     item.value->setFont(Theme::monoFont(12));
@@ -80,21 +81,22 @@ ReadOut::Item ReadOut::addItem(const QString &name, const QString &widest)
 void ReadOut::setStartUnixSeconds(std::optional<double> unixSeconds)
 {
     m_startUnixSeconds = unixSeconds;
-    m_utc.box->setVisible(unixSeconds.has_value());
+    m_utc.isKnown = unixSeconds.has_value();
     setReading(m_reading);
 }
 
 void ReadOut::setCentreHz(double hz)
 {
     m_centreHz = hz;
-    m_radio.box->setVisible(hz != 0.0);
+    m_radio.isKnown = hz != 0.0;
     setReading(m_reading);
 }
 
 void ReadOut::setFrequencyName(const QString &name)
 {
-    m_frequency.name->setText(name);
+    m_frequency.whole = name;
     m_frequency.value->setAccessibleName(name);
+    fit();
 }
 
 void ReadOut::setResolution(double frameSeconds, double binHz)
@@ -127,15 +129,63 @@ void ReadOut::setReading(const Reading &reading)
          [&](double v) { return numberText(v, decimals) + QLatin1Char(' ') + m_statisticUnit; });
     show(m_slope, reading.slopeHzPerSecond, [](double v) { return powerText(v, 3) + tr(" Hz/s"); });
     show(m_age, reading.ageSeconds, [this](double v) { return secondsText(v, m_frameSeconds); });
-    m_age.box->setVisible(reading.ageSeconds.has_value());
+    m_age.isKnown = reading.ageSeconds.has_value();
+    fit();
     setAccessibleDescription(text());
+}
+
+std::array<ReadOut::Item *, 8> ReadOut::items()
+{
+    return {&m_time, &m_utc, &m_frequency, &m_radio, &m_level, &m_statistic, &m_slope, &m_age};
+}
+
+int ReadOut::widthOf(const Item &item, const QString &name) const
+{
+    const int value =
+        std::max(item.value->minimumWidth(), item.value->fontMetrics().horizontalAdvance(item.value->text()));
+    return item.name->fontMetrics().horizontalAdvance(name) + item.box->layout()->spacing() + value
+           + layout()->spacing();
+}
+
+/// In a narrow line the names become symbols, and figures without room are not shown; none is cut.
+void ReadOut::fit()
+{
+    const QMargins margins = layout()->contentsMargins();
+    const int room = width() - margins.left() - margins.right();
+    const auto needed = [&](bool isBrief) {
+        int sum = 0;
+        for (const Item *item : items())
+            sum += item->isKnown ? widthOf(*item, isBrief ? item->brief : item->whole) : 0;
+        return sum;
+    };
+    const bool isBrief = needed(false) > room;
+    int excess = isBrief ? needed(true) - room : 0;
+    for (Item *item : items()) {
+        item->name->setText(isBrief ? item->brief : item->whole);
+        item->box->setVisible(item->isKnown);
+    }
+    for (Item *item : {&m_age, &m_utc, &m_slope, &m_radio}) {
+        if (excess <= 0)
+            break;
+        excess -= item->isKnown ? widthOf(*item, item->brief) : 0;
+        item->box->hide();
+    }
+    for (Item *item : items())
+        item->box->layout()->activate(); // names of another width, at once
+    layout()->activate();
+}
+
+void ReadOut::resizeEvent(QResizeEvent *event)
+{
+    QWidget::resizeEvent(event);
+    fit();
 }
 
 QString ReadOut::text() const
 {
     QStringList words;
     for (const Item *item : {&m_time, &m_utc, &m_frequency, &m_radio, &m_level, &m_statistic, &m_slope, &m_age})
-        if (!item->box->isHidden() && item->value->text() != dash)
+        if (item->isKnown && item->value->text() != dash)
             words << item->value->text();
     return words.join(QStringLiteral(" · "));
 }

@@ -2,6 +2,7 @@
 
 #include <QWidget>
 
+#include <array>
 #include <optional>
 
 class QLabel;
@@ -46,14 +47,21 @@ public:
 
 protected:
     void contextMenuEvent(QContextMenuEvent *event) override;
+    void resizeEvent(QResizeEvent *event) override;
 
 private:
     struct Item {
         QWidget *box = nullptr;
         QLabel *name = nullptr;
         QLabel *value = nullptr;
+        QString whole; ///< name
+        QString brief; ///< name in a narrow line
+        bool isKnown = true;
     };
-    Item addItem(const QString &name, const QString &widest);
+    Item addItem(const QString &name, const QString &brief, const QString &widest);
+    std::array<Item *, 8> items();
+    void fit();
+    int widthOf(const Item &item, const QString &name) const;
 
     Item m_time, m_utc, m_frequency, m_radio, m_level, m_statistic, m_slope, m_age;
     std::optional<double> m_startUnixSeconds;

@@ -141,7 +141,9 @@ void PolarView::followPicture()
 
 void PolarView::restyle()
 {
-    setTitle(m_view.title());
+    QwtText heading = m_view.title();
+    heading.setText(m_view.heading()); // the view itself may be narrow
+    setTitle(heading);
     Theme::style(*this);
     m_overlay->colours = Theme::colours(*this);
     m_raster->setGround(palette().color(QPalette::Window));

@@ -3,6 +3,7 @@
 #include "widgets/base/CanvasSentence.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/axisWords.h"
+#include "widgets/base/fittingTitle.h"
 #include "widgets/base/scaleTicks.h"
 #include "widgets/base/steadyAxes.h"
 #include "widgets/plot/NumberScaleDraw.h"
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace faintline {
 
@@ -278,13 +280,11 @@ void WaterfallPicture::restyle()
         m_timeDraw->setClock(isLong || m_startUnixSeconds);
         m_timeDraw->setStartUnixSeconds(m_startUnixSeconds);
         setAxisScaleDraw(timeAxis(), m_timeDraw);
-        setAxisTitle(timeAxis(), m_startUnixSeconds ? tr("Time (UTC)")
-                                 : isLong           ? tr("Time (h:min:s)")
-                                                    : tr("Time (s)"));
+        m_timeTitle = m_startUnixSeconds ? tr("Time (UTC)") : isLong ? tr("Time (h:min:s)") : tr("Time (s)");
     } else {
         m_numberDraw = new NumberScaleDraw;
         setAxisScaleDraw(timeAxis(), m_numberDraw);
-        setAxisTitle(timeAxis(), titleOf(m_picture->time()));
+        m_timeTitle = titleOf(m_picture->time());
     }
     auto *hzDraw = new NumberScaleDraw;
     const double largestHz = std::max(std::abs(m_frequency.first), std::abs(m_frequency.last()));
@@ -297,7 +297,9 @@ void WaterfallPicture::restyle()
     setAxisScaleEngine(hzAxis(), isLogarithmic() ? static_cast<QwtScaleEngine *>(new QwtLogScaleEngine)
                                                  : new QwtLinearScaleEngine);
     setAxisScaleDraw(hzAxis(), hzDraw);
-    setAxisTitle(hzAxis(), originHz() != 0.0 ? tr("Radio frequency (%1)").arg(unit.name) : titleOf(m_frequency));
+    m_hzTitle = originHz() != 0.0 ? tr("Radio frequency (%1)").arg(unit.name) : titleOf(m_frequency);
+    setAxisTitle(timeAxis(), m_timeTitle);
+    setAxisTitle(hzAxis(), m_hzTitle);
     setAxisVisible(hzAxis(), !isEmpty);
     setAxisVisible(timeAxis(), !isEmpty && (isTimeVertical() || hasTimeLabels()));
 
@@ -312,9 +314,32 @@ void WaterfallPicture::restyle()
     m_raster->setLogarithmic(isLogarithmic());
     m_sentence->colour = Theme::colours(*this).faintText;
     updateLayout(); // titles and scales of another size
+    fitTitles();
     followSpan();
     updateLayout(); // and labels
     updateContent();
+}
+
+void WaterfallPicture::followCanvas()
+{
+    fitTitles();
+    followSpan();
+}
+
+/// Heading and axis titles have the room of the canvas.
+void WaterfallPicture::fitTitles()
+{
+    const QSize room = canvas()->size();
+    QwtText heading = title();
+    heading.setText(fittingHeading(m_heading, heading.font(), room.width()));
+    if (heading != title())
+        setTitle(heading);
+    for (const auto &[axis, whole] : {std::pair(timeAxis(), m_timeTitle), std::pair(hzAxis(), m_hzTitle)}) {
+        QwtText own = axisTitle(axis);
+        own.setText(fittingTitle(whole, own.font(), axis == QwtAxis::XBottom ? room.width() : room.height()));
+        if (own != axisTitle(axis))
+            setAxisTitle(axis, own);
+    }
 }
 
 void WaterfallPicture::followSpan()

@@ -83,6 +83,7 @@ public:
     /// Unit of the statistic, by default "nat", and a heading that contains it.
     void setStatisticUnit(const QString &unit, const QString &heading);
     void setHeading(const QString &heading);
+    const QString &heading() const { return m_heading; } ///< whole, also where the picture's title is shortened
 
     /// Value of the cell, at the finest level stored; nothing outside the picture.
     std::optional<double> valueAt(double seconds, double hz) const;
@@ -125,7 +126,7 @@ signals:
 
 protected:
     void restyle() override;
-    void followCanvas() override { followSpan(); }
+    void followCanvas() override;
     /// Called when the contents of the axes have changed; redraws them.
     virtual void updateContent();
 
@@ -136,12 +137,15 @@ private:
     Viewport::Box full() const;
     Viewport::Box visible() const;
     void followSpan();
+    void fitTitles();
     void choosePicture(bool isOther = true);
     void countHistogram();
     void applyRange(const Span &range);
     double levelStep() const;
 
     QString m_heading;
+    QString m_timeTitle; ///< of the axes, whole
+    QString m_hzTitle;
     QString m_statisticUnit = QStringLiteral("nat");
     QPointer<Viewport> m_viewport;
     std::shared_ptr<const PeakPyramid> m_picture;
