@@ -24,6 +24,7 @@ private slots:
 
     void sortsByValueNotByText();
     void aNarrowPanelShowsWhereAndSinceWhen();
+    void onASmallScreenNothingNeedsScrolling();
     void numbersAreNotCutShort();
     void filters();
     void nextAndPreviousGoRound();
@@ -70,6 +71,36 @@ void tst_EventTable::aNarrowPanelShowsWhereAndSinceWhen()
         const int right = table.columnViewportPosition(column) + table.columnWidth(column);
         QVERIFY2(right <= table.viewport()->width(),
                  qPrintable(QStringLiteral("%1: %2 of %3").arg(column).arg(right).arg(table.viewport()->width())));
+    }
+}
+
+/// On a screen of 1280 pixels the panel has 280: the statistic is still seen, and of a long recording the times.
+void tst_EventTable::onASmallScreenNothingNeedsScrolling()
+{
+    const auto isSeen = [&](const std::vector<int> &columns) {
+        const QTableView &table = *m_table->table();
+        for (const int column : columns)
+            if (table.columnViewportPosition(column) + table.columnWidth(column) > table.viewport()->width())
+                return false;
+        return true;
+    };
+    const std::vector<int> times{EventModel::Id, EventModel::Frequency, EventModel::Onset, EventModel::Detection,
+                                 EventModel::Confirmation};
+    for (const double since : {90.0, 4321.5}) {
+        m_table->setEvents({});
+        m_table->setEvents({test::event(1, since, since + 20.0, 960.03, 21.6),
+                            test::event(2, since + 42.8, since + 49.5, since < 1000.0 ? 1053.0 : 20151.0)});
+        m_table->resize(280, 200);
+        QCoreApplication::processEvents();
+        QVERIFY(isSeen(times));
+        if (since < 1000.0)
+            QVERIFY(isSeen({EventModel::Statistic}));
+        for (const int column : times) { // headings are whole, too
+            const QHeaderView &header = *m_table->table()->horizontalHeader();
+            const QString heading = m_table->table()->model()->headerData(column, Qt::Horizontal).toString();
+            QVERIFY2(header.fontMetrics().horizontalAdvance(heading) + 4 <= m_table->table()->columnWidth(column),
+                     qPrintable(heading));
+        }
     }
 }
 
