@@ -161,6 +161,8 @@ void EvaluatePanel::show(int id)
     m_shown = id;
     if (const Experiments::Entry *entry = m_experiments.entry(id)) {
         fillSnrs(*entry);
+        if (entry->campaign && ofForm() != entry->campaign->experiment)
+            m_form->setExperiment(entry->campaign->experiment);
         return follow(id);
     }
     m_pd->setChart({});

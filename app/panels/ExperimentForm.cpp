@@ -53,7 +53,7 @@ namespace {
 } // namespace
 
 ExperimentForm::ExperimentForm(QWidget *parent)
-    : QWidget(parent), m_noise(new QComboBox),
+    : QWidget(parent), m_noise(new QComboBox), m_grid(new QGridLayout),
       m_lowestDb(numberInput(-5, {-40, 40, 1, 1}, tr(" dB"), tr("Lowest SNR"))),
       m_highestDb(numberInput(3, {-40, 40, 1, 1}, tr(" dB"), tr("Highest SNR"))),
       m_stepDb(numberInput(1, {0.1, 20, 0.5, 1}, tr(" dB"), tr("Step between SNRs"))),
@@ -103,18 +103,84 @@ ExperimentForm::ExperimentForm(QWidget *parent)
 /// The current detector, then the peers, in two columns.
 QLayout *ExperimentForm::buildDetectors()
 {
-    auto *detectors = new QGridLayout;
-    detectors->setVerticalSpacing(2);
-    m_detectors.push_back(new QCheckBox(tr("current settings")));
+    m_grid->setVerticalSpacing(2);
+    addDetector(new QCheckBox(tr("current settings")));
     for (const DetectorUnderTest &one : peers(1.0))
-        m_detectors.push_back(new QCheckBox(QString::fromStdString(one.name)));
-    for (std::size_t i = 0; i < m_detectors.size(); ++i) {
-        m_detectors[i]->setChecked(i == 1 || i == 3 || i == 5);
-        detectors->addWidget(m_detectors[i], int(i / 2), int(i % 2));
-        connect(m_detectors[i], &QCheckBox::toggled, this, &ExperimentForm::changed);
-    }
+        addDetector(new QCheckBox(QString::fromStdString(one.name)));
+    for (const std::size_t initial : {1, 3, 5})
+        m_detectors[initial]->setChecked(true);
     m_detectors[0]->setToolTip(tr("The detector and model set in the pipeline"));
-    return detectors;
+    return m_grid;
+}
+
+void ExperimentForm::addDetector(QCheckBox *box)
+{
+    const auto place = int(m_detectors.size());
+    m_grid->addWidget(box, place / 2, place % 2);
+    connect(box, &QCheckBox::toggled, this, &ExperimentForm::changed);
+    m_detectors.push_back(box);
+}
+
+void ExperimentForm::setExperiment(const Experiment &experiment)
+{
+    if (const auto *lines = std::get_if<LineExperiment>(&experiment)) {
+        m_noise->setCurrentIndex(0);
+        m_duration->setValue(lines->durationWindows);
+        m_drift->setValue(lines->driftCellsPerWindow);
+        m_wander->setValue(lines->wanderCells);
+        m_wanderTime->setValue(lines->wanderWindows);
+        m_runs->setValue(lines->runs);
+        m_seed->setValue(lines->seed);
+        setSnrs(lines->snrDb);
+    } else if (const auto *injection = std::get_if<InjectionExperiment>(&experiment);
+               injection && m_windowSeconds > 0) {
+        m_noise->setCurrentIndex(1);
+        m_duration->setValue(injection->durationSeconds / m_windowSeconds);
+        m_drift->setValue(injection->driftHzPerSecond * m_windowSeconds * m_windowSeconds);
+        m_wander->setValue(injection->wanderHz * m_windowSeconds);
+        m_wanderTime->setValue(injection->wanderSeconds / m_windowSeconds);
+        m_runs->setValue(injection->trials);
+        m_seed->setValue(injection->seed);
+        m_falseAlarms->setValue(injection->falseAlarmsPerHour);
+        setSnrs(injection->snrDb);
+    } else {
+        return;
+    }
+    setDetectors(detectorsOf(experiment));
+}
+
+/// Lowest, highest, and their usual distance.
+void ExperimentForm::setSnrs(const std::vector<double> &snrDb)
+{
+    if (snrDb.empty())
+        return;
+    const auto [lowest, highest] = std::ranges::minmax(snrDb);
+    m_lowestDb->setValue(lowest);
+    m_highestDb->setValue(highest);
+    if (snrDb.size() > 1)
+        m_stepDb->setValue((highest - lowest) / double(snrDb.size() - 1));
+}
+
+void ExperimentForm::setDetectors(const std::vector<DetectorUnderTest> &detectors)
+{
+    for (std::size_t i = std::exchange(m_others, {}).size(); i > 0; --i) {
+        delete m_detectors.back();
+        m_detectors.pop_back();
+    }
+    const std::vector<DetectorUnderTest> known = peers(m_duration->value());
+    m_detectors.front()->setChecked(false);
+    for (std::size_t i = 0; i < known.size(); ++i)
+        m_detectors[i + 1]->setChecked(std::ranges::count(detectors, known[i]) > 0);
+    for (const DetectorUnderTest &one : detectors) {
+        if (std::ranges::count(known, one) > 0)
+            continue;
+        m_others.push_back(one);
+        auto *box = new QCheckBox(labelText(one.name));
+        box->setToolTip(tr("A detector of the experiment shown, with its own settings"));
+        box->setChecked(true);
+        addDetector(box);
+    }
+    emit changed();
 }
 
 void ExperimentForm::connectInputs()
@@ -171,6 +237,9 @@ std::vector<DetectorUnderTest> ExperimentForm::chosen() const
     for (std::size_t i = 0; i < all.size(); ++i)
         if (m_detectors[i + 1]->isChecked())
             result.push_back(all[i]);
+    for (std::size_t i = 0; i < m_others.size(); ++i)
+        if (m_detectors[1 + all.size() + i]->isChecked())
+            result.push_back(m_others[i]);
     return result;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "evaluate/experiments/InjectionExperiment.h"
-#include "evaluate/experiments/LineExperiment.h"
+#include "evaluate/experiments/Campaign.h"
 #include "plan/AnalysisSettings.h"
 
 #include <QWidget>
@@ -12,6 +11,7 @@
 class QCheckBox;
 class QComboBox;
 class QDoubleSpinBox;
+class QGridLayout;
 class QLabel;
 class QSpinBox;
 
@@ -32,6 +32,9 @@ public:
     /// `recordingSeconds`: analysed duration.
     void setCurrent(const AnalysisSettings &settings, double windowSeconds, double recordingSeconds);
 
+    /// Shows the values of an experiment; detectors that the form does not offer are added to the choice.
+    void setExperiment(const Experiment &experiment);
+
     bool isInRecording() const;
     void setInRecording(bool isInRecording);
     LineExperiment lines() const;
@@ -49,7 +52,10 @@ signals:
 
 private:
     QLayout *buildDetectors();
+    void addDetector(QCheckBox *box);
     void connectInputs();
+    void setSnrs(const std::vector<double> &snrDb);
+    void setDetectors(const std::vector<DetectorUnderTest> &detectors);
     void fitDuration();
     std::vector<DetectorUnderTest> chosen() const;
     std::vector<double> snrDb() const;
@@ -59,7 +65,9 @@ private:
     double m_windowSeconds = 0.0;
     double m_recordingSeconds = 0.0;
     QComboBox *m_noise;
-    std::vector<QCheckBox *> m_detectors; ///< the current one, followed by the peers
+    QGridLayout *m_grid;                     ///< of the detectors, in two columns
+    std::vector<QCheckBox *> m_detectors;    ///< the current one, followed by the peers and by m_others
+    std::vector<DetectorUnderTest> m_others; ///< of the experiment that is shown
     QDoubleSpinBox *m_lowestDb;
     QDoubleSpinBox *m_highestDb;
     QDoubleSpinBox *m_stepDb;

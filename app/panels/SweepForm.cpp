@@ -175,6 +175,26 @@ void SweepForm::setLines(double snrDb, double durationSeconds, int trials)
     m_trials->setValue(trials);
 }
 
+void SweepForm::setExperiment(const SweepExperiment &sweep)
+{
+    if (m_parameter->findData(QString::fromStdString(sweep.parameter)) < 0 || sweep.values.empty())
+        return;
+    setParameter(QString::fromStdString(sweep.parameter));
+    const double first = sweep.values.front(), last = sweep.values.back();
+    const auto count = int(sweep.values.size());
+    const bool isLogarithmic = count > 2 && first > 0.0 && last > 0.0
+                               && sweep.values == sweepValues(sweep.parameter, first, last, count, true);
+    setRange(first, last, count, isLogarithmic);
+    m_noise->setCurrentIndex(!sweep.recording.empty() && !m_recording.isEmpty() ? 1 : 0);
+    m_snr->setValue(sweep.snrDb);
+    m_duration->setValue(sweep.durationSeconds);
+    m_margin->setValue(sweep.marginSeconds);
+    m_drift->setValue(sweep.driftHzPerSecond);
+    m_wander->setValue(sweep.wanderHz);
+    m_trials->setValue(sweep.trials);
+    m_seed->setValue(sweep.seed);
+}
+
 const FieldInfo &SweepForm::field() const
 {
     return settingField(m_parameter->currentData().toString().toStdString());

@@ -105,8 +105,12 @@ void SweepPanel::show(int id)
     m_meter.cancel();
     m_costOf = 0;
     m_cost->setChart({});
-    if (m_experiments.entry(id))
+    if (const Experiments::Entry *entry = m_experiments.entry(id)) {
+        const auto *sweep = entry->campaign ? std::get_if<SweepExperiment>(&entry->campaign->experiment) : nullptr;
+        if (sweep && ofForm() != Experiment(*sweep))
+            m_form->setExperiment(*sweep);
         return follow(id);
+    }
     for (ChartPlot *chart : {m_tradeOff, m_pd, m_falseAlarms, m_latency})
         chart->setChart({});
     m_column->clearState();

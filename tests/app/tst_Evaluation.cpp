@@ -12,13 +12,16 @@
 #include "app/window/TrialViewer.h"
 #include "app/window/TrialWindow.h"
 #include "app/workspace/Workbench.h"
+#include "evaluate/experiments/peers.h"
 #include "session/Session.h"
 #include "widgets/plot/ChartPlot.h"
 
+#include <QCheckBox>
 #include <QFile>
 #include <QProcess>
 #include <QTableWidget>
 
+#include <algorithm>
 #include <memory>
 
 using namespace faintline;
@@ -42,6 +45,7 @@ private slots:
     void aLineIsInjectedAndUndone();
     void aReproductionShowsItsTable();
     void theNoiseIsMeasuredWhileItIsSeen();
+    void theFormShowsTheOpenedExperiment();
 
 private:
     bool idle()
@@ -181,7 +185,9 @@ void tst_Evaluation::curvesComeBackFromFiles()
     QVERIFY(replay.waitForFinished(patience));
     QCOMPARE(replay.readAllStandardError(), QByteArray());
     QCOMPARE(replay.readAllStandardOutput(), QByteArray("curve.csv: the same bytes\n"));
+    fillForm(7);
     m_window->evaluation().show(list.importFile(m_folder.filePath("runs.jsonl")));
+    QCOMPARE(m_window->evaluation().column().note(), QString()); // the form shows its values
     QCOMPARE(m_window->evaluation().pd().chart().curves.size(), before.curves.size());
     QVERIFY(shown().campaign->outcomes == m_window->experiments().entry(id)->campaign->outcomes);
     m_window->evaluation().show(list.importFile(m_folder.filePath("curve.csv")));
@@ -189,6 +195,37 @@ void tst_Evaluation::curvesComeBackFromFiles()
     QCOMPARE(after.curves.size(), std::size_t(2));
     QCOMPARE(after.curves[1].points[1].y, before.curves[1].points[1].y);
     QVERIFY_EXCEPTION_THROWN(list.importFile(m_folder.filePath("scene.json")), Error);
+}
+
+/// The form beside the curves of an experiment has its values, and its detectors though they are not the form's own.
+void tst_Evaluation::theFormShowsTheOpenedExperiment()
+{
+    LineExperiment lines;
+    lines.runs = 2;
+    lines.seed = 9;
+    lines.snrDb = {-2.0, 0.5, 3.0};
+    lines.durationWindows = 80.0;
+    lines.driftCellsPerWindow = 0.1;
+    lines.detectors = {peer("integrator", 80.0), peer("energy", 80.0)};
+    lines.detectors.back().name = "one frame";
+    ExperimentForm &form = m_window->evaluation().form();
+    fillForm(3);
+    m_window->evaluation().show(m_window->experimentList().open(
+        writeFile(m_folder, "own.json", QByteArray::fromStdString(toJson(lines).dump()))));
+    QVERIFY(idle());
+    QVERIFY(form.lines() == lines);
+    QCOMPARE(m_window->evaluation().column().note(), QString());
+    const auto hasBox = [&] {
+        return std::ranges::any_of(form.findChildren<QCheckBox *>(),
+                                   [](const QCheckBox *box) { return box->text() == "one frame" && box->isChecked(); });
+    };
+    QVERIFY(hasBox());
+    lines.detectors.pop_back();
+    m_window->evaluation().show(m_window->experimentList().open(
+        writeFile(m_folder, "own.json", QByteArray::fromStdString(toJson(lines).dump()))));
+    QVERIFY(idle());
+    QVERIFY(form.lines() == lines);
+    QVERIFY(!hasBox());
 }
 
 void tst_Evaluation::linesInThisRecording()

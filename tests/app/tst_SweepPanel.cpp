@@ -53,6 +53,8 @@ private slots:
         panel.form().setRange(6.0, 15.0, 3, false);
         QVERIFY2(panel.column().note().contains("decide.thresholdNats = 5 … 15, 4 trials, 3 dB, 10 s, seed 1"),
                  qPrintable(panel.column().note()));
+        panel.show(panel.shown()); // as from the list of experiments: the form shows its values
+        QCOMPARE(panel.column().note(), QString());
         QCOMPARE(panel.tradeOff().chart().curves.front().points.size(), std::size_t(3));
         QTRY_COMPARE(panel.cost().chart().curves.size(), std::size_t(1));
 
