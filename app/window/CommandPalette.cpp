@@ -82,7 +82,8 @@ int CommandPalette::match(const QString &name, const QString &typed)
 {
     int score = 0;
     qsizetype last = -1;
-    for (const QChar letter : typed) {
+    const QString letters = QString(typed).remove(QLatin1Char(' '));
+    for (const QChar letter : letters) {
         const qsizetype at = name.indexOf(letter, last + 1, Qt::CaseInsensitive);
         if (at < 0)
             return -1;
@@ -92,7 +93,7 @@ int CommandPalette::match(const QString &name, const QString &typed)
     }
     const QRegularExpression asItStands(QStringLiteral("\\b") + QRegularExpression::escape(typed),
                                         QRegularExpression::CaseInsensitiveOption);
-    return name.contains(asItStands) ? score + bestOfLetters * int(typed.size()) : score;
+    return name.contains(asItStands) ? score + bestOfLetters * int(letters.size()) : score;
 }
 
 void CommandPalette::filter(const QString &typed)
@@ -103,9 +104,12 @@ void CommandPalette::filter(const QString &typed)
     };
     QList<Found> found;
     for (const Command &command : m_commands)
-        if (const int score = match(command.name, typed.simplified().remove(QLatin1Char(' '))); score >= 0)
+        if (const int score = match(command.name, typed.simplified()); score >= 0)
             found.append({score, &command});
-    std::stable_sort(found.begin(), found.end(), [](const Found &a, const Found &b) { return a.score > b.score; });
+    const auto rank = [&](const Found &one) { // among equals the name with least else in it
+        return std::pair(-one.score, typed.isEmpty() ? qsizetype(0) : one.command->name.size());
+    };
+    std::stable_sort(found.begin(), found.end(), [&](const Found &a, const Found &b) { return rank(a) < rank(b); });
     m_list->clear();
     for (const Found &each : found) {
         const QString key = each.command->action->shortcut().toString(QKeySequence::NativeText);

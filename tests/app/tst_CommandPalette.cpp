@@ -18,6 +18,7 @@ private slots:
     void letters_data();
     void letters();
     void whatWasChosenIsDone();
+    void theShortestNameIsFirst();
     void whatCannotBeDoneIsNotOffered();
 };
 
@@ -40,6 +41,7 @@ void tst_CommandPalette::letters()
     QVERIFY(CommandPalette::match("Noise fit", "nf") > CommandPalette::match("Confirm", "nf"));
     QVERIFY(CommandPalette::match("Setting: Signal model: Lowest slope", "slope")
             > CommandPalette::match("Setting: Family of lines: Present", "slope"));
+    QVERIFY(CommandPalette::match("Show all", "show all") > CommandPalette::match("Sort how alleles", "show all"));
 }
 
 void tst_CommandPalette::whatWasChosenIsDone()
@@ -72,6 +74,22 @@ void tst_CommandPalette::whatWasChosenIsDone()
     QTest::keyClick(palette.line(), Qt::Key_Escape);
     QVERIFY(!palette.isVisible());
     QCOMPARE(second, 1);
+}
+
+/// What has no other words stands before what has; before anything is typed, commands stand as in the menus.
+void tst_CommandPalette::theShortestNameIsFirst()
+{
+    QWidget window;
+    window.show();
+    CommandPalette palette(&window);
+    QMenu file("&File");
+    file.addMenu("Export picture")->addAction("Sweep");
+    QMenu view("&View");
+    view.addAction("Sweep");
+    palette.open({file.menuAction(), view.menuAction()});
+    QCOMPARE(palette.list()->item(0)->text(), QString("File: Export picture: Sweep"));
+    QTest::keyClicks(palette.line(), "sweep");
+    QCOMPARE(palette.list()->item(0)->text(), QString("View: Sweep"));
 }
 
 void tst_CommandPalette::whatCannotBeDoneIsNotOffered()
