@@ -12,6 +12,9 @@
 #include <qwt_plot_canvas.h>
 #include <qwt_scale_map.h>
 
+#include <QAbstractButton>
+#include <QApplication>
+#include <QDockWidget>
 #include <QFile>
 #include <QFileInfo>
 #include <QTableView>
@@ -223,6 +226,71 @@ void findCommand(Walk &walk)
     walk.waitUntil("no palette", [&] { return !walk.window().findChild<QWidget *>("commandPalette")->isVisible(); });
 }
 
+/// The events in a window of their own: their keys and the palette work there, and the panel goes back to its place.
+void floatEvents(Walk &walk)
+{
+    auto *dock = walk.window().findChild<QDockWidget *>("eventsDock");
+    const auto clickFloat = [&] {
+        auto *button = dock->findChild<QAbstractButton *>("qt_dockwidget_floatbutton");
+        walk.hand.click(walk.placeIn([&]() -> QWidget * { return button; }, [&] { return button->rect().center(); }));
+    };
+    walk.clickTab("Events");
+    clickFloat();
+    walk.waitUntil("a floating panel", [&] { return dock->isFloating() && dock->isActiveWindow(); });
+    walk.takePicture("analyst-floating");
+    walk.hand.press("n");
+    walk.waitUntil("an event by a key", [&] { return walk.window().eventTable().selectedEvent() != 0; });
+    walk.hand.press("ctrl+k");
+    auto *palette = walk.window().findChild<QWidget *>("commandPalette");
+    walk.waitUntil("the palette above it", [&] {
+        const QWidget *top = QApplication::widgetAt(palette->mapToGlobal(palette->rect().center()));
+        return palette->isVisible() && top && (top == palette || palette->isAncestorOf(top));
+    });
+    walk.takePicture("analyst-palette-above");
+    walk.hand.press("Escape");
+    walk.waitUntil("no palette", [&] { return !palette->isVisible(); });
+    clickFloat();
+    walk.waitUntil("the panel in its place", [&] { return !dock->isFloating() && !dock->visibleRegion().isEmpty(); });
+}
+
+/// Quitting asks where something is lost: Cancel stays, Save keeps it, Discard does not.
+void leaveUnsaved(Walk &walk)
+{
+    const auto isAsked = [&] {
+        QWidget *dialog = QApplication::activeModalWidget();
+        return dialog && dialog->windowTitle() == "Unsaved settings" && dialog->isActiveWindow();
+    };
+    const auto change = [&] {
+        const double before = walk.see([&] { return threshold(walk); });
+        walk.hand.click(walk.placeIn(*walk.window().workbench().output(), 170.0, 450.0));
+        walk.hand.press("period");
+        walk.waitUntil("a higher threshold", [&] { return threshold(walk) > before + 0.1; });
+        walk.waitForResults();
+    };
+    const auto quit = [&](const QString &answer) {
+        walk.hand.press("ctrl+q");
+        walk.waitUntil("the question", isAsked);
+        walk.takePicture("analyst-question");
+        walk.click(answer, "QPushButton");
+        walk.waitUntil("the answer", [&] { return !QApplication::activeModalWidget(); });
+    };
+    change();
+    const double saved = walk.see([&] { return threshold(walk); });
+    quit("Cancel");
+    walk.waitUntil("the window still", [&] { return walk.window().isVisible() && walk.window().isWindowModified(); });
+    quit("Save");
+    walk.waitUntil("no window", [&] { return !walk.window().isVisible(); });
+    walk.start({walk.path("day.faintline").toStdString()});
+    waitForEvents(walk, 3);
+    walk.waitUntil("what was saved", [&] { return std::abs(threshold(walk) - saved) < 1e-6; });
+    change();
+    quit("Discard");
+    walk.waitUntil("no window", [&] { return !walk.window().isVisible(); });
+    walk.start({walk.path("day.faintline").toStdString()});
+    waitForEvents(walk, 3);
+    walk.waitUntil("what was saved before", [&] { return std::abs(threshold(walk) - saved) < 1e-6; });
+}
+
 void goThrough(Walk &walk)
 {
     writeRecordingTo(walk.path("lines.wav"));
@@ -234,7 +302,9 @@ void goThrough(Walk &walk)
     judge(walk);
     exportEvents(walk);
     findCommand(walk);
+    floatEvents(walk);
     saveAndReturn(walk);
+    leaveUnsaved(walk);
 }
 
 } // namespace
