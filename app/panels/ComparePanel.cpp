@@ -4,6 +4,7 @@
 #include "app/document/statisticUnit.h"
 #include "app/panels/differenceWords.h"
 #include "evaluate/comparison/differencePicture.h"
+#include "widgets/base/FlowLayout.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
@@ -131,12 +132,11 @@ QWidget *ComparePanel::buildList()
 QWidget *ComparePanel::buildButtons()
 {
     auto *row = new QWidget;
-    auto *layout = new QHBoxLayout(row);
+    auto *layout = new FlowLayout(row);
     layout->setContentsMargins(8, 2, 8, 4);
     layout->setSpacing(6);
     for (QPushButton *button : {m_keep, m_swap, m_goTo, m_compute})
         layout->addWidget(button);
-    layout->addStretch(1);
     m_keep->setToolTip(tr("Keep the current settings and results as A (Ctrl+B)"));
     m_swap->setToolTip(tr("Exchange A and the current settings"));
     m_goTo->setToolTip(tr("Apply A's settings; undo restores the current ones"));

@@ -34,6 +34,7 @@ SurveyPanel::SurveyPanel(const Document &document, const AnalysisController &con
 
     auto *bottom = new QHBoxLayout;
     bottom->setContentsMargins(8, 4, 8, 4);
+    m_summary->setWordWrap(true);
     bottom->addWidget(m_summary, 1);
     addVerdict(*bottom, tr("Accept"), tr("Accept the selected events, in the survey's file (Y)"), Qt::Key_Y,
                Verdict::Accepted);

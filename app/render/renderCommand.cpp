@@ -184,8 +184,10 @@ namespace {
     {
         window.setAsking(false);
         window.controller().setShowsFirstEstimates(false);
-        window.resize(size);
         window.show();
+        QCoreApplication::processEvents(); // only now its parts have their fonts, and it can be that small
+        window.resize(size);
+        QCoreApplication::processEvents();
     }
 
 } // namespace

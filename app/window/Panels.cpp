@@ -93,9 +93,9 @@ void Panels::add(const QString &name, const QString &title, QWidget *panel, Plac
         m_window.splitDockWidget(above, dock, Qt::Vertical);
     }
     dock->setHidden(place == Place::Bottom);
-    connect(dock->toggleViewAction(), &QAction::triggered, dock, [dock](bool isShown) {
+    connect(dock->toggleViewAction(), &QAction::triggered, dock, [this, dock](bool isShown) {
         if (isShown)
-            dock->raise(); // from behind other tabs
+            bringForward(*dock, true);
     });
     m_entries.push_back({dock, place});
 }
@@ -158,10 +158,16 @@ void Panels::show(QWidget *panel)
     auto *dock = static_cast<QDockWidget *>(panel->parentWidget());
     const bool wasHidden = dock->isHidden();
     dock->show();
-    dock->raise();
+    bringForward(*dock, wasHidden);
+}
+
+/// From behind other tabs; a sheet that was hidden gets a usable height.
+void Panels::bringForward(QDockWidget &dock, bool wasHidden)
+{
+    dock.raise();
     m_window.layout()->activate(); // so that it has its place at once
-    if (wasHidden && m_window.dockWidgetArea(dock) == Qt::BottomDockWidgetArea)
-        raiseFromBottom(dock, 36);
+    if (wasHidden && !dock.isFloating() && m_window.dockWidgetArea(&dock) == Qt::BottomDockWidgetArea)
+        raiseFromBottom(&dock, 36);
 }
 
 /// Gives a dock at the bottom `percent` of the window's height, or what the pictures leave.

@@ -66,6 +66,7 @@ private:
 
     QDockWidget *dock(const QString &name) const;
     void raiseFromBottom(QDockWidget *dock, int percent);
+    void bringForward(QDockWidget &dock, bool wasHidden);
     void arrangeColumns(const QSize &size);
     QDockWidget *first(Place place) const;
     QDockWidget *last(Place place) const;

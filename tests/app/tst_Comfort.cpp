@@ -23,6 +23,7 @@
 #include <QComboBox>
 #include <QDockWidget>
 #include <QLabel>
+#include <QLayout>
 #include <QLineEdit>
 #include <QListWidget>
 #include <QMenu>
@@ -279,6 +280,28 @@ private slots:
         panels->takeLayout(Panels::layoutNames().first());
     }
 
+    /// Every sheet, from the menu or by its command: a usable height, and pictures of 350 pixels above.
+    void sheetsLeaveThePicturesTheirRoom()
+    {
+        auto *panels = m_window->findChild<Panels *>();
+        m_window->resize(1280, 800);
+        const Workbench &bench = m_window->workbench();
+        for (const QDockWidget *dock : m_window->findChildren<QDockWidget *>()) {
+            panels->takeLayout(Panels::layoutNames().first());
+            QCoreApplication::processEvents();
+            if (m_window->dockWidgetArea(const_cast<QDockWidget *>(dock)) != Qt::BottomDockWidgetArea)
+                continue;
+            dock->toggleViewAction()->trigger();
+            QCoreApplication::processEvents();
+            QCOMPARE(m_window->size(), QSize(1280, 800));
+            QVERIFY2(
+                bench.input()->height() >= 350 && bench.output()->height() >= 350 && dock->height() >= 150,
+                qPrintable(
+                    QString("%1: %2, %3").arg(dock->windowTitle()).arg(bench.input()->height()).arg(dock->height())));
+        }
+        panels->takeLayout(Panels::layoutNames().first());
+    }
+
     void aPanelTakesTheWholeWindowAndGoesBack()
     {
         auto *panels = m_window->findChild<Panels *>();
@@ -350,6 +373,31 @@ private slots:
             QVERIFY2(window->size() == room,
                      qPrintable(QString("%1: %2 × %3").arg(layout).arg(window->width()).arg(window->height())));
         }
+    }
+
+    /// In a window of that size every panel needs no more width than it has.
+    void aSmallScreenIsEnoughForEveryPanel()
+    {
+        const QSize room(640, 376);
+        const auto window = newWindow(room);
+        QVERIFY(openAndSettle(*window, writeFile(m_folder, "small.json", sceneText)));
+        QStringList wider;
+        for (QDockWidget *dock : window->findChildren<QDockWidget *>()) {
+            if (!dock->widget() || !dock->toggleViewAction()->isVisible())
+                continue;
+            window->findChild<Panels *>()->takeLayout(Panels::layoutNames().first());
+            if (dock->isHidden())
+                dock->toggleViewAction()->trigger();
+            dock->raise();
+            window->resize(room);
+            QCoreApplication::processEvents();
+            QCOMPARE(window->size(), room);
+            const QWidget &panel = *dock->widget();
+            const int needed = panel.layout() ? panel.layout()->minimumSize().width() : panel.minimumSizeHint().width();
+            if (needed > panel.width())
+                wider << QString("%1: %2 of %3").arg(dock->windowTitle()).arg(needed).arg(panel.width());
+        }
+        QVERIFY2(wider.isEmpty(), qPrintable(wider.join("; ")));
     }
 
     void toolsSayWhatTheyAre()
