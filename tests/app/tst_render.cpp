@@ -251,6 +251,20 @@ private slots:
         QVERIFY(pixelsOf(path("light-output.png")) != pixelsOf(path("dark-output.png")));
     }
 
+    /// In a window of 640 pixels the pictures have the room of the panels, as if it had been opened at that size.
+    void aSmallWindowHasNoPanels()
+    {
+        const Outcome outcome = run({"render", path("scene.json"), "--out", path("small.png"), "--size", "640x376"});
+        QCOMPARE(outcome.error, QByteArray());
+        const QImage picture(path("small.png"));
+        QCOMPARE(picture.size(), QSize(640, 376));
+        int dark = 0;
+        for (int y = 100; y < 260; ++y)
+            for (int x = 400; x < 540; ++x)
+                dark += picture.pixelColor(x, y).lightness() < 128 ? 1 : 0;
+        QVERIFY2(dark > 140 * 160 * 9 / 10, qPrintable(QString::number(dark))); // the statistic of noise
+    }
+
     void radarScans()
     {
         const QStringList views{"sequential", "walk", "stopping", "posterior", "scan", "asn", "prior", "sectors"};

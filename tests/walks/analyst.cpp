@@ -110,7 +110,8 @@ void visitEvents(Walk &walk)
 void chooseEventAt(Walk &walk, double hz)
 {
     EventTable &table = walk.window().eventTable();
-    walk.clickTab("Events");
+    if (!walk.see([&] { return table.isVisible() && !table.visibleRegion().isEmpty(); }))
+        walk.clickTab("Events");
     walk.hand.click(
         walk.placeIn([&] { return table.table()->viewport(); },
                      [&]() -> QPointF {
@@ -226,30 +227,39 @@ void findCommand(Walk &walk)
     walk.waitUntil("no palette", [&] { return !walk.window().findChild<QWidget *>("commandPalette")->isVisible(); });
 }
 
-/// The events in a window of their own: their keys and the palette work there, and the panel goes back to its place.
+/// The events in a window of their own, where keys work, and as large as the window, below the palette; and back.
 void floatEvents(Walk &walk)
 {
+    EventTable &table = walk.window().eventTable();
     auto *dock = walk.window().findChild<QDockWidget *>("eventsDock");
+    auto *palette = walk.window().findChild<QWidget *>("commandPalette");
     const auto clickFloat = [&] {
         auto *button = dock->findChild<QAbstractButton *>("qt_dockwidget_floatbutton");
         walk.hand.click(walk.placeIn([&]() -> QWidget * { return button; }, [&] { return button->rect().center(); }));
     };
     walk.clickTab("Events");
     clickFloat();
-    walk.waitUntil("a floating panel", [&] { return dock->isFloating() && dock->isActiveWindow(); });
+    walk.waitUntil("a floating panel", [&] { return dock->isFloating(); });
+    chooseEventAt(walk, 120.0);
     walk.takePicture("analyst-floating");
+    const int before = walk.see([&] { return table.selectedEvent(); });
     walk.hand.press("n");
-    walk.waitUntil("an event by a key", [&] { return walk.window().eventTable().selectedEvent() != 0; });
+    walk.waitUntil("the next event", [&] { return table.selectedEvent() != before; });
+    clickFloat();
+    walk.waitUntil("the panel in its place", [&] { return !dock->isFloating() && !dock->visibleRegion().isEmpty(); });
+    chooseEventAt(walk, 120.0);
+    walk.hand.press("F11");
+    walk.waitUntil("a panel as large as the window",
+                   [&] { return dock->isFloating() && dock->size() == walk.window().size(); });
     walk.hand.press("ctrl+k");
-    auto *palette = walk.window().findChild<QWidget *>("commandPalette");
     walk.waitUntil("the palette above it", [&] {
         const QWidget *top = QApplication::widgetAt(palette->mapToGlobal(palette->rect().center()));
-        return palette->isVisible() && top && (top == palette || palette->isAncestorOf(top));
+        return palette->isVisible() && top && palette->isAncestorOf(top);
     });
     walk.takePicture("analyst-palette-above");
     walk.hand.press("Escape");
     walk.waitUntil("no palette", [&] { return !palette->isVisible(); });
-    clickFloat();
+    walk.hand.press("F11");
     walk.waitUntil("the panel in its place", [&] { return !dock->isFloating() && !dock->visibleRegion().isEmpty(); });
 }
 

@@ -38,6 +38,7 @@ private slots:
     void fontsHaveEverySignOfTheSources();
     void textCanBeRead_data();
     void textCanBeRead();
+    void theUsersScaleIsRespected();
     void curvesAreToldApart_data() { textCanBeRead_data(); }
     void curvesAreToldApart();
     void kindIsFoundInThePalette();
@@ -143,6 +144,17 @@ void tst_Theme::textCanBeRead()
     QVERIFY(contrast(colours.threshold, colours.canvas) > 4.5);
     for (const QColor &curve : colours.curves)
         QVERIFY(contrast(curve, colours.canvas) > 3.0);
+}
+
+/// What would change pictures is taken away, but not the scale that a user has chosen.
+void tst_Theme::theUsersScaleIsRespected()
+{
+    qputenv("QT_SCALE_FACTOR", "1.5");
+    qputenv("QT_FONT_DPI", "120");
+    Theme::prepareEnvironment();
+    QCOMPARE(qgetenv("QT_SCALE_FACTOR"), QByteArray("1.5"));
+    QVERIFY(!qEnvironmentVariableIsSet("QT_FONT_DPI"));
+    qunsetenv("QT_SCALE_FACTOR");
 }
 
 /// Any two curves of a chart differ clearly, and also for those who do not see red or green.
