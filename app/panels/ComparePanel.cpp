@@ -159,6 +159,7 @@ QWidget *ComparePanel::buildButtons()
 
 void ComparePanel::buildTable()
 {
+    nameColumns(tr("Frequency"));
     m_table->verticalHeader()->hide();
     m_table->verticalHeader()->setDefaultSectionSize(22);
     m_table->horizontalHeader()->setHighlightSections(false);
@@ -174,6 +175,12 @@ void ComparePanel::buildTable()
     m_table->sortByColumn(Onset, Qt::AscendingOrder);
     connect(m_table, &QTableWidget::cellClicked, this, [this](int row) { goTo(row); });
     connect(m_table, &QTableWidget::cellActivated, this, [this](int row) { goTo(row); });
+}
+
+void ComparePanel::nameColumns(const QString &place)
+{
+    m_table->setHorizontalHeaderLabels(
+        {tr("In"), tr("Onset"), place, tr("A at"), tr("B at"), tr("D of A"), tr("D of B")});
 }
 
 QString ComparePanel::sentence() const
@@ -273,8 +280,7 @@ void ComparePanel::showEvents()
         const Axis &place = result->b->grid().axes.back();
         const QString unitA = statisticUnit(result->a->settings), unitB = statisticUnit(result->b->settings);
         const QString placeName = capitalised(labelText(place.name, mostUnitLetters));
-        m_table->setHorizontalHeaderLabels(
-            {tr("In"), tr("Onset"), placeName, tr("A at"), tr("B at"), tr("D of A"), tr("D of B")});
+        nameColumns(placeName);
         m_table->horizontalHeaderItem(DetectedA)->setToolTip(tr("Time at which A detected it"));
         m_table->horizontalHeaderItem(DetectedB)->setToolTip(tr("Time at which B detected it"));
         m_table->horizontalHeaderItem(StatisticA)->setToolTip(tr("Largest statistic in A, %1").arg(unitA));

@@ -52,6 +52,7 @@ private:
     QWidget *buildList();
     QWidget *buildButtons();
     void buildTable();
+    void nameColumns(const QString &place);
     void follow();
     void showPicture();
     void showEvents();

@@ -160,6 +160,7 @@ void MainWindow::showWorkbench()
     m_pages->show();
     if (m_pages->currentWidget() == &bench())
         return;
+    m_panels->setLeastPictures(bench().hasReadOut() ? Panels::leastWithBars : Panels::leastAlone);
     m_welcome->stop();
     m_pages->setCurrentWidget(&bench());
     if (const QByteArray panels = m_memory.layout().panels; panels.isEmpty() || !restoreState(panels))

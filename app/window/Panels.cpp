@@ -24,8 +24,6 @@ namespace faintline {
 namespace {
 
     constexpr int narrowestColumn = 280;
-    /// Height that a panel at the bottom leaves to the pictures: 350 pixels, and what pings have below them.
-    constexpr int leastPictures = 415;
     /// Height to which panels below the threshold can be reduced, also those whose content wishes for more.
     constexpr int leastPanel = 165;
     /// Size to which sheets at the bottom can be reduced, so that a window with them fits small screens.
@@ -96,6 +94,10 @@ void Panels::add(const QString &name, const QString &title, QWidget *panel, Plac
     connect(dock->toggleViewAction(), &QAction::triggered, dock, [this, dock](bool isShown) {
         if (isShown)
             bringForward(*dock, true);
+    });
+    connect(dock, &QDockWidget::topLevelChanged, dock, [dock](bool isFloating) {
+        if (!isFloating)
+            dock->raise(); // it returns behind the panel that took its place
     });
     m_entries.push_back({dock, place});
 }
@@ -173,9 +175,21 @@ void Panels::bringForward(QDockWidget &dock, bool wasHidden)
 /// Gives a dock at the bottom `percent` of the window's height, or what the pictures leave.
 void Panels::raiseFromBottom(QDockWidget *dock, int percent)
 {
-    m_window.layout()->activate();
-    const int room = m_window.centralWidget()->height() + dock->height() - leastPictures;
-    m_window.resizeDocks({dock}, {std::min(m_window.height() * percent / 100, room)}, Qt::Vertical);
+    for (int pass = 0; pass < 2; ++pass) { // a dock that was hidden has its place among the tabs after the first
+        m_window.layout()->activate();
+        const int room = m_window.centralWidget()->height() + dock->height() + tabHeight(*dock) - m_leastPictures;
+        m_window.resizeDocks({dock}, {std::min(m_window.height() * percent / 100, room)}, Qt::Vertical);
+    }
+}
+
+/// Of the tabs directly above a dock, which resizeDocks counts as part of it.
+int Panels::tabHeight(const QDockWidget &dock) const
+{
+    const QRect above(dock.x(), dock.y() - 8, dock.width(), 8);
+    for (const QTabBar *bar : m_window.findChildren<QTabBar *>(Qt::FindDirectChildrenOnly))
+        if (bar->isVisible() && bar->geometry().intersects(above))
+            return bar->height();
+    return 0;
 }
 
 QStringList Panels::layoutNames()

@@ -32,6 +32,11 @@ public:
     /// Makes the present layout the default. Call after all panels have been added.
     void rememberDefault();
 
+    /// Height that sheets at the bottom leave to the centre: pictures of 350 pixels, alone or with bars below them.
+    static constexpr int leastAlone = 360;
+    static constexpr int leastWithBars = 415;
+    void setLeastPictures(int height) { m_leastPictures = height; }
+
     void show(QWidget *panel); ///< shows the panel and raises it
     void hide();               ///< hides all panels
     QList<QAction *> toggleActions() const;
@@ -66,6 +71,7 @@ private:
 
     QDockWidget *dock(const QString &name) const;
     void raiseFromBottom(QDockWidget *dock, int percent);
+    int tabHeight(const QDockWidget &dock) const;
     void bringForward(QDockWidget &dock, bool wasHidden);
     void arrangeColumns(const QSize &size);
     QDockWidget *first(Place place) const;
@@ -78,6 +84,7 @@ private:
     QPointer<QDockWidget> m_maximised;
     QRect m_before; ///< place of a maximised panel that floated; invalid: it was docked
     bool m_isRearranging = false;
+    int m_leastPictures = leastWithBars;
 };
 
 } // namespace faintline

@@ -295,11 +295,30 @@ private slots:
             QCoreApplication::processEvents();
             QCOMPARE(m_window->size(), QSize(1280, 800));
             QVERIFY2(
-                bench.input()->height() >= 350 && bench.output()->height() >= 350 && dock->height() >= 150,
+                bench.input()->height() >= 350 && bench.output()->height() >= 350 && dock->height() >= 200,
                 qPrintable(
                     QString("%1: %2, %3").arg(dock->windowTitle()).arg(bench.input()->height()).arg(dock->height())));
         }
         panels->takeLayout(Panels::layoutNames().first());
+        for (const char *name : {"compareDock", "sweepDock", "evaluateDock"}) { // the second and third share tabs
+            auto *dock = m_window->findChild<QDockWidget *>(name);
+            dock->toggleViewAction()->trigger();
+            QCoreApplication::processEvents();
+            QVERIFY2(bench.input()->height() >= 350 && dock->height() >= 200,
+                     qPrintable(QString("%1: %2, %3").arg(name).arg(bench.input()->height()).arg(dock->height())));
+        }
+        panels->takeLayout(Panels::layoutNames().first());
+    }
+
+    void aFloatingPanelReturnsToTheFront()
+    {
+        m_window->findChild<Panels *>()->takeLayout(Panels::layoutNames().first());
+        auto *dock = m_window->findChild<QDockWidget *>("eventsDock");
+        dock->setFloating(true);
+        QCoreApplication::processEvents();
+        dock->setFloating(false);
+        QCoreApplication::processEvents();
+        QVERIFY(dock->isVisible() && !dock->visibleRegion().isEmpty());
     }
 
     void aPanelTakesTheWholeWindowAndGoesBack()
