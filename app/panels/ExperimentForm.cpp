@@ -175,7 +175,9 @@ void ExperimentForm::setDetectors(const std::vector<DetectorUnderTest> &detector
         if (std::ranges::count(known, one) > 0)
             continue;
         m_others.push_back(one);
-        auto *box = new QCheckBox(labelText(one.name));
+        const bool isOfAPeer = std::ranges::count(known, one.name, &DetectorUnderTest::name) > 0;
+        const QString name = labelText(one.name);
+        auto *box = new QCheckBox(isOfAPeer ? tr("%1, as opened").arg(name) : name);
         box->setToolTip(tr("A detector of the experiment shown, with its own settings"));
         box->setChecked(true);
         addDetector(box);

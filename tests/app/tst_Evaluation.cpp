@@ -220,6 +220,14 @@ void tst_Evaluation::theFormShowsTheOpenedExperiment()
                                    [](const QCheckBox *box) { return box->text() == "one frame" && box->isChecked(); });
     };
     QVERIFY(hasBox());
+    lines.detectors.front().settings.model.snr = 2.0; // another one of the same name
+    m_window->evaluation().show(m_window->experimentList().open(
+        writeFile(m_folder, "own.json", QByteArray::fromStdString(toJson(lines).dump()))));
+    QVERIFY(idle());
+    QVERIFY(form.lines() == lines);
+    QVERIFY(std::ranges::any_of(form.findChildren<QCheckBox *>(),
+                                [](const QCheckBox *box) { return box->text() == "integrator, as opened"; }));
+    lines.detectors.front() = peer("integrator", 80.0);
     lines.detectors.pop_back();
     m_window->evaluation().show(m_window->experimentList().open(
         writeFile(m_folder, "own.json", QByteArray::fromStdString(toJson(lines).dump()))));
