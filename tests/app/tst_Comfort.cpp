@@ -63,7 +63,7 @@ bool isInner(const QWidget *widget)
            || widget->inherits("QComboBoxListView") || widget->inherits("QComboBoxPrivateContainer");
 }
 
-/// Every layout leaves its pictures 350 pixels of height, and their canvases that width; nothing forces the window wider.
+/// Every layout leaves its pictures 350 pixels of height, and their canvases that width; nothing widens the window.
 void lookAtLayouts(MainWindow &window, const QSize &size, const std::vector<WaterfallView *> &views, int canvas)
 {
     window.resize(size);

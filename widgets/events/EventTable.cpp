@@ -137,7 +137,7 @@ void EventTable::setEvents(const std::vector<Event> &events)
 /// Number columns are as wide as their headings, without the style's margins.
 void EventTable::narrowColumns()
 {
-    constexpr int room = 6;  // pixels
+    constexpr int room = 6;   // pixels
     constexpr int arrow = 12; // sort indicator
     const QHeaderView &header = *m_table->horizontalHeader();
     for (int column = EventModel::Id; column <= EventModel::Drift; ++column) {
