@@ -13,8 +13,10 @@
 #include "widgets/waterfall/WaterfallView.h"
 
 #include <QApplication>
+#include <QCheckBox>
 #include <QDirIterator>
 #include <QGridLayout>
+#include <QRadioButton>
 #include <QRawFont>
 #include <QRegularExpression>
 #include <QSet>
@@ -38,6 +40,8 @@ private slots:
     void fontsHaveEverySignOfTheSources();
     void textCanBeRead_data();
     void textCanBeRead();
+    void anEmptyBoxIsSeen_data() { textCanBeRead_data(); }
+    void anEmptyBoxIsSeen();
     void theUsersScaleIsRespected();
     void curvesAreToldApart_data() { textCanBeRead_data(); }
     void curvesAreToldApart();
@@ -144,6 +148,26 @@ void tst_Theme::textCanBeRead()
     QVERIFY(contrast(colours.threshold, colours.canvas) > 4.5);
     for (const QColor &curve : colours.curves)
         QVERIFY(contrast(curve, colours.canvas) > 3.0);
+}
+
+/// The outline of a box that is not checked stands out from the ground.
+void tst_Theme::anEmptyBoxIsSeen()
+{
+    QFETCH(Theme::Kind, kind);
+    Theme::apply(kind);
+    QCheckBox box;
+    QRadioButton button;
+    for (QAbstractButton *each : {static_cast<QAbstractButton *>(&box), static_cast<QAbstractButton *>(&button)}) {
+        each->resize(each->sizeHint());
+        const QImage picture = each->grab().toImage();
+        const QColor ground = each->palette().color(QPalette::Window);
+        double best = 0.0;
+        for (int x = 0; x < 8; ++x) // its left edge, at half its height
+            best = std::max(best, contrast(picture.pixelColor(x, picture.height() / 2), ground));
+        const double least = kind == Theme::Kind::Light ? 1.5 : 3.0;
+        QVERIFY2(best > least, qPrintable(QString::number(best)));
+    }
+    Theme::apply(Theme::Kind::Light);
 }
 
 /// What would change pictures is taken away, but not the scale that a user has chosen.

@@ -11,7 +11,9 @@
 #include <QApplication>
 #include <QFontDatabase>
 #include <QLocale>
+#include <QPainter>
 #include <QProxyStyle>
+#include <QStyleOption>
 #include <QToolTip>
 
 #include <cmath>
@@ -103,6 +105,25 @@ namespace {
             if (kind == SP_TitleBarNormalButton)
                 return icon(QStringLiteral("detach"));
             return QProxyStyle::standardIcon(kind, option, widget);
+        }
+
+        /// On dark grounds Fusion's outline of an empty box cannot be seen.
+        void drawPrimitive(PrimitiveElement element, const QStyleOption *option, QPainter *painter,
+                           const QWidget *widget) const override
+        {
+            QProxyStyle::drawPrimitive(element, option, painter, widget);
+            const bool isBox = element == PE_IndicatorCheckBox || element == PE_IndicatorItemViewItemCheck;
+            const bool isRing = element == PE_IndicatorRadioButton;
+            if ((!isBox && !isRing) || Theme::kind(option->palette) == Theme::Kind::Light)
+                return;
+            painter->save();
+            painter->setRenderHint(QPainter::Antialiasing);
+            painter->setPen(QPen(
+                mixed(option->palette.color(QPalette::WindowText), option->palette.color(QPalette::Window), 0.5), 1.0));
+            painter->setBrush(Qt::NoBrush);
+            const QRectF outline = QRectF(option->rect).adjusted(0.5, 0.5, -0.5, -0.5);
+            isBox ? painter->drawRoundedRect(outline, 2.0, 2.0) : painter->drawEllipse(outline);
+            painter->restore();
         }
     };
 
