@@ -1,6 +1,7 @@
 #include "app/workspace/PingBar.h"
 
 #include "widgets/base/Theme.h"
+#include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 
 #include <QCheckBox>
@@ -121,12 +122,29 @@ void PingBar::setPolarPossible(bool isPossible)
 
 void PingBar::setReading(const QString &words)
 {
-    m_reading->setText(words);
+    m_words = words;
+    fitReading();
 }
 
 QString PingBar::reading() const
 {
-    return m_reading->text();
+    return m_words;
+}
+
+void PingBar::fitReading()
+{
+    const QMargins margins = m_reading->contentsMargins();
+    const int room = m_reading->width() - margins.left() - margins.right();
+    m_reading->setText(m_reading->fontMetrics().elidedText(m_words, Qt::ElideRight, room));
+    m_reading->setToolTip(m_reading->text() == m_words ? QString() : asHtml(m_words));
+    m_reading->setAccessibleDescription(m_words);
+}
+
+void PingBar::resizeEvent(QResizeEvent *event)
+{
+    QWidget::resizeEvent(event);
+    layout()->activate(); // the label has its width
+    fitReading();
 }
 
 } // namespace faintline

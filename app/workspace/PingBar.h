@@ -37,14 +37,19 @@ signals:
     void conventionalToggled(bool isShown);
     void polarToggled(bool isPolar);
 
+protected:
+    void resizeEvent(QResizeEvent *event) override;
+
 private:
     QLayout *buildRow();
+    void fitReading();
 
     QSlider *m_slider;
     QToolButton *m_previous;
     QToolButton *m_next;
     QCheckBox *m_polar;
     QLabel *m_reading;
+    QString m_words; ///< whole; in a narrow window the label ends with an ellipsis
 };
 
 } // namespace faintline

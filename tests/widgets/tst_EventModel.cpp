@@ -253,8 +253,13 @@ void tst_EventModel::ofPingsRangeAndBearing()
     m_model->setAxes({{"range", "m", 1000.0, 10.0, 50, false}, {"bearing", "°", 0.0, 45.0, 8, true}});
     QCOMPARE(headings.count(), 1);
     QVERIFY(m_model->hasBearing());
-    QCOMPARE(heading(EventModel::Frequency), QString("Range (m)"));
-    QCOMPARE(heading(EventModel::Bearing), QString("Bearing (°)"));
+    QCOMPARE(heading(EventModel::Frequency), QString("R (m)"));
+    QCOMPARE(heading(EventModel::Bearing), QString("B (°)"));
+    const auto said = [&](int column) {
+        return m_model->headerData(column, Qt::Horizontal, Qt::AccessibleTextRole).toString();
+    };
+    QCOMPARE(said(EventModel::Frequency), QString("Range (m)"));
+    QCOMPARE(said(EventModel::Bearing), QString("Bearing (°)"));
     QCOMPARE(heading(EventModel::Drift), QString("Rate (m/s)"));
     QCOMPARE(text(EventModel::Frequency), QString("1250")); // cells are 10 m
     QCOMPARE(text(EventModel::Bearing), QString("45.0"));

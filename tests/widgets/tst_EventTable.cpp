@@ -25,6 +25,7 @@ private slots:
     void sortsByValueNotByText();
     void aNarrowPanelShowsWhereAndSinceWhen();
     void onASmallScreenNothingNeedsScrolling();
+    void onASmallScreenPingsNeedNoScrolling();
     void numbersAreNotCutShort();
     void filters();
     void nextAndPreviousGoRound();
@@ -101,6 +102,24 @@ void tst_EventTable::onASmallScreenNothingNeedsScrolling()
             QVERIFY2(header.fontMetrics().horizontalAdvance(heading) + 4 <= m_table->table()->columnWidth(column),
                      qPrintable(heading));
         }
+    }
+}
+
+void tst_EventTable::onASmallScreenPingsNeedNoScrolling()
+{
+    std::vector<Event> events{test::event(1, 75.0, 300.0, 0.0, 165.0), test::event(2, 30.0, 500.0, 0.0, 210.0)};
+    events[0].position = {10460.0, 270.0};
+    events[1].position = {5720.0, 72.0};
+    m_table->setEvents({});
+    m_table->setAxes({{"range", "m", 1000.0, 10.0, 2500, false}, {"bearing", "°", 0.0, 18.0, 20, true}});
+    m_table->setEvents(events);
+    m_table->resize(280, 200);
+    QCoreApplication::processEvents();
+    const QTableView &table = *m_table->table();
+    for (const int column : {EventModel::Frequency, EventModel::Bearing, EventModel::Onset, EventModel::Detection,
+                             EventModel::Confirmation}) {
+        const int right = table.columnViewportPosition(column) + table.columnWidth(column);
+        QVERIFY2(right <= table.viewport()->width(), qPrintable(QString("%1: %2").arg(column).arg(right)));
     }
 }
 

@@ -223,7 +223,8 @@ QVariant EventModel::data(const QModelIndex &index, int role) const
     case Qt::TextAlignmentRole:
         return QVariant::fromValue(alignmentOf(index.column()));
     case Qt::AccessibleTextRole:
-        return tr("%1: %2").arg(headerData(index.column(), Qt::Horizontal).toString(), text(event, index.column()));
+        return tr("%1: %2").arg(headerData(index.column(), Qt::Horizontal, role).toString(),
+                                text(event, index.column()));
     default:
         return {};
     }
@@ -277,7 +278,11 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
         const std::size_t axis = axisOf(column);
         if (!hasColumn(column))
             return tr("Axis %1").arg(axis + 1);
-        return unit(axis).isEmpty() ? nameOf(axis) : QStringLiteral("%1 (%2)").arg(nameOf(axis), unit(axis));
+        if (unit(axis).isEmpty())
+            return nameOf(axis);
+        // As "f (Hz)", so that the times are in view; the tool tip has the whole name.
+        const bool isBrief = role == Qt::DisplayRole && m_axes.size() == 2 && nameOf(0).left(1) != nameOf(1).left(1);
+        return QStringLiteral("%1 (%2)").arg(isBrief ? nameOf(axis).left(1) : nameOf(axis), unit(axis));
     };
     const QString names[] = {tr("№"),
                              hasBearing() ? heading(Frequency) : tr("f (Hz)"),
@@ -321,7 +326,7 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
         tr("Your note on the event; E edits it")};
     if (section < 0 || section >= ColumnCount)
         return {};
-    if (role == Qt::DisplayRole)
+    if (role == Qt::DisplayRole || role == Qt::AccessibleTextRole)
         return names[section];
     return role == Qt::ToolTipRole ? tips[section] : QVariant();
 }
