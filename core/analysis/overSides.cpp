@@ -14,6 +14,7 @@ namespace faintline {
 namespace {
 
     constexpr double lineCells = 1.0;                         ///< on either side: the main lobe's upper 6 dB
+    constexpr double largestShare = 0.25;                     ///< of a line's power, on its weaker side
     constexpr std::size_t stripBytes = std::size_t(64) << 20; ///< read at a time
 
     class Sides
@@ -35,13 +36,15 @@ namespace {
             return stripAlong(line, levelOfSidesHalfWidth(m_model.binsPerCell));
         }
 
-        double statisticOver(PathStrip strip)
+        bool isLine(PathStrip strip)
         {
             PathStrip sides = strip;
             removeSignals(sides);
+            if (shareOfSides(strip, sides, m_model.binsPerCell) > largestShare)
+                return false;
             keepLine(strip, float(levelOfSides(sides, m_model.binsPerCell)));
             setLnK(m_model, m_analysis, strip);
-            return strongestIn(strip, m_model);
+            return strongestIn(strip, m_model) >= sureStatistic(m_analysis);
         }
 
     private:
@@ -100,7 +103,7 @@ std::vector<Track> overSides(const Analysis &analysis, std::vector<Track> lines,
         const auto share = [&](std::size_t line) { return double(line) / double(lines.size()); };
         readStrips(analysis, strips, context.part(share(first), share(end)), "comparing lines with their surroundings");
         for (std::size_t i = first; i < end; ++i)
-            if (sides.statisticOver(std::move(strips[i - first])) >= sureStatistic(analysis))
+            if (sides.isLine(std::move(strips[i - first])))
                 result.push_back(std::move(lines[i]));
         first = end;
     }

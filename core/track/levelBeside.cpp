@@ -1,8 +1,10 @@
 #include "track/levelBeside.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace faintline {
 
@@ -89,6 +91,38 @@ namespace {
         std::vector<float> m_values;
     };
 
+    /// Appends the observed values at bins `from` to `to` from the path.
+    void appendValues(const PathStrip &strip, Index from, Index to, std::vector<double> &values)
+    {
+        for (Index at = 0; at < strip.frameCount(); ++at)
+            for (Index bin = from; bin <= to; ++bin)
+                if (const float y = strip.valueAt(at, strip.centres[std::size_t(at)] + bin); y > 0.0f)
+                    values.push_back(double(y));
+    }
+
+    std::vector<double> valuesAlong(const PathStrip &strip)
+    {
+        std::vector<double> values;
+        appendValues(strip, 0, 0, values);
+        return values;
+    }
+
+    /// Below and above.
+    std::array<std::vector<double>, 2> valuesOfSides(const PathStrip &strip, double binsPerCell)
+    {
+        const auto nearest = Index(std::ceil(nearestOfSide * binsPerCell));
+        const Index farthest = levelOfSidesHalfWidth(binsPerCell);
+        std::array<std::vector<double>, 2> values;
+        appendValues(strip, -farthest, -nearest, values[0]);
+        appendValues(strip, nearest, farthest, values[1]);
+        return values;
+    }
+
+    double meanOf(const std::vector<double> &values)
+    {
+        return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
+    }
+
 } // namespace
 
 Index levelBesideHalfWidth(double binsPerCell)
@@ -121,22 +155,25 @@ Index levelOfSidesHalfWidth(double binsPerCell)
 
 double levelOfSides(const PathStrip &strip, double binsPerCell)
 {
-    const auto nearest = Index(std::ceil(nearestOfSide * binsPerCell));
-    const Index farthest = levelOfSidesHalfWidth(binsPerCell);
     double level = 1.0;
-    for (const Index side : {-1, 1}) {
-        double sum = 0.0;
-        std::size_t count = 0;
-        for (Index at = 0; at < strip.frameCount(); ++at)
-            for (Index bin = nearest; bin <= farthest; ++bin)
-                if (const float y = strip.valueAt(at, strip.centres[std::size_t(at)] + side * bin); y > 0.0f) {
-                    sum += std::log(double(y));
-                    ++count;
-                }
-        if (count >= fewestValues)
-            level = std::max(level, std::exp(sum / double(count) + std::numbers::egamma));
-    }
+    for (const std::vector<double> &side : valuesOfSides(strip, binsPerCell))
+        if (side.size() >= fewestValues) {
+            double sum = 0.0;
+            for (const double y : side)
+                sum += std::log(y);
+            level = std::max(level, std::exp(sum / double(side.size()) + std::numbers::egamma));
+        }
     return level;
+}
+
+double shareOfSides(const PathStrip &line, const PathStrip &sides, double binsPerCell)
+{
+    const std::vector<double> path = valuesAlong(line);
+    const auto [below, above] = valuesOfSides(sides, binsPerCell);
+    const double excess = meanOf(path) - 1.0;
+    if (std::min({path.size(), below.size(), above.size()}) < fewestValues || excess <= 0.0)
+        return 0.0;
+    return std::max(0.0, (std::min(meanOf(below), meanOf(above)) - 1.0) / excess);
 }
 
 } // namespace faintline

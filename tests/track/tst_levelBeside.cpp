@@ -51,6 +51,9 @@ private slots:
     void sidesOfALineAreNoise();
     void sidesOfABandAreRaised();
     void sidesHardlyDependOnSingleCells();
+    void shareOfSidesOfALine();
+    void shareOfSidesOfABurstyBand();
+    void shareOfSidesNeedsBoth();
     void noiseIsNotRaised();
     void aCloudIsMeasured();
     void oneSideIsEnough();
@@ -140,6 +143,40 @@ void tst_levelBeside::sidesHardlyDependOnSingleCells()
     for (Index at = 0; at < 400; at += 20)
         raise(strip, at, at + 1, 3, 7, 1000.0f);
     QVERIFY(levelOfSides(strip, binsPerCell) < 1.5); // the mean would be 51
+}
+
+void tst_levelBeside::shareOfSidesOfALine()
+{
+    PathStrip strip = noise(400, 8);
+    raise(strip, 0, 400, -2, 2, 3.0f);
+    const double share = shareOfSides(strip, strip, binsPerCell);
+    QVERIFY2(share < 0.1, qPrintable(QString::number(share)));
+}
+
+/// 20 dB in one frame of twenty: on average the sides are as high as the path, but levelOfSides hardly rises.
+void tst_levelBeside::shareOfSidesOfABurstyBand()
+{
+    PathStrip strip = noise(400, 9);
+    for (Index at = 0; at < 400; at += 20)
+        raise(strip, at, at + 1, -7, 7, 100.0f);
+    QVERIFY(levelOfSides(strip, binsPerCell) < 1.5);
+    const double share = shareOfSides(strip, strip, binsPerCell);
+    QVERIFY2(share > 0.5 && share < 2.0, qPrintable(QString::number(share)));
+}
+
+/// A stronger signal on one side, or one that is known, is not a wider band.
+void tst_levelBeside::shareOfSidesNeedsBoth()
+{
+    PathStrip line = noise(400, 10);
+    raise(line, 0, 400, 0, 8, 3.0f);
+    QVERIFY(shareOfSides(line, line, binsPerCell) < 0.1);
+    raise(line, 0, 400, -8, -1, 3.0f);
+    QVERIFY(shareOfSides(line, line, binsPerCell) > 0.8);
+    PathStrip sides = line;
+    for (Index at = 0; at < sides.frameCount(); ++at)
+        for (Index bin = 1; bin <= 8; ++bin)
+            sides.row(at)[sides.halfWidth + bin] = std::numeric_limits<float>::quiet_NaN();
+    QCOMPARE(shareOfSides(line, sides, binsPerCell), 0.0);
 }
 
 QTEST_APPLESS_MAIN(tst_levelBeside)
