@@ -149,7 +149,7 @@ void ExperimentForm::setExperiment(const Experiment &experiment)
     setDetectors(detectorsOf(experiment));
 }
 
-/// Lowest, highest, and their usual distance.
+/// Lowest, highest, and mean step.
 void ExperimentForm::setSnrs(const std::vector<double> &snrDb)
 {
     if (snrDb.empty())

@@ -25,8 +25,9 @@ public:
     /// Sets all other settings. `recording`: path of the open one, empty if there is none.
     void setCurrent(const AnalysisSettings &settings, const QString &recording, double windowSeconds);
 
-    /// Shows the values of a sweep; its other settings stay those of the window.
+    /// Shows the values of a sweep; all other settings stay those of the window.
     void setExperiment(const SweepExperiment &sweep);
+
     /// The specified experiment. Throws Error if it is invalid.
     SweepExperiment experiment() const;
     bool isInRecording() const;

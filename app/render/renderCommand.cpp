@@ -185,7 +185,7 @@ namespace {
         window.setAsking(false);
         window.controller().setShowsFirstEstimates(false);
         window.show();
-        QCoreApplication::processEvents(); // only now its parts have their fonts, and it can be that small
+        QCoreApplication::processEvents(); // its smallest size depends on fonts that it has only when shown
         window.resize(size);
         QCoreApplication::processEvents();
     }

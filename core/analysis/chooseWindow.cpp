@@ -1,5 +1,6 @@
 #include "analysis/chooseWindow.h"
 
+#include "analysis/secondLook.h"
 #include "analysis/steadyLines.h"
 #include "analysis/sureStatistic.h"
 #include "track/energyKept.h"
@@ -230,9 +231,8 @@ namespace {
 bool leavesWindowToRecording(const AnalysisSettings &settings)
 {
     const ModelSettings &model = settings.model;
-    return settings.spectrogram.windowSeconds == 0.0 && std::holds_alternative<SmdSettings>(settings.detector)
-           && settings.track.bothWays && !settings.noise.causal && model.motion == Motion::Slopes
-           && model.likelihood != LikelihoodKind::Linear && model == withLaw(model, ModelSettings());
+    return settings.spectrogram.windowSeconds == 0.0 && settings.track.bothWays && canLookTwice(settings)
+           && model.motion == Motion::Slopes && model == withLaw(model, ModelSettings());
 }
 
 AnalysisSettings inWindowOf(const WindowTrial &trial, AnalysisSettings settings)

@@ -10,9 +10,9 @@ namespace faintline {
 /// Those of `lines`, which stand still, that stand out of their surroundings.
 ///
 /// A band of a few cells has a path as good as a line's. So the detector's score of the strongest path within a cell of
-/// the track, with y divided by the level on its sides (levelOfSides), has to reach sureStatistic(analysis); and the
-/// mean power on both sides must not exceed a quarter of that on the path (shareOfSides). Cells within a cell of `all` tracks
-/// of this analysis do not belong to the sides.
+/// the track, with y divided by the level on its sides (levelOfSides), has to reach sureStatistic(analysis), and the
+/// weaker side must not have more than a quarter of the path's mean power over the noise's (shareOfSides). Cells within
+/// a cell of `all` tracks of this analysis do not belong to the sides.
 ///
 /// The levels of levelBeside do not decide this: they are those of cells farther away, over fewer frames, and less
 /// their scatter.

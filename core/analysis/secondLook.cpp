@@ -375,11 +375,16 @@ namespace {
 
 } // namespace
 
+bool canLookTwice(const AnalysisSettings &settings)
+{
+    return std::holds_alternative<SmdSettings>(settings.detector) && !settings.noise.causal
+           && settings.model.likelihood != LikelihoodKind::Linear;
+}
+
 bool looksTwice(const AnalysisPlan &analysis)
 {
-    return analysis.settings.track.bothWays && !analysis.settings.noise.causal && analysis.grid().isSpectrum()
-           && !analysis.isBank() && std::holds_alternative<SmdSettings>(analysis.settings.detector)
-           && analysis.settings.model.likelihood != LikelihoodKind::Linear && analysis.frames->spectrogram();
+    return analysis.settings.track.bothWays && canLookTwice(analysis.settings) && analysis.grid().isSpectrum()
+           && !analysis.isBank() && analysis.frames->spectrogram();
 }
 
 SecondView lookTwice(const Analysis &analysis, std::vector<Track> found, std::span<const Track> subtracted,

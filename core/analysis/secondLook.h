@@ -8,8 +8,11 @@
 
 namespace faintline {
 
-/// Whether completed tracks get a second pass: paths of the sequential Markov detector through a spectrogram do, if
-/// enabled. Not under the linear likelihood, which rescales scores for a fixed level and ignores a track's own level.
+/// Whether tracks can have a second pass under these settings: paths of the sequential Markov detector in a complete
+/// recording. Not under the linear likelihood, which rescales scores for a fixed level and ignores a track's own level.
+bool canLookTwice(const AnalysisSettings &settings);
+
+/// Whether completed tracks get a second pass: if it is possible and enabled, through a spectrogram, with one model.
 bool looksTwice(const AnalysisPlan &analysis);
 
 /// Result of the two-sided second pass over the chain's tracks.

@@ -91,7 +91,7 @@ namespace {
         std::vector<float> m_values;
     };
 
-    /// Appends the observed values at bins `from` to `to` from the path.
+    /// Appends the observed values above 0 at bins `from` to `to` from the path.
     void appendValues(const PathStrip &strip, Index from, Index to, std::vector<double> &values)
     {
         for (Index at = 0; at < strip.frameCount(); ++at)
@@ -170,10 +170,9 @@ double shareOfSides(const PathStrip &line, const PathStrip &sides, double binsPe
 {
     const std::vector<double> path = valuesAlong(line);
     const auto [below, above] = valuesOfSides(sides, binsPerCell);
-    const double excess = meanOf(path) - 1.0;
-    if (std::min({path.size(), below.size(), above.size()}) < fewestValues || excess <= 0.0)
+    if (std::min({path.size(), below.size(), above.size()}) < fewestValues || meanOf(path) <= 1.0)
         return 0.0;
-    return std::max(0.0, (std::min(meanOf(below), meanOf(above)) - 1.0) / excess);
+    return std::max(0.0, (std::min(meanOf(below), meanOf(above)) - 1.0) / (meanOf(path) - 1.0));
 }
 
 } // namespace faintline

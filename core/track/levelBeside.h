@@ -28,7 +28,7 @@ Index levelBesideHalfWidth(double binsPerCell);
 /// constant γ. For exponential cells this is their mean, and single high cells hardly change it.
 double levelOfSides(const PathStrip &strip, double binsPerCell);
 
-/// Mean power over the noise's on the weaker side of a line that stands still, as a share of that on its path:
+/// Mean signal power on the weaker side of a line that stands still, as a share of that on its path:
 /// (ȳ_side - 1)/(ȳ_path - 1), at least 0; 0 with fewer than 8 values on a side or on the path.
 ///
 /// The side lobes of a line give 0.03. In a wider signal whose power comes in bursts, levelOfSides is far below the

@@ -37,8 +37,7 @@ ReadOut::ReadOut(QWidget *parent) : QWidget(parent)
     auto *layout = new QHBoxLayout(this);
     layout->setContentsMargins(8, 2, 8, 2);
     layout->setSpacing(16);
-    layout->setSizeConstraint(QLayout::SetNoConstraint); // in a narrow window the line is clipped, so that it does not
-                                                         // widen the window
+    layout->setSizeConstraint(QLayout::SetNoConstraint); // so that the line does not widen a narrow window
     setMinimumWidth(600);
     m_time = addItem(tr("Time"), tr("t"), QStringLiteral("00:00:00.00"));
     m_utc = addItem(tr("UTC"), tr("UTC"), QStringLiteral("0000-00-00 00:00:00.00"));
@@ -134,7 +133,7 @@ void ReadOut::setReading(const Reading &reading)
     setAccessibleDescription(text());
 }
 
-std::array<ReadOut::Item *, 8> ReadOut::items()
+std::array<const ReadOut::Item *, 8> ReadOut::items() const
 {
     return {&m_time, &m_utc, &m_frequency, &m_radio, &m_level, &m_statistic, &m_slope, &m_age};
 }
@@ -160,17 +159,17 @@ void ReadOut::fit()
     };
     const bool isBrief = needed(false) > room;
     int excess = isBrief ? needed(true) - room : 0;
-    for (Item *item : items()) {
+    for (const Item *item : items()) {
         item->name->setText(isBrief ? item->brief : item->whole);
         item->box->setVisible(item->isKnown);
     }
-    for (Item *item : {&m_age, &m_utc, &m_slope, &m_radio}) {
+    for (const Item *item : {&m_age, &m_utc, &m_slope, &m_radio}) {
         if (excess <= 0)
             break;
         excess -= item->isKnown ? widthOf(*item, item->brief) : 0;
         item->box->hide();
     }
-    for (Item *item : items())
+    for (const Item *item : items())
         item->box->layout()->activate(); // names of another width, at once
     layout()->activate();
 }
@@ -184,7 +183,7 @@ void ReadOut::resizeEvent(QResizeEvent *event)
 QString ReadOut::text() const
 {
     QStringList words;
-    for (const Item *item : {&m_time, &m_utc, &m_frequency, &m_radio, &m_level, &m_statistic, &m_slope, &m_age})
+    for (const Item *item : items())
         if (item->isKnown && item->value->text() != dash)
             words << item->value->text();
     return words.join(QStringLiteral(" · "));

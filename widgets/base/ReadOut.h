@@ -59,7 +59,7 @@ private:
         bool isKnown = true;
     };
     Item addItem(const QString &name, const QString &brief, const QString &widest);
-    std::array<Item *, 8> items();
+    std::array<const Item *, 8> items() const;
     void fit();
     int widthOf(const Item &item, const QString &name) const;
 

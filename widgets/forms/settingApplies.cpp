@@ -1,5 +1,7 @@
 #include "widgets/forms/settingApplies.h"
 
+#include "analysis/secondLook.h"
+
 #include <algorithm>
 #include <array>
 
@@ -39,12 +41,6 @@ namespace {
     bool usesInhibitCells(Settings settings)
     {
         return settings.decide.inhibits || (settings.decide.resets && settings.decide.forgetCells.empty());
-    }
-
-    bool canLookTwice(Settings settings)
-    {
-        return std::holds_alternative<SmdSettings>(settings.detector) && !settings.noise.causal
-               && settings.model.likelihood != LikelihoodKind::Linear;
     }
 
     constexpr std::array conditions{
