@@ -11,6 +11,7 @@ namespace faintline {
 namespace {
 
     constexpr std::size_t shortestRun = 4; ///< points
+    constexpr double farShare = 1.5;       ///< of endNear: from there on, an end beside a track was an approach
 
     /// Frames from … to, inclusive.
     struct Frames {
@@ -131,16 +132,46 @@ namespace {
             marks[std::size_t(frame - firstFrame(track))] = true;
     }
 
-    /// Marks a track where another one ends beside it.
-    void markBesideEnds(const Track &track, const Track &other, const EncounterRule &rule, std::vector<bool> &marks)
+    bool isThere(const Track &track, Index frame)
+    {
+        return frame >= firstFrame(track) && frame <= lastFrame(track);
+    }
+
+    double positionAt(const Track &track, Index frame)
+    {
+        return track.smoothed[std::size_t(frame - firstFrame(track))].position;
+    }
+
+    /// Marks a track that approached another one and ended beside it, from where it came near: its last positions are
+    /// those that the other signal left it. Nothing is marked where it came near quickly, where little of the track would
+    /// remain, or where both ran side by side all the time.
+    void markApproach(const Track &track, bool isFirst, const Track &beside, const EncounterRule &rule,
+                      std::vector<bool> &marks)
+    {
+        const Index end = isFirst ? firstFrame(track) : lastFrame(track);
+        const Index inwards = isFirst ? 1 : -1;
+        Index near = end;
+        for (Index frame = end; isThere(track, frame) && isThere(beside, frame); frame += inwards) {
+            const double apart = std::abs(positionAt(track, frame) - positionAt(beside, frame));
+            if (apart < rule.endNear)
+                near = frame;
+            const Index run = std::abs(end - near) + 1;
+            const bool isLong = run >= rule.fitFrames / 4 && std::ssize(track.smoothed) - run >= rule.fitFrames / 2;
+            if (apart >= farShare * rule.endNear && isLong)
+                return mark(track, {std::min(end, near), std::max(end, near)}, marks);
+        }
+    }
+
+    /// Marks both tracks where one of them ends beside the other.
+    void markEnds(const Track &track, const Track &beside, const EncounterRule &rule, std::vector<bool> &marks,
+                  std::vector<bool> &marksBeside)
     {
         for (const bool isFirst : {true, false}) {
-            const Index frame = isFirst ? firstFrame(other) : lastFrame(other);
-            if (frame < firstFrame(track) || frame > lastFrame(track))
+            const Index end = isFirst ? firstFrame(track) : lastFrame(track);
+            if (!isThere(beside, end) || std::abs(positionAt(track, end) - positionAt(beside, end)) >= rule.endNear)
                 continue;
-            const double end = (isFirst ? other.smoothed.front() : other.smoothed.back()).position;
-            if (std::abs(track.smoothed[std::size_t(frame - firstFrame(track))].position - end) < rule.endNear)
-                mark(track, {frame - rule.endFrames, frame + rule.endFrames}, marks);
+            mark(beside, {end - rule.endFrames, end + rule.endFrames}, marksBeside);
+            markApproach(track, isFirst, beside, rule, marks);
         }
     }
 
@@ -189,8 +220,8 @@ namespace {
                         mark(m_tracks[i], frames, m_marks[i]);
                         mark(m_tracks[j], frames, m_marks[j]);
                     }
-                    markBesideEnds(m_tracks[i], m_tracks[j], m_rule, m_marks[i]);
-                    markBesideEnds(m_tracks[j], m_tracks[i], m_rule, m_marks[j]);
+                    markEnds(m_tracks[j], m_tracks[i], m_rule, m_marks[j], m_marks[i]);
+                    markEnds(m_tracks[i], m_tracks[j], m_rule, m_marks[i], m_marks[j]);
                 }
         }
 
