@@ -75,7 +75,7 @@ namespace {
         SecondLook(const Analysis &analysis, const RunContext &context)
             : m_analysis(analysis), m_context(context), m_frames(*analysis.frames), m_cells(m_frames.grid().size()),
               m_spectrogram(*m_frames.spectrogram()),
-              m_explanations(m_cells, leakageAround(leakageBound, 0.0), leakageAround(leakageAt, 0.05)),
+              m_explanations(m_cells, leakageAround(leakageBound, 0.0), leakageAround(leakageAt, 0.02)),
               m_model(bothWaysModel(analysis))
         {
         }
