@@ -232,7 +232,7 @@ Vamp::Plugin::FeatureList DetectorPlugin::curves(const Analysis &analysis) const
     FeatureList list;
     const Axis &frequency = analysis.grid().axes.back();
     for (const Track &track : analysis.tracks)
-        for (std::size_t i = 0; i < track.points.size(); ++i) {
+        for (const std::size_t i : track.presentPoints()) {
             Feature feature = featureAt(analysis.time().value(double(track.points[i].frame)));
             feature.values = {float(frequency.value(track.lastPosition(i, frequency)))};
             feature.label = std::to_string(track.id);

@@ -15,7 +15,8 @@ namespace {
     {
         const Axis &axis = grid.axes[along];
         const bool isLast = &axis == &grid.axes.back();
-        const auto n = double(track.points.size());
+        const std::vector<std::size_t> present = track.presentPoints();
+        const auto n = double(present.size());
         if (n < 2.0)
             return 0.0;
         double sumT = 0.0;
@@ -23,7 +24,7 @@ namespace {
         double sumTT = 0.0;
         double sumTF = 0.0;
         double before = 0.0;
-        for (std::size_t i = 0; i < track.points.size(); ++i) {
+        for (const std::size_t i : present) {
             const TrackPoint &point = track.points[i];
             const double t = double(point.frame - track.points.front().frame) * time.step;
             double f =
@@ -44,10 +45,12 @@ namespace {
     /// Sets the properties that only the two-sided second pass gives.
     void describe(Event &event, const Track &track, const AnalysisPlan &analysis)
     {
-        const auto count = double(track.points.size());
+        const std::vector<std::size_t> present = track.presentPoints();
+        const auto count = double(present.size());
         double level = 0.0;
         double band = 0.0;
-        for (const SmoothedPoint &point : track.smoothed) {
+        for (const std::size_t i : present) {
+            const SmoothedPoint &point = track.smoothed[i];
             level += double(point.level) / count;
             band += double(point.high - point.low) / count;
         }

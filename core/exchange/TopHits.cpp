@@ -41,16 +41,17 @@ namespace {
 
     Line lineThrough(const Track &track, const Axis &time, const Axis &frequency)
     {
-        const auto n = double(track.points.size());
+        const std::vector<std::size_t> present = track.presentPoints();
+        const auto n = double(present.size());
         double meanTime = 0.0;
         double meanHz = 0.0;
-        for (std::size_t i = 0; i < track.points.size(); ++i) {
+        for (const std::size_t i : present) {
             meanTime += time.value(double(track.points[i].frame)) / n;
             meanHz += frequency.value(track.lastPosition(i, frequency)) / n;
         }
         double squares = 0.0;
         double products = 0.0;
-        for (std::size_t i = 0; i < track.points.size(); ++i) {
+        for (const std::size_t i : present) {
             const double t = time.value(double(track.points[i].frame)) - meanTime;
             squares += t * t;
             products += t * (frequency.value(track.lastPosition(i, frequency)) - meanHz);
@@ -65,7 +66,7 @@ namespace {
         std::vector<float> y(std::size_t(analysis.grid().size()));
         double sum = 0.0;
         double frames = 0.0;
-        for (std::size_t i = 0; i < track.points.size(); ++i) {
+        for (const std::size_t i : track.presentPoints()) {
             analysis.frames->read(track.points[i].frame, 1, y);
             const Index cell = Index(std::lround(track.lastPosition(i, frequency)));
             float largest = -1.0f;

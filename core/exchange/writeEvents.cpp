@@ -113,7 +113,7 @@ namespace {
             double low = e.position.back();
             double high = low;
             const Axis &frequency = analysis.grid().axes.back();
-            for (std::size_t i = 0; i < track.points.size(); ++i) {
+            for (const std::size_t i : track.presentPoints()) {
                 const double hz = frequency.value(track.lastPosition(i, frequency));
                 low = std::min(low, hz);
                 high = std::max(high, hz);
@@ -153,7 +153,7 @@ namespace {
             joined(std::vector<std::string>{"track", "t", joined(positionNames(analysis.grid())), "statistic"})
             + (isSeenTwice ? "," + joined(smoothedColumns) : "") + (analysis.isBank() ? ",model" : "") + "\n";
         for (const Track &track : tracks)
-            for (std::size_t i = 0; i < track.points.size(); ++i) {
+            for (const std::size_t i : track.presentPoints()) {
                 const TrackPoint &point = track.points[i];
                 text += std::to_string(track.id) + "," + formatNumber(analysis.time().value(double(point.frame))) + ","
                         + joined(track.positionOf(i, analysis.grid())) + "," + formatNumber(point.statistic);
@@ -171,13 +171,14 @@ namespace {
         Json json = Json::array();
         const std::vector<std::string> names = positionNames(analysis.grid());
         for (const Track &track : tracks) {
+            const std::vector<std::size_t> present = track.presentPoints();
             Json one;
             one["track"] = track.id;
             one["t"] = Json::array();
             for (const std::string &name : names)
                 one[name] = Json::array();
             one["statistic"] = Json::array();
-            for (std::size_t i = 0; i < track.points.size(); ++i) {
+            for (const std::size_t i : present) {
                 one["t"].push_back(analysis.time().value(double(track.points[i].frame)));
                 const std::vector<double> position = track.positionOf(i, analysis.grid());
                 for (std::size_t axis = 0; axis < names.size(); ++axis)
@@ -186,12 +187,12 @@ namespace {
             }
             for (std::size_t column = 0; column < smoothedColumns.size() && looksTwice(analysis); ++column) {
                 Json &values = one[smoothedColumns[column]] = Json::array();
-                for (const SmoothedPoint &point : track.smoothed)
-                    values.push_back(numbersOf(point, analysis.grid().axes.back())[column]);
+                for (const std::size_t i : present)
+                    values.push_back(numbersOf(track.smoothed[i], analysis.grid().axes.back())[column]);
             }
-            for (const TrackPoint &point : track.points)
+            for (const std::size_t i : present)
                 if (analysis.isBank())
-                    one["model"].push_back(modelOf(point, track));
+                    one["model"].push_back(modelOf(track.points[i], track));
             json.push_back(std::move(one));
         }
         return json.dump() + "\n";

@@ -36,8 +36,9 @@ void checkTracksPath(const std::string &path);
 
 /// Writes the tracks: .csv with one row per frame of each track (track, t, f, statistic; after a two-sided second pass
 /// also f_low and f_high, 5 and 95 % of the position, presence, a probability, and snr_db; for a bank also the model
-/// that followed it in that frame), or .json. The statistic is the score of the track's path, in nats for every
-/// detector: if it has no paths, that of the sequential Markov detector that guides it.
+/// that followed it in that frame), or .json. Frames in which the signal is probably absent are left out
+/// (Track::presentPoints). The statistic is the score of the track's path, in nats for every detector: if it has no
+/// paths, that of the sequential Markov detector that guides it.
 void writeTracks(const Analysis &analysis, const std::string &path);
 /// The same for the tracks of these events only.
 void writeTracksOf(const std::vector<Event> &events, const Analysis &analysis, const std::string &path);

@@ -66,6 +66,24 @@ struct Track {
     std::vector<ModelChange>
         modelChanges{}; ///< ordered by frame; the points' planes are those of the model at their frame
 
+    /// Whether the signal is more likely present than absent at a point; without the second pass, always.
+    bool isPresent(std::size_t point) const { return smoothed.empty() || smoothed[point].presence > 0.5f; }
+
+    /// The points that reports and pictures contain: both ends, and those between at which the signal is present. A keyed
+    /// or fading signal is one track with pauses, in which its position is not known. All points, if it is present at
+    /// none.
+    std::vector<std::size_t> presentPoints() const
+    {
+        bool isAnywhere = false;
+        for (std::size_t i = 0; i < points.size(); ++i)
+            isAnywhere = isAnywhere || isPresent(i);
+        std::vector<std::size_t> result;
+        for (std::size_t i = 0; i < points.size(); ++i)
+            if (!isAnywhere || i == 0 || i + 1 == points.size() || isPresent(i))
+                result.push_back(i);
+        return result;
+    }
+
     /// The model that follows it at its newest point.
     std::size_t lastModel() const { return modelChanges.empty() ? model : modelChanges.back().model; }
 

@@ -12,13 +12,16 @@ namespace {
 
     void trimEnds(Track &track)
     {
-        const auto isPresent = [](const SmoothedPoint &point) { return point.presence > 0.5f; };
-        const auto first = std::find_if(track.smoothed.begin(), track.smoothed.end(), isPresent);
-        if (first == track.smoothed.end())
+        Index first = 0;
+        Index end = std::ssize(track.smoothed);
+        while (first < end && !track.isPresent(std::size_t(first)))
+            ++first;
+        if (first == end)
             return;
-        const auto last = std::find_if(track.smoothed.rbegin(), track.smoothed.rend(), isPresent).base();
-        const auto from = std::max<Index>(0, first - track.smoothed.begin() - edgeFrames);
-        const auto to = std::min(std::ssize(track.smoothed), last - track.smoothed.begin() + edgeFrames);
+        while (!track.isPresent(std::size_t(end - 1)))
+            --end;
+        const auto from = std::max<Index>(0, first - edgeFrames);
+        const auto to = std::min(std::ssize(track.smoothed), end + edgeFrames);
         track.isOpen = track.isOpen && to == std::ssize(track.smoothed);
         track.smoothed.erase(track.smoothed.begin() + to, track.smoothed.end());
         track.smoothed.erase(track.smoothed.begin(), track.smoothed.begin() + from);

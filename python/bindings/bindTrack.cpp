@@ -12,13 +12,13 @@ namespace py = pybind11;
 
 namespace {
 
-    /// A number of every point.
+    /// A number of every reported point.
     template <class Take>
     py::array_t<double> ofPoints(const HeldTrack &self, const Take &take)
     {
-        std::vector<double> values(self.track().points.size());
-        for (std::size_t i = 0; i < values.size(); ++i)
-            values[i] = take(i);
+        std::vector<double> values;
+        for (const std::size_t i : self.track().presentPoints())
+            values.push_back(take(i));
         return arrayOf(std::move(values));
     }
 
@@ -52,10 +52,11 @@ namespace {
     {
         const Grid &grid = self.analysis->grid();
         std::vector<double> values;
-        for (std::size_t i = 0; i < self.track().points.size(); ++i)
+        const std::vector<std::size_t> present = self.track().presentPoints();
+        for (const std::size_t i : present)
             for (const double position : self.track().positionOf(i, grid))
                 values.push_back(position);
-        return arrayOf(std::move(values), {std::ssize(self.track().points), std::ssize(grid.axes)});
+        return arrayOf(std::move(values), {std::ssize(present), std::ssize(grid.axes)});
     }
 
     template <class T>
@@ -72,7 +73,7 @@ namespace {
     std::string textOf(const HeldTrack &self)
     {
         return py::str("<faintline.Track {}: {} points, {:g} … {:g} s>")
-            .format(self.track().id, self.track().points.size(), seconds(&Track::onsetFrame)(self),
+            .format(self.track().id, self.track().presentPoints().size(), seconds(&Track::onsetFrame)(self),
                     seconds(&Track::endFrame)(self));
     }
 
@@ -80,8 +81,9 @@ namespace {
 
 void bindTrack(py::module_ &module)
 {
-    py::class_<HeldTrack>(module, "Track",
-                          R"(One detected signal, followed from its onset to its end, with one point per frame.
+    py::class_<HeldTrack>(
+        module, "Track",
+        R"(One detected signal, followed from its onset to its end, with one point for each frame in which it is present.
 
 f05, f95, p_present and snr_db come from the second pass (forward and backward). They are NaN for tracks without one:
 for frames with several axes, for the linear likelihood, and with both_ways=False.)")
@@ -118,7 +120,7 @@ for frames with several axes, for the linear likelihood, and with both_ways=Fals
                                "Whether the track was still followed when the data ended.")
         .def_property_readonly("model", member(&Track::model),
                                "Index in the bank of the model that detected the signal; the track may change it.")
-        .def("__len__", [](const HeldTrack &self) { return self.track().points.size(); })
+        .def("__len__", [](const HeldTrack &self) { return self.track().presentPoints().size(); })
         .def("__repr__", &textOf);
 }
 

@@ -92,7 +92,7 @@ struct Measured {
         Index first = analysis->time().count;
         Index last = -1;
         for (const Track &track : analysis->tracks)
-            for (std::size_t i = 0; i < track.points.size(); ++i) {
+            for (const std::size_t i : track.presentPoints()) {
                 const double seconds = analysis->time().value(double(track.points[i].frame));
                 const double hz = line.frequencyAt(seconds);
                 const SmoothedPoint &point = track.smoothed[i];

@@ -23,6 +23,7 @@ private slots:
     void tracksAsCsv();
     void eventsAsJson();
     void tracksAsJson();
+    void pausesOfTracks();
     void audacityLabels();
     void sigmfAnnotations();
     void severalAxes();
@@ -136,6 +137,26 @@ void tst_writeEvents::tracksAsJson()
     QCOMPARE(json[0]["t"].get<std::vector<double>>(), (std::vector<double>{1.25, 1.75, 2.25, 2.75}));
     QCOMPARE(json[0]["f"].get<std::vector<double>>(), (std::vector<double>{1010, 1012.5, 1015, 1017.5}));
     QCOMPARE(json[0]["statistic"].get<std::vector<double>>(), (std::vector<double>{2, 13, 14.75, 9.5}));
+}
+
+void tst_writeEvents::pausesOfTracks()
+{
+    Analysis analysis = twoTracks();
+    analysis.tracks.resize(1);
+    Track &rising = analysis.tracks.front();
+    for (const float presence : {1.0f, 0.9f, 0.2f, 0.8f}) {
+        const auto position = double(rising.points[rising.smoothed.size()].cell);
+        rising.smoothed.push_back({position, float(position - 0.5), float(position + 0.5), presence, 4.0f});
+    }
+    rising.points[2].cell = 9; // in the pause, where the path may be anywhere
+    rising.smoothed[2].position = 9.0;
+    const QByteArray text = written(analysis, "t.csv", true);
+    QCOMPARE(text.count('\n'), qsizetype(1 + 3));
+    QVERIFY(text.contains("\n1,1.25,1010,2") && text.contains("\n1,1.75,1012.5,13")
+            && text.contains("\n1,2.75,1017.5,"));
+    const Json json = parseJson(written(analysis, "t.json", true).toStdString(), "t.json");
+    QCOMPARE(json[0]["t"].get<std::vector<double>>(), (std::vector<double>{1.25, 1.75, 2.75}));
+    QCOMPARE(json[0]["f"].get<std::vector<double>>(), (std::vector<double>{1010, 1012.5, 1017.5}));
 }
 
 void tst_writeEvents::audacityLabels()

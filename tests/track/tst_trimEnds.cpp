@@ -66,6 +66,17 @@ private slots:
         }
     }
 
+    void pausesHaveNoReportedPoints()
+    {
+        using Points = std::vector<std::size_t>;
+        QCOMPARE(track({0.9f, 0.2f, 0.5f, 0.6f, 0.9f}, 102).presentPoints(), (Points{0, 3, 4}));
+        QCOMPARE(track({0.4f, 0.9f, 0.2f, 0.8f, 0.3f}, 102).presentPoints(), (Points{0, 1, 3, 4})); // both ends remain
+        QCOMPARE(track({0.4f, 0.5f, 0.2f}, 102).presentPoints(), (Points{0, 1, 2}));                // present nowhere
+        Track once = track({0.9f, 0.1f, 0.9f}, 102);
+        once.smoothed.clear();
+        QCOMPARE(once.presentPoints(), (Points{0, 1, 2})); // without the second pass
+    }
+
     void detectionIsInside()
     {
         const QList<float> presence{0.0f, 0.2f, 0.9f, 0.9f, 0.2f, 0.1f};

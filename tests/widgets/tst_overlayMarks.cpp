@@ -16,6 +16,7 @@ class tst_overlayMarks : public QObject
 private slots:
     void tracksGoThroughTheirCells();
     void smoothedTracksLieBetweenCells();
+    void tracksHaveGapsWhereTheyPause();
     void truthEndsWhereItsLineDoes_data();
     void truthEndsWhereItsLineDoes();
     void aMarkHoldsItsTrack();
@@ -59,6 +60,25 @@ void tst_overlayMarks::smoothedTracksLieBetweenCells()
     QCOMPARE(lines[0].points, (QPolygonF{{0.5, 120.5}, {1.5, 121.5}}));
     // Forth along the low side and back along the high one.
     QCOMPARE(lines[0].band, (QPolygonF{{0.5, 119.0}, {1.5, 120.0}, {1.5, 123.0}, {0.5, 122.0}}));
+}
+
+void tst_overlayMarks::tracksHaveGapsWhereTheyPause()
+{
+    Track keyed = track(3, 0, {10, 10, 20, 30, 12});
+    for (const float presence : {1.0f, 0.9f, 0.1f, 0.0f, 0.8f}) {
+        const auto position = double(keyed.points[keyed.smoothed.size()].cell);
+        keyed.smoothed.push_back({position, float(position - 1.0), float(position + 1.0), presence, 1.0f});
+    }
+    const auto lines = overlayLines({keyed}, m_time, m_frequency);
+    QCOMPARE(lines.size(), std::size_t(2));
+    QCOMPARE(lines[0].points, (QPolygonF{{0.5, 120.0}, {1.5, 120.0}}));
+    QCOMPARE(lines[1].points, (QPolygonF{{4.0, 124.0}, {5.0, 124.0}}));
+    QCOMPARE(lines[0].band, (QPolygonF{{0.5, 118.0}, {1.5, 118.0}, {1.5, 122.0}, {0.5, 122.0}}));
+    QCOMPARE(lines[1].id, 3);
+    const auto marks = overlayMarks({test::event(3, 0.5, 4.5, 120.0)}, lines, 1.0, 2.0);
+    QCOMPARE(marks.size(), std::size_t(1));
+    QCOMPARE(marks[0].box.time, (Span{0.0, 5.0}));
+    QCOMPARE(marks[0].box.frequency, (Span{119.0, 125.0})); // of both stretches, not of the pause
 }
 
 void tst_overlayMarks::truthEndsWhereItsLineDoes_data()

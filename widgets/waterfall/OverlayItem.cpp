@@ -204,20 +204,20 @@ void OverlayItem::drawLines(const Canvas &canvas, const std::vector<OverlayLine>
 
 void OverlayItem::drawSelectedBand(const Canvas &canvas) const
 {
-    const auto line =
-        std::find_if(tracks.begin(), tracks.end(), [&](const OverlayLine &one) { return one.id == selectedEvent; });
-    if (selectedEvent == 0 || line == tracks.end() || line->band.isEmpty())
-        return;
-    QPolygonF ribbon;
-    for (const QPointF &point : line->band)
-        if (const QPointF position = canvas.point(point.x(), point.y());
-            ribbon.isEmpty() || (position - ribbon.back()).manhattanLength() >= 1.0)
-            ribbon << position;
     QColor colour = colours.selectedEvent;
     colour.setAlpha(90);
     canvas.painter.setPen(Qt::NoPen);
     canvas.painter.setBrush(colour);
-    canvas.painter.drawPolygon(ribbon);
+    for (const OverlayLine &line : tracks) {
+        if (selectedEvent == 0 || line.id != selectedEvent)
+            continue;
+        QPolygonF ribbon;
+        for (const QPointF &point : line.band)
+            if (const QPointF position = canvas.point(point.x(), point.y());
+                ribbon.isEmpty() || (position - ribbon.back()).manhattanLength() >= 1.0)
+                ribbon << position;
+        canvas.painter.drawPolygon(ribbon);
+    }
     canvas.painter.setBrush(Qt::NoBrush);
 }
 

@@ -7,23 +7,44 @@
 
 namespace faintline {
 
-std::vector<OverlayLine> overlayLines(const std::vector<Track> &followed, const Axis &time, const Axis &frequency)
-{
-    std::vector<OverlayLine> lines;
-    lines.reserve(followed.size());
-    for (const Track &track : followed) {
+namespace {
+
+    /// The points of a track from one to another, both included.
+    OverlayLine stretchOf(const Track &track, std::size_t first, std::size_t last, const Axis &time,
+                          const Axis &frequency)
+    {
         OverlayLine line{track.id, {}};
-        line.points.reserve(qsizetype(track.points.size()));
+        line.points.reserve(qsizetype(last - first + 1));
         const auto at = [&](std::size_t i, double cell) {
             return QPointF(time.value(double(track.points[i].frame)), frequency.value(cell));
         };
-        for (std::size_t i = 0; i < track.points.size(); ++i)
+        for (std::size_t i = first; i <= last; ++i)
             line.points << at(i, track.lastPosition(i, frequency));
-        for (std::size_t i = 0; i < track.smoothed.size(); ++i)
+        if (first == last && track.points.size() > 1) { // a dash, as wide as the frame
+            const QPointF half(0.5 * time.step, 0.0);
+            line.points = {line.points[0] - half, line.points[0] + half};
+        }
+        if (track.smoothed.empty())
+            return line;
+        for (std::size_t i = first; i <= last; ++i)
             line.band << at(i, double(track.smoothed[i].low));
-        for (std::size_t i = track.smoothed.size(); i-- > 0;)
+        for (std::size_t i = last + 1; i-- > first;)
             line.band << at(i, double(track.smoothed[i].high));
-        lines.push_back(std::move(line));
+        return line;
+    }
+
+} // namespace
+
+std::vector<OverlayLine> overlayLines(const std::vector<Track> &followed, const Axis &time, const Axis &frequency)
+{
+    std::vector<OverlayLine> lines;
+    for (const Track &track : followed) {
+        const std::vector<std::size_t> present = track.presentPoints();
+        for (std::size_t from = 0, to = 1; to <= present.size(); ++to)
+            if (to == present.size() || present[to] != present[to - 1] + 1) {
+                lines.push_back(stretchOf(track, present[from], present[to - 1], time, frequency));
+                from = to;
+            }
     }
     return lines;
 }
@@ -66,20 +87,20 @@ TrackStage stageOf(const Event &event)
 std::vector<OverlayMark> overlayMarks(const std::vector<Event> &events, const std::vector<OverlayLine> &lines,
                                       double frameSeconds, double binHz)
 {
-    std::unordered_map<int, const OverlayLine *> lineOf;
+    std::unordered_map<int, QPolygonF> pointsOf; // of all stretches of a track
     for (const OverlayLine &line : lines)
-        lineOf.try_emplace(line.id, &line);
+        pointsOf[line.id] << line.points;
     std::vector<OverlayMark> marks;
     for (const Event &event : events) {
         if (event.position.empty())
             continue;
-        const auto track = lineOf.find(event.id);
+        const auto track = pointsOf.find(event.id);
         const auto hzAt = [&](double seconds) {
             return event.position.back() + event.driftPerSecond * (seconds - event.detectSeconds);
         };
         QPolygonF points{{event.onsetSeconds, hzAt(event.onsetSeconds)}, {event.endSeconds, hzAt(event.endSeconds)}};
-        if (track != lineOf.end() && !track->second->points.isEmpty())
-            points = track->second->points;
+        if (track != pointsOf.end() && !track->second.isEmpty())
+            points = track->second;
         OverlayMark mark{
             event.id, {{event.onsetSeconds, event.endSeconds}, {points[0].y(), points[0].y()}}, event.isConfirmed};
         for (const QPointF &point : points) {

@@ -33,7 +33,7 @@ struct OverlayBox {
 
 /// A polyline, x in seconds, y in Hz.
 struct OverlayLine {
-    int id = 0;
+    int id = 0; ///< several have the same if a track has pauses
     QPolygonF points;
     QPolygonF band{}; ///< 5 % of the posterior forward, 95 % back, if known
     TrackStage stage = TrackStage::Ended;
@@ -45,6 +45,7 @@ struct OverlayTime {
     QString text;
 };
 
+/// One line for each stretch without a pause.
 std::vector<OverlayLine> overlayLines(const std::vector<Track> &followed, const Axis &time, const Axis &frequency);
 std::vector<OverlayLine> overlayLines(const std::vector<TruthLine> &known);
 std::vector<OverlayBox> overlayBoxes(const std::vector<AreaEvent> &areas);

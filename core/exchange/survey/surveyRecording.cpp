@@ -84,7 +84,7 @@ namespace {
         const Axis &axis = analysis.grid().axes.back();
         std::vector<SurveyPoint> points;
         for (const Track &track : analysis.tracks)
-            for (std::size_t i = 0; i < track.points.size(); ++i) {
+            for (const std::size_t i : track.presentPoints()) {
                 const double none = std::nan("");
                 SurveyPoint point{track.id,
                                   analysis.time().value(double(track.points[i].frame)),

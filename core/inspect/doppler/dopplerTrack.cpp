@@ -66,13 +66,11 @@ namespace {
     /// Standard deviation of a point's position, in cells; empty if the signal is absent.
     std::optional<double> deviationOf(const Track &track, std::size_t point)
     {
-        constexpr float leastPresence = 0.5f;
         if (track.smoothed.empty())
             return 1.0 / std::sqrt(12.0);
-        const SmoothedPoint &smoothed = track.smoothed[point];
-        if (smoothed.presence < leastPresence)
+        if (!track.isPresent(point))
             return {};
-        return smoothed.deviation();
+        return track.smoothed[point].deviation();
     }
 
 } // namespace
