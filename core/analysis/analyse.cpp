@@ -7,6 +7,7 @@
 #include "analysis/preparePlan.h"
 #include "analysis/regulation.h"
 #include "analysis/secondLook.h"
+#include "analysis/spreadTracks.h"
 #include "analysis/subtractLines.h"
 #include "base/memoryShares.h"
 #include "plan/chain.h"
@@ -301,8 +302,10 @@ std::shared_ptr<Analysis> analyse(RecordingPointer recording, const AnalysisSett
     checkWindow(settings);
     std::shared_ptr<Analysis> analysis =
         analyseWithRest(recording, settings, context, lender(previous, recording), request);
-    if (request.depth != AnalysisDepth::Trial)
+    if (request.depth != AnalysisDepth::Trial) {
+        moveSpreadTracks(*analysis);
         analysis->tracks = withEndsTrimmed(std::move(analysis->tracks));
+    }
     return analysis;
 }
 
