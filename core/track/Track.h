@@ -69,9 +69,9 @@ struct Track {
     /// Whether the signal is more likely present than absent at a point; without the second pass, always.
     bool isPresent(std::size_t point) const { return smoothed.empty() || smoothed[point].presence > 0.5f; }
 
-    /// The points that reports and pictures contain: both ends, and those between at which the signal is present. A keyed
-    /// or fading signal is one track with pauses, in which its position is not known. All points, if it is present at
-    /// none.
+    /// The points that reports and pictures contain: both ends, and those between at which the signal is present. A
+    /// keyed or fading signal is one track with pauses, in which its position is not known. All points, if it is present
+    /// at none.
     std::vector<std::size_t> presentPoints() const
     {
         bool isAnywhere = false;

@@ -143,8 +143,8 @@ namespace {
     }
 
     /// Marks a track that approached another one and ended beside it, from where it came near: its last positions are
-    /// those that the other signal left it. Nothing is marked where it came near quickly, where little of the track would
-    /// remain, or where both ran side by side all the time.
+    /// those that the other signal left it. Nothing is marked where it came near quickly, where little of the track
+    /// would remain, or where both ran side by side all the time.
     void markApproach(const Track &track, bool isFirst, const Track &beside, const EncounterRule &rule,
                       std::vector<bool> &marks)
     {

@@ -83,7 +83,7 @@ void bindTrack(py::module_ &module)
 {
     py::class_<HeldTrack>(
         module, "Track",
-        R"(One detected signal, followed from its onset to its end, with one point for each frame in which it is present.
+        R"(One detected signal, followed from its onset to its end: one point for each frame in which it is present.
 
 f05, f95, p_present and snr_db come from the second pass (forward and backward). They are NaN for tracks without one:
 for frames with several axes, for the linear likelihood, and with both_ways=False.)")

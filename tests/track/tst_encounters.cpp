@@ -129,7 +129,7 @@ void tst_encounters::anEncounterIsWidened()
 
 void tst_encounters::anEndBesideATrackIsOne()
 {
-    // 5 cells away: too far for an exchange along the way, but the signal of the track that ends may be the other one's.
+    // 5 cells away: too far for an exchange on the way, but the signal of the track that ends may be the other one's.
     EncounterRule noExtension = rule();
     noExtension.extension = 0;
     const std::vector<Track> tracks{track(straight(100.0)), track(straight(105.0), 150, 250)};
