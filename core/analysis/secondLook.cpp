@@ -1,5 +1,6 @@
 #include "analysis/secondLook.h"
 
+#include "analysis/decideJointly.h"
 #include "analysis/pathStrips.h"
 #include "analysis/searchBehind.h"
 #include "spectrum/NoiseNormaliser.h"
@@ -91,6 +92,8 @@ namespace {
                 }
                 lookBehind();
                 m_tracks = relinked(std::move(m_tracks));
+                m_tracks = decideJointly(m_analysis, std::move(m_tracks), slopeFramesOf(*m_model.axis),
+                                         m_context.part(1.0, 1.0));
             }
             numberByDetection(m_tracks);
             view.tracks = std::move(m_tracks);

@@ -19,7 +19,7 @@ bool looksTwice(const AnalysisPlan &analysis);
 struct SecondView {
     std::vector<Track> tracks; ///< lines, by detection
     std::vector<Area> areas;   ///< by time
-    std::vector<Track> first;  ///< tracks after step 4, by detection; if requested and if steps 5 and 6 were taken
+    std::vector<Track> first;  ///< tracks after step 4, by detection; if requested and if steps 5 to 7 were taken
 };
 
 /// How far the second pass goes: to the tracks of the chain; or also to signals hidden by them, and to identities; or
@@ -42,12 +42,13 @@ enum class SecondLookDepth { Tracks, Signals, SignalsBesideTracks };
 ///   4. remaining tracks are explained: they raise the floor for weaker ones;
 ///   5. signals that they hide are searched for behind them (searchBehind.h), which then take the same steps, until
 ///      nothing more is found;
-///   6. where signals met, the pieces of tracks before and after are assigned to each other anew (relink.h).
+///   6. where signals met, the pieces of tracks before and after are assigned to each other anew (relink.h);
+///   7. equal signals that run beside each other are decided jointly (decideJointly.h).
 ///
 /// The ends of the resulting tracks are still generous, for comparison with other windows and for subtraction; they are
 /// trimmed at the very end of an analysis (trimEnds.h).
 ///
-/// Steps 5 and 6 are left out at depth Tracks, and for families, whose members lie beside each other.
+/// Steps 5 to 7 are left out at depth Tracks, and for families, whose members lie beside each other.
 ///
 /// `subtracted`: lines that were removed before the frames were made (subtractLines.h). Their remainders and skirts are
 /// explained before all others, because they are not separate signals.
