@@ -1,6 +1,7 @@
 #include "analysis/decideJointly.h"
 
 #include "analysis/pathStrips.h"
+#include "track/atFrame.h"
 #include "track/jointPaths.h"
 
 #include <algorithm>
@@ -19,21 +20,6 @@ namespace {
     constexpr double largestRatio = 4.0;  ///< of levels, 6 dB
     constexpr double pieceShare = 0.8;    ///< of a track's frames on the paths
     constexpr Index shortestInSlopes = 4; ///< of slopeFrames
-
-    bool isThere(const Track &track, Index frame)
-    {
-        return frame >= track.points.front().frame && frame <= track.points.back().frame;
-    }
-
-    std::size_t pointOf(const Track &track, Index frame)
-    {
-        return std::size_t(frame - track.points.front().frame);
-    }
-
-    double positionAt(const Track &track, Index frame)
-    {
-        return track.smoothed[pointOf(track, frame)].position;
-    }
 
     struct Frames {
         Index from = 0;
@@ -116,7 +102,7 @@ namespace {
         {
             double sum = 0.0;
             for (Index frame = frames.from; frame <= frames.to; ++frame)
-                sum += double(track.smoothed[pointOf(track, frame)].level);
+                sum += double(track.smoothed[pointIndex(track, frame)].level);
             return sum / double(frames.count());
         }
 
@@ -127,7 +113,7 @@ namespace {
             return std::min(a, b) >= leastLevel && std::max(a, b) <= largestRatio * std::min(a, b);
         }
 
-        /// Whether no third track comes near that is stronger than a piece of these.
+        /// Whether no third track comes near. Tracks on one of the two or between them do not count: they are pieces.
         bool areAlone(std::size_t i, std::size_t j, const Frames &frames) const
         {
             for (std::size_t other = 0; other < m_tracks.size(); ++other) {
@@ -171,6 +157,7 @@ namespace {
             strip.halfWidth = Index(std::ceil(nearCells * m_binsPerCell));
             strip.centres = centresOf(i, j, frames);
             readStrips(m_analysis, std::span(&strip, 1), context, "deciding between close signals");
+            closeBeyondTheAxis(strip);
             const Likelihood likelihood(m_analysis.model.likelihood.kind(), designLevel);
             auto paths =
                 jointPaths(std::move(strip), likelihood, Index(std::lround(apartCells * m_binsPerCell)), context);
@@ -195,6 +182,16 @@ namespace {
             m_tracks[j] = std::move(second);
             m_ranges[i] = rangeOf(m_tracks[i]);
             m_ranges[j] = rangeOf(m_tracks[j]);
+        }
+
+        /// Off the axis there is no power at all, so that no path prefers it to noise.
+        void closeBeyondTheAxis(PathStrip &strip) const
+        {
+            const Index cells = m_analysis.grid().size();
+            for (Index at = 0; at < strip.frameCount(); ++at)
+                for (Index i = 0; i < strip.width(); ++i)
+                    if (const Index cell = strip.firstCell(at) + i; cell < 0 || cell >= cells)
+                        strip.row(at)[i] = 0.0f;
         }
 
         /// Whether two tracks come from and go to where they are apart, so that their ways there tell who is who.
@@ -245,14 +242,14 @@ namespace {
             for (std::size_t i = 0; i < head.points.size() && head.points[i].frame < frames.from; ++i)
                 append(head, i);
             for (Index frame = frames.from; frame <= frames.to; ++frame) {
-                const Index cell = path[std::size_t(frame - frames.from)];
+                const Index cell =
+                    std::clamp<Index>(path[std::size_t(frame - frames.from)], 0, m_analysis.grid().size() - 1);
                 if (const Track *on = trackOn(cell, frame)) {
-                    append(*on, pointOf(*on, frame));
+                    append(*on, pointIndex(*on, frame));
                     continue;
                 }
-                const Track &known = isThere(head, frame) ? head : tail;
-                SmoothedPoint point = known.smoothed[pointOf(known, frame)];
-                TrackPoint at = known.points[pointOf(known, frame)];
+                SmoothedPoint point = head.smoothed[pointIndex(head, frame)];
+                TrackPoint at = head.points[pointIndex(head, frame)];
                 at.cell = cell;
                 at.statistic = result.points.empty() ? 0.0 : result.points.back().statistic;
                 point.position = double(cell);
@@ -275,25 +272,24 @@ namespace {
             return result;
         }
 
+        /// Removes the other tracks that follow one of the paths for most of their time.
         void removePieces(const std::array<std::vector<Index>, 2> &paths, const Frames &frames, std::size_t i,
                           std::size_t j)
         {
+            const auto isOn = [&](const Track &track, std::size_t point) {
+                const Index at = track.points[point].frame - frames.from;
+                return at >= 0 && at < frames.count() && std::ranges::any_of(paths, [&](const auto &path) {
+                           const double apart = double(path[std::size_t(at)]) - track.smoothed[point].position;
+                           return std::abs(apart) <= onCells * m_binsPerCell;
+                       });
+            };
             for (std::size_t other = 0; other < m_tracks.size(); ++other) {
                 Track &track = m_tracks[other];
                 if (other == i || other == j || track.smoothed.empty())
                     continue;
                 Index on = 0;
-                for (std::size_t at = 0; at < track.points.size(); ++at) {
-                    const Index frame = track.points[at].frame;
-                    if (frame < frames.from || frame > frames.to)
-                        continue;
-                    for (const std::vector<Index> &path : paths)
-                        if (std::abs(double(path[std::size_t(frame - frames.from)]) - track.smoothed[at].position)
-                            <= onCells * m_binsPerCell) {
-                            ++on;
-                            break;
-                        }
-                }
+                for (std::size_t point = 0; point < track.points.size(); ++point)
+                    on += isOn(track, point) ? 1 : 0;
                 if (double(on) >= pieceShare * double(track.points.size())) {
                     track.points.clear();
                     track.smoothed.clear();

@@ -54,8 +54,7 @@ namespace {
 
 void moveSpreadTracks(Analysis &analysis)
 {
-    if (!analysis.settings.family.isNone() || !analysis.grid().isSpectrum() || analysis.isBank()
-        || analysis.model.space.axes().front().rateChange.front() < leastInertia)
+    if (!analysis.settings.family.isNone() || analysis.model.space.axes().front().rateChange.front() < leastInertia)
         return;
     const auto spread = std::stable_partition(analysis.tracks.begin(), analysis.tracks.end(),
                                               [&](const Track &track) { return !isSpread(track, analysis); });

@@ -1,6 +1,7 @@
 #include "track/encounters.h"
 
 #include "track/PolynomialFit.h"
+#include "track/atFrame.h"
 
 #include <algorithm>
 #include <cmath>
@@ -130,16 +131,6 @@ namespace {
         const Index to = std::min(frames.to, lastFrame(track));
         for (Index frame = from; frame <= to; ++frame)
             marks[std::size_t(frame - firstFrame(track))] = true;
-    }
-
-    bool isThere(const Track &track, Index frame)
-    {
-        return frame >= firstFrame(track) && frame <= lastFrame(track);
-    }
-
-    double positionAt(const Track &track, Index frame)
-    {
-        return track.smoothed[std::size_t(frame - firstFrame(track))].position;
     }
 
     /// Marks a track that approached another one and ended beside it, from where it came near: its last positions are

@@ -22,9 +22,9 @@ struct EncounterRule {
 /// Determines which points of each track lie in an encounter with another track: the two are closer than `near`, or
 /// cross, or the other track ends within `endNear`. A signal whose track is lost in an encounter is assumed to
 /// continue: the path is extrapolated beyond the track's end (PolynomialFit) as long as its position is known well
-/// enough. The end of a track that approaches another one, from 1.5 `endNear` or farther, belongs to the encounter from
-/// the distance `endNear` on, because the other signal deflects it: if these are a quarter of `fitFrames` or more, and
-/// half of `fitFrames` remain. Tracks without the second pass have no encounters.
+/// enough. The end of a track that approached another one from 1.5 `endNear` or farther belongs to the encounter from
+/// the distance `endNear` on, because the other signal deflects it, provided that it is at least a quarter of
+/// `fitFrames` long and that half of `fitFrames` remain. Tracks without the second pass have no encounters.
 std::vector<std::vector<bool>> encounters(const std::vector<Track> &tracks, const EncounterRule &rule);
 
 } // namespace faintline

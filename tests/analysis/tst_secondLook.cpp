@@ -64,6 +64,7 @@ private slots:
     void beginsAndEndsWithTheLine();
     void keyedAndFadingLinesAreOneTrack();
     void pausesAreNotReported();
+    void equalLinesAtTheEdgeStayOnTheAxis();
     void detectionStaysCausal();
     void aStrongLineIsOneTrack();
     void aLongTrackIsOne();
@@ -183,6 +184,22 @@ void tst_secondLook::pausesAreNotReported()
     // most pauses of 8 frames are.
     QVERIFY2(reported <= 40, qPrintable(QString::number(reported)));
     QVERIFY2(missing <= 6, qPrintable(QString::number(missing)));
+}
+
+void tst_secondLook::equalLinesAtTheEdgeStayOnTheAxis()
+{
+    // Two lines 2 and 4 cells above 0 Hz, and pauses in which their paths are free to go anywhere.
+    std::vector<LineSettings> lines;
+    for (int i = 0; i < 5; ++i)
+        for (const double cells : {2.0, 4.0})
+            lines.push_back(line(cells * cellHz, 10.0, 10.0 + 16.0 * i, 15.0));
+    const auto analysis = analysisOf(lines, 100.0, 1);
+    QVERIFY(!analysis->tracks.empty());
+    for (const Track &track : analysis->tracks)
+        for (std::size_t i = 0; i < track.points.size(); ++i) {
+            QVERIFY(track.points[i].cell >= 0 && track.points[i].cell < analysis->grid().size());
+            QVERIFY(track.smoothed[i].position >= 0.0);
+        }
 }
 
 void tst_secondLook::detectionStaysCausal()
