@@ -19,7 +19,7 @@ namespace faintline::cli {
 
 namespace {
 
-    struct Options {
+    struct SequentialOptions {
         AnalysisOptions analysis;
         std::string frames;
         std::string model;
@@ -36,7 +36,7 @@ namespace {
         StageSource source;
     };
 
-    Stages readyMade(const Options &options)
+    Stages readyMade(const SequentialOptions &options)
     {
         Stages stages;
         auto frames = std::make_shared<const DoubleFrames>(readDoubleFrames(options.frames));
@@ -50,7 +50,7 @@ namespace {
     }
 
     /// A recording's selection: the line model of the settings, or a model of its bins.
-    Stages recorded(const Options &options, const RunContext &context)
+    Stages recorded(const SequentialOptions &options, const RunContext &context)
     {
         const AnalysisSettings settings = options.analysis.settings();
         const auto spectrogram =
@@ -90,7 +90,7 @@ namespace {
         return json;
     }
 
-    void sequential(const Options &options, const Common &common)
+    void sequential(const SequentialOptions &options, const Common &common)
     {
         checkSprt(options.sprt, "sequential");
         checkOutputs({options.out});
@@ -116,7 +116,7 @@ namespace {
 
 void addSequential(CLI::App &app, Common &common)
 {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<SequentialOptions>();
     CLI::App *command =
         app.add_subcommand("sequential", "Test stage by stage for a signal present since the first stage, and locate "
                                          "it; \"no signal\" is final and does not cover signals that start later");

@@ -68,7 +68,7 @@ namespace {
         writer.finish();
     }
 
-    struct Options {
+    struct SimulateOptions {
         std::string scene;
         std::string out;
         std::string truth;
@@ -76,7 +76,7 @@ namespace {
         std::string type = "float32";
     };
 
-    void simulate(const Options &options, const Common &common)
+    void simulate(const SimulateOptions &options, const Common &common)
     {
         const Json json = readJsonFile(options.scene);
         if (json.is_object() && json.value("kind", Json()) == "scans") {
@@ -103,7 +103,7 @@ namespace {
 
 void addSimulate(CLI::App &app, Common &common)
 {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<SimulateOptions>();
     CLI::App *command =
         app.add_subcommand("simulate", "Simulate a recording of known lines in noise, or pings with known targets, and "
                                        "write its truth");

@@ -9,7 +9,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr int pauseMs = 80;
+    constexpr int closeupPauseMs = 80;
     /// For each of the two; enough for more frames than a screen has rows.
     constexpr std::size_t byteBudget = memoryShares::closeup;
 
@@ -20,7 +20,7 @@ Closeup::Closeup(Document &document, WaterfallView &input, WaterfallView &output
 {
     input.canvas()->installEventFilter(this);
     m_pause.setSingleShot(true);
-    m_pause.setInterval(pauseMs);
+    m_pause.setInterval(closeupPauseMs);
     connect(&m_pause, &QTimer::timeout, this, &Closeup::compute);
     connect(&document, &Document::opened, this, &Closeup::follow);
     connect(&document, &Document::analysisChanged, this, &Closeup::follow);

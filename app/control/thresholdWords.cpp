@@ -1,19 +1,11 @@
 #include "app/control/thresholdWords.h"
 
+#include "app/base/tr.h"
 #include "app/document/statisticUnit.h"
 
 #include <QCoreApplication>
 
 namespace faintline {
-
-namespace {
-
-    QString tr(const char *text)
-    {
-        return QCoreApplication::translate("thresholdWords", text);
-    }
-
-} // namespace
 
 QString firstEstimateSentence(const Analysis &analysis, bool isBusy)
 {

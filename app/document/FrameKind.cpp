@@ -1,17 +1,10 @@
 #include "app/document/FrameKind.h"
 
+#include "app/base/tr.h"
+
 #include <QCoreApplication>
 
 namespace faintline {
-
-namespace {
-
-    QString tr(const char *text)
-    {
-        return QCoreApplication::translate("FrameKind", text);
-    }
-
-} // namespace
 
 const FrameKind &lineFrames()
 {

@@ -1,6 +1,7 @@
 #include "app/document/recordingFiles.h"
 
 #include "app/base/filePath.h"
+#include "app/base/tr.h"
 #include "base/fileName.h"
 #include "exchange/survey/findRecordings.h"
 
@@ -14,11 +15,6 @@
 namespace faintline {
 
 namespace {
-
-    QString tr(const char *text)
-    {
-        return QCoreApplication::translate("recordingFiles", text);
-    }
 
     bool isNamedLikeRecording(const QString &path)
     {

@@ -10,7 +10,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr qint64 largestScenario = 1 << 20;
+    constexpr qint64 largestFile = 1 << 20;
 
 } // namespace
 
@@ -19,7 +19,7 @@ Source sourceAt(const QString &path, const OpenOptions &options)
     const std::string name = pathBytes(path);
     if (!path.startsWith(QLatin1String(":/")))
         return sourceOf(name, options);
-    return sourceOfScene(parseJson(readBeginning(path, largestScenario).toStdString(), name), name);
+    return sourceOfScene(parseJson(readBeginning(path, largestFile).toStdString(), name), name);
 }
 
 QString nameOf(const Source &source)

@@ -19,7 +19,7 @@ namespace {
     constexpr int titleHeight = 34;
     constexpr int keyWidth = 165;
     constexpr int columnWidth = 440;
-    constexpr int margin = 28;
+    constexpr int sheetMargin = 28;
     constexpr int gap = 14; ///< between the view's keys and the others
 
     int heightOf(const std::vector<KeySection> &sections)
@@ -97,8 +97,8 @@ void KeysOverlay::paintEvent(QPaintEvent *)
                                {QString(), {own.entries.begin() + rows, own.entries.end()}}};
     const int ownHeight = own.entries.empty() ? 0 : heightOf({halves[0]}) + gap;
     const auto general = generalKeys(m_view);
-    const QSize size(2 * columnWidth + 3 * margin,
-                     ownHeight + std::max(heightOf(general[0]), heightOf(general[1])) + 2 * margin);
+    const QSize size(2 * columnWidth + 3 * sheetMargin,
+                     ownHeight + std::max(heightOf(general[0]), heightOf(general[1])) + 2 * sheetMargin);
     const QRect sheet(QPoint((width() - size.width()) / 2, std::max(0, (height() - size.height()) / 2)), size);
 
     QPainter painter(this);
@@ -107,15 +107,15 @@ void KeysOverlay::paintEvent(QPaintEvent *)
     painter.setPen(colours.frame);
     painter.drawRect(sheet.adjusted(0, 0, -1, -1));
     for (int i = 0; i < 2; ++i) {
-        const QPoint column = sheet.topLeft() + QPoint(margin + i * (columnWidth + margin), margin);
+        const QPoint column = sheet.topLeft() + QPoint(sheetMargin + i * (columnWidth + sheetMargin), sheetMargin);
         if (ownHeight > 0)
             paintColumn(painter, {halves[i]}, column, colours);
         paintColumn(painter, general[std::size_t(i)], column + QPoint(0, ownHeight), colours);
     }
     if (ownHeight > 0) {
         painter.setPen(colours.frame);
-        painter.drawLine(sheet.left() + margin, sheet.top() + margin + ownHeight - gap / 2, sheet.right() - margin,
-                         sheet.top() + margin + ownHeight - gap / 2);
+        painter.drawLine(sheet.left() + sheetMargin, sheet.top() + sheetMargin + ownHeight - gap / 2, sheet.right() - sheetMargin,
+                         sheet.top() + sheetMargin + ownHeight - gap / 2);
     }
 }
 

@@ -1,5 +1,7 @@
 #include "app/help/keySections.h"
 
+#include "app/base/tr.h"
+
 #include <QApplication>
 #include <QStringList>
 
@@ -17,11 +19,6 @@ namespace {
         const char *title;
         std::vector<Entry> entries;
     };
-
-    QString tr(const char *text)
-    {
-        return QApplication::translate("keySections", text);
-    }
 
     KeySection spoken(const Section &section)
     {

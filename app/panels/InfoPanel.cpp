@@ -1,5 +1,6 @@
 #include "app/panels/InfoPanel.h"
 
+#include "app/base/tr.h"
 #include "app/control/AnalysisController.h"
 #include "app/control/thresholdWords.h"
 #include "app/document/Document.h"
@@ -47,11 +48,6 @@ namespace {
     private:
         QString m_html;
     };
-
-    QString tr(const char *text)
-    {
-        return QCoreApplication::translate("InfoPanel", text);
-    }
 
     QString withUnit(double value, int digits, const char *unit)
     {

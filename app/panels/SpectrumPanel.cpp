@@ -18,7 +18,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr std::size_t mostPoints = 3000;
+    constexpr std::size_t plottedPoints = 3000;
 
     /// A curve in dB; with more values than can be drawn, the maximum of each group.
     Curve curveOf(const std::string &name, const std::vector<double> &hz, const std::vector<double> &values,
@@ -26,7 +26,7 @@ namespace {
     {
         const auto first = std::lower_bound(hz.begin(), hz.end(), band.low) - hz.begin();
         const auto end = std::upper_bound(hz.begin(), hz.end(), band.high) - hz.begin();
-        const auto step = std::max<std::ptrdiff_t>(1, (end - first) / std::ptrdiff_t(mostPoints));
+        const auto step = std::max<std::ptrdiff_t>(1, (end - first) / std::ptrdiff_t(plottedPoints));
         Curve curve{name, Curve::Kind::Measured, {}};
         for (std::ptrdiff_t i = first; i < end; i += step) {
             const auto largest =

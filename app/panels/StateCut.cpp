@@ -1,5 +1,6 @@
 #include "app/panels/StateCut.h"
 
+#include "app/base/tr.h"
 #include "app/document/FrameKind.h"
 #include "spectrum/pictureCuts.h"
 #include "widgets/base/labelText.h"
@@ -14,11 +15,6 @@
 namespace faintline {
 
 namespace {
-
-    QString tr(const char *text)
-    {
-        return QCoreApplication::translate("StateCut", text);
-    }
 
     /// A single rate by the word for its kind; drifts in a suitable unit.
     std::vector<Axis> readableAxes(const Analysis &analysis, std::size_t model)

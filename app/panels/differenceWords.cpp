@@ -1,5 +1,6 @@
 #include "app/panels/differenceWords.h"
 
+#include "app/base/tr.h"
 #include "widgets/base/settingWords.h"
 
 #include <QCoreApplication>
@@ -9,11 +10,6 @@
 namespace faintline {
 
 namespace {
-
-    QString tr(const char *text)
-    {
-        return QCoreApplication::translate("differenceWords", text);
-    }
 
     QString textOf(const FieldInfo &field, const std::string &value)
     {

@@ -1,6 +1,7 @@
 #include "app/panels/listenSources.h"
 
 #include "app/base/filePath.h"
+#include "app/base/tr.h"
 #include "app/panels/sampleTypeBox.h"
 #include "base/Error.h"
 #include "live/IqSource.h"
@@ -28,11 +29,6 @@
 namespace faintline {
 
 namespace {
-
-    QString tr(const char *text)
-    {
-        return QCoreApplication::translate("listenSources", text);
-    }
 
     QDoubleSpinBox *hertzBox(double value, double lowest, double highest)
     {

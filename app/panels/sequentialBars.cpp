@@ -1,5 +1,6 @@
 #include "app/panels/sequentialBars.h"
 
+#include "app/base/tr.h"
 #include "app/control/SequentialTests.h"
 
 #include <QCoreApplication>
@@ -7,15 +8,6 @@
 #include <algorithm>
 
 namespace faintline {
-
-namespace {
-
-    QString tr(const char *text)
-    {
-        return QCoreApplication::translate("SequentialPanel", text);
-    }
-
-} // namespace
 
 std::vector<BarPlot::Series> stoppingBars(const SequentialTests &tests)
 {

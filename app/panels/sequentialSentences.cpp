@@ -1,5 +1,6 @@
 #include "app/panels/sequentialSentences.h"
 
+#include "app/base/tr.h"
 #include "app/control/SequentialTests.h"
 #include "plan/lineSequentialModel.h"
 #include "widgets/base/quantities.h"
@@ -12,11 +13,6 @@
 namespace faintline {
 
 namespace {
-
-    QString tr(const char *text)
-    {
-        return QCoreApplication::translate("SequentialPanel", text);
-    }
 
     QString percent(double share)
     {

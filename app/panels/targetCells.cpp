@@ -1,5 +1,7 @@
 #include "app/panels/targetCells.h"
 
+#include "app/base/tr.h"
+
 #include <QCoreApplication>
 
 #include <algorithm>
@@ -7,11 +9,6 @@
 namespace faintline {
 
 namespace {
-
-    QString tr(const char *text)
-    {
-        return QCoreApplication::translate("targetCells", text);
-    }
 
     template <class S>
     const FieldInfo &infoNamed(const std::vector<Field<S>> &fields, const std::string &name)

@@ -159,7 +159,7 @@ namespace {
         return views;
     }
 
-    std::string sizeText(QSize size)
+    std::string sizeWords(QSize size)
     {
         return std::to_string(size.width()) + "x" + std::to_string(size.height());
     }
@@ -171,7 +171,7 @@ namespace {
         view.resize(size);
         view.show();
         if (view.size() != size)
-            throw Error("--size " + sizeText(size), "is too small for this view; it needs " + sizeText(view.size()));
+            throw Error("--size " + sizeWords(size), "is too small for this view; it needs " + sizeWords(view.size()));
         QCoreApplication::sendPostedEvents();
         QCoreApplication::processEvents();
         if (QWidget *focused = QApplication::focusWidget(); focused && !isFocused)

@@ -1,5 +1,6 @@
 #include "app/views/WindowViews.h"
 
+#include "app/base/tr.h"
 #include "app/base/writeAndReport.h"
 #include "app/control/EventFiles.h"
 #include "app/control/EventReviews.h"
@@ -44,11 +45,6 @@ namespace {
 
     using Parts = const WindowParts &;
     using Of = WindowView::Of;
-
-    QString tr(const char *text)
-    {
-        return QApplication::translate("WindowViews", text);
-    }
 
 } // namespace
 

@@ -1,5 +1,6 @@
 #include "app/views/chartCaption.h"
 
+#include "app/base/tr.h"
 #include "app/panels/differenceWords.h"
 #include "app/panels/experimentWords.h"
 #include "widgets/base/settingWords.h"
@@ -12,11 +13,6 @@ namespace faintline {
 namespace {
 
     constexpr int longest = 900; ///< letters
-
-    QString tr(const char *text)
-    {
-        return QCoreApplication::translate("chartCaption", text);
-    }
 
     QString joined(const QStringList &parts)
     {
@@ -80,7 +76,7 @@ namespace {
 QString captionOf(const Document &document, CaptionOf what)
 {
     if (document.isEmpty())
-        return joined({});
+        return QString();
     return joined(QStringList{document.sourceName()} + settingsIn(document.settings(), what));
 }
 

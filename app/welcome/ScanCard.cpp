@@ -12,7 +12,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr int pictureHeight = 112; // with captions as high as the other cards' pictures
+    constexpr int scanHeight = 112; // with captions as high as the other cards' pictures
     constexpr int walksShown = 12;     // per hypothesis
 
     /// Range and Doppler of the target in the displayed scan.
@@ -24,7 +24,7 @@ namespace {
 
     void makePicture(MarkedPlot &plot)
     {
-        plot.setFixedHeight(pictureHeight);
+        plot.setFixedHeight(scanHeight);
         plot.setBare(true);
         plot.setFocusPolicy(Qt::NoFocus);
         plot.setAttribute(Qt::WA_TransparentForMouseEvents);

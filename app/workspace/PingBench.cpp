@@ -22,12 +22,12 @@ namespace faintline {
 
 namespace {
 
-    constexpr std::chrono::milliseconds stepInterval{200}; // a ping can be looked at
+    constexpr std::chrono::milliseconds pingInterval{200}; // a ping can be looked at
 
 } // namespace
 
 PingBench::PingBench(Document &document, OutputLayers &layers, QWidget *parent)
-    : Bench(document, pingFrames(), stepInterval, parent), m_layers(layers), m_viewports(document.viewport()),
+    : Bench(document, pingFrames(), pingInterval, parent), m_layers(layers), m_viewports(document.viewport()),
       m_input(new PingMap(tr("Input (dB over noise)"), m_viewports.map())),
       m_output(new PingMap(tr("Statistic D (nat)"), m_viewports.map())), m_bar(new PingBar), m_axesBar(new AxesBar),
       m_alongHistory(new WaterfallView(tr("D over range, best bearing"))),

@@ -1,5 +1,6 @@
 #include "app/workspace/pingReading.h"
 
+#include "app/base/tr.h"
 #include "app/control/OutputLayers.h"
 #include "app/document/FrameKind.h"
 #include "spectrum/pictureCuts.h"
@@ -15,11 +16,6 @@
 namespace faintline {
 
 namespace {
-
-    QString tr(const char *text)
-    {
-        return QCoreApplication::translate("pingReading", text);
-    }
 
     QString unitText(const Axis &axis)
     {

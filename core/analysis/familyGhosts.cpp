@@ -10,7 +10,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr double most = 1.5;         ///< times the statistic that coinciding members explain
+    constexpr double nearestShift = 1.5;         ///< times the statistic that coinciding members explain
     constexpr Index framesLookedAt = 64; ///< sampled from the time common to both tracks
 
     class Members
@@ -69,7 +69,7 @@ namespace {
     /// Whether a stronger track's members fully explain a statistic.
     bool isExplained(double statistic, double explained, double threshold)
     {
-        return explained > 0.0 && (statistic <= most * explained || statistic - explained < threshold);
+        return explained > 0.0 && (statistic <= nearestShift * explained || statistic - explained < threshold);
     }
 
 } // namespace

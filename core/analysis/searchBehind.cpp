@@ -13,7 +13,7 @@ namespace {
 
     constexpr double costOfHiding = 0.05; ///< nat per frame
     constexpr double raised = 1.5;        ///< floor from which on a cell may have been hidden from the first run
-    constexpr double leastShare = 0.5;    ///< of a track's points that lie near such cells
+    constexpr double hiddenShareLimit = 0.5;    ///< of a track's points that lie near such cells
 
     /// y at which λ has a value; λ increases with y.
     double powerOf(const Likelihood &likelihood, double lambda)
@@ -72,7 +72,7 @@ std::vector<Track> searchBehind(const Analysis &analysis, const Explanations &ex
     const auto reach = Index(std::ceil(frames.spectrogram()->binsPerCell()));
     const double sure = sureStatistic(analysis);
     std::erase_if(found, [&](const Track &track) {
-        return track.peakStatistic < sure || hiddenShare(track, explanations, reach) < leastShare;
+        return track.peakStatistic < sure || hiddenShare(track, explanations, reach) < hiddenShareLimit;
     });
     return found;
 }

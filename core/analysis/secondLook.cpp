@@ -24,7 +24,7 @@ namespace {
     constexpr Index largestGapFrames = 24;                    ///< between stretches of one signal
     constexpr int mostPasses = 3;                             ///< of the search behind what is explained
     constexpr double hiddenCells = 1.0;                       ///< beside a signal
-    constexpr double leastShare = 0.08;                       ///< of a path's statistic, above the floor
+    constexpr double ghostShare = 0.08;                       ///< of a path's statistic, above the floor
     constexpr std::size_t stripBytes = std::size_t(16) << 20; ///< read at a time
 
     struct Stretch {
@@ -230,7 +230,7 @@ namespace {
             double statistic = track.peakStatistic;
             if (divideByFloor(strip)) {
                 const double left = strongestIn(strip, m_model);
-                const bool isMore = left >= leastShare * statistic; // more than a ghost of the stronger track
+                const bool isMore = left >= ghostShare * statistic; // more than a ghost of the stronger track
                 statistic -= strongestIn(before, m_model) - left;
                 if (isMore)
                     statistic = std::max(left, statistic);

@@ -16,7 +16,7 @@ namespace faintline {
 namespace {
 
     constexpr double usualFrames = 32.0; ///< period that is halved
-    constexpr double fewestFrames = 2.0;
+    constexpr double shortestPeriodFrames = 2.0;
     constexpr double mostFrames = 4096.0;
 
     /// Frequencies and weights of a track's frames.
@@ -97,9 +97,9 @@ FrequencyCurve smoothFrequency(const AnalysisPlan &plan, const Track &track, dou
 {
     const Axis &time = plan.time();
     const double period = smoothingSeconds == 0.0 ? usualFrames : smoothingSeconds / time.step;
-    if (!(period >= fewestFrames && period <= mostFrames))
+    if (!(period >= shortestPeriodFrames && period <= mostFrames))
         throw Error("smoothing over " + formatNumber(smoothingSeconds) + " s",
-                    "must last 2 to 4096 frames, " + formatNumber(fewestFrames * time.step) + " … "
+                    "must last 2 to 4096 frames, " + formatNumber(shortestPeriodFrames * time.step) + " … "
                         + formatNumber(mostFrames * time.step) + " s");
     const double stiffness = std::pow(2.0 * std::sin(std::numbers::pi / period), -4);
     const Eigen::VectorXd hz = whittaker(samplesOf(track, plan.grid().axes.back()), stiffness);

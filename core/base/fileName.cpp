@@ -4,6 +4,7 @@
 #include "base/oneLine.h"
 
 #include <algorithm>
+#include <filesystem>
 
 namespace faintline {
 
@@ -47,6 +48,12 @@ std::string fileNameFromText(std::string_view text)
         i += character.size();
     }
     return name;
+}
+
+bool isFile(const std::string &path)
+{
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(path, ignored);
 }
 
 bool hasEnding(std::string_view path, std::string_view ending)

@@ -12,6 +12,9 @@ namespace faintline {
 std::string textFromFileName(std::string_view name);
 std::string fileNameFromText(std::string_view text);
 
+/// Whether a path leads to a file, not to a folder, a pipe or a device.
+bool isFile(const std::string &path);
+
 /// Whether a path has the given ending, ignoring case.
 bool hasEnding(std::string_view path, std::string_view ending);
 

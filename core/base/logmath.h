@@ -7,6 +7,7 @@
 namespace faintline {
 
 constexpr double minusInfinity = -std::numeric_limits<double>::infinity();
+constexpr float unreached = -std::numeric_limits<float>::infinity(); ///< ln 0: the score of a state that no path reaches
 
 /// Conversion between power ratio and decibels; used throughout the program.
 inline double dbFromRatio(double powerRatio)

@@ -20,8 +20,8 @@ namespace {
     constexpr std::size_t mostTilts = 30;
     constexpr double levelSpacing = 0.25; ///< between levels, in deviations of V
     constexpr double firstLevel = 1.0;    ///< deviations above the mean of V
-    constexpr double largestError = 0.5;  ///< relative, of an accepted rate
-    constexpr double deepEnough = 0.7;    ///< fraction of leastLnRate that must be reached with this error
+    constexpr double blockRateError = 0.5;  ///< relative, of an accepted rate
+    constexpr double blockDepth = 0.7;    ///< fraction of leastLnRate that must be reached with this error
 
     /// V and weight of the blocks of one run at their end.
     struct TiltedBlocks {
@@ -189,7 +189,7 @@ namespace {
         if (!(mean > 0.0 && mean < 1.0))
             return mean >= 1.0; // such a level is not rare
         const double error = std::sqrt(std::max(0.0, square / (mean * mean) - 1.0) / (count - 1.0));
-        if (error > largestError)
+        if (error > blockRateError)
             return false;
         result.levels.push_back(level);
         result.lnRates.push_back(std::log(-std::log1p(-mean) / cellFrames));
@@ -247,7 +247,7 @@ RareRates measureBlockRates(const std::function<std::unique_ptr<Detector>()> &ma
     RareRates result;
     for (double level = from; level <= highest && append(tails, level, cellFrames, result);)
         level += spacing;
-    if (result.isEmpty() || result.lnRates.back() > deepEnough * settings.leastLnRate)
+    if (result.isEmpty() || result.lnRates.back() > blockDepth * settings.leastLnRate)
         return {};
     return result;
 }

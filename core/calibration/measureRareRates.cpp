@@ -3,6 +3,7 @@
 #include "base/Random.h"
 #include "base/parallel.h"
 #include "calibration/NoiseWalker.h"
+#include "calibration/noiseCounts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,6 @@ namespace faintline {
 namespace {
 
     constexpr int streams = 16; ///< streams in which the first level is searched for
-    constexpr int settlingFrames = 300;
     constexpr int quantileFrames = 2000; ///< of each stream, for the base and the first level
     constexpr double baseQuantile = 0.8;
     constexpr double firstQuantile = 0.96;

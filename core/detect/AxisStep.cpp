@@ -7,10 +7,10 @@ namespace faintline {
 
 namespace {
 
-    using Moves = std::vector<KinematicAxis::Move>;
+    using PhaseMoves = std::vector<KinematicAxis::Move>;
 
     /// An axis that never moves and loses no probability needs no step.
-    bool isIdentity(const Moves &moves)
+    bool isIdentity(const PhaseMoves &moves)
     {
         return std::all_of(moves.begin(), moves.end(), [](const KinematicAxis::Move &m) {
             return m.fromRate == m.toRate && m.cells == 0 && m.lnProbability == 0.0;
@@ -18,7 +18,7 @@ namespace {
     }
 
     template <class Semiring>
-    auto firstStep(const KinematicAxis &axis, const Moves &moves, Index inner, double transitionScale)
+    auto firstStep(const KinematicAxis &axis, const PhaseMoves &moves, Index inner, double transitionScale)
     {
         AxisStep<typename Semiring::Real> step{axis.cells, inner, axis.cyclic};
         if (isIdentity(moves))
@@ -38,7 +38,7 @@ namespace {
     };
 
     template <class Semiring>
-    auto laterStep(const KinematicAxis &axis, const Moves &moves, const Standing &at, double transitionScale)
+    auto laterStep(const KinematicAxis &axis, const PhaseMoves &moves, const Standing &at, double transitionScale)
     {
         using Real = typename Semiring::Real;
         const Index planes = at.before * axis.rateCount * at.after;
@@ -87,7 +87,7 @@ PhaseSteps<typename Semiring::Real> stepsOfPhase(const StateSpace &space, Index 
     for (auto axis = space.axes().begin() + 1; axis != space.axes().end(); ++axis) {
         at.inner /= axis->cells;
         at.after /= axis->rateCount;
-        if (const Moves moves = axis->moves(phase); !isIdentity(moves))
+        if (const PhaseMoves moves = axis->moves(phase); !isIdentity(moves))
             steps.later.push_back(laterStep<Semiring>(*axis, moves, at, transitionScale));
         at.before *= axis->rateCount;
     }

@@ -1,5 +1,6 @@
 #include "detect/PathTrace.h"
 
+#include "base/logmath.h"
 #include "detect/Recursion.h"
 
 #include <algorithm>
@@ -125,7 +126,6 @@ namespace {
     };
 
     constexpr double scoreTolerance = 1e-4;
-    constexpr float unreached = -std::numeric_limits<float>::infinity();
     constexpr Index historyFloats = Index(1) << 24;
     constexpr Index shortestCorridor = 8;
 

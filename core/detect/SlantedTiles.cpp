@@ -1,5 +1,6 @@
 #include "detect/SlantedTiles.h"
 
+#include "base/logmath.h"
 #include "base/parallel.h"
 
 #include <algorithm>
@@ -15,9 +16,8 @@ namespace {
     constexpr Index longest = 4096; ///< cells: copies between tiles should be small compared with it …
     constexpr Index shortest = 512;
     constexpr Index cacheBytes = 7 << 16; ///< … and both windows should fit into the second-level cache
-    constexpr Index lineFloats = 16;
+    constexpr Index cacheLineFloats = 16;
     constexpr Index vectorCells = 32;
-    constexpr float unreached = -std::numeric_limits<float>::infinity();
 
 } // namespace
 
@@ -145,12 +145,12 @@ void SlantedTiles::listAhead(const Work &work, Index frame, Index first, Index n
 /// Start of the first window's cells, aligned to a cache line.
 float *SlantedTiles::prepareWindows(Scratch &own, Index frames) const
 {
-    own.windows.resize(std::size_t(2 * m_rates * m_stride + lineFloats));
+    own.windows.resize(std::size_t(2 * m_rates * m_stride + cacheLineFloats));
     own.halo.assign(std::size_t(frames * m_rates * 2 * m_reach), unreached);
     own.lambda.resize(std::size_t(m_tileCells));
     own.unused.resize(std::size_t(m_tileCells));
     const auto address = Index(reinterpret_cast<std::uintptr_t>(own.windows.data()) / sizeof(float));
-    return own.windows.data() + (lineFloats - address % lineFloats) % lineFloats + m_margin;
+    return own.windows.data() + (cacheLineFloats - address % cacheLineFloats) % cacheLineFloats + m_margin;
 }
 
 void SlantedTiles::goThrough(const Work &work, Stretch &s, Scratch &own) const

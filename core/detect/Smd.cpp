@@ -1,13 +1,13 @@
 #include "detect/Smd.h"
 
+#include "base/logmath.h"
+
 #include <algorithm>
 #include <limits>
 
 namespace faintline {
 
 namespace {
-
-    constexpr float unreached = -std::numeric_limits<float>::infinity();
 
 } // namespace
 

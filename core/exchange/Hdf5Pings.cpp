@@ -11,7 +11,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr const char *dataName = "pings";
+    constexpr const char *pingsName = "pings";
 
     std::string typeName(const Hdf5Dataset &data)
     {
@@ -24,11 +24,11 @@ namespace {
 
 bool Hdf5Pings::recognises(const std::string &path)
 {
-    return Hdf5File::recognises(path) && Hdf5File(path).dataset(dataName);
+    return Hdf5File::recognises(path) && Hdf5File(path).dataset(pingsName);
 }
 
 Hdf5Pings::Hdf5Pings(const std::string &path, const std::string &gridPath)
-    : m_file(std::make_unique<Hdf5File>(path)), m_data(m_file->dataset(dataName))
+    : m_file(std::make_unique<Hdf5File>(path)), m_data(m_file->dataset(pingsName))
 {
     if (!m_data || m_data->shape().size() < 3)
         throw Error(path, "holds no dataset \"pings\" of shape (pings, range cells, beams…)");

@@ -9,7 +9,6 @@
 #include "exchange/openPings.h"
 #include "spectrum/NormalisedPower.h"
 
-#include <filesystem>
 
 namespace faintline {
 
@@ -18,12 +17,6 @@ namespace {
     bool isStack(const std::string &path)
     {
         return hasEnding(path, ".npy");
-    }
-
-    bool isFile(const std::string &path)
-    {
-        std::error_code ignored;
-        return std::filesystem::is_regular_file(path, ignored);
     }
 
 } // namespace

@@ -8,7 +8,6 @@
 #include "spectrum/NormalisedPings.h"
 #include "spectrum/guessPingValues.h"
 
-#include <filesystem>
 #include <vector>
 
 namespace faintline {
@@ -30,12 +29,6 @@ namespace {
         const std::vector<Index> shape = shapeOf(path);
         constexpr std::size_t least = 3;
         return shape.size() >= least && (gridPath.empty() || !readGridFile(gridPath, shape).grid.isSpectrum());
-    }
-
-    bool isFile(const std::string &path)
-    {
-        std::error_code ignored;
-        return std::filesystem::is_regular_file(path, ignored);
     }
 
 } // namespace

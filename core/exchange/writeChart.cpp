@@ -14,8 +14,8 @@ namespace faintline {
 
 namespace {
 
-    constexpr double width = 720.0;
-    constexpr double height = 480.0;
+    constexpr double chartWidth = 720.0;
+    constexpr double chartHeight = 480.0;
     constexpr double lowerHeight = 280.0; ///< of charts below another
     constexpr double left = 72.0;
     constexpr double right = 16.0;
@@ -219,7 +219,7 @@ namespace {
         Scale x;
         Scale y;
         x.from = left;
-        x.to = width - right;
+        x.to = chartWidth - right;
         y.from = canvasBottom;
         y.to = canvasTop;
         x.isLogarithmic = chart.isLogarithmicX;
@@ -252,11 +252,11 @@ std::string chartSvg(const Chart &chart)
 std::string chartsSvg(std::span<const Chart> charts)
 {
     const double lower = double(charts.size() - 1) * lowerHeight;
-    std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + pixels(width + legendWidth(charts))
-                      + "\" height=\"" + pixels(height + lower)
+    std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + pixels(chartWidth + legendWidth(charts))
+                      + "\" height=\"" + pixels(chartHeight + lower)
                       + "\" font-family=\"Inter, sans-serif\" font-size=\"12\" fill=\"#222222\">\n<rect width=\"100%\" "
                         "height=\"100%\" fill=\"white\"/>\n";
-    double end = height;
+    double end = chartHeight;
     for (std::size_t i = 0; i < charts.size(); ++i, end += lowerHeight)
         svg += drawChart(charts[i], i == 0 ? top : end - lowerHeight + top / 2.0, end - bottom, i);
     return svg + "</svg>\n";

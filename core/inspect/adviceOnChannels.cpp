@@ -8,7 +8,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index readFrames = 200;
+    constexpr Index sampledFrames = 200;
     constexpr Index fewestFrames = 16;
     constexpr double mostValues = 8e6;
     constexpr double mostLost = 0.1;    ///< of the channels
@@ -23,7 +23,7 @@ namespace {
               m_isNoise(m_cells, true)
         {
             const auto held = Index(mostValues / double(m_cells * m_channels));
-            const Index count = std::min(analysis.time().count, std::clamp(held, fewestFrames, readFrames));
+            const Index count = std::min(analysis.time().count, std::clamp(held, fewestFrames, sampledFrames));
             m_frames = std::size_t(count);
             std::vector<float> frame(m_cells);
             for (const NormalisedFramesPointer &lines : analysis.lines) {

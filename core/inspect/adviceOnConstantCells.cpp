@@ -6,8 +6,8 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index readFrames = 200;
-    constexpr Index leastFrames = 16;
+    constexpr Index examinedFrames = 200;
+    constexpr Index observedFrames = 16;
     constexpr double constantVariance = 0.05; ///< relative to that of noise
     constexpr double mostCells = 0.9;
 
@@ -17,8 +17,8 @@ std::optional<Advice> adviceOnConstantCells(const Analysis &analysis, const RunC
 {
     const NormalisedFrames &frames = *analysis.frames;
     const auto cells = std::size_t(frames.grid().size());
-    const Index count = std::min(frames.time().count, readFrames);
-    if (count < leastFrames)
+    const Index count = std::min(frames.time().count, examinedFrames);
+    if (count < observedFrames)
         return {};
     const Index first = (frames.time().count - count) / 2;
     std::vector<float> y(cells);
@@ -38,7 +38,7 @@ std::optional<Advice> adviceOnConstantCells(const Analysis &analysis, const RunC
     std::size_t known = 0;
     std::size_t constant = 0;
     for (std::size_t cell = 0; cell < cells; ++cell) {
-        if (observed[cell] < double(leastFrames))
+        if (observed[cell] < double(observedFrames))
             continue;
         ++known;
         const double mean = sum[cell] / observed[cell];

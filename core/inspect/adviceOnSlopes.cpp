@@ -12,8 +12,8 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index leastFrames = 8;
-    constexpr double leastShare = 0.05; ///< of the frames of all sure tracks
+    constexpr Index trackFrames = 8;
+    constexpr double shareOfTracks = 0.05; ///< of the frames of all sure tracks
 
     double steepestSlope(const StateSpace &space)
     {
@@ -45,7 +45,7 @@ namespace {
         std::ptrdiff_t all = 0;
         for (const Track &track : analysis.tracks) {
             const auto length = std::ssize(track.points);
-            if (statisticOf(track, analysis) < sureStatistic(analysis) || length < leastFrames)
+            if (statisticOf(track, analysis) < sureStatistic(analysis) || length < trackFrames)
                 continue;
             all += length;
             if (!keepsTo(track, slope, analysis.model.space))
@@ -53,7 +53,7 @@ namespace {
             ++tracks;
             frames += length;
         }
-        return double(frames) >= leastShare * double(all) ? tracks : 0;
+        return double(frames) >= shareOfTracks * double(all) ? tracks : 0;
     }
 
 } // namespace

@@ -1,5 +1,7 @@
 #include "inspect/outputLayers.h"
 
+#include "base/logmath.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,8 +9,6 @@
 namespace faintline {
 
 namespace {
-
-    constexpr float unreached = -std::numeric_limits<float>::infinity();
 
     /// Rate of one cell per frame along an axis, in its unit per second.
     double rateUnit(const Analysis &analysis, std::size_t axis)

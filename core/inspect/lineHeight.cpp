@@ -18,7 +18,7 @@ namespace {
 
     constexpr double oversampling = 4.0; ///< of the band, so that the averaging filter's response is flat over it
     constexpr Index fewest = 16;
-    constexpr Index most = Index(1) << 22;
+    constexpr Index pathFrames = Index(1) << 22;
     constexpr Index runSamples = Index(1) << 18; ///< read at a time
 
     std::complex<double> turned(double cycles)
@@ -130,7 +130,7 @@ namespace {
         if (!(whole.halfBandHz * (whole.toSeconds - whole.fromSeconds) > 1.0)) // a band of less than two cells
             refuse();
         const auto averaged = std::max<Index>(1, Index(rate / (2.0 * oversampling * whole.halfBandHz)));
-        const Stretch stretch = shortened(whole, double(most * averaged) / rate);
+        const Stretch stretch = shortened(whole, double(pathFrames * averaged) / rate);
         const auto first = Index(std::llround(stretch.fromSeconds * rate));
         const auto count = Index(std::llround(stretch.toSeconds * rate)) - first;
         if (count / averaged < fewest)

@@ -1,5 +1,6 @@
 #include "inspect/outputLayers.h"
 
+#include "base/logmath.h"
 #include "detect/Smd.h"
 #include "inspect/StateReplay.h"
 
@@ -10,7 +11,6 @@ namespace faintline {
 
 namespace {
 
-    constexpr float unreached = -std::numeric_limits<float>::infinity();
     constexpr std::int32_t notKnown = 1 << 30; ///< an unknown age; frames since then are added
     /// Sufficient age for paths of noise, most of which are reset after a few frames.
     constexpr Index ageOfSome = 512;

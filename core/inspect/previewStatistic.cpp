@@ -9,7 +9,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index settlingFrames = 128; ///< before the displayed frames
+    constexpr Index leadInFrames = 128; ///< before the displayed frames
     constexpr Index settlingPings = 16;   ///< the same of pings
     constexpr Index averagedFrames = 48;  ///< the last settling frames, over which ln K is averaged
     constexpr double settlingGain = 0.3;
@@ -46,7 +46,7 @@ namespace {
         Smd smd(model, {ResetLaw::Half, lnK, 0.0, settlingGain});
         smd.useThreads(context.threads);
         std::vector<float> statistic(std::size_t(model.space.cellCount()));
-        const Index frames = std::min(range.end - range.readFirst, settlingFrames);
+        const Index frames = std::min(range.end - range.readFirst, leadInFrames);
         const Index averaged = std::min(averagedFrames, (frames + 1) / 2);
         double sum = 0.0;
         Index counted = 0;
@@ -88,7 +88,7 @@ FrameRange previewRange(const NormalisedFrames &frames, Index first, Index last)
         return {};
     FrameRange range;
     range.first = std::clamp<Index>(first, 0, count - 1);
-    range.readFirst = std::max<Index>(0, range.first - (frames.grid().isSpectrum() ? settlingFrames : settlingPings));
+    range.readFirst = std::max<Index>(0, range.first - (frames.grid().isSpectrum() ? leadInFrames : settlingPings));
     range.end = std::clamp<Index>(last, range.first, count - 1) + 1;
     const Index cells = (range.end - range.readFirst) * frames.grid().size();
     range.isKeepable = std::size_t(cells) * sizeof(float) <= memoryShares::previewFrames;

@@ -11,7 +11,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index mostFrames = 400;
+    constexpr Index spectrumFrames = 400;
 
     Index nearestFrame(const Axis &time, double seconds)
     {
@@ -65,7 +65,7 @@ Spectra spectraOf(const Analysis &analysis, double seconds, const TimeSpan &time
     spectra.mean.assign(cells, 0.0);
     const Index first = nearestFrame(analysis.time(), time.fromSeconds);
     const Index last = std::max(first, nearestFrame(analysis.time(), time.toSeconds));
-    const Index frames = std::min(last - first + 1, mostFrames);
+    const Index frames = std::min(last - first + 1, spectrumFrames);
     for (Index i = 0; i < frames; ++i) {
         context.checkpoint(double(i) / double(frames), "averaging spectra");
         reader.read(frames == 1 ? first : first + i * (last - first) / (frames - 1), context);

@@ -9,7 +9,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr std::chrono::milliseconds patience{50}; ///< maximum delay of a stop request
+    constexpr std::chrono::milliseconds pollPatience{50}; ///< maximum delay of a stop request
     constexpr std::chrono::seconds diskInterval{5};
     constexpr double diskWarningSeconds = 600.0;
 
@@ -51,7 +51,7 @@ void Hearing::run(const std::stop_token &own)
     m_own = own;
     try {
         for (bool isOver = false; !isOver && !own.stop_requested() && !m_stop.stop_requested();) {
-            Heard heard = m_source.hear(patience);
+            Heard heard = m_source.hear(pollPatience);
             isOver = heard.isOver;
             take(std::move(heard));
         }
@@ -118,7 +118,7 @@ bool Hearing::makeRoom(std::size_t bytes)
 {
     if (!m_source.isPatient())
         return m_buffer.hasRoom(bytes, std::chrono::milliseconds(0));
-    while (!m_buffer.hasRoom(bytes, patience))
+    while (!m_buffer.hasRoom(bytes, pollPatience))
         if (m_stop.stop_requested() || m_own.stop_requested())
             return false;
     return true;

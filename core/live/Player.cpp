@@ -11,7 +11,7 @@ namespace {
 
     constexpr double aheadSeconds = 0.3;
     constexpr Index renderedSamples = 2048; ///< rendered at a time
-    constexpr std::chrono::milliseconds askingInterval{5};
+    constexpr std::chrono::milliseconds pollInterval{5};
 
     StreamFormat formatFor(const SoundDevice &device)
     {
@@ -41,7 +41,7 @@ void Player::renderAhead(const std::stop_token &stop)
         for (Index next = 0; !stop.stop_requested(); next += renderedSamples) {
             next += leaveOut(m_sound.behindBy(next));
             while (!m_sound.isThere(next + renderedSamples) && !stop.stop_requested())
-                std::this_thread::sleep_for(askingInterval);
+                std::this_thread::sleep_for(pollInterval);
             m_sound.render(next, some);
             std::unique_lock lock(m_mutex);
             m_changed.wait(lock, stop, [&] { return m_ready.size() < enough; });

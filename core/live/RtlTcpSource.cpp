@@ -19,7 +19,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr std::size_t readBytes = std::size_t(1) << 17;
+    constexpr std::size_t receivedBytes = std::size_t(1) << 17;
     constexpr std::chrono::seconds askingInterval{1};
     constexpr std::chrono::milliseconds firstPatience{3000};
     constexpr std::chrono::milliseconds laterPatience{150}; ///< used twice; delays a stop request by as much
@@ -121,8 +121,8 @@ Heard RtlTcpSource::hear(std::chrono::milliseconds patience)
     std::vector<std::byte> bytes = std::move(m_rest);
     m_rest.clear();
     const std::size_t before = bytes.size();
-    bytes.resize(before + readBytes);
-    const ssize_t count = ::recv(m_socket, bytes.data() + before, readBytes, MSG_DONTWAIT);
+    bytes.resize(before + receivedBytes);
+    const ssize_t count = ::recv(m_socket, bytes.data() + before, receivedBytes, MSG_DONTWAIT);
     if (count < 0 && (errno == EAGAIN || errno == EINTR)) {
         bytes.resize(before);
         m_rest = std::move(bytes);

@@ -13,7 +13,7 @@ namespace faintline {
 
 namespace {
 
-    using Clock = std::chrono::steady_clock;
+    using StreamClock = std::chrono::steady_clock;
 
     constexpr double blocksPerSecond = 50.0;
     constexpr unsigned outputBlocks = 5; ///< queued at the device
@@ -85,7 +85,7 @@ struct SoundStream::Running {
     bool hasFailed = false; ///< since the last call
     bool isFirst = true;
     bool isAfterLoss = false;
-    Clock::time_point lastCall = Clock::now();
+    StreamClock::time_point lastCall = StreamClock::now();
 
     std::size_t frameBytes = 0;
     unsigned blockSamples = 0;
@@ -121,7 +121,7 @@ int SoundStream::Running::call(void *out, void *in, unsigned samples, double /*t
     auto &running = *static_cast<Running *>(user);
     streamOfThread = user;
     const std::lock_guard lock(running.mutex);
-    running.lastCall = Clock::now();
+    running.lastCall = StreamClock::now();
     const std::span block(static_cast<std::byte *>(out ? out : in), samples * running.frameBytes);
     running.isAfterLoss = running.isAfterLoss || status != 0;
     const bool isSound = running.isSound();
@@ -166,7 +166,7 @@ SoundStream::SoundStream(const SoundDevice &device, SoundDirection direction, co
 
 SoundStream::~SoundStream()
 {
-    Clock::time_point lastCall;
+    StreamClock::time_point lastCall;
     {
         const std::lock_guard lock(m_running->mutex);
         m_running->exchange = {};
@@ -177,7 +177,7 @@ SoundStream::~SoundStream()
             running->audio.closeStream();
     };
     // Closing waits for the device, forever if it hangs.
-    if (Clock::now() - lastCall > stillness)
+    if (StreamClock::now() - lastCall > stillness)
         std::thread(close).detach();
     else
         close();

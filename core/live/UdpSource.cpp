@@ -20,10 +20,10 @@ namespace {
     constexpr std::size_t largestDatagram = 65536;
     constexpr std::size_t mostAtOnce = std::size_t(1) << 18;
     constexpr int receiveBytes = 8 << 20;
-    constexpr std::chrono::seconds silence{1};
+    constexpr std::chrono::seconds udpSilence{1};
     constexpr double clockSeconds = 0.25; ///< tolerance between clock and sequence numbers
     constexpr std::uint64_t mostLate = 64;
-    constexpr double longestLossSeconds = 3600.0; ///< without a silence
+    constexpr double longestLossSeconds = 3600.0; ///< without a pause
 
     double secondsSince(std::chrono::steady_clock::time_point time)
     {
@@ -138,7 +138,7 @@ bool UdpSource::receive(Heard &heard)
 
 void UdpSource::noteSilence(Heard &heard)
 {
-    if (m_isGone || !m_last || Clock::now() - *m_last < silence)
+    if (m_isGone || !m_last || Clock::now() - *m_last < udpSilence)
         return;
     m_isGone = true;
     heard.incident = Heard::Incident::Gone;

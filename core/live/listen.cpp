@@ -19,7 +19,7 @@ namespace faintline {
 
 namespace {
 
-    using Clock = std::chrono::steady_clock;
+    using StopClock = std::chrono::steady_clock;
 
     constexpr std::chrono::milliseconds lastWork{250}; ///< for samples received before a stop request
 
@@ -297,8 +297,8 @@ namespace {
             if (!m_context.stop.stop_requested())
                 return false;
             if (!m_stopped)
-                m_stopped = Clock::now();
-            return Clock::now() - *m_stopped > lastWork;
+                m_stopped = StopClock::now();
+            return StopClock::now() - *m_stopped > lastWork;
         }
 
         const SampleSource &m_source;
@@ -308,7 +308,7 @@ namespace {
         StreamFormat m_format;
         ListenResult m_result;
         std::mutex m_mutex; ///< guards the sinks
-        std::optional<Clock::time_point> m_stopped;
+        std::optional<StopClock::time_point> m_stopped;
         SelectionSettings m_framesOf; ///< selection requested for the plan's frames
         std::unique_ptr<DetectionChain> m_chain;
         std::optional<EventFollower> m_follower;

@@ -10,7 +10,7 @@ namespace faintline {
 
 namespace {
 
-    const std::vector<Field<TruthTarget>> &fields()
+    const std::vector<Field<TruthTarget>> &targetFields()
     {
         using S = TruthTarget;
         static const std::vector<Field<S>> table{
@@ -121,7 +121,7 @@ Json toJson(const PingTruth &truth)
     Json json;
     json["targets"] = Json::array();
     for (const TruthTarget &target : truth.targets) {
-        Json &entry = json["targets"].emplace_back(writeFields(target, fields()));
+        Json &entry = json["targets"].emplace_back(writeFields(target, targetFields()));
         for (const char *name : {"elevationDegrees", "dopplerMetresPerSecond"})
             if (entry[name].empty())
                 entry.erase(name);
@@ -139,7 +139,7 @@ PingTruth pingTruthFromJson(const Json &json)
     for (const Json &entry : *targets) {
         const std::string name = "targets[" + std::to_string(truth.targets.size()) + "]";
         TruthTarget &target = truth.targets.emplace_back();
-        readFields(entry, fields(), target, name);
+        readFields(entry, targetFields(), target, name);
         const auto fits = [&](const std::vector<double> &values) { return values.size() == target.cell.size(); };
         const auto mayBeMissing = [&](const std::vector<double> &values) { return values.empty() || fits(values); };
         if (!fits(target.rangeMetres) || !fits(target.bearingDegrees) || !mayBeMissing(target.elevationDegrees)

@@ -7,7 +7,7 @@ namespace faintline {
 
 namespace {
 
-    const std::vector<Field<TruthLine>> &fields()
+    const std::vector<Field<TruthLine>> &lineFields()
     {
         using S = TruthLine;
         static const std::vector<Field<S>> table{
@@ -41,7 +41,7 @@ Json toJson(const Truth &truth)
     Json json;
     json["lines"] = Json::array();
     for (const TruthLine &line : truth.lines)
-        json["lines"].push_back(writeFields(line, fields()));
+        json["lines"].push_back(writeFields(line, lineFields()));
     return json;
 }
 
@@ -55,7 +55,7 @@ Truth truthFromJson(const Json &json)
     truth.lines.resize(lines->size());
     for (std::size_t i = 0; i < lines->size(); ++i) {
         const std::string name = "lines[" + std::to_string(i) + "]";
-        readFields((*lines)[i], fields(), truth.lines[i], name);
+        readFields((*lines)[i], lineFields(), truth.lines[i], name);
         if (truth.lines[i].frequencyHz.empty())
             throw Error(name + ".frequencyHz", "must hold at least one value");
     }

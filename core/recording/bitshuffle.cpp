@@ -14,7 +14,7 @@ namespace {
     constexpr std::size_t targetBytes = 8192; ///< size of a block if not specified
     constexpr std::size_t fewestElements = 128;
 
-    std::uint64_t bigEndian(std::span<const std::byte> bytes)
+    std::uint64_t bigEndian64(std::span<const std::byte> bytes)
     {
         std::uint64_t value = 0;
         for (const std::byte byte : bytes)
@@ -69,7 +69,7 @@ namespace {
             std::span<const std::byte> taken;
             if (!take(bytes, taken))
                 return false;
-            value = bigEndian(taken);
+            value = bigEndian64(taken);
             return true;
         }
 

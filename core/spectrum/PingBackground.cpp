@@ -11,7 +11,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index mostCells = Index(1) << 20;
+    constexpr Index pingCellLimit = Index(1) << 20;
     constexpr Index mostValues = Index(1) << 24; ///< of a block
     constexpr Index fewestPings = 16;
 
@@ -28,8 +28,8 @@ PingBackground::PingBackground(const PingPower &power, const PingNoiseSettings &
     : m_cells(power.grid().size()), m_pastOnly(settings.pastOnly)
 {
     const std::string &path = power.pings().info().path;
-    if (m_cells > mostCells)
-        throw Error(path, "has " + std::to_string(m_cells) + " cells in each ping; at most " + std::to_string(mostCells)
+    if (m_cells > pingCellLimit)
+        throw Error(path, "has " + std::to_string(m_cells) + " cells in each ping; at most " + std::to_string(pingCellLimit)
                               + " can be normalised");
     const Index pings = power.time().count;
     const auto mostBlocks = std::max<Index>(1, Index(memoryShares::background / sizeof(float)) / m_cells);

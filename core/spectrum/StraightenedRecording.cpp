@@ -12,15 +12,15 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index blockSamples = 8192;
+    constexpr Index filterSamples = 8192;
 
     /// Doubles positive frequencies, removes negative ones, divides by the length.
     std::vector<float> analyticGains()
     {
-        constexpr std::size_t half = blockSamples / 2;
+        constexpr std::size_t half = filterSamples / 2;
         std::vector<float> gains(2 * half, 0.0f);
-        std::fill_n(gains.begin(), half, 2.0f / float(blockSamples));
-        gains[0] = gains[half] = 1.0f / float(blockSamples);
+        std::fill_n(gains.begin(), half, 2.0f / float(filterSamples));
+        gains[0] = gains[half] = 1.0f / float(filterSamples);
         return gains;
     }
 
@@ -38,7 +38,7 @@ namespace {
 
 StraightenedRecording::StraightenedRecording(RecordingPointer base, int channel, const FrequencyCurve &curve,
                                              double toHz)
-    : m_base(std::move(base)), m_channel(channel), m_curve(curve), m_toHz(toHz), m_filter(blockSamples),
+    : m_base(std::move(base)), m_channel(channel), m_curve(curve), m_toHz(toHz), m_filter(filterSamples),
       m_gains(analyticGains())
 {
     m_info = m_base->info();
@@ -95,12 +95,12 @@ void StraightenedRecording::turn(Index first, std::span<float> samples) const
 void StraightenedRecording::addBlock(Index block, Index first, std::span<float> out) const
 {
     const Index begin = m_filter.beginOf(block);
-    std::vector<float> real(static_cast<std::size_t>(blockSamples));
-    m_base->read(m_channel, begin, blockSamples, real);
+    std::vector<float> real(static_cast<std::size_t>(filterSamples));
+    m_base->read(m_channel, begin, filterSamples, real);
     std::vector<std::complex<float>> analytic(real.begin(), real.end());
     m_filter.apply(analytic, m_gains);
     turn(begin, {reinterpret_cast<float *>(analytic.data()), 2 * analytic.size()});
-    const Index end = std::min(begin + blockSamples, first + std::ssize(out));
+    const Index end = std::min(begin + filterSamples, first + std::ssize(out));
     for (Index n = std::max(begin, first); n < end; ++n)
         out[std::size_t(n - first)] += analytic[std::size_t(n - begin)].real();
 }

@@ -12,7 +12,6 @@ namespace faintline {
 
 namespace {
 
-    constexpr float silence = NoiseBackground::silence;
 
     /// frames ← frames·e^(-ln)
     void divide(std::span<float> frame, std::span<const float> ln)
@@ -39,7 +38,7 @@ namespace {
             const Index middle = (m_stretchFrames.first + m_stretchFrames.count / 2) * m_stretchFrames.steps;
             const Between t = between(m_background.time, m_background.levelTime.value(double(middle)));
             const auto row = m_background.lnPower.begin() + t.lower * m_cells;
-            if (!(strongest > 0.0f) || *row <= silence)
+            if (!(strongest > 0.0f) || *row <= NoiseBackground::silence)
                 return false;
             m_stretch.firstLevel = m_stretchFrames.first * m_stretchFrames.steps;
             m_stretch.lnPower.assign(row, row + m_cells);

@@ -45,7 +45,7 @@ namespace {
         }
     }
 
-    constexpr Index reach = 6; ///< blocks on either side
+    constexpr Index steadyReachBlocks = 6; ///< blocks on either side
 
     /// Shared by all blocks' averages.
     class SteadyAverage
@@ -80,7 +80,7 @@ namespace {
             double blocksAveraged = 1.0;
             for (Index direction : {-1, 1}) {
                 std::fill(m_goesOn.begin(), m_goesOn.end(), 1);
-                for (Index i = 1; i <= reach; ++i) {
+                for (Index i = 1; i <= steadyReachBlocks; ++i) {
                     const Index other = block + direction * i;
                     if (other < 0 || other >= m_blocks)
                         break;
@@ -141,8 +141,8 @@ void averageWhileSteady(std::vector<float> &columns, const std::vector<float> &r
     std::deque<std::vector<float>> finished; // the last blocks, whose own medians are still needed
     for (Index block = 0; block < average.blocks(); ++block) {
         finished.push_back(average.backgroundOf(block));
-        if (std::ssize(finished) > reach) {
-            std::copy(finished.front().begin(), finished.front().end(), columns.begin() + (block - reach) * cells);
+        if (std::ssize(finished) > steadyReachBlocks) {
+            std::copy(finished.front().begin(), finished.front().end(), columns.begin() + (block - steadyReachBlocks) * cells);
             finished.pop_front();
         }
     }

@@ -13,7 +13,6 @@ namespace faintline {
 
 namespace {
 
-    constexpr float silence = NoiseBackground::silence;
 
     /// First cell of a sub-band; column `bands` is the whole band.
     Index firstCell(Index column, Index bands, Index cells)
@@ -52,7 +51,7 @@ namespace {
               m_agreeing(float(4.0 * medianScatter(double(m_cells) / double(bands)))), m_inverse(std::size_t(m_cells))
         {
             for (std::size_t cell = 0; cell < m_inverse.size(); ++cell)
-                m_inverse[cell] = block.lnPower[cell] > silence ? std::exp(-block.lnPower[cell]) : 0.0f;
+                m_inverse[cell] = block.lnPower[cell] > NoiseBackground::silence ? std::exp(-block.lnPower[cell]) : 0.0f;
         }
 
         /// Levels of each sub-band, and last of the whole band.
@@ -248,11 +247,11 @@ void moveToBackground(std::vector<float> &levels, const BlockRows &rows, const N
                     meanOver(own, background.lnPower.data() + std::clamp<Index>(block + side, 0, last) * cells,
                              rows.isNoise.begin() + block * cells, cells, background.bandCount);
         known = block;
-        if (own[0] <= silence)
+        if (own[0] <= NoiseBackground::silence)
             continue;
         const Between t = between(background.time, background.levelTime.value(double(i)));
         const auto isSilent = [&](Index b) {
-            return background.lnPower[std::size_t(std::min(b, last) * cells)] <= silence;
+            return background.lnPower[std::size_t(std::min(b, last) * cells)] <= NoiseBackground::silence;
         };
         const Index early = isSilent(t.lower) ? t.lower + 1 : t.lower;
         const Index late = isSilent(t.lower + 1) ? t.lower : t.lower + 1;

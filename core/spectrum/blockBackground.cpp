@@ -11,7 +11,6 @@ namespace faintline {
 
 namespace {
 
-    constexpr float silence = NoiseBackground::silence;
     // Height of a background above the rounding floor, in ln power, above which it is used
     constexpr double roundingMargin = 4.0;   ///< for the level of the whole band
     constexpr double roundingNearness = 0.1; ///< at all
@@ -54,7 +53,7 @@ BlockBackground blockBackground(const std::vector<float> &frames, Index cells, I
         if (peak > 0.0f)
             loud.insert(loud.end(), row, row + cells);
     }
-    std::vector<float> ln(std::size_t(cells), silence);
+    std::vector<float> ln(std::size_t(cells), NoiseBackground::silence);
     if (loud.empty())
         return {ln, ln, std::vector<bool>(std::size_t(cells), true), std::vector<bool>(std::size_t(cells), true)};
     const auto used = int(std::ssize(loud) / cells);

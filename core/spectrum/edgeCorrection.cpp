@@ -15,12 +15,12 @@ namespace faintline {
 namespace {
 
     constexpr Index fewestWindows = 1024;
-    constexpr Index mostFrames = 8192;
-    constexpr Index mostValues = Index(1) << 26; ///< frames × bins that are read
+    constexpr Index edgeFrames = 8192;
+    constexpr Index edgeValues = Index(1) << 26; ///< frames × bins that are read
     constexpr float steep = 1.2f;                ///< change of ln B between cells
-    constexpr Index reach = 6;                   ///< cells on either side of a steep place
+    constexpr Index edgeReachCells = 6;                   ///< cells on either side of a steep place
     constexpr Index halfWidth = 5;               ///< cells; half the window of the smooth correction
-    constexpr float most = 0.5f;                 ///< ln; of a correction
+    constexpr float correctionLimit = 0.5f;                 ///< ln; of a correction
     constexpr double significant = 4.0;          ///< standard errors of a smooth correction
     constexpr double perError = 30.0;            ///< d ln(rate of false alarms)/dε for an excess ε of y
     constexpr double evidence = 12.0;            ///< nat of a false alarm, at usual rates …
@@ -43,8 +43,8 @@ namespace {
         std::vector<bool> isNear(counts.size(), false);
         for (Index cell = 0; cell < cells; ++cell)
             if (2 * counts[std::size_t(cell)] >= frames)
-                std::fill(isNear.begin() + std::max<Index>(0, cell - reach),
-                          isNear.begin() + std::min(cells, cell + reach + 2), true);
+                std::fill(isNear.begin() + std::max<Index>(0, cell - edgeReachCells),
+                          isNear.begin() + std::min(cells, cell + edgeReachCells + 2), true);
         return isNear;
     }
 
@@ -176,7 +176,7 @@ std::vector<float> edgeCorrection(const Spectrogram &spectrogram, const NoiseBac
     const Index bins = spectrogram.frequency().count;
     const Index frameCount = spectrogram.time().count;
     const Index steps = spectrogram.settings().stepsPerWindow;
-    const Index wanted = std::min(mostFrames, mostValues / std::max<Index>(1, bins));
+    const Index wanted = std::min(edgeFrames, edgeValues / std::max<Index>(1, bins));
     if (frameCount < fewestWindows * steps || wanted < fewestWindows)
         return {};
     BinRatios ratios(spectrogram, background);
@@ -197,8 +197,8 @@ std::vector<float> edgeCorrection(const Spectrogram &spectrogram, const NoiseBac
     for (Index bin = 0; bin < bins; ++bin) {
         const auto i = std::size_t(bin);
         if (isNear[std::size_t(background.frequency.nearest(spectrogram.frequency().value(double(bin))))])
-            correction[i] = std::clamp(lnMeans[i], -most, most) + float(marginOf(alike[i], error));
-        else if (std::abs(smooth[i]) > float(significant * smoothError) && std::abs(smooth[i]) < most)
+            correction[i] = std::clamp(lnMeans[i], -correctionLimit, correctionLimit) + float(marginOf(alike[i], error));
+        else if (std::abs(smooth[i]) > float(significant * smoothError) && std::abs(smooth[i]) < correctionLimit)
             correction[i] = smooth[i];
     }
     return correction;

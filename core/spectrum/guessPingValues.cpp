@@ -13,14 +13,14 @@ namespace faintline {
 namespace {
 
     constexpr Index mostPings = 64;
-    constexpr Index mostValues = Index(1) << 22;
+    constexpr Index guessedValues = Index(1) << 22;
     constexpr std::size_t fewestValues = 4096;
     const double powerRatio = std::log(3.0); ///< median |ln ratio| of two exponentials
 
     std::vector<std::vector<double>> somePings(const RawPings &pings)
     {
         const Index count = pings.info().time.count;
-        const Index affordable = std::clamp<Index>(mostValues / pings.cells(), 2, mostPings);
+        const Index affordable = std::clamp<Index>(guessedValues / pings.cells(), 2, mostPings);
         const Index pairs = std::max<Index>(1, std::min(affordable, count) / 2);
         std::vector<std::vector<double>> result;
         for (Index pair = 0; pair < pairs; ++pair)

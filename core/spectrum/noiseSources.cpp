@@ -12,14 +12,14 @@ namespace faintline {
 
 namespace {
 
-    constexpr std::size_t lanes = 16; // number of partial sums, in the same order on each processor
+    constexpr std::size_t sumLanes = 16; // number of partial sums, in the same order on each processor
     constexpr float least = 1e-12f;   // lower limit of B, relative to frames near 1
-    constexpr float cut = 6.0f;       // limits a line to six times its noise
+    constexpr float lineCut = 6.0f;       // limits a line to six times its noise
     constexpr int sweeps = 16;
     constexpr int levelUpdates = 12;
     constexpr Index profileCells = 24;
 
-    using Lanes = std::array<float, lanes>;
+    using Lanes = std::array<float, sumLanes>;
 
     FAINTLINE_MULTIVERSION
     void addSource(const float *colour, float level, std::size_t cells, float *sum)
@@ -35,7 +35,7 @@ namespace {
         for (std::size_t cell = 0; cell < cells; ++cell) {
             const float b = sum[cell] > least ? sum[cell] : least;
             const float over = 1.0f / b;
-            const float y = frame[cell] < cut * b ? frame[cell] : cut * b;
+            const float y = frame[cell] < lineCut * b ? frame[cell] : lineCut * b;
             inverse[cell] = over;
             pull[cell] = y * over * over;
         }
@@ -45,11 +45,11 @@ namespace {
     void addProducts(const float *a, const float *b, std::size_t cells, float *parts)
     {
         std::size_t cell = 0;
-        for (; cell + lanes <= cells; cell += lanes)
-            for (std::size_t lane = 0; lane < lanes; ++lane)
+        for (; cell + sumLanes <= cells; cell += sumLanes)
+            for (std::size_t lane = 0; lane < sumLanes; ++lane)
                 parts[lane] += a[cell + lane] * b[cell + lane];
         for (; cell < cells; ++cell)
-            parts[cell % lanes] += a[cell] * b[cell];
+            parts[cell % sumLanes] += a[cell] * b[cell];
     }
 
     double product(const float *a, const float *b, std::size_t cells)

@@ -10,8 +10,6 @@ namespace faintline {
 
 namespace {
 
-    constexpr float unreached = -std::numeric_limits<float>::infinity();
-
 } // namespace
 
 HmmTracker::HmmTracker(TrackerModel &model, Track start, const Seed &seed)

@@ -1,5 +1,6 @@
 // Changes of the model that follows a track.
 
+#include "base/logmath.h"
 #include "track/HmmTracker.h"
 
 #include <algorithm>
@@ -9,8 +10,6 @@
 namespace faintline {
 
 namespace {
-
-    constexpr float unreached = -std::numeric_limits<float>::infinity();
 
     /// The plane of `to` with the rates nearest to those of a plane of `from`, in cells per step.
     Index nearestPlane(const StateSpace &from, Index plane, const StateSpace &to)

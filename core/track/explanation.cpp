@@ -8,11 +8,11 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index piece = 64;      ///< frames
+    constexpr Index pieceFrames = 64;      ///< frames
     constexpr double perCell = 16.0; ///< entries of the leakage table
     constexpr double margin = 2.0;
     constexpr double negligible = 0.02; ///< relative to the noise
-    constexpr double farthestCells = 4096.0;
+    constexpr double leakageCells = 4096.0;
     constexpr double steadyCells = 0.1; ///< per frame
 
 } // namespace
@@ -20,7 +20,7 @@ namespace {
 Explanations::Explanations(Index cells, const std::function<double(double)> &bound,
                            const std::function<double(double)> &exact)
 {
-    const double farthest = std::min(farthestCells, double(cells));
+    const double farthest = std::min(leakageCells, double(cells));
     for (double distance = 0.0; distance <= farthest; distance += 1.0 / perCell) {
         m_bound.push_back(float(bound(distance)));
         m_exact.push_back(std::min(m_bound.back(), float(exact(distance))));
@@ -54,15 +54,15 @@ double Explanations::reachAt(const ExplainedSignal &signal, std::size_t at) cons
 
 void Explanations::add(ExplainedSignal signal)
 {
-    const auto last = std::size_t(signal.endFrame() / piece); // including the frame after it
+    const auto last = std::size_t(signal.endFrame() / pieceFrames); // including the frame after it
     if (m_byTime.size() <= last)
         m_byTime.resize(last + 1);
-    for (auto i = std::size_t(std::max<Index>(0, signal.firstFrame - 1) / piece); i <= last; ++i) {
-        const Index begin = Index(i) * piece - signal.firstFrame;
+    for (auto i = std::size_t(std::max<Index>(0, signal.firstFrame - 1) / pieceFrames); i <= last; ++i) {
+        const Index begin = Index(i) * pieceFrames - signal.firstFrame;
         const Index end = std::ssize(signal.positions) - 1;
         Entry entry{m_signals.size(), std::numeric_limits<double>::infinity(),
                     -std::numeric_limits<double>::infinity()};
-        for (Index at = std::clamp<Index>(begin, 0, end); at <= std::clamp<Index>(begin + piece - 1, 0, end); ++at) {
+        for (Index at = std::clamp<Index>(begin, 0, end); at <= std::clamp<Index>(begin + pieceFrames - 1, 0, end); ++at) {
             const auto number = std::size_t(at);
             const double reach = reachAt(signal, number);
             entry.lowest = std::min(entry.lowest, signal.positions[number] - reach);
@@ -76,7 +76,7 @@ void Explanations::add(ExplainedSignal signal)
 template <class Take>
 void Explanations::forEachAt(Index frame, Index firstCell, Index count, Take take) const
 {
-    const auto number = std::size_t(frame / piece);
+    const auto number = std::size_t(frame / pieceFrames);
     if (number >= m_byTime.size())
         return;
     for (const Entry &entry : m_byTime[number]) {

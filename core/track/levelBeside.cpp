@@ -11,10 +11,10 @@ namespace faintline {
 namespace {
 
     constexpr double nearestCells = 2.5; ///< beyond the main lobe of any window
-    constexpr double farthestCells = 7.0;
+    constexpr double besideCells = 7.0;
     constexpr Index reaches[] = {6, 24, 72}; ///< frames, on either side
     constexpr Index valuesPerReach = 6;      ///< values per reach: the level is evaluated at this fraction of it
-    constexpr double share = 0.35;           ///< of the values, below the quantile: lines may occupy the rest
+    constexpr double besideShare = 0.35;           ///< of the values, below the quantile: lines may occupy the rest
     constexpr double deviations = 1.5;
     constexpr double framesPerWindow = 2.0; ///< more frames add hardly any information
     constexpr std::size_t fewestValues = 8;
@@ -29,13 +29,13 @@ namespace {
 
     double quantileOfNoise()
     {
-        return -std::log1p(-share);
+        return -std::log1p(-besideShare);
     }
 
     /// Relative scatter of the quantile of `count` independent values.
     double scatterOf(double count)
     {
-        return std::sqrt(share / (1.0 - share) / count) / quantileOfNoise();
+        return std::sqrt(besideShare / (1.0 - besideShare) / count) / quantileOfNoise();
     }
 
     /// Level of one side, or of both.
@@ -79,7 +79,7 @@ namespace {
             if (m_values.size() < fewestValues)
                 return {1.0, 0.0};
             const auto count = double(m_values.size());
-            const auto quantile = m_values.begin() + std::ptrdiff_t(share * count);
+            const auto quantile = m_values.begin() + std::ptrdiff_t(besideShare * count);
             std::nth_element(m_values.begin(), quantile, m_values.end());
             return {double(*quantile) / quantileOfNoise(), count / (framesPerWindow * m_binsPerCell)};
         }
@@ -127,7 +127,7 @@ namespace {
 
 Index levelBesideHalfWidth(double binsPerCell)
 {
-    return Index(std::ceil(farthestCells * binsPerCell));
+    return Index(std::ceil(besideCells * binsPerCell));
 }
 
 std::vector<double> levelBeside(const PathStrip &strip, double binsPerCell)

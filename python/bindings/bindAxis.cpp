@@ -29,7 +29,7 @@ namespace {
         return arrayOf(std::move(values));
     }
 
-    std::string textOf(const Axis &axis)
+    std::string axisText(const Axis &axis)
     {
         return py::str("Axis({!r}, {}, unit={!r}, first={!r}, step={!r}, cyclic={!r})")
             .format(axis.name, axis.count, axis.unit, axis.first, axis.step, axis.cyclic);
@@ -54,7 +54,7 @@ On a cyclic axis, such as a sonar's bearings, the cell after the last one is the
         .def("__len__", [](const Axis &axis) { return axis.count; })
         .def(
             "__eq__", [](const Axis &axis, const Axis &other) { return axis == other; }, py::is_operator())
-        .def("__repr__", &textOf);
+        .def("__repr__", &axisText);
 }
 
 } // namespace faintline::python

@@ -60,7 +60,7 @@ namespace {
         return [which](const HeldExplanation &self) { return self.explanation.*which; };
     }
 
-    std::string textOf(const HeldExplanation &self)
+    std::string explanationText(const HeldExplanation &self)
     {
         const Explanation &e = self.explanation;
         return py::str("<faintline.Explanation: statistic {:.4f} nat, threshold {:.4f}, path of {} frame(s){}>")
@@ -97,7 +97,7 @@ void bindExplanation(py::module_ &module)
 Fields: t (s), f (Hz; with several axes, one field for each), rate (cells per frame), then the terms in nat: llr (λ),
 ln_transition (ln P), ln_k, their running sum, and runner_up_margin, the margin over the second-best predecessor (inf if
 there is no other).)")
-        .def("__repr__", &textOf);
+        .def("__repr__", &explanationText);
 }
 
 } // namespace faintline::python

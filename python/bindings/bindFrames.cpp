@@ -75,7 +75,7 @@ namespace {
         return axis;
     }
 
-    std::string textOf(const HeldFrames &self)
+    std::string framesText(const HeldFrames &self)
     {
         std::string cells;
         for (const Axis &axis : self.frames->grid().axes)
@@ -125,7 +125,7 @@ Raises Error for other values and for axes of a different size.)")
         .def("__len__", [](const HeldFrames &self) { return self.frames->time().count; })
         .def("read", &readFramesOf, py::arg("first") = 0, py::arg("count") = py::none(),
              "Returns frames first … first+count-1, fewer at the end: float32 of shape (frames, cells…).")
-        .def("__repr__", &textOf);
+        .def("__repr__", &framesText);
 }
 
 } // namespace faintline::python

@@ -62,7 +62,7 @@ namespace {
         return viewOf(owner, reinterpret_cast<const std::complex<float> *>(owner->data()), {wanted});
     }
 
-    void save(const HeldRecording &self, const py::object &path, const std::string &type, int threads,
+    void saveRecording(const HeldRecording &self, const py::object &path, const std::string &type, int threads,
               const py::object &progress)
     {
         if (type != "float32" && type != "int16")
@@ -73,7 +73,7 @@ namespace {
         });
     }
 
-    std::string textOf(const HeldRecording &self)
+    std::string recordingText(const HeldRecording &self)
     {
         const RecordingInfo &info = self.recording->info();
         return py::str("<faintline.Recording {!r}, {}, {} samples at {:g} Hz, {} channel(s){}>")
@@ -140,13 +140,13 @@ Single-precision arrays are not copied.)")
 
 Samples that are not finite read as 0. Raises Error if the channel or the first sample does not exist.)")
         .def(
-            "save", &save, py::arg("path"), py::kw_only(), py::arg("type") = "float32", py::arg("threads") = 0,
+            "save", &saveRecording, py::arg("path"), py::kw_only(), py::arg("type") = "float32", py::arg("threads") = 0,
             py::arg("progress") = py::none(),
             R"(Writes the recording in the format of the extension: .wav, .flac, .w64, .aiff, .caf, .au, or a SigMF pair
 (.sigmf-meta).
 
 type: "float32" or "int16" (clipped at ±1). The file appears only when it is complete. Raises Error.)")
-        .def("__repr__", &textOf);
+        .def("__repr__", &recordingText);
 }
 
 } // namespace faintline::python

@@ -103,7 +103,7 @@ namespace {
         return self.analysis()->choice ? py::object(py::str(windowChoiceWords(*self.analysis()->choice))) : py::none();
     }
 
-    std::string textOf(const Result &self)
+    std::string resultText(const Result &self)
     {
         const Analysis &a = *self.analysis();
         return py::str("<faintline.Result: {} event(s) in {} frames of {} cells, threshold {:.4g} {}>")
@@ -191,7 +191,7 @@ statistic: .npy.
 
 The files appear together when all are complete. If the source is a file, NAME.provenance.json is written beside each,
 from which faintline-cli replay reproduces it. Raises Error.)")
-        .def("__repr__", &textOf);
+        .def("__repr__", &resultText);
 }
 
 } // namespace faintline::python

@@ -70,7 +70,7 @@ namespace {
         return [which](const HeldTrack &self) { return self.analysis->time().value(double(self.track().*which)); };
     }
 
-    std::string textOf(const HeldTrack &self)
+    std::string trackText(const HeldTrack &self)
     {
         return py::str("<faintline.Track {}: {} points, {:g} … {:g} s>")
             .format(self.track().id, self.track().presentPoints().size(), seconds(&Track::onsetFrame)(self),
@@ -121,7 +121,7 @@ for frames with several axes, for the linear likelihood, and with both_ways=Fals
         .def_property_readonly("model", member(&Track::model),
                                "Index in the bank of the model that detected the signal; the track may change it.")
         .def("__len__", [](const HeldTrack &self) { return self.track().presentPoints().size(); })
-        .def("__repr__", &textOf);
+        .def("__repr__", &trackText);
 }
 
 } // namespace faintline::python

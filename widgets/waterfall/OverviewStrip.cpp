@@ -23,7 +23,7 @@ namespace {
 
     constexpr double sideMargin = 8.0;
     constexpr double tickHeight = 16.0;
-    constexpr double gripReach = 6.0;
+    constexpr double edgeReach = 6.0;
 
 } // namespace
 
@@ -216,7 +216,7 @@ OverviewStrip::Grip OverviewStrip::gripAt(const QPointF &position) const
         return Grip::None;
     const QRectF box = boxRect();
     const double toLow = std::abs(position.x() - box.left()), toHigh = std::abs(position.x() - box.right());
-    if (std::min(toLow, toHigh) <= gripReach)
+    if (std::min(toLow, toHigh) <= edgeReach)
         return toLow < toHigh ? Grip::Low : Grip::High;
     return position.x() > box.left() && position.x() < box.right() ? Grip::Box : Grip::None;
 }

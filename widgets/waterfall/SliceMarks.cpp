@@ -10,13 +10,13 @@ namespace faintline {
 namespace {
 
     constexpr double seam = 4.0; // pixels
-    constexpr double line = 1.8;
+    constexpr double markWidth = 1.8;
 
     std::vector<QwtPlotCurve *> makeMarks(WaterfallView &view, QwtSymbol::Style style, int size)
     {
         std::vector<QwtPlotCurve *> marks;
         for (const auto &[colour, width] :
-             {std::pair(QColor(0, 0, 0, 170), seam), std::pair(QColor(255, 255, 255), line)}) {
+             {std::pair(QColor(0, 0, 0, 170), seam), std::pair(QColor(255, 255, 255), markWidth)}) {
             auto *curve = new QwtPlotCurve;
             curve->setStyle(QwtPlotCurve::NoCurve);
             curve->setSymbol(new QwtSymbol(style, Qt::NoBrush, QPen(colour, width), {size, size}));

@@ -84,12 +84,6 @@ namespace {
     }
 
     /// The frames of a trial that a detector sees.
-    struct Look {
-        Index first;
-        Index last;
-        bool waits; ///< until the first block end after the line
-    };
-
     /// Largest statistic of every detector in each block of the recording that does not consist of signals alone.
     std::vector<std::vector<float>> blockMaxima(const std::vector<AnalysisPlan> &plans, const SignalMask &mask,
                                                 Index blockFrames, Index blockBins, const RunContext &context)
@@ -309,6 +303,12 @@ public:
     }
 
 private:
+    struct Look {
+        Index first;
+        Index last;
+        bool waits; ///< until the first block end after the line
+    };
+
     std::shared_ptr<const NormalisedSpectrogram> framesAround(const RecordingPointer &recording) const
     {
         const Spectrogram &whole = *m_shared.spectrogram;

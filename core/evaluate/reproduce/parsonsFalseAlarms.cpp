@@ -297,7 +297,7 @@ namespace {
         return made;
     }
 
-    Reproduction reproduceFigure3(const ReproduceOptions &options, const RunContext &context)
+    Reproduction reproduceParsonsFigure3(const ReproduceOptions &options, const RunContext &context)
     {
         Reproduction made = reproduceFalseAlarms(figure3(), options, context);
         made.notes = {"With 800 pings, as the tolerances suppose, seeds 1 to 4 gave K -1.507, -1.484, -1.493, -1.497 "
@@ -318,7 +318,7 @@ namespace {
 
 std::vector<Reproducible> parsonsFalseAlarms()
 {
-    return {{figure2().name, figure2().title, reproduceFigure2}, {figure3().name, figure3().title, reproduceFigure3}};
+    return {{figure2().name, figure2().title, reproduceFigure2}, {figure3().name, figure3().title, reproduceParsonsFigure3}};
 }
 
 } // namespace faintline

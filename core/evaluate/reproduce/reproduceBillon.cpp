@@ -225,7 +225,7 @@ namespace {
         return made;
     }
 
-    Reproduction reproduceFigure1(const ReproduceOptions &options, const RunContext &context)
+    Reproduction reproduceBillonFigure1(const ReproduceOptions &options, const RunContext &context)
     {
         LineExperiment experiment;
         experiment.seed = int(options.seed);
@@ -293,7 +293,7 @@ std::vector<Reproducible> billonReproducibles()
                             return reproduceTable(*table, options, context);
                         }});
     list.push_back(
-        {"billon:figure1", "Billon 2005, Figure 1: the statistic along one faint wandering line", reproduceFigure1});
+        {"billon:figure1", "Billon 2005, Figure 1: the statistic along one faint wandering line", reproduceBillonFigure1});
     return list;
 }
 

@@ -15,7 +15,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index mostStages = 1000000;
+    constexpr Index stageLimit = 1000000;
     constexpr Index trialsOfAnItem = 1000;
 
     struct TrialOutcome {
@@ -179,7 +179,7 @@ namespace {
             Slot &slot = m_slot[lane];
             const double lambda = m_total[lane];
             const SprtDecision decision = decide(m_study.sprt, std::log(lambda), slot.stages);
-            if (decision == SprtDecision::Undecided && slot.stages < mostStages)
+            if (decision == SprtDecision::Undecided && slot.stages < stageLimit)
                 return false;
             TrialOutcome &outcome = outcomes[slot.number];
             outcome.stages = slot.stages;

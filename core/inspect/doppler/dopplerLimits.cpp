@@ -128,7 +128,7 @@ namespace {
         double endOf(int direction) const
         {
             constexpr double logSpeed = 12.0;
-            constexpr double mostLogitSpeed = 6.5; // v/c = 0.9985
+            constexpr double limitLogitSpeed = 6.5; // v/c = 0.9985
             constexpr double logRange = 14.0;
             constexpr double lengths = 200.0;
             constexpr double mostRest = 1e3;
@@ -137,7 +137,7 @@ namespace {
                 return direction < 0 ? m_problem.coordinateOfRest(0.0)
                                      : m_problem.coordinateOfRest(mostRest * m_problem.passOf(m_optimum.x).restHz);
             case DopplerParameter::Speed:
-                return direction < 0 ? m_centre - logSpeed : std::max(mostLogitSpeed, m_centre);
+                return direction < 0 ? m_centre - logSpeed : std::max(limitLogitSpeed, m_centre);
             case DopplerParameter::Range:
                 return m_centre + direction * logRange;
             case DopplerParameter::Closest:

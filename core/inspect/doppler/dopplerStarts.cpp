@@ -36,7 +36,7 @@ namespace {
         return std::clamp((high - low) / (high + low), std::max(errors, 1e-14), mostBeta);
     }
 
-    double medianOf(std::vector<double> &values)
+    double medianOfStarts(std::vector<double> &values)
     {
         const auto middle = values.begin() + std::ssize(values) / 2;
         std::nth_element(values.begin(), middle, values.end());
@@ -49,7 +49,7 @@ namespace {
         std::vector<double> ratios;
         for (const DopplerPoint &point : points)
             ratios.push_back(point.hz / receivedHz(pass, propagation, point.seconds));
-        pass.restHz = medianOf(ratios);
+        pass.restHz = medianOfStarts(ratios);
     }
 
     /// When the closest approach is heard, relative to the points.
