@@ -1,7 +1,7 @@
 #!/bin/sh
 # Checks layout, documentation and common mistakes as described in CONTRIBUTING:
-#     sh tests/style.sh                  fails if clang-format would change a file, or if doxygen reports a warning for a public header or a
-#                                        page of docs
+#     sh tests/style.sh                  fails if clang-format would change a file, if doxygen reports a warning for a public header or a
+#                                        page of docs, or if a header of the core does not compile alone
 #     sh tests/style.sh tidy [PATH...]   fails if clang-tidy reports anything in these folders or files; by default core/base, core/model and
 #                                        core/track
 set -eu
@@ -23,6 +23,12 @@ layout() {
     doxygen docs/Doxyfile
 }
 
+# By syntax only, one process for each processor.
+loneHeaders() {
+    git ls-files 'core/*.h' | xargs -P "$(nproc)" -I HEADER sh -c 'echo "#include \"HEADER\"" |
+        g++ -std=c++20 -fsyntax-only -Wall -Wextra -Werror -I . -I core -isystem /usr/include/eigen3 -x c++ -'
+}
+
 # One process for each processor; clang does not know GCC's own warnings.
 tidy() {
     need clang-tidy
@@ -33,7 +39,10 @@ tidy() {
 }
 
 case ${1:-} in
-'') layout ;;
+'')
+    layout
+    loneHeaders
+    ;;
 tidy)
     shift
     tidy "$@"

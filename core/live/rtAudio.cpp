@@ -1,8 +1,12 @@
 #include "live/rtAudio.h"
 
+#include "live/soundDevices.h"
+
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include <pulse/pulseaudio.h>
 
@@ -63,6 +67,42 @@ bool mayAskRtAudio(RtAudio::Api api)
     default:
         return true;
     }
+}
+
+namespace {
+
+    using NamedSystem = std::pair<SoundDevice::System, RtAudio::Api>;
+    constexpr std::array<NamedSystem, 3> soundSystems{{{SoundDevice::System::PulseAudio, RtAudio::LINUX_PULSE},
+                                                       {SoundDevice::System::Jack, RtAudio::UNIX_JACK},
+                                                       {SoundDevice::System::Alsa, RtAudio::LINUX_ALSA}}};
+
+    void addDevices(const NamedSystem &asked, std::vector<SoundDevice> &devices)
+    {
+        if (!mayAskRtAudio(asked.second))
+            return;
+        try {
+            RtAudio audio(asked.second);
+            audio.showWarnings(false);
+            const unsigned count = audio.getDeviceCount();
+            for (unsigned i = 0; i < count; ++i) {
+                const RtAudio::DeviceInfo info = audio.getDeviceInfo(i);
+                if (info.probed && !info.name.empty())
+                    devices.push_back({asked.first, info.name, int(info.inputChannels), int(info.outputChannels),
+                                       double(info.preferredSampleRate), info.isDefaultInput, info.isDefaultOutput});
+            }
+        } catch (const RtAudioError &) { // a system that does not answer has none
+        }
+    }
+
+} // namespace
+
+std::vector<SoundDevice> soundDevices()
+{
+    const std::lock_guard lock(rtAudioMutex());
+    std::vector<SoundDevice> devices;
+    for (const NamedSystem &each : soundSystems)
+        addDevices(each, devices);
+    return devices;
 }
 
 } // namespace faintline

@@ -1,44 +1,14 @@
 #include "live/soundDevices.h"
 
 #include "base/Error.h"
-#include "live/rtAudio.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <iterator>
 
 namespace faintline {
 
 namespace {
-
-    struct NamedSystem {
-        SoundDevice::System system;
-        RtAudio::Api api;
-        const char *name;
-    };
-
-    constexpr std::array<NamedSystem, 3> systems{{{SoundDevice::System::PulseAudio, RtAudio::LINUX_PULSE, "PulseAudio"},
-                                                  {SoundDevice::System::Jack, RtAudio::UNIX_JACK, "JACK"},
-                                                  {SoundDevice::System::Alsa, RtAudio::LINUX_ALSA, "ALSA"}}};
-
-    void addDevices(const NamedSystem &asked, std::vector<SoundDevice> &devices)
-    {
-        if (!mayAskRtAudio(asked.api))
-            return;
-        try {
-            RtAudio audio(asked.api);
-            audio.showWarnings(false);
-            const unsigned count = audio.getDeviceCount();
-            for (unsigned i = 0; i < count; ++i) {
-                const RtAudio::DeviceInfo info = audio.getDeviceInfo(i);
-                if (info.probed && !info.name.empty())
-                    devices.push_back({asked.system, info.name, int(info.inputChannels), int(info.outputChannels),
-                                       double(info.preferredSampleRate), info.isDefaultInput, info.isDefaultOutput});
-            }
-        } catch (const RtAudioError &) { // a system that does not answer has none
-        }
-    }
 
     std::string inLowerCase(std::string text)
     {
@@ -58,17 +28,15 @@ namespace {
 
 std::string soundSystemName(SoundDevice::System system)
 {
-    return std::find_if(systems.begin(), systems.end(), [&](const NamedSystem &each) { return each.system == system; })
-        ->name;
-}
-
-std::vector<SoundDevice> soundDevices()
-{
-    const std::lock_guard lock(rtAudioMutex());
-    std::vector<SoundDevice> devices;
-    for (const NamedSystem &each : systems)
-        addDevices(each, devices);
-    return devices;
+    switch (system) {
+    case SoundDevice::System::PulseAudio:
+        return "PulseAudio";
+    case SoundDevice::System::Jack:
+        return "JACK";
+    case SoundDevice::System::Alsa:
+        break;
+    }
+    return "ALSA";
 }
 
 SoundDevice findSoundDevice(const std::string &name, SoundDirection direction, const std::string &where)

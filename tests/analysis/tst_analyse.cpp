@@ -3,8 +3,7 @@
 #include "inspect/explain.h"
 #include "recording/SimulatedRecording.h"
 #include "support/recordings.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cmath>
 
@@ -320,5 +319,5 @@ void tst_analyse::readyMadeFrames()
     QVERIFY(std::abs(event.onsetSeconds - 100.0) <= 6.0 && std::abs(event.endSeconds - 298.0) <= 10.0);
 }
 
-QTEST_APPLESS_MAIN(tst_analyse)
+FAINTLINE_TEST(tst_analyse)
 #include "tst_analyse.moc"

@@ -4,9 +4,9 @@
 #include "recording/SimulatedRecording.h"
 #include "recording/openRecording.h"
 #include "support/recordings.h"
+#include "support/test.h"
 
 #include <QTemporaryDir>
-#include <QtTest>
 
 #include <cmath>
 #include <limits>
@@ -255,5 +255,5 @@ private:
     int m_number = 0;
 };
 
-QTEST_APPLESS_MAIN(tst_anyScale)
+FAINTLINE_TEST(tst_anyScale)
 #include "tst_anyScale.moc"

@@ -1,7 +1,6 @@
 #include "analysis/analyse.h"
 #include "recording/SimulatedRecording.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <array>
 #include <cmath>
@@ -65,5 +64,5 @@ void tst_causalAlarms::startsAreLikeTheRest()
     QVERIFY2(chiSquared < 5.99, qPrintable(counts));
 }
 
-QTEST_APPLESS_MAIN(tst_causalAlarms)
+FAINTLINE_TEST(tst_causalAlarms)
 #include "tst_causalAlarms.moc"

@@ -6,10 +6,9 @@
 #include "recording/ArrayRecording.h"
 #include "support/errors.h"
 #include "support/frames.h"
+#include "support/test.h"
 
 #include <boost/math/special_functions/gamma.hpp>
-
-#include <QtTest>
 
 #include <cmath>
 #include <numbers>
@@ -264,5 +263,5 @@ void tst_channels::areRefused()
     QVERIFY_EXCEPTION_THROWN(checkSettings(subtracting), Error);
 }
 
-QTEST_APPLESS_MAIN(tst_channels)
+FAINTLINE_TEST(tst_channels)
 #include "tst_channels.moc"

@@ -1,8 +1,7 @@
 #include "analysis/chooseWindow.h"
 #include "recording/SimulatedRecording.h"
 #include "support/lines.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cmath>
 
@@ -197,5 +196,5 @@ void tst_chooseWindow::itsWords()
                          "3 steady lines found with a window of 0.04 s"));
 }
 
-QTEST_APPLESS_MAIN(tst_chooseWindow)
+FAINTLINE_TEST(tst_chooseWindow)
 #include "tst_chooseWindow.moc"

@@ -1,10 +1,9 @@
 #include "analysis/analyse.h"
 #include "analysis/events.h"
 #include "recording/SimulatedRecording.h"
+#include "support/test.h"
 
 #include "support/lines.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <array>
@@ -279,5 +278,5 @@ void tst_coverage::probabilityOfNoise()
     QVERIFY(groups[0].falseTracks <= groups[0].tracks / 100);
 }
 
-QTEST_APPLESS_MAIN(tst_coverage)
+FAINTLINE_TEST(tst_coverage)
 #include "tst_coverage.moc"

@@ -2,8 +2,7 @@
 #include "base/Error.h"
 #include "recording/SimulatedRecording.h"
 #include "support/frames.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cmath>
 
@@ -193,5 +192,5 @@ void tst_families::isRefusedWhereLinesAreSingle()
     QVERIFY_EXCEPTION_THROWN(checkSettings(settings), Error);
 }
 
-QTEST_APPLESS_MAIN(tst_families)
+FAINTLINE_TEST(tst_families)
 #include "tst_families.moc"

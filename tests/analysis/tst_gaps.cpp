@@ -6,8 +6,7 @@
 #include "recording/InjectedRecording.h"
 #include "spectrum/normalise.h"
 #include "spectrum/observed.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cmath>
 #include <numbers>
@@ -148,5 +147,5 @@ void tst_gaps::injectedLinesStayOutside()
     QVERIFY(injected.isWhole(0, gapBegin) && !injected.isWhole(gapBegin, 1) && injected.isWhole(gapEnd, 100));
 }
 
-QTEST_APPLESS_MAIN(tst_gaps)
+FAINTLINE_TEST(tst_gaps)
 #include "tst_gaps.moc"

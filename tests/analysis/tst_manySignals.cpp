@@ -1,6 +1,5 @@
 #include "support/manySignals.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 
@@ -68,5 +67,5 @@ void tst_manySignals::whistlesKeepTheirTracks()
     QVERIFY2(score.precision >= 0.95, qPrintable(QString::number(score.precision)));
 }
 
-QTEST_APPLESS_MAIN(tst_manySignals)
+FAINTLINE_TEST(tst_manySignals)
 #include "tst_manySignals.moc"

@@ -1,8 +1,7 @@
 #include "analysis/noiseSample.h"
+#include "support/test.h"
 
 #include "base/Random.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <cmath>
@@ -149,5 +148,5 @@ void tst_noiseSample::aBinThatIsSeldomObservedIsNoNoise()
     QCOMPARE(sample.noiseIn(1).size(), std::size_t(540));
 }
 
-QTEST_APPLESS_MAIN(tst_noiseSample)
+FAINTLINE_TEST(tst_noiseSample)
 #include "tst_noiseSample.moc"

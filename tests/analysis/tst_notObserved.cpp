@@ -5,8 +5,7 @@
 #include "inspect/explain.h"
 #include "inspect/pathEvidence.h"
 #include "support/frames.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cmath>
 #include <limits>
@@ -133,5 +132,5 @@ private slots:
     }
 };
 
-QTEST_APPLESS_MAIN(tst_notObserved)
+FAINTLINE_TEST(tst_notObserved)
 #include "tst_notObserved.moc"

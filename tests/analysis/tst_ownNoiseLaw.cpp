@@ -1,11 +1,10 @@
 #include "analysis/analyse.h"
 #include "analysis/ownNoiseLaw.h"
 #include "base/Random.h"
+#include "support/test.h"
 
 #include "support/frames.h"
 #include "support/recordings.h"
-
-#include <QtTest>
 
 #include <cmath>
 #include <numbers>
@@ -266,5 +265,5 @@ void tst_ownNoiseLaw::swellsAreExplainedAndTheLineIsNot()
     QVERIFY(std::ssize(analysis->tracks) - lines <= 10);
 }
 
-QTEST_APPLESS_MAIN(tst_ownNoiseLaw)
+FAINTLINE_TEST(tst_ownNoiseLaw)
 #include "tst_ownNoiseLaw.moc"

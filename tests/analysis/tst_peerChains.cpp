@@ -2,8 +2,7 @@
 #include "base/Random.h"
 #include "calibration/calibrate.h"
 #include "plan/chain.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <algorithm>
 #include <cmath>
@@ -204,5 +203,5 @@ void tst_peerChains::anOrderIsKept()
     QVERIFY2(ratio > 0.7 && ratio < 1.4, qPrintable(QString::number(ratio)));
 }
 
-QTEST_APPLESS_MAIN(tst_peerChains)
+FAINTLINE_TEST(tst_peerChains)
 #include "tst_peerChains.moc"

@@ -2,11 +2,10 @@
 #include "analysis/events.h"
 #include "base/Random.h"
 #include "recording/SimulatedRecording.h"
+#include "support/test.h"
 
 #include "support/lines.h"
 #include "support/recordings.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <cmath>
@@ -353,5 +352,5 @@ void tst_secondLook::aCloudIsNoLine()
     QVERIFY(longest != tracks.end() && longest->points.size() > 900);
 }
 
-QTEST_APPLESS_MAIN(tst_secondLook)
+FAINTLINE_TEST(tst_secondLook)
 #include "tst_secondLook.moc"

@@ -4,9 +4,9 @@
 #include "inspect/lineHeight.h"
 #include "recording/SimulatedRecording.h"
 #include "spectrum/StraightenedRecording.h"
+#include "support/test.h"
 
 #include <Eigen/Dense>
-#include <QtTest>
 
 #include <cmath>
 #include <limits>
@@ -185,5 +185,5 @@ void tst_smoothFrequency::liftsADriftingLine()
     QVERIFY(std::abs(after.hz - curve.meanHz()) < 0.1);
 }
 
-QTEST_APPLESS_MAIN(tst_smoothFrequency)
+FAINTLINE_TEST(tst_smoothFrequency)
 #include "tst_smoothFrequency.moc"

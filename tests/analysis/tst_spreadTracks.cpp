@@ -1,10 +1,9 @@
 #include "analysis/spreadTracks.h"
+#include "support/test.h"
 
 #include "analysis/analyse.h"
 #include "recording/SimulatedRecording.h"
 #include "support/lines.h"
-
-#include <QtTest>
 
 using namespace faintline;
 
@@ -121,5 +120,5 @@ private:
     Analysis m_line;
 };
 
-QTEST_APPLESS_MAIN(tst_spreadTracks)
+FAINTLINE_TEST(tst_spreadTracks)
 #include "tst_spreadTracks.moc"

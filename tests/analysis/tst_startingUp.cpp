@@ -1,7 +1,6 @@
 #include "analysis/analyse.h"
 #include "recording/SimulatedRecording.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <array>
 #include <numeric>
@@ -46,5 +45,5 @@ void tst_startingUp::theFirstMinuteIsLikeTheRest()
              qPrintable(QString("%1 in the first minute, %2 expected").arg(minutes[0]).arg(expected)));
 }
 
-QTEST_APPLESS_MAIN(tst_startingUp)
+FAINTLINE_TEST(tst_startingUp)
 #include "tst_startingUp.moc"

@@ -1,11 +1,10 @@
 #include "analysis/steadyLines.h"
+#include "support/test.h"
 
 #include "analysis/chooseWindow.h"
 #include "analysis/events.h"
 #include "recording/SimulatedRecording.h"
 #include "support/lines.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <cmath>
@@ -195,5 +194,5 @@ void tst_steadyLines::aChangeOfTheThresholdAsksAgain()
             < 1e-6);
 }
 
-QTEST_APPLESS_MAIN(tst_steadyLines)
+FAINTLINE_TEST(tst_steadyLines)
 #include "tst_steadyLines.moc"

@@ -5,10 +5,9 @@
 #include "base/Error.h"
 #include "exchange/writeEvents.h"
 #include "recording/SimulatedRecording.h"
+#include "support/test.h"
 
 #include "support/lines.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <cmath>
@@ -262,5 +261,5 @@ void tst_subtractLines::refusesWhatItCannotDo()
     }
 }
 
-QTEST_APPLESS_MAIN(tst_subtractLines)
+FAINTLINE_TEST(tst_subtractLines)
 #include "tst_subtractLines.moc"

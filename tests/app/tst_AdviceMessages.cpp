@@ -2,6 +2,7 @@
 #include "app/openWindow.h"
 #include "recording/SimulatedRecording.h"
 #include "recording/writeRecording.h"
+#include "support/test.h"
 
 #include <QToolButton>
 
@@ -75,5 +76,5 @@ private:
     QString m_recording;
 };
 
-QTEST_MAIN(tst_AdviceMessages)
+FAINTLINE_WINDOW_TEST(tst_AdviceMessages)
 #include "tst_AdviceMessages.moc"

@@ -1,5 +1,6 @@
 #include "app/control/BoxAnalysis.h"
 #include "app/openWindow.h"
+#include "support/test.h"
 
 using namespace faintline;
 using namespace faintline::test;
@@ -55,5 +56,5 @@ private slots:
     }
 };
 
-QTEST_MAIN(tst_BoxAnalysis)
+FAINTLINE_WINDOW_TEST(tst_BoxAnalysis)
 #include "tst_BoxAnalysis.moc"

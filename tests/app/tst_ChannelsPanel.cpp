@@ -1,4 +1,5 @@
 #include "app/panels/ChannelsPanel.h"
+#include "support/test.h"
 
 #include "app/openWindow.h"
 #include "app/workspace/Workbench.h"
@@ -285,5 +286,5 @@ private slots:
     }
 };
 
-QTEST_MAIN(tst_ChannelsPanel)
+FAINTLINE_WINDOW_TEST(tst_ChannelsPanel)
 #include "tst_ChannelsPanel.moc"

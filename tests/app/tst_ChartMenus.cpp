@@ -3,6 +3,7 @@
 #include "app/views/ChartMenus.h"
 #include "app/views/chartCaption.h"
 #include "app/workspace/Workbench.h"
+#include "support/test.h"
 #include "widgets/plot/ChartPlot.h"
 #include "widgets/plot/ExceedancePlot.h"
 #include "widgets/plot/StripPlot.h"
@@ -98,5 +99,5 @@ private:
     std::unique_ptr<MainWindow> m_window;
 };
 
-QTEST_MAIN(tst_ChartMenus)
+FAINTLINE_WINDOW_TEST(tst_ChartMenus)
 #include "tst_ChartMenus.moc"

@@ -1,6 +1,7 @@
 #include "app/control/Closeup.h"
 #include "app/openWindow.h"
 #include "app/workspace/Workbench.h"
+#include "support/test.h"
 #include "widgets/plot/StripPlot.h"
 
 using namespace faintline;
@@ -131,5 +132,5 @@ private slots:
     }
 };
 
-QTEST_MAIN(tst_Closeup)
+FAINTLINE_WINDOW_TEST(tst_Closeup)
 #include "tst_Closeup.moc"

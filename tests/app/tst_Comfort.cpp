@@ -12,6 +12,7 @@
 #include "app/window/ToolBar.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
+#include "support/test.h"
 #include "widgets/forms/SettingsForm.h"
 #include "widgets/pings/PingMap.h"
 #include "widgets/waterfall/WaterfallView.h"
@@ -513,6 +514,6 @@ private slots:
     }
 };
 
-QTEST_MAIN(tst_Comfort)
+FAINTLINE_WINDOW_TEST(tst_Comfort)
 
 #include "tst_Comfort.moc"

@@ -1,6 +1,7 @@
 // Commands found by letters of their names and carried out from the keyboard alone.
 
 #include "app/window/CommandPalette.h"
+#include "support/test.h"
 
 #include <QAction>
 #include <QLineEdit>
@@ -106,5 +107,5 @@ void tst_CommandPalette::whatCannotBeDoneIsNotOffered()
     QVERIFY(palette.isVisible());
 }
 
-QTEST_MAIN(tst_CommandPalette)
+FAINTLINE_WINDOW_TEST(tst_CommandPalette)
 #include "tst_CommandPalette.moc"

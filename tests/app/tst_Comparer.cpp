@@ -1,6 +1,7 @@
 #include "app/control/Comparer.h"
 #include "app/openWindow.h"
 #include "app/panels/ComparePanel.h"
+#include "support/test.h"
 #include "widgets/waterfall/WaterfallView.h"
 
 #include <QLabel>
@@ -107,5 +108,5 @@ private slots:
     }
 };
 
-QTEST_MAIN(tst_Comparer)
+FAINTLINE_WINDOW_TEST(tst_Comparer)
 #include "tst_Comparer.moc"

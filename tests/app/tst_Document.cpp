@@ -1,4 +1,5 @@
 #include "app/document/Document.h"
+#include "support/test.h"
 
 #include <QSignalSpy>
 #include <QTest>
@@ -134,5 +135,5 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(tst_Document)
+FAINTLINE_TEST(tst_Document)
 #include "tst_Document.moc"

@@ -3,6 +3,7 @@
 #include "base/Random.h"
 #include "base/json.h"
 #include "support/recordings.h"
+#include "support/test.h"
 #include "widgets/base/quantities.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/plot/ChartPlot.h"
@@ -176,5 +177,5 @@ void tst_DopplerPanel::withoutEventsThereIsNoFit()
     QVERIFY2(panel().sentence().contains("no event"), qPrintable(panel().sentence()));
 }
 
-QTEST_MAIN(tst_DopplerPanel)
+FAINTLINE_WINDOW_TEST(tst_DopplerPanel)
 #include "tst_DopplerPanel.moc"

@@ -14,6 +14,7 @@
 #include "app/workspace/Workbench.h"
 #include "evaluate/experiments/peers.h"
 #include "session/Session.h"
+#include "support/test.h"
 #include "widgets/plot/ChartPlot.h"
 
 #include <QCheckBox>
@@ -315,5 +316,5 @@ void tst_Evaluation::theNoiseIsMeasuredWhileItIsSeen()
     QCOMPARE(m_window->noiseFit().plot().chart().curves.size(), std::size_t(7));
 }
 
-QTEST_MAIN(tst_Evaluation)
+FAINTLINE_WINDOW_TEST(tst_Evaluation)
 #include "tst_Evaluation.moc"

@@ -1,6 +1,7 @@
 // Events are judged in the window: what changes is seen, can be undone, and comes back with the session.
 
 #include "app/control/EventReviews.h"
+#include "support/test.h"
 
 #include "app/base/filePath.h"
 #include "app/control/EventFiles.h"
@@ -324,6 +325,6 @@ private slots:
     }
 };
 
-QTEST_MAIN(tst_EventReviews)
+FAINTLINE_WINDOW_TEST(tst_EventReviews)
 
 #include "tst_EventReviews.moc"

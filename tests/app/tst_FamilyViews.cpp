@@ -2,6 +2,7 @@
 #include "app/panels/SpectrumPanel.h"
 #include "app/panels/WhyPanel.h"
 #include "app/workspace/Workbench.h"
+#include "support/test.h"
 #include "widgets/base/ReadOut.h"
 #include "widgets/plot/ChartPlot.h"
 #include "widgets/waterfall/WaterfallView.h"
@@ -153,5 +154,5 @@ void tst_FamilyViews::singleLinesHaveNoTeeth()
     QVERIFY(input.axisTitle(input.hzAxis()).text().startsWith("Frequency"));
 }
 
-QTEST_MAIN(tst_FamilyViews)
+FAINTLINE_WINDOW_TEST(tst_FamilyViews)
 #include "tst_FamilyViews.moc"

@@ -10,6 +10,7 @@
 #include "recording/SimulatedRecording.h"
 #include "recording/writeRecording.h"
 #include "session/Session.h"
+#include "support/test.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/plot/ExceedancePlot.h"
 #include "widgets/waterfall/WaterfallView.h"
@@ -187,5 +188,5 @@ private:
     QTemporaryDir m_folder;
 };
 
-QTEST_MAIN(tst_Files)
+FAINTLINE_WINDOW_TEST(tst_Files)
 #include "tst_Files.moc"

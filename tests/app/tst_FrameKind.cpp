@@ -1,9 +1,8 @@
 #include "app/document/FrameKind.h"
+#include "support/test.h"
 
 #include "app/control/FramePlace.h"
 #include "app/document/Document.h"
-
-#include <QtTest>
 
 using namespace faintline;
 
@@ -107,5 +106,5 @@ void tst_FrameKind::theCursorIsThatOfTheKind()
     QCOMPARE(cursorOf(document, pings)->position, (std::vector<double>{2.0, 180.0}));
 }
 
-QTEST_MAIN(tst_FrameKind)
+FAINTLINE_WINDOW_TEST(tst_FrameKind)
 #include "tst_FrameKind.moc"

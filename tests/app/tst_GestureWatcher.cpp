@@ -1,9 +1,9 @@
 #include "app/base/GestureWatcher.h"
+#include "support/test.h"
 
 #include <QSignalSpy>
 #include <QSpinBox>
 #include <QWheelEvent>
-#include <QtTest>
 
 using namespace faintline;
 
@@ -172,5 +172,5 @@ void tst_GestureWatcher::aWheelIsOneUntilThePress()
     QCOMPARE(beginnings(), 3);
 }
 
-QTEST_MAIN(tst_GestureWatcher)
+FAINTLINE_WINDOW_TEST(tst_GestureWatcher)
 #include "tst_GestureWatcher.moc"

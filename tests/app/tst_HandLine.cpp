@@ -4,6 +4,7 @@
 #include "app/openWindow.h"
 #include "app/panels/HandLinePanel.h"
 #include "app/workspace/Workbench.h"
+#include "support/test.h"
 #include "widgets/plot/StripPlot.h"
 #include "widgets/waterfall/HandLine.h"
 
@@ -153,5 +154,5 @@ void tst_HandLine::coveredNothingIsGivenAway()
     QVERIFY(panel().comparison()->meanHz < 5.0);
 }
 
-QTEST_MAIN(tst_HandLine)
+FAINTLINE_WINDOW_TEST(tst_HandLine)
 #include "tst_HandLine.moc"

@@ -1,4 +1,5 @@
 #include "app/base/JobRunner.h"
+#include "support/test.h"
 
 #include <QSignalSpy>
 #include <QTest>
@@ -145,5 +146,5 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(tst_JobRunner)
+FAINTLINE_TEST(tst_JobRunner)
 #include "tst_JobRunner.moc"

@@ -1,5 +1,6 @@
 #include "app/openWindow.h"
 #include "app/panels/LearnMotionDialog.h"
+#include "support/test.h"
 
 #include <QAction>
 #include <QLabel>
@@ -62,5 +63,5 @@ private:
     QTemporaryDir m_folder;
 };
 
-QTEST_MAIN(tst_LearnMotionDialog)
+FAINTLINE_WINDOW_TEST(tst_LearnMotionDialog)
 #include "tst_LearnMotionDialog.moc"

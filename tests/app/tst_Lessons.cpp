@@ -16,6 +16,7 @@
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
 #include "support/errors.h"
+#include "support/test.h"
 #include "widgets/forms/SettingsForm.h"
 #include "widgets/pings/PingMap.h"
 #include "widgets/plot/WalkPlot.h"
@@ -658,5 +659,5 @@ void tst_Lessons::menuPaletteAndWelcomePageOfferThem()
     QCOMPARE(window->lessonGuide().lesson().title, lessons()[0].title);
 }
 
-QTEST_MAIN(tst_Lessons)
+FAINTLINE_WINDOW_TEST(tst_Lessons)
 #include "tst_Lessons.moc"

@@ -7,6 +7,7 @@
 #include "app/workspace/Workbench.h"
 #include "exchange/writeEvents.h"
 #include "plan/slopeUnit.h"
+#include "support/test.h"
 #include "widgets/base/diskRoom.h"
 #include "widgets/events/EventTable.h"
 
@@ -294,5 +295,5 @@ void tst_Live::tellsWhatIsLost()
     QCOMPARE(kept->info().sampleCount, Index(121'500));
 }
 
-QTEST_MAIN(tst_Live)
+FAINTLINE_WINDOW_TEST(tst_Live)
 #include "tst_Live.moc"

@@ -3,6 +3,7 @@
 #include "app/Feeder.h"
 #include "app/panels/WhyPanel.h"
 #include "app/workspace/Workbench.h"
+#include "support/test.h"
 
 #include <algorithm>
 #include <cmath>
@@ -92,5 +93,5 @@ void tst_LiveLookBack::saysWhyMeanwhile()
     QTRY_VERIFY_WITH_TIMEOUT(!window->live().isRunning(), patience);
 }
 
-QTEST_MAIN(tst_LiveLookBack)
+FAINTLINE_WINDOW_TEST(tst_LiveLookBack)
 #include "tst_LiveLookBack.moc"

@@ -5,6 +5,7 @@
 #include "app/panels/PipelinePanel.h"
 #include "app/panels/ThresholdPanel.h"
 #include "app/window/Panels.h"
+#include "support/test.h"
 #include "widgets/forms/SettingRow.h"
 #include "widgets/forms/SettingsForm.h"
 #include "widgets/plot/ExceedancePlot.h"
@@ -145,5 +146,5 @@ private:
     MainSettings *m_main = nullptr;
 };
 
-QTEST_MAIN(tst_MainSettings)
+FAINTLINE_WINDOW_TEST(tst_MainSettings)
 #include "tst_MainSettings.moc"

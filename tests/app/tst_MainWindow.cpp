@@ -9,6 +9,7 @@
 #include "app/welcome/WelcomePage.h"
 #include "app/workspace/Workbench.h"
 #include "session/Session.h"
+#include "support/test.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/plot/ExceedancePlot.h"
 
@@ -620,5 +621,5 @@ private slots:
     }
 };
 
-QTEST_MAIN(tst_MainWindow)
+FAINTLINE_WINDOW_TEST(tst_MainWindow)
 #include "tst_MainWindow.moc"

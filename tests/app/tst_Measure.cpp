@@ -2,6 +2,7 @@
 
 #include "app/openWindow.h"
 #include "app/workspace/Workbench.h"
+#include "support/test.h"
 #include "widgets/waterfall/WaterfallView.h"
 
 #include <QAction>
@@ -109,5 +110,5 @@ private slots:
     }
 };
 
-QTEST_MAIN(tst_Measure)
+FAINTLINE_WINDOW_TEST(tst_Measure)
 #include "tst_Measure.moc"

@@ -1,6 +1,7 @@
 #include "app/openWindow.h"
 #include "app/panels/InfoPanel.h"
 #include "app/panels/NoiseCheck.h"
+#include "support/test.h"
 #include "widgets/plot/ExceedancePlot.h"
 
 #include <QLabel>
@@ -119,5 +120,5 @@ private:
     QString m_scene;
 };
 
-QTEST_MAIN(tst_NoiseCheck)
+FAINTLINE_WINDOW_TEST(tst_NoiseCheck)
 #include "tst_NoiseCheck.moc"

@@ -1,6 +1,7 @@
 #include "app/document/OwnPresets.h"
 #include "app/openWindow.h"
 #include "app/panels/PipelinePanel.h"
+#include "support/test.h"
 
 #include <QApplication>
 #include <QComboBox>
@@ -79,5 +80,5 @@ private:
     QTemporaryDir m_folder;
 };
 
-QTEST_MAIN(tst_OwnPresets)
+FAINTLINE_WINDOW_TEST(tst_OwnPresets)
 #include "tst_OwnPresets.moc"

@@ -17,6 +17,7 @@
 #include "exchange/NumPy.h"
 #include "session/Session.h"
 #include "spectrum/SimulatedPings.h"
+#include "support/test.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/pings/PingMap.h"
 #include "widgets/pings/PolarView.h"
@@ -690,5 +691,5 @@ private slots:
     }
 };
 
-QTEST_MAIN(tst_PingBench)
+FAINTLINE_WINDOW_TEST(tst_PingBench)
 #include "tst_PingBench.moc"

@@ -8,6 +8,7 @@
 #include "recording/writeRecording.h"
 #include "support/PulseServer.h"
 #include "support/recordings.h"
+#include "support/test.h"
 
 #include <QAction>
 #include <QElapsedTimer>
@@ -291,5 +292,5 @@ void tst_Playback::startsAgainWhereTheCursorIsPut()
     QVERIFY(m_window->findChild<MessageBar *>()->text().contains("Connection terminated"));
 }
 
-QTEST_MAIN(tst_Playback)
+FAINTLINE_WINDOW_TEST(tst_Playback)
 #include "tst_Playback.moc"

@@ -1,5 +1,6 @@
 #include "app/openWindow.h"
 #include "app/workspace/Workbench.h"
+#include "support/test.h"
 
 #include <QLabel>
 #include <QStatusBar>
@@ -143,5 +144,5 @@ private slots:
     }
 };
 
-QTEST_MAIN(tst_Provisional)
+FAINTLINE_WINDOW_TEST(tst_Provisional)
 #include "tst_Provisional.moc"

@@ -5,6 +5,7 @@
 #include "app/document/Recovery.h"
 #include "app/openWindow.h"
 #include "session/Session.h"
+#include "support/test.h"
 
 #include <QApplication>
 #include <QFile>
@@ -97,7 +98,7 @@ void tst_Recovery::survivesAKill()
     const QString scene = writeScene(folder);
     const QString recovery = folder.filePath("recovery");
     QProcess program;
-    program.start(QCoreApplication::applicationFilePath(), {"--be-killed", scene, recovery});
+    program.start(QCoreApplication::applicationFilePath(), {"tst_Recovery", "--be-killed", scene, recovery});
     QVERIFY(program.waitForReadyRead(patience));
     QCOMPARE(program.readLine().trimmed(), QByteArray("kept"));
     QVERIFY(Recovery::leftBehind(recovery).isEmpty());
@@ -135,7 +136,7 @@ void tst_Recovery::editsSurviveKillsAtAnyMoment()
     QRandomGenerator random(1);
     for (int kill = 0; kill < kills; ++kill) {
         QProcess program;
-        program.start(QCoreApplication::applicationFilePath(), {"--edit-until-killed", scene, recovery});
+        program.start(QCoreApplication::applicationFilePath(), {"tst_Recovery", "--edit-until-killed", scene, recovery});
         int version = 0;
         const auto listen = [&] {
             while (program.canReadLine())
@@ -164,8 +165,7 @@ void tst_Recovery::withoutAFolderNothingIsKept()
     QVERIFY(!window->recovery().isPending());
 }
 
-int main(int argc, char *argv[])
-{
+static const faintline::test::Registration registered("tst_Recovery", [](int argc, char *argv[]) {
     QApplication application(argc, argv);
     Theme::apply(Theme::Kind::Light);
     if (argc == 4 && qstrcmp(argv[1], "--be-killed") == 0)
@@ -174,6 +174,6 @@ int main(int argc, char *argv[])
         return editUntilKilled(QString::fromLocal8Bit(argv[2]), QString::fromLocal8Bit(argv[3]));
     tst_Recovery test;
     return QTest::qExec(&test, argc, argv);
-}
+});
 
 #include "tst_Recovery.moc"

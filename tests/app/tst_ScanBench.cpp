@@ -10,6 +10,7 @@
 #include "session/Session.h"
 #include "spectrum/pictureCuts.h"
 #include "support/errors.h"
+#include "support/test.h"
 #include "widgets/pings/PingMap.h"
 #include "widgets/waterfall/LayerItem.h"
 
@@ -270,5 +271,5 @@ private slots:
     }
 };
 
-QTEST_MAIN(tst_ScanBench)
+FAINTLINE_WINDOW_TEST(tst_ScanBench)
 #include "tst_ScanBench.moc"

@@ -11,6 +11,7 @@
 #include "app/welcome/ScanCard.h"
 #include "app/welcome/WelcomePage.h"
 #include "app/workspace/Workbench.h"
+#include "support/test.h"
 #include "widgets/plot/BarPlot.h"
 #include "widgets/plot/CellPicture.h"
 #include "widgets/plot/ChartPlot.h"
@@ -457,5 +458,5 @@ void tst_Sequential::viewsAreSaved()
     QVERIFY_THROWS_EXCEPTION(Error, saveView(panel().walk(), "", m_folder.filePath("no/such/folder.png")));
 }
 
-QTEST_MAIN(tst_Sequential)
+FAINTLINE_WINDOW_TEST(tst_Sequential)
 #include "tst_Sequential.moc"

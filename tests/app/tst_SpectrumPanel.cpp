@@ -1,6 +1,7 @@
 #include "app/openWindow.h"
 #include "app/panels/SpectrumPanel.h"
 #include "app/workspace/Workbench.h"
+#include "support/test.h"
 #include "widgets/plot/ChartPlot.h"
 #include "widgets/waterfall/WaterfallView.h"
 
@@ -95,5 +96,5 @@ private:
     }
 };
 
-QTEST_MAIN(tst_SpectrumPanel)
+FAINTLINE_WINDOW_TEST(tst_SpectrumPanel)
 #include "tst_SpectrumPanel.moc"

@@ -7,6 +7,7 @@
 #include "app/panels/StateSlicePanel.h"
 #include "app/welcome/WelcomePage.h"
 #include "app/workspace/Workbench.h"
+#include "support/test.h"
 #include "widgets/plot/LawPlot.h"
 #include "widgets/waterfall/LayerItem.h"
 #include "widgets/waterfall/SliceMarks.h"
@@ -312,5 +313,5 @@ private slots:
     }
 };
 
-QTEST_MAIN(tst_StateSpace)
+FAINTLINE_WINDOW_TEST(tst_StateSpace)
 #include "tst_StateSpace.moc"

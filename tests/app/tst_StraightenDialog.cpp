@@ -5,6 +5,7 @@
 #include "recording/SimulatedRecording.h"
 #include "recording/writeRecording.h"
 #include "support/recordings.h"
+#include "support/test.h"
 #include "widgets/plot/ChartPlot.h"
 
 #include <QAction>
@@ -157,5 +158,5 @@ void tst_StraightenDialog::withoutAnEventThereIsNoDialog()
     QVERIFY(!dialog());
 }
 
-QTEST_MAIN(tst_StraightenDialog)
+FAINTLINE_WINDOW_TEST(tst_StraightenDialog)
 #include "tst_StraightenDialog.moc"

@@ -1,6 +1,7 @@
 // A survey in the window: one table of all events, from which recordings are opened at an event and reviewed.
 
 #include "app/panels/SurveyPanel.h"
+#include "support/test.h"
 
 #include "app/openWindow.h"
 #include "app/panels/SurveyModel.h"
@@ -186,5 +187,5 @@ private slots:
     }
 };
 
-QTEST_MAIN(tst_SurveyPanel)
+FAINTLINE_WINDOW_TEST(tst_SurveyPanel)
 #include "tst_SurveyPanel.moc"

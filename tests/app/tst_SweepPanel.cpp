@@ -2,6 +2,7 @@
 #include "app/panels/StartColumn.h"
 #include "app/panels/SweepForm.h"
 #include "app/panels/SweepPanel.h"
+#include "support/test.h"
 #include "widgets/plot/ChartPlot.h"
 
 #include <qwt_plot.h>
@@ -101,5 +102,5 @@ private slots:
     }
 };
 
-QTEST_MAIN(tst_SweepPanel)
+FAINTLINE_WINDOW_TEST(tst_SweepPanel)
 #include "tst_SweepPanel.moc"

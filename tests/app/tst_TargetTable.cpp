@@ -1,6 +1,7 @@
 // Targets of a sonar scene in a table: two-way with the map, typed numbers, bad input, keys.
 
 #include "app/TargetsTest.h"
+#include "support/test.h"
 
 #include <qwt_plot_canvas.h>
 
@@ -157,5 +158,5 @@ void tst_TargetTable::everythingIsReachedByKeyboard()
     QCOMPARE(scene().targets.size(), std::size_t(1));
 }
 
-QTEST_MAIN(tst_TargetTable)
+FAINTLINE_WINDOW_TEST(tst_TargetTable)
 #include "tst_TargetTable.moc"

@@ -6,6 +6,7 @@
 #include "app/workspace/PingBench.h"
 #include "session/Session.h"
 #include "spectrum/SimulatedPings.h"
+#include "support/test.h"
 #include "widgets/pings/PolarView.h"
 
 #include <qwt_plot_canvas.h>
@@ -290,5 +291,5 @@ void tst_Targets::otherPingsAreNotEdited()
     QCOMPARE(panel().table()->model()->rowCount(), 0);
 }
 
-QTEST_MAIN(tst_Targets)
+FAINTLINE_WINDOW_TEST(tst_Targets)
 #include "tst_Targets.moc"

@@ -5,6 +5,7 @@
 #include "app/document/Document.h"
 #include "app/document/ViewState.h"
 #include "session/Session.h"
+#include "support/test.h"
 
 #include <QFile>
 #include <QTemporaryDir>
@@ -201,6 +202,6 @@ private slots:
     }
 };
 
-QTEST_MAIN(tst_Undo)
+FAINTLINE_WINDOW_TEST(tst_Undo)
 
 #include "tst_Undo.moc"

@@ -1,4 +1,5 @@
 #include "app/document/ViewState.h"
+#include "support/test.h"
 
 #include "support/errors.h"
 
@@ -38,5 +39,5 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(tst_ViewState)
+FAINTLINE_TEST(tst_ViewState)
 #include "tst_ViewState.moc"

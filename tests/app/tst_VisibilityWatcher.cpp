@@ -1,4 +1,5 @@
 #include "app/base/VisibilityWatcher.h"
+#include "support/test.h"
 
 #include <QDockWidget>
 #include <QMainWindow>
@@ -51,5 +52,5 @@ private slots:
     }
 };
 
-QTEST_MAIN(tst_VisibilityWatcher)
+FAINTLINE_WINDOW_TEST(tst_VisibilityWatcher)
 #include "tst_VisibilityWatcher.moc"

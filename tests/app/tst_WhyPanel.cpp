@@ -2,6 +2,7 @@
 
 #include "app/openWindow.h"
 #include "app/panels/WhyPanel.h"
+#include "support/test.h"
 #include "widgets/plot/ChartPlot.h"
 
 #include <QTableWidget>
@@ -102,5 +103,5 @@ void tst_WhyPanel::otherDetectorsSayThatTheyHaveNoPath()
     QCOMPARE(m_window->why().ladder()->rowCount(), 0);
 }
 
-QTEST_MAIN(tst_WhyPanel)
+FAINTLINE_WINDOW_TEST(tst_WhyPanel)
 #include "tst_WhyPanel.moc"

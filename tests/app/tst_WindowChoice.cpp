@@ -1,6 +1,7 @@
 #include "analysis/chooseWindow.h"
 #include "app/openWindow.h"
 #include "app/panels/PipelinePanel.h"
+#include "support/test.h"
 
 #include <QComboBox>
 
@@ -79,5 +80,5 @@ private:
     QString m_sweeps;
 };
 
-QTEST_MAIN(tst_WindowChoice)
+FAINTLINE_WINDOW_TEST(tst_WindowChoice)
 #include "tst_WindowChoice.moc"

@@ -1,11 +1,11 @@
 #include "exchange/NumPy.h"
 #include "support/recordings.h"
 #include "support/slowdown.h"
+#include "support/test.h"
 
 #include <QImage>
 #include <QProcess>
 #include <QRandomGenerator>
-#include <QtTest>
 
 #include <functional>
 
@@ -432,5 +432,5 @@ void tst_cliBadInput::windowWithoutADisplay()
     QVERIFY2(isOneLine(told) && told.err.contains("no display is available"), told.err.constData());
 }
 
-QTEST_GUILESS_MAIN(tst_cliBadInput)
+FAINTLINE_TEST(tst_cliBadInput)
 #include "tst_cliBadInput.moc"

@@ -1,4 +1,5 @@
 #include "app/render/comparePictures.h"
+#include "support/test.h"
 
 #include "support/errors.h"
 #include "widgets/base/ReadOut.h"
@@ -185,6 +186,6 @@ private slots:
     }
 };
 
-QTEST_MAIN(tst_comparePictures)
+FAINTLINE_WINDOW_TEST(tst_comparePictures)
 
 #include "tst_comparePictures.moc"

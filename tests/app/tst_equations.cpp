@@ -9,6 +9,7 @@
 #include "app/window/currentView.h"
 #include "app/workspace/Workbench.h"
 #include "detect/makeDetector.h"
+#include "support/test.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/plot/ExceedancePlot.h"
 #include "widgets/plot/StripPlot.h"
@@ -92,5 +93,5 @@ void tst_equations::theOneOfTheViewComesUp()
     QVERIFY(!sheet->isVisible());
 }
 
-QTEST_MAIN(tst_equations)
+FAINTLINE_WINDOW_TEST(tst_equations)
 #include "tst_equations.moc"

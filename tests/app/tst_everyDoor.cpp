@@ -1,5 +1,6 @@
 #include "app/cli/CommandLineTest.h"
 #include "app/openWindow.h"
+#include "support/test.h"
 
 #include "analysis/events.h"
 #include "exchange/writeEvents.h"
@@ -105,5 +106,5 @@ void tst_everyDoor::vamp()
     QCOMPARE(found, m_rows);
 }
 
-QTEST_MAIN(tst_everyDoor)
+FAINTLINE_WINDOW_TEST(tst_everyDoor)
 #include "tst_everyDoor.moc"

@@ -17,6 +17,7 @@
 #include "recording/SimulatedRecording.h"
 #include "recording/writeRecording.h"
 #include "session/Session.h"
+#include "support/test.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/waterfall/WaterfallView.h"
 
@@ -428,5 +429,5 @@ void tst_hostileNames::dialogsSuggestNamesOneCanType()
     }
 }
 
-QTEST_MAIN(tst_hostileNames)
+FAINTLINE_WINDOW_TEST(tst_hostileNames)
 #include "tst_hostileNames.moc"

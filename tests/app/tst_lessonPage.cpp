@@ -2,10 +2,10 @@
 #include "app/lessons/lessonMeasures.h"
 #include "base/Error.h"
 #include "base/json.h"
+#include "support/test.h"
 
 #include <QFile>
 #include <QRegularExpression>
-#include <QtTest>
 
 using namespace faintline;
 
@@ -68,5 +68,5 @@ private:
     Json m_example;
 };
 
-QTEST_MAIN(tst_lessonPage)
+FAINTLINE_WINDOW_TEST(tst_lessonPage)
 #include "tst_lessonPage.moc"

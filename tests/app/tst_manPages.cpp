@@ -1,6 +1,7 @@
 // The manual pages name every command and every option that the programs' own help shows.
 
 #include "support/slowdown.h"
+#include "support/test.h"
 
 #include <QFile>
 #include <QProcess>
@@ -94,5 +95,5 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(tst_manPages)
+FAINTLINE_TEST(tst_manPages)
 #include "tst_manPages.moc"

@@ -1,11 +1,11 @@
 #include "app/document/Provenance.h"
 #include "app/render/readPicture.h"
 #include "base/Error.h"
+#include "support/test.h"
 
 #include <QBuffer>
 #include <QTemporaryDir>
 #include <QtEndian>
-#include <QtTest>
 
 #include <sys/resource.h>
 
@@ -101,5 +101,5 @@ void tst_readPicture::expandsNoForeignText()
     QVERIFY2(mostMemory() - before < 100'000, "foreign texts were expanded");
 }
 
-QTEST_MAIN(tst_readPicture)
+FAINTLINE_WINDOW_TEST(tst_readPicture)
 #include "tst_readPicture.moc"

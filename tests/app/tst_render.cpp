@@ -1,6 +1,7 @@
 // Runs the program as a person would: `faintline render …`.
 
 #include "support/slowdown.h"
+#include "support/test.h"
 
 #include <QDir>
 #include <QDirIterator>
@@ -440,5 +441,5 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(tst_render)
+FAINTLINE_TEST(tst_render)
 #include "tst_render.moc"

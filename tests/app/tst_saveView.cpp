@@ -1,6 +1,7 @@
 // What a saved view tells of its making, read back from the file as another program would.
 
 #include "app/document/saveView.h"
+#include "support/test.h"
 
 #include "app/document/Provenance.h"
 #include "base/Error.h"
@@ -102,5 +103,5 @@ private slots:
     }
 };
 
-QTEST_MAIN(tst_saveView)
+FAINTLINE_WINDOW_TEST(tst_saveView)
 #include "tst_saveView.moc"

@@ -1,5 +1,6 @@
 #include "app/document/sourceAt.h"
 #include "app/panels/OpenOptionsDialog.h"
+#include "support/test.h"
 
 #include "base/Error.h"
 #include "recording/SimulatedRecording.h"
@@ -102,5 +103,5 @@ private slots:
     }
 };
 
-QTEST_MAIN(tst_sourceAt)
+FAINTLINE_WINDOW_TEST(tst_sourceAt)
 #include "tst_sourceAt.moc"

@@ -4,6 +4,7 @@
 #include "app/views/WindowViews.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
+#include "support/test.h"
 #include "widgets/plot/StripPlot.h"
 
 using namespace faintline;
@@ -170,5 +171,5 @@ private slots:
     }
 };
 
-QTEST_MAIN(tst_stackedPictures)
+FAINTLINE_WINDOW_TEST(tst_stackedPictures)
 #include "tst_stackedPictures.moc"

@@ -4,6 +4,7 @@
 #include "app/lessons/LessonGuide.h"
 #include "app/openWindow.h"
 #include "session/Session.h"
+#include "support/test.h"
 
 #include <QAbstractButton>
 #include <QApplication>
@@ -167,5 +168,5 @@ void tst_unsaved::closingAsks()
     QCOMPARE(readSession(pathBytes(m_folder.filePath("closed.faintline"))).settings.decide.falseAlarmsPerHour, 3.0);
 }
 
-QTEST_MAIN(tst_unsaved)
+FAINTLINE_WINDOW_TEST(tst_unsaved)
 #include "tst_unsaved.moc"

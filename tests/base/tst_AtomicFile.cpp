@@ -1,9 +1,9 @@
 #include "base/AtomicFile.h"
+#include "support/test.h"
 
 #include "base/Error.h"
 
 #include <QDir>
-#include <QtTest>
 
 #include <sys/stat.h>
 
@@ -86,5 +86,5 @@ void tst_AtomicFile::refusals()
     QVERIFY_THROWS_EXCEPTION(Error, AtomicFile("/dev/null"));
 }
 
-QTEST_APPLESS_MAIN(tst_AtomicFile)
+FAINTLINE_TEST(tst_AtomicFile)
 #include "tst_AtomicFile.moc"

@@ -1,6 +1,5 @@
 #include "base/Grid.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cmath>
 #include <set>
@@ -163,5 +162,5 @@ void tst_Axis::offTheGrid()
     QCOMPARE(grid.cell({2, -1}), grid.cell({2, 3}));
 }
 
-QTEST_APPLESS_MAIN(tst_Axis)
+FAINTLINE_TEST(tst_Axis)
 #include "tst_Axis.moc"

@@ -1,6 +1,5 @@
 #include "base/Checkpoints.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <limits>
 
@@ -84,5 +83,5 @@ private:
     }
 };
 
-QTEST_APPLESS_MAIN(tst_Checkpoints)
+FAINTLINE_TEST(tst_Checkpoints)
 #include "tst_Checkpoints.moc"

@@ -1,11 +1,10 @@
 #include "base/Field.h"
+#include "support/test.h"
 
 #include "base/Error.h"
 #include "base/Random.h"
 #include "base/json.h"
 #include "support/errors.h"
-
-#include <QtTest>
 
 #include <clocale>
 #include <cmath>
@@ -387,5 +386,5 @@ void tst_Field::tablesOfWhatIsNotHeld()
     QCOMPARE(std::get<double>(table.at(2).get(house).value()), 50.0);
 }
 
-QTEST_APPLESS_MAIN(tst_Field)
+FAINTLINE_TEST(tst_Field)
 #include "tst_Field.moc"

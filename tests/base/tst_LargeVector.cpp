@@ -1,6 +1,5 @@
 #include "base/LargeVector.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cstdint>
 
@@ -30,5 +29,5 @@ void tst_LargeVector::areAligned()
     QVERIFY(HugePageAllocator<float>() == HugePageAllocator<double>());
 }
 
-QTEST_APPLESS_MAIN(tst_LargeVector)
+FAINTLINE_TEST(tst_LargeVector)
 #include "tst_LargeVector.moc"

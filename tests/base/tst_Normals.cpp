@@ -1,7 +1,6 @@
 #include "base/Random.h"
 #include "base/fastmath.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <algorithm>
 #include <array>
@@ -192,5 +191,5 @@ void tst_Normals::exponentials()
         QVERIFY(std::abs(double(values[i]) - words.exponential()) < 1e-6 * (1.0 + double(values[i])));
 }
 
-QTEST_APPLESS_MAIN(tst_Normals)
+FAINTLINE_TEST(tst_Normals)
 #include "tst_Normals.moc"

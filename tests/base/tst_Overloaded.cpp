@@ -1,6 +1,5 @@
 #include "base/Overloaded.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <string>
 #include <variant>
@@ -29,5 +28,5 @@ void tst_Overloaded::theFittingLambdaIsCalled()
     QCOMPARE(name(1.0), "real");
 }
 
-QTEST_APPLESS_MAIN(tst_Overloaded)
+FAINTLINE_TEST(tst_Overloaded)
 #include "tst_Overloaded.moc"

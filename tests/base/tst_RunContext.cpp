@@ -1,6 +1,5 @@
 #include "base/RunContext.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <string>
 #include <utility>
@@ -68,5 +67,5 @@ void tst_RunContext::aPartStopsWithTheWhole()
     QVERIFY_THROWS_EXCEPTION(Cancelled, inner.checkpoint(0.0, "inner"));
 }
 
-QTEST_APPLESS_MAIN(tst_RunContext)
+FAINTLINE_TEST(tst_RunContext)
 #include "tst_RunContext.moc"

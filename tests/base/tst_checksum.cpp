@@ -1,6 +1,5 @@
 #include "base/checksum.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 
@@ -32,5 +31,5 @@ void tst_checksum::isFnv1a()
     QCOMPARE(QString::fromStdString(checksum(text.toStdString())), digits);
 }
 
-QTEST_APPLESS_MAIN(tst_checksum)
+FAINTLINE_TEST(tst_checksum)
 #include "tst_checksum.moc"

@@ -1,5 +1,6 @@
+#include "support/test.h"
+
 #include <QRegularExpression>
-#include <QtTest>
 
 /// What the documents say of the source tree is so: links lead somewhere, files that are named exist, code that is
 /// shown is code that runs.
@@ -92,5 +93,5 @@ void tst_documents::examplesAreShort()
         QVERIFY2(contentOf("examples/" + name).count('\n') <= longest, qPrintable(name));
 }
 
-QTEST_APPLESS_MAIN(tst_documents)
+FAINTLINE_TEST(tst_documents)
 #include "tst_documents.moc"

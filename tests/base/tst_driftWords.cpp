@@ -1,6 +1,5 @@
 #include "base/driftWords.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cmath>
 #include <limits>
@@ -60,5 +59,5 @@ void tst_driftWords::unitsOfALargestDrift()
                                                                                                      : 1e-6);
 }
 
-QTEST_APPLESS_MAIN(tst_driftWords)
+FAINTLINE_TEST(tst_driftWords)
 #include "tst_driftWords.moc"

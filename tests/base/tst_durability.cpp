@@ -1,8 +1,8 @@
 #include "base/AtomicFile.h"
 #include "base/Error.h"
+#include "support/test.h"
 
 #include <QDir>
-#include <QtTest>
 
 #include <cerrno>
 #include <filesystem>
@@ -165,5 +165,5 @@ void tst_durability::longNames()
     QCOMPARE(files(), QStringList{QString::fromStdString(name)});
 }
 
-QTEST_APPLESS_MAIN(tst_durability)
+FAINTLINE_TEST(tst_durability)
 #include "tst_durability.moc"

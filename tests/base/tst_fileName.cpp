@@ -1,9 +1,8 @@
 #include "base/fileName.h"
+#include "support/test.h"
 
 #include "base/oneLine.h"
 #include "support/errors.h"
-
-#include <QtTest>
 
 using namespace faintline;
 
@@ -44,5 +43,5 @@ void tst_fileName::endings()
              std::string("curve.svg: must end in .csv, .json or .txt"));
 }
 
-QTEST_APPLESS_MAIN(tst_fileName)
+FAINTLINE_TEST(tst_fileName)
 #include "tst_fileName.moc"

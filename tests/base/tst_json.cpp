@@ -2,8 +2,7 @@
 #include "base/json.h"
 #include "base/wholeNumber.h"
 #include "support/errors.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 
@@ -154,5 +153,5 @@ void tst_json::filesThatAreNone()
     QVERIFY_THROWS_EXCEPTION(Error, readJsonFile("/dev/zero"));
 }
 
-QTEST_APPLESS_MAIN(tst_json)
+FAINTLINE_TEST(tst_json)
 #include "tst_json.moc"

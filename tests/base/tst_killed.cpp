@@ -1,6 +1,5 @@
 #include "base/AtomicFile.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <csignal>
 
@@ -89,5 +88,5 @@ void tst_killed::filesAreWholeAndNewest()
     QCOMPARE(QDir(folder.path()).entryList(QDir::Files).size(), 3); // and nothing of the killed
 }
 
-QTEST_APPLESS_MAIN(tst_killed)
+FAINTLINE_TEST(tst_killed)
 #include "tst_killed.moc"

@@ -1,6 +1,7 @@
+#include "support/test.h"
+
 #include <QDirIterator>
 #include <QRegularExpression>
-#include <QtTest>
 
 /// Who may include whom: a folder includes itself and the folders to its left. The core includes nothing else of the
 /// project, the widgets the core as well, the app both. No two units (a header with its source) include each other, at
@@ -293,5 +294,5 @@ void tst_layers::wrongIncludesAreFound()
     QCOMPARE(!wrongInCore(path, text).isEmpty(), isWrong);
 }
 
-QTEST_APPLESS_MAIN(tst_layers)
+FAINTLINE_TEST(tst_layers)
 #include "tst_layers.moc"

@@ -1,6 +1,5 @@
 #include "base/memoryShares.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 
@@ -25,5 +24,5 @@ void tst_memoryShares::orSomeAndInTheEnd()
     QCOMPARE(memoryShares::inTheEnd(9, 16, 10), std::size_t(9)); // not even one row fits
 }
 
-QTEST_APPLESS_MAIN(tst_memoryShares)
+FAINTLINE_TEST(tst_memoryShares)
 #include "tst_memoryShares.moc"

@@ -1,6 +1,5 @@
 #include "base/oneLine.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 
@@ -57,5 +56,5 @@ void tst_oneLine::aBeginningIsWholeCharacters()
     QCOMPARE(beginning("a" + note, 5), "a" + note);
 }
 
-QTEST_APPLESS_MAIN(tst_oneLine)
+FAINTLINE_TEST(tst_oneLine)
 #include "tst_oneLine.moc"

@@ -1,6 +1,5 @@
 #include "base/parallel.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <array>
 #include <atomic>
@@ -108,5 +107,5 @@ void tst_parallel::fromSeveralThreads()
         QCOMPARE(count.load(), 200 * 20);
 }
 
-QTEST_APPLESS_MAIN(tst_parallel)
+FAINTLINE_TEST(tst_parallel)
 #include "tst_parallel.moc"

@@ -1,8 +1,7 @@
 #include "base/readingJson.h"
+#include "support/test.h"
 
 #include "support/errors.h"
-
-#include <QtTest>
 
 #include <string>
 
@@ -51,5 +50,5 @@ void tst_readingJson::ownErrorsPassThrough()
     QCOMPARE(refusalOf("{}", [](const Json &) { throw Error("a.b", "must be 1"); }), std::string("a.b: must be 1"));
 }
 
-QTEST_APPLESS_MAIN(tst_readingJson)
+FAINTLINE_TEST(tst_readingJson)
 #include "tst_readingJson.moc"

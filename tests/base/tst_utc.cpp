@@ -1,6 +1,5 @@
 #include "base/utc.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 
@@ -71,5 +70,5 @@ void tst_utc::impossibleDates()
     QCOMPARE(unixSeconds(2000, 3, 1), std::optional(951868800.0));
 }
 
-QTEST_APPLESS_MAIN(tst_utc)
+FAINTLINE_TEST(tst_utc)
 #include "tst_utc.moc"

@@ -1,10 +1,10 @@
 #include "calibration/CalibrationStore.h"
+#include "support/test.h"
 
 #include "base/AtomicFile.h"
 #include "calibration/keptCalibration.h"
 
 #include <QTemporaryDir>
-#include <QtTest>
 
 #include <atomic>
 #include <thread>
@@ -244,5 +244,5 @@ void tst_CalibrationStore::whoWaitsCanBeStopped()
     QVERIFY(isCancelled);
 }
 
-QTEST_APPLESS_MAIN(tst_CalibrationStore)
+FAINTLINE_TEST(tst_CalibrationStore)
 #include "tst_CalibrationStore.moc"

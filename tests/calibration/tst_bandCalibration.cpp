@@ -1,7 +1,6 @@
 #include "analysis/analyse.h"
 #include "recording/SimulatedRecording.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 
@@ -58,5 +57,5 @@ void tst_bandCalibration::steadyLinesLoseNothing()
     QVERIFY(*calibrateBand(settings, 15) == *calibrate(settings));
 }
 
-QTEST_APPLESS_MAIN(tst_bandCalibration)
+FAINTLINE_TEST(tst_bandCalibration)
 #include "tst_bandCalibration.moc"

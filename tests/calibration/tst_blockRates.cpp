@@ -2,8 +2,7 @@
 #include "calibration/blockRates.h"
 #include "detect/BlockViterbi.h"
 #include "plan/AnalysisSettings.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <boost/math/special_functions/gamma.hpp>
 
@@ -133,5 +132,5 @@ void tst_blockRates::blocksThatAreTooLongAreEmpty()
     QVERIFY(measureBlockRates(blocksOf(model), [] { return independentNoise(8); }, 100000, {}).isEmpty());
 }
 
-QTEST_APPLESS_MAIN(tst_blockRates)
+FAINTLINE_TEST(tst_blockRates)
 #include "tst_blockRates.moc"

@@ -1,6 +1,5 @@
 #include "calibration/falseAlarmWords.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 
@@ -35,5 +34,5 @@ void tst_falseAlarmWords::words()
     QCOMPARE(QString::fromStdString(falseAlarmWords(perHour, factor)), expected);
 }
 
-QTEST_APPLESS_MAIN(tst_falseAlarmWords)
+FAINTLINE_TEST(tst_falseAlarmWords)
 #include "tst_falseAlarmWords.moc"

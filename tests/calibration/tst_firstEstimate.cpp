@@ -1,7 +1,6 @@
 #include "analysis/analyse.h"
 #include "recording/SimulatedRecording.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cmath>
 
@@ -59,5 +58,5 @@ void tst_firstEstimate::nothingElseDiffers()
     QCOMPARE(refined->threshold, alone->threshold);
 }
 
-QTEST_APPLESS_MAIN(tst_firstEstimate)
+FAINTLINE_TEST(tst_firstEstimate)
 #include "tst_firstEstimate.moc"

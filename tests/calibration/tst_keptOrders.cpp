@@ -3,8 +3,7 @@
 #include "calibration/keptCalibration.h"
 #include "plan/chain.h"
 #include "spectrum/NormalisedFrames.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <algorithm>
 #include <cmath>
@@ -169,5 +168,5 @@ void tst_keptOrders::rareOrdersAreKnown()
     }
 }
 
-QTEST_APPLESS_MAIN(tst_keptOrders)
+FAINTLINE_TEST(tst_keptOrders)
 #include "tst_keptOrders.moc"

@@ -4,8 +4,7 @@
 #include "detect/Smd.h"
 #include "evaluate/theory/theory.h"
 #include "plan/AnalysisSettings.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cmath>
 #include <numeric>
@@ -370,5 +369,5 @@ void tst_rareRates::aShortWindowIsEmpty()
     QVERIFY(measureRareRates([&] { return std::make_unique<PofN>(grid, PofNSettings{}, 2.0); }, noise, {}).isEmpty());
 }
 
-QTEST_APPLESS_MAIN(tst_rareRates)
+FAINTLINE_TEST(tst_rareRates)
 #include "tst_rareRates.moc"

@@ -1,10 +1,9 @@
 #include "detect/AxisStep.h"
+#include "support/test.h"
 
 #include "base/Random.h"
 #include "detect/SharedMaxima.h"
 #include "detect/TiledPlanes.h"
-
-#include <QtTest>
 
 #include <cmath>
 #include <limits>
@@ -263,5 +262,5 @@ void tst_AxisStep::unequalWeightsAreNotShared()
         }
 }
 
-QTEST_APPLESS_MAIN(tst_AxisStep)
+FAINTLINE_TEST(tst_AxisStep)
 #include "tst_AxisStep.moc"

@@ -1,7 +1,6 @@
 #include "base/Random.h"
 #include "detect/ForwardBackward.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cmath>
 
@@ -126,5 +125,5 @@ void tst_ForwardBackward::whereThereIsNoPath()
         Error, forwardBackward(space, {}, std::vector<double>(6, -std::numeric_limits<double>::infinity())));
 }
 
-QTEST_APPLESS_MAIN(tst_ForwardBackward)
+FAINTLINE_TEST(tst_ForwardBackward)
 #include "tst_ForwardBackward.moc"

@@ -2,8 +2,7 @@
 #include "base/Random.h"
 #include "detect/ModelBank.h"
 #include "model/sonarModels.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 
@@ -120,5 +119,5 @@ void tst_ModelBank::refusesOtherCells()
     QVERIFY_THROWS_EXCEPTION(Error, static_cast<void>(ModelBank(std::vector<ModelBank::Member>())));
 }
 
-QTEST_APPLESS_MAIN(tst_ModelBank)
+FAINTLINE_TEST(tst_ModelBank)
 #include "tst_ModelBank.moc"

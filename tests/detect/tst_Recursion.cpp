@@ -3,8 +3,7 @@
 #include "detect/Smd.h"
 #include "detect/SumDetector.h"
 #include "support/paths.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 using namespace faintline::test;
@@ -416,5 +415,5 @@ void tst_Recursion::tilesAreTheDefinition()
     }
 }
 
-QTEST_APPLESS_MAIN(tst_Recursion)
+FAINTLINE_TEST(tst_Recursion)
 #include "tst_Recursion.moc"

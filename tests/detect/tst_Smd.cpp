@@ -1,7 +1,6 @@
 #include "base/Random.h"
 #include "detect/Smd.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cmath>
 
@@ -182,5 +181,5 @@ void tst_Smd::firstFrameIsTheLikelihood()
     QVERIFY(std::abs(double(statistic[2]) - (-0.5 + std::log(std::cyl_bessel_i(0.0, std::sqrt(20.0))))) < 1e-5);
 }
 
-QTEST_APPLESS_MAIN(tst_Smd)
+FAINTLINE_TEST(tst_Smd)
 #include "tst_Smd.moc"

@@ -4,8 +4,7 @@
 #include "detect/Survey.h"
 #include "support/errors.h"
 #include "support/paths.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <numeric>
 
@@ -669,5 +668,5 @@ void tst_Sprt::refusals()
     QVERIFY(contains(ofModel(bothWays), "the same cell in both directions"));
 }
 
-QTEST_APPLESS_MAIN(tst_Sprt)
+FAINTLINE_TEST(tst_Sprt)
 #include "tst_Sprt.moc"

@@ -1,7 +1,6 @@
 #include "base/Random.h"
 #include "detect/SumDetector.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cmath>
 
@@ -99,5 +98,5 @@ private slots:
     }
 };
 
-QTEST_APPLESS_MAIN(tst_SumDetector)
+FAINTLINE_TEST(tst_SumDetector)
 #include "tst_SumDetector.moc"

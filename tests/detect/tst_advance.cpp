@@ -1,8 +1,7 @@
 #include "app/cli/speed/plainForms.h"
 #include "base/Random.h"
 #include "detect/Smd.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 
@@ -200,5 +199,5 @@ void tst_advance::EigenIsTheFormula()
         QVERIFY(std::abs(found[cell] - expected[cell]) < 1e-4f);
 }
 
-QTEST_APPLESS_MAIN(tst_advance)
+FAINTLINE_TEST(tst_advance)
 #include "tst_advance.moc"

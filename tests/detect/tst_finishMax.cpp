@@ -1,7 +1,6 @@
 #include "base/Random.h"
 #include "detect/finishMax.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <algorithm>
 #include <cmath>
@@ -156,5 +155,5 @@ void tst_finishMax::isTheDefinition()
         }
 }
 
-QTEST_APPLESS_MAIN(tst_finishMax)
+FAINTLINE_TEST(tst_finishMax)
 #include "tst_finishMax.moc"

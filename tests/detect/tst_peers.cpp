@@ -1,8 +1,7 @@
 #include "base/Error.h"
 #include "base/Random.h"
 #include "detect/makeDetector.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <algorithm>
 #include <cmath>
@@ -204,5 +203,5 @@ void tst_peers::refusals()
     QVERIFY_EXCEPTION_THROWN(PofN(gridOf(4), {5, 4}), Error);
 }
 
-QTEST_APPLESS_MAIN(tst_peers)
+FAINTLINE_TEST(tst_peers)
 #include "tst_peers.moc"

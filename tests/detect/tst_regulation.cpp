@@ -2,8 +2,7 @@
 #include "detect/NoiseBand.h"
 #include "detect/Smd.h"
 #include "model/sonarModels.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <algorithm>
 #include <cmath>
@@ -257,5 +256,5 @@ void tst_regulation::allCellsInhibitedKeepK()
     QCOMPARE(detector.regulation().lnK, before);
 }
 
-QTEST_APPLESS_MAIN(tst_regulation)
+FAINTLINE_TEST(tst_regulation)
 #include "tst_regulation.moc"

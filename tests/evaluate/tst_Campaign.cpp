@@ -13,8 +13,7 @@
 #include "recording/openRecording.h"
 #include "recording/writeRecording.h"
 #include "support/errors.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <QTemporaryDir>
 
@@ -420,5 +419,5 @@ void tst_Campaign::refusals()
     QVERIFY2(test::contains(said, names.toStdString()), said.c_str());
 }
 
-QTEST_APPLESS_MAIN(tst_Campaign)
+FAINTLINE_TEST(tst_Campaign)
 #include "tst_Campaign.moc"

@@ -1,11 +1,10 @@
 #include "evaluate/experiments/LineExperiment.h"
+#include "support/test.h"
 
 #include "evaluate/experiments/NoisyField.h"
 #include "evaluate/experiments/lineRuns.h"
 #include "evaluate/experiments/peers.h"
 #include "support/errors.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <cmath>
@@ -301,5 +300,5 @@ void tst_LineExperiment::refusals()
     QCOMPARE(QString::fromStdString(errorOf([&] { checkExperiment(made); })), words);
 }
 
-QTEST_APPLESS_MAIN(tst_LineExperiment)
+FAINTLINE_TEST(tst_LineExperiment)
 #include "tst_LineExperiment.moc"

@@ -1,8 +1,7 @@
 #include "evaluate/experiments/NoisyField.h"
+#include "support/test.h"
 
 #include "base/Random.h"
-
-#include <QtTest>
 
 #include <cmath>
 #include <numbers>
@@ -216,5 +215,5 @@ void tst_NoisyField::powerAddsAmplitudes()
     }
 }
 
-QTEST_APPLESS_MAIN(tst_NoisyField)
+FAINTLINE_TEST(tst_NoisyField)
 #include "tst_NoisyField.moc"

@@ -1,9 +1,8 @@
 #include "evaluate/experiments/PdCurve.h"
+#include "support/test.h"
 
 #include "base/Random.h"
 #include "evaluate/experiments/SignalMask.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <cmath>
@@ -217,5 +216,5 @@ void tst_PdCurve::emptyMask()
     QCOMPARE(y, std::vector<float>(10, 2.0f));
 }
 
-QTEST_APPLESS_MAIN(tst_PdCurve)
+FAINTLINE_TEST(tst_PdCurve)
 #include "tst_PdCurve.moc"

@@ -1,8 +1,7 @@
 #include "evaluate/experiments/PingExperiment.h"
+#include "support/test.h"
 
 #include "support/errors.h"
-
-#include <QtTest>
 
 using namespace faintline;
 using namespace faintline::test;
@@ -149,5 +148,5 @@ void tst_PingExperiment::cancels()
     QVERIFY_THROWS_EXCEPTION(Cancelled, runPings(experiment(), context));
 }
 
-QTEST_APPLESS_MAIN(tst_PingExperiment)
+FAINTLINE_TEST(tst_PingExperiment)
 #include "tst_PingExperiment.moc"

@@ -1,11 +1,10 @@
 #include "evaluate/reproduce/Reproduction.h"
+#include "support/test.h"
 
 #include "evaluate/reproduce/grossiParts.h"
 #include "evaluate/reproduce/parsonsParts.h"
 #include "evaluate/reproduce/reproduce.h"
 #include "support/errors.h"
-
-#include <QtTest>
 
 #include <cmath>
 #include <numbers>
@@ -222,5 +221,5 @@ void tst_Reproduction::partsOfParsons()
     QVERIFY(noiseScene(~std::uint64_t(0), 1).seed >= 0); // seeds of scenes are not negative
 }
 
-QTEST_APPLESS_MAIN(tst_Reproduction)
+FAINTLINE_TEST(tst_Reproduction)
 #include "tst_Reproduction.moc"

@@ -5,8 +5,7 @@
 #include "evaluate/sequential/scanCurves.h"
 #include "evaluate/sequential/simulate.h"
 #include "evaluate/theory/walkOnLine.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 
@@ -404,5 +403,5 @@ void tst_ScanTest::refusals()
     }
 }
 
-QTEST_APPLESS_MAIN(tst_ScanTest)
+FAINTLINE_TEST(tst_ScanTest)
 #include "tst_ScanTest.moc"

@@ -1,7 +1,6 @@
 #include "evaluate/sequential/SequentialTrial.h"
 #include "support/studies.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <algorithm>
 #include <array>
@@ -171,5 +170,5 @@ void tst_SequentialTrial::averagedFramesKnowNoPower()
             }
 }
 
-QTEST_APPLESS_MAIN(tst_SequentialTrial)
+FAINTLINE_TEST(tst_SequentialTrial)
 #include "tst_SequentialTrial.moc"

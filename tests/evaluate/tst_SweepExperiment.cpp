@@ -4,12 +4,12 @@
 #include "evaluate/experiments/sweepCurve.h"
 #include "exchange/CampaignFile.h"
 #include "recording/SimulatedRecording.h"
+#include "support/test.h"
 
 #include "base/Error.h"
 #include "support/errors.h"
 
 #include <QTemporaryDir>
-#include <QtTest>
 
 #include <cmath>
 
@@ -254,5 +254,5 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(tst_SweepExperiment)
+FAINTLINE_TEST(tst_SweepExperiment)
 #include "tst_SweepExperiment.moc"

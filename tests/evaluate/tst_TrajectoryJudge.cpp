@@ -1,8 +1,7 @@
 #include "evaluate/sequential/TrajectoryJudge.h"
+#include "support/test.h"
 
 #include "support/studies.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <cmath>
@@ -207,5 +206,5 @@ void tst_TrajectoryJudge::whatIsLoudIsFollowedExactly()
         QCOMPARE(judge.errorsOf(number, 30).largest, Index(0));
 }
 
-QTEST_APPLESS_MAIN(tst_TrajectoryJudge)
+FAINTLINE_TEST(tst_TrajectoryJudge)
 #include "tst_TrajectoryJudge.moc"

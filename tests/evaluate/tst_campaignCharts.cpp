@@ -1,10 +1,9 @@
 #include "evaluate/experiments/campaignCharts.h"
+#include "support/test.h"
 
 #include "evaluate/experiments/peers.h"
 #include "evaluate/theory/swerling.h"
 #include "evaluate/theory/theory.h"
-
-#include <QtTest>
 
 #include <cmath>
 
@@ -130,5 +129,5 @@ void tst_campaignCharts::peersAreTheirOwnNames()
     QCOMPARE(std::get<IntegratorSettings>(peer("integrator", 40.0).settings.detector).durationWindows, 40.0);
 }
 
-QTEST_GUILESS_MAIN(tst_campaignCharts)
+FAINTLINE_TEST(tst_campaignCharts)
 #include "tst_campaignCharts.moc"

@@ -1,8 +1,7 @@
 #include "calibration/calibrate.h"
 #include "evaluate/theory/boxExceedance.h"
 #include "evaluate/theory/closedForm.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cmath>
 
@@ -106,5 +105,5 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(tst_closedForm)
+FAINTLINE_TEST(tst_closedForm)
 #include "tst_closedForm.moc"

@@ -3,12 +3,12 @@
 #include "evaluate/comparison/settingDifferences.h"
 #include "evaluate/experiments/measureCost.h"
 #include "exchange/writeComparison.h"
+#include "support/test.h"
 
 #include "base/Error.h"
 #include "recording/SimulatedRecording.h"
 
 #include <QTemporaryDir>
-#include <QtTest>
 
 #include <cmath>
 
@@ -293,5 +293,5 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(tst_compareAnalyses)
+FAINTLINE_TEST(tst_compareAnalyses)
 #include "tst_compareAnalyses.moc"

@@ -1,8 +1,7 @@
 #include "app/cli/speed/measureSpeed.h"
 #include "base/Error.h"
 #include "base/json.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 
@@ -66,5 +65,5 @@ void tst_measureSpeed::ratiosAndChecks()
     QCOMPARE(json["kernels"][0]["checks"][0]["met"].get<bool>(), true);
 }
 
-QTEST_APPLESS_MAIN(tst_measureSpeed)
+FAINTLINE_TEST(tst_measureSpeed)
 #include "tst_measureSpeed.moc"

@@ -1,9 +1,8 @@
 #include "evaluate/comparison/noiseFit.h"
+#include "support/test.h"
 
 #include "base/Random.h"
 #include "support/frames.h"
-
-#include <QtTest>
 
 #include <cmath>
 
@@ -161,5 +160,5 @@ void tst_noiseFit::cancels()
     QVERIFY_EXCEPTION_THROWN(misfitPfa(std::vector{FittedBand()}, AnalysisSettings(), 1e-3, context), Cancelled);
 }
 
-QTEST_GUILESS_MAIN(tst_noiseFit)
+FAINTLINE_TEST(tst_noiseFit)
 #include "tst_noiseFit.moc"

@@ -1,7 +1,6 @@
 #include "base/Random.h"
 #include "evaluate/reproduce/reproduce.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 
@@ -103,5 +102,5 @@ void tst_reproduce::fewRuns()
                                 .arg(cell.reference.value_or(0.0))));
 }
 
-QTEST_APPLESS_MAIN(tst_reproduce)
+FAINTLINE_TEST(tst_reproduce)
 #include "tst_reproduce.moc"

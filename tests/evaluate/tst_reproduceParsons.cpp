@@ -1,6 +1,5 @@
 #include "evaluate/reproduce/reproduce.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 
@@ -32,5 +31,5 @@ void tst_reproduceParsons::table2()
     QVERIFY(std::abs(made.cells[2].ours - 28.46) < 0.01);
 }
 
-QTEST_APPLESS_MAIN(tst_reproduceParsons)
+FAINTLINE_TEST(tst_reproduceParsons)
 #include "tst_reproduceParsons.moc"

@@ -1,10 +1,9 @@
 #include "evaluate/experiments/showTrial.h"
+#include "support/test.h"
 
 #include "evaluate/experiments/campaignCharts.h"
 #include "evaluate/experiments/peers.h"
 #include "plan/chain.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <cmath>
@@ -98,5 +97,5 @@ void tst_showTrial::anInjectionNeedsItsRecording()
     QVERIFY_EXCEPTION_THROWN(showTrial(elsewhere, nullptr, {0, 0}, {}), Error);
 }
 
-QTEST_GUILESS_MAIN(tst_showTrial)
+FAINTLINE_TEST(tst_showTrial)
 #include "tst_showTrial.moc"

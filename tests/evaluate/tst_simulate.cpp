@@ -3,8 +3,7 @@
 #include "evaluate/sequential/simulate.h"
 #include "evaluate/theory/waldTheory.h"
 #include "support/studies.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <map>
 
@@ -343,5 +342,5 @@ void tst_simulate::refusals()
     QVERIFY_EXCEPTION_THROWN(simulate(made, stopped), Cancelled);
 }
 
-QTEST_APPLESS_MAIN(tst_simulate)
+FAINTLINE_TEST(tst_simulate)
 #include "tst_simulate.moc"

@@ -1,11 +1,10 @@
 #include "evaluate/theory/swerling.h"
+#include "support/test.h"
 
 #include "base/Random.h"
 #include "detect/Integrator.h"
 #include "evaluate/experiments/NoisyField.h"
 #include "evaluate/theory/theory.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <cmath>
@@ -288,5 +287,5 @@ void tst_swerling::simulatedLines()
     }
 }
 
-QTEST_APPLESS_MAIN(tst_swerling)
+FAINTLINE_TEST(tst_swerling)
 #include "tst_swerling.moc"

@@ -4,8 +4,7 @@
 #include "detect/PofN.h"
 #include "detect/Smd.h"
 #include "evaluate/theory/theory.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cmath>
 
@@ -183,5 +182,5 @@ void tst_theory::wilsonCovers()
     QVERIFY(covered > 0.93 * 4000 && covered < 0.975 * 4000);
 }
 
-QTEST_APPLESS_MAIN(tst_theory)
+FAINTLINE_TEST(tst_theory)
 #include "tst_theory.moc"

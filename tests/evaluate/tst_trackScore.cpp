@@ -1,6 +1,5 @@
 #include "evaluate/comparison/trackScore.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 
@@ -128,5 +127,5 @@ void tst_trackScore::histograms()
     QCOMPARE(pdAgainstPings(latencies, 4), (std::vector<double>{1.0 / 6.0, 1.0 / 6.0, 0.5, 4.0 / 6.0}));
 }
 
-QTEST_APPLESS_MAIN(tst_trackScore)
+FAINTLINE_TEST(tst_trackScore)
 #include "tst_trackScore.moc"

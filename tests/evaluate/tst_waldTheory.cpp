@@ -1,8 +1,7 @@
 #include "base/Random.h"
 #include "base/logmath.h"
 #include "evaluate/theory/waldTheory.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 
@@ -261,5 +260,5 @@ void tst_waldTheory::refusals()
     QVERIFY_EXCEPTION_THROWN(deterministicSprt({0.7, 0.1, 0}, 1.0, 1.0), Error);
 }
 
-QTEST_APPLESS_MAIN(tst_waldTheory)
+FAINTLINE_TEST(tst_waldTheory)
 #include "tst_waldTheory.moc"

@@ -1,6 +1,5 @@
 #include "evaluate/theory/walkOnLine.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cmath>
 #include <numbers>
@@ -162,5 +161,5 @@ void tst_walkOnLine::oneCellKnowsItsPath()
     }
 }
 
-QTEST_APPLESS_MAIN(tst_walkOnLine)
+FAINTLINE_TEST(tst_walkOnLine)
 #include "tst_walkOnLine.moc"

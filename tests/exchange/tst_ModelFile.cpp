@@ -1,10 +1,9 @@
 #include "exchange/ModelFile.h"
+#include "support/test.h"
 
 #include "detect/Sprt.h"
 #include "exchange/NumPy.h"
 #include "support/recordings.h"
-
-#include <QtTest>
 
 #include <limits>
 
@@ -500,5 +499,5 @@ void tst_ModelFile::framesRefused()
     QVERIFY2(said.starts_with(path("y.npy")) && contains(said, message.toStdString()), said.c_str());
 }
 
-QTEST_APPLESS_MAIN(tst_ModelFile)
+FAINTLINE_TEST(tst_ModelFile)
 #include "tst_ModelFile.moc"

@@ -1,8 +1,7 @@
 #include "exchange/NumPy.h"
+#include "support/test.h"
 
 #include "support/recordings.h"
-
-#include <QtTest>
 
 #include <cstring>
 #include <limits>
@@ -269,5 +268,5 @@ void tst_NumPy::noSuchFile()
     QVERIFY(!errorOf([&] { NumPyWriter(path("no/folder.npy"), {1}); }).empty());
 }
 
-QTEST_APPLESS_MAIN(tst_NumPy)
+FAINTLINE_TEST(tst_NumPy)
 #include "tst_NumPy.moc"

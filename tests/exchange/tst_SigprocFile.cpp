@@ -1,8 +1,7 @@
 #include "exchange/SigprocFile.h"
+#include "support/test.h"
 
 #include "support/recordings.h"
-
-#include <QtTest>
 
 #include <QTemporaryDir>
 
@@ -308,5 +307,5 @@ void tst_SigprocFile::aFileThatShrinks()
     QCOMPARE(errorOf([&] { readPart(file, {0, 2, 1, 0, 4}); }), path + ": was truncated while open");
 }
 
-QTEST_APPLESS_MAIN(tst_SigprocFile)
+FAINTLINE_TEST(tst_SigprocFile)
 #include "tst_SigprocFile.moc"

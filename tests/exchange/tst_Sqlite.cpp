@@ -1,8 +1,7 @@
 #include "exchange/survey/Sqlite.h"
+#include "support/test.h"
 
 #include "support/recordings.h"
-
-#include <QtTest>
 
 #include <QTemporaryDir>
 
@@ -219,5 +218,5 @@ void tst_Sqlite::aLockedFile()
     QCOMPARE(writer.integer("SELECT sum(a) FROM t"), std::int64_t(3));
 }
 
-QTEST_APPLESS_MAIN(tst_Sqlite)
+FAINTLINE_TEST(tst_Sqlite)
 #include "tst_Sqlite.moc"

@@ -1,4 +1,5 @@
 #include "exchange/survey/SurveyDatabase.h"
+#include "support/test.h"
 
 #include "base/AtomicFile.h"
 #include "base/json.h"
@@ -11,7 +12,6 @@
 
 #include <QDir>
 #include <QTemporaryDir>
-#include <QtTest>
 
 #include <cmath>
 #include <filesystem>
@@ -526,5 +526,5 @@ void tst_SurveyDatabase::camtrap()
     QCOMPARE(readBytes(path("package/observations.csv")), observations);
 }
 
-QTEST_GUILESS_MAIN(tst_SurveyDatabase)
+FAINTLINE_TEST(tst_SurveyDatabase)
 #include "tst_SurveyDatabase.moc"

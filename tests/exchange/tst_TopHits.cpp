@@ -1,4 +1,5 @@
 #include "exchange/TopHits.h"
+#include "support/test.h"
 
 #include "analysis/analyse.h"
 #include "base/Random.h"
@@ -7,8 +8,6 @@
 #include "plan/slopeUnit.h"
 #include "support/errors.h"
 #include "support/recordings.h"
-
-#include <QtTest>
 
 #include <boost/math/distributions/normal.hpp>
 
@@ -285,5 +284,5 @@ void tst_TopHits::cadencesThatAreNone()
     QVERIFY(contains(errorOf([&] { findCadence({timeless, timeless}); }), "does not give its start time"));
 }
 
-QTEST_APPLESS_MAIN(tst_TopHits)
+FAINTLINE_TEST(tst_TopHits)
 #include "tst_TopHits.moc"

@@ -3,8 +3,7 @@
 #include "exchange/writeEvents.h"
 #include "exchange/writeReviewed.h"
 #include "support/recordings.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 using namespace faintline::test;
@@ -244,6 +243,6 @@ void tst_annotations::hostile()
     QVERIFY(read("empty", "").empty());
 }
 
-QTEST_GUILESS_MAIN(tst_annotations)
+FAINTLINE_TEST(tst_annotations)
 
 #include "tst_annotations.moc"

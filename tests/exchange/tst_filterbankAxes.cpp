@@ -1,10 +1,10 @@
 #include "exchange/filterbankAxes.h"
+#include "support/test.h"
 
 #include "support/errors.h"
 
 #include <QDateTime>
 #include <QTimeZone>
-#include <QtTest>
 
 #include <cmath>
 
@@ -137,5 +137,5 @@ void tst_filterbankAxes::dcIsInTheMiddleOfEachCoarseChannel()
     QCOMPARE(found, fileChannels);
 }
 
-QTEST_APPLESS_MAIN(tst_filterbankAxes)
+FAINTLINE_TEST(tst_filterbankAxes)
 #include "tst_filterbankAxes.moc"

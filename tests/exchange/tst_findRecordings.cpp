@@ -1,8 +1,7 @@
 #include "exchange/survey/findRecordings.h"
+#include "support/test.h"
 
 #include "support/recordings.h"
-
-#include <QtTest>
 
 #include <QTemporaryDir>
 
@@ -156,5 +155,5 @@ void tst_findRecordings::everyEndingIsFound()
     QCOMPARE(found({"."}), expected);
 }
 
-QTEST_APPLESS_MAIN(tst_findRecordings)
+FAINTLINE_TEST(tst_findRecordings)
 #include "tst_findRecordings.moc"

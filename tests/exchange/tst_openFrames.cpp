@@ -1,9 +1,8 @@
 #include "exchange/openFrames.h"
+#include "support/test.h"
 
 #include "exchange/NumPyPower.h"
 #include "support/recordings.h"
-
-#include <QtTest>
 
 #include <QTemporaryDir>
 
@@ -205,5 +204,5 @@ void tst_openFrames::aFileThatShrinks()
     QCOMPARE(errorOf([&] { power->read({0, frames - 1, 1, 0, cells}, row); }), stack + ": was truncated while open");
 }
 
-QTEST_APPLESS_MAIN(tst_openFrames)
+FAINTLINE_TEST(tst_openFrames)
 #include "tst_openFrames.moc"

@@ -1,11 +1,10 @@
 #include "exchange/openPings.h"
+#include "support/test.h"
 
 #include "exchange/NumPy.h"
 #include "exchange/openFrames.h"
 #include "spectrum/NormalisedPings.h"
 #include "support/recordings.h"
-
-#include <QtTest>
 
 #include <QTemporaryDir>
 
@@ -275,5 +274,5 @@ void tst_openPings::refusals()
     QVERIFY2(contains(said, words.toStdString()), said.c_str());
 }
 
-QTEST_APPLESS_MAIN(tst_openPings)
+FAINTLINE_TEST(tst_openPings)
 #include "tst_openPings.moc"

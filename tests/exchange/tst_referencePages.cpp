@@ -7,10 +7,10 @@
 #include "recording/LineScene.h"
 #include "recording/PingScene.h"
 #include "recording/ScanScene.h"
+#include "support/test.h"
 
 #include <QRegularExpression>
 #include <QTemporaryDir>
-#include <QtTest>
 
 #include <functional>
 
@@ -60,15 +60,6 @@ QStringList rowsOf(const std::vector<Field<S>> &fields)
                          QString::fromStdString(field.sentence));
     }
     return rows;
-}
-
-/// The keys of the first column.
-QStringList keysOf(const QStringList &rows)
-{
-    QStringList keys;
-    for (const QString &row : rows)
-        keys << row.section(QLatin1Char('`'), 1, 1);
-    return keys;
 }
 
 /// The keys that a parser knows, from what it says of one that it does not.
@@ -217,5 +208,5 @@ void tst_referencePages::tablesOfASurvey()
         QVERIFY(text.contains(QStringLiteral("\n| `%1` |").arg(QString::fromStdString(table.name))));
 }
 
-QTEST_GUILESS_MAIN(tst_referencePages)
+FAINTLINE_TEST(tst_referencePages)
 #include "tst_referencePages.moc"

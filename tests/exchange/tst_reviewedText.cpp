@@ -1,8 +1,7 @@
 #include "exchange/reviewedText.h"
+#include "support/test.h"
 
 #include "base/json.h"
-
-#include <QtTest>
 
 using namespace faintline;
 
@@ -104,5 +103,5 @@ void tst_reviewedText::farTimesStayExact()
     QCOMPARE(one["core:sample_count"].get<long long>(), 1LL);
 }
 
-QTEST_APPLESS_MAIN(tst_reviewedText)
+FAINTLINE_TEST(tst_reviewedText)
 #include "tst_reviewedText.moc"

@@ -1,8 +1,7 @@
 #include "exchange/sequentialCsv.h"
+#include "support/test.h"
 
 #include "exchange/csvText.h"
-
-#include <QtTest>
 
 using namespace faintline;
 
@@ -93,5 +92,5 @@ void tst_sequentialCsv::quotesAreDoubled()
     QCOMPARE(csvText("\"a\" or\n\"b\""), std::string("\"\"\"a\"\" or\n\"\"b\"\"\""));
 }
 
-QTEST_APPLESS_MAIN(tst_sequentialCsv)
+FAINTLINE_TEST(tst_sequentialCsv)
 #include "tst_sequentialCsv.moc"

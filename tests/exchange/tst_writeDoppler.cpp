@@ -1,8 +1,7 @@
 #include "exchange/writeDoppler.h"
+#include "support/test.h"
 
 #include "base/json.h"
-
-#include <QtTest>
 
 #include <array>
 #include <cmath>
@@ -182,5 +181,5 @@ void tst_writeDoppler::chartsOfPointsAndFit()
     QCOMPARE(dopplerCharts(allTookPart)[0].curves.size(), std::size_t(2));
 }
 
-QTEST_APPLESS_MAIN(tst_writeDoppler)
+FAINTLINE_TEST(tst_writeDoppler)
 #include "tst_writeDoppler.moc"

@@ -1,9 +1,8 @@
 #include "exchange/writeEvents.h"
+#include "support/test.h"
 
 #include "base/json.h"
 #include "support/recordings.h"
-
-#include <QtTest>
 
 #include <clocale>
 #include <locale>
@@ -263,5 +262,5 @@ void tst_writeEvents::refusals()
     QVERIFY(!errorOf([&] { writeEvents(twoTracks(), path("no/folder.csv")); }).empty());
 }
 
-QTEST_APPLESS_MAIN(tst_writeEvents)
+FAINTLINE_TEST(tst_writeEvents)
 #include "tst_writeEvents.moc"

@@ -1,6 +1,5 @@
 #include "exchange/writeReport.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <QXmlStreamReader>
 
@@ -127,6 +126,6 @@ void tst_writeReport::axesWithoutAUnitHaveNoParentheses()
     QVERIFY(page.find("()") == std::string::npos);
 }
 
-QTEST_GUILESS_MAIN(tst_writeReport)
+FAINTLINE_TEST(tst_writeReport)
 
 #include "tst_writeReport.moc"

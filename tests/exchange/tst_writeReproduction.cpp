@@ -1,9 +1,8 @@
 #include "exchange/writeReproduction.h"
+#include "support/test.h"
 
 #include "base/json.h"
 #include "support/recordings.h"
-
-#include <QtTest>
 
 #include <QTemporaryDir>
 
@@ -144,5 +143,5 @@ void tst_writeReproduction::emptyTable()
     QVERIFY(json["cells"].is_array() && json["cells"].empty() && json["inside"] == true);
 }
 
-QTEST_APPLESS_MAIN(tst_writeReproduction)
+FAINTLINE_TEST(tst_writeReproduction)
 #include "tst_writeReproduction.moc"

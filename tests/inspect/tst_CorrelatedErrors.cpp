@@ -1,8 +1,8 @@
 #include "base/Random.h"
 #include "inspect/doppler/CorrelatedErrors.h"
+#include "support/test.h"
 
 #include <Eigen/Dense>
-#include <QtTest>
 
 #include <algorithm>
 #include <cmath>
@@ -77,5 +77,5 @@ void tst_CorrelatedErrors::estimate()
     QVERIFY2(ratios[runs / 2] > 0.85 && ratios[runs / 2] < 1.2, qPrintable(QString::number(ratios[runs / 2])));
 }
 
-QTEST_GUILESS_MAIN(tst_CorrelatedErrors)
+FAINTLINE_TEST(tst_CorrelatedErrors)
 #include "tst_CorrelatedErrors.moc"

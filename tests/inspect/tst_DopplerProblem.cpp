@@ -1,8 +1,7 @@
 #include "inspect/doppler/DopplerProblem.h"
+#include "support/test.h"
 
 #include "base/Random.h"
-
-#include <QtTest>
 
 #include <cmath>
 
@@ -201,5 +200,5 @@ void tst_DopplerProblem::aCommonFactorOfTheErrorsIsOneOfTheCost()
     QVERIFY(isNear(coarser.cost(x) * 9.0, problem.cost(x), 1e-9));
 }
 
-QTEST_APPLESS_MAIN(tst_DopplerProblem)
+FAINTLINE_TEST(tst_DopplerProblem)
 #include "tst_DopplerProblem.moc"

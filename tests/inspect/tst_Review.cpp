@@ -1,8 +1,7 @@
 #include "inspect/Review.h"
+#include "support/test.h"
 
 #include "inspect/judgeByBoxes.h"
-
-#include <QtTest>
 
 using namespace faintline;
 
@@ -217,6 +216,6 @@ void tst_Review::hostileJson()
         QVERIFY_EXCEPTION_THROWN(annotationsFromJson(Json::parse(text), "annotations"), std::exception);
 }
 
-QTEST_GUILESS_MAIN(tst_Review)
+FAINTLINE_TEST(tst_Review)
 
 #include "tst_Review.moc"

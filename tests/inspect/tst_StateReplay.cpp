@@ -1,5 +1,6 @@
 #include "analysis/analyse.h"
 #include "inspect/StateReplay.h"
+#include "support/test.h"
 
 #include "base/Random.h"
 #include "plan/chain.h"
@@ -238,5 +239,5 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(tst_StateReplay)
+FAINTLINE_TEST(tst_StateReplay)
 #include "tst_StateReplay.moc"

@@ -2,8 +2,7 @@
 #include "inspect/advice.h"
 #include "recording/ArrayRecording.h"
 #include "recording/SimulatedRecording.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cmath>
 
@@ -138,5 +137,5 @@ private slots:
     void strongLinesInNoise() { QVERIFY(!adviceOnConstantCells(*inWindow(noiseWith({line(50.0, 0.0, 0.0)}), 0.25))); }
 };
 
-QTEST_GUILESS_MAIN(tst_advice)
+FAINTLINE_TEST(tst_advice)
 #include "tst_advice.moc"

@@ -6,6 +6,7 @@
 #include "spectrum/NoiseNormaliser.h"
 #include "spectrum/Spectrogram.h"
 #include "support/frames.h"
+#include "support/test.h"
 
 #include <QTest>
 
@@ -112,5 +113,5 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(tst_boxLevels)
+FAINTLINE_TEST(tst_boxLevels)
 #include "tst_boxLevels.moc"

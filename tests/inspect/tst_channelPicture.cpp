@@ -1,11 +1,10 @@
 #include "inspect/channelPicture.h"
+#include "support/test.h"
 
 #include "analysis/analyse.h"
 #include "recording/ArrayRecording.h"
 #include "support/errors.h"
 #include "support/recordings.h"
-
-#include <QtTest>
 
 using namespace faintline;
 using namespace faintline::test;
@@ -119,5 +118,5 @@ private slots:
     }
 };
 
-QTEST_APPLESS_MAIN(tst_channelPicture)
+FAINTLINE_TEST(tst_channelPicture)
 #include "tst_channelPicture.moc"

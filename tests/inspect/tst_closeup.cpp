@@ -1,4 +1,5 @@
 #include "inspect/closeup.h"
+#include "support/test.h"
 
 #include "recording/SimulatedRecording.h"
 
@@ -134,5 +135,5 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(tst_closeup)
+FAINTLINE_TEST(tst_closeup)
 #include "tst_closeup.moc"

@@ -1,8 +1,7 @@
 #include "base/Random.h"
 #include "inspect/doppler/dopplerFit.h"
 #include "support/errors.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <array>
 #include <cmath>
@@ -378,5 +377,5 @@ void tst_dopplerFit::refusals()
     QVERIFY(refused(bad, 343.0, "later than the one before"));
 }
 
-QTEST_GUILESS_MAIN(tst_dopplerFit)
+FAINTLINE_TEST(tst_dopplerFit)
 #include "tst_dopplerFit.moc"

@@ -2,6 +2,7 @@
 #include "inspect/StateReplay.h"
 #include "inspect/explain.h"
 #include "support/frames.h"
+#include "support/test.h"
 
 #include <QTest>
 
@@ -196,5 +197,5 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(tst_explainLines)
+FAINTLINE_TEST(tst_explainLines)
 #include "tst_explainLines.moc"

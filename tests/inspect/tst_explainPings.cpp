@@ -1,6 +1,7 @@
 // Why a cell of a ping has its statistic: Parsons' law of K, trackers and banks of models included.
 
 #include "inspect/explain.h"
+#include "support/test.h"
 
 #include "spectrum/SimulatedPings.h"
 #include "support/errors.h"
@@ -107,5 +108,5 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(tst_explainPings)
+FAINTLINE_TEST(tst_explainPings)
 #include "tst_explainPings.moc"

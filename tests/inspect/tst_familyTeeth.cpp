@@ -1,10 +1,9 @@
 #include "base/Error.h"
 #include "inspect/familyTeeth.h"
 #include "recording/SimulatedRecording.h"
+#include "support/test.h"
 
 #include <boost/math/special_functions/gamma.hpp>
-
-#include <QtTest>
 
 #include <cmath>
 
@@ -161,5 +160,5 @@ void tst_familyTeeth::refuseWhatIsNotInThePicture()
         QVERIFY_EXCEPTION_THROWN(familyTeeth(*analysis, std::vector{outside}), Error);
 }
 
-QTEST_APPLESS_MAIN(tst_familyTeeth)
+FAINTLINE_TEST(tst_familyTeeth)
 #include "tst_familyTeeth.moc"

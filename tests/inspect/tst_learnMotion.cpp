@@ -1,8 +1,7 @@
 #include "base/Error.h"
 #include "inspect/learnMotion.h"
 #include "recording/SimulatedRecording.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cmath>
 
@@ -112,5 +111,5 @@ void tst_learnMotion::nothingToLearnFrom()
     QVERIFY_EXCEPTION_THROWN(learnMotion(*analysis), Error);
 }
 
-QTEST_APPLESS_MAIN(tst_learnMotion)
+FAINTLINE_TEST(tst_learnMotion)
 #include "tst_learnMotion.moc"

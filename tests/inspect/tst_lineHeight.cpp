@@ -2,8 +2,7 @@
 #include "inspect/lineHeight.h"
 #include "recording/ArrayRecording.h"
 #include "recording/SimulatedRecording.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <algorithm>
 #include <cmath>
@@ -108,5 +107,5 @@ void tst_lineHeight::refusesWhatIsTooShort()
         QVERIFY_EXCEPTION_THROWN(lineHeight(recording, stretch), Error);
 }
 
-QTEST_APPLESS_MAIN(tst_lineHeight)
+FAINTLINE_TEST(tst_lineHeight)
 #include "tst_lineHeight.moc"

@@ -1,7 +1,6 @@
 #include "inspect/noiseLaw.h"
 #include "recording/SimulatedRecording.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 
@@ -104,5 +103,5 @@ void tst_noiseLaw::whatHasNoLaw()
     QVERIFY(!checkNoiseLaw(*analyse(noiseOf(9, 2.0), {})));
 }
 
-QTEST_APPLESS_MAIN(tst_noiseLaw)
+FAINTLINE_TEST(tst_noiseLaw)
 #include "tst_noiseLaw.moc"

@@ -1,4 +1,5 @@
 #include "inspect/outputLayers.h"
+#include "support/test.h"
 
 #include "base/Random.h"
 #include "inspect/explain.h"
@@ -367,5 +368,5 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(tst_outputLayers)
+FAINTLINE_TEST(tst_outputLayers)
 #include "tst_outputLayers.moc"

@@ -5,6 +5,7 @@
 #include "inspect/pathEvidence.h"
 #include "recording/SimulatedRecording.h"
 #include "support/frames.h"
+#include "support/test.h"
 
 #include <QTest>
 
@@ -86,5 +87,5 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(tst_pathEvidence)
+FAINTLINE_TEST(tst_pathEvidence)
 #include "tst_pathEvidence.moc"

@@ -4,8 +4,7 @@
 #include "recording/SimulatedRecording.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "spectrum/SimulatedPings.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cmath>
 
@@ -244,5 +243,5 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(tst_previewStatistic)
+FAINTLINE_TEST(tst_previewStatistic)
 #include "tst_previewStatistic.moc"

@@ -1,8 +1,7 @@
 #include "analysis/analyse.h"
 #include "inspect/spectra.h"
 #include "recording/SimulatedRecording.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cmath>
 #include <numeric>
@@ -91,5 +90,5 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(tst_spectra)
+FAINTLINE_TEST(tst_spectra)
 #include "tst_spectra.moc"

@@ -1,4 +1,5 @@
 #include "live/LiveHistory.h"
+#include "support/test.h"
 
 #include "analysis/analyse.h"
 #include "exchange/writeEvents.h"
@@ -7,8 +8,6 @@
 #include "recording/SimulatedRecording.h"
 #include "recording/Timeline.h"
 #include "support/recordings.h"
-
-#include <QtTest>
 
 #include <set>
 #include <thread>
@@ -332,5 +331,5 @@ void tst_LiveHistory::tellsOfSettingsThatCameTooLate()
     QCOMPARE(live->result.plan.settings.decide.falseAlarmsPerHour, 60.0);
 }
 
-QTEST_APPLESS_MAIN(tst_LiveHistory)
+FAINTLINE_TEST(tst_LiveHistory)
 #include "tst_LiveHistory.moc"

@@ -1,11 +1,10 @@
 #include "live/Player.h"
 #include "live/SoundSource.h"
+#include "support/test.h"
 
 #include "spectrum/BandRecording.h"
 #include "support/PulseServer.h"
 #include "support/recordings.h"
-
-#include <QtTest>
 
 #include <cstring>
 
@@ -255,5 +254,5 @@ void tst_Player::isHeard()
     QVERIFY2(std::abs(largest / fullTone - 1.0) < 0.02, qPrintable(QString::number(largest)));
 }
 
-QTEST_GUILESS_MAIN(tst_Player)
+FAINTLINE_TEST(tst_Player)
 #include "tst_Player.moc"

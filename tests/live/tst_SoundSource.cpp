@@ -1,9 +1,8 @@
 #include "live/SoundSource.h"
+#include "support/test.h"
 
 #include "support/PulseServer.h"
 #include "support/recordings.h"
-
-#include <QtTest>
 
 #include <cstring>
 #include <numeric>
@@ -227,5 +226,5 @@ void tst_SoundSource::deviceThatComesBack()
              qPrintable(QStringLiteral("%1 s in %2 ms").arg(seconds).arg(timer.elapsed())));
 }
 
-QTEST_GUILESS_MAIN(tst_SoundSource)
+FAINTLINE_TEST(tst_SoundSource)
 #include "tst_SoundSource.moc"

@@ -1,9 +1,8 @@
 #include "live/SourceClock.h"
+#include "support/test.h"
 
 #include "base/Random.h"
 #include "support/errors.h"
-
-#include <QtTest>
 
 #include <cmath>
 #include <vector>
@@ -89,5 +88,5 @@ void tst_SourceClock::beginsAnew()
     QVERIFY(told(clock, 0.0, 0.1).empty());
 }
 
-QTEST_APPLESS_MAIN(tst_SourceClock)
+FAINTLINE_TEST(tst_SourceClock)
 #include "tst_SourceClock.moc"

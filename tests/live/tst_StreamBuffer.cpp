@@ -1,8 +1,7 @@
 #include "live/StreamBuffer.h"
+#include "support/test.h"
 
 #include "base/Random.h"
-
-#include <QtTest>
 
 #include <atomic>
 #include <cstring>
@@ -145,5 +144,5 @@ void tst_StreamBuffer::theTimeOfASampleIsCountedBackAtTheRate()
     QCOMPARE(last - buffer.heardAt(500), std::chrono::steady_clock::duration(500ms));
 }
 
-QTEST_APPLESS_MAIN(tst_StreamBuffer)
+FAINTLINE_TEST(tst_StreamBuffer)
 #include "tst_StreamBuffer.moc"

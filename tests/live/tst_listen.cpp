@@ -1,4 +1,5 @@
 #include "live/listen.h"
+#include "support/test.h"
 
 #include "analysis/analyse.h"
 #include "exchange/writeEvents.h"
@@ -6,8 +7,6 @@
 #include "recording/SigmfRecording.h"
 #include "recording/SimulatedRecording.h"
 #include "support/recordings.h"
-
-#include <QtTest>
 
 #include <map>
 #include <thread>
@@ -421,5 +420,5 @@ void tst_listen::stopsWhenAsked()
     QVERIFY2(timer.elapsed() < 1000, qPrintable(QString::number(timer.elapsed())));
 }
 
-QTEST_APPLESS_MAIN(tst_listen)
+FAINTLINE_TEST(tst_listen)
 #include "tst_listen.moc"

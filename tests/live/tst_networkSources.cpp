@@ -1,10 +1,9 @@
 #include "live/RtlTcpSource.h"
 #include "live/UdpSource.h"
+#include "support/test.h"
 
 #include "base/Random.h"
 #include "support/errors.h"
-
-#include <QtTest>
 
 #include <atomic>
 #include <thread>
@@ -296,5 +295,5 @@ void tst_networkSources::mistakes()
     QVERIFY(contains(errorOf([] { RtlTcpSource("127.0.0.1:1", {1e8, 1e6, {}, 0}); }), "no receiver answers"));
 }
 
-QTEST_APPLESS_MAIN(tst_networkSources)
+FAINTLINE_TEST(tst_networkSources)
 #include "tst_networkSources.moc"

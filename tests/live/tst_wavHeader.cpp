@@ -1,8 +1,7 @@
 #include "live/wavHeader.h"
+#include "support/test.h"
 
 #include "support/errors.h"
-
-#include <QtTest>
 
 #include <cstring>
 
@@ -155,5 +154,5 @@ void tst_wavHeader::integersOf24BitsKeepTheirValue()
     }
 }
 
-QTEST_APPLESS_MAIN(tst_wavHeader)
+FAINTLINE_TEST(tst_wavHeader)
 #include "tst_wavHeader.moc"

@@ -1,9 +1,8 @@
 #include "model/CellReduction.h"
+#include "support/test.h"
 
 #include "base/Random.h"
 #include "support/errors.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <cmath>
@@ -192,5 +191,5 @@ void tst_CellReduction::tooManyCellsAreRefused()
     QVERIFY(contains(errorOf([] { CellReduction({65536, 65536}, {false, true}); }), "model.axes"));
 }
 
-QTEST_APPLESS_MAIN(tst_CellReduction)
+FAINTLINE_TEST(tst_CellReduction)
 #include "tst_CellReduction.moc"

@@ -1,10 +1,9 @@
 #include "model/Likelihood.h"
+#include "support/test.h"
 
 #include "base/Error.h"
 
 #include <boost/math/special_functions/bessel.hpp>
-
-#include <QtTest>
 
 #include <cmath>
 #include <limits>
@@ -149,5 +148,5 @@ void tst_Likelihood::refusals()
     QVERIFY_EXCEPTION_THROWN(Likelihood(LikelihoodKind::Swerling4, 0.0), Error);
 }
 
-QTEST_APPLESS_MAIN(tst_Likelihood)
+FAINTLINE_TEST(tst_Likelihood)
 #include "tst_Likelihood.moc"

@@ -1,4 +1,5 @@
 #include "model/transitionLaw.h"
+#include "support/test.h"
 
 #include "base/Random.h"
 #include "detect/Smd.h"
@@ -184,5 +185,5 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(tst_transitionLaw)
+FAINTLINE_TEST(tst_transitionLaw)
 #include "tst_transitionLaw.moc"

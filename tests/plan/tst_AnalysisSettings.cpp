@@ -1,9 +1,8 @@
 #include "plan/AnalysisSettings.h"
+#include "support/test.h"
 
 #include "base/Random.h"
 #include "support/errors.h"
-
-#include <QtTest>
 
 using namespace faintline;
 using namespace faintline::test;
@@ -243,5 +242,5 @@ void tst_AnalysisSettings::presetsAreSound()
     QVERIFY(contains(errorOf([] { preset("none"); }), "choose one of lines"));
 }
 
-QTEST_APPLESS_MAIN(tst_AnalysisSettings)
+FAINTLINE_TEST(tst_AnalysisSettings)
 #include "tst_AnalysisSettings.moc"

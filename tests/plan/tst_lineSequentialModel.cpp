@@ -2,8 +2,7 @@
 #include "model/TrajectorySampler.h"
 #include "plan/lineSequentialModel.h"
 #include "recording/SimulatedRecording.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
@@ -300,5 +299,5 @@ void tst_lineSequentialModel::targetsAreFound()
     verify(counted);
 }
 
-QTEST_APPLESS_MAIN(tst_lineSequentialModel)
+FAINTLINE_TEST(tst_lineSequentialModel)
 #include "tst_lineSequentialModel.moc"

@@ -4,8 +4,7 @@
 #include "recording/SimulatedRecording.h"
 #include "support/errors.h"
 #include "support/frames.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 
@@ -136,5 +135,5 @@ void tst_slopeUnit::tooSteepIsRefused()
     QVERIFY_THROWS_EXCEPTION(Error, checkSettings(withSlopesInBins(settings, recording->info())));
 }
 
-QTEST_APPLESS_MAIN(tst_slopeUnit)
+FAINTLINE_TEST(tst_slopeUnit)
 #include "tst_slopeUnit.moc"

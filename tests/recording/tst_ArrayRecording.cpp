@@ -1,8 +1,7 @@
 #include "recording/ArrayRecording.h"
+#include "support/test.h"
 
 #include "support/errors.h"
-
-#include <QtTest>
 
 #include <limits>
 
@@ -69,5 +68,5 @@ void tst_ArrayRecording::refusals()
     QVERIFY(contains(errorOf([] { ArrayRecording("x", shared({}), {.sampleRateHz = 1.0}); }), "x: holds no samples"));
 }
 
-QTEST_APPLESS_MAIN(tst_ArrayRecording)
+FAINTLINE_TEST(tst_ArrayRecording)
 #include "tst_ArrayRecording.moc"

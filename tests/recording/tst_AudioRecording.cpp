@@ -1,8 +1,7 @@
 #include "recording/AudioRecording.h"
+#include "support/test.h"
 
 #include "support/recordings.h"
-
-#include <QtTest>
 
 #include <thread>
 
@@ -409,5 +408,5 @@ void tst_AudioRecording::sharedRecordings()
     }
 }
 
-QTEST_APPLESS_MAIN(tst_AudioRecording)
+FAINTLINE_TEST(tst_AudioRecording)
 #include "tst_AudioRecording.moc"

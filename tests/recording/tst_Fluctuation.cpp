@@ -1,6 +1,5 @@
 #include "recording/Fluctuation.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,5 +55,5 @@ void tst_Fluctuation::withoutFluctuationNothingIsDrawn()
     QCOMPARE(random.bits(), untouched.bits());
 }
 
-QTEST_APPLESS_MAIN(tst_Fluctuation)
+FAINTLINE_TEST(tst_Fluctuation)
 #include "tst_Fluctuation.moc"

@@ -1,9 +1,8 @@
 #include "recording/LineScene.h"
+#include "support/test.h"
 
 #include "recording/Truth.h"
 #include "support/errors.h"
-
-#include <QtTest>
 
 using namespace faintline;
 using namespace faintline::test;
@@ -166,5 +165,5 @@ void tst_LineScene::truthRefusals()
     QVERIFY(contains(said(R"({"lines": [{"f": 1}]})"), "lines[0].f: unknown"));
 }
 
-QTEST_APPLESS_MAIN(tst_LineScene)
+FAINTLINE_TEST(tst_LineScene)
 #include "tst_LineScene.moc"

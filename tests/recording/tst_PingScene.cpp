@@ -1,7 +1,6 @@
 #include "recording/PingScene.h"
 #include "recording/PingTruth.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 
@@ -301,5 +300,5 @@ void tst_PingScene::refusals()
     }
 }
 
-QTEST_APPLESS_MAIN(tst_PingScene)
+FAINTLINE_TEST(tst_PingScene)
 #include "tst_PingScene.moc"

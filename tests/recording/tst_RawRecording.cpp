@@ -1,10 +1,10 @@
 #include "recording/RawRecording.h"
+#include "support/test.h"
 
 #include "recording/openRecording.h"
 #include "support/recordings.h"
 
 #include <QtEndian>
-#include <QtTest>
 
 using namespace faintline;
 using namespace faintline::test;
@@ -241,5 +241,5 @@ void tst_RawRecording::refusals()
     QVERIFY(contains(refusal("cf32", 1.0, 1, -1), "must not be negative"));
 }
 
-QTEST_APPLESS_MAIN(tst_RawRecording)
+FAINTLINE_TEST(tst_RawRecording)
 #include "tst_RawRecording.moc"

@@ -1,7 +1,6 @@
 #include "recording/ScanScene.h"
 #include "support/errors.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 
@@ -180,5 +179,5 @@ void tst_ScanScene::refusals()
     QVERIFY2(test::contains(said, message.toStdString()), said.c_str());
 }
 
-QTEST_APPLESS_MAIN(tst_ScanScene)
+FAINTLINE_TEST(tst_ScanScene)
 #include "tst_ScanScene.moc"

@@ -1,9 +1,8 @@
 #include "recording/SigmfRecording.h"
+#include "support/test.h"
 
 #include "recording/openRecording.h"
 #include "support/recordings.h"
-
-#include <QtTest>
 
 using namespace faintline;
 using namespace faintline::test;
@@ -288,5 +287,5 @@ void tst_SigmfRecording::sharedRecording()
     QVERIFY(readInPieces(*recording, 99999) == readAll(*recording));
 }
 
-QTEST_APPLESS_MAIN(tst_SigmfRecording)
+FAINTLINE_TEST(tst_SigmfRecording)
 #include "tst_SigmfRecording.moc"

@@ -1,11 +1,10 @@
 #include "recording/SimulatedRecording.h"
+#include "support/test.h"
 
 #include "base/logmath.h"
 #include "recording/InjectedRecording.h"
 #include "recording/ornsteinUhlenbeck.h"
 #include "support/recordings.h"
-
-#include <QtTest>
 
 #include <thread>
 
@@ -562,5 +561,5 @@ void tst_SimulatedRecording::injectedRefusals()
                      "lines[0].frequencyHz = 5000: the line must stay"));
 }
 
-QTEST_APPLESS_MAIN(tst_SimulatedRecording)
+FAINTLINE_TEST(tst_SimulatedRecording)
 #include "tst_SimulatedRecording.moc"

@@ -1,12 +1,11 @@
 #include "recording/Timeline.h"
+#include "support/test.h"
 
 #include "base/Error.h"
 #include "recording/openTogether.h"
 #include "recording/timeInName.h"
 #include "support/errors.h"
 #include "support/recordings.h"
-
-#include <QtTest>
 
 #include <atomic>
 #include <cmath>
@@ -293,5 +292,5 @@ void tst_Timeline::refusedFiles()
     QVERIFY(contains(said(folder), "c.sigmf-meta: has no time stamp"));
 }
 
-QTEST_APPLESS_MAIN(tst_Timeline)
+FAINTLINE_TEST(tst_Timeline)
 #include "tst_Timeline.moc"

@@ -1,8 +1,7 @@
 #include "recording/editTargets.h"
+#include "support/test.h"
 
 #include "recording/PingTruth.h"
-
-#include <QtTest>
 
 #include <cmath>
 
@@ -237,5 +236,5 @@ void tst_editTargets::draggedRatesHaveFewDigits()
     QVERIFY(std::abs(std::round(rate * 100.0) / 100.0 - rate) < 1e-12); // a tenth of a cell in eight pings
 }
 
-QTEST_APPLESS_MAIN(tst_editTargets)
+FAINTLINE_TEST(tst_editTargets)
 #include "tst_editTargets.moc"

@@ -1,4 +1,5 @@
 #include "recording/fileHash.h"
+#include "support/test.h"
 
 #include "recording/FileBytes.h"
 #include "support/errors.h"
@@ -6,7 +7,6 @@
 #include <QCryptographicHash>
 #include <QFile>
 #include <QTemporaryDir>
-#include <QtTest>
 
 #include <sys/stat.h>
 
@@ -154,5 +154,5 @@ void tst_fileHash::whatIsNoFileIsRefused()
     QVERIFY(contains(errorOf([&] { FileBytes{pipe}; }), "is a device or a pipe")); // and does not wait for a writer
 }
 
-QTEST_APPLESS_MAIN(tst_fileHash)
+FAINTLINE_TEST(tst_fileHash)
 #include "tst_fileHash.moc"

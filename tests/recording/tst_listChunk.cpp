@@ -1,8 +1,8 @@
 #include "recording/listChunk.h"
+#include "support/test.h"
 
 #include <QFile>
 #include <QTemporaryDir>
-#include <QtTest>
 
 using namespace faintline;
 
@@ -87,5 +87,5 @@ void tst_listChunk::aCutFileIsHarmless()
     QVERIFY(!leads(file, 5000)); // a chunk beyond the end
 }
 
-QTEST_APPLESS_MAIN(tst_listChunk)
+FAINTLINE_TEST(tst_listChunk)
 #include "tst_listChunk.moc"

@@ -1,9 +1,9 @@
 #include "recording/openRecording.h"
+#include "support/test.h"
 
 #include "support/recordings.h"
 
 #include <QCryptographicHash>
-#include <QtTest>
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -232,5 +232,5 @@ void tst_openRecording::hashes()
              "part:" + QString(QCryptographicHash::hash(expected, QCryptographicHash::Sha256).toHex()));
 }
 
-QTEST_APPLESS_MAIN(tst_openRecording)
+FAINTLINE_TEST(tst_openRecording)
 #include "tst_openRecording.moc"

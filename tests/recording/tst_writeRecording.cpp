@@ -1,9 +1,8 @@
 #include "recording/writeRecording.h"
+#include "support/test.h"
 
 #include "recording/openRecording.h"
 #include "support/recordings.h"
-
-#include <QtTest>
 
 #include <csignal>
 
@@ -225,5 +224,5 @@ void tst_writeRecording::fullDisk()
     QVERIFY(files().isEmpty());
 }
 
-QTEST_APPLESS_MAIN(tst_writeRecording)
+FAINTLINE_TEST(tst_writeRecording)
 #include "tst_writeRecording.moc"

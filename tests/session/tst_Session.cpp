@@ -1,4 +1,5 @@
 #include "session/Session.h"
+#include "support/test.h"
 
 #include "base/Random.h"
 #include "exchange/openFrames.h"
@@ -151,5 +152,5 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(tst_Session)
+FAINTLINE_TEST(tst_Session)
 #include "tst_Session.moc"

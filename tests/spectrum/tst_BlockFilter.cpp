@@ -1,7 +1,6 @@
 #include "base/Random.h"
 #include "spectrum/BlockFilter.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cmath>
 
@@ -52,5 +51,5 @@ void tst_BlockFilter::blocksCoverEverySampleTwice()
     }
 }
 
-QTEST_APPLESS_MAIN(tst_BlockFilter)
+FAINTLINE_TEST(tst_BlockFilter)
 #include "tst_BlockFilter.moc"

@@ -1,9 +1,8 @@
 #include "spectrum/CausalSpectrogram.h"
+#include "support/test.h"
 
 #include "spectrum/levels.h"
 #include "support/recordings.h"
-
-#include <QtTest>
 
 #include <numbers>
 #include <numeric>
@@ -296,5 +295,5 @@ void tst_CausalSpectrogram::latestLevel()
     QVERIFY2(std::sqrt(square) > 0.008, said(std::sqrt(square)));
 }
 
-QTEST_APPLESS_MAIN(tst_CausalSpectrogram)
+FAINTLINE_TEST(tst_CausalSpectrogram)
 #include "tst_CausalSpectrogram.moc"

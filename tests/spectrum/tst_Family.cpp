@@ -2,8 +2,8 @@
 #include "base/Random.h"
 #include "spectrum/Family.h"
 #include "support/errors.h"
+#include "support/test.h"
 
-#include <QtTest>
 #include <boost/math/special_functions/gamma.hpp>
 
 #include <algorithm>
@@ -201,5 +201,5 @@ void tst_Family::refusesWhatIsNoFamily()
     QVERIFY2(test::contains(said, why.toStdString()), said.c_str());
 }
 
-QTEST_APPLESS_MAIN(tst_Family)
+FAINTLINE_TEST(tst_Family)
 #include "tst_Family.moc"

@@ -1,9 +1,8 @@
 #include "spectrum/Fft.h"
+#include "support/test.h"
 
 #include "base/Error.h"
 #include "base/Random.h"
-
-#include <QtTest>
 
 #include <cmath>
 #include <numbers>
@@ -151,5 +150,5 @@ void tst_Fft::noLength()
     QVERIFY_THROWS_EXCEPTION(Error, Fft(-4, Fft::Input::Complex));
 }
 
-QTEST_APPLESS_MAIN(tst_Fft)
+FAINTLINE_TEST(tst_Fft)
 #include "tst_Fft.moc"

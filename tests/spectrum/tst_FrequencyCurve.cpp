@@ -1,8 +1,7 @@
 #include "spectrum/FrequencyCurve.h"
+#include "support/test.h"
 
 #include "support/errors.h"
-
-#include <QtTest>
 
 #include <cmath>
 #include <limits>
@@ -102,5 +101,5 @@ void tst_FrequencyCurve::refusals()
     QCOMPARE(refusal(2, {1.0, 2.0}), std::string());
 }
 
-QTEST_APPLESS_MAIN(tst_FrequencyCurve)
+FAINTLINE_TEST(tst_FrequencyCurve)
 #include "tst_FrequencyCurve.moc"

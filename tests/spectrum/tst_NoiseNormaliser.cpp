@@ -1,8 +1,7 @@
 #include "spectrum/NoiseNormaliser.h"
+#include "support/test.h"
 
 #include "support/recordings.h"
-
-#include <QtTest>
 
 #include <numbers>
 #include <numeric>
@@ -715,5 +714,5 @@ void tst_NoiseNormaliser::settingsAreDescribed()
     QCOMPARE(NormaliserSettings::fields().size(), std::size_t(4));
 }
 
-QTEST_APPLESS_MAIN(tst_NoiseNormaliser)
+FAINTLINE_TEST(tst_NoiseNormaliser)
 #include "tst_NoiseNormaliser.moc"

@@ -1,11 +1,10 @@
 #include "spectrum/NormalisedPings.h"
+#include "support/test.h"
 
 #include "base/Random.h"
 #include "base/logmath.h"
 #include "spectrum/guessPingValues.h"
 #include "support/errors.h"
-
-#include <QtTest>
 
 #include <cmath>
 #include <functional>
@@ -382,5 +381,5 @@ void tst_NormalisedPings::refusals()
                      "has 2097152 cells in each ping; at most 1048576 can be normalised"));
 }
 
-QTEST_APPLESS_MAIN(tst_NormalisedPings)
+FAINTLINE_TEST(tst_NormalisedPings)
 #include "tst_NormalisedPings.moc"

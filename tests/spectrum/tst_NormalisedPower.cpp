@@ -1,8 +1,7 @@
 #include "spectrum/NormalisedPower.h"
+#include "support/test.h"
 
 #include "support/recordings.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <array>
@@ -338,5 +337,5 @@ void tst_NormalisedPower::cancels()
     QVERIFY_THROWS_EXCEPTION(Cancelled, NormalisedPower(power, partOf(power->info(), {}), settings(), context));
 }
 
-QTEST_APPLESS_MAIN(tst_NormalisedPower)
+FAINTLINE_TEST(tst_NormalisedPower)
 #include "tst_NormalisedPower.moc"

@@ -1,9 +1,8 @@
 #include "spectrum/PeakPyramid.h"
+#include "support/test.h"
 
 #include "base/Random.h"
 #include "base/memoryShares.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <cmath>
@@ -361,5 +360,5 @@ void tst_PeakPyramid::roomForWhatItIsInTheEndIsEnough()
         }
 }
 
-QTEST_APPLESS_MAIN(tst_PeakPyramid)
+FAINTLINE_TEST(tst_PeakPyramid)
 #include "tst_PeakPyramid.moc"

@@ -1,8 +1,7 @@
 #include "spectrum/PingPower.h"
+#include "support/test.h"
 
 #include "base/Random.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <cmath>
@@ -168,5 +167,5 @@ void tst_PingPower::silentPingsKeepTheirUnit()
     QCOMPARE(y, std::vector<float>(12, 0.0f));
 }
 
-QTEST_APPLESS_MAIN(tst_PingPower)
+FAINTLINE_TEST(tst_PingPower)
 #include "tst_PingPower.moc"

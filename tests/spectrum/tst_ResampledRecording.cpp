@@ -3,8 +3,7 @@
 #include "spectrum/ResampledRecording.h"
 #include "support/errors.h"
 #include "support/recordings.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cmath>
 #include <complex>
@@ -186,5 +185,5 @@ void tst_ResampledRecording::refusesWhatCannotBeStretched()
     QVERIFY_EXCEPTION_THROWN(ResampledRecording(family(false), 1, curve(), 64.0), Error);
 }
 
-QTEST_APPLESS_MAIN(tst_ResampledRecording)
+FAINTLINE_TEST(tst_ResampledRecording)
 #include "tst_ResampledRecording.moc"

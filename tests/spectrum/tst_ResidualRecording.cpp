@@ -1,9 +1,8 @@
 #include "base/Random.h"
 #include "spectrum/ResidualRecording.h"
+#include "support/test.h"
 
 #include "support/recordings.h"
-
-#include <QtTest>
 
 #include <cmath>
 #include <complex>
@@ -317,5 +316,5 @@ void tst_ResidualRecording::otherChannelsStay()
     QVERIFY(test::readAll(rest, 1) != test::readAll(*recording, 1));
 }
 
-QTEST_APPLESS_MAIN(tst_ResidualRecording)
+FAINTLINE_TEST(tst_ResidualRecording)
 #include "tst_ResidualRecording.moc"

@@ -1,6 +1,5 @@
 #include "spectrum/SimulatedPings.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cmath>
 
@@ -299,5 +298,5 @@ void tst_SimulatedPings::reverberationIsTakenOut()
     }
 }
 
-QTEST_APPLESS_MAIN(tst_SimulatedPings)
+FAINTLINE_TEST(tst_SimulatedPings)
 #include "tst_SimulatedPings.moc"

@@ -1,8 +1,7 @@
 #include "spectrum/Spectrogram.h"
+#include "support/test.h"
 
 #include "support/recordings.h"
-
-#include <QtTest>
 
 #include <limits>
 #include <thread>
@@ -459,5 +458,5 @@ void tst_Spectrogram::automaticWindow()
              qPrintable(QString::number(Spectrogram::automaticWindowSeconds(info))));
 }
 
-QTEST_APPLESS_MAIN(tst_Spectrogram)
+FAINTLINE_TEST(tst_Spectrogram)
 #include "tst_Spectrogram.moc"

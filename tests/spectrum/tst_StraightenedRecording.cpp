@@ -2,8 +2,7 @@
 #include "recording/ArrayRecording.h"
 #include "spectrum/StraightenedRecording.h"
 #include "support/recordings.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cmath>
 #include <complex>
@@ -116,5 +115,5 @@ void tst_StraightenedRecording::refusesATargetOutsideTheBand()
     QVERIFY_EXCEPTION_THROWN(StraightenedRecording(chirp(false), 1, curve(), 100.0), Error);
 }
 
-QTEST_APPLESS_MAIN(tst_StraightenedRecording)
+FAINTLINE_TEST(tst_StraightenedRecording)
 #include "tst_StraightenedRecording.moc"

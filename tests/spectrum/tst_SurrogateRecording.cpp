@@ -2,8 +2,7 @@
 #include "recording/SimulatedRecording.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "spectrum/SurrogateRecording.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 
@@ -139,5 +138,5 @@ void tst_SurrogateRecording::keepsTheQuantisationStep()
     QVERIFY(std::any_of(read.begin(), read.end(), [](float value) { return value != 0.0f; }));
 }
 
-QTEST_APPLESS_MAIN(tst_SurrogateRecording)
+FAINTLINE_TEST(tst_SurrogateRecording)
 #include "tst_SurrogateRecording.moc"

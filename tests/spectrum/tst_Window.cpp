@@ -1,6 +1,5 @@
 #include "spectrum/Window.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cmath>
 #include <numbers>
@@ -177,5 +176,5 @@ void tst_Window::leakageOfHann()
     }
 }
 
-QTEST_APPLESS_MAIN(tst_Window)
+FAINTLINE_TEST(tst_Window)
 #include "tst_Window.moc"

@@ -1,8 +1,7 @@
 #include "spectrum/averageWhileSteady.h"
+#include "support/test.h"
 
 #include "base/Random.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <cmath>
@@ -170,5 +169,5 @@ void tst_averageWhileSteady::nothingToAverage()
         QVERIFY(std::abs(value - 0.5f) < 1e-6f);
 }
 
-QTEST_APPLESS_MAIN(tst_averageWhileSteady)
+FAINTLINE_TEST(tst_averageWhileSteady)
 #include "tst_averageWhileSteady.moc"

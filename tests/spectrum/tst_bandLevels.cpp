@@ -1,9 +1,8 @@
 #include "spectrum/bandLevels.h"
+#include "support/test.h"
 
 #include "base/Random.h"
 #include "spectrum/CausalLevels.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <cmath>
@@ -267,5 +266,5 @@ void tst_bandLevels::silenceKeepsTheLevelBeforeIt()
     QVERIFY(silent.latest() == heard.latest()); // the step was not within a silence
 }
 
-QTEST_APPLESS_MAIN(tst_bandLevels)
+FAINTLINE_TEST(tst_bandLevels)
 #include "tst_bandLevels.moc"

@@ -1,6 +1,5 @@
 #include "spectrum/between.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <utility>
 
@@ -32,5 +31,5 @@ void tst_between::weightsBetweenCells()
     QCOMPARE(between(single, 500.0).fraction, 0.0);
 }
 
-QTEST_APPLESS_MAIN(tst_between)
+FAINTLINE_TEST(tst_between)
 #include "tst_between.moc"

@@ -1,9 +1,8 @@
 #include "spectrum/blockBackground.h"
+#include "support/test.h"
 
 #include "base/Random.h"
 #include "spectrum/NoiseBackground.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <cmath>
@@ -241,5 +240,5 @@ void tst_blockBackground::flatteningSilence()
     QVERIFY(std::all_of(frames.begin() + 3 * cells, frames.begin() + 4 * cells, [](float y) { return y == 0.0f; }));
 }
 
-QTEST_APPLESS_MAIN(tst_blockBackground)
+FAINTLINE_TEST(tst_blockBackground)
 #include "tst_blockBackground.moc"

@@ -1,7 +1,6 @@
 #include "base/Random.h"
 #include "spectrum/cellAveraging.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 
@@ -75,5 +74,5 @@ void tst_cellAveraging::evidenceIsExact()
     }
 }
 
-QTEST_APPLESS_MAIN(tst_cellAveraging)
+FAINTLINE_TEST(tst_cellAveraging)
 #include "tst_cellAveraging.moc"

@@ -1,9 +1,8 @@
 #include "spectrum/familyMembers.h"
+#include "support/test.h"
 
 #include "base/Random.h"
 #include "spectrum/familyLaw.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <cmath>
@@ -145,5 +144,5 @@ void tst_familyMembers::membersHaveNames()
     QCOMPARE(memberName(offsets, 0.0), std::string("0 Hz"));
 }
 
-QTEST_APPLESS_MAIN(tst_familyMembers)
+FAINTLINE_TEST(tst_familyMembers)
 #include "tst_familyMembers.moc"

@@ -1,8 +1,7 @@
 #include "spectrum/levels.h"
+#include "support/test.h"
 
 #include "base/Random.h"
-
-#include <QtTest>
 
 #include <array>
 #include <cmath>
@@ -180,5 +179,5 @@ void tst_levels::shortSeries()
         QVERIFY(std::abs(value - 3.0f) < 1e-5f);
 }
 
-QTEST_APPLESS_MAIN(tst_levels)
+FAINTLINE_TEST(tst_levels)
 #include "tst_levels.moc"

@@ -1,7 +1,6 @@
 #include "base/Random.h"
 #include "spectrum/medians.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <algorithm>
 
@@ -83,5 +82,5 @@ void tst_medians::meanWithoutWeights()
     QCOMPARE(found, (std::vector<double>{1.0, 1.0}));
 }
 
-QTEST_APPLESS_MAIN(tst_medians)
+FAINTLINE_TEST(tst_medians)
 #include "tst_medians.moc"

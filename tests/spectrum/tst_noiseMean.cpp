@@ -1,8 +1,7 @@
 #include "spectrum/noiseMean.h"
+#include "support/test.h"
 
 #include "support/frames.h"
-
-#include <QtTest>
 
 #include <limits>
 #include <random>
@@ -52,5 +51,5 @@ void tst_noiseMean::ofNothing()
     QCOMPARE(noiseMeanOf(*test::framesOf(3, std::vector<float>(6, std::numeric_limits<float>::quiet_NaN()))), 1.0);
 }
 
-QTEST_APPLESS_MAIN(tst_noiseMean)
+FAINTLINE_TEST(tst_noiseMean)
 #include "tst_noiseMean.moc"

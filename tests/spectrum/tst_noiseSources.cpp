@@ -1,8 +1,7 @@
 #include "spectrum/noiseSources.h"
+#include "support/test.h"
 
 #include "base/Random.h"
-
-#include <QtTest>
 
 #include <cmath>
 
@@ -122,5 +121,5 @@ void tst_noiseSources::anyScale()
     }
 }
 
-QTEST_APPLESS_MAIN(tst_noiseSources)
+FAINTLINE_TEST(tst_noiseSources)
 #include "tst_noiseSources.moc"

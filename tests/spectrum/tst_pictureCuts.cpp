@@ -1,4 +1,5 @@
 #include "spectrum/pictureCuts.h"
+#include "support/test.h"
 
 #include <QTest>
 
@@ -122,5 +123,5 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(tst_pictureCuts)
+FAINTLINE_TEST(tst_pictureCuts)
 #include "tst_pictureCuts.moc"

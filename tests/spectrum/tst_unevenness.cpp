@@ -1,8 +1,7 @@
 #include "spectrum/unevenness.h"
+#include "support/test.h"
 
 #include "base/Random.h"
-
-#include <QtTest>
 
 #include <cmath>
 
@@ -165,5 +164,5 @@ void tst_unevenness::changesAreTakenOverTheBackground()
     QCOMPARE(found.freedom, 2.0);
 }
 
-QTEST_APPLESS_MAIN(tst_unevenness)
+FAINTLINE_TEST(tst_unevenness)
 #include "tst_unevenness.moc"

@@ -1,6 +1,5 @@
+#include "support/test.h"
 #include "track/Area.h"
-
-#include <QtTest>
 
 #include <algorithm>
 
@@ -49,5 +48,5 @@ void tst_Area::aBurstAndAHumStayTwo()
     QCOMPARE(joinAreas({{0, 9, 0, 99, 2.0}, {5, 99, 10, 20, 2.0}}).size(), std::size_t(2));
 }
 
-QTEST_APPLESS_MAIN(tst_Area)
+FAINTLINE_TEST(tst_Area)
 #include "tst_Area.moc"

@@ -1,8 +1,7 @@
+#include "support/test.h"
 #include "track/Cluster.h"
 
 #include "base/Random.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <cmath>
@@ -169,5 +168,5 @@ void tst_Cluster::nothingCrosses()
     QCOMPARE(all[0].peakCell, Index(0));
 }
 
-QTEST_APPLESS_MAIN(tst_Cluster)
+FAINTLINE_TEST(tst_Cluster)
 #include "tst_Cluster.moc"

@@ -1,3 +1,4 @@
+#include "support/test.h"
 #include "track/ConventionalTracker.h"
 
 #include <QTest>
@@ -100,5 +101,5 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(tst_ConventionalTracker)
+FAINTLINE_TEST(tst_ConventionalTracker)
 #include "tst_ConventionalTracker.moc"

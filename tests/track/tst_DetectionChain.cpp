@@ -1,9 +1,8 @@
 #include "base/Random.h"
 #include "detect/Smd.h"
+#include "support/test.h"
 #include "track/Cluster.h"
 #include "track/DetectionChain.h"
-
-#include <QtTest>
 
 #include <cmath>
 #include <ctime>
@@ -321,5 +320,5 @@ void tst_DetectionChain::manyLinesCostLittleMoreThanTheirNumber()
     QVERIFY2(many < 20.0 * few, qPrintable(QStringLiteral("%1 s for 50 lines, %2 s for 800").arg(few).arg(many)));
 }
 
-QTEST_APPLESS_MAIN(tst_DetectionChain)
+FAINTLINE_TEST(tst_DetectionChain)
 #include "tst_DetectionChain.moc"

@@ -1,8 +1,7 @@
+#include "support/test.h"
 #include "track/HmmTracker.h"
 
 #include "base/Random.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <cmath>
@@ -375,5 +374,5 @@ void tst_HmmTracker::aTrackerWithoutPastGoesOnToTheBit()
     QCOMPARE(bare.finish(true).endFrame, followed.tracker.finish(true).endFrame);
 }
 
-QTEST_APPLESS_MAIN(tst_HmmTracker)
+FAINTLINE_TEST(tst_HmmTracker)
 #include "tst_HmmTracker.moc"

@@ -1,7 +1,6 @@
 #include "base/Random.h"
+#include "support/test.h"
 #include "track/PlaceIndex.h"
-
-#include <QtTest>
 
 using namespace faintline;
 
@@ -48,5 +47,5 @@ private slots:
     }
 };
 
-QTEST_APPLESS_MAIN(tst_PlaceIndex)
+FAINTLINE_TEST(tst_PlaceIndex)
 #include "tst_PlaceIndex.moc"

@@ -1,7 +1,6 @@
 #include "base/Random.h"
+#include "support/test.h"
 #include "track/PolynomialFit.h"
-
-#include <QtTest>
 
 #include <cmath>
 #include <vector>
@@ -81,5 +80,5 @@ void tst_PolynomialFit::twoPointsHaveNoSlope()
     QCOMPARE(PolynomialFit(along(0.0, 0.0, 4.0, 1), 0, 0.1).positionAt(0.0), 4.0);
 }
 
-QTEST_APPLESS_MAIN(tst_PolynomialFit)
+FAINTLINE_TEST(tst_PolynomialFit)
 #include "tst_PolynomialFit.moc"

@@ -1,8 +1,7 @@
+#include "support/test.h"
 #include "track/TrackPiece.h"
 
 #include "track/explainPath.h"
-
-#include <QtTest>
 
 #include <cmath>
 
@@ -137,5 +136,5 @@ void tst_TrackPiece::strongTracksHaveWideStrips()
     QCOMPARE(piecesOf(track)[0].strip.halfWidth, skirtBins);
 }
 
-QTEST_APPLESS_MAIN(tst_TrackPiece)
+FAINTLINE_TEST(tst_TrackPiece)
 #include "tst_TrackPiece.moc"

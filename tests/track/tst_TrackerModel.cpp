@@ -1,8 +1,7 @@
+#include "support/test.h"
 #include "track/TrackerModel.h"
 
 #include "track/numberByDetection.h"
-
-#include <QtTest>
 
 #include <cmath>
 
@@ -135,5 +134,5 @@ void tst_TrackerModel::tracksAreNumberedInOrder()
     QVERIFY(tracks.empty());
 }
 
-QTEST_APPLESS_MAIN(tst_TrackerModel)
+FAINTLINE_TEST(tst_TrackerModel)
 #include "tst_TrackerModel.moc"

@@ -1,7 +1,6 @@
 #include "base/Random.h"
+#include "support/test.h"
 #include "track/assign.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <functional>
@@ -94,5 +93,5 @@ void tst_assign::neverWhatIsTooDear()
     QVERIFY(assign({{0, 0, unassigned}, {0, 1, 2.0 * unassigned}, {1, 1, 11.0}}, unassigned).empty());
 }
 
-QTEST_APPLESS_MAIN(tst_assign)
+FAINTLINE_TEST(tst_assign)
 #include "tst_assign.moc"

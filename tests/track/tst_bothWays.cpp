@@ -1,9 +1,8 @@
+#include "support/test.h"
 #include "track/bothWays.h"
 
 #include "base/Random.h"
 #include "model/StateSpace.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <array>
@@ -313,5 +312,5 @@ void tst_bothWays::widthOfAStrip()
     QCOMPARE(bothWaysHalfWidth(1.5), Index(12)); // four and a half bins are five
 }
 
-QTEST_APPLESS_MAIN(tst_bothWays)
+FAINTLINE_TEST(tst_bothWays)
 #include "tst_bothWays.moc"

@@ -1,6 +1,5 @@
+#include "support/test.h"
 #include "track/boxExtent.h"
-
-#include <QtTest>
 
 using namespace faintline;
 
@@ -55,5 +54,5 @@ private slots:
     }
 };
 
-QTEST_APPLESS_MAIN(tst_boxExtent)
+FAINTLINE_TEST(tst_boxExtent)
 #include "tst_boxExtent.moc"

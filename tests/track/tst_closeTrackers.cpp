@@ -1,6 +1,5 @@
+#include "support/test.h"
 #include "track/closeTrackers.h"
-
-#include <QtTest>
 
 using namespace faintline;
 
@@ -40,5 +39,5 @@ private slots:
     }
 };
 
-QTEST_APPLESS_MAIN(tst_closeTrackers)
+FAINTLINE_TEST(tst_closeTrackers)
 #include "tst_closeTrackers.moc"

@@ -1,6 +1,5 @@
+#include "support/test.h"
 #include "track/encounters.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <cmath>
@@ -174,5 +173,5 @@ void tst_encounters::withoutTheSecondPassThereAreNone()
     QVERIFY(marks[1].empty());
 }
 
-QTEST_APPLESS_MAIN(tst_encounters)
+FAINTLINE_TEST(tst_encounters)
 #include "tst_encounters.moc"

@@ -1,6 +1,5 @@
+#include "support/test.h"
 #include "track/energyKept.h"
-
-#include <QtTest>
 
 #include <cmath>
 #include <functional>
@@ -117,5 +116,5 @@ void tst_energyKept::nothingToCompare()
     QVERIFY(std::isnan(kept(one, {track(longTime, longCells, 10.0, 90.0, line, 8.0)}, 51.0))); // not sure enough
 }
 
-QTEST_APPLESS_MAIN(tst_energyKept)
+FAINTLINE_TEST(tst_energyKept)
 #include "tst_energyKept.moc"

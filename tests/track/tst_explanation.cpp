@@ -1,6 +1,5 @@
+#include "support/test.h"
 #include "track/explanation.h"
-
-#include <QtTest>
 
 #include <cmath>
 
@@ -89,5 +88,5 @@ void tst_explanation::transformBesideSharpSignals()
         }
 }
 
-QTEST_APPLESS_MAIN(tst_explanation)
+FAINTLINE_TEST(tst_explanation)
 #include "tst_explanation.moc"

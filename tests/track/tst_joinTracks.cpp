@@ -1,6 +1,5 @@
+#include "support/test.h"
 #include "track/joinTracks.h"
-
-#include <QtTest>
 
 using namespace faintline;
 
@@ -145,5 +144,5 @@ void tst_joinTracks::roundACyclicAxis()
     QCOMPARE(joinTracks({track(0, steady(98, 60)), track(63, steady(2, 30))}, line100, rule).size(), std::size_t(2));
 }
 
-QTEST_APPLESS_MAIN(tst_joinTracks)
+FAINTLINE_TEST(tst_joinTracks)
 #include "tst_joinTracks.moc"

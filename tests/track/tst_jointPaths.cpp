@@ -1,7 +1,6 @@
 #include "base/Random.h"
+#include "support/test.h"
 #include "track/jointPaths.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <cmath>
@@ -157,5 +156,5 @@ void tst_jointPaths::whatWasNotObservedIsNoEvidence()
         QVERIFY(std::abs(paths[0][at] - 98) <= 1 && std::abs(paths[1][at] - 102) <= 1);
 }
 
-QTEST_APPLESS_MAIN(tst_jointPaths)
+FAINTLINE_TEST(tst_jointPaths)
 #include "tst_jointPaths.moc"

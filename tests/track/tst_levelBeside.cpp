@@ -1,7 +1,6 @@
 #include "base/Random.h"
+#include "support/test.h"
 #include "track/levelBeside.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <limits>
@@ -179,5 +178,5 @@ void tst_levelBeside::shareOfSidesNeedsBoth()
     QCOMPARE(shareOfSides(line, sides, binsPerCell), 0.0);
 }
 
-QTEST_APPLESS_MAIN(tst_levelBeside)
+FAINTLINE_TEST(tst_levelBeside)
 #include "tst_levelBeside.moc"

@@ -2,9 +2,8 @@
 #include "evaluate/comparison/trackScore.h"
 #include "model/sonarModels.h"
 #include "spectrum/SimulatedPings.h"
+#include "support/test.h"
 #include "track/DetectionChain.h"
-
-#include <QtTest>
 
 using namespace faintline;
 
@@ -273,5 +272,5 @@ void tst_pingChain::pathTermsAddUp()
     }
 }
 
-QTEST_APPLESS_MAIN(tst_pingChain)
+FAINTLINE_TEST(tst_pingChain)
 #include "tst_pingChain.moc"

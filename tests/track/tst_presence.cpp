@@ -1,7 +1,6 @@
 #include "base/Random.h"
+#include "support/test.h"
 #include "track/presence.h"
-
-#include <QtTest>
 
 #include <cmath>
 
@@ -274,5 +273,5 @@ void tst_presence::evidenceAloneDecidesWhereItBegins()
     QVERIFY(known[99] > 0.99f);
 }
 
-QTEST_APPLESS_MAIN(tst_presence)
+FAINTLINE_TEST(tst_presence)
 #include "tst_presence.moc"

@@ -1,7 +1,6 @@
 #include "base/Random.h"
+#include "support/test.h"
 #include "track/relink.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <cmath>
@@ -247,5 +246,5 @@ void tst_relink::withoutTheSecondPassNothingChanges()
     QCOMPARE(result.front().points.size(), plain.points.size());
 }
 
-QTEST_APPLESS_MAIN(tst_relink)
+FAINTLINE_TEST(tst_relink)
 #include "tst_relink.moc"

@@ -1,6 +1,5 @@
+#include "support/test.h"
 #include "track/trimEnds.h"
-
-#include <QtTest>
 
 using namespace faintline;
 
@@ -112,5 +111,5 @@ private slots:
     }
 };
 
-QTEST_APPLESS_MAIN(tst_trimEnds)
+FAINTLINE_TEST(tst_trimEnds)
 #include "tst_trimEnds.moc"

@@ -1,6 +1,5 @@
+#include "support/test.h"
 #include "track/trimOnset.h"
-
-#include <QtTest>
 
 using namespace faintline;
 
@@ -35,5 +34,5 @@ private slots:
     }
 };
 
-QTEST_APPLESS_MAIN(tst_trimOnset)
+FAINTLINE_TEST(tst_trimOnset)
 #include "tst_trimOnset.moc"

@@ -111,14 +111,9 @@ namespace {
         QGuiApplication::primaryScreen()->grabWindow(0).save(path);
     }
 
-    QString programName()
-    {
-        return QFileInfo(QCoreApplication::applicationFilePath()).baseName();
-    }
-
 } // namespace
 
-int Walk::run(int argc, char **argv, void (*way)(Walk &))
+int Walk::run(const char *name, int argc, char **argv, void (*way)(Walk &))
 {
     Theme::prepareForPictures();
     QApplication application(argc, argv);
@@ -129,10 +124,9 @@ int Walk::run(int argc, char **argv, void (*way)(Walk &))
         try {
             way(walk);
         } catch (const std::exception &error) {
-            const QString picture = QDir::current().filePath(programName() + QStringLiteral(".png"));
+            const QString picture = QDir::current().filePath(QStringLiteral("walk-%1.png").arg(QLatin1String(name)));
             walk.see([&] { return savePicture(picture), true; });
-            std::fprintf(stderr, "%s: %s; the screen: %s\n", qPrintable(programName()), error.what(),
-                         qPrintable(picture));
+            std::fprintf(stderr, "walk %s: %s; the screen: %s\n", name, error.what(), qPrintable(picture));
             std::fflush(stderr);
             std::_Exit(1); // a menu or a dialog may still be waiting
         }

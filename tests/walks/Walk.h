@@ -29,7 +29,7 @@ namespace test {
     {
     public:
         /// Runs a walk in the program; the exit code.
-        static int run(int argc, char **argv, void (*way)(Walk &));
+        static int run(const char *name, int argc, char **argv, void (*way)(Walk &));
 
         Hand hand;
 

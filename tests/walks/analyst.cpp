@@ -5,6 +5,7 @@
 #include "recording/SimulatedRecording.h"
 #include "recording/writeRecording.h"
 #include "support/lines.h"
+#include "support/test.h"
 #include "walks/Walk.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/plot/ExceedancePlot.h"
@@ -319,7 +320,4 @@ void goThrough(Walk &walk)
 
 } // namespace
 
-int main(int argc, char **argv)
-{
-    return Walk::run(argc, argv, goThrough);
-}
+static const Registration registered("analyst", [](int argc, char **argv) { return Walk::run("analyst", argc, argv, goThrough); });

@@ -3,6 +3,7 @@
 #include "app/window/Panels.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
+#include "support/test.h"
 #include "walks/Walk.h"
 #include "widgets/pings/PingMap.h"
 #include "widgets/waterfall/WaterfallView.h"
@@ -61,7 +62,4 @@ void goThrough(Walk &walk)
 
 } // namespace
 
-int main(int argc, char **argv)
-{
-    return Walk::run(argc, argv, goThrough);
-}
+static const Registration registered("layouts", [](int argc, char **argv) { return Walk::run("layouts", argc, argv, goThrough); });

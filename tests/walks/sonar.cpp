@@ -6,6 +6,7 @@
 #include "app/panels/WhyPanel.h"
 #include "app/welcome/WelcomePage.h"
 #include "app/workspace/PingBench.h"
+#include "support/test.h"
 #include "walks/Walk.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/pings/PingMap.h"
@@ -111,7 +112,4 @@ void goThrough(Walk &walk)
 
 } // namespace
 
-int main(int argc, char **argv)
-{
-    return Walk::run(argc, argv, goThrough);
-}
+static const Registration registered("sonar", [](int argc, char **argv) { return Walk::run("sonar", argc, argv, goThrough); });

@@ -7,6 +7,7 @@
 #include "app/panels/StateSlicePanel.h"
 #include "app/panels/WhyPanel.h"
 #include "app/workspace/Workbench.h"
+#include "support/test.h"
 #include "walks/Walk.h"
 #include "widgets/plot/LawPlot.h"
 #include "widgets/waterfall/WaterfallView.h"
@@ -119,7 +120,4 @@ void goThrough(Walk &walk)
 
 } // namespace
 
-int main(int argc, char **argv)
-{
-    return Walk::run(argc, argv, goThrough);
-}
+static const Registration registered("teacher", [](int argc, char **argv) { return Walk::run("teacher", argc, argv, goThrough); });

@@ -1,3 +1,4 @@
+#include "support/test.h"
 #include "widgets/plot/BarPlot.h"
 
 #include "pixels.h"
@@ -255,5 +256,5 @@ void tst_BarPlot::aClickTakesTheFocus()
     QVERIFY(test::coloursOf(view->grab().toImage()).contains(Theme::colours(Theme::Kind::Light).accent.rgb()));
 }
 
-QTEST_MAIN(tst_BarPlot)
+FAINTLINE_WINDOW_TEST(tst_BarPlot)
 #include "tst_BarPlot.moc"

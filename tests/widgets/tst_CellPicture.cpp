@@ -1,3 +1,4 @@
+#include "support/test.h"
 #include "widgets/plot/CellPicture.h"
 
 #include "pixels.h"
@@ -235,5 +236,5 @@ void tst_CellPicture::emptySaysWhatToDo()
     QTest::keyClick(&view, Qt::Key_Down);
 }
 
-QTEST_MAIN(tst_CellPicture)
+FAINTLINE_WINDOW_TEST(tst_CellPicture)
 #include "tst_CellPicture.moc"

@@ -1,3 +1,4 @@
+#include "support/test.h"
 #include "widgets/plot/ChartFigure.h"
 
 #include "widgets/base/Theme.h"
@@ -7,7 +8,6 @@
 
 #include <QCheckBox>
 #include <QLabel>
-#include <QtTest>
 
 using namespace faintline;
 
@@ -106,5 +106,5 @@ private:
     }
 };
 
-QTEST_MAIN(tst_ChartFigure)
+FAINTLINE_WINDOW_TEST(tst_ChartFigure)
 #include "tst_ChartFigure.moc"

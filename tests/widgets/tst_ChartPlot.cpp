@@ -1,3 +1,4 @@
+#include "support/test.h"
 #include "widgets/plot/ChartPlot.h"
 
 #include "pixels.h"
@@ -11,7 +12,6 @@
 #include <QCheckBox>
 #include <QPainter>
 #include <QSignalSpy>
-#include <QtTest>
 
 #include <memory>
 
@@ -247,5 +247,5 @@ void tst_ChartPlot::followsTheTheme()
     QVERIFY(lightness() > 200);
 }
 
-QTEST_MAIN(tst_ChartPlot)
+FAINTLINE_WINDOW_TEST(tst_ChartPlot)
 #include "tst_ChartPlot.moc"

@@ -1,9 +1,8 @@
+#include "support/test.h"
 #include "widgets/waterfall/ColourBar.h"
 
 #include "pictures.h"
 #include "widgets/base/Theme.h"
-
-#include <QtTest>
 
 using namespace faintline;
 
@@ -113,5 +112,5 @@ void tst_ColourBar::attachedItSteersTheView()
     bar.grab();
 }
 
-QTEST_MAIN(tst_ColourBar)
+FAINTLINE_WINDOW_TEST(tst_ColourBar)
 #include "tst_ColourBar.moc"

@@ -1,8 +1,7 @@
+#include "support/test.h"
 #include "widgets/waterfall/ColourLevels.h"
 
 #include "pictures.h"
-
-#include <QtTest>
 
 using namespace faintline;
 
@@ -97,5 +96,5 @@ void tst_ColourLevels::zeroStaysInTheMiddleOfDifferences()
     QCOMPARE(levels.byHand(3.0, 10.0, &differences), (Span{-0.5, 0.5}));  // beyond the middle
 }
 
-QTEST_MAIN(tst_ColourLevels)
+FAINTLINE_WINDOW_TEST(tst_ColourLevels)
 #include "tst_ColourLevels.moc"

@@ -1,7 +1,7 @@
+#include "support/test.h"
 #include "widgets/plot/ColourMap.h"
 
 #include <QColor>
-#include <QtTest>
 
 #include <cmath>
 #include <limits>
@@ -146,5 +146,5 @@ void tst_ColourMap::aPositionThatIsNoNumberIsTheLowEnd()
     QCOMPARE(map.at(std::numeric_limits<double>::quiet_NaN()), map.entries().front());
 }
 
-QTEST_MAIN(tst_ColourMap)
+FAINTLINE_WINDOW_TEST(tst_ColourMap)
 #include "tst_ColourMap.moc"

@@ -1,10 +1,9 @@
+#include "support/test.h"
 #include "widgets/events/EventFilter.h"
 
 #include "pictures.h"
 #include "widgets/events/EventModel.h"
 #include "widgets/events/EventProxy.h"
-
-#include <QtTest>
 
 using namespace faintline;
 
@@ -231,5 +230,5 @@ void tst_EventFilter::theProxyFollowsReviews()
     QCOMPARE(proxy.rowCount(), 2);
 }
 
-QTEST_MAIN(tst_EventFilter)
+FAINTLINE_WINDOW_TEST(tst_EventFilter)
 #include "tst_EventFilter.moc"

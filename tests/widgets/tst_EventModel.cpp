@@ -1,3 +1,4 @@
+#include "support/test.h"
 #include "widgets/events/EventModel.h"
 
 #include "pictures.h"
@@ -5,7 +6,6 @@
 
 #include <QAbstractItemModelTester>
 #include <QSignalSpy>
-#include <QtTest>
 
 #include <limits>
 
@@ -309,5 +309,5 @@ void tst_EventModel::rowsAreFoundByNumber()
     QCOMPARE(m_model->rowOf(4), -1);
 }
 
-QTEST_MAIN(tst_EventModel)
+FAINTLINE_WINDOW_TEST(tst_EventModel)
 #include "tst_EventModel.moc"

@@ -1,3 +1,4 @@
+#include "support/test.h"
 #include "widgets/events/EventTable.h"
 
 #include "pictures.h"
@@ -9,7 +10,6 @@
 #include <QHeaderView>
 #include <QLineEdit>
 #include <QTableView>
-#include <QtTest>
 
 using namespace faintline;
 
@@ -232,5 +232,5 @@ void tst_EventTable::dateAndRadioFrequencyWhereTheyAreKnown()
     QVERIFY(table.isColumnHidden(EventModel::Utc));
 }
 
-QTEST_MAIN(tst_EventTable)
+FAINTLINE_WINDOW_TEST(tst_EventTable)
 #include "tst_EventTable.moc"

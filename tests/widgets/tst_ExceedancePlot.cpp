@@ -1,11 +1,10 @@
+#include "support/test.h"
 #include "widgets/plot/ExceedancePlot.h"
 
 #include "pixels.h"
 #include "widgets/base/Theme.h"
 
 #include <qwt_scale_div.h>
-
-#include <QtTest>
 
 #include <cmath>
 #include <memory>
@@ -154,5 +153,5 @@ void tst_ExceedancePlot::samePixelsTwice()
     QCOMPARE(m_plot->grab().toImage(), first);
 }
 
-QTEST_MAIN(tst_ExceedancePlot)
+FAINTLINE_WINDOW_TEST(tst_ExceedancePlot)
 #include "tst_ExceedancePlot.moc"

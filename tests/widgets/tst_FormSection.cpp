@@ -1,3 +1,4 @@
+#include "support/test.h"
 #include "widgets/forms/FormSection.h"
 
 #include "pixels.h"
@@ -165,5 +166,5 @@ void tst_FormSection::headingsCanBeHeard()
         QVERIFY(button(name)->focusPolicy() & Qt::TabFocus);
 }
 
-QTEST_MAIN(tst_FormSection)
+FAINTLINE_WINDOW_TEST(tst_FormSection)
 #include "tst_FormSection.moc"

@@ -1,9 +1,8 @@
+#include "support/test.h"
 #include "widgets/plot/LawPlot.h"
 
 #include "pixels.h"
 #include "widgets/base/Theme.h"
-
-#include <QtTest>
 
 #include <numeric>
 
@@ -168,5 +167,5 @@ void tst_LawPlot::aBarMoreThanTheLawHas()
     QVERIFY(std::abs(law[0] - 0.8) < 1e-12 && std::abs(law[1] - 0.1) < 1e-12);
 }
 
-QTEST_MAIN(tst_LawPlot)
+FAINTLINE_WINDOW_TEST(tst_LawPlot)
 #include "tst_LawPlot.moc"

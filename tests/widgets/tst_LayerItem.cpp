@@ -1,3 +1,4 @@
+#include "support/test.h"
 #include "widgets/waterfall/LayerItem.h"
 
 #include "pictures.h"
@@ -9,7 +10,6 @@
 #include <qwt_scale_map.h>
 
 #include <QPainter>
-#include <QtTest>
 
 #include <cmath>
 #include <limits>
@@ -424,5 +424,5 @@ void tst_LayerItem::fromAboveACellIsWhereItsBearingPoints()
     QCOMPARE(image.pixel(5, 5), ground); // beyond the last range
 }
 
-QTEST_MAIN(tst_LayerItem)
+FAINTLINE_WINDOW_TEST(tst_LayerItem)
 #include "tst_LayerItem.moc"

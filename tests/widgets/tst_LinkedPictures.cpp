@@ -1,3 +1,4 @@
+#include "support/test.h"
 #include "widgets/waterfall/LinkedPictures.h"
 
 #include "pictures.h"
@@ -6,7 +7,6 @@
 #include "widgets/waterfall/ColourBar.h"
 
 #include <QSignalSpy>
-#include <QtTest>
 
 using namespace faintline;
 using Orientation = WaterfallPicture::Orientation;
@@ -161,5 +161,5 @@ private:
     std::unique_ptr<LinkedPictures> m_pictures;
 };
 
-QTEST_MAIN(tst_LinkedPictures)
+FAINTLINE_WINDOW_TEST(tst_LinkedPictures)
 #include "tst_LinkedPictures.moc"

@@ -1,3 +1,4 @@
+#include "support/test.h"
 #include "widgets/plot/MarkedPlot.h"
 
 #include "pixels.h"
@@ -270,5 +271,5 @@ void tst_MarkedPlot::aThemeColoursItsMarks()
     }
 }
 
-QTEST_MAIN(tst_MarkedPlot)
+FAINTLINE_WINDOW_TEST(tst_MarkedPlot)
 #include "tst_MarkedPlot.moc"

@@ -1,3 +1,4 @@
+#include "support/test.h"
 #include "widgets/waterfall/OverlayItem.h"
 
 #include "pixels.h"
@@ -238,5 +239,5 @@ void tst_OverlayItem::nothingIsNothing()
     QVERIFY(marked(drawn()).isNull());
 }
 
-QTEST_MAIN(tst_OverlayItem)
+FAINTLINE_WINDOW_TEST(tst_OverlayItem)
 #include "tst_OverlayItem.moc"

@@ -1,5 +1,6 @@
 // The map of one ping, as a plane and from above, and its marks.
 
+#include "support/test.h"
 #include "widgets/pings/PingMap.h"
 
 #include "pixels.h"
@@ -310,5 +311,5 @@ private slots:
     }
 };
 
-QTEST_MAIN(tst_PingMap)
+FAINTLINE_WINDOW_TEST(tst_PingMap)
 #include "tst_PingMap.moc"

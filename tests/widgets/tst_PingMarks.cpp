@@ -1,8 +1,7 @@
+#include "support/test.h"
 #include "widgets/pings/PingMarks.h"
 
 #include "pictures.h"
-
-#include <QtTest>
 
 using namespace faintline;
 
@@ -188,5 +187,5 @@ void tst_PingMarks::marksNearACut()
     QCOMPARE(cutAt({}, 3).truth.size(), std::size_t(1));
 }
 
-QTEST_MAIN(tst_PingMarks)
+FAINTLINE_WINDOW_TEST(tst_PingMarks)
 #include "tst_PingMarks.moc"

@@ -1,6 +1,5 @@
+#include "support/test.h"
 #include "widgets/pings/PingViewports.h"
-
-#include <QtTest>
 
 using namespace faintline;
 
@@ -152,5 +151,5 @@ void tst_PingViewports::otherAxesOfTheSamePlace()
     QCOMPARE(m_pings->map().time(), axes[0].whole);
 }
 
-QTEST_MAIN(tst_PingViewports)
+FAINTLINE_WINDOW_TEST(tst_PingViewports)
 #include "tst_PingViewports.moc"

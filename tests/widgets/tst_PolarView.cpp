@@ -1,3 +1,4 @@
+#include "support/test.h"
 #include "widgets/pings/PolarView.h"
 
 #include "pixels.h"
@@ -288,5 +289,5 @@ void tst_PolarView::itCanBeHeard()
     QVERIFY(test::coloursOf(m_polar->grab().toImage()).contains(Theme::colours(*m_polar).accent.rgb()));
 }
 
-QTEST_MAIN(tst_PolarView)
+FAINTLINE_WINDOW_TEST(tst_PolarView)
 #include "tst_PolarView.moc"

@@ -1,9 +1,8 @@
+#include "support/test.h"
 #include "widgets/waterfall/RasterItem.h"
 
 #include "pictures.h"
 #include "pixels.h"
-
-#include <QtTest>
 
 using namespace faintline;
 
@@ -141,5 +140,5 @@ void tst_RasterItem::scrolledIsAsDrawnAnew()
         }
 }
 
-QTEST_MAIN(tst_RasterItem)
+FAINTLINE_WINDOW_TEST(tst_RasterItem)
 #include "tst_RasterItem.moc"

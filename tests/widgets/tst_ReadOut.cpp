@@ -1,3 +1,4 @@
+#include "support/test.h"
 #include "widgets/base/ReadOut.h"
 
 #include "pixels.h"
@@ -256,5 +257,5 @@ void tst_ReadOut::anEmptyLineIsNotCopied()
     QCOMPARE(QApplication::clipboard()->text(), QString("before"));
 }
 
-QTEST_MAIN(tst_ReadOut)
+FAINTLINE_WINDOW_TEST(tst_ReadOut)
 #include "tst_ReadOut.moc"

@@ -1,3 +1,4 @@
+#include "support/test.h"
 #include "widgets/forms/SettingRow.h"
 
 #include "widgets/base/Theme.h"
@@ -11,7 +12,6 @@
 #include <QSpinBox>
 #include <QToolButton>
 #include <QVBoxLayout>
-#include <QtTest>
 
 #include <limits>
 
@@ -457,5 +457,5 @@ void tst_SettingRow::aThemeColoursItsErrors()
     QCOMPARE(row.editor()->palette().color(QPalette::Text), Theme::colours(Theme::Kind::Dark).error);
 }
 
-QTEST_MAIN(tst_SettingRow)
+FAINTLINE_WINDOW_TEST(tst_SettingRow)
 #include "tst_SettingRow.moc"

@@ -1,3 +1,4 @@
+#include "support/test.h"
 #include "widgets/forms/SettingsForm.h"
 
 #include "widgets/base/Theme.h"
@@ -11,7 +12,6 @@
 #include <QLineEdit>
 #include <QSpinBox>
 #include <QToolButton>
-#include <QtTest>
 
 using namespace faintline;
 
@@ -332,5 +332,5 @@ void tst_SettingsForm::onlyWhatAppliesIsShown()
     QVERIFY(m_form->editor("smd.lnK")->isVisible());
 }
 
-QTEST_MAIN(tst_SettingsForm)
+FAINTLINE_WINDOW_TEST(tst_SettingsForm)
 #include "tst_SettingsForm.moc"

@@ -1,3 +1,4 @@
+#include "support/test.h"
 #include "widgets/base/Theme.h"
 
 #include "pictures.h"
@@ -20,7 +21,6 @@
 #include <QRawFont>
 #include <QRegularExpression>
 #include <QSet>
-#include <QtTest>
 
 #include <algorithm>
 #include <array>
@@ -339,5 +339,5 @@ void tst_Theme::iconsFollowTheTheme()
     QVERIFY(strongest() < 60);
 }
 
-QTEST_MAIN(tst_Theme)
+FAINTLINE_WINDOW_TEST(tst_Theme)
 #include "tst_Theme.moc"

@@ -1,3 +1,4 @@
+#include "support/test.h"
 #include "widgets/base/TimeStack.h"
 
 #include "pictures.h"
@@ -8,7 +9,6 @@
 #include "widgets/waterfall/WaterfallView.h"
 
 #include <QVBoxLayout>
-#include <QtTest>
 
 using namespace faintline;
 
@@ -200,5 +200,5 @@ private slots:
     }
 };
 
-QTEST_MAIN(tst_TimeStack)
+FAINTLINE_WINDOW_TEST(tst_TimeStack)
 #include "tst_TimeStack.moc"

@@ -1,6 +1,5 @@
+#include "support/test.h"
 #include "widgets/base/Viewport.h"
-
-#include <QtTest>
 
 using namespace faintline;
 
@@ -229,5 +228,5 @@ void tst_Viewport::negativeFrequenciesStayLinear()
     QVERIFY(m_view.isLogarithmic());
 }
 
-QTEST_MAIN(tst_Viewport)
+FAINTLINE_WINDOW_TEST(tst_Viewport)
 #include "tst_Viewport.moc"

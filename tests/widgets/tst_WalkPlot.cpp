@@ -1,3 +1,4 @@
+#include "support/test.h"
 #include "widgets/plot/WalkPlot.h"
 
 #include "pixels.h"
@@ -162,5 +163,5 @@ void tst_WalkPlot::themesChange()
     QVERIFY(test::coloursOf(*view).contains(Theme::colours(Theme::Kind::Dark).canvas.rgb()));
 }
 
-QTEST_MAIN(tst_WalkPlot)
+FAINTLINE_WINDOW_TEST(tst_WalkPlot)
 #include "tst_WalkPlot.moc"

@@ -1,3 +1,4 @@
+#include "support/test.h"
 #include "widgets/waterfall/WaterfallView.h"
 
 #include "pictures.h"
@@ -9,7 +10,6 @@
 
 #include <QMenu>
 #include <QSignalSpy>
-#include <QtTest>
 
 #include <cmath>
 
@@ -520,5 +520,5 @@ void tst_WaterfallView::samePixelsTwice()
     QCOMPARE(draw(), draw());
 }
 
-QTEST_MAIN(tst_WaterfallView)
+FAINTLINE_WINDOW_TEST(tst_WaterfallView)
 #include "tst_WaterfallView.moc"

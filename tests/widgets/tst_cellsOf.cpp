@@ -1,6 +1,5 @@
+#include "support/test.h"
 #include "widgets/base/cellsOf.h"
-
-#include <QtTest>
 
 using namespace faintline;
 
@@ -47,5 +46,5 @@ void tst_cellsOf::aCyclicAxisDoesNotWrap()
     QCOMPARE(cellsOf(m_bearing, {-5.1, 90.0}), Cells(0, 10));
 }
 
-QTEST_APPLESS_MAIN(tst_cellsOf)
+FAINTLINE_TEST(tst_cellsOf)
 #include "tst_cellsOf.moc"

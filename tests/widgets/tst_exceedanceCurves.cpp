@@ -1,6 +1,5 @@
+#include "support/test.h"
 #include "widgets/plot/exceedanceCurves.h"
-
-#include <QtTest>
 
 #include <cmath>
 
@@ -60,5 +59,5 @@ private slots:
     }
 };
 
-QTEST_APPLESS_MAIN(tst_exceedanceCurves)
+FAINTLINE_TEST(tst_exceedanceCurves)
 #include "tst_exceedanceCurves.moc"

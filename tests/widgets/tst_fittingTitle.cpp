@@ -1,3 +1,4 @@
+#include "support/test.h"
 #include "widgets/base/fittingTitle.h"
 
 #include "pictures.h"
@@ -9,7 +10,6 @@
 #include <qwt_scale_widget.h>
 
 #include <QFontMetrics>
-#include <QtTest>
 
 using namespace faintline;
 
@@ -63,5 +63,5 @@ private slots:
     }
 };
 
-QTEST_MAIN(tst_fittingTitle)
+FAINTLINE_WINDOW_TEST(tst_fittingTitle)
 #include "tst_fittingTitle.moc"

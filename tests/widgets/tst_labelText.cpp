@@ -1,3 +1,4 @@
+#include "support/test.h"
 #include "widgets/base/labelText.h"
 
 #include <QLabel>
@@ -65,5 +66,5 @@ void tst_labelText::showsTagsLetterByLetter()
     QCOMPARE(label->textFormat(), Qt::PlainText);
 }
 
-QTEST_MAIN(tst_labelText)
+FAINTLINE_WINDOW_TEST(tst_labelText)
 #include "tst_labelText.moc"

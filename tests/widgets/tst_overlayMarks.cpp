@@ -1,10 +1,9 @@
+#include "support/test.h"
 #include "widgets/waterfall/overlayMarks.h"
 
 #include "pictures.h"
 #include "widgets/waterfall/Sidebands.h"
 #include "widgets/waterfall/peakNear.h"
-
-#include <QtTest>
 
 using namespace faintline;
 
@@ -191,5 +190,5 @@ void tst_overlayMarks::sidebandsKnowTheirOrder()
     QCOMPARE((Sidebands{1000.0, 0.0}.nearestOrder(hz)), 0);
 }
 
-QTEST_MAIN(tst_overlayMarks)
+FAINTLINE_WINDOW_TEST(tst_overlayMarks)
 #include "tst_overlayMarks.moc"

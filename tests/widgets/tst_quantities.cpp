@@ -1,8 +1,7 @@
+#include "support/test.h"
 #include "widgets/base/quantities.h"
 
 #include "widgets/base/scaleTicks.h"
-
-#include <QtTest>
 
 #include <cmath>
 #include <limits>
@@ -87,5 +86,5 @@ void tst_quantities::timeTicks()
         QVERIFY(!div.ticks(QwtScaleDiv::MajorTick).contains(minor));
 }
 
-QTEST_MAIN(tst_quantities)
+FAINTLINE_WINDOW_TEST(tst_quantities)
 #include "tst_quantities.moc"

@@ -1,8 +1,7 @@
+#include "support/test.h"
 #include "widgets/base/rasterise.h"
 
 #include "pictures.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <cmath>
@@ -190,5 +189,5 @@ void tst_rasterise::valuesOfABox()
     QCOMPARE(boxValues(*power, 2, 4, 0, 4).mean.value(), 0.0);
 }
 
-QTEST_MAIN(tst_rasterise)
+FAINTLINE_WINDOW_TEST(tst_rasterise)
 #include "tst_rasterise.moc"

@@ -1,3 +1,4 @@
+#include "support/test.h"
 #include "widgets/base/scaleTicks.h"
 
 #include "widgets/plot/NumberScaleDraw.h"
@@ -5,8 +6,6 @@
 #include "widgets/plot/TimeScaleDraw.h"
 
 #include <qwt_text.h>
-
-#include <QtTest>
 
 #include <cmath>
 
@@ -184,5 +183,5 @@ void tst_scaleTicks::powersOfTen()
     QVERIFY(draw.label(0.5).text().isEmpty());
 }
 
-QTEST_MAIN(tst_scaleTicks)
+FAINTLINE_WINDOW_TEST(tst_scaleTicks)
 #include "tst_scaleTicks.moc"

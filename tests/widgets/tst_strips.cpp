@@ -1,3 +1,4 @@
+#include "support/test.h"
 #include "widgets/plot/StripPlot.h"
 #include "widgets/waterfall/OverviewStrip.h"
 
@@ -7,8 +8,6 @@
 
 #include <qwt_plot_curve.h>
 #include <qwt_text.h>
-
-#include <QtTest>
 
 #include <cmath>
 
@@ -178,5 +177,5 @@ void tst_strips::overviewEmptyIsASentence()
     QTest::keyClick(&strip, Qt::Key_Right);
 }
 
-QTEST_MAIN(tst_strips)
+FAINTLINE_WINDOW_TEST(tst_strips)
 #include "tst_strips.moc"

@@ -1,3 +1,4 @@
+#include "support/test.h"
 #include "widgets/waterfall/waterfallCommands.h"
 
 #include "pictures.h"
@@ -6,7 +7,6 @@
 
 #include <QKeyEvent>
 #include <QMenu>
-#include <QtTest>
 
 using namespace faintline;
 
@@ -297,5 +297,5 @@ void tst_waterfallCommands::keysOfTheMenuAreTextOnly()
         QVERIFY(action->shortcut().isEmpty()); // it would take the key from the view
 }
 
-QTEST_MAIN(tst_waterfallCommands)
+FAINTLINE_WINDOW_TEST(tst_waterfallCommands)
 #include "tst_waterfallCommands.moc"

@@ -1,10 +1,9 @@
+#include "support/test.h"
 #include "widgets/waterfall/waterfallWords.h"
 
 #include "pictures.h"
 #include "widgets/base/Theme.h"
 #include "widgets/waterfall/WaterfallView.h"
-
-#include <QtTest>
 
 using namespace faintline;
 
@@ -175,5 +174,5 @@ void tst_waterfallWords::sidebandsBesideThePictureHaveNone()
     QCOMPARE(sidebandText(*m_view, {132.0, 4.0}, 99.0).count(QStringLiteral("–")), 2 * Sidebands::orders + 1);
 }
 
-QTEST_MAIN(tst_waterfallWords)
+FAINTLINE_WINDOW_TEST(tst_waterfallWords)
 #include "tst_waterfallWords.moc"

@@ -1,4 +1,5 @@
 #include "app/cli/CommandLineTest.h"
+#include "support/test.h"
 
 #include <sys/resource.h>
 
@@ -122,5 +123,5 @@ void tst_cliBounded::smallFiles()
     QVERIFY2(largest.ru_maxrss < 256 * 1024, qPrintable(QString::number(largest.ru_maxrss) + " kB"));
 }
 
-QTEST_GUILESS_MAIN(tst_cliBounded)
+FAINTLINE_TEST(tst_cliBounded)
 #include "tst_cliBounded.moc"

@@ -1,7 +1,6 @@
 #include "app/cli/CommandLineTest.h"
 #include "exchange/NumPy.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 using namespace faintline::test;
@@ -48,5 +47,5 @@ void tst_cliCompare::comparesTwoSettings()
         QCOMPARE(value, 0.0f);
 }
 
-QTEST_GUILESS_MAIN(tst_cliCompare)
+FAINTLINE_TEST(tst_cliCompare)
 #include "tst_cliCompare.moc"

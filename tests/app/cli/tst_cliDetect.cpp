@@ -5,8 +5,7 @@
 #include "exchange/writeEvents.h"
 #include "inspect/explain.h"
 #include "recording/openRecording.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 using namespace faintline::test;
@@ -395,5 +394,5 @@ void tst_cliDetect::samplesThatAreNoNumbers()
     QVERIFY(std::ranges::all_of(readNumPy(pathOf("nan.npy")).values, [](float value) { return std::isfinite(value); }));
 }
 
-QTEST_GUILESS_MAIN(tst_cliDetect)
+FAINTLINE_TEST(tst_cliDetect)
 #include "tst_cliDetect.moc"

@@ -1,8 +1,7 @@
 #include "app/cli/CommandLineTest.h"
 #include "base/Random.h"
 #include "base/json.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cmath>
 #include <numbers>
@@ -215,5 +214,5 @@ void tst_cliDoppler::refusals()
     QVERIFY(!QFile::exists(path("fit.txt")));
 }
 
-QTEST_GUILESS_MAIN(tst_cliDoppler)
+FAINTLINE_TEST(tst_cliDoppler)
 #include "tst_cliDoppler.moc"

@@ -1,6 +1,5 @@
 #include "app/cli/CommandLineTest.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 using namespace faintline::test;
@@ -94,5 +93,5 @@ void tst_cliEvaluate::mistakes()
     QVERIFY(QDir(folder()).entryList({"r.*"}).isEmpty());
 }
 
-QTEST_GUILESS_MAIN(tst_cliEvaluate)
+FAINTLINE_TEST(tst_cliEvaluate)
 #include "tst_cliEvaluate.moc"

@@ -1,7 +1,6 @@
 #include "app/cli/CommandLineTest.h"
 #include "base/json.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cmath>
 
@@ -58,5 +57,5 @@ void tst_cliExplain::tellsOfNoneWithoutAFamily()
     QVERIFY(!parseJson(told.out.toStdString(), "explain").contains("members"));
 }
 
-QTEST_GUILESS_MAIN(tst_cliExplain)
+FAINTLINE_TEST(tst_cliExplain)
 #include "tst_cliExplain.moc"

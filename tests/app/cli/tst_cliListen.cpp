@@ -1,4 +1,5 @@
 #include "app/cli/CommandLineTest.h"
+#include "support/test.h"
 
 #include <QElapsedTimer>
 #include <QJsonDocument>
@@ -349,5 +350,5 @@ void tst_cliListen::memoryStaysFlat()
     QVERIFY2(early > 0.0 && late < 1.03 * early, qPrintable(QString("%1 kB, then %2 kB").arg(early).arg(late)));
 }
 
-QTEST_APPLESS_MAIN(tst_cliListen)
+FAINTLINE_TEST(tst_cliListen)
 #include "tst_cliListen.moc"

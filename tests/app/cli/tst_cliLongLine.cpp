@@ -1,4 +1,5 @@
 #include "app/cli/CommandLineTest.h"
+#include "support/test.h"
 
 #include <sys/resource.h>
 
@@ -46,5 +47,5 @@ void tst_cliLongLine::aDayOfOneLine()
     QVERIFY2(largest.ru_maxrss <= 100 * 1024, qPrintable(QString::number(largest.ru_maxrss) + " kB"));
 }
 
-QTEST_GUILESS_MAIN(tst_cliLongLine)
+FAINTLINE_TEST(tst_cliLongLine)
 #include "tst_cliLongLine.moc"

@@ -1,6 +1,5 @@
 #include "app/cli/CommandLineTest.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <csignal>
 
@@ -196,5 +195,5 @@ void tst_cliMistakes::interruptLeavesNothing()
              QStringList{"endless.json"});
 }
 
-QTEST_GUILESS_MAIN(tst_cliMistakes)
+FAINTLINE_TEST(tst_cliMistakes)
 #include "tst_cliMistakes.moc"

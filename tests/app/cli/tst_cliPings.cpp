@@ -1,7 +1,6 @@
 #include "app/cli/CommandLineTest.h"
 #include "base/json.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 #include <cmath>
 
@@ -139,5 +138,5 @@ void tst_cliPings::mistakes()
     QVERIFY2(unknown.err.contains("must be one of auto, normalised, power, magnitude, decibels"), unknown.err.data());
 }
 
-QTEST_APPLESS_MAIN(tst_cliPings)
+FAINTLINE_TEST(tst_cliPings)
 #include "tst_cliPings.moc"

@@ -1,6 +1,5 @@
 #include "app/cli/CommandLineTest.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 using namespace faintline::test;
@@ -298,5 +297,5 @@ void tst_cliReplay::resultsAreMadeAgain()
     }
 }
 
-QTEST_GUILESS_MAIN(tst_cliReplay)
+FAINTLINE_TEST(tst_cliReplay)
 #include "tst_cliReplay.moc"

@@ -1,7 +1,6 @@
 #include "app/cli/CommandLineTest.h"
 #include "base/json.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 using namespace faintline::test;
@@ -208,5 +207,5 @@ void tst_cliSequential::sequentialMistakes()
     QVERIFY(!QFile::exists(path("never.json")));
 }
 
-QTEST_GUILESS_MAIN(tst_cliSequential)
+FAINTLINE_TEST(tst_cliSequential)
 #include "tst_cliSequential.moc"

@@ -1,11 +1,10 @@
 #include "app/cli/CommandLineTest.h"
+#include "support/test.h"
 
 #include "analysis/events.h"
 #include "base/json.h"
 #include "exchange/writeReviewed.h"
 #include "session/Session.h"
-
-#include <QtTest>
 
 using namespace faintline;
 using namespace faintline::test;
@@ -109,5 +108,5 @@ void tst_cliSession::aChangedRecordingIsNoted()
     QVERIFY(run({"detect", "moved.faintline", "--summary"}).err.contains("moved.wav"));
 }
 
-QTEST_MAIN(tst_cliSession)
+FAINTLINE_WINDOW_TEST(tst_cliSession)
 #include "tst_cliSession.moc"

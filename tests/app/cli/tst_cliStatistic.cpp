@@ -1,7 +1,6 @@
 #include "app/cli/CommandLineTest.h"
 #include "exchange/NumPy.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 using namespace faintline::test;
@@ -185,5 +184,5 @@ void tst_cliStatistic::mistakesInFrames()
     QVERIFY(!QFile::exists(path("x.npy")));
 }
 
-QTEST_GUILESS_MAIN(tst_cliStatistic)
+FAINTLINE_TEST(tst_cliStatistic)
 #include "tst_cliStatistic.moc"

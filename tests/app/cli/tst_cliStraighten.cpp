@@ -1,10 +1,9 @@
 #include "app/cli/CommandLineTest.h"
+#include "support/test.h"
 
 #include "base/Random.h"
 #include "recording/ArrayRecording.h"
 #include "recording/writeRecording.h"
-
-#include <QtTest>
 
 #include <algorithm>
 #include <cmath>
@@ -177,5 +176,5 @@ void tst_cliStraighten::decodesADriftingMessage()
     QVERIFY(output(decoder, {"200101_0002.wav"}).contains(message));
 }
 
-QTEST_GUILESS_MAIN(tst_cliStraighten)
+FAINTLINE_TEST(tst_cliStraighten)
 #include "tst_cliStraighten.moc"

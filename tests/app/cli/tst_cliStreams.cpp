@@ -1,4 +1,5 @@
 #include "app/cli/CommandLineTest.h"
+#include "support/test.h"
 
 #include <QElapsedTimer>
 
@@ -196,5 +197,5 @@ void tst_cliStreams::namesThatAreNoText()
     shell("rm -f $n*"); // which Qt cannot
 }
 
-QTEST_GUILESS_MAIN(tst_cliStreams)
+FAINTLINE_TEST(tst_cliStreams)
 #include "tst_cliStreams.moc"

@@ -1,4 +1,5 @@
 #include "app/cli/CommandLineTest.h"
+#include "support/test.h"
 
 #include "exchange/survey/SurveyDatabase.h"
 #include "exchange/survey/carryOutSurvey.h"
@@ -326,5 +327,5 @@ void tst_cliSurvey::mistakes()
     QVERIFY(QDir(folder()).entryList({"x*"}).isEmpty());
 }
 
-QTEST_GUILESS_MAIN(tst_cliSurvey)
+FAINTLINE_TEST(tst_cliSurvey)
 #include "tst_cliSurvey.moc"

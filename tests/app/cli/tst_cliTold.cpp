@@ -1,8 +1,7 @@
 #include "app/cli/CommandLineTest.h"
 #include "base/json.h"
 #include "plan/AnalysisSettings.h"
-
-#include <QtTest>
+#include "support/test.h"
 
 using namespace faintline;
 using namespace faintline::test;
@@ -103,5 +102,5 @@ void tst_cliTold::simulatesTheSameAgain()
     QCOMPARE(truth["lines"][0]["startSeconds"].get<double>(), 8.0);
 }
 
-QTEST_GUILESS_MAIN(tst_cliTold)
+FAINTLINE_TEST(tst_cliTold)
 #include "tst_cliTold.moc"
