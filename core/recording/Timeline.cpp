@@ -76,6 +76,18 @@ namespace {
         }
     }
 
+    /// A sentence on files that were left out.
+    std::string noteOf(const std::vector<Error> &broken)
+    {
+        constexpr std::size_t mostNamed = 3;
+        std::string names;
+        for (std::size_t i = 0; i < std::min(broken.size(), mostNamed); ++i)
+            names += (i == 0 ? "" : ", ") + fs::path(broken[i].where()).filename().string() + " ("
+                     + broken[i].why().substr(0, broken[i].why().find(';')) + ")";
+        return std::to_string(broken.size()) + " file(s) hold no readable recording and are left out: " + names
+               + (broken.size() > mostNamed ? " …" : ".");
+    }
+
 } // namespace
 
 bool Timeline::isNamedSo(const std::string &path)
@@ -106,8 +118,12 @@ std::vector<std::string> Timeline::filesOf(const std::vector<std::string> &names
 Timeline::Timeline(const std::vector<std::string> &names, OpenFile open) : m_openFile(std::move(open))
 {
     std::vector<TimedFile> timed;
+    std::vector<Error> broken;
     for (const std::string &file : filesOf(names))
-        timed.push_back(addPart(file));
+        if (const RecordingPointer recording = openUnlessBroken(file, broken))
+            timed.push_back(addPart(file, *recording));
+    if (timed.empty())
+        throw broken.front();
     const Alignment aligned = alignFiles(timed);
     std::vector<Part> ordered;
     Index stored = 0;
@@ -125,15 +141,29 @@ Timeline::Timeline(const std::vector<std::string> &names, OpenFile open) : m_ope
     m_info.sampleCount = m_stretches.end();
     m_info.startUnixSeconds = aligned.startUnixSeconds;
     m_info.notes = aligned.notes;
+    if (!broken.empty())
+        m_info.notes.push_back(noteOf(broken));
     if (m_hasGapsWithin)
         m_info.notes.push_back("Some files have gaps of their own, which are not observed.");
 }
 
-/// Opens a file to read its header.
-TimedFile Timeline::addPart(const std::string &path)
+/// Opens a file to read its header; null if it exists but holds no recording.
+RecordingPointer Timeline::openUnlessBroken(const std::string &path, std::vector<Error> &broken) const
 {
-    const RecordingPointer recording = m_openFile(path);
-    const RecordingInfo &info = recording->info();
+    try {
+        return m_openFile(path);
+    } catch (const Error &error) {
+        std::error_code ignored;
+        if (error.kind() == Error::Kind::Failure || !fs::is_regular_file(path, ignored))
+            throw;
+        broken.push_back(error);
+        return nullptr;
+    }
+}
+
+TimedFile Timeline::addPart(const std::string &path, const Recording &recording)
+{
+    const RecordingInfo &info = recording.info();
     const std::optional<double> start = info.startUnixSeconds ? info.startUnixSeconds : timeInName(path);
     if (!start)
         throw Error(path,
@@ -142,7 +172,7 @@ TimedFile Timeline::addPart(const std::string &path)
         m_info = info;
     else
         checkLike(info);
-    const bool hasGaps = !recording->isWhole(0, info.sampleCount);
+    const bool hasGaps = !recording.isWhole(0, info.sampleCount);
     m_hasGapsWithin = m_hasGapsWithin || hasGaps;
     m_parts.push_back({path, {}, 0, info.sampleCount, hasGaps});
     const bool isExact =

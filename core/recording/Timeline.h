@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/Error.h"
 #include "recording/Recording.h"
 #include "recording/Stretches.h"
 #include "recording/alignFiles.h"
@@ -16,7 +17,8 @@ namespace faintline {
 ///
 /// A file's stamp is the one it contains (RecordingInfo::startUnixSeconds), else the one in its name (timeInName).
 /// alignFiles places the files on one timeline; time between files, or in a gap of one, was not observed (isWhole).
-/// Files must agree in rate, channels, I/Q and centre frequency. Construction reads headers only; at most eight files
+/// Files must agree in rate, channels, I/Q and centre frequency. Files that are empty or broken are left out, with a
+/// note. Construction reads headers only; at most eight files
 /// are open at a time. Thread-safe.
 class Timeline final : public Recording
 {
@@ -24,7 +26,7 @@ public:
     using OpenFile = std::function<RecordingPointer(const std::string &path)>;
 
     /// The recordings of `names`: files, folders, lists. `open` opens one file; it is called repeatedly and from any
-    /// thread. Throws Error naming the offending file.
+    /// thread. Throws Error naming the offending file, also if no file can be opened.
     Timeline(const std::vector<std::string> &names, OpenFile open);
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;
@@ -48,7 +50,8 @@ private:
         bool hasGaps = false;
     };
 
-    TimedFile addPart(const std::string &path);
+    RecordingPointer openUnlessBroken(const std::string &path, std::vector<Error> &broken) const;
+    TimedFile addPart(const std::string &path, const Recording &recording);
     void checkLike(const RecordingInfo &other) const;
     RecordingPointer partAt(std::size_t number) const;
     std::size_t partOf(Index stored) const;

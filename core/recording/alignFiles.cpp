@@ -25,6 +25,48 @@ namespace {
         double startUnixSeconds = 0.0;
     };
 
+    /// Files of which each begins about where the previous one ends.
+    struct Chain {
+        std::vector<std::size_t> files;
+        std::vector<double> seconds; ///< of all files before each, by the nominal rate
+        std::vector<double> late;    ///< of each stamp behind the end of the files before it
+    };
+
+    /// Least range of the lateness of some files of a chain about a line whose slope is at most `slope`, s.
+    double rangeAboutLine(const Chain &chain, std::size_t first, std::size_t count, double slope)
+    {
+        const auto range = [&](double clock) {
+            double least = chain.late[first] - clock * chain.seconds[first];
+            double most = least;
+            for (std::size_t i = first + 1; i < first + count; ++i) {
+                const double late = chain.late[i] - clock * chain.seconds[i];
+                least = std::min(least, late);
+                most = std::max(most, late);
+            }
+            return most - least;
+        };
+        double low = -slope;
+        double high = slope;
+        constexpr int divisions = 40; // the range is a convex function of the slope
+        for (int i = 0; i < divisions; ++i) {
+            const double third = (high - low) / 3.0;
+            if (range(low + third) <= range(high - third))
+                high -= third;
+            else
+                low += third;
+        }
+        return std::min({range(0.0), range(low), range(high)});
+    }
+
+    /// Probability that the range of `count` numbers, uniform between 0 and 1, exceeds `range`.
+    double exceedance(double range, std::size_t count)
+    {
+        if (range >= 1.0)
+            return 0.0;
+        const double n = double(count);
+        return 1.0 - n * std::pow(range, n - 1.0) + (n - 1.0) * std::pow(range, n);
+    }
+
     std::string milliseconds(double seconds)
     {
         return formatNumber(std::round(1e3 * seconds) / 1e3) + " s";
@@ -44,12 +86,13 @@ namespace {
         Alignment align()
         {
             checkRates();
-            const bool areWhole = std::all_of(m_files.begin(), m_files.end(), [](const TimedFile &file) {
-                return file.startUnixSeconds == std::floor(file.startUnixSeconds);
-            });
-            m_resolution = areWhole && m_files.size() > 1 ? 1.0 : leastResolution;
             m_areExact =
                 std::all_of(m_files.begin(), m_files.end(), [](const TimedFile &file) { return file.isExact; });
+            m_areWhole = !m_areExact && m_files.size() > 1
+                         && std::all_of(m_files.begin(), m_files.end(), [](const TimedFile &file) {
+                                return file.startUnixSeconds == std::floor(file.startUnixSeconds);
+                            });
+            m_resolution = m_areWhole ? 1.0 : leastResolution;
             findRuns();
             fitClock();
             m_result.startUnixSeconds = m_runs.front().startUnixSeconds;
@@ -79,32 +122,161 @@ namespace {
 
         void findRuns()
         {
+            m_epoch = file(m_order.front()).startUnixSeconds; // doubles resolve seconds since 1970 to a microsecond
+            for (const TimedFile &each : m_files)
+                m_stamps.push_back(each.startUnixSeconds - m_epoch);
+            Chain chain;
             for (const std::size_t next : m_order) {
-                const TimedFile &now = file(next);
-                if (!m_runs.empty()) {
-                    Run &run = m_runs.back();
-                    const TimedFile &last = file(run.files.back());
-                    const double lasts = double(last.samples) / m_nominalHz;
-                    const double late = now.startUnixSeconds - last.startUnixSeconds - lasts;
-                    if (std::abs(late) <= (m_areExact ? exactness : m_resolution + clockError * lasts)) {
-                        run.before.push_back(run.before.back() + double(last.samples));
-                        run.files.push_back(next);
-                        continue;
-                    }
-                    if (late > Stretches::longestSeconds)
-                        throw Error(now.path, "begins " + formatNumber(std::round(late / 86400.0)) + " days after "
-                                                  + last.path
-                                                  + " ends, more than the 400 days that a timeline can bridge; check "
-                                                    "the recorder's clock");
+                if (!chain.files.empty() && !isNear(chain, next)) {
+                    divide(chain);
+                    chain = {};
                 }
-                m_runs.push_back({{next}, {0.0}, 0.0});
+                const double before = chain.files.empty() ? 0.0 : chain.seconds.back() + secondsOf(chain.files.back());
+                const double first = m_stamps[chain.files.empty() ? next : chain.files.front()];
+                chain.files.push_back(next);
+                chain.seconds.push_back(before);
+                chain.late.push_back(m_stamps[next] - first - before);
             }
+            divide(chain);
+        }
+
+        double secondsOf(std::size_t number) const { return double(file(number).samples) / m_nominalHz; }
+
+        double tolerance() const { return m_areExact ? exactness : m_resolution; }
+
+        /// By how much two stamps of files without a pause may err by a program's delays, s.
+        double jitter(double lasts) const { return m_areExact ? 0.0 : std::min(0.1, 2e-3 * lasts); }
+
+        /// Whether a file begins about where a chain ends, so that the other files must tell if it follows on.
+        bool isNear(const Chain &chain, std::size_t next) const
+        {
+            const std::size_t last = chain.files.back();
+            const double lasts = secondsOf(last);
+            const double late = m_stamps[next] - m_stamps[last] - lasts;
+            if (late > Stretches::longestSeconds)
+                throw Error(file(next).path, "begins " + formatNumber(std::round(late / 86400.0)) + " days after "
+                                                 + file(last).path
+                                                 + " ends, more than the 400 days that a timeline can bridge; check "
+                                                   "the recorder's clock");
+            if (m_areExact)
+                return std::abs(late) <= exactness;
+            return std::abs(late) <= 2.0 * (m_resolution + jitter(lasts)) + clockError * lasts;
+        }
+
+        /// Whether some files of a chain follow on: their stamps differ from a straight line as stamps do.
+        bool isContinuous(const Chain &chain, std::size_t first, std::size_t count) const
+        {
+            if (count < 2)
+                return true;
+            // The fewer whole seconds there are, the less they tell of a clock.
+            const double slope = clockError * (m_areWhole ? 1.0 - 2.0 / double(count) : 1.0);
+            const double range = rangeAboutLine(chain, first, count, slope);
+            if (range <= tolerance() && !m_areWhole)
+                return true;
+            if (range > tolerance() + jitter(secondsOf(chain.files[first])))
+                return false;
+            constexpr double rare = 0.01;
+            return isToAndFro(chain, first, count) || (m_areWhole && exceedance(range, count) > rare);
+        }
+
+        /// Whether files are late as well as early: delays of a program, since no recorder hears a second twice.
+        bool isToAndFro(const Chain &chain, std::size_t first, std::size_t count) const
+        {
+            bool isLate = false;
+            bool isEarly = false;
+            for (std::size_t i = first + 1; i < first + count; ++i) {
+                const double late = chain.late[i] - chain.late[i - 1];
+                isLate = isLate || late > 0.9 * tolerance();
+                isEarly = isEarly || late < -0.9 * tolerance();
+            }
+            return isLate && isEarly;
+        }
+
+        /// Adds a chain as runs: one if its files follow on, else as few as possible, or its files if they begin
+        /// regularly.
+        void divide(const Chain &chain)
+        {
+            const std::size_t size = chain.files.size();
+            std::vector<Run> runs;
+            for (std::size_t first = 0; first < size;) {
+                const std::size_t count = longestRun(chain, first);
+                runs.push_back(runOf(chain, first, count));
+                first += count;
+            }
+            m_isPaused = m_isPaused || runs.size() > 1;
+            if (runs.size() > 2 && setRegularStarts(chain)) {
+                runs.clear();
+                for (std::size_t i = 0; i < size; ++i)
+                    runs.push_back(runOf(chain, i, 1));
+            }
+            m_runs.insert(m_runs.end(), runs.begin(), runs.end());
+        }
+
+        std::size_t longestRun(const Chain &chain, std::size_t first) const
+        {
+            const std::size_t all = chain.files.size() - first;
+            if (isContinuous(chain, first, all))
+                return all;
+            std::size_t whole = 1;
+            while (isContinuous(chain, first, std::min(2 * whole, all)))
+                whole *= 2;
+            std::size_t broken = std::min(2 * whole, all);
+            while (broken - whole > 1) {
+                const std::size_t middle = whole + (broken - whole) / 2;
+                (isContinuous(chain, first, middle) ? whole : broken) = middle;
+            }
+            return whole;
+        }
+
+        Run runOf(const Chain &chain, std::size_t first, std::size_t count) const
+        {
+            Run run;
+            double samples = 0.0;
+            for (std::size_t i = first; i < first + count; ++i) {
+                run.files.push_back(chain.files[i]);
+                run.before.push_back(samples);
+                samples += double(file(chain.files[i]).samples);
+            }
+            return run;
+        }
+
+        /// Moves the stamps of a chain's files to a straight line over their numbers, if they lie about it as stamps
+        /// do: a recorder that begins a file of the same length at equal intervals. Whole seconds are truncated ones.
+        bool setRegularStarts(const Chain &chain)
+        {
+            const std::size_t size = chain.files.size();
+            const Index samples = file(chain.files.front()).samples;
+            if (!std::all_of(chain.files.begin(), chain.files.end() - 1,
+                             [&](std::size_t number) { return file(number).samples == samples; }))
+                return false;
+            const double middle = 0.5 * double(size - 1);
+            double mean = 0.0;
+            double products = 0.0;
+            double squares = 0.0;
+            for (std::size_t i = 0; i < size; ++i) {
+                mean += m_stamps[chain.files[i]] / double(size);
+                products += (double(i) - middle) * m_stamps[chain.files[i]];
+                squares += (double(i) - middle) * (double(i) - middle);
+            }
+            const double interval = products / squares;
+            double earliest = 0.0;
+            double latest = 0.0;
+            for (std::size_t i = 0; i < size; ++i) {
+                const double late = m_stamps[chain.files[i]] - mean - interval * (double(i) - middle);
+                earliest = std::min(earliest, late);
+                latest = std::max(latest, late);
+            }
+            if (latest - earliest > tolerance() + jitter(secondsOf(chain.files.front())))
+                return false;
+            for (std::size_t i = 0; i < size; ++i)
+                m_stamps[chain.files[i]] = mean + interval * (double(i) - middle) + (m_areWhole ? latest : 0.0);
+            return true;
         }
 
         /// Stamp of a run's file minus the duration of the samples before it.
         double startBy(const Run &run, std::size_t i, double rateHz) const
         {
-            return file(run.files[i]).startUnixSeconds - m_epoch - run.before[i] / rateHz;
+            return m_stamps[run.files[i]] - run.before[i] / rateHz;
         }
 
         double meanStart(const Run &run, double rateHz) const
@@ -118,7 +290,6 @@ namespace {
         /// Fits the deviation of the sample interval from its nominal value, s, and its standard error.
         void fitClock()
         {
-            m_epoch = file(m_order.front()).startUnixSeconds; // doubles resolve seconds since 1970 to a microsecond
             double squares = 0.0;
             double products = 0.0;
             for (const Run &run : m_runs) {
@@ -134,7 +305,8 @@ namespace {
             const double corrected = 1.0 / (1.0 / m_nominalHz + longer);
             const double error = squares > 0.0 ? scatter(corrected) / std::sqrt(squares) : 0.0;
             constexpr double certain = 5.0;
-            m_result.rateHz = std::abs(longer) > certain * error ? corrected : m_nominalHz;
+            const bool isClock = !m_isPaused && std::abs(longer) * m_nominalHz <= clockError;
+            m_result.rateHz = isClock && std::abs(longer) > certain * error ? corrected : m_nominalHz;
             for (Run &run : m_runs)
                 run.startUnixSeconds = m_epoch + meanStart(run, m_result.rateHz);
         }
@@ -149,7 +321,11 @@ namespace {
             }
             const double freedom = double(m_files.size()) - double(m_runs.size()) - 1.0;
             const double measured = freedom > 0.0 ? std::sqrt(squares / freedom) : 0.0;
-            const double byResolution = m_resolution > leastResolution ? m_resolution / std::sqrt(12.0) : leastScatter;
+            constexpr double enough = 3.0; // stamps that show their scatter
+            const double byResolution = m_areExact         ? leastScatter
+                                        : freedom < enough ? m_resolution / std::sqrt(12.0)
+                                        : m_areWhole       ? 1.0 / std::sqrt(12.0)
+                                                           : leastScatter;
             return std::max(byResolution, measured);
         }
 
@@ -206,6 +382,8 @@ namespace {
                 notes.push_back(std::to_string(m_overlaps) + " file(s) begin before the previous one ends; "
                                 + milliseconds(double(m_twice) / rate)
                                 + " of duplicate samples are taken from the earlier one.");
+            if (m_areWhole && m_gaps + m_overlaps > 0)
+                notes.push_back("The time stamps are whole seconds: where these lie is uncertain by up to 1 s.");
             if (rate != m_nominalHz)
                 notes.push_back("The sample rate is that of the time stamps, " + formatNumber(rate)
                                 + " Hz: the clock of the files, " + formatNumber(m_nominalHz) + " Hz, is off by "
@@ -217,10 +395,13 @@ namespace {
         const std::vector<TimedFile> &m_files;
         std::vector<std::size_t> m_order;
         std::vector<Run> m_runs;
+        std::vector<double> m_stamps; ///< of each file, s after m_epoch
         double m_epoch = 0.0;
         double m_nominalHz = 0.0;
         double m_resolution = 0.0;
         bool m_areExact = false;
+        bool m_areWhole = false;
+        bool m_isPaused = false; ///< files that nearly follow on do not
         Index m_gaps = 0, m_missing = 0;
         Index m_overlaps = 0, m_twice = 0;
         Alignment m_result;

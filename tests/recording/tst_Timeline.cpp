@@ -29,12 +29,17 @@ private slots:
     void clockThatIsOff();
     void stampsOfWholeSeconds();
     void exactStamps();
+    void pausesAreNoClockError_data();
+    void pausesAreNoClockError();
+    void delaysOfStampsAreNoPauses_data();
+    void delaysOfStampsAreNoPauses();
     void gapsAndOverlaps();
     void refusals_data();
     void refusals();
     void samplesInTheirPlaces();
     void listsAndMoreFiles();
     void manyFilesAtOnce();
+    void brokenFilesAreGaps();
     void refusedFiles();
 
 private:
@@ -160,14 +165,94 @@ void tst_Timeline::stampsOfWholeSeconds()
     QCOMPARE(minutes.places.back().inTime, Index(2) * 48000 * 60);
 }
 
-// Whole seconds that are exact leave a gap of a second one.
+// Whole seconds that are exact leave a gap of four fifths of a second one.
 void tst_Timeline::exactStamps()
 {
     for (const bool isExact : {false, true}) {
         const Alignment aligned =
-            alignFiles({{"a", newYear, 100.0, 100, isExact}, {"b", newYear + 2.0, 100.0, 100, isExact}});
-        QCOMPARE(aligned.startUnixSeconds, isExact ? newYear : newYear + 0.5);
-        QCOMPARE(aligned.places[1].inTime, Index(isExact ? 200 : 100));
+            alignFiles({{"a", newYear, 100.0, 120, isExact}, {"b", newYear + 2.0, 100.0, 120, isExact}});
+        QCOMPARE(aligned.startUnixSeconds, isExact ? newYear : newYear + 0.4);
+        QCOMPARE(aligned.places[1].inTime, Index(isExact ? 200 : 120));
+    }
+}
+
+void tst_Timeline::pausesAreNoClockError_data()
+{
+    QTest::addColumn<int>("count");
+    QTest::addColumn<double>("lasts");    // of a file, s
+    QTest::addColumn<double>("interval"); // between the beginnings of files
+    QTest::addColumn<double>("resolution");
+    QTest::addColumn<double>("delay"); // of stamps, at most
+    for (const int count : {2, 3, 6, 200})
+        QTest::addRow("a second a minute, %d files", count) << count << 59.0 << 60.0 << 1.0 << 0.0;
+    for (const int count : {2, 3, 12, 200})
+        QTest::addRow("half a second, %d files", count) << count << 10.0 << 10.5 << 1.0 << 0.0;
+    QTest::newRow("a second in five minutes") << 5 << 300.0 << 301.0 << 1.0 << 0.0;
+    QTest::newRow("a second an hour, two files") << 2 << 3599.0 << 3600.0 << 1.0 << 0.0;
+    QTest::newRow("a second an hour") << 24 << 3599.0 << 3600.0 << 1.0 << 0.0;
+    QTest::newRow("two and a half seconds") << 30 << 57.5 << 60.0 << 1.0 << 0.0;
+    QTest::newRow("overlaps") << 5 << 60.0 << 59.0 << 1.0 << 0.0;
+    QTest::newRow("late whole seconds") << 40 << 59.0 << 60.0 << 1.0 << 0.95;
+    QTest::newRow("milliseconds") << 6 << 59.0 << 60.0 << 0.001 << 0.0;
+    QTest::newRow("8 ms") << 20 << 1.0 << 1.008 << 0.001 << 0.0;
+    QTest::newRow("8 ms, two files") << 2 << 1.0 << 1.008 << 0.001 << 0.0;
+    QTest::newRow("late milliseconds") << 40 << 59.0 << 60.0 << 0.001 << 0.02;
+}
+
+// A recorder that pauses, or begins the next file early: the rate stays, and files lie where they were heard.
+void tst_Timeline::pausesAreNoClockError()
+{
+    QFETCH(int, count);
+    QFETCH(double, lasts);
+    QFETCH(double, interval);
+    QFETCH(double, resolution);
+    QFETCH(double, delay);
+    constexpr double rate = 200.0;
+    std::vector<TimedFile> files;
+    for (int i = 0; i < count; ++i) {
+        const double begin = newYear + 0.1 + i * interval + delay * std::abs(std::sin(2.4 * i));
+        files.push_back(
+            {std::to_string(i), std::floor(begin / resolution) * resolution, rate, std::llround(lasts * rate)});
+    }
+    const Alignment aligned = alignFiles(files);
+    QCOMPARE(aligned.rateHz, rate);
+    Index heard = 0;
+    for (int i = 0; i < count; ++i) {
+        const PlacedFile &place = aligned.places.at(std::size_t(i));
+        const double wrong = double(place.inTime - place.skipped) / rate - i * interval;
+        QVERIFY2(std::abs(wrong) <= std::max(resolution, 0.01) + delay, qPrintable(QString::number(wrong)));
+        QVERIFY(place.inTime >= heard);
+        heard = place.inTime + place.count;
+    }
+    const double missing = (count - 1) * (interval - lasts);
+    if (resolution == 1.0 && std::abs(missing) >= 1.0)
+        QVERIFY(aligned.notes.back().find("uncertain by up to 1 s") != std::string::npos
+                || aligned.notes.at(aligned.notes.size() - 2).find("uncertain by up to 1 s") != std::string::npos);
+}
+
+void tst_Timeline::delaysOfStampsAreNoPauses_data()
+{
+    QTest::addColumn<double>("resolution");
+    QTest::addColumn<double>("delay");
+    QTest::newRow("about whole seconds") << 1.0 << 0.05;
+    QTest::newRow("milliseconds") << 0.001 << 0.04;
+}
+
+// Files without a pause whose stamps are late and early by turns.
+void tst_Timeline::delaysOfStampsAreNoPauses()
+{
+    QFETCH(double, resolution);
+    QFETCH(double, delay);
+    for (const int count : {4, 60}) {
+        std::vector<TimedFile> files;
+        for (int i = 0; i < count; ++i)
+            files.push_back({std::to_string(i),
+                             std::floor((newYear + 60.0 * i + delay * std::sin(2.4 * i)) / resolution) * resolution,
+                             200.0, 12000});
+        const Alignment aligned = alignFiles(files);
+        QCOMPARE(aligned.rateHz, 200.0);
+        for (int i = 0; i < count; ++i)
+            QCOMPARE(aligned.places[std::size_t(i)].inTime, Index(12000) * i);
     }
 }
 
@@ -268,6 +353,25 @@ void tst_Timeline::manyFilesAtOnce()
         });
     threads.clear();
     QCOMPARE(wrong.load(), 0);
+}
+
+// A flat battery leaves an empty file, or half a header.
+void tst_Timeline::brokenFilesAreGaps()
+{
+    write("a", 0.0, "abc");
+    write("b", 0.05, "");
+    write("c", 0.10, "def");
+    write("d", 0.20, "ghi");
+    writeBytes(path("d.sigmf-meta"), R"({"global": {)");
+    writeBytes(path("e.wav"), QByteArray("RIFF\x24\0\0\0WAVEfmt ", 16));
+    write("f", 0.30, "jkl");
+    const auto recording = openRecording(m_folder->path().toStdString());
+    QCOMPARE(lettersOf(*recording), QByteArray("abc.......def.................jkl"));
+    QVERIFY(!recording->isWhole(13, 17));
+    QVERIFY(recording->isWhole(30, 3));
+    const std::string note = recording->info().notes.back();
+    for (const char *name : {"3 file(s)", "b.sigmf-", "d.sigmf-meta", "e.wav"})
+        QVERIFY2(contains(note, name), note.c_str());
 }
 
 void tst_Timeline::refusedFiles()
