@@ -1,7 +1,6 @@
 #include "live/PipeSource.h"
 
 #include "base/Error.h"
-#include "live/wavHeader.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -49,6 +48,7 @@ PipeSource::PipeSource(const std::string &path, const std::optional<StreamFormat
         m_format = header.format;
         m_format.origin = m_path + ", WAV";
         m_isPacked24 = header.isPacked24;
+        m_samples.emplace(header);
     } catch (...) {
         if (m_isOwned)
             ::close(m_descriptor);
@@ -80,12 +80,14 @@ Heard PipeSource::hear(std::chrono::milliseconds patience)
 {
     Heard heard;
     const std::size_t sampleBytes = std::size_t(m_isPacked24 ? 3 * m_format.channelCount : m_format.frameBytes());
-    std::vector<std::byte> bytes = std::move(m_rest);
-    const std::size_t before = bytes.size();
-    bytes.resize(before + readBytes);
-    const std::ptrdiff_t count = readSome(std::span(bytes).subspan(before), patience);
+    std::vector<std::byte> got(readBytes);
+    const std::ptrdiff_t count = readSome(got, patience);
     heard.isOver = count == 0;
-    bytes.resize(before + std::size_t(std::max<std::ptrdiff_t>(0, count)));
+    got.resize(std::size_t(std::max<std::ptrdiff_t>(0, count)));
+    if (m_samples)
+        got = m_samples->take(std::move(got), heard.isOver);
+    std::vector<std::byte> bytes = std::move(m_rest);
+    bytes.insert(bytes.end(), got.begin(), got.end());
     const auto whole = std::ptrdiff_t(bytes.size() / sampleBytes * sampleBytes);
     m_rest.assign(bytes.begin() + whole, bytes.end());
     bytes.resize(std::size_t(whole));

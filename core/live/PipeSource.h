@@ -1,6 +1,7 @@
 #pragma once
 
 #include "live/SampleSource.h"
+#include "live/wavHeader.h"
 
 #include <optional>
 #include <span>
@@ -11,8 +12,8 @@ namespace faintline {
 
 /// Reads standard input ("-"), a FIFO or a file to its end, which for a FIFO is when its last writer closes it.
 ///
-/// The stream has a WAV header, with any length field, or is raw samples of a known format. An incomplete last sample
-/// is dropped.
+/// The stream has a WAV header, or is raw samples of a known format. Chunks behind the samples of a WAV stream are
+/// skipped (WavSamples). An incomplete last sample is dropped.
 class PipeSource final : public SampleSource
 {
 public:
@@ -35,6 +36,7 @@ private:
     bool m_isOwned = false;
     bool m_isPacked24 = false;
     StreamFormat m_format;
+    std::optional<WavSamples> m_samples; ///< of a WAV stream
     std::vector<std::byte> m_rest; ///< of an incomplete sample
 };
 

@@ -1,6 +1,7 @@
 #include "live/wavHeader.h"
 
 #include "base/Error.h"
+#include "recording/listChunk.h"
 
 #include <algorithm>
 #include <array>
@@ -28,6 +29,14 @@ namespace {
     {
         return std::equal(tag.begin(), tag.end(), bytes.begin() + std::ptrdiff_t(at),
                           [](char c, std::byte b) { return static_cast<char>(b) == c; });
+    }
+
+    /// Whether a length stands for an unknown one: programs that write to a pipe give the largest their numbers hold.
+    bool isOfUnknownLength(Index dataBytes)
+    {
+        constexpr Index page = 0x1000; // room that some of them leave for the header
+        return dataBytes == 0 || (dataBytes >= 0x80000000 - page && dataBytes < 0x80000000)
+               || (dataBytes >= 0x100000000 - page && dataBytes <= 0xffffffff);
     }
 
     /// Parses a "fmt " chunk.
@@ -74,6 +83,8 @@ WavHeader readWavHeader(const std::function<bool(std::span<std::byte>)> &read, c
     fetch(riff);
     if (!(isTag(riff, 0, "RIFF") || isTag(riff, 0, "RF64")) || !isTag(riff, 8, "WAVE"))
         throw Error(where, std::string("does not begin as a WAV file; ") + accepted);
+    const bool isRf64 = isTag(riff, 0, "RF64");
+    Index longDataBytes = 0;
     WavHeader header;
     bool isKnown = false;
     for (int chunk = 0; chunk < mostChunks; ++chunk) {
@@ -82,6 +93,8 @@ WavHeader readWavHeader(const std::function<bool(std::span<std::byte>)> &read, c
         if (isTag(head, 0, "data")) {
             if (!isKnown)
                 throw Error(where, std::string("its WAV header has no format; ") + accepted);
+            header.isRf64 = isRf64;
+            header.dataBytes = isRf64 && number(head, 4, 4) == 0xffffffff ? longDataBytes : number(head, 4, 4);
             return header;
         }
         std::size_t rest = number(head, 4, 4);
@@ -90,6 +103,8 @@ WavHeader readWavHeader(const std::function<bool(std::span<std::byte>)> &read, c
         for (; rest > 0; rest -= content.size()) {
             content.resize(std::min(rest, content.size()));
             fetch(content);
+            if (isTag(head, 0, "ds64") && content.size() >= 16)
+                longDataBytes = Index(number(content, 12, 4) & 0x7fffffff) << 32 | number(content, 8, 4);
             if (isTag(head, 0, "fmt ") && !isKnown) {
                 header = headerOf(content, where);
                 isKnown = true;
@@ -97,6 +112,37 @@ WavHeader readWavHeader(const std::function<bool(std::span<std::byte>)> &read, c
         }
     }
     throw Error(where, std::string("has no samples in its first thousand chunks; ") + accepted);
+}
+
+WavSamples::WavSamples(const WavHeader &header)
+    : m_left(header.dataBytes), m_isEndless(isOfUnknownLength(header.dataBytes)), m_isRf64(header.isRf64),
+      m_isOdd(header.dataBytes % 2 != 0)
+{
+}
+
+std::vector<std::byte> WavSamples::take(std::vector<std::byte> bytes, bool isOver)
+{
+    if (m_isEndless)
+        return bytes;
+    if (m_isBehind)
+        return {};
+    const auto inside = std::ptrdiff_t(std::min(m_left, std::ssize(bytes)));
+    m_held.insert(m_held.end(), bytes.begin() + inside, bytes.end());
+    bytes.resize(std::size_t(inside));
+    m_left -= inside;
+    const BehindSamples behind = m_left > 0 ? BehindSamples::Unknown : behindSamples(m_held, m_isOdd, isOver);
+    if (behind == BehindSamples::Unknown)
+        return bytes;
+    if (behind != BehindSamples::Samples) {
+        m_isBehind = true;
+        return bytes;
+    }
+    // A length in 32 bits is that of the samples but for a multiple of 4 GiB.
+    bytes.insert(bytes.end(), m_held.begin(), m_held.end());
+    m_isEndless = m_isRf64;
+    m_left = (Index(1) << 32) - std::ssize(m_held);
+    m_held.clear();
+    return bytes;
 }
 
 std::vector<std::byte> expand24(std::span<const std::byte> bytes)

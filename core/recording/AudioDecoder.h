@@ -15,7 +15,8 @@ namespace faintline {
 
 /// An open libsndfile handle and its current position. Use it from one thread at a time.
 ///
-/// A WAV file whose data chunk has no length (recorder killed, stream) is read to its end.
+/// A WAV file whose samples go on behind their declared length (recorder killed, stream, or longer than the 4 GiB that
+/// its length can tell) is read to its end; a chunk that libsndfile rejects is left out. Notes say so.
 class AudioDecoder
 {
 public:
@@ -37,6 +38,9 @@ public:
     /// Reads up to `count` samples of all channels, interleaved; returns the number read.
     Index read(Index count, std::span<float> out);
 
+    /// Repairs of the header, one sentence each.
+    const std::vector<std::string> &notes() const;
+
     /// libsndfile's log of parsing the header.
     std::string log() const;
 
@@ -49,6 +53,7 @@ public:
 private:
     struct Source;
 
+    static std::unique_ptr<AudioDecoder> openAs(std::unique_ptr<Source> source, std::string &why);
     AudioDecoder(std::unique_ptr<Source> source, SNDFILE *handle, const SF_INFO &format);
 
     std::unique_ptr<Source> m_source;

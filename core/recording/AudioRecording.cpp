@@ -80,6 +80,7 @@ AudioRecording::AudioRecording(const std::string &path, bool iq) : m_file(std::m
     m_runUp = isLossy(format.format) ? lossyRunUp : 0;
     m_blockSamples = std::max<Index>(1, floatsPerBlock / m_streams);
     m_info.sampleCount = format.frames;
+    m_info.notes = decoder->notes();
     if (const long long missing = missingBytes(decoder->log()); missing > 0)
         m_info.notes.push_back(
             "The header claims " + std::to_string(missing)

@@ -27,7 +27,48 @@ namespace {
         return name == "data" || name == std::string_view("\0\0\0\0", wordBytes);
     }
 
+    bool hasKnownName(std::string_view name)
+    {
+        constexpr std::array<std::string_view, 20> known{"LIST", "INFO", "bext", "iXML", "axml", "id3 ", "ID3 ",
+                                                         "cue ", "smpl", "inst", "JUNK", "junk", "PAD ", "FLLR",
+                                                         "fact", "PEAK", "_PMX", "guan", "wamd", "auxi"};
+        return std::find(known.begin(), known.end(), name) != known.end();
+    }
+
+    std::string_view nameAt(std::span<const std::byte> bytes)
+    {
+        return {reinterpret_cast<const char *>(bytes.data()), std::min<std::size_t>(bytes.size(), wordBytes)};
+    }
+
 } // namespace
+
+bool isChunkHead(std::span<const std::byte> bytes)
+{
+    if (std::ssize(bytes) < chunkHeadBytes)
+        return false;
+    const std::string_view name = nameAt(bytes);
+    const bool isPrintable = std::all_of(name.begin(), name.end(), [](char c) { return c >= ' ' && c <= '~'; });
+    return isPrintable && (hasKnownName(name) || number(bytes.subspan(wordBytes, wordBytes), false) <= most);
+}
+
+BehindSamples behindSamples(std::span<const std::byte> bytes, bool isOdd, bool isAll)
+{
+    constexpr std::size_t tagBytes = 128;
+    const std::size_t padding = isOdd ? 1 : 0;
+    if (isChunkHead(bytes) || (isOdd && !bytes.empty() && isChunkHead(bytes.subspan(1))))
+        return BehindSamples::Chunk;
+    if (std::ssize(bytes) < chunkHeadBytes + Index(padding))
+        return isAll ? BehindSamples::Nothing : BehindSamples::Unknown;
+    if (const auto tag = bytes.subspan(padding); nameAt(tag).starts_with("TAG") && tag.size() <= tagBytes) {
+        if (!isAll)
+            return BehindSamples::Unknown;
+        return tag.size() == tagBytes ? BehindSamples::Chunk : BehindSamples::Samples;
+    }
+    if (bytes.size() < mostToTellByBytes
+        && std::all_of(bytes.begin(), bytes.end(), [](std::byte b) { return b == std::byte(0); }))
+        return isAll ? BehindSamples::Padding : BehindSamples::Unknown;
+    return BehindSamples::Samples;
+}
 
 bool leadsBackwards(const FileBytes &file, Index chunk)
 {

@@ -20,6 +20,8 @@ private slots:
     void otherChunksAreSkippedWithTheirPadding();
     void refusals_data();
     void refusals();
+    void samplesEndAtTheirLength_data();
+    void samplesEndAtTheirLength();
     void integersOf24BitsKeepTheirValue();
 };
 
@@ -140,6 +142,48 @@ void tst_wavHeader::refusals()
     QFETCH(QByteArray, why);
     const std::string error = errorOf([&] { parse(bytes); });
     QVERIFY2(contains(error, "pipe: ") && contains(error, why.toStdString()), error.c_str());
+}
+
+void tst_wavHeader::samplesEndAtTheirLength_data()
+{
+    QTest::addColumn<qint64>("declared");
+    QTest::addColumn<QByteArray>("behind"); // 1000 bytes of samples
+    QTest::addColumn<qsizetype>("kept");
+    const QByteArray text = chunk("iXML", QByteArray(20000, 'x'));
+    const QByteArray samples(5000, '\xfe');
+    QTest::newRow("a chunk") << qint64(1000) << text << qsizetype(1000);
+    QTest::newRow("chunks of other names") << qint64(1000) << chunk("abcd", "efg") + text << qsizetype(1000);
+    QTest::newRow("nothing") << qint64(1000) << QByteArray() << qsizetype(1000);
+    QTest::newRow("padding") << qint64(1000) << QByteArray(512, '\0') << qsizetype(1000);
+    QTest::newRow("samples") << qint64(1000) << samples << qsizetype(6000);
+    QTest::newRow("silence") << qint64(1000) << QByteArray(70000, '\0') << qsizetype(71000);
+    QTest::newRow("an odd length with its padding") << qint64(999) << text << qsizetype(999);
+    QTest::newRow("an odd length without") << qint64(1001) << text.left(1) + text << qsizetype(1001);
+    QTest::newRow("ended early") << qint64(5000) << QByteArray() << qsizetype(1000);
+    for (const qint64 unknown : {0LL, 0x7ffff000LL, 0x7fffffffLL, 0xffffffffLL, 0xffffffdaLL})
+        QTest::addRow("unknown, %llx", unknown) << unknown << text << 1000 + text.size();
+}
+
+// In a stream as in a file, however it is divided.
+void tst_wavHeader::samplesEndAtTheirLength()
+{
+    QFETCH(qint64, declared);
+    QFETCH(QByteArray, behind);
+    QFETCH(qsizetype, kept);
+    WavHeader header;
+    header.dataBytes = declared;
+    const QByteArray stream = QByteArray(1000, '\1') + behind;
+    for (const qsizetype piece : {1, 7, 1000, 100000}) {
+        WavSamples samples(header);
+        qsizetype heard = 0;
+        for (qsizetype at = 0; at <= stream.size(); at += piece) {
+            const auto bytes =
+                std::as_bytes(std::span(stream.constData() + at, std::size_t(std::min(piece, stream.size() - at))));
+            heard += std::ssize(samples.take({bytes.begin(), bytes.end()}, false));
+        }
+        heard += std::ssize(samples.take({}, true));
+        QCOMPARE(heard, kept);
+    }
 }
 
 void tst_wavHeader::integersOf24BitsKeepTheirValue()

@@ -23,6 +23,11 @@ private slots:
     void notFiniteReadsAsZero();
     void sampleCountOfHeadersThatLie_data();
     void sampleCountOfHeadersThatLie();
+    void samplesBehindTheDeclaredLength_data();
+    void samplesBehindTheDeclaredLength();
+    void lengthsBeyond4GiB();
+    void damagedChunksAreIgnored_data();
+    void damagedChunksAreIgnored();
     void truncatedFilesGiveWhatIsThere_data();
     void truncatedFilesGiveWhatIsThere();
     void aiffRatesThatAreNone_data();
@@ -220,6 +225,115 @@ void tst_AudioRecording::sampleCountOfHeadersThatLie()
     QCOMPARE(recording.info().sampleCount, Index(5));
     QCOMPARE(readAll(recording)[2], 0.5f);
     QCOMPARE(recording.info().notes.size(), std::size_t(noted ? 1 : 0));
+}
+
+void tst_AudioRecording::samplesBehindTheDeclaredLength_data()
+{
+    QTest::addColumn<QByteArray>("behind"); // 40 000 bytes of samples with a declared length of 10 000
+    QTest::addColumn<int>("count");
+    QTest::addColumn<bool>("noted");
+    std::vector<float> noise = someNoise(15000);
+    QByteArray more;
+    for (const float value : noise)
+        more += littleEndian(std::uint16_t(std::lround(value * 32767.0f)), 2);
+    const auto chunk = [](const char *name, qsizetype length) {
+        return name + littleEndian(std::uint64_t(length), 4) + QByteArray(length, 'x');
+    };
+    QTest::newRow("samples") << more << 20000 << true;
+    QTest::newRow("a few samples") << more.first(40) << 5020 << true;
+    QTest::newRow("silence that is longer than padding") << QByteArray(100000, '\0') << 55000 << true;
+    QTest::newRow("nothing") << QByteArray() << 5000 << false;
+    QTest::newRow("less than a chunk") << QByteArray(7, '\1') << 5000 << false;
+    QTest::newRow("a chunk") << chunk("LIST", 24) << 5000 << false;
+    QTest::newRow("chunks of other names") << chunk("abcd", 24) + chunk("efgh", 2) << 5000 << false;
+    QTest::newRow("a truncated chunk") << chunk("iXML", 2000).first(1000) << 5000 << false;
+    QTest::newRow("an ID3 tag") << "TAG" + QByteArray(125, 'x') << 5000 << false;
+    QTest::newRow("padding") << QByteArray(4096, '\0') << 5000 << true;
+}
+
+// A length that is stale, or was too large for its 32 bits, is smaller than the samples.
+void tst_AudioRecording::samplesBehindTheDeclaredLength()
+{
+    QFETCH(QByteArray, behind);
+    QFETCH(int, count);
+    QFETCH(bool, noted);
+    std::vector<int> samples(5000);
+    for (int i = 0; i < 5000; ++i)
+        samples[std::size_t(i)] = 3 * i - 7000;
+    QByteArray bext(602, '\0');
+    bext.replace(320, 10, "2024-07-26");
+    bext.replace(330, 8, "12-34-56");
+    writeBytes(path("longer.wav"), wave(1, 8000, samples, 10000, "bext" + littleEndian(602, 4) + bext) + behind);
+    const AudioRecording recording(path("longer.wav"), false);
+    QCOMPARE(recording.info().sampleCount, Index(count));
+    QCOMPARE(recording.info().container, std::string("WAV"));
+    QCOMPARE(recording.info().startUnixSeconds, std::optional(1721997296.0));
+    QCOMPARE(recording.info().notes.size(), std::size_t(noted ? 2 : 1)); // the start's, too
+    const std::vector<float> read = readInPieces(recording, 777);
+    for (std::size_t i = 0; i < read.size(); ++i) {
+        const int expected = i < samples.size() ? samples[i]
+                                                : std::int16_t(std::uint8_t(behind[qsizetype(2 * i) - 10000])
+                                                               | std::uint8_t(behind[qsizetype(2 * i) - 9999]) << 8);
+        QCOMPARE(read[i], float(expected) / 32768.0f);
+    }
+}
+
+// A sparse file; the length is what is left of it in 32 bits. With and without a chunk at its end.
+void tst_AudioRecording::lengthsBeyond4GiB()
+{
+    constexpr Index samples = (Index(1) << 31) + 160000;
+    for (const bool isChunkBehind : {false, true}) {
+        const std::string name = path("long.wav");
+        const QByteArray header = wave(1, 8000, {}, 320000);
+        writeBytes(name, header);
+        QFile file(QString::fromStdString(name));
+        QVERIFY(file.open(QIODevice::ReadWrite));
+        if (!file.resize(header.size() + 2 * samples))
+            QSKIP("skipped: no room for a sparse file of 4 GiB");
+        file.seek(header.size() + 320000);
+        file.write(QByteArray(70000, '\1')); // what follows the declared end is no padding
+        file.seek(header.size() + 2 * (samples - 1));
+        file.write(littleEndian(0x4000, 2));
+        if (isChunkBehind)
+            file.write("LIST" + littleEndian(4, 4) + "INFO");
+        file.close();
+        const AudioRecording recording(name, false);
+        QCOMPARE(recording.info().sampleCount, samples);
+        QCOMPARE(recording.info().container, std::string("WAV"));
+        std::vector<float> last(3);
+        recording.read(0, samples - 2, 3, last);
+        QVERIFY((last == std::vector<float>{0.0f, 0.5f, 0.0f}));
+    }
+}
+
+void tst_AudioRecording::damagedChunksAreIgnored_data()
+{
+    QTest::addColumn<QByteArray>("chunk");
+    const auto chunk = [](const char *name, const QByteArray &content) {
+        return name + littleEndian(std::uint64_t(content.size()), 4) + content;
+    };
+    QTest::newRow("short peak") << chunk("PEAK", QByteArray(8, '\1'));
+    QTest::newRow("long peak") << chunk("PEAK", QByteArray(24, '\0'));
+    QTest::newRow("two peaks") << chunk("PEAK", QByteArray(4000, '\0')) + chunk("PEAK", {});
+    QTest::newRow("cues") << chunk("cue ", QByteArray("\xff\xff\xff\xff", 4));
+    QTest::newRow("sampler") << chunk("smpl", QByteArray(36, '\xff'));
+    QTest::newRow("instrument") << chunk("inst", QByteArray(2, '\0'));
+    QTest::newRow("broadcast") << chunk("bext", QByteArray(20, '\0'));
+    QTest::newRow("cart") << chunk("cart", QByteArray(100, '\0'));
+    QTest::newRow("fact") << chunk("fact", QByteArray(4, '\xff'));
+}
+
+void tst_AudioRecording::damagedChunksAreIgnored()
+{
+    QFETCH(QByteArray, chunk);
+    const QByteArray sound = "LIST" + littleEndian(40, 4) + "INFOICRD" + littleEndian(20, 4) + "2024-07-26T01:02:03Z";
+    QByteArray floats = wave(1, 8000, {0, 0x3f00, 0, -0x4180}, 8, chunk + sound); // 0.5 and -0.25 …
+    floats.replace(20, 2, littleEndian(3, 2));                                    // … as 32-bit floats
+    floats.replace(32, 4, littleEndian(0x200004, 4));
+    writeBytes(path("chunk.wav"), floats);
+    const AudioRecording recording(path("chunk.wav"), false);
+    QVERIFY((readAll(recording) == std::vector<float>{0.5f, -0.25f}));
+    QCOMPARE(recording.info().startUnixSeconds, std::optional(1721955723.0));
 }
 
 void tst_AudioRecording::truncatedFilesGiveWhatIsThere_data()
