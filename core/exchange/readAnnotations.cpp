@@ -280,18 +280,69 @@ namespace {
         return all;
     }
 
+    /// Places in time of SigMF's sample numbers, which count the samples of the file from core:offset on.
+    class SigmfTimes
+    {
+    public:
+        SigmfTimes(const Json &json, const std::string &path, const RecordingInfo &info) : m_info(info)
+        {
+            const Json global = json.value("global", Json::object());
+            readingJson(path + ": global", [&] {
+                m_rate = global.value("core:sample_rate", info.sampleRateHz);
+                m_offset = global.value("core:offset", 0.0);
+            });
+            if (!(m_rate > 0.0) || !std::isfinite(m_rate))
+                throw Error(path, "has no sample rate");
+            const Json captures = json.value("captures", Json::array());
+            for (const Json &capture : captures)
+                if (capture.is_object())
+                    m_captures.push_back(
+                        readingJson(path + ": captures", [&] { return capture.value("core:sample_start", m_offset); }));
+        }
+
+        /// Of a sample.
+        double secondsAt(double number) const { return inTime(number - m_offset) / m_rate; }
+        /// Of the end of the sample before one.
+        double endAt(double number) const { return (inTime(number - m_offset - 1.0) + 1.0) / m_rate; }
+
+        /// Of the end of a sample's capture: where the next one begins, or the recording ends.
+        double captureEnd(double number) const
+        {
+            double next = HUGE_VAL;
+            for (const double start : m_captures)
+                if (start > number)
+                    next = std::min(next, start);
+            const double end = std::isinf(next) ? m_info.durationSeconds() : endAt(next);
+            return std::max(end, secondsAt(number));
+        }
+
+    private:
+        double inTime(double stored) const
+        {
+            const bool isOfFile = m_info.places.hasGaps() && m_rate == m_info.sampleRateHz && std::abs(stored) < 1e15;
+            return isOfFile ? double(m_info.places.inTimeOf(Index(std::floor(stored)))) : stored;
+        }
+
+        const RecordingInfo &m_info;
+        double m_rate = 0.0;
+        double m_offset = 0.0;
+        std::vector<double> m_captures;
+    };
+
     std::vector<Annotation> fromSigmf(const Json &json, const std::string &path, const RecordingInfo &info)
     {
-        double rate = info.sampleRateHz;
-        if (json.contains("global"))
-            rate = readingJson(path + ": global", [&] { return json["global"].value("core:sample_rate", rate); });
-        if (!(rate > 0.0) || !std::isfinite(rate))
-            throw Error(path, "has no sample rate");
+        const SigmfTimes times(json, path, info);
         return fromList(json["annotations"], path + ", annotation", [&](const Json &one, const std::string &) {
             Annotation box;
             const double start = one.at("core:sample_start").get<double>();
-            box.startSeconds = start / rate;
-            box.endSeconds = (start + one.value("core:sample_count", 0.0)) / rate;
+            const auto count = one.find("core:sample_count");
+            box.startSeconds = times.secondsAt(start);
+            if (count == one.end() || count->is_null())
+                box.endSeconds = times.captureEnd(start);
+            else if (const double samples = count->get<double>(); samples > 0.0)
+                box.endSeconds = times.endAt(start + samples);
+            else
+                box.endSeconds = samples < 0.0 ? -HUGE_VAL : box.startSeconds; // refused
             if (one.contains("core:freq_lower_edge"))
                 box.lowHz = one["core:freq_lower_edge"].get<double>() - info.centreHz;
             if (one.contains("core:freq_upper_edge"))

@@ -1,11 +1,17 @@
 #include "exchange/reviewedText.h"
 
 #include "base/Field.h"
-#include "base/json.h"
+#include "base/fileName.h"
+#include "base/utc.h"
 #include "exchange/annotationText.h"
+#include "recording/RawRecording.h"
+#include "recording/SigmfRecording.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
+#include <utility>
 
 namespace faintline {
 
@@ -18,7 +24,86 @@ namespace {
         return std::llround(std::clamp(seconds * rate, -most, most));
     }
 
+    /// The samples' type by SigMF's name; floats if SigMF has no name for it.
+    std::string sigmfTypeOf(const RecordingInfo &info)
+    {
+        constexpr std::array<std::pair<const char *, const char *>, 6> audio{{{"int8", "i8"},
+                                                                              {"uint8", "u8"},
+                                                                              {"int16", "i16"},
+                                                                              {"int32", "i32"},
+                                                                              {"float32", "f32"},
+                                                                              {"float64", "f64"}}};
+        try {
+            return parseSampleType(info.sampleType, {}).name();
+        } catch (const Error &) { // the type of an audio file
+        }
+        const auto known =
+            std::find_if(audio.begin(), audio.end(), [&](const auto &each) { return info.sampleType == each.first; });
+        const bool isBigEndian = info.container == "AIFF" || info.container == "AU";
+        return parseSampleType((info.isComplex ? "c" : "r") + std::string(known == audio.end() ? "f32" : known->second)
+                                   + (isBigEndian ? "_be" : "_le"),
+                               {})
+            .name();
+    }
+
+    /// One capture for each stretch without a gap.
+    Json sigmfCaptures(const RecordingInfo &info)
+    {
+        Json captures = Json::array();
+        for (Index sample = 0; sample < std::max<Index>(1, info.sampleCount);) {
+            Json capture;
+            capture["core:sample_start"] = info.firstNumber + info.places.storedAt(sample);
+            if (info.places.hasGaps())
+                capture["core:global_index"] = sample;
+            if (info.isComplex && info.isCentreKnown())
+                capture["core:frequency"] = info.centreHz;
+            if (info.startUnixSeconds)
+                capture["core:datetime"] = formatUtc(*info.startUnixSeconds + double(sample) / info.sampleRateHz);
+            captures.push_back(std::move(capture));
+            sample = info.places.nextStretch(sample);
+        }
+        return captures;
+    }
+
 } // namespace
+
+Json sigmfMetadata(const RecordingInfo &info, const std::string &description)
+{
+    Json json = info.sigmf.empty() ? Json::object() : parseJson(info.sigmf, info.path);
+    Json &global = json["global"];
+    global["core:version"] = "1.0.0";
+    global["core:sample_rate"] = info.sampleRateHz;
+    if (!global.contains("core:datatype")) {
+        global["core:datatype"] = sigmfTypeOf(info);
+        global["core:num_channels"] = std::max(1, info.channelCount);
+    }
+    if (info.firstNumber != 0)
+        global["core:offset"] = info.firstNumber;
+    std::error_code ignored;
+    if (!info.path.empty() && std::filesystem::is_regular_file(info.path, ignored))
+        global["core:dataset"] =
+            textFromFileName(std::filesystem::path(
+                                 SigmfRecording::isNamedSo(info.path) ? SigmfRecording::dataPath(info.path) : info.path)
+                                 .filename()
+                                 .string());
+    global["core:description"] = description;
+    if (!json.contains("captures") || json["captures"].empty())
+        json["captures"] = sigmfCaptures(info);
+    json["annotations"] = Json::array();
+    return json;
+}
+
+void setSigmfTimes(Json &annotation, double startSeconds, double endSeconds, const RecordingInfo &info)
+{
+    const auto numberAt = [&](double seconds) {
+        const long long sample = sampleAt(seconds, info.sampleRateHz);
+        const bool isInFile = info.places.end() == info.sampleCount; // and not of a derived recording
+        return info.firstNumber + (isInFile ? info.places.storedAt(sample) : sample);
+    };
+    const long long start = numberAt(startSeconds);
+    annotation["core:sample_start"] = start;
+    annotation["core:sample_count"] = std::max(1LL, numberAt(endSeconds) - start);
+}
 
 void fillBox(const Analysis &analysis, const Event &event, Annotation &box)
 {
@@ -67,21 +152,19 @@ std::string audacityText(const std::vector<ReviewedRow> &rows)
     return text;
 }
 
-std::string sigmfText(const std::vector<ReviewedRow> &rows, double rate, double centre)
+std::string sigmfText(const std::vector<ReviewedRow> &rows, const RecordingInfo &info)
 {
-    Json json;
-    json["global"] = {
-        {"core:version", "1.0.0"},
-        {"core:sample_rate", rate},
-        {"core:description", "Events found by Faintline, with their reviews"},
-        {"core:extensions", Json::array({{{"name", "faintline"}, {"version", "1.0.0"}, {"optional", true}}})}};
-    json["captures"] = Json::array({{{"core:sample_start", 0}, {"core:frequency", centre}}});
-    json["annotations"] = Json::array();
+    Json json = sigmfMetadata(info, "Events found by Faintline, with their reviews");
+    Json &extensions = json["global"]["core:extensions"];
+    if (!extensions.is_array())
+        extensions = Json::array();
+    if (!std::any_of(extensions.begin(), extensions.end(),
+                     [](const Json &each) { return each.is_object() && each.value("name", Json()) == "faintline"; }))
+        extensions.push_back({{"name", "faintline"}, {"version", "1.0.0"}, {"optional", true}});
+    const double centre = info.centreHz;
     for (const ReviewedRow &row : rows) {
         Json one;
-        const long long start = sampleAt(row.box.startSeconds, rate);
-        one["core:sample_start"] = start;
-        one["core:sample_count"] = std::max(1LL, sampleAt(row.box.endSeconds, rate) - start);
+        setSigmfTimes(one, row.box.startSeconds, row.box.endSeconds, info);
         if (row.box.lowHz && row.box.highHz) {
             one["core:freq_lower_edge"] = centre + *row.box.lowHz;
             one["core:freq_upper_edge"] = centre + *row.box.highHz;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "base/json.h"
 #include "inspect/Review.h"
+#include "recording/Recording.h"
 
 #include <optional>
 #include <string>
@@ -27,7 +29,15 @@ std::string ravenText(const std::vector<ReviewedRow> &rows);
 /// Audacity labels with frequencies, "label [rejected] note".
 std::string audacityText(const std::vector<ReviewedRow> &rows);
 
-/// SigMF annotations of a recording with the given sample rate and centre frequency, Hz.
-std::string sigmfText(const std::vector<ReviewedRow> &rows, double rate, double centre);
+/// SigMF metadata of a recording for annotations of it: "global" (with the type of its samples, and the name of the file
+/// that holds them), "captures" (its own, or one of each stretch without a gap) and an empty list of "annotations".
+Json sigmfMetadata(const RecordingInfo &info, const std::string &description);
+
+/// Sets core:sample_start and core:sample_count of an annotation: SigMF counts the samples of the file, gaps left out,
+/// from core:offset on.
+void setSigmfTimes(Json &annotation, double startSeconds, double endSeconds, const RecordingInfo &info);
+
+/// SigMF annotations of a recording.
+std::string sigmfText(const std::vector<ReviewedRow> &rows, const RecordingInfo &info);
 
 } // namespace faintline

@@ -6,6 +6,7 @@
 #include "base/logmath.h"
 #include "detect/statisticDecimals.h"
 #include "exchange/positionNames.h"
+#include "exchange/reviewedText.h"
 
 #include <algorithm>
 #include <cmath>
@@ -96,18 +97,13 @@ namespace {
     {
         if (!analysis.recording)
             throw Error("events as SigMF", "require a recording; write .csv or .json for ready-made frames");
-        const double rate = analysis.recording->info().sampleRateHz;
-        const double centre = analysis.recording->info().centreHz;
-        Json json;
-        json["global"] = {{"core:version", "1.0.0"},
-                          {"core:sample_rate", rate},
-                          {"core:description",
-                           std::string("Events found by Faintline's ")
-                               + (isScoreOfPaths(analysis.settings.detector)
-                                      ? "sequential Markov detector"
-                                      : "detector " + std::string(detectorNames[analysis.settings.detector.index()]))}};
-        json["captures"] = Json::array({{{"core:sample_start", 0}, {"core:frequency", centre}}});
-        json["annotations"] = Json::array();
+        const RecordingInfo &info = analysis.recording->info();
+        const double centre = info.centreHz;
+        Json json = sigmfMetadata(
+            info, std::string("Events found by Faintline's ")
+                      + (isScoreOfPaths(analysis.settings.detector)
+                             ? "sequential Markov detector"
+                             : "detector " + std::string(detectorNames[analysis.settings.detector.index()])));
         for (const Event &e : events(analysis)) {
             const Track &track = *trackOfId(analysis.tracks, e.id);
             double low = e.position.back();
@@ -119,8 +115,7 @@ namespace {
                 high = std::max(high, hz);
             }
             Json annotation;
-            annotation["core:sample_start"] = std::llround(e.onsetSeconds * rate);
-            annotation["core:sample_count"] = std::max(1LL, std::llround((e.endSeconds - e.onsetSeconds) * rate));
+            setSigmfTimes(annotation, e.onsetSeconds, e.endSeconds, info);
             annotation["core:freq_lower_edge"] = centre + low;
             annotation["core:freq_upper_edge"] = centre + high;
             annotation["core:label"] = "line " + std::to_string(e.id);
@@ -131,14 +126,15 @@ namespace {
             annotation["core:comment"] = comment;
             json["annotations"].push_back(annotation);
         }
-        for (const AreaEvent &area : areaEvents(analysis))
-            json["annotations"].push_back(
-                {{"core:sample_start", std::llround(area.onsetSeconds * rate)},
-                 {"core:sample_count", std::max(1LL, std::llround((area.endSeconds - area.onsetSeconds) * rate))},
-                 {"core:freq_lower_edge", centre + area.low},
-                 {"core:freq_upper_edge", centre + area.high},
-                 {"core:label", "area"},
-                 {"core:comment", "not a line: level raised by at least " + roundedDb(area.levelDb) + " dB"}});
+        for (const AreaEvent &area : areaEvents(analysis)) {
+            Json annotation;
+            setSigmfTimes(annotation, area.onsetSeconds, area.endSeconds, info);
+            annotation["core:freq_lower_edge"] = centre + area.low;
+            annotation["core:freq_upper_edge"] = centre + area.high;
+            annotation["core:label"] = "area";
+            annotation["core:comment"] = "not a line: level raised by at least " + roundedDb(area.levelDb) + " dB";
+            json["annotations"].push_back(annotation);
+        }
         // The specification requires them in order of their start.
         std::stable_sort(json["annotations"].begin(), json["annotations"].end(), [](const Json &a, const Json &b) {
             return a["core:sample_start"].get<long long>() < b["core:sample_start"].get<long long>();

@@ -114,8 +114,7 @@ namespace {
     {
         if (!analysis.recording)
             throw Error("events as SigMF", "require a recording; write .csv or .json for ready-made frames");
-        const RecordingInfo &info = analysis.recording->info();
-        return sigmfText(rows, info.sampleRateHz, info.centreHz);
+        return sigmfText(rows, analysis.recording->info());
     }
 
 } // namespace

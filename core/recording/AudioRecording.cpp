@@ -95,8 +95,10 @@ AudioRecording::AudioRecording(const std::string &path, bool iq) : m_file(std::m
         throw Error(path, "is a " + m_info.container + " file without samples");
     m_stored = m_info.sampleCount;
     m_stretches = readAudioMetadata(*decoder, m_info);
-    if (m_stretches.hasGaps())
+    if (m_stretches.hasGaps()) {
         m_info.sampleCount = m_stretches.end();
+        m_info.places = m_stretches;
+    }
 
     auto handle = std::make_unique<Handle>();
     handle->decoder = std::move(decoder);

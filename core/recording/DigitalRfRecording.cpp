@@ -73,6 +73,7 @@ void DigitalRfRecording::readIndex()
         m_stretches.add(numbers[i] - numbers[0], row, end - row);
     }
     m_info.sampleCount = m_stretches.end();
+    m_info.places = m_stretches;
     m_info.startUnixSeconds = double(numbers[0]) / m_info.sampleRateHz;
     if (m_stretches.hasGaps())
         m_info.notes.push_back(std::to_string(m_stretches.gaps()) + " gap(s), in all "

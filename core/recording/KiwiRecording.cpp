@@ -91,7 +91,10 @@ namespace {
             if (sample > m_last.sample) {
                 const double expected = double(sample - m_last.sample) / m_nominalHz;
                 const double missing = now.seconds - m_last.seconds - expected;
-                if (std::abs(missing) > 0.5 * expected) {
+                if (std::abs(missing) > longestBetweenBlocks && m_last.sample == m_first.sample && m_gaps.empty()) {
+                    m_stale = missing;
+                    m_first = m_begin = m_longestBegin = m_longestEnd = now;
+                } else if (std::abs(missing) > 0.5 * expected) {
                     if (m_gaps.size() < mostRuns)
                         m_gaps.push_back({sample, missing});
                     m_begin = now;
@@ -147,6 +150,10 @@ namespace {
             if (m_isKnown)
                 notes.push_back("The first time stamp is second " + formatNumber(m_first.seconds)
                                 + " of the GPS week.");
+            if (m_stale != 0.0)
+                notes.push_back("The time stamp of the first block, " + formatNumber(std::round(std::abs(m_stale)))
+                                + " s " + (m_stale > 0.0 ? "before" : "after")
+                                + " those of the next ones, is not of its time and is ignored.");
             if (rateHz() != m_nominalHz)
                 notes.push_back("The sample rate is that of the time stamps; the header says "
                                 + formatNumber(m_nominalHz) + " Hz.");
@@ -164,8 +171,12 @@ namespace {
             double seconds;
         };
 
+        /// A receiver that was idle stamps its first block with the time of an earlier one.
+        static constexpr double longestBetweenBlocks = 10.0; // s
+
         double m_nominalHz;
         double m_weeks = 0.0;
+        double m_stale = 0.0;   ///< by how much the first stamp is too early, s; 0: it is not
         bool m_isKnown = false; ///< whether there was a stamp
         Stamp m_first, m_last;
         Stamp m_begin;                      ///< of the current stretch without a gap
@@ -230,6 +241,7 @@ KiwiRecording::KiwiRecording(const std::string &path) : m_file(path)
         m_info.startUnixSeconds = unixFromGpsWeekSecond(*second, *named);
     m_stretches = clock.stretches(stored(), m_info.notes);
     m_info.sampleCount = m_stretches.end();
+    m_info.places = m_stretches;
     if (m_stretches.hasGaps())
         m_info.notes.push_back(
             "The time stamps show " + std::to_string(m_stretches.gaps()) + " gap(s), "

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/Axis.h"
+#include "recording/Stretches.h"
 
 #include <atomic>
 #include <functional>
@@ -24,7 +25,12 @@ struct RecordingInfo {
     double centreHz = 0.0;                  ///< frequency that corresponds to 0 Hz of the samples
     std::optional<double> startUnixSeconds; ///< UTC of the first sample
     std::vector<std::string> notes;         ///< repairs and assumptions made on opening, one sentence each
+    Stretches places;                       ///< in time of the file's samples; empty if they are contiguous
+    Index firstNumber = 0;                  ///< that SigMF gives the file's first sample (core:offset)
+    std::string sigmf;                      ///< "global" and "captures" of SigMF metadata, as JSON; else empty
 
+    /// Of real samples, frequencies are what they are.
+    bool isCentreKnown() const { return centreHz != 0.0 || !isComplex; }
     double durationSeconds() const { return double(sampleCount) / sampleRateHz; }
     Index floatsPerSample() const { return isComplex ? 2 : 1; }
 };

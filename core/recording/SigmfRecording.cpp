@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 namespace faintline {
 
@@ -102,10 +103,19 @@ struct SigmfRecording::Meta {
     std::optional<double> startUnixSeconds;
     std::vector<std::string> notes;
     std::vector<Start> starts;
-    Index firstGlobal = 0;
+    std::optional<Index> firstGlobal;   ///< global index of the first sample
+    std::optional<double> datedSeconds; ///< time of a sample, s since 1970 …
+    Index datedInTime = 0;              ///< … which has this place
+    bool isRetuned = false;             ///< another centre frequency was told
+    bool isContradicted = false;        ///< a time that contradicts the sample numbers was told
+    Index offset = 0;
+    std::string json; ///< "global" and "captures"
 
     void readLayout(const Section &global);
-    void readStartTime(const std::optional<std::string> &time, Index start);
+    void readCapture(const Section &capture, bool isFirst);
+    void placeByIndex(Index start, Index globalIndex);
+    void placeByTime(Index start, const std::string &time, bool isPlaced);
+    Index inTimeOf(Index start) const;
 };
 
 bool SigmfRecording::isNamedSo(const std::string &path)
@@ -137,40 +147,43 @@ SigmfRecording::Meta SigmfRecording::readMeta(const std::string &path)
     const Section global(json["global"], metaPath + ": global");
     Meta meta;
     meta.readLayout(global);
-    const Index offset = global.count("core:offset", 0.0, largestCount, 0);
+    meta.offset = global.count("core:offset", 0.0, largestCount, 0);
     meta.dataPath = dataPathOf(global, path);
     if (!std::filesystem::exists(meta.dataPath))
         throw Error(path, "its samples, " + meta.dataPath + ", are missing");
 
     const auto captures = json.find("captures");
-    if (captures == json.end() || captures->is_null())
-        return meta;
-    if (!captures->is_array())
+    const bool hasCaptures = captures != json.end() && !captures->is_null();
+    if (hasCaptures && !captures->is_array())
         throw Error(metaPath + ": captures", "must be a list, [ … ]");
-    for (std::size_t i = 0; i < captures->size(); ++i) {
-        const Section capture((*captures)[i], metaPath + ": captures[" + std::to_string(i) + "]");
-        const Index start = capture.count("core:sample_start", 0.0, largestCount, offset) - offset;
-        const double frequency = capture.number("core:frequency", -1e15, 1e15).value_or(0.0);
-        const Index header = capture.count("core:header_bytes", 0.0, largestCount, 0);
-        const std::optional<std::string> time = capture.text("core:datetime");
-        if (const Json *inTime = capture.find("core:global_index");
-            inTime && inTime->is_number_unsigned() && inTime->get<double>() <= largestCount)
-            addStretch(meta, start, inTime->get<Index>());
-        if (i == 0) {
-            meta.centreHz = frequency;
-            meta.layout.headerBytes = header;
-            meta.readStartTime(time, start);
-        } else if (header > 0) {
-            capture.refuse("core:header_bytes", "bytes can be skipped before the first capture only, not between "
-                                                "captures");
-        } else if (frequency != meta.centreHz) {
-            meta.notes.push_back("From sample " + std::to_string(start)
-                                 + " on, another capture has the centre frequency " + formatNumber(frequency)
-                                 + " Hz; the first one's is used for all.");
-            break;
-        }
-    }
+    for (std::size_t i = 0; hasCaptures && i < captures->size(); ++i)
+        meta.readCapture({(*captures)[i], metaPath + ": captures[" + std::to_string(i) + "]"}, i == 0);
+    meta.json = Json{{"global", json["global"]}, {"captures", hasCaptures ? *captures : Json::array()}}.dump();
     return meta;
+}
+
+void SigmfRecording::Meta::readCapture(const Section &capture, bool isFirst)
+{
+    const Index start = capture.count("core:sample_start", 0.0, largestCount, offset) - offset;
+    const std::optional<double> frequency = capture.number("core:frequency", -1e15, 1e15);
+    const Index header = capture.count("core:header_bytes", 0.0, largestCount, 0);
+    const std::optional<std::string> time = capture.text("core:datetime");
+    const Json *index = capture.find("core:global_index");
+    const bool isPlaced = index && index->is_number_unsigned() && index->get<double>() <= largestCount;
+    if (isPlaced)
+        placeByIndex(start, index->get<Index>());
+    if (time)
+        placeByTime(start, *time, isPlaced);
+    if (isFirst) {
+        centreHz = frequency.value_or(0.0);
+        layout.headerBytes = header;
+    } else if (header > 0) {
+        capture.refuse("core:header_bytes", "bytes can be skipped before the first capture only, not between captures");
+    } else if (frequency && *frequency != centreHz && !isRetuned) {
+        isRetuned = true;
+        notes.push_back("From sample " + std::to_string(start) + " on, another capture has the centre frequency "
+                        + formatNumber(*frequency) + " Hz; the first one's is used for all.");
+    }
 }
 
 void SigmfRecording::Meta::readLayout(const Section &global)
@@ -187,34 +200,69 @@ void SigmfRecording::Meta::readLayout(const Section &global)
     layout.trailingBytes = global.count("core:trailing_bytes", 0.0, largestCount, 0);
 }
 
-/// Sets the start time from that of a capture that begins with sample `start`.
-void SigmfRecording::Meta::readStartTime(const std::optional<std::string> &time, Index start)
+/// Place in time of a sample of the file, by the captures so far.
+Index SigmfRecording::Meta::inTimeOf(Index start) const
 {
-    startUnixSeconds = time ? parseUtc(*time) : std::nullopt;
-    if (startUnixSeconds)
-        *startUnixSeconds -= double(start) / layout.sampleRateHz;
-    else if (time)
-        notes.push_back("core:datetime \"" + oneLine(*time, 40) + "\" is not an ISO 8601 time and is ignored.");
+    return starts.empty() ? start : starts.back().inTime + start - starts.back().inFile;
 }
 
 /// Adds a capture's first sample with its places in file and time, if samples are missing before it.
-void SigmfRecording::addStretch(Meta &meta, Index start, Index globalIndex)
+void SigmfRecording::Meta::placeByIndex(Index start, Index globalIndex)
 {
-    if (meta.starts.empty()) {
-        meta.starts.push_back({start, start});
-        meta.firstGlobal = globalIndex - start;
+    if (!firstGlobal) {
+        firstGlobal = globalIndex - inTimeOf(start);
         return;
     }
-    const Index inTime = globalIndex - meta.firstGlobal;
-    const Meta::Start &last = meta.starts.back();
-    const Index gap = (inTime - last.inTime) - (start - last.inFile);
-    if (gap < 0 || start < last.inFile || double(inTime) > Stretches::longestSeconds * meta.layout.sampleRateHz) {
-        meta.notes.push_back("From sample " + std::to_string(start)
-                             + " on, core:global_index contradicts what comes before it and is ignored.");
+    const Index inTime = globalIndex - *firstGlobal;
+    const Index gap = inTime - inTimeOf(start);
+    const bool isBackward = !starts.empty() && start < starts.back().inFile;
+    if (gap < 0 || isBackward || double(inTime) > Stretches::longestSeconds * layout.sampleRateHz) {
+        notes.push_back("From sample " + std::to_string(start)
+                        + " on, core:global_index contradicts what comes before it and is ignored.");
         return;
     }
     if (gap > 0)
-        meta.starts.push_back({inTime, start});
+        starts.push_back({inTime, start});
+}
+
+/// Takes the start time from the first capture that has one. If a later one is late, and no index gives its place
+/// (isPlaced), samples are missing before it.
+void SigmfRecording::Meta::placeByTime(Index start, const std::string &time, bool isPlaced)
+{
+    const std::optional<double> seconds = parseUtc(time);
+    const double rate = layout.sampleRateHz;
+    const Index inTime = inTimeOf(start);
+    if (!seconds) {
+        notes.push_back("core:datetime \"" + oneLine(time, 40) + "\" is not an ISO 8601 time and is ignored.");
+        return;
+    }
+    if (!datedSeconds) {
+        startUnixSeconds = *seconds - double(inTime) / rate;
+        datedSeconds = seconds;
+        datedInTime = inTime;
+        return;
+    }
+    constexpr double crystalError = 200e-6;
+    const bool isWhole = time.find('.') == std::string::npos && time.find(',') == std::string::npos;
+    const double elapsed = double(inTime - datedInTime) / rate;
+    const double late = *seconds - *datedSeconds - elapsed;
+    if (std::abs(late) <= (isWhole ? 1.0 : 0.01) + crystalError * std::abs(elapsed))
+        return;
+    const std::string where = "The core:datetime of the capture at sample " + std::to_string(offset + start) + " is "
+                              + formatNumber(std::round(1e3 * std::abs(late)) / 1e3) + " s "
+                              + (late > 0.0 ? "later" : "earlier") + " than ";
+    const bool isBackward = !starts.empty() && start < starts.back().inFile;
+    if (isPlaced || late < 0.0 || isBackward || late > Stretches::longestSeconds) {
+        if (!std::exchange(isContradicted, true))
+            notes.push_back(where + (isPlaced ? "its core:global_index" : "its sample number")
+                            + " tells; the time is ignored.");
+        return;
+    }
+    starts.push_back({inTime + std::llround(late * rate), start});
+    datedSeconds = seconds;
+    datedInTime = starts.back().inTime;
+    notes.push_back(where + "its sample number tells: samples are missing before it"
+                    + (isWhole ? ", to within 1 s." : "."));
 }
 
 SigmfRecording::SigmfRecording(const std::string &path, bool iq) : SigmfRecording(path, readMeta(path), iq) {}
@@ -227,41 +275,44 @@ SigmfRecording::SigmfRecording(const std::string &path, const Meta &meta, bool i
     m_info.centreHz = meta.centreHz;
     m_info.startUnixSeconds = meta.startUnixSeconds;
     m_info.notes.insert(m_info.notes.end(), meta.notes.begin(), meta.notes.end());
+    m_info.firstNumber = meta.offset;
+    m_info.sigmf = meta.json;
     placeInTime(meta);
 }
 
 void SigmfRecording::placeInTime(const Meta &meta)
 {
     Meta::Start next{0, 0};
+    Stretches &places = m_info.places;
     for (const Meta::Start &start : meta.starts) {
         if (start.inFile >= m_info.sampleCount) // not written yet
             continue;
-        m_stretches.add(next.inTime, next.inFile, start.inFile - next.inFile);
+        places.add(next.inTime, next.inFile, start.inFile - next.inFile);
         next = start;
     }
-    m_stretches.add(next.inTime, next.inFile, m_info.sampleCount - next.inFile);
-    if (!m_stretches.hasGaps())
+    places.add(next.inTime, next.inFile, m_info.sampleCount - next.inFile);
+    if (!places.hasGaps())
         return;
-    m_info.sampleCount = m_stretches.end();
-    m_info.notes.push_back(std::to_string(m_stretches.gaps()) + " gap(s), in all "
-                           + std::to_string(m_stretches.missing()) + " samples, which were not observed.");
+    m_info.sampleCount = places.end();
+    m_info.notes.push_back(std::to_string(places.gaps()) + " gap(s), in all " + std::to_string(places.missing())
+                           + " samples, which were not observed.");
 }
 
 void SigmfRecording::read(int channel, Index first, Index count, std::span<float> out) const
 {
-    if (!m_stretches.hasGaps()) {
+    if (!m_info.places.hasGaps()) {
         RawRecording::read(channel, first, count, out);
         return;
     }
     fill(first, count, out, [&](Index from, std::span<float> inside) {
-        m_stretches.read(from, m_info.floatsPerSample(), inside,
-                         [&](Index inFile, std::span<float> part) { readFile(channel, inFile, part); });
+        m_info.places.read(from, m_info.floatsPerSample(), inside,
+                           [&](Index inFile, std::span<float> part) { readFile(channel, inFile, part); });
     });
 }
 
 bool SigmfRecording::isWhole(Index first, Index count) const
 {
-    return m_stretches.isWhole(first, count);
+    return m_info.places.isWhole(first, count);
 }
 
 } // namespace faintline

@@ -9,10 +9,11 @@ namespace faintline {
 
 /// A SigMF recording: samples in one file (.sigmf-data), their description in another (.sigmf-meta, JSON).
 ///
-/// Reads core:datatype, sample_rate, num_channels, offset, dataset, trailing_bytes and the first capture's
-/// sample_start, frequency, datetime and header_bytes; a note says if later captures differ. Where captures'
-/// global_index grows by more than their sample_start, samples are missing: they keep their place in time and read as
-/// 0, and isWhole reports them. Source: the SigMF specification, 1.2.
+/// Reads core:datatype, sample_rate, num_channels, offset, dataset, trailing_bytes and the captures' sample_start,
+/// frequency, datetime and header_bytes; a note says if later captures differ. Where captures' global_index, or without
+/// it their datetime, grows by more than their sample_start, samples are missing: they keep their place in time and
+/// read as 0, and isWhole reports them. Times must differ by more than their resolution (1 s without a fraction, else
+/// 10 ms) and 200 ppm. Source: the SigMF specification, 1.2.
 class SigmfRecording final : public RawRecording
 {
 public:
@@ -33,10 +34,7 @@ private:
     struct Meta;
     SigmfRecording(const std::string &path, const Meta &meta, bool iq);
     static Meta readMeta(const std::string &path);
-    static void addStretch(Meta &meta, Index start, Index globalIndex);
     void placeInTime(const Meta &meta);
-
-    Stretches m_stretches; ///< places of the file's samples in time
 };
 
 } // namespace faintline

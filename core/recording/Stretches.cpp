@@ -46,6 +46,29 @@ std::vector<Stretches::Stretch>::const_iterator Stretches::stretchOf(Index sampl
                             [](Index wanted, const Stretch &each) { return wanted < each.end(); });
 }
 
+Index Stretches::storedAt(Index inTime) const
+{
+    if (m_stretches.empty() || inTime < m_stretches.front().inTime)
+        return inTime;
+    const auto stretch = stretchOf(inTime);
+    const Stretch &own = stretch == m_stretches.end() ? m_stretches.back() : *stretch;
+    return own.stored + std::max<Index>(0, inTime - own.inTime);
+}
+
+Index Stretches::nextStretch(Index inTime) const
+{
+    const auto next = std::upper_bound(m_stretches.begin(), m_stretches.end(), inTime,
+                                       [](Index wanted, const Stretch &each) { return wanted < each.inTime; });
+    return next == m_stretches.end() ? std::max(end(), inTime + 1) : next->inTime;
+}
+
+Index Stretches::inTimeOf(Index stored) const
+{
+    const auto behind = std::upper_bound(m_stretches.begin(), m_stretches.end(), stored,
+                                         [](Index wanted, const Stretch &each) { return wanted < each.stored; });
+    return behind == m_stretches.begin() ? stored : (behind - 1)->inTime + stored - (behind - 1)->stored;
+}
+
 bool Stretches::isWhole(Index first, Index count) const
 {
     const Index to = std::min(first + count, end());

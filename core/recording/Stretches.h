@@ -28,6 +28,14 @@ public:
     Index samples() const; ///< in all stretches
     Index end() const;     ///< one past the last sample, in time
 
+    /// Index among the stored samples of a place in time, or of the first stored one behind it; without any stretch they
+    /// are equal. In a place beyond the end, time goes on.
+    Index storedAt(Index inTime) const;
+    /// Place in time of the first sample of the next stretch; end() or the next integer, if larger, behind the last one.
+    Index nextStretch(Index inTime) const;
+    /// Place in time of a stored sample.
+    Index inTimeOf(Index stored) const;
+
     /// Whether all of these samples that lie before the end were observed.
     bool isWhole(Index first, Index count) const;
 

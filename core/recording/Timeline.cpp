@@ -168,10 +168,14 @@ TimedFile Timeline::addPart(const std::string &path, const Recording &recording)
     if (!start)
         throw Error(path,
                     "has no time stamp in its header or its name (such as 20260123_235959); a timeline requires one");
-    if (m_parts.empty())
+    if (m_parts.empty()) {
         m_info = info;
-    else
+        m_info.places = {}; // of one file
+        m_info.firstNumber = 0;
+        m_info.sigmf.clear();
+    } else {
         checkLike(info);
+    }
     const bool hasGaps = !recording.isWhole(0, info.sampleCount);
     m_hasGapsWithin = m_hasGapsWithin || hasGaps;
     m_parts.push_back({path, {}, 0, info.sampleCount, hasGaps});

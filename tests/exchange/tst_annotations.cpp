@@ -21,6 +21,7 @@ private slots:
     void raven();
     void audacity();
     void sigmf();
+    void sigmfCountsSamplesOfTheFile();
     void textsAreTakenApart();
     void farAway();
     void hostile_data();
@@ -183,6 +184,39 @@ void tst_annotations::sigmf()
         {"core:sample_start": 3000}]})");
     QVERIFY((boxes[0] == Annotation{0.5, 0.75, -10.0, 20.0, "x", "", Verdict::None}));
     QVERIFY((boxes[1] == Annotation{1.5, 1.5, {}, {}, "", "", Verdict::None}));
+}
+
+// The file's samples have numbers from 2 000 000 on; 20 s are missing behind its first 2000.
+void tst_annotations::sigmfCountsSamplesOfTheFile()
+{
+    RecordingInfo info = m_info;
+    info.sampleRateHz = 400.0;
+    info.sampleCount = 24000;
+    info.firstNumber = 2000000;
+    info.places.add(0, 0, 2000);
+    info.places.add(10000, 2000, 14000);
+    info.sigmf = R"({"global": {"core:datatype": "ci8", "core:sample_rate": 400, "core:offset": 2000000},
+                     "captures": [{"core:sample_start": 2000000, "core:global_index": 7},
+                                  {"core:sample_start": 2002000, "core:global_index": 10007}]})";
+    const QByteArray head = QByteArray::fromStdString(info.sigmf).chopped(1);
+    writeBytes(path("o.sigmf-meta"), head + R"(, "annotations": [
+        {"core:sample_start": 2001000}, {"core:sample_start": 2001000, "core:sample_count": 2000},
+        {"core:sample_start": 2004000, "core:sample_count": 8000}, {"core:sample_start": 2010000}]})");
+    const auto boxes = readAnnotations(path("o.sigmf-meta"), info);
+    const std::vector<std::pair<double, double>> expected{{2.5, 5.0}, {2.5, 27.5}, {30.0, 50.0}, {45.0, 60.0}};
+    for (std::size_t i = 0; i < expected.size(); ++i)
+        QVERIFY(std::pair(boxes[i].startSeconds, boxes[i].endSeconds) == expected[i]);
+
+    Annotations written;
+    written.boxes = boxes;
+    writeReviewed(threeTracks(info), {}, written, path("back.sigmf-meta"));
+    QVERIFY(readAnnotations(path("back.sigmf-meta"), info) == boxes);
+    const Json json = parseJson(readBytes(path("back.sigmf-meta")).toStdString(), "");
+    QCOMPARE(json["global"]["core:offset"].get<int>(), 2000000);
+    QCOMPARE(json["global"]["core:datatype"].get<std::string>(), std::string("ci8"));
+    QVERIFY(json["captures"] == parseJson(info.sigmf, "")["captures"]);
+    QCOMPARE(json["annotations"][2]["core:sample_start"].get<int>(), 2004000);
+    QCOMPARE(json["annotations"][2]["core:sample_count"].get<int>(), 8000);
 }
 
 void tst_annotations::textsAreTakenApart()

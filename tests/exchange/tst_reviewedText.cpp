@@ -40,6 +40,17 @@ ReviewedRow whale()
     return made;
 }
 
+RecordingInfo infoOf(double rate, double centre)
+{
+    RecordingInfo info;
+    info.sampleRateHz = rate;
+    info.centreHz = centre;
+    info.isComplex = centre != 0.0;
+    info.channelCount = 1;
+    info.sampleType = "int16";
+    return info;
+}
+
 } // namespace
 
 void tst_reviewedText::numbersAreShortestOrEmpty()
@@ -71,8 +82,9 @@ void tst_reviewedText::sigmfCountsSamples()
     event.statistic = 17.5;
     ReviewedRow detected = whale();
     detected.event = &event;
-    const Json json = Json::parse(sigmfText({detected, row(3.0, 3.0, "click")}, 48000.0, 1e8));
+    const Json json = Json::parse(sigmfText({detected, row(3.0, 3.0, "click")}, infoOf(48000.0, 1e8)));
     QCOMPARE(json["global"]["core:sample_rate"].get<double>(), 48000.0);
+    QCOMPARE(json["global"]["core:datatype"].get<std::string>(), std::string("ci16_le"));
     QCOMPARE(json["captures"][0]["core:frequency"].get<double>(), 1e8);
     const Json &first = json["annotations"][0];
     QCOMPARE(first["core:sample_start"].get<long long>(), 72000LL); // 1.5 s
@@ -88,7 +100,8 @@ void tst_reviewedText::sigmfCountsSamples()
 
 void tst_reviewedText::sigmfIsInOrderOfTime()
 {
-    const Json json = Json::parse(sigmfText({row(5, 6, "c"), row(1, 9, "a"), row(5, 7, "d"), row(2, 3, "b")}, 10, 0));
+    const Json json =
+        Json::parse(sigmfText({row(5, 6, "c"), row(1, 9, "a"), row(5, 7, "d"), row(2, 3, "b")}, infoOf(10.0, 0.0)));
     std::string labels;
     for (const Json &one : json["annotations"])
         labels += one["core:label"].get<std::string>();
@@ -97,7 +110,7 @@ void tst_reviewedText::sigmfIsInOrderOfTime()
 
 void tst_reviewedText::farTimesStayExact()
 {
-    const Json json = Json::parse(sigmfText({row(1e300, 1e301, "")}, 1e6, 0.0));
+    const Json json = Json::parse(sigmfText({row(1e300, 1e301, "")}, infoOf(1e6, 0.0)));
     const Json &one = json["annotations"][0];
     QCOMPARE(one["core:sample_start"].get<long long>(), 9007199254740992LL); // 2^53
     QCOMPARE(one["core:sample_count"].get<long long>(), 1LL);

@@ -90,6 +90,7 @@ void tst_SigmfRecording::offsetMovesTheStart()
     meta.replace("\"core:sample_start\": 0", "\"core:sample_start\": 97001");
     const SigmfRecording recording(write(meta));
     QCOMPARE(recording.info().startUnixSeconds, std::optional(1721952000.25 - 96001.0 / 48000.5));
+    QCOMPARE(recording.info().firstNumber, Index(1000));
 }
 
 void tst_SigmfRecording::captureWithAnotherFrequency()
@@ -127,6 +128,29 @@ void tst_SigmfRecording::gapsKeepTheirPlaces_data()
                               << 1;
     QTest::newRow("in a thousand years") << capture("0", "0") + "," + capture("7", "9000000000000000")
                                          << QByteArray("abcdefghijklmnopqrst") << 1;
+    const auto dated = [](const char *start, const char *time, const char *more = "") {
+        return QByteArray(R"({"core:sample_start": )") + start + R"(, "core:datetime": "2026-03-01T)" + time + "\""
+               + more + "}";
+    };
+    QTest::newRow("by their times") << dated("0", "12:00:00.00Z") + "," + dated("5", "12:00:00.13Z")
+                                    << "abcde" + QByteArray(8, '.') + "fghijklmnopqrst" << 2;
+    QTest::newRow("two by their times") << dated("2", "12:00:00.02Z") + "," + dated("5", "12:00:00.13Z") + ","
+                                               + dated("7", "12:00:00.20Z")
+                                        << "abcde" + QByteArray(8, '.') + "fg.....hijklmnopqrst" << 3;
+    QTest::newRow("times within their resolution")
+        << dated("0", "12:00:00.000Z") + "," + dated("5", "12:00:00.055Z") << QByteArray("abcdefghijklmnopqrst") << 0;
+    QTest::newRow("within whole seconds")
+        << dated("0", "12:00:00Z") + "," + dated("5", "12:00:01Z") << QByteArray("abcdefghijklmnopqrst") << 0;
+    QTest::newRow("by whole seconds") << dated("0", "12:00:00Z") + "," + dated("5", "12:00:03Z")
+                                      << "abcde" + QByteArray(295, '.') + "fghijklmnopqrst" << 2;
+    QTest::newRow("earlier") << dated("0", "12:00:10Z") + "," + dated("5", "12:00:00Z")
+                             << QByteArray("abcdefghijklmnopqrst") << 1;
+    QTest::newRow("later than the index") << dated("0", "12:00:00Z", ", \"core:global_index\": 0") + ","
+                                                 + dated("5", "12:01:00Z", ", \"core:global_index\": 7")
+                                          << QByteArray("abcde..fghijklmnopqrst") << 2;
+    QTest::newRow("frequency of the first only")
+        << QByteArray(R"({"core:sample_start": 0, "core:frequency": 1e8}, {"core:sample_start": 5})")
+        << QByteArray("abcdefghijklmnopqrst") << 0;
     QTest::newRow("no number") << capture("0", "\"zero\"") + "," + capture("7", "-5")
                                << QByteArray("abcdefghijklmnopqrst") << 0;
 }

@@ -8,6 +8,7 @@
 #include "base/utc.h"
 #include "exchange/csvText.h"
 #include "exchange/reviewedText.h"
+#include "recording/openRecording.h"
 
 #include <cmath>
 #include <filesystem>
@@ -39,6 +40,26 @@ namespace {
                + "," + nameOf(one.box.verdict) + "," + csvText(oneLine(one.box.note)) + "\n";
     }
 
+    /// Properties of a recording's file, if it is still there, and those that the survey keeps.
+    RecordingInfo infoOf(const SurveyRecording &recording)
+    {
+        RecordingInfo info;
+        try {
+            info = openRecording(recording.file.path)->info();
+        } catch (const Error &) { // the survey remains usable without its recordings
+        }
+        if (info.sampleRateHz != *recording.sampleRateHz)
+            info = {};
+        info.sampleRateHz = *recording.sampleRateHz;
+        info.centreHz = recording.centreHz.value_or(0.0);
+        info.startUnixSeconds = recording.startUnixSeconds;
+        if (info.centreHz != 0.0 && !info.isComplex) { // opened as I and Q
+            info.isComplex = true;
+            info.channelCount /= 2;
+        }
+        return info;
+    }
+
     std::string listText(const std::vector<SurveyEvent> &events, const SurveyRecording &recording, SurveyList list)
     {
         std::vector<ReviewedRow> rows;
@@ -52,7 +73,7 @@ namespace {
             return audacityText(rows);
         if (!recording.sampleRateHz)
             throw Error(recording.file.path, "contains frames; SigMF annotations require samples");
-        return sigmfText(rows, *recording.sampleRateHz, recording.centreHz.value_or(0.0));
+        return sigmfText(rows, infoOf(recording));
     }
 
 } // namespace

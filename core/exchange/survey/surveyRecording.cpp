@@ -63,7 +63,8 @@ namespace {
         described.container = info.container;
         described.sampleRateHz = info.sampleRateHz;
         described.durationSeconds = info.durationSeconds();
-        described.centreHz = info.centreHz;
+        if (info.isCentreKnown())
+            described.centreHz = info.centreHz;
         described.startUnixSeconds = info.startUnixSeconds;
         return analyseInChosenWindow(recording, withSlopesInBins(settings.analysis, info), context, nullptr,
                                      {.depth = AnalysisDepth::Tracks});
