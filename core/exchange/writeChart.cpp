@@ -27,7 +27,7 @@ namespace {
     constexpr std::array<std::string_view, 7> colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                       "#e69f00", "#56b4e9", "#000000"};
 
-    std::string escaped(std::string_view text)
+    std::string escapedSvg(std::string_view text)
     {
         std::string result;
         for (const char c : text)
@@ -127,7 +127,7 @@ namespace {
     std::string text(double x, double y, std::string_view anchor, std::string_view words, std::string_view more = "")
     {
         return "<text x=\"" + pixels(x) + "\" y=\"" + pixels(y) + "\" text-anchor=\"" + std::string(anchor) + "\""
-               + std::string(more) + ">" + escaped(words) + "</text>\n";
+               + std::string(more) + ">" + escapedSvg(words) + "</text>\n";
     }
 
     std::string tickText(double value)

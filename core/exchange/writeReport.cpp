@@ -15,7 +15,7 @@ namespace {
     constexpr std::size_t mostLadders = 10;
     constexpr std::size_t mostRungs = 60;
 
-    std::string escaped(const std::string &text)
+    std::string escapedHtml(const std::string &text)
     {
         std::string result;
         for (const char c : text)
@@ -93,7 +93,7 @@ namespace {
     {
         std::string row = "<tr>";
         for (const std::string &text : texts)
-            row += std::string("<") + tag + ">" + escaped(text) + "</" + tag + ">";
+            row += std::string("<") + tag + ">" + escapedHtml(text) + "</" + tag + ">";
         return row + "</tr>\n";
     }
 
@@ -102,7 +102,7 @@ namespace {
     {
         std::string row = "<tr>";
         for (std::size_t i = 0; i < texts.size(); ++i)
-            row += std::string("<") + tag + (i < count ? " class=\"n\">" : ">") + escaped(texts[i]) + "</" + tag + ">";
+            row += std::string("<") + tag + (i < count ? " class=\"n\">" : ">") + escapedHtml(texts[i]) + "</" + tag + ">";
         return row + "</tr>\n";
     }
 
@@ -135,7 +135,7 @@ namespace {
 
     std::string fact(const std::string &name, const std::string &value)
     {
-        return "<tr><th scope=\"row\">" + escaped(name) + "</th><td>" + escaped(value) + "</td></tr>\n";
+        return "<tr><th scope=\"row\">" + escapedHtml(name) + "</th><td>" + escapedHtml(value) + "</td></tr>\n";
     }
 
     std::string recordingFacts(const Analysis &analysis)
@@ -355,14 +355,14 @@ std::string reportHtml(const Analysis &analysis, const ReportMaterial &material)
     std::string text = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
                        "content=\"width=device-width\">\n"
                        "<meta name=\"generator\" content=\"Faintline "
-                       + escaped(material.version) + "\">\n<title>" + escaped(material.title) + "</title>\n<style>"
-                       + style + "</style>\n</head>\n<body>\n<h1>" + escaped(material.title) + "</h1>\n";
+                       + escapedHtml(material.version) + "\">\n<title>" + escapedHtml(material.title) + "</title>\n<style>"
+                       + style + "</style>\n</head>\n<body>\n<h1>" + escapedHtml(material.title) + "</h1>\n";
     text += "<h2>Recording</h2>\n" + recordingFacts(analysis);
     text += "<h2>Pictures</h2>\n<div class=\"pictures\">\n";
     for (const ReportMaterial::Picture &picture : material.pictures)
-        text += "<figure><img alt=\"" + escaped(picture.title) + "\" width=\"" + std::to_string(picture.width)
+        text += "<figure><img alt=\"" + escapedHtml(picture.title) + "\" width=\"" + std::to_string(picture.width)
                 + "\" height=\"" + std::to_string(picture.height) + "\" src=\"data:image/png;base64,"
-                + base64(picture.png) + "\"><figcaption>" + escaped(picture.title) + "</figcaption></figure>\n";
+                + base64(picture.png) + "\"><figcaption>" + escapedHtml(picture.title) + "</figcaption></figure>\n";
     text += "</div>\n<h2>Events</h2>\n" + eventsTable(analysis, material) + areasTable(analysis)
             + annotationsTable(material.annotations.boxes);
     text += "<h2>Threshold and calibration</h2>\n" + calibrationFacts(analysis);
@@ -373,11 +373,11 @@ std::string reportHtml(const Analysis &analysis, const ReportMaterial &material)
             text += ladder(analysis, one);
     }
     text += "<h2>Settings that differ from the defaults</h2>\n" + settingsTable(analysis.settings);
-    text += "<h2>Provenance</h2>\n<p>Faintline " + escaped(material.version)
+    text += "<h2>Provenance</h2>\n<p>Faintline " + escapedHtml(material.version)
             + ". The same recording with these "
               "settings gives the same "
               "results.</p>\n<pre>"
-            + escaped(material.provenance) + "</pre>\n";
+            + escapedHtml(material.provenance) + "</pre>\n";
     return text + "</body>\n</html>\n";
 }
 

@@ -26,12 +26,6 @@ constexpr double snrsDb[] = {0.0, 3.0, 6.0, 10.0, 20.0};
 enum class Movement { Constant, Drifting, Wandering };
 constexpr const char *movementNames[] = {"constant", "drifting", "wandering"};
 
-/// FAINTLINE_COVERAGE=1 measures the tables of docs/performance.md.
-bool isWhole()
-{
-    return qEnvironmentVariableIntValue("FAINTLINE_COVERAGE") > 0;
-}
-
 /// A line of 50 s in 70 s of white noise, whose place, times and drift depend on the seed.
 LineScene sceneOf(double snrDb, Movement motion, int seed)
 {
@@ -172,7 +166,7 @@ constexpr double falseAlarmsPerRecording = 1.0;
 
 /// Reliability of what a track states about itself: its 5-95 % band, its onset and end, and the probability that it is
 /// noise.
-/// FAINTLINE_COVERAGE=1 build/tests/tst_coverage prints the tables of docs/performance.md.
+/// In the long lane it prints the tables of docs/performance.md.
 class tst_coverage : public QObject
 {
     Q_OBJECT
@@ -200,7 +194,7 @@ void tst_coverage::bands()
     Measured all;
     for (const double snrDb : snrsDb) {
         Measured measured;
-        const int runs = isWhole() ? 50 : snrDb == 3.0 || snrDb == 10.0 ? 2 : 1;
+        const int runs = test::isLong() ? 50 : snrDb == 3.0 || snrDb == 10.0 ? 2 : 1;
         for (int run = 0; run < runs; ++run)
             measured.add(SimulatedRecording(sceneOf(snrDb, Movement(motion), 1 + run + 1000 * motion)),
                          isGlide ? laws::glide() : ease8());
@@ -225,7 +219,7 @@ void tst_coverage::bands()
 
 void tst_coverage::probabilityOfNoise()
 {
-    const int runs = isWhole() ? 1200 : 30;
+    const int runs = test::isLong() ? 1200 : 30;
     std::vector<Group> groups = groupsOf();
     AnalysisSettings settings = settingsOf({});
     settings.decide.falseAlarmsPerHour = falseAlarmsPerRecording * 3600.0 / noiseSeconds;

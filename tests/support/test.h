@@ -15,6 +15,12 @@ inline std::map<std::string, std::function<int(int, char **)>> &classes()
     return all;
 }
 
+/// Whether the long lane runs, which measures error rates in full; the quick one tries a seed or a few of each.
+inline bool isLong()
+{
+    return qEnvironmentVariableIntValue("FAINTLINE_LONG") > 0;
+}
+
 struct Registration {
     Registration(const char *name, std::function<int(int, char **)> run) { classes().emplace(name, std::move(run)); }
 };

@@ -29,7 +29,7 @@ namespace {
                            [&](const std::string &ending) { return hasEnding(path, "." + ending); });
     }
 
-    std::string wholePath(const fs::path &path)
+    std::string absoluteName(const fs::path &path)
     {
         return fs::absolute(path).lexically_normal().string();
     }
@@ -57,7 +57,7 @@ namespace {
             if (entry.is_directory(code) && !entry.is_symlink(code))
                 folder(entry.path());
             else if (entry.is_regular_file(code) && isRecording(entry.path().native(), raw))
-                found.insert(wholePath(entry.path()));
+                found.insert(absoluteName(entry.path()));
         }
     };
 
@@ -84,11 +84,11 @@ std::vector<std::string> findRecordings(const std::vector<std::string> &names, b
         if (!fs::exists(status))
             throw Error(name, "there is no such file or folder");
         if (fs::is_directory(status))
-            search.folder(wholePath(name));
+            search.folder(absoluteName(name));
         else if (!fs::is_regular_file(status)) // opening a pipe would block
             throw Error(name, "is neither a file nor a folder");
         else
-            found.insert(wholePath(!raw && SigmfRecording::isNamedSo(name) ? SigmfRecording::metaPath(name) : name));
+            found.insert(absoluteName(!raw && SigmfRecording::isNamedSo(name) ? SigmfRecording::metaPath(name) : name));
     }
     return {found.begin(), found.end()};
 }
