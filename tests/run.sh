@@ -20,7 +20,7 @@ long | walks)
     ;;
 esac
 
-sh cmake/setup.sh parallel slurm-wlm python3-h5py bitshuffle xvfb openbox xdotool || exit 1 # campaigns, readers and walks are tried with them
+sh cmake/setup.sh ccache parallel slurm-wlm python3-h5py bitshuffle xvfb openbox xdotool || exit 1 # campaigns, readers and walks are tried with them
 [ -f build/build.ninja ] || cmake --preset release >build/configure.log || fail "configuring"
 NINJA_STATUS='Building, %p, %e s: ' cmake --build build || fail "the build"
 # shellcheck disable=SC2086 # two words

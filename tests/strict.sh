@@ -15,9 +15,7 @@ usage() {
     sed -n '2,/^set -eu/s/^# //p' "$0"
 }
 
-words() { # PREFIX SEPARATOR: of the threaded tests
-    echo $threaded | sed "s/^/$1/; s/ /$2$1/g"
-}
+programs="tests-base tests-recording tests-spectrum tests-track tests-analysis tests-inspect tests-evaluate tests-cli tests-jobs" # that hold them
 
 configure() { # an existing folder may have other flags or time limits
     cmake --preset "$1" > /dev/null
@@ -41,7 +39,8 @@ asan() {
 }
 
 tsan() {
-    configure tsan && cmake --build build-tsan --target faintline-cli $(words tst_ ' ') && run tsan -R "^($(words tst_ '|'))\$" "$@"
+    # shellcheck disable=SC2086 # one word per program, and per test
+    configure tsan && cmake --build build-tsan --target faintline-cli $programs && run tsan -R "^tst_($(echo $threaded | tr ' ' '|'))\$" "$@"
 }
 
 which=${1:-all}

@@ -12,8 +12,7 @@ using namespace faintline::test;
 /// The pass of a source: the model against bisection and differences of the phase, and the fit against simulated
 /// passes.
 ///
-/// FAINTLINE_DOPPLER_PASSES=10000 build/tests/tst_dopplerFit coverage   takes so many passes a row, 7 ms each, and 88
-/// to 92 % as limits.
+/// The long lane takes 10 000 passes a row, and 88 to 92 % as limits.
 class tst_dopplerFit : public QObject
 {
     Q_OBJECT
