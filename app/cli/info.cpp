@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -29,7 +30,7 @@ namespace {
         json["samples"] = info.sampleCount;
         json["durationSeconds"] = info.durationSeconds();
         json["complex"] = info.isComplex;
-        json["centreHz"] = info.centreHz;
+        json["centreHz"] = info.isCentreKnown() ? Json(info.centreHz) : Json(nullptr);
         json["startUnixSeconds"] = info.startUnixSeconds ? Json(*info.startUnixSeconds) : Json(nullptr);
         json["notes"] = info.notes;
         return json;
@@ -44,11 +45,33 @@ namespace {
         std::printf("length        %td samples, %s s\n", info.sampleCount,
                     formatNumber(info.durationSeconds()).c_str());
         if (info.isComplex)
-            std::printf("centre        %s Hz\n", formatNumber(info.centreHz).c_str());
+            std::printf("centre        %s\n",
+                        info.isCentreKnown() ? (formatNumber(info.centreHz) + " Hz").c_str() : "unknown");
         if (info.startUnixSeconds)
             std::printf("start         %s s after 1970-01-01 UTC\n", formatNumber(*info.startUnixSeconds).c_str());
         for (const std::string &note : info.notes)
             std::printf("note          %s\n", oneLine(note).c_str());
+    }
+
+    /// Adds a note on samples that are not finite: those of float recordings are read, as far as that takes seconds.
+    RecordingInfo readThrough(const Recording &recording)
+    {
+        RecordingInfo info = recording.info();
+        constexpr Index mostSamples = Index(1) << 28;
+        constexpr Index block = 1 << 16;
+        const Index end = std::min(info.sampleCount, std::max<Index>(1, mostSamples / info.channelCount));
+        Index notObserved = 0;
+        for (int channel = 0; channel < info.channelCount; ++channel) {
+            if (recording.isFinite(channel, 0, end))
+                continue;
+            for (Index first = 0; first < end; first += block)
+                notObserved += recording.nonFiniteCountIn(channel, first, std::min(block, end - first));
+        }
+        if (notObserved > 0)
+            info.notes.push_back(std::to_string(notObserved) + " sample(s)"
+                                 + (end < info.sampleCount ? " of the first " + std::to_string(end) : "")
+                                 + " are not finite; frames that reach into them are not observed.");
+        return info;
     }
 
     Json toJson(const Axis &axis)
@@ -226,11 +249,11 @@ void addInfo(CLI::App &app, Common &)
                 print(power->info());
             return;
         }
-        const RecordingPointer recording = openSamples(source);
+        const RecordingInfo info = readThrough(*openSamples(source));
         if (options->json)
-            std::printf("%s\n", toJson(recording->info()).dump(2, ' ', true).c_str());
+            std::printf("%s\n", toJson(info).dump(2, ' ', true).c_str());
         else
-            print(recording->info());
+            print(info);
     });
 }
 

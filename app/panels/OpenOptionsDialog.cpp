@@ -21,10 +21,17 @@ namespace faintline {
 
 namespace {
 
-    QString suggestedType(const QString &path)
+    /// Type and rate as a receiver's program wrote them into the name, else the type of the extension.
+    OpenOptions suggested(const QString &path)
     {
-        const auto type = rawTypeOfExtension(pathBytes(path));
-        return type && !type->empty() ? QString::fromStdString(*type) : QStringLiteral("ci16_le");
+        OpenOptions options = withNamedFormat(pathBytes(path), {});
+        if (options.rawType.empty())
+            options.rawType = rawTypeOfExtension(pathBytes(path)).value_or("");
+        if (options.rawType.empty())
+            options.rawType = "ci16_le";
+        if (!(options.rawRateHz > 0.0))
+            options.rawRateHz = 48000.0;
+        return options;
     }
 
 } // namespace
@@ -35,10 +42,11 @@ OpenOptionsDialog::OpenOptionsDialog(const QString &path, QWidget *parent)
       m_length(plainLabel())
 {
     setWindowTitle(tr("Raw samples"));
-    m_type->setCurrentText(suggestedType(path));
+    const OpenOptions named = suggested(path);
+    m_type->setCurrentText(QString::fromStdString(named.rawType));
     m_rate->setRange(1e-6, 1e12);
     m_rate->setDecimals(3);
-    m_rate->setValue(48000.0);
+    m_rate->setValue(named.rawRateHz);
     m_rate->setSuffix(tr(" Hz"));
     m_rate->setGroupSeparatorShown(false);
     m_channels->setRange(1, 1024);

@@ -46,6 +46,7 @@ AnalysisSettings dimensionless(AnalysisSettings settings)
     settings.selection = onlyCounted(settings.selection);
     settings.decide = withoutThreshold(settings.decide);
     settings.conventional = {};
+    settings.noise.blankDc = NormaliserSettings{}.blankDc;
     settings.track.bothWays = TrackSettings{}.bothWays; // applies after detection
     if (settings.spectrogram.windowSeconds > 0.0)
         settings.family = scaledFamily(settings.family, settings.spectrogram.windowSeconds / calibrationWindowSamples);

@@ -10,6 +10,8 @@ namespace faintline {
 
 namespace {
 
+    constexpr Index coarseChannel = Index(1) << 20; ///< channels
+
     void check(double value, double least, double most, const char *name, const std::string &path)
     {
         if (!(value >= least && value <= most))
@@ -35,17 +37,18 @@ void setFilterbankAxes(PowerInfo &info, const FilterbankHeader &header, const st
     info.time = {"time", "s", 0.5 * header.tsamp, header.tsamp, header.frames, false};
     if (header.tstart > unixDay && header.tstart < 1e6)
         info.startUnixSeconds = (header.tstart - unixDay) * daySeconds;
+    if (header.channels > 0 && header.channels % coarseChannel == 0)
+        info.notes.push_back("The middle channel of each of its " + std::to_string(header.channels / coarseChannel)
+                             + " coarse channels holds the receiver's DC offset and is not observed "
+                               "(noise.blankDc=false observes it).");
 }
 
 void excludeDc(const PowerInfo &info, const PowerPart &part, bool descends, std::span<float> out)
 {
-    constexpr Index coarse = Index(1) << 20;
-    constexpr Index fewest = Index(1) << 16;
     const Index all = info.frequency.count;
-    if (all < fewest)
+    if (part.hasDc || all % coarseChannel != 0)
         return;
-    const Index spacing = all % coarse == 0 ? coarse : all;
-    for (Index middle = spacing / 2; middle < all; middle += spacing) {
+    for (Index middle = coarseChannel / 2; middle < all; middle += coarseChannel) {
         const Index cell = (descends ? all - 1 - middle : middle) - part.firstCell;
         for (Index frame = 0; cell >= 0 && cell < part.cells && frame < part.frames; ++frame)
             out[std::size_t(frame * part.cells + cell)] = std::numeric_limits<float>::quiet_NaN();

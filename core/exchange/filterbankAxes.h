@@ -17,13 +17,13 @@ struct FilterbankHeader {
     Index frames = 0;
 };
 
-/// Sets axes and start time: frequencies ascend, in Hz; the time of a frame is its middle. Throws Error naming `path`
+/// Sets axes and start time, with a note on channels that excludeDc leaves out: frequencies ascend, in Hz; the time of a frame is its middle. Throws Error naming `path`
 /// and the invalid value.
 void setFilterbankAxes(PowerInfo &info, const FilterbankHeader &header, const std::string &path);
 
-/// Sets values of a part to NaN (not observed) in channels that hold a receiver's DC offset: the middle one of each
-/// coarse channel, in files of sufficiently fine resolution. A coarse channel has 2²⁰ channels; a file of fewer but at
-/// least 2¹⁶ is one. `descends`: as in the file.
+/// Sets values of a part to NaN (not observed) in channels that hold a receiver's DC offset, unless the part keeps them
+/// (hasDc): the middle one of each coarse channel, in files of whole coarse channels of 2²⁰ channels. A file of another
+/// number was cut out, and its middle is a channel like others. `descends`: as in the file.
 void excludeDc(const PowerInfo &info, const PowerPart &part, bool descends, std::span<float> out);
 
 } // namespace faintline

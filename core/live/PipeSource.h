@@ -37,7 +37,7 @@ private:
     bool m_isPacked24 = false;
     StreamFormat m_format;
     std::optional<WavSamples> m_samples; ///< of a WAV stream
-    std::vector<std::byte> m_rest; ///< of an incomplete sample
+    std::vector<std::byte> m_rest;       ///< of an incomplete sample
 };
 
 } // namespace faintline

@@ -18,6 +18,11 @@ public:
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;
     bool isWhole(Index first, Index count) const override { return m_buffer->isWhole(first, count); }
+    bool isFinite(int channel, Index first, Index count) const override
+    {
+        return m_buffer->format().type.number != SampleType::Number::Float
+               || nonFiniteCountIn(channel, first, count) == 0;
+    }
 
 private:
     std::shared_ptr<const StreamBuffer> m_buffer;

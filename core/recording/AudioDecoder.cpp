@@ -81,8 +81,9 @@ namespace {
             constexpr Index largest = Index(1) << 20;
             std::vector<std::byte> kept;
             for (const WavChunk &chunk : m_chunks) {
+                const bool isList = chunk.name == "LIST" || chunk.name == "INFO";
                 if (std::find(names.begin(), names.end(), chunk.name) == names.end() || chunk.length > largest
-                    || leadsBackwards(m_file, chunk.offset - chunkHeadBytes))
+                    || (isList && leadsBackwards(m_file, chunk.offset - chunkHeadBytes)))
                     continue;
                 append(kept, chunk.name, std::uint64_t(chunk.length), 4);
                 const std::size_t before = kept.size();
@@ -95,16 +96,17 @@ namespace {
             const Index all = 4 + std::ssize(kept) + chunkHeadBytes + m_dataBytes;
             const bool isLong = m_isRf64 || all + m_dataBytes % 2 >= fourGiB - 1;
             std::vector<std::byte> header;
-            append(header, isLong ? "RF64" : "RIFF", isLong ? fourGiB - 1 : std::uint64_t(all), 4);
+            append(header, isLong ? "RF64" : "RIFF", std::uint64_t(isLong ? fourGiB - 1 : all), 4);
             append(header, "WAVE", 0, 0);
             if (isLong) {
-                append(header, "ds64", ds64Bytes, 4);
+                append(header, "ds64", std::uint64_t(ds64Bytes), 4);
                 append(header, "", std::uint64_t(all + ds64Bytes + chunkHeadBytes), 8);
                 append(header, "", std::uint64_t(m_dataBytes), 8);
-                append(header, "", 0, int(ds64Bytes) - 16);
+                append(header, "", 0, 8); // samples of a compressed type
+                append(header, "", 0, 4); // further lengths
             }
             header.insert(header.end(), kept.begin(), kept.end());
-            append(header, "data", isLong ? fourGiB - 1 : std::uint64_t(m_dataBytes), 4);
+            append(header, "data", std::uint64_t(isLong ? fourGiB - 1 : m_dataBytes), 4);
             return header;
         }
 
@@ -300,7 +302,8 @@ std::unique_ptr<AudioDecoder> AudioDecoder::openAs(std::unique_ptr<Source> sourc
 
 std::unique_ptr<AudioDecoder> AudioDecoder::open(std::shared_ptr<const FileBytes> file, std::string &why)
 {
-    static constexpr std::array<std::string_view, 7> useful{"fmt ", "bext", "auxi", "harp", "LIST", "INFO", "fact"};
+    static constexpr std::array<std::string_view, 8> useful{"fmt ", "bext", "auxi", "harp",
+                                                            "LIST", "INFO", "guan", "fact"};
     const WavChunks chunks(*file);
     const auto openWith = [&](std::size_t names,
                               std::string &message) { // names: how many of the useful; 0: the file's own

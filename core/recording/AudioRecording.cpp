@@ -1,6 +1,7 @@
 #include "recording/AudioRecording.h"
 
 #include "base/Error.h"
+#include "recording/SampleType.h"
 #include "recording/audioMetadata.h"
 
 #include <algorithm>
@@ -75,6 +76,7 @@ AudioRecording::AudioRecording(const std::string &path, bool iq) : m_file(std::m
     m_info.channelCount = int(iq ? m_streams / 2 : m_streams);
 
     const int encoding = format.format & SF_FORMAT_SUBMASK;
+    m_isIqBytes = iq && encoding == SF_FORMAT_PCM_U8;
     m_isFloat = encoding == SF_FORMAT_FLOAT || encoding == SF_FORMAT_DOUBLE;
     m_access = !format.seekable ? Access::Forward : isUncompressed(format.format) ? Access::Direct : Access::Blocks;
     m_runUp = isLossy(format.format) ? lossyRunUp : 0;
@@ -93,6 +95,8 @@ AudioRecording::AudioRecording(const std::string &path, bool iq) : m_file(std::m
     }
     if (m_info.sampleCount <= 0)
         throw Error(path, "is a " + m_info.container + " file without samples");
+    if (m_isIqBytes)
+        m_info.notes.push_back("The zero of these bytes is taken to lie between 127 and 128, as in receivers.");
     m_stored = m_info.sampleCount;
     m_stretches = readAudioMetadata(*decoder, m_info);
     if (m_stretches.hasGaps()) {
@@ -185,6 +189,8 @@ void AudioRecording::readStored(int channel, Index first, std::span<float> out) 
         readDirectly(offset, first, out);
     else
         readBlocks(offset, first, out);
+    for (float &value : out.first(m_isIqBytes ? out.size() : 0))
+        value += iqByteShift;
 }
 
 /// Copies one channel from interleaved floats.

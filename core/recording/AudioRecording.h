@@ -29,6 +29,10 @@ public:
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;
     bool isWhole(Index first, Index count) const override { return m_stretches.isWhole(first, count); }
+    bool isFinite(int channel, Index first, Index count) const override
+    {
+        return !m_isFloat || isFiniteByReading(channel, first, count);
+    }
     int scaleExponent(int channel) const override { return m_isFloat ? measuredScaleExponent(channel) : 0; }
 
     /// Whether libsndfile recognises the file's format, even if the file is damaged.
@@ -56,10 +60,11 @@ private:
     void readStored(int channel, Index first, std::span<float> out) const;
 
     std::shared_ptr<const FileBytes> m_file;
-    Index m_stored = 0;     ///< samples in the file
-    Stretches m_stretches;  ///< their places in time; empty if they are contiguous
-    Index m_streams = 1;    ///< channels of the file
-    bool m_isFloat = false; ///< uncompressed floats, whose full scale need not be 1
+    Index m_stored = 0;       ///< samples in the file
+    Stretches m_stretches;    ///< their places in time; empty if they are contiguous
+    Index m_streams = 1;      ///< channels of the file
+    bool m_isIqBytes = false; ///< unsigned bytes of I and Q
+    bool m_isFloat = false;   ///< uncompressed floats, whose full scale need not be 1
     Access m_access = Access::Direct;
     Index m_runUp = 0;
     Index m_blockSamples = 0;

@@ -83,7 +83,8 @@ void DigitalRfRecording::readIndex()
 void DigitalRfRecording::read(int channel, Index first, Index count, std::span<float> out) const
 {
     const float fullScale = m_data->isFloat() ? 1.0f : std::ldexp(1.0f, m_data->bits() - 1);
-    const float zero = m_data->isFloat() || m_data->isSigned() ? 0.0f : fullScale;
+    const bool isIqByte = m_info.isComplex && m_data->bits() == 8; // see iqByteShift
+    const float zero = m_data->isFloat() || m_data->isSigned() ? 0.0f : fullScale - (isIqByte ? 0.5f : 0.0f);
     fill(first, count, out, [&](Index from, std::span<float> inside) {
         const Index floats = m_info.floatsPerSample();
         m_stretches.read(from, floats, inside, [&](Index row, std::span<float> part) {

@@ -91,7 +91,7 @@ namespace {
             if (sample > m_last.sample) {
                 const double expected = double(sample - m_last.sample) / m_nominalHz;
                 const double missing = now.seconds - m_last.seconds - expected;
-                if (std::abs(missing) > longestBetweenBlocks && m_last.sample == m_first.sample && m_gaps.empty()) {
+                if (std::abs(missing) > longestBetweenBlocks && m_stale == 0.0 && m_last.sample == m_first.sample) {
                     m_stale = missing;
                     m_first = m_begin = m_longestBegin = m_longestEnd = now;
                 } else if (std::abs(missing) > 0.5 * expected) {

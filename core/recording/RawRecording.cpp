@@ -57,6 +57,8 @@ RawRecording::RawRecording(const std::string &path, const RawLayout &layout) : m
                     "contains no complete sample: " + std::to_string(m_file.size()) + " bytes, but one sample takes "
                         + std::to_string(m_frameBytes)
                         + (layout.headerBytes > 0 ? " after a header of " + std::to_string(layout.headerBytes) : ""));
+    if (m_info.isComplex && layout.type.number == SampleType::Number::Unsigned && layout.type.bytes == 1)
+        m_info.notes.push_back("The zero of these bytes is taken to lie between 127 and 128, as in receivers.");
     if (const Index rest = dataBytes % m_frameBytes)
         m_info.notes.push_back("The file's last " + std::to_string(rest)
                                + " bytes are an incomplete sample and are ignored; the file may have been truncated.");

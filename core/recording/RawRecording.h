@@ -29,6 +29,10 @@ public:
     RawRecording(const std::string &path, const RawLayout &layout);
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;
+    bool isFinite(int channel, Index first, Index count) const override
+    {
+        return m_layout.type.number != SampleType::Number::Float || isFiniteByReading(channel, first, count);
+    }
     int scaleExponent(int channel) const override
     {
         return m_layout.type.number == SampleType::Number::Float ? measuredScaleExponent(channel) : 0;

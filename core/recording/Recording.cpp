@@ -1,6 +1,8 @@
 #include "recording/Recording.h"
 
+#include "base/Field.h"
 #include "base/multiversion.h"
+#include "recording/timeInName.h"
 
 #include <algorithm>
 #include <bit>
@@ -27,7 +29,90 @@ namespace {
         return found;
     }
 
+    constexpr Index finiteBlockSamples = 1 << 16;
+
+    /// Where nonFiniteIn collects samples while a read of this thread runs.
+    thread_local std::vector<Index> *wantedNonFinite = nullptr;
+
+    void collectNonFinite(std::span<const float> values, Index first, Index floatsPerSample)
+    {
+        for (Index i = 0; i < std::ssize(values); ++i) {
+            const Index sample = first + i / floatsPerSample;
+            if (!std::isfinite(values[std::size_t(i)])
+                && (wantedNonFinite->empty() || wantedNonFinite->back() != sample))
+                wantedNonFinite->push_back(sample);
+        }
+    }
+
+    /// Runs of samples in a row, one for all if there are many.
+    std::vector<std::pair<Index, Index>> runsOf(const std::vector<Index> &samples)
+    {
+        constexpr std::size_t mostRunsOfBlock = 256;
+        std::vector<std::pair<Index, Index>> runs;
+        for (const Index sample : samples)
+            if (!runs.empty() && runs.back().second + 1 == sample)
+                runs.back().second = sample;
+            else
+                runs.emplace_back(sample, sample);
+        if (runs.size() > mostRunsOfBlock)
+            return {{samples.front(), samples.back()}};
+        return runs;
+    }
+
 } // namespace
+
+std::vector<Index> Recording::nonFiniteIn(int channel, Index first, Index count) const
+{
+    std::vector<Index> found;
+    std::vector<float> samples(std::size_t(count * m_info.floatsPerSample()));
+    struct Restore {
+        std::vector<Index> *before = wantedNonFinite;
+        ~Restore() { wantedNonFinite = before; }
+    } const restore;
+    wantedNonFinite = &found;
+    read(channel, first, count, samples);
+    return found;
+}
+
+bool Recording::isFiniteByReading(int channel, Index first, Index count) const
+{
+    const Index end = std::min(first + count, m_info.sampleCount);
+    first = std::max<Index>(0, first);
+    for (Index block = first / finiteBlockSamples; block * finiteBlockSamples < end; ++block) {
+        const std::lock_guard lock(m_finiteMutex);
+        const auto [known, isNew] = m_nonFinite.try_emplace({channel, block});
+        if (isNew)
+            try {
+                const Index from = block * finiteBlockSamples;
+                known->second =
+                    runsOf(nonFiniteIn(channel, from, std::min(finiteBlockSamples, m_info.sampleCount - from)));
+            } catch (...) {
+                m_nonFinite.erase(known);
+                throw;
+            }
+        for (const auto &[from, to] : known->second)
+            if (to >= first && from < end)
+                return false;
+    }
+    return true;
+}
+
+void Recording::completeByName()
+{
+    if (!m_info.startUnixSeconds && (m_info.startUnixSeconds = timeInName(m_info.path)))
+        m_info.notes.push_back("Start time taken from the file's name, read as UTC unless it tells a zone.");
+    const std::optional<ReceiverName> name = receiverName(m_info.path);
+    if (!name || m_info.isCentreKnown() == m_info.isComplex)
+        return;
+    if (m_info.isComplex) {
+        m_info.centreHz = name->centreHz;
+        m_info.notes.push_back("Centre frequency taken from the file's name, as " + name->program + " writes it.");
+    } else if (m_info.channelCount == 2) {
+        m_info.notes.push_back("The file's name is that of a recording of I and Q around "
+                               + formatNumber(name->centreHz) + " Hz by " + name->program
+                               + ": its two channels may be I and Q.");
+    }
+}
 
 int Recording::scaleExponentOf(double magnitude)
 {
@@ -90,6 +175,11 @@ void Recording::fill(Index first, Index count, std::span<float> out,
     std::fill(out.begin(), out.begin() + Index(before), 0.0f);
     std::fill(out.begin() + Index(before + inside.size()), out.end(), 0.0f);
     fetch(begin, inside);
+    if (wantedNonFinite) {
+        collectNonFinite(inside, begin, floats);
+        clearNonFinite(inside.data(), inside.size());
+        return;
+    }
     if (const Index found = clearNonFinite(inside.data(), inside.size()))
         m_nonFiniteCount.fetch_add(found, std::memory_order_relaxed);
 }

@@ -5,10 +5,13 @@
 
 #include <atomic>
 #include <functional>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace faintline {
@@ -25,9 +28,9 @@ struct RecordingInfo {
     double centreHz = 0.0;                  ///< frequency that corresponds to 0 Hz of the samples
     std::optional<double> startUnixSeconds; ///< UTC of the first sample
     std::vector<std::string> notes;         ///< repairs and assumptions made on opening, one sentence each
-    Stretches places;                       ///< in time of the file's samples; empty if they are contiguous
+    Stretches places{};                     ///< in time of the file's samples; empty if they are contiguous
     Index firstNumber = 0;                  ///< that SigMF gives the file's first sample (core:offset)
-    std::string sigmf;                      ///< "global" and "captures" of SigMF metadata, as JSON; else empty
+    std::string sigmf{};                    ///< "global" and "captures" of SigMF metadata, as JSON; else empty
 
     /// Of real samples, frequencies are what they are.
     bool isCentreKnown() const { return centreHz != 0.0 || !isComplex; }
@@ -62,6 +65,27 @@ public:
     /// recordings without gaps.
     virtual bool isWhole(Index /*first*/, Index /*count*/) const { return true; }
 
+    /// Whether all of a channel's samples in a stretch are finite; others read as 0. The default is for recordings whose
+    /// samples are integers. Throws Error if reading the file fails.
+    virtual bool isFinite(int /*channel*/, Index /*first*/, Index /*count*/) const { return true; }
+
+    /// The number of samples of a stretch that are not finite, by reading it.
+    Index nonFiniteCountIn(int channel, Index first, Index count) const
+    {
+        return std::ssize(nonFiniteIn(channel, first, count));
+    }
+
+    /// Whether a channel's samples were observed: no gap, and no sample that is not finite. Frames that reach into
+    /// others are not observed.
+    bool isObserved(int channel, Index first, Index count) const
+    {
+        return isWhole(first, count) && isFinite(channel, first, count);
+    }
+
+    /// Takes what the recording does not tell itself from its file's name: the start time (timeInName), and for I/Q the
+    /// centre frequency (receiverName). Called once, by what opens the file.
+    void completeByName();
+
     /// Number of floats that were not finite in all reads so far (read twice, counted twice).
     Index nonFiniteCount() const { return m_nonFiniteCount.load(std::memory_order_relaxed); }
 
@@ -71,6 +95,9 @@ protected:
     void fill(Index first, Index count, std::span<float> out,
               const std::function<void(Index first, std::span<float> out)> &fetch) const;
 
+    std::vector<Index> nonFiniteIn(int channel, Index first, Index count) const;
+    /// Implementation of isFinite for samples that do not change: reads blocks, each once.
+    bool isFiniteByReading(int channel, Index first, Index count) const;
     /// Implementation of scaleExponent: the median magnitude of short stretches distributed over the channel, without
     /// silent ones.
     int measuredScaleExponent(int channel) const;
@@ -83,6 +110,10 @@ private:
     double meanMagnitude(int channel, Index first, std::span<float> samples) const;
 
     mutable std::atomic<Index> m_nonFiniteCount = 0;
+    mutable std::mutex m_finiteMutex;
+    /// First and last of samples in a row that are not finite, of each block (channel, number) that was read; guarded by
+    /// m_finiteMutex.
+    mutable std::map<std::pair<int, Index>, std::vector<std::pair<Index, Index>>> m_nonFinite;
 };
 
 using RecordingPointer = std::shared_ptr<const Recording>;

@@ -137,6 +137,12 @@ void convertSamples(const SampleType &type, std::span<const std::byte> bytes, In
                : type.bytes == 2 ? run(convertFast<Number::Signed, 2>)
                                  : run(convertFast<Number::Signed, 4>);
     case Number::Unsigned:
+        if (type.bytes == 1 && type.isComplex) {
+            run(convertFast<Number::Unsigned, 1>);
+            for (float &value : out)
+                value += iqByteShift;
+            return;
+        }
         return type.bytes == 1   ? run(convertFast<Number::Unsigned, 1>)
                : type.bytes == 2 ? run(convertFast<Number::Unsigned, 2>)
                                  : run(convertFast<Number::Unsigned, 4>);

@@ -31,7 +31,12 @@ SampleType parseSampleType(std::string_view name, const std::string &where);
 /// "cf32, ci16, … " for messages and forms.
 std::string sampleTypeList();
 
-/// Converts samples spaced `stride` bytes apart to floats, with integers scaled to ±1 (unsigned: ½ of full scale is 0).
+/// What a byte of I or Q lacks of its receiver's scale: that is symmetric, so 0 lies between 127 and 128, while 128 is 0
+/// in sound. In units of full scale.
+constexpr float iqByteShift = 0.5f / 128.0f;
+
+/// Converts samples spaced `stride` bytes apart to floats, with integers scaled to ±1 (unsigned: ½ of full scale is 0,
+/// but for bytes of I and Q).
 /// `out` takes one float per real sample, two per complex one.
 void convertSamples(const SampleType &type, std::span<const std::byte> bytes, Index stride, std::span<float> out);
 

@@ -178,7 +178,9 @@ TimedFile Timeline::addPart(const std::string &path, const Recording &recording)
     }
     const bool hasGaps = !recording.isWhole(0, info.sampleCount);
     m_hasGapsWithin = m_hasGapsWithin || hasGaps;
-    m_parts.push_back({path, {}, 0, info.sampleCount, hasGaps});
+    const bool isFloat = info.sampleType.find("f32") != std::string::npos
+                         || info.sampleType.find("f64") != std::string::npos || info.sampleType.starts_with("float");
+    m_parts.push_back({path, {}, 0, info.sampleCount, hasGaps, isFloat});
     const bool isExact =
         info.startUnixSeconds
         && (info.container == "Digital RF" || info.container == "HDF5 strain" || info.container == "KiwiSDR WAV");
@@ -264,6 +266,24 @@ bool Timeline::isWhole(Index first, Index count) const
                   || partAt(std::size_t(part - m_parts.begin()))->isWhole(part->place.skipped + from, end - from);
     }
     return isWhole;
+}
+
+bool Timeline::isFinite(int channel, Index first, Index count) const
+{
+    const Index to = std::min(first + count, m_info.sampleCount);
+    for (auto part = std::upper_bound(
+             m_parts.begin(), m_parts.end(), std::max<Index>(0, first),
+             [](Index wanted, const Part &each) { return wanted < each.place.inTime + each.place.count; });
+         part != m_parts.end() && part->place.inTime < to; ++part) {
+        const Index from = std::max(first, part->place.inTime) - part->place.inTime;
+        const Index end = std::min(to - part->place.inTime, part->place.count);
+        if (!part->isFloat)
+            continue;
+        const RecordingPointer recording = partAt(std::size_t(part - m_parts.begin()));
+        if (!recording->isFinite(channel, part->place.skipped + from, end - from))
+            return false;
+    }
+    return true;
 }
 
 /// Uses the first file that is not silent; all come from one recorder.

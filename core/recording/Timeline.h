@@ -31,6 +31,7 @@ public:
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;
     bool isWhole(Index first, Index count) const override;
+    bool isFinite(int channel, Index first, Index count) const override;
     int scaleExponent(int channel) const override;
 
     /// Whether a path denotes many files: a folder, or a list of names (.timeline).
@@ -48,6 +49,7 @@ private:
         Index firstStored = 0; ///< index among all parts' used samples
         Index fileSamples = 0;
         bool hasGaps = false;
+        bool isFloat = false; ///< samples may not be finite
     };
 
     RecordingPointer openUnlessBroken(const std::string &path, std::vector<Error> &broken) const;

@@ -1,12 +1,14 @@
 #include "recording/audioMetadata.h"
 
 #include "base/utc.h"
+#include "recording/timeInName.h"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <regex>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -166,6 +168,57 @@ namespace {
         return stretches;
     }
 
+    /// A recorder's "Recorded at 19:22:55 14/12/2020 (UTC-5)", (UTC) or (UTC+5:30), as AudioMoth writes it.
+    std::optional<double> commentTime(const std::string &comment)
+    {
+        static const std::regex pattern(R"((\d{1,2}):(\d{2}):(\d{2})(?:\.(\d{1,6}))? (\d{1,2})/(\d{1,2})/(\d{4}) )"
+                                        R"(\(UTC(?:([+-])(\d{1,2})(?::?(\d{2}))?)?\))");
+        std::smatch match;
+        constexpr std::size_t longest = 4096;
+        if (comment.size() > longest || !std::regex_search(comment, match, pattern))
+            return std::nullopt;
+        const auto whole = [&](std::size_t group) { return std::max(0, number(match[group].str())); };
+        const double fraction = whole(4) / std::pow(10.0, double(match[4].length()));
+        const double zone = (match[8].str() == "-" ? -60.0 : 60.0) * (60 * whole(9) + whole(10));
+        const auto time = unixSeconds(whole(7), whole(6), whole(5), {whole(1), whole(2), whole(3) + fraction});
+        return time ? std::optional(*time - zone) : std::nullopt;
+    }
+
+    /// GUANO's "Timestamp: 2020-12-14T19:22:55-05:00", if it has a zone.
+    std::optional<double> guanoTime(const std::vector<std::byte> &guano)
+    {
+        const std::string_view text(reinterpret_cast<const char *>(guano.data()), guano.size());
+        constexpr std::string_view key = "Timestamp:";
+        const std::size_t at = text.starts_with(key) ? 0 : text.find("\nTimestamp:") + 1; // 0: none
+        if (!text.substr(at).starts_with(key))
+            return std::nullopt;
+        std::string_view value = text.substr(at + key.size());
+        value = value.substr(0, value.find_first_of("\r\n"));
+        value.remove_prefix(std::min(value.find_first_not_of(' '), value.size()));
+        constexpr std::size_t dateDigits = 10;
+        const bool hasZone = value.ends_with('Z') || value.find_first_of("+-", dateDigits) != std::string_view::npos;
+        return hasZone ? parseUtc(value) : std::nullopt;
+    }
+
+    /// The start of a recording whose header holds the time when it was closed, which differs from the start in the
+    /// file's name by the recording's length, and by whole quarters of an hour if the name has another zone.
+    std::optional<double> startOfClosedFile(double said, const RecordingInfo &info)
+    {
+        constexpr double tolerance = 2.0; // of two times in whole seconds
+        constexpr double quarter = 900.0;
+        constexpr double farthest = 14.0 * 3600.0;
+        const std::optional<double> named = timeInName(info.path);
+        const double lasts = info.durationSeconds();
+        if (!named || lasts <= 2.0 * tolerance)
+            return std::nullopt;
+        const double rest = said - *named - lasts;
+        if (std::abs(rest) <= tolerance)
+            return named;
+        const auto fromQuarter = [](double seconds) { return std::abs(std::remainder(seconds, quarter)); };
+        const bool isZone = std::abs(rest) <= farthest && fromQuarter(rest) <= tolerance;
+        return isZone && fromQuarter(lasts) > 2.0 * tolerance ? std::optional(said - lasts) : std::nullopt;
+    }
+
     std::uint32_t bigEndian(std::span<const std::byte> bytes)
     {
         std::uint32_t value = 0;
@@ -211,15 +264,29 @@ std::string sampleTypeName(int format)
 
 Stretches readAudioMetadata(const AudioDecoder &decoder, RecordingInfo &info)
 {
-    if (const auto bext = decoder.broadcastInfo()) {
+    std::optional<double> zoned = commentTime(decoder.text(SF_STR_COMMENT));
+    if (!zoned)
+        zoned = guanoTime(decoder.chunk("guan"));
+    std::string from = "the recorder's comment, which tells its zone.";
+    info.startUnixSeconds = zoned;
+    if (const auto bext = zoned ? std::nullopt : decoder.broadcastInfo()) {
         info.startUnixSeconds = bextTime(*bext, info.sampleRateHz);
-        if (info.startUnixSeconds)
-            info.notes.push_back("Start time taken from the bext chunk, read as UTC.");
+        from = "the bext chunk, read as UTC.";
     }
+    if (!info.startUnixSeconds) {
+        info.startUnixSeconds = parseUtc(decoder.text(SF_STR_DATE));
+        from = "the header's date, read as UTC unless it tells a zone.";
+    }
+    if (const auto start =
+            zoned || !info.startUnixSeconds ? std::nullopt : startOfClosedFile(*info.startUnixSeconds, info)) {
+        info.startUnixSeconds = start;
+        from = "the file's name: the header's time is that of the recording's end.";
+    }
+    const std::optional<double> before = info.startUnixSeconds;
     readAuxi(decoder.chunk("auxi"), info);
     Stretches stretches = readHarp(decoder.chunk("harp"), info);
-    if (!info.startUnixSeconds)
-        info.startUnixSeconds = parseUtc(decoder.text(SF_STR_DATE));
+    if (before && before == info.startUnixSeconds)
+        info.notes.insert(info.notes.begin(), "Start time taken from " + from);
     return stretches;
 }
 

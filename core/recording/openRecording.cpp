@@ -9,10 +9,19 @@
 #include "recording/StrainRecording.h"
 #include "recording/Timeline.h"
 #include "recording/fileHash.h"
+#include "recording/timeInName.h"
 
 namespace faintline {
 
 namespace {
+
+    template <class Kind, class... Arguments>
+    RecordingPointer completed(const Arguments &...arguments)
+    {
+        const auto recording = std::make_shared<Kind>(arguments...);
+        recording->completeByName();
+        return recording;
+    }
 
     RecordingPointer openRaw(const std::string &path, const std::string &typeName, const OpenOptions &options)
     {
@@ -20,7 +29,7 @@ namespace {
             throw Error(path, "raw samples have no header; give their rate in Hz (such as --raw-rate 48000)");
         const RawLayout layout{parseSampleType(typeName, path), options.rawRateHz, options.rawChannels,
                                options.rawHeaderBytes, 0};
-        return std::make_shared<RawRecording>(path, options.iq ? withIqPairs(path, layout) : layout);
+        return completed<RawRecording>(path, options.iq ? withIqPairs(path, layout) : layout);
     }
 
     /// Opens a file as raw samples if its name says so and its content does not contradict.
@@ -40,15 +49,28 @@ namespace {
 
 } // namespace
 
-RecordingPointer openRecording(const std::string &path, const OpenOptions &options)
+OpenOptions withNamedFormat(const std::string &path, OpenOptions options)
 {
+    const std::optional<ReceiverName> name = receiverName(path);
+    if (!name || name->rawType.empty())
+        return options;
+    if (options.rawType.empty())
+        options.rawType = name->rawType;
+    if (!(options.rawRateHz > 0.0))
+        options.rawRateHz = name->rateHz;
+    return options;
+}
+
+RecordingPointer openRecording(const std::string &path, const OpenOptions &given)
+{
+    const OpenOptions options = withNamedFormat(path, given);
     if (Timeline::isNamedSo(path))
         return std::make_shared<Timeline>(std::vector{path},
                                           [options](const std::string &file) { return openRecording(file, options); });
     if (!options.rawType.empty())
         return openRaw(path, options.rawType, options);
     if (SigmfRecording::isNamedSo(path))
-        return std::make_shared<SigmfRecording>(path, options.iq);
+        return completed<SigmfRecording>(path, options.iq);
     if (path.ends_with(".sigmf"))
         throw Error(path, "is a SigMF archive; unpack it (tar -xf) and open the .sigmf-meta file");
     if (KiwiRecording::recognises(path))
@@ -63,7 +85,7 @@ RecordingPointer openRecording(const std::string &path, const OpenOptions &optio
     }
     if (const auto rawType = rawTypeOfExtension(path); rawType && !AudioRecording::recognises(path))
         return openByRawExtension(path, *rawType, options);
-    return std::make_shared<AudioRecording>(path, options.iq);
+    return completed<AudioRecording>(path, options.iq);
 }
 
 std::string recordingHash(const std::string &path)

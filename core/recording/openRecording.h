@@ -19,9 +19,14 @@ struct OpenOptions {
 
 /// Opens a recording: a folder or list as many files (Timeline); raw samples if rawType is given; SigMF by either of
 /// its two names; KiwiSDR WAV; GWOSC strain; else any format that libsndfile recognises by content; else a raw file if
-/// its extension denotes a raw sample type (".cf32", ".cs16" …), for which the rate must be given. Reads headers only.
+/// its extension denotes a raw sample type (".cf32", ".cs16" …), for which the rate must be given, here or by the
+/// name. Start time and centre frequency that a file does not tell are taken from its name. Reads headers only.
 /// Throws Error{path, cause and what would be accepted}.
 RecordingPointer openRecording(const std::string &path, const OpenOptions &options = {});
+
+/// The options with type and rate of raw samples completed as a receiver's program wrote them into the file's name
+/// (receiverName); openRecording does this.
+OpenOptions withNamedFormat(const std::string &path, OpenOptions options);
 
 /// SHA-256 of the recording's data file as lower-case hexadecimal digits. For files larger than 64 MiB, only the first
 /// and last mebibyte and the length are hashed, so that opening stays fast; such a hash begins with "part:".

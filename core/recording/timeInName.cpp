@@ -32,6 +32,13 @@ namespace {
         return time && year >= 1970.0 && year < 2100.0 ? std::optional(*time - zone) : std::nullopt;
     }
 
+    /// Hour to second, then day to year, as SDR++ writes them.
+    std::optional<double> reversedTime(const std::smatch &match)
+    {
+        return unixSeconds(int(numberIn(match, 6)), int(numberIn(match, 5)), int(numberIn(match, 4)),
+                           {int(numberIn(match, 1)), int(numberIn(match, 2)), numberIn(match, 3)});
+    }
+
     std::optional<double> countedTime(const std::smatch &match)
     {
         constexpr double latest = 4102444800.0; // 2100
@@ -44,12 +51,13 @@ namespace {
         std::optional<double> (*timeOf)(const std::smatch &match);
     };
 
-    const std::array<Pattern, 4> &patterns()
+    const std::array<Pattern, 5> &patterns()
     {
-        static const std::array<Pattern, 4> table{{
+        static const std::array<Pattern, 5> table{{
             {std::regex(std::string(R"((?:^|\D)(\d{4})-?(\d{2})-?(\d{2}))") + timeOfDay), calendarTime},
             {std::regex(std::string(R"((?:^|\D)(\d{2})-?(\d{2})-?(\d{2}))") + timeOfDay), calendarTime},
-            {std::regex(R"((?:^|\D)(\d{10})(?!\d))"), countedTime},
+            {std::regex(R"((?:^|\D)(\d{2})-(\d{2})-(\d{2})_(\d{2})-(\d{2})-(\d{4})(?!\d))"), reversedTime},
+            {std::regex(R"((?:^|\D)(\d{10})(?! ?[kMG]?Hz|\d))", std::regex::icase), countedTime},
             {std::regex(R"((?:^|\D)(\d{13})(?!\d))"), countedTime},
         }};
         return table;
@@ -66,6 +74,22 @@ std::optional<double> timeInName(const std::string &path)
             if (const std::optional<double> time = pattern.timeOf(*match))
                 return time;
     return std::nullopt;
+}
+
+std::optional<ReceiverName> receiverName(const std::string &path)
+{
+    static const std::regex gqrx(R"(gqrx_\d{8}_\d{6}_(\d{1,15})_(\d{1,12})_fc\.raw)", std::regex::icase);
+    static const std::regex others(
+        R"((SDRSharp|HDSDR|SDRuno|SDRconnect|baseband)_(?:.*_)?(\d{1,15})(k|M)?Hz(?:_(.*))?\.wav)", std::regex::icase);
+    const std::string name = std::filesystem::path(path).filename().string();
+    std::smatch match;
+    if (std::regex_match(name, match, gqrx) && numberIn(match, 2) > 0.0)
+        return ReceiverName{"gqrx", numberIn(match, 1), numberIn(match, 2), "cf32_le"};
+    if (!std::regex_match(name, match, others) || match[4].str().starts_with("AF"))
+        return std::nullopt;
+    const std::string unit = match[3].str();
+    const double scale = unit.empty() ? 1.0 : unit == "k" || unit == "K" ? 1e3 : 1e6;
+    return ReceiverName{match[1].str() == "baseband" ? "SDR++" : match[1].str(), scale * numberIn(match, 2), 0.0, {}};
 }
 
 double unixFromGps(double gps)

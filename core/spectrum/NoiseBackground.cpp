@@ -102,6 +102,13 @@ const std::vector<Field<NormaliserSettings>> &NormaliserSettings::fields()
               "whole. Tracks are then not followed backward.")
             .advised("Switch it on to reproduce a live run. The margin for the shorter estimate costs 0.1 dB in the "
                      "first block and less later. Source: docs/theory.md."),
+        field(&S::blankDc, "blankDc",
+              "Leave out the middle channel of each coarse channel of a filterbank (2²⁰ channels), which holds the "
+              "receiver's DC offset.")
+            .labelled("Leave out DC channels")
+            .advanced()
+            .advised("Switch it off if the file's channels were cut out elsewhere, or its DC offset was removed: a "
+                     "line in such a channel is not seen. With an offset, it costs a false alarm a coarse channel."),
     };
     return table;
 }

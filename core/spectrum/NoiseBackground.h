@@ -18,6 +18,7 @@ struct NormaliserSettings {
     double blockWindows = 48.0; ///< length of one time block, in T_FT
     bool followLevel = true; ///< divide out broad-band level changes shorter than a block (bursts, gain steps, clicks)
     bool causal = false;     ///< from past data alone (CausalSpectrogram)
+    bool blankDc = true;     ///< the middle of a filterbank's coarse channels is not observed
 
     static const std::vector<Field<NormaliserSettings>> &fields();
     bool operator==(const NormaliserSettings &) const = default;

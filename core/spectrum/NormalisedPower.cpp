@@ -144,6 +144,7 @@ NormalisedPower::NormalisedPower(std::shared_ptr<const PowerFrames> power, const
 {
     const std::string &path = m_power->info().path;
     const Axis &frequency = grid().axes.front();
+    m_part.hasDc = m_part.hasDc || !settings.blankDc;
     if (settings.causal)
         throw fieldError("noise.causal", "true", "requires samples; " + path + " holds power over time and frequency");
     if (part.cells > mostCells)

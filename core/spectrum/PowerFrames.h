@@ -29,6 +29,7 @@ struct PowerPart {
     Index frames = 0;
     Index firstCell = 0;
     Index cells = 0;
+    bool hasDc = false; ///< observe the channels that hold a receiver's DC offset, too
 };
 
 /// Power over time and frequency stored in a file, as written by a spectrometer or a correlator: in its own unit,

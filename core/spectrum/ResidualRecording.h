@@ -25,6 +25,10 @@ public:
     void read(int channel, Index first, Index count, std::span<float> out) const override;
     int scaleExponent(int channel) const override { return m_base->scaleExponent(channel); }
     bool isWhole(Index first, Index count) const override { return m_base->isWhole(first, count); }
+    bool isFinite(int channel, Index first, Index count) const override
+    {
+        return m_base->isFinite(channel, first, count);
+    }
 
 private:
     RecordingPointer m_base;

@@ -27,6 +27,10 @@ public:
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;
     bool isWhole(Index first, Index count) const override { return m_base->isWhole(first, count); }
+    bool isFinite(int channel, Index first, Index count) const override
+    {
+        return m_base->isFinite(channel, first, count);
+    }
     int scaleExponent(int /*channel*/) const override { return m_base->scaleExponent(m_channel); }
 
 private:

@@ -93,6 +93,9 @@ private slots:
         const QString path = file("e.cu8", "0123456789abcdef");
         OpenOptionsDialog dialog(path);
         QCOMPARE(dialog.options().rawType, std::string("cu8"));
+        OpenOptionsDialog receiver(file("gqrx_20260123_235959_100000000_2000000_fc.raw", "0123456789abcdef"));
+        QCOMPARE(receiver.options().rawType, std::string("cf32_le"));
+        QCOMPARE(receiver.options().rawRateHz, 2e6);
         dialog.findChild<QDoubleSpinBox *>()->setValue(8.0);
         OpenOptions options = dialog.options();
         const OpenedSource opened = openSource(sourceAt(path, options));

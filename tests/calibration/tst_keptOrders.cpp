@@ -142,6 +142,7 @@ void tst_keptOrders::theKeyHoldsNothingElse()
              },
              [](AnalysisSettings &s) { s.spectrogram.windowSeconds = 3.0; },
              [](AnalysisSettings &s) { s.selection.lowHz = 50.0; },
+             [](AnalysisSettings &s) { s.noise.blankDc = false; },
              [](AnalysisSettings &s) { s.selection.toSeconds = 60.0; },
          })
         QCOMPARE(keyOf(changed(change)), keyOf({}));

@@ -35,6 +35,8 @@ private slots:
     void streamOfUnknownLength();
     void shrinkingWhileOpen();
     void startTimeFromBext();
+    void startTimeFromWhatRecordersWrite_data();
+    void startTimeFromWhatRecordersWrite();
     void listsThatLeadBackwards();
     void startTimeAndCentreFromAuxi();
     void threadsReadTheSame_data();
@@ -202,6 +204,18 @@ void tst_AudioRecording::notFiniteReadsAsZero()
     QCOMPARE(recording.nonFiniteCount(), Index(0));
     QVERIFY((readAll(recording) == std::vector<float>{1.0f, 0, 0, 0, 0.5f, 1e30f}));
     QCOMPARE(recording.nonFiniteCount(), Index(3));
+
+    // Its stretches were not observed, in one channel and not in the other.
+    std::vector<float> two(2 * 200000, 0.25f);
+    two[2 * 70000] = NAN;
+    two[2 * 131071] = -INFINITY;
+    writeAudio(path("two.wav"), SF_FORMAT_WAV | SF_FORMAT_FLOAT, 2, 8000, two);
+    const AudioRecording other(path("two.wav"), false);
+    QVERIFY(other.isObserved(0, 0, 70000) && !other.isObserved(0, 0, 70001) && !other.isObserved(0, 70000, 1));
+    QVERIFY(other.isObserved(0, 70001, 61070) && !other.isObserved(0, 70001, 61071));
+    QVERIFY(other.isObserved(0, 131072, 100000) && other.isObserved(1, 0, 200000));
+    QCOMPARE(other.nonFiniteCountIn(0, 0, 200000), Index(2));
+    QCOMPARE(other.nonFiniteCount(), Index(0));
 }
 
 void tst_AudioRecording::sampleCountOfHeadersThatLie_data()
@@ -456,6 +470,63 @@ void tst_AudioRecording::startTimeFromBext()
     chunk = "bext" + littleEndian(602, 4) + bext;
     writeBytes(path("bext.wav"), wave(1, 8000, fiveSamples, 10, chunk));
     QVERIFY(!AudioRecording(path("bext.wav"), false).info().startUnixSeconds);
+}
+
+void tst_AudioRecording::startTimeFromWhatRecordersWrite_data()
+{
+    QTest::addColumn<QString>("name");
+    QTest::addColumn<QByteArray>("field");
+    QTest::addColumn<QByteArray>("text");
+    QTest::addColumn<int>("lasts");       // s
+    QTest::addColumn<double>("expected"); // 0: none
+    const double time = 1607991775.0;     // 2020-12-15T00:22:55Z
+    const auto comment = [](const char *said) {
+        return QByteArray("Recorded at ") + said + " by AudioMoth 0000 at medium gain while battery was 4.0V.";
+    };
+    QTest::newRow("west") << "20201214_192255.WAV" << QByteArray("ICMT") << comment("19:22:55 14/12/2020 (UTC-5)") << 20
+                          << time;
+    QTest::newRow("UTC") << "a.wav" << QByteArray("ICMT") << comment("00:22:55 15/12/2020 (UTC)") << 20 << time;
+    QTest::newRow("half an hour") << "a.wav" << QByteArray("ICMT") << comment("05:52:55 15/12/2020 (UTC+5:30)") << 20
+                                  << time;
+    QTest::newRow("fraction") << "a.wav" << QByteArray("ICMT") << comment("00:22:55.250 15/12/2020 (UTC)") << 20
+                              << time + 0.25;
+    QTest::newRow("no such day") << "a.wav" << QByteArray("ICMT") << comment("00:22:55 31/02/2020 (UTC)") << 20 << 0.0;
+    QTest::newRow("no zone") << "a.wav" << QByteArray("ICMT") << comment("00:22:55 15/12/2020") << 20 << 0.0;
+    QTest::newRow("GUANO") << "a.wav" << QByteArray("guan")
+                           << QByteArray("GUANO|Version: 1.0\nTimestamp: 2020-12-14T19:22:55-05:00\nNote: x") << 20
+                           << time;
+    QTest::newRow("GUANO without a zone")
+        << "a.wav" << QByteArray("guan") << QByteArray("Timestamp: 2020-12-14T19:22:55\n") << 20 << 0.0;
+    QTest::newRow("date") << "a.wav" << QByteArray("ICRD") << QByteArray("2020-12-15T00:22:55Z") << 20 << time;
+    QTest::newRow("date of the end") << "20201215_002255_x.wav" << QByteArray("ICRD")
+                                     << QByteArray("2020-12-15T00:23:15Z") << 20 << time;
+    QTest::newRow("date of the end of five minutes")
+        << "20201215_002255_x.wav" << QByteArray("ICRD") << QByteArray("2020-12-15 00:27:56") << 300 << time;
+    QTest::newRow("date of the end, name in another zone")
+        << "20201214_192255_x.wav" << QByteArray("ICRD") << QByteArray("2020-12-15T00:23:15Z") << 20 << time;
+    QTest::newRow("date of the start, name in another zone")
+        << "20201214_192255_x.wav" << QByteArray("ICRD") << QByteArray("2020-12-15T00:22:55Z") << 20 << time;
+    QTest::newRow("date of the start") << "20201215_002255_x.wav" << QByteArray("ICRD")
+                                       << QByteArray("2020-12-15T00:22:55Z") << 20 << time;
+}
+
+void tst_AudioRecording::startTimeFromWhatRecordersWrite()
+{
+    QFETCH(QString, name);
+    QFETCH(QByteArray, field);
+    QFETCH(QByteArray, text);
+    QFETCH(int, lasts);
+    QFETCH(double, expected);
+    const auto chunk = [](const QByteArray &id, QByteArray content) {
+        content += QByteArray(content.size() % 2, '\0');
+        return id + littleEndian(std::uint64_t(content.size()), 4) + content;
+    };
+    const QByteArray before = field == "guan" ? chunk(field, text) : chunk("LIST", "INFO" + chunk(field, text + '\0'));
+    const std::vector<int> samples(std::size_t(lasts) * 400, 7);
+    writeBytes(path(qPrintable(name)), wave(1, 400, samples, std::uint32_t(2 * samples.size()), before));
+    const AudioRecording recording(path(qPrintable(name)), false);
+    QCOMPARE(recording.info().startUnixSeconds.value_or(0.0), expected);
+    QCOMPARE(recording.info().notes.size(), std::size_t(expected > 0.0 ? 1 : 0));
 }
 
 void tst_AudioRecording::startTimeAndCentreFromAuxi()

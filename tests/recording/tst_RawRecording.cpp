@@ -50,7 +50,9 @@ QByteArray bytesOf(T value, bool isBigEndian)
 QByteArray numberBytes(const SampleType &type, double x)
 {
     const double scaled = std::nearbyint(std::ldexp(x, 8 * type.bytes - 1));
-    const double shifted = scaled + std::ldexp(1.0, 8 * type.bytes - 1);
+    // Of bytes of I and Q, 0 lies between 127 and 128.
+    const double shifted = type.isComplex && type.bytes == 1 ? std::nearbyint(128.0 * x + 127.5)
+                                                             : scaled + std::ldexp(1.0, 8 * type.bytes - 1);
     const bool isBig = type.isBigEndian;
     switch (type.number) {
     case SampleType::Number::Float:
@@ -126,6 +128,8 @@ void tst_RawRecording::knownBytes_data()
     QTest::newRow("ru8 middle") << "ru8" << QByteArray("\x80", 1) << 0.0;
     QTest::newRow("ru8 lowest") << "ru8" << QByteArray("\x00", 1) << -1.0;
     QTest::newRow("ru8 highest") << "ru8" << QByteArray("\xff", 1) << 127.0 / 128.0;
+    QTest::newRow("cu8 below the middle") << "cu8" << QByteArray("\x7f\x80", 2) << -0.5 / 128.0;
+    QTest::newRow("cu8 above the middle") << "cu8" << QByteArray("\x80\x7f", 2) << 0.5 / 128.0;
     QTest::newRow("ri8") << "ri8" << QByteArray("\xc0", 1) << -0.5;
     QTest::newRow("ri16_le") << "ri16_le" << QByteArray("\x00\x40", 2) << 0.5;
     QTest::newRow("ri16_be") << "ri16_be" << QByteArray("\x40\x00", 2) << 0.5;

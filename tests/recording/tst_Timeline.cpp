@@ -24,6 +24,8 @@ private slots:
     void init() { m_folder = std::make_unique<QTemporaryDir>(); }
     void timesInNames_data();
     void timesInNames();
+    void receiversNames_data();
+    void receiversNames();
     void weeksOfGps();
     void filesThatFollowOn();
     void clockThatIsOff();
@@ -104,6 +106,8 @@ void tst_Timeline::timesInNames_data()
     QTest::newRow("HARP") << "SOCAL_disk01_260123_235959.x.wav" << time;
     QTest::newRow("unix") << "ch0_1769212799.wav" << time;
     QTest::newRow("unix milliseconds") << "1769212799500.cf32" << time + 0.5;
+    QTest::newRow("SDR++") << "baseband_1420405751Hz_23-59-59_23-01-2026.wav" << time;
+    QTest::newRow("a frequency") << "line_1420405751Hz.wav" << 0.0;
     QTest::newRow("leap day") << "20240229_000000.wav" << 1709164800.0;
     QTest::newRow("no such day") << "20260230_000000.wav" << 0.0;
     QTest::newRow("no such hour") << "20260123_245959.wav" << 0.0;
@@ -118,6 +122,45 @@ void tst_Timeline::timesInNames()
     QFETCH(QString, name);
     QFETCH(double, expected);
     QCOMPARE(timeInName(name.toStdString()).value_or(0.0), expected);
+}
+
+void tst_Timeline::receiversNames_data()
+{
+    QTest::addColumn<QString>("name");
+    QTest::addColumn<QString>("program"); // empty: none
+    QTest::addColumn<double>("centre");
+    QTest::addColumn<double>("rate");
+    QTest::addColumn<QString>("type");
+    const auto row = [](const char *name, const char *program = "", double centre = 0.0, double rate = 0.0,
+                        const char *type = "") {
+        QTest::newRow(name) << QString(name) << QString(program) << centre << rate << QString(type);
+    };
+    row("gqrx_20260123_235959_100000000_2000000_fc.raw", "gqrx", 1e8, 2e6, "cf32_le");
+    row("/night/gqrx_20260123_235959_1420405751_240000_fc.raw", "gqrx", 1420405751.0, 240000.0, "cf32_le");
+    row("SDRSharp_20260123_235959Z_100000000Hz_IQ.wav", "SDRSharp", 1e8);
+    row("HDSDR_20260123_235959Z_7100kHz_RF.wav", "HDSDR", 7.1e6);
+    row("SDRuno_20260123_235959Z_7100kHz.wav", "SDRuno", 7.1e6);
+    row("baseband_433920000Hz_23-59-59_23-01-2026.wav", "SDR++", 433.92e6);
+    row("HDSDR_20260123_235959Z_7100kHz_AF.wav");
+    row("SDRSharp_20260123_235959Z_100000000Hz_AF.wav");
+    row("audio_433920000Hz_23-59-59_23-01-2026.wav");
+    row("gqrx_20260123_235959_100000000.wav");
+    row("gqrx_20260123_235959_100000000_0_fc.raw");
+    row("2026_7100kHz.wav");
+}
+
+void tst_Timeline::receiversNames()
+{
+    QFETCH(QString, name);
+    QFETCH(QString, program);
+    const std::optional<ReceiverName> said = receiverName(name.toStdString());
+    QCOMPARE(said.has_value(), !program.isEmpty());
+    if (!said)
+        return;
+    QCOMPARE(QString::fromStdString(said->program), program);
+    QTEST(said->centreHz, "centre");
+    QTEST(said->rateHz, "rate");
+    QTEST(QString::fromStdString(said->rawType), "type");
 }
 
 void tst_Timeline::weeksOfGps()

@@ -19,6 +19,9 @@ class tst_openRecording : public QObject
 private slots:
     void refusals();
     void rawFilesAskForWhatIsMissing();
+    void namesTellWhatFilesDoNot();
+    void firstStampOfAReceiver_data();
+    void firstStampOfAReceiver();
     void contentBeatsExtension();
     void chunksLongerThanAnyFile();
     void notPermitted();
@@ -93,6 +96,77 @@ void tst_openRecording::rawFilesAskForWhatIsMissing()
     options.rawType = "unknown";
     options.rawRateHz = 1.0;
     QVERIFY(contains(refusal(path("a.iq"), options), "unknown is not a sample type; expected one of cf32"));
+}
+
+// The start of the second is in the name's zone; a centre frequency is known of I and Q alone.
+void tst_openRecording::namesTellWhatFilesDoNot()
+{
+    const std::string raw = path("gqrx_20260123_235959_100000000_2000000_fc.raw");
+    writeBytes(raw, QByteArray(800, '\1'));
+    const RecordingInfo gqrx = openRecording(raw)->info();
+    QCOMPARE(gqrx.sampleType, std::string("cf32_le"));
+    QCOMPARE(gqrx.sampleRateHz, 2e6);
+    QCOMPARE(gqrx.centreHz, 1e8);
+    QCOMPARE(gqrx.startUnixSeconds, std::optional(1769212799.0));
+    OpenOptions other;
+    other.rawType = "ci16";
+    other.rawRateHz = 1e6;
+    QCOMPARE(openRecording(raw, other)->info().sampleType, std::string("ci16_le"));
+    QCOMPARE(openRecording(raw, other)->info().sampleRateHz, 1e6);
+
+    const std::string wav = path("HDSDR_20260124_005959+0100_7100kHz_RF.wav");
+    writeAudio(wav, SF_FORMAT_WAV | SF_FORMAT_PCM_16, 2, 8000, someNoise(20));
+    OpenOptions iq;
+    iq.iq = true;
+    QCOMPARE(openRecording(wav, iq)->info().centreHz, 7.1e6);
+    QCOMPARE(openRecording(wav, iq)->info().startUnixSeconds, std::optional(1769212799.0));
+    const RecordingInfo real = openRecording(wav)->info();
+    QCOMPARE(real.centreHz, 0.0);
+    QVERIFY(contains(real.notes.back(), "its two channels may be I and Q"));
+
+    writeAudio(path("plain.wav"), SF_FORMAT_WAV | SF_FORMAT_PCM_16, 2, 8000, someNoise(20));
+    QVERIFY(!openRecording(path("plain.wav"), iq)->info().isCentreKnown());
+    QVERIFY(!openRecording(path("plain.wav"))->info().startUnixSeconds);
+}
+
+void tst_openRecording::firstStampOfAReceiver_data()
+{
+    QTest::addColumn<QList<double>>("stamps"); // of blocks of 0.1 s, in seconds of the GPS week
+    QTest::addColumn<int>("missing");          // samples
+    QTest::addColumn<double>("first");         // time of the first sample, second of the week
+    QTest::newRow("regular") << QList<double>{500.0, 500.1, 500.2, 500.3} << 0 << 500.0;
+    QTest::newRow("a gap") << QList<double>{500.0, 500.1, 502.2, 502.3} << 2000 << 500.0;
+    QTest::newRow("a gap behind the first block") << QList<double>{500.0, 502.1, 502.2, 502.3} << 2000 << 500.0;
+    QTest::newRow("a stale first stamp") << QList<double>{200.0, 500.1, 500.2, 500.3} << 0 << 500.0;
+    QTest::newRow("a first stamp of later") << QList<double>{900.0, 500.1, 500.2, 500.3} << 0 << 500.0;
+    QTest::newRow("a stale first stamp and a gap") << QList<double>{200.0, 500.1, 501.2, 501.3} << 1000 << 500.0;
+    QTest::newRow("minutes missing later") << QList<double>{500.0, 500.1, 800.2, 800.3} << 300000 << 500.0;
+}
+
+// A KiwiSDR that was idle may stamp its first block with the time of an earlier one.
+void tst_openRecording::firstStampOfAReceiver()
+{
+    QFETCH(QList<double>, stamps);
+    QFETCH(int, missing);
+    QFETCH(double, first);
+    const auto word = [](std::uint32_t value, int bytes) {
+        QByteArray text;
+        for (int i = 0; i < bytes; ++i)
+            text.append(static_cast<char>(value >> (8 * i) & 0xff));
+        return text;
+    };
+    QByteArray file = "RIFF" + word(0, 4) + "WAVEfmt " + word(16, 4) + word(1, 2) + word(1, 2) + word(1000, 4)
+                      + word(2000, 4) + word(2, 2) + word(16, 2);
+    for (const double stamp : stamps)
+        file += "kiwi" + word(10, 4) + word(0, 2) + word(std::uint32_t(stamp), 4)
+                + word(std::uint32_t(std::lround(1e9 * (stamp - std::floor(stamp)))), 4) + "data" + word(200, 4)
+                + QByteArray(200, '\1');
+    const std::string name = path("20260101T000820Z_kiwi.wav"); // a Thursday: the week began on Sunday
+    writeBytes(name, file);
+    const RecordingInfo info = openRecording(name)->info();
+    QCOMPARE(info.container, std::string("KiwiSDR WAV"));
+    QCOMPARE(info.sampleCount, Index(400 + missing));
+    QVERIFY(std::abs(std::fmod(*info.startUnixSeconds - 315964800.0 + 18.0, 604800.0) - first) < 1e-6);
 }
 
 /// A chunk's length may lead behind the last byte that could be counted.
