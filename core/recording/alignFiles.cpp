@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 namespace faintline {
 
@@ -32,30 +33,37 @@ namespace {
         std::vector<double> late;    ///< of each stamp behind the end of the files before it
     };
 
-    /// Least range of the lateness of some files of a chain about a line whose slope is at most `slope`, s.
-    double rangeAboutLine(const Chain &chain, std::size_t first, std::size_t count, double slope)
+    /// Deviations from a straight line through the origin.
+    struct Deviations {
+        double slope = 0.0;
+        double least = 0.0;
+        double most = 0.0;
+
+        double range() const { return most - least; }
+    };
+
+    Deviations deviationsFrom(double slope, std::span<const double> x, std::span<const double> y)
     {
-        const auto range = [&](double clock) {
-            double least = chain.late[first] - clock * chain.seconds[first];
-            double most = least;
-            for (std::size_t i = first + 1; i < first + count; ++i) {
-                const double late = chain.late[i] - clock * chain.seconds[i];
-                least = std::min(least, late);
-                most = std::max(most, late);
-            }
-            return most - least;
-        };
-        double low = -slope;
-        double high = slope;
-        constexpr int divisions = 40; // the range is a convex function of the slope
+        Deviations deviations{slope, y[0] - slope * x[0], y[0] - slope * x[0]};
+        for (std::size_t i = 1; i < x.size(); ++i) {
+            deviations.least = std::min(deviations.least, y[i] - slope * x[i]);
+            deviations.most = std::max(deviations.most, y[i] - slope * x[i]);
+        }
+        return deviations;
+    }
+
+    /// Of the slope between `low` and `high` from which they have the least range.
+    Deviations leastDeviations(std::span<const double> x, std::span<const double> y, double low, double high)
+    {
+        constexpr int divisions = 60; // the range is a convex function of the slope
         for (int i = 0; i < divisions; ++i) {
             const double third = (high - low) / 3.0;
-            if (range(low + third) <= range(high - third))
+            if (deviationsFrom(low + third, x, y).range() <= deviationsFrom(high - third, x, y).range())
                 high -= third;
             else
                 low += third;
         }
-        return std::min({range(0.0), range(low), range(high)});
+        return deviationsFrom(0.5 * (low + high), x, y);
     }
 
     /// Probability that the range of `count` numbers, uniform between 0 and 1, exceeds `range`.
@@ -170,7 +178,9 @@ namespace {
                 return true;
             // The fewer whole seconds there are, the less they tell of a clock.
             const double slope = clockError * (m_areWhole ? 1.0 - 2.0 / double(count) : 1.0);
-            const double range = rangeAboutLine(chain, first, count, slope);
+            const double range = leastDeviations(std::span(chain.seconds).subspan(first, count),
+                                                 std::span(chain.late).subspan(first, count), -slope, slope)
+                                     .range();
             if (range <= tolerance() && !m_areWhole)
                 return true;
             if (range > tolerance() + jitter(secondsOf(chain.files[first])))
@@ -249,27 +259,20 @@ namespace {
             if (!std::all_of(chain.files.begin(), chain.files.end() - 1,
                              [&](std::size_t number) { return file(number).samples == samples; }))
                 return false;
-            const double middle = 0.5 * double(size - 1);
-            double mean = 0.0;
-            double products = 0.0;
-            double squares = 0.0;
-            for (std::size_t i = 0; i < size; ++i) {
-                mean += m_stamps[chain.files[i]] / double(size);
-                products += (double(i) - middle) * m_stamps[chain.files[i]];
-                squares += (double(i) - middle) * (double(i) - middle);
-            }
-            const double interval = products / squares;
-            double earliest = 0.0;
-            double latest = 0.0;
-            for (std::size_t i = 0; i < size; ++i) {
-                const double late = m_stamps[chain.files[i]] - mean - interval * (double(i) - middle);
-                earliest = std::min(earliest, late);
-                latest = std::max(latest, late);
-            }
-            if (latest - earliest > tolerance() + jitter(secondsOf(chain.files.front())))
+            std::vector<double> numbers(size);
+            std::iota(numbers.begin(), numbers.end(), 0.0);
+            std::vector<double> stamps;
+            for (const std::size_t each : chain.files)
+                stamps.push_back(m_stamps[each]);
+            const double most = tolerance() + jitter(secondsOf(chain.files.front()));
+            const double interval = (stamps.back() - stamps.front()) / double(size - 1);
+            const double aside = most / double(size - 1);
+            const Deviations late = leastDeviations(numbers, stamps, interval - aside, interval + aside);
+            if (late.range() > most)
                 return false;
+            const double start = m_areWhole ? late.most : 0.5 * (late.least + late.most);
             for (std::size_t i = 0; i < size; ++i)
-                m_stamps[chain.files[i]] = mean + interval * (double(i) - middle) + (m_areWhole ? latest : 0.0);
+                m_stamps[chain.files[i]] = start + late.slope * double(i);
             return true;
         }
 
