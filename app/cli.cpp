@@ -32,6 +32,7 @@ void addCommands(CLI::App &app, faintline::cli::Common &common)
                    "Progress on standard error: auto (a bar on a terminal), json (lines), none")
         ->check(CLI::IsMember({"auto", "json", "none"}))
         ->capture_default_str();
+    app.parse_complete_callback([&common] { common.guardInputs(); }); // before any command runs
     for (const auto add : {faintline::cli::addInfo,      faintline::cli::addDescribe, faintline::cli::addDetect,
                            faintline::cli::addStatistic, faintline::cli::addExplain,  faintline::cli::addSimulate,
                            faintline::cli::addReproduce, faintline::cli::addEvaluate, faintline::cli::addMerge,
@@ -73,6 +74,8 @@ int complain(const std::string &message, int code)
 void faintline::cli::runCommandLine(const std::vector<std::string> &arguments, Common common)
 {
     common.arguments = arguments;
+    common.inputs.clear();
+    common.outputs.clear();
     CLI::App app{description, programName};
     addCommands(app, common);
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend())); // parse() takes them in reverse order

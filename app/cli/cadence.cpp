@@ -39,10 +39,8 @@ void addCadence(CLI::App &app, Common &common)
     const auto options = std::make_shared<CadenceOptions>();
     CLI::App *command = app.add_subcommand(
         "cadence", "Find drifting signals that are present in all observations on target and in none off target");
-    command
-        ->add_option(
-            "TABLES", options->tables,
-            "Tables of hits (.dat) of observations alternately on and off target, as detect --hits writes them")
+    addInput(*command, common, "TABLES", options->tables,
+             "Tables of hits (.dat) of observations alternately on and off target, as detect --hits writes them")
         ->required()
         ->expected(2, 1000);
     addOutput(*command, common, "--events", options->events, "Write the events: .csv; default: print them");

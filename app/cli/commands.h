@@ -3,6 +3,7 @@
 #include "app/cli/PartOptions.h"
 
 #include "base/Error.h"
+#include "base/InputFiles.h"
 #include "base/RunContext.h"
 #include "base/Shard.h"
 #include "plan/AnalysisSettings.h"
@@ -33,6 +34,11 @@ struct Common {
     bool keepsProvenance = true;
     /// Applied to each path of a file to read or write before its use; paths are unchanged if empty.
     std::function<std::string(const std::string &path)> read, written;
+    std::vector<std::string> inputs, outputs; ///< files of this run that addInput and addOutput declared
+    std::shared_ptr<const InputFiles> inputFiles{};
+
+    /// Keeps the inputs from being replaced. Throws Error if an output is one of them.
+    void guardInputs();
 
     /// Shows progress on standard error as requested.
     RunContext context() const;
@@ -106,9 +112,12 @@ std::shared_ptr<const SimulatedPings> pingsOf(const Source &source);
 /// Says on standard error what was guessed of recorded pings, if anything was.
 void tellGuess(const NormalisedFrames &frames, const std::string &path, const Common &common);
 
-/// Options for input and output files. Every file that a command writes must be declared with the second function,
-/// because only then does a replay, which may run untrusted commands, redirect it.
+/// Options for input and output files. Every file that a command reads or writes must be declared with them, because
+/// only then is an output that is an input refused, and is an output redirected by a replay, which may run untrusted
+/// commands.
 CLI::Option *addInput(CLI::App &command, Common &common, const std::string &name, std::string &path,
+                      const std::string &description);
+CLI::Option *addInput(CLI::App &command, Common &common, const std::string &name, std::vector<std::string> &paths,
                       const std::string &description);
 CLI::Option *addOutput(CLI::App &command, Common &common, const std::string &name, std::string &path,
                        const std::string &description);

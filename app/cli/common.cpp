@@ -47,20 +47,57 @@ RunContext Common::context() const
     return context;
 }
 
+namespace {
+
+    /// Takes a path of the command line as an input.
+    auto readBy(Common &common)
+    {
+        return [&common](const std::string &asked) {
+            const std::string path = common.read && !asked.empty() ? common.read(asked) : asked;
+            common.inputs.push_back(path);
+            return path;
+        };
+    }
+
+} // namespace
+
+void Common::guardInputs()
+{
+    std::vector<std::string> files;
+    for (const std::string &input : inputs) {
+        const std::vector<std::string> all = filesReadFor(input);
+        files.insert(files.end(), all.begin(), all.end());
+    }
+    inputFiles = std::make_shared<const InputFiles>(files);
+    for (const std::string &output : outputs)
+        try {
+            checkReplacesNoInput(output);
+        } catch (const Error &error) {
+            if (!output.ends_with(".sigmf-meta"))
+                throw;
+            throw Error(error.where(), error.why() + "; detect --annotate adds events to a recording's annotations");
+        }
+}
+
 CLI::Option *addInput(CLI::App &command, Common &common, const std::string &name, std::string &path,
                       const std::string &description)
 {
-    const auto read = [&common](const std::string &asked) {
-        return common.read && !asked.empty() ? common.read(asked) : asked;
-    };
-    return command.add_option(name, path, description)->transform(read);
+    return command.add_option(name, path, description)->transform(readBy(common));
+}
+
+CLI::Option *addInput(CLI::App &command, Common &common, const std::string &name, std::vector<std::string> &paths,
+                      const std::string &description)
+{
+    return command.add_option(name, paths, description)->transform(readBy(common));
 }
 
 CLI::Option *addOutput(CLI::App &command, Common &common, const std::string &name, std::string &path,
                        const std::string &description)
 {
     const auto written = [&common](const std::string &asked) {
-        return common.written && !asked.empty() ? common.written(asked) : asked;
+        const std::string own = common.written && !asked.empty() ? common.written(asked) : asked;
+        common.outputs.push_back(own);
+        return own;
     };
     return command.add_option(name, path, description)->transform(written);
 }
@@ -76,9 +113,7 @@ void AnalysisOptions::addTo(CLI::App &command, Common &common)
 
 void AnalysisOptions::addMoreTo(CLI::App &command, Common &common)
 {
-    const auto read = [&common](const std::string &asked) { return common.read ? common.read(asked) : asked; };
-    command.add_option("FILES", more, "Further files of the same recording, in any order; needs --timeline")
-        ->transform(read);
+    addInput(command, common, "FILES", more, "Further files of the same recording, in any order; needs --timeline");
     command.add_flag("--timeline", asTimeline,
                      "Take several files as one recording, in the order of their time stamps, with gaps as gaps");
 }

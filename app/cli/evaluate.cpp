@@ -130,8 +130,9 @@ namespace {
 
     void evaluateExperiment(const EvaluateOptions &options, const Common &common)
     {
-        checkNames(options);
         Experiment experiment = experimentFromJson(readJsonFile(options.files.front()), options.files.front());
+        const InputFiles recording(filesReadFor(recordingOf(experiment)));
+        checkNames(options);
         if (options.seed >= 0)
             setSeed(experiment, options.seed);
         const auto *sweep = std::get_if<SweepExperiment>(&experiment);
@@ -177,10 +178,9 @@ void addEvaluate(CLI::App &app, Common &common)
     const auto options = std::make_shared<EvaluateOptions>();
     CLI::App *command = app.add_subcommand(
         "evaluate", "Estimate the detection probability of an experiment by simulation; an interrupted run is resumed");
-    command
-        ->add_option("EXPERIMENT", options->files,
-                     "Experiment, JSON, of kind lines, injection or sweep (values of one setting tried on the same "
-                     "lines: Pd, false alarms, latency), or: merge SHARD…")
+    addInput(*command, common, "EXPERIMENT", options->files,
+             "Experiment, JSON, of kind lines, injection or sweep (values of one setting tried on the same "
+             "lines: Pd, false alarms, latency), or: merge SHARD…")
         ->required();
     addOutput(*command, common, "--out", options->out, "Curve to write, .csv; with --shard, the runs of the shard");
     addOutput(*command, common, "--chart", options->chart,
@@ -204,7 +204,7 @@ void addMerge(CLI::App &app, Common &common)
     const auto options = std::make_shared<Options>();
     CLI::App *command = app.add_subcommand("merge", "Merge the shards of an experiment; the result is identical to a "
                                                     "run without shards");
-    command->add_option("SHARD", options->shards, "Shards, in any order")->required();
+    addInput(*command, common, "SHARD", options->shards, "Shards, in any order")->required();
     addOutput(*command, common, "--out", options->out, "Curve to write, .csv")->required();
     command->callback([options] {
         checkOutputs({options->out});

@@ -69,7 +69,7 @@ namespace {
         const auto options = std::make_shared<Options>();
         CLI::App *command = survey.add_subcommand("merge", "Merge the shards of a survey; the result is identical to a "
                                                            "survey without shards");
-        command->add_option("SHARD", options->shards, "Shards, in any order")->required();
+        addInput(*command, common, "SHARD", options->shards, "Shards, in any order")->required();
         addOutput(*command, common, "--out", options->out, "Survey to write, .sqlite")->required();
         command->fallthrough(false); // a merge has no settings
         command->callback([options] {
@@ -92,12 +92,21 @@ namespace {
         std::optional<double> longitude;
     };
 
+    std::vector<std::string> recordingsOf(SurveyDatabase &survey)
+    {
+        std::vector<std::string> files;
+        for (const SurveyRecording &recording : survey.recordings()) {
+            const std::vector<std::string> read = filesReadFor(recording.file.path);
+            files.insert(files.end(), read.begin(), read.end());
+        }
+        return files;
+    }
+
     void exportAll(const ExportOptions &options)
     {
         for (const std::string &table : {options.events, options.tracks, options.stoneSoup})
             if (!table.empty())
                 checkEnding(table, {".csv"});
-        checkOutputs({options.events, options.tracks, options.stoneSoup});
         const std::optional<double> start = options.start.empty() ? std::nullopt : parseUtc(options.start);
         if (!options.start.empty() && !start)
             throw Error("--start " + options.start, "must be a date and time, such as 2024-07-26T00:00:00Z");
@@ -105,6 +114,8 @@ namespace {
             throw Error("--camtrap", "requires --latitude and --longitude");
         SurveyDatabase survey(options.survey);
         survey.hold();
+        const InputFiles searched(recordingsOf(survey));
+        checkOutputs({options.events, options.tracks, options.stoneSoup});
         if (!survey.isFinished())
             std::fprintf(stderr, "warning: %s: the survey is not finished\n", oneLine(options.survey).c_str());
         if (!options.events.empty())
@@ -163,7 +174,7 @@ void addSurvey(CLI::App &app, Common &common)
     CLI::App *command =
         app.add_subcommand("survey", "Search many recordings with the same settings; an interrupted run is resumed");
     command->require_subcommand(0, 1);
-    command->add_option("FOLDER", options->names, "Folders, which are searched recursively, and recordings");
+    addInput(*command, common, "FOLDER", options->names, "Folders, which are searched recursively, and recordings");
     options->analysis.addSettingsTo(*command, common);
     addOutput(*command, common, "--out", options->out, "Survey to write, .sqlite");
     command->add_option("--shard", options->shard, "Analyse only part I of N, for 'survey merge'");

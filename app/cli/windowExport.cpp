@@ -101,21 +101,12 @@ namespace {
                        context.part(0.8, 1.0));
     }
 
-    /// Empty where it simulates all of its noise.
-    std::string recordingOf(const Experiment &experiment)
-    {
-        if (const auto *injection = std::get_if<InjectionExperiment>(&experiment))
-            return injection->recording;
-        const auto *sweep = std::get_if<SweepExperiment>(&experiment);
-        return sweep ? sweep->recording : std::string();
-    }
-
     void remakeCurve(const WindowExport &table, const std::string &out, const RunContext &context)
     {
         const Json &provenance = table.provenance;
         const Experiment experiment = experimentFromJson(provenance.at("experiment"), "experiment");
         if (const std::string recording = recordingOf(experiment); !recording.empty())
-            table.mayRead(fileNameFromText(recording));
+            table.mayRead(recording);
         std::vector<int> runs(std::size_t(runCount(experiment)));
         std::iota(runs.begin(), runs.end(), 0);
         if (provenance.contains("runs")) { // it was stopped

@@ -1,6 +1,7 @@
 #include "app/document/Document.h"
 
 #include "plan/slopeUnit.h"
+#include "session/Session.h"
 
 #include <QUndoCommand>
 
@@ -58,6 +59,7 @@ void Document::setOpened(OpenedSource opened, const AnalysisSettings &settings, 
                          Annotations annotations)
 {
     m_opened = std::move(opened);
+    m_inputFiles.emplace(filesReadFor(m_opened.source.path));
     m_settings = settings;
     m_annotations = std::move(annotations);
     m_sessionPath = sessionPath;

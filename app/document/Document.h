@@ -3,6 +3,7 @@
 #include "analysis/analyse.h"
 #include "app/base/filePath.h"
 #include "app/document/sourceAt.h"
+#include "base/InputFiles.h"
 #include "inspect/Review.h"
 #include "live/LiveHistory.h"
 #include "widgets/base/Viewport.h"
@@ -147,6 +148,7 @@ private:
     std::ptrdiff_t shownCount() const;
 
     OpenedSource m_opened;
+    std::optional<InputFiles> m_inputFiles; ///< of the source, which no export replaces
     AnalysisSettings m_settings;
     Annotations m_annotations;
     QString m_sessionPath;

@@ -6,6 +6,7 @@
 #include "app/document/Provenance.h"
 #include "base/json.h"
 #include "recording/writeRecording.h"
+#include "session/Session.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 #include "widgets/plot/ChartPlot.h"
@@ -60,18 +61,6 @@ namespace {
         }
         chart.curves.push_back(std::move(curve));
         return chart;
-    }
-
-    /// Whether one would overwrite the other, under any name of the file and either file of SigMF.
-    bool isSameRecording(const QString &a, const QString &b)
-    {
-        const auto wholeOf = [](const QString &path) {
-            const QFileInfo file(path);
-            const QString whole = file.exists() ? file.canonicalFilePath() : file.absoluteFilePath();
-            const bool isSigmf = QFileInfo(whole).suffix().startsWith(QStringLiteral("sigmf-"));
-            return isSigmf ? whole.left(whole.lastIndexOf(QLatin1Char('.'))) : whole;
-        };
-        return !b.isEmpty() && wholeOf(a) == wholeOf(b);
     }
 
     double highestOf(const LineSpectrum &spectrum)
@@ -270,8 +259,11 @@ void StraightenDialog::writeTo(const QString &path)
 {
     if (m_analysis->calibration->isFirstEstimate)
         return say(firstEstimateError());
-    if (isSameRecording(path, m_path))
-        return say(Error(pathBytes(path), "is the recording itself; choose another name"));
+    try {
+        checkReplacesNoInput(pathBytes(path));
+    } catch (const Error &error) {
+        return say(error);
+    }
     const auto type = WrittenType(m_type->currentData().toInt());
     m_writer.start([this, path, analysis = m_analysis, event = m_event, chosen = choice(),
                     type](const RunContext &context) -> JobRunner::Delivery {

@@ -238,7 +238,7 @@ void TargetsPanel::showSentence()
 void TargetsPanel::save(const QString &path) const
 {
     if (const PingScene *scene = m_editor->scene())
-        writeTextFile(pathBytes(path), toJson(*scene).dump(2) + "\n");
+        writeTextFile(pathBytes(path), toJson(*scene).dump(2) + "\n", Durability::Machine, Written::Document);
 }
 
 void TargetsPanel::chooseFile()

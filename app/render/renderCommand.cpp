@@ -16,8 +16,10 @@
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
 #include "base/AtomicFile.h"
+#include "base/InputFiles.h"
 #include "base/fileName.h"
 #include "base/json.h"
+#include "session/Session.h"
 #include "widgets/pings/PingMap.h"
 
 #include <QApplication>
@@ -199,6 +201,9 @@ void render(const RenderOptions &options)
         if (!WindowViews::names().contains(QString::fromStdString(view)))
             throw Error("--view " + view,
                         "unknown; choose one of " + WindowViews::names().join(QStringLiteral(", ")).toStdString());
+    const InputFiles inputs(filesReadFor(options.source));
+    for (const std::string &view : options.views)
+        checkReplacesNoInput(pictureName(options, view));
 
     Theme::apply(Theme::named(QString::fromStdString(options.theme)));
     MainWindow window;
@@ -242,6 +247,8 @@ void report(const RenderOptions &options)
     if (isScanScenario(source) || isLesson(source))
         throw Error(options.source, std::string(isLesson(source) ? "is a lesson" : "is a radar's scenario")
                                         + "; a report requires a recording, pings or a session");
+    const InputFiles inputs(filesReadFor(options.source));
+    checkReplacesNoInput(options.out);
     Theme::apply(Theme::named(QString::fromStdString(options.theme)));
     MainWindow window;
     showUnattended(window, options.size);

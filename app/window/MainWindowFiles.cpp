@@ -227,7 +227,7 @@ void MainWindow::openTogether(const QStringList &files)
     if (list.isEmpty())
         return;
     try {
-        writeTextFile(pathBytes(list), timelineText(files, list));
+        writeTextFile(pathBytes(list), timelineText(files, list), Durability::Machine, Written::Document);
         open(list);
     } catch (const Error &error) {
         showError(error);

@@ -1,6 +1,7 @@
 #include "base/AtomicFile.h"
 
 #include "base/Error.h"
+#include "base/InputFiles.h"
 #include "base/checksum.h"
 #include "base/temporaries.h"
 
@@ -101,8 +102,11 @@ namespace {
 
 } // namespace
 
-AtomicFile::AtomicFile(const std::string &path, Durability durability) : m_path(target(path)), m_durability(durability)
+AtomicFile::AtomicFile(const std::string &path, Durability durability, Written written)
+    : m_path(target(path)), m_durability(durability)
 {
+    if (written == Written::Result)
+        InputFiles::refuse(path);
     removeAbandoned(m_path);
     makeTemporary([&] {
         makeTemporaryFile(path);
@@ -205,9 +209,9 @@ void CommitTogether::commit()
     m_files.clear();
 }
 
-void writeTextFile(const std::string &path, std::string_view text, Durability durability)
+void writeTextFile(const std::string &path, std::string_view text, Durability durability, Written written)
 {
-    AtomicFile file(path, durability);
+    AtomicFile file(path, durability, written);
     file.write(text);
     file.commit();
 }

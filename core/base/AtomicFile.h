@@ -13,16 +13,21 @@ namespace faintline {
 /// milliseconds.
 enum class Durability { Program, Machine };
 
+/// What a file is: a result, which never replaces a file that the program reads (InputFiles), or a document, such as a
+/// session or a scene, which is read and written again.
+enum class Written { Result, Document };
+
 /// A file that appears under its name only when it is complete.
 ///
 /// Bytes go to a temporary file in the same folder; `commit` renames it to the final name. Without a commit
 /// (cancellation, an exception) the temporary file is removed and the existing file stays untouched. A temporary file
 /// left by a killed program is removed by the next program that writes the same file. Throws Error if the folder is
-/// missing or not writable, or the disk is full.
+/// missing or not writable, the disk is full, or a result would replace an input.
 class AtomicFile
 {
 public:
-    explicit AtomicFile(const std::string &path, Durability durability = Durability::Machine);
+    explicit AtomicFile(const std::string &path, Durability durability = Durability::Machine,
+                        Written written = Written::Result);
     ~AtomicFile();
     AtomicFile(const AtomicFile &) = delete;
     AtomicFile &operator=(const AtomicFile &) = delete;
@@ -71,6 +76,7 @@ private:
 };
 
 /// Writes a whole text file, or nothing.
-void writeTextFile(const std::string &path, std::string_view text, Durability durability = Durability::Machine);
+void writeTextFile(const std::string &path, std::string_view text, Durability durability = Durability::Machine,
+                   Written written = Written::Result);
 
 } // namespace faintline

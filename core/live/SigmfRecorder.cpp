@@ -81,7 +81,7 @@ void SigmfRecorder::writeList() const
     std::string names;
     for (const std::string &file : m_files)
         names += std::filesystem::path(file).filename().string() + "\n";
-    writeTextFile(whole(), names, Durability::Program);
+    writeTextFile(whole(), names, Durability::Program, Written::Document);
 }
 
 void SigmfRecorder::writeMeta() const
@@ -104,7 +104,7 @@ void SigmfRecorder::writeMeta() const
         captures.push_back(std::move(capture));
     }
     const Json meta = {{"global", global}, {"captures", captures}, {"annotations", Json::array()}};
-    writeTextFile(m_files.back(), meta.dump(4) + "\n", Durability::Program);
+    writeTextFile(m_files.back(), meta.dump(4) + "\n", Durability::Program, Written::Document);
 }
 
 void SigmfRecorder::rotateIfDue()

@@ -1,11 +1,17 @@
 #include "session/Session.h"
 
 #include "base/AtomicFile.h"
+#include "base/InputFiles.h"
 #include "base/fileName.h"
 #include "base/readingJson.h"
 #include "base/wholeNumber.h"
+#include "exchange/survey/findRecordings.h"
+#include "recording/SigmfRecording.h"
+#include "recording/Timeline.h"
+#include "recording/truthBeside.h"
 
 #include <filesystem>
+#include <functional>
 
 namespace faintline {
 
@@ -92,7 +98,57 @@ namespace {
         return session;
     }
 
+    void append(std::vector<std::string> &files, const std::function<std::vector<std::string>()> &find)
+    {
+        try {
+            const std::vector<std::string> found = find();
+            files.insert(files.end(), found.begin(), found.end());
+        } catch (const Error &) { // opening it says so
+        }
+    }
+
+    /// The recordings that a name denotes: itself, or those of a folder or a list.
+    std::vector<std::string> recordingsNamed(const std::string &name)
+    {
+        std::vector<std::string> files;
+        std::vector<std::string> unreadable;
+        if (Timeline::isNamedSo(name))
+            append(files, [&] { return Timeline::filesOf({name}); });
+        if (std::error_code ignored; fs::is_directory(name, ignored))
+            for (const bool isRaw : {false, true})
+                append(files, [&] { return findRecordings({name}, isRaw, unreadable); });
+        files.push_back(name);
+        return files;
+    }
+
 } // namespace
+
+std::vector<std::string> filesReadFor(const std::string &name)
+{
+    if (name.empty())
+        return {};
+    std::vector<std::string> files{name == "-" ? "/dev/stdin" : name};
+    std::vector<std::string> names = recordingsNamed(name);
+    if (isSessionPath(name))
+        append(names, [&] { return recordingsNamed(readSession(name).source.path); });
+    for (const std::string &recording : names) {
+        append(files, [&] { return filesBehind({recording}); });
+        files.insert(files.end(), {recording, truthPathOf(recording), gridPathOf(recording)});
+    }
+    return files;
+}
+
+void checkReplacesNoInput(const std::string &result)
+{
+    std::vector<std::string> files{result, result + ".provenance.json"};
+    const std::string stem = result.substr(0, result.rfind('.'));
+    if (SigmfRecording::isNamedSo(result))
+        files.insert(files.end(), {stem + ".sigmf-meta", stem + ".sigmf-data"});
+    if (hasEnding(result, ".npy"))
+        files.push_back(gridPathOf(result));
+    for (const std::string &file : files)
+        InputFiles::refuse(file);
+}
 
 bool isSessionPath(const std::string &path)
 {
@@ -151,7 +207,7 @@ void writeSession(const std::string &path, Session session)
 {
     if (!session.source.isSimulated() && session.recordingHash.empty())
         session.recordingHash = recordingHash(session.source.path);
-    writeTextFile(path, sessionText(session, folderOf(path)));
+    writeTextFile(path, sessionText(session, folderOf(path)), Durability::Machine, Written::Document);
 }
 
 std::string recordingMismatch(const Session &session)

@@ -35,6 +35,15 @@ std::string sessionText(const Session &session, const std::string &folder);
 /// Computes the recording's hash if none is given, and writes the file completely or not at all. Throws Error.
 void writeSession(const std::string &path, Session session);
 
+/// All files that may be read for an input of this name, which results must not replace (InputFiles): the file itself
+/// (standard input for "-"), both files of a SigMF recording, the files of a folder or a list, a session's recording,
+/// the grid and the truth beside. What cannot be found is left out.
+std::vector<std::string> filesReadFor(const std::string &name);
+
+/// Throws Error if a result of this name, or a file that is written with it, would replace a file that is read: before
+/// anything is computed.
+void checkReplacesNoInput(const std::string &result);
+
 /// Why the recording on disk differs from the one of the session; empty if it does not. Throws Error if it cannot be
 /// read.
 std::string recordingMismatch(const Session &session);

@@ -1,10 +1,12 @@
 #include "bindings/bind.h"
 
+#include "base/InputFiles.h"
 #include "bindings/arrays.h"
 #include "bindings/interruptible.h"
 #include "bindings/jsonFromPython.h"
 #include "evaluate/experiments/sweepCurve.h"
 #include "exchange/CampaignFile.h"
+#include "session/Session.h"
 
 #include <limits>
 
@@ -89,6 +91,9 @@ namespace {
         if (seed >= 0)
             setSeed(experiment, seed);
         const std::string path = out.is_none() ? std::string() : pathFromPython(out);
+        std::vector<std::string> files = filesReadFor(recordingOf(experiment));
+        files.push_back(where);
+        const InputFiles inputs(files);
         Campaign campaign;
         runInterruptibly({threads, progress},
                          [&](const RunContext &context) { campaign = carriedOut(experiment, path, context); });

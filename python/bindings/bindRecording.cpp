@@ -1,5 +1,6 @@
 #include "bindings/bind.h"
 
+#include "base/InputFiles.h"
 #include "base/fileName.h"
 #include "bindings/Source.h"
 #include "bindings/arrays.h"
@@ -7,6 +8,7 @@
 #include "bindings/jsonFromPython.h"
 #include "recording/ArrayRecording.h"
 #include "recording/writeRecording.h"
+#include "session/Session.h"
 
 #include <pybind11/stl.h>
 
@@ -68,6 +70,7 @@ namespace {
         if (type != "float32" && type != "int16")
             throw Error("type = " + type, "must be float32 or int16");
         const std::string name = pathFromPython(path);
+        const InputFiles inputs(filesReadFor(self.arguments.empty() ? std::string() : self.arguments.front()));
         runInterruptibly({threads, progress}, [&](const RunContext &context) {
             writeRecording(*self.recording, name, type == "int16" ? WrittenType::Int16 : WrittenType::Float32, context);
         });

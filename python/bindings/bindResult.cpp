@@ -1,6 +1,7 @@
 #include "bindings/bind.h"
 
 #include "base/AtomicFile.h"
+#include "base/InputFiles.h"
 #include "bindings/HeldTrack.h"
 #include "bindings/Result.h"
 #include "bindings/arrays.h"
@@ -10,6 +11,7 @@
 #include "exchange/NumPy.h"
 #include "exchange/writeEvents.h"
 #include "inspect/explain.h"
+#include "session/Session.h"
 
 #include <pybind11/stl.h>
 
@@ -58,6 +60,8 @@ namespace {
             checkEventsPath(eventsPath);
         if (!tracksPath.empty())
             checkTracksPath(tracksPath);
+        const std::vector<std::string> source = self.origin().source;
+        const InputFiles inputs(filesReadFor(source.empty() ? std::string() : source.front()));
         runInterruptibly({0, progress}, [&](const RunContext &context) {
             CommitTogether files;
             writeProvenance(self.origin(),

@@ -171,6 +171,23 @@ private slots:
                                        QString("night 2.wav (%1)").arg(QFileInfo(m_folder.path()).fileName())}));
     }
 
+    void exportsReplaceNoInput()
+    {
+        const auto window = newWindow();
+        QVERIFY(openAndSettle(*window, path("night 2.wav")));
+        const QByteArray before = readBytes(path("night 2.wav").toStdString());
+        QVERIFY(QFile::link(path("night 2.wav"), path("link.png")));
+        QVERIFY(QFile::link(path("night 2.wav"), path("link.csv")));
+        EventFiles &files = window->reviews().files();
+        QVERIFY_THROWS_EXCEPTION(Error, files.exportTo(path("link.csv")));
+        QVERIFY_THROWS_EXCEPTION(Error, files.exportTracksTo(path("link.csv")));
+        window->views().saveTo("events", path("link.png"));
+        QTRY_VERIFY2(window->messages().text().contains("is an input"), qPrintable(window->messages().text()));
+        QCOMPARE(readBytes(path("night 2.wav").toStdString()), before);
+        files.exportTo(path("own.csv")); // others are written
+        QVERIFY(QFile::exists(path("own.csv")));
+    }
+
     void exportsSayWhereTheyWrote()
     {
         const auto window = newWindow();

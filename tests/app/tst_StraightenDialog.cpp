@@ -141,7 +141,7 @@ void tst_StraightenDialog::saysWhatCannotBeDone()
 {
     const QByteArray original = readBytes(m_path.toStdString());
     dialog()->writeTo(m_path);
-    QVERIFY2(dialog()->sentence().contains("is the recording itself"), qPrintable(dialog()->sentence()));
+    QVERIFY2(dialog()->sentence().contains("is an input and would be replaced"), qPrintable(dialog()->sentence()));
     QCOMPARE(readBytes(m_path.toStdString()), original);
     dialog()->writeTo(m_folder.filePath("straight.txt"));
     QVERIFY(settle(*dialog()));

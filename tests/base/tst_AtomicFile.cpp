@@ -2,10 +2,12 @@
 #include "support/test.h"
 
 #include "base/Error.h"
+#include "base/InputFiles.h"
 
 #include <QDir>
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 using namespace faintline;
 
@@ -20,6 +22,9 @@ private slots:
     void permissionsAreTheUsual();
     void twoAtATime();
     void refusals();
+    void inputsAreNotReplaced_data();
+    void inputsAreNotReplaced();
+    void documentsAreWrittenAgain();
 
 private:
     QByteArray content(const char *name) const
@@ -84,6 +89,50 @@ void tst_AtomicFile::refusals()
     QVERIFY_THROWS_EXCEPTION(Error, AtomicFile(path("no/folder")));
     QVERIFY_THROWS_EXCEPTION(Error, AtomicFile(m_folder.path().toStdString()));
     QVERIFY_THROWS_EXCEPTION(Error, AtomicFile("/dev/null"));
+}
+
+void tst_AtomicFile::inputsAreNotReplaced_data()
+{
+    QTest::addColumn<QByteArray>("name");
+    for (const char *name : {"input", "./input", "folder/../input", "folder/symbolic", "hard", "linked/input"})
+        QTest::newRow(name) << QByteArray(name);
+}
+
+void tst_AtomicFile::inputsAreNotReplaced()
+{
+    QFETCH(QByteArray, name);
+    const QTemporaryDir folder;
+    const auto in = [&](const QByteArray &file) { return folder.filePath(file).toStdString(); };
+    QVERIFY(QDir(folder.path()).mkpath("folder"));
+    writeTextFile(in("input"), "kept");
+    QCOMPARE(::link(in("input").c_str(), in("hard").c_str()), 0);
+    QCOMPARE(::symlink("../input", in("folder/symbolic").c_str()), 0);
+    QCOMPARE(::symlink(".", in("linked").c_str()), 0);
+    const auto contentNow = [&] {
+        QFile file(folder.filePath("input"));
+        return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+    };
+    {
+        const InputFiles inputs({in("input"), in("no such file"), in("folder")});
+        QVERIFY_THROWS_EXCEPTION(Error, writeTextFile(in(name), "lost"));
+        QVERIFY_THROWS_EXCEPTION(Error, InputFiles::refuse(in(name)));
+        writeTextFile(in("another"), "result"); // others are written
+        writeTextFile(in("no such file"), "result");
+    }
+    QCOMPARE(contentNow(), QByteArray("kept"));
+    writeTextFile(in("input"), "read no more");
+    QCOMPARE(contentNow(), QByteArray("read no more"));
+}
+
+/// A document keeps its place as an input when it is written anew, as another file of that name.
+void tst_AtomicFile::documentsAreWrittenAgain()
+{
+    writeTextFile(path("document"), "before");
+    const InputFiles inputs({path("document")});
+    writeTextFile(path("document"), "after", Durability::Program, Written::Document);
+    QCOMPARE(content("document"), QByteArray("after"));
+    QVERIFY_THROWS_EXCEPTION(Error, writeTextFile(path("document"), "a result"));
+    QCOMPARE(content("document"), QByteArray("after"));
 }
 
 FAINTLINE_TEST(tst_AtomicFile)

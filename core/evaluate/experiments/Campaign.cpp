@@ -89,19 +89,20 @@ std::vector<DetectorUnderTest> detectorsOf(const Experiment &experiment)
                       experiment);
 }
 
+std::string recordingOf(const Experiment &experiment)
+{
+    return std::visit(Overloaded{[](const LineExperiment &) { return std::string(); },
+                                 [](const auto &one) { return fileNameFromText(one.recording); }},
+                      experiment);
+}
+
 RecordingPointer openRecordingOf(const Experiment &experiment)
 {
-    const auto open = [](const auto &one) {
-        OpenOptions options;
-        options.iq = one.iq;
-        return openRecording(fileNameFromText(one.recording), options);
-    };
-    return std::visit(Overloaded{[](const LineExperiment &) { return RecordingPointer(); },
-                                 [&](const SweepExperiment &sweep) {
-                                     return sweep.recording.empty() ? RecordingPointer() : open(sweep);
-                                 },
-                                 open},
-                      experiment);
+    const std::string recording = recordingOf(experiment);
+    OpenOptions options;
+    options.iq = std::visit(
+        Overloaded{[](const LineExperiment &) { return false; }, [](const auto &one) { return one.iq; }}, experiment);
+    return recording.empty() ? RecordingPointer() : openRecording(recording, options);
 }
 
 void setSeed(Experiment &experiment, int seed)

@@ -33,6 +33,9 @@ void setSeed(Experiment &experiment, int seed);
 std::vector<double> snrsOf(const Experiment &experiment);
 std::vector<DetectorUnderTest> detectorsOf(const Experiment &experiment);
 
+/// The name of an experiment's recording; empty if its noise is simulated.
+std::string recordingOf(const Experiment &experiment);
+
 /// Opens the recording that an experiment names; null if its noise is simulated. Throws Error.
 RecordingPointer openRecordingOf(const Experiment &experiment);
 

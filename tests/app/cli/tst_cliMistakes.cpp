@@ -1,9 +1,10 @@
 #include "app/cli/CommandLineTest.h"
 #include "support/test.h"
-
+#include <QDirIterator>
 #include <csignal>
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 using namespace faintline;
 using namespace faintline::test;
@@ -22,6 +23,8 @@ private slots:
 
     void mistakes_data();
     void mistakes();
+    void inputsAreNotReplaced_data();
+    void inputsAreNotReplaced();
     void fullDiskIsAFailure();
     void interruptLeavesNothing_data();
     void interruptLeavesNothing();
@@ -140,6 +143,78 @@ void tst_cliMistakes::mistakes()
     for (const char *name : {"e.xml", "t.txt", "x.wav", "x.xyz", "x.npy"})
         QVERIFY2(!QFile::exists(path(name)), name);
     QVERIFY(QDir(folder()).entryList({"*.part"}, QDir::Files | QDir::Hidden).isEmpty());
+}
+
+void tst_cliMistakes::inputsAreNotReplaced_data()
+{
+    QTest::addColumn<QStringList>("arguments");
+    const auto row = [](const char *name, const QStringList &arguments) { QTest::newRow(name) << arguments; };
+    row("metadata by the metadata", {"detect", "rec.sigmf-meta", "--events", "rec.sigmf-meta"});
+    row("metadata by the samples", {"detect", "rec.sigmf-data", "--events", "./rec.sigmf-meta"});
+    row("both halves", {"straighten", "rec.sigmf-meta", "--out", "rec.sigmf-meta"});
+    row("the other half", {"straighten", "rec.sigmf-meta", "--out", "rec.sigmf-data"});
+    row("samples as raw", {"inject", "rec.sigmf-data", "--raw-type", "rf32_le", "--raw-rate", "1000", "--snr", "9",
+                           "--frequency", "90", "--out", "rec.sigmf-meta"});
+    row("recording", {"straighten", "line.wav", "--out", "line.wav"});
+    row("recording as the rest", {"straighten", "line.wav", "--rest", "./line.wav", "--out", "q.wav"});
+    row("recording with a line", {"inject", "line.wav", "--snr", "9", "--frequency", "90", "--out", "symbolic.wav"});
+    row("recording by a hard link", {"inject", "line.wav", "--snr", "9", "--frequency", "90", "--out", "hard.wav"});
+    row("truth beside", {"detect", "line.wav", "--events", "line.truth.json"});
+    row("scene", {"detect", "scene.json", "--events", "scene.json"});
+    row("scene that is simulated", {"simulate", "scene.json", "--out", "q.wav", "--truth", "scene.json"});
+    row("frames", {"detect", "--frames", "y.npy", "--statistic", "y.npy"});
+    row("frames of a statistic", {"statistic", "--frames", "y.npy", "--model", "scene.json", "--out", "./y.npy"});
+    row("model", {"statistic", "--frames", "y.npy", "--model", "m.json", "--out", "q.npy", "--log", "m.json"});
+    row("model of a test", {"sequential", "--frames", "y.npy", "--model", "m.json", "--out", "m.json"});
+    row("grid beside", {"detect", "--frames", "y.npy", "--tracks", "y.grid.json"});
+    row("grid that is given", {"detect", "--frames", "y.npy", "--grid", "m.json", "--tracks", "m.json"});
+    row("annotations", {"detect", "line.wav", "--annotations", "a.selections.txt", "--events", "a.selections.txt"});
+    row("settings", {"detect", "line.wav", "--session", "settings.json", "--events", "settings.json"});
+    row("recording of a session", {"detect", "s.faintline", "--statistic", "symbolic.npy"});
+    row("one of a folder", {"straighten", "night", "--out", "night/20260301_000000.wav"});
+    row("one of a list", {"straighten", "night.timeline", "--out", "night/20260301_000000.wav"});
+    row("the list", {"straighten", "night.timeline", "--curve", "night.timeline", "--out", "q.wav"});
+    row("one of several", {"detect", "line.wav", "hard.wav", "--timeline", "--tracks", "symbolic.wav"});
+    row("difference", {"compare", "line.wav", "--difference", "hard.wav"});
+    row("fit", {"doppler", "scene.json", "--out", "scene.json"});
+    row("what a survey searches", {"survey", "night", "--out", "night/20260301_000000.wav"});
+    row("shard", {"merge", "a.csv", "b.csv", "--out", "b.csv"});
+    row("experiment", {"evaluate", "scene.json", "--out", "scene.json"});
+    row("table of hits", {"cadence", "a.csv", "b.csv", "--events", "a.csv"});
+    row("what is listened to", {"listen", "line.wav", "--out", "line.wav"});
+}
+
+/// Before anything is computed: the settings would take minutes to calibrate.
+void tst_cliMistakes::inputsAreNotReplaced()
+{
+    QFETCH(QStringList, arguments);
+    if (!QFile::exists(path("rec.sigmf-meta"))) {
+        QCOMPARE(run({"simulate", "scene.json", "--out", "rec.sigmf-meta"}).code, 0);
+        QVERIFY(QDir(folder()).mkpath("night"));
+        QVERIFY(QFile::copy(path("line.wav"), path("night/20260301_000000.wav")));
+        QVERIFY(QFile::copy(path("truth.json"), path("line.truth.json")));
+        QVERIFY(QFile::link("line.wav", path("symbolic.wav")) && QFile::link("line.wav", path("symbolic.npy")));
+        QCOMPARE(::link(pathOf("line.wav").c_str(), pathOf("hard.wav").c_str()), 0);
+        writeArray(pathOf("y.npy"), {4, 3}, std::vector<float>(12, 1.0f));
+        writeBytes(pathOf("night.timeline"), "night/20260301_000000.wav\n");
+        writeBytes(pathOf("s.faintline"),
+                   R"({"faintline": 1, "recording": {"path": "line.wav", "sha256": ""}, "settings": {}})");
+        for (const char *name : {"y.grid.json", "m.json", "a.selections.txt", "settings.json", "a.csv", "b.csv"})
+            writeBytes(pathOf(name), "{}");
+    }
+    const auto everything = [this] {
+        QMap<QString, QByteArray> files;
+        for (QDirIterator file(folder(), QDir::Files | QDir::Hidden, QDirIterator::Subdirectories); file.hasNext();)
+            files[file.next()] = readBytes(file.filePath().toStdString());
+        return files;
+    };
+    const auto before = everything();
+    const Outcome told = run(arguments);
+    QVERIFY2(told.code == 2, told.err.data());
+    QCOMPARE(told.out, QByteArray());
+    QVERIFY2(told.err.startsWith("error: ") && told.err.count('\n') == 1, told.err.data());
+    QVERIFY2(told.err.contains(": is an input and would be replaced; give the output another name"), told.err.data());
+    QVERIFY(everything() == before);
 }
 
 void tst_cliMistakes::fullDiskIsAFailure()
