@@ -15,11 +15,13 @@
 #include "exchange/ModelFile.h"
 #include "exchange/NumPy.h"
 #include "exchange/TopHits.h"
+#include "exchange/annotateRecording.h"
 #include "exchange/openFrames.h"
 #include "exchange/readAnnotations.h"
 #include "exchange/writeEvents.h"
 #include "exchange/writeReviewed.h"
 #include "inspect/judgeByBoxes.h"
+#include "recording/SigmfRecording.h"
 #include "recording/truthBeside.h"
 #include "spectrum/noiseMean.h"
 
@@ -48,6 +50,7 @@ namespace {
         std::string conventional;
         std::string hits;
         double leastSnr = 0.0;
+        bool annotate = false;
         bool summary = false;
     };
 
@@ -114,6 +117,18 @@ namespace {
         return {options.events, options.tracks, options.statistic, options.conventional, options.hits};
     }
 
+    /// Adding to an input is no output: it could not be remade from that input.
+    void checkAnnotate(const DetectOptions &options, const Common &common)
+    {
+        const Source source = options.analysis.source();
+        if (!SigmfRecording::isNamedSo(source.path) || !source.options.rawType.empty() || !source.hasSamples())
+            throw Error("--annotate", "requires a SigMF recording; for others, write the events with --events");
+        if (common.written || !std::ranges::all_of(outputsOf(options), &std::string::empty))
+            throw Error("--annotate", "changes the recording's metadata, from which other outputs would be made; give "
+                                      "no other output");
+        const AtomicFile probe(SigmfRecording::metaPath(source.path), Durability::Program, Written::Document);
+    }
+
     /// Whether the events are written with their reviews, as the window does.
     bool writesReviews(const DetectOptions &options)
     {
@@ -123,8 +138,8 @@ namespace {
     void checkOptions(const DetectOptions &options)
     {
         options.analysis.checkMore();
-        if (!options.annotations.empty() && options.events.empty())
-            throw Error("--annotations", "requires --events");
+        if (!options.annotations.empty() && options.events.empty() && !options.annotate)
+            throw Error("--annotations", "requires --events or --annotate");
         if (!options.events.empty())
             writesReviews(options) ? checkReviewedPath(options.events) : checkEventsPath(options.events);
         if (!options.tracks.empty())
@@ -255,9 +270,19 @@ namespace {
         return chosen;
     }
 
+    void annotate(const std::string &sigmf, const DetectOptions &options)
+    {
+        const std::string path = options.analysis.source().path;
+        const int count = annotateRecording(path, sigmf);
+        if (options.summary)
+            std::printf("%d annotation(s) added to %s\n", count, oneLine(SigmfRecording::metaPath(path)).c_str());
+    }
+
     /// With reviews, where there are any: those of the session, then those of the annotations.
     void writeEventsOf(const Analysis &analysis, const DetectInput &input, const DetectOptions &options)
     {
+        if (!writesReviews(options) && options.annotate)
+            return annotate(eventsSigmf(analysis), options);
         if (!writesReviews(options))
             return writeEvents(analysis, options.events);
         const std::vector<Event> found = events(analysis);
@@ -268,6 +293,8 @@ namespace {
             if (options.summary)
                 std::printf("%zu annotation(s), %d event(s) reviewed by them\n", input.boxes.size(), judged.judged);
         }
+        if (options.annotate)
+            return annotate(reviewedSigmf(analysis, found, reviewed), options);
         writeReviewed(analysis, found, reviewed, options.events);
     }
 
@@ -278,7 +305,7 @@ namespace {
         inputs.insert(inputs.end(), {options.frames, options.grid, options.model, options.annotations});
         CommitTogether files;
         writeProvenance(common, inputs, outputsOf(options));
-        if (!options.events.empty())
+        if (!options.events.empty() || options.annotate)
             writeEventsOf(analysis, input, options);
         if (!options.tracks.empty())
             writeTracks(analysis, options.tracks);
@@ -311,10 +338,12 @@ namespace {
 
     void detect(DetectOptions options, const Common &common)
     {
-        if (std::ranges::all_of(outputsOf(options), &std::string::empty))
+        if (std::ranges::all_of(outputsOf(options), &std::string::empty) && !options.annotate)
             options.summary = true; // without another output, print a summary
         checkOptions(options);
         const RunContext context = common.context();
+        if (options.annotate)
+            checkAnnotate(options, common);
         const DetectInput input = open(options, common, context);
         std::optional<NumPyWriter> writer;
         const auto analysis = run(input, options, context, writer);
@@ -339,6 +368,9 @@ void addDetect(CLI::App &app, Common &common)
     addInput(*command, common, "--model", options->model, "JSON of a model for the frames");
     addOutput(*command, common, "--events", options->events,
               "Write the events: .csv, .json, .txt (Audacity) or .sigmf-meta");
+    command->add_flag(
+        "--annotate", options->annotate,
+        "Add the events to the annotations in a SigMF recording's own metadata, in which all else is kept");
     addInput(
         *command, common, "--annotations", options->annotations,
         "Boxes with reviews (Raven, Audacity, SigMF, CSV, JSON); events that match a box are written with its review "

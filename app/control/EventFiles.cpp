@@ -3,14 +3,17 @@
 #include "app/base/filePath.h"
 #include "app/base/writeAndReport.h"
 #include "app/control/thresholdWords.h"
+#include "exchange/annotateRecording.h"
 #include "exchange/readAnnotations.h"
 #include "exchange/writeEvents.h"
 #include "exchange/writeReviewed.h"
 #include "inspect/judgeByBoxes.h"
+#include "widgets/base/labelText.h"
 
 #include <QAction>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QMessageBox>
 
 namespace faintline {
 
@@ -59,6 +62,31 @@ void EventFiles::exportTo(const QString &path)
         return emit failed(firstEstimateError());
     writeReviewed(*m_document.analysis(), m_document.shownEvents(), m_document.annotations(), pathBytes(path));
     writeProvenance(path, false);
+}
+
+void EventFiles::annotateRecording()
+{
+    if (!m_document.analysis())
+        return;
+    if (m_document.analysis()->calibration->isFirstEstimate)
+        return emit failed(firstEstimateError());
+    const int count = faintline::annotateRecording(
+        m_document.source().path,
+        reviewedSigmf(*m_document.analysis(), m_document.shownEvents(), m_document.annotations()));
+    emit told(fileLabel(m_document.sourcePath()), tr("%1 annotation(s) added; all else in it was kept.").arg(count));
+}
+
+/// Whether the events are to be added to the recording's own annotations, because its metadata were chosen.
+bool EventFiles::wantsToAnnotate(const QString &path)
+{
+    if (!isMetadataOf(pathBytes(path), m_document.source().path))
+        return false;
+    const QString question = tr("%1 holds the metadata of the recording and is not replaced. Add the events to its "
+                                "annotations? Everything else in it is kept.")
+                                 .arg(fileLabel(path));
+    return QMessageBox::question(m_window, tr("Annotate the recording"), asHtml(question),
+                                 QMessageBox::Yes | QMessageBox::Cancel, QMessageBox::Yes)
+           == QMessageBox::Yes;
 }
 
 void EventFiles::exportTracksTo(const QString &path)
@@ -112,7 +140,7 @@ void EventFiles::askForExport()
     if (path.isEmpty())
         return;
     try {
-        exportTo(path);
+        wantsToAnnotate(path) ? annotateRecording() : exportTo(path);
     } catch (const Error &error) {
         emit failed(error);
     }

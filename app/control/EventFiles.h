@@ -32,6 +32,8 @@ public:
     /// Throws Error.
     void importFrom(const QString &path);
     void exportTo(const QString &path);
+    /// Adds the events with their reviews and the boxes to the annotations in a SigMF recording's own metadata.
+    void annotateRecording();
     /// Exports the tracks of the events shown, frame by frame: .csv or .json.
     void exportTracksTo(const QString &path);
 
@@ -47,6 +49,7 @@ private:
     void askForImport();
     void askForExport();
     void askForTracks();
+    bool wantsToAnnotate(const QString &path);
     void writeProvenance(const QString &path, bool isOfTracks);
 
     Document &m_document;

@@ -310,6 +310,11 @@ std::string eventsJson(const AnalysisPlan &plan, const std::vector<Event> &event
     return json.dump(2) + "\n";
 }
 
+std::string eventsSigmf(const Analysis &analysis)
+{
+    return sigmfAnnotations(analysis);
+}
+
 void writeEvents(const Analysis &analysis, const std::string &path)
 {
     checkEventsPath(path);

@@ -25,6 +25,8 @@ void writeEvents(const Analysis &analysis, const std::string &path);
 std::string eventsCsv(const AnalysisPlan &plan, const std::vector<Event> &events);
 std::string eventsJson(const AnalysisPlan &plan, const std::vector<Event> &events,
                        const std::vector<AreaEvent> &areas = {});
+/// The text of such a .sigmf-meta file. Throws Error for frames.
+std::string eventsSigmf(const Analysis &analysis);
 /// "t:model;…": the times, s, from which other models of a bank followed an event.
 std::string modelChangesText(const Event &event);
 /// One event as an element of that JSON.

@@ -128,6 +128,11 @@ void checkReviewedPath(const std::string &path)
                       ".sigmf-meta");
 }
 
+std::string reviewedSigmf(const Analysis &analysis, const std::vector<Event> &events, const Annotations &annotations)
+{
+    return sigmf(analysis, rowsOf(analysis, events, annotations));
+}
+
 void writeReviewed(const Analysis &analysis, const std::vector<Event> &events, const Annotations &annotations,
                    const std::string &path)
 {

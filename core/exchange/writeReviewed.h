@@ -16,6 +16,9 @@ namespace faintline {
 void writeReviewed(const Analysis &analysis, const std::vector<Event> &events, const Annotations &annotations,
                    const std::string &path);
 
+/// The text of such a .sigmf-meta file. Throws Error for frames.
+std::string reviewedSigmf(const Analysis &analysis, const std::vector<Event> &events, const Annotations &annotations);
+
 /// Throws Error if `writeReviewed` does not know the extension of a name.
 void checkReviewedPath(const std::string &path);
 

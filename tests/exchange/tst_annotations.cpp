@@ -1,3 +1,4 @@
+#include "exchange/annotateRecording.h"
 #include "exchange/annotationText.h"
 #include "exchange/readAnnotations.h"
 #include "exchange/writeEvents.h"
@@ -22,6 +23,7 @@ private slots:
     void audacity();
     void sigmf();
     void sigmfCountsSamplesOfTheFile();
+    void ownMetadataKeepAllElse();
     void textsAreTakenApart();
     void farAway();
     void hostile_data();
@@ -217,6 +219,48 @@ void tst_annotations::sigmfCountsSamplesOfTheFile()
     QVERIFY(json["captures"] == parseJson(info.sigmf, "")["captures"]);
     QCOMPARE(json["annotations"][2]["core:sample_start"].get<int>(), 2004000);
     QCOMPARE(json["annotations"][2]["core:sample_count"].get<int>(), 8000);
+
+void tst_annotations::ownMetadataKeepAllElse()
+{
+    const std::string own = path("own.sigmf-meta");
+    writeBytes(own, R"({"global": {"core:datatype": "ci16_le", "core:sample_rate": 1000.0, "antenna:gain": 3,
+        "core:extensions": [{"name": "antenna", "version": "1.0.0", "optional": true}]},
+        "captures": [{"core:sample_start": 0, "core:frequency": 5000.0, "core:datetime": "2026-03-01T00:00:00Z"}],
+        "annotations": [{"core:sample_start": 7000, "core:sample_count": 9, "core:label": "by hand", "user:mood": []}],
+        "collection": {"x": 18446744073709551615}})");
+    Json expected = parseJson(readBytes(own).toStdString(), own);
+    const Json handMade = expected["annotations"][0];
+    QVERIFY(isMetadataOf(own, path("own.sigmf-data"))
+            && isMetadataOf(m_folder.path().toStdString() + "/./own.sigmf-meta", own));
+    QVERIFY(!isMetadataOf(path("other.sigmf-meta"), own) && !isMetadataOf(own, path("own.wav")));
+
+    Analysis analysis = threeTracks(m_info);
+    QCOMPARE(annotateRecording(path("own.sigmf-data"), eventsSigmf(analysis)), 3);
+    const Json once = parseJson(readBytes(own).toStdString(), own);
+    QCOMPARE(once["annotations"].size(), std::size_t(4));
+    QVERIFY(once["annotations"][3] == handMade); // it begins last
+    QVERIFY(once["annotations"][0]["core:sample_start"] == 1250
+            && once["annotations"][0]["core:generator"] == "Faintline");
+    expected["annotations"] = once["annotations"];
+    QVERIFY(once == expected); // all else, in its order
+    // Once more: nothing is doubled. With reviews, their name space is declared beside the others.
+    QCOMPARE(annotateRecording(own, eventsSigmf(analysis)), 0);
+    QVERIFY(parseJson(readBytes(own).toStdString(), own) == once);
+    Annotations nothing;
+    QCOMPARE(annotateRecording(own, reviewedSigmf(analysis, events(analysis), nothing)), 3); // other labels
+    nothing.reviews = withVerdict({}, analysis, events(analysis), {1}, Verdict::Rejected);
+    QCOMPARE(annotateRecording(own, reviewedSigmf(analysis, events(analysis), nothing)), 0);
+    const Json reviewed = parseJson(readBytes(own).toStdString(), own);
+    QCOMPARE(reviewed["annotations"].size(), std::size_t(7));
+    QCOMPARE(reviewed["global"]["core:extensions"].size(), std::size_t(2));
+    QCOMPARE(std::ranges::count_if(reviewed["annotations"],
+                                   [](const Json &one) { return one.value("faintline:review", "") == "rejected"; }),
+             std::ptrdiff_t(1));
+    QVERIFY(errorOf([&] { annotateRecording(path("own.wav"), eventsSigmf(analysis)); }).find("is not a SigMF")
+            != std::string::npos);
+    writeBytes(own, R"({"global": 3, "annotations": [{"core:sample_start": "now"}]})");
+    QVERIFY(errorOf([&] { annotateRecording(own, eventsSigmf(analysis)); }).starts_with(own));
+    QCOMPARE(readBytes(own), QByteArray(R"({"global": 3, "annotations": [{"core:sample_start": "now"}]})"));
 }
 
 void tst_annotations::textsAreTakenApart()

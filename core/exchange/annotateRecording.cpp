@@ -1,0 +1,83 @@
+#include "exchange/annotateRecording.h"
+
+#include "base/AtomicFile.h"
+#include "base/readingJson.h"
+#include "recording/SigmfRecording.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace faintline {
+
+namespace {
+
+    constexpr const char *generatorKey = "core:generator", *generatorName = "Faintline";
+
+    /// Whether two annotations are of one place and have one label.
+    bool areOfOnePlace(const Json &a, const Json &b)
+    {
+        constexpr const char *keys[]{"core:sample_start", "core:sample_count", "core:freq_lower_edge",
+                                     "core:freq_upper_edge", "core:label"};
+        return std::ranges::all_of(keys, [&](const char *key) { return a.value(key, Json()) == b.value(key, Json()); });
+    }
+
+    /// The namespaces that annotations use are declared, as SigMF requires.
+    void declareExtensions(Json &global, const Json &extensions)
+    {
+        Json &declared = global["core:extensions"];
+        if (!declared.is_array())
+            declared = Json::array();
+        for (const Json &one : extensions)
+            if (std::none_of(declared.begin(), declared.end(),
+                             [&](const Json &other) { return other.value("name", Json()) == one["name"]; }))
+                declared.push_back(one);
+    }
+
+    int addTo(Json &annotations, const Json &added)
+    {
+        if (!annotations.is_array())
+            annotations = Json::array();
+        int count = 0;
+        for (Json one : added) {
+            one[generatorKey] = generatorName;
+            const auto same = std::find_if(annotations.begin(), annotations.end(),
+                                           [&](const Json &other) { return areOfOnePlace(one, other); });
+            count += same == annotations.end();
+            if (same == annotations.end())
+                annotations.push_back(std::move(one));
+            else if (same->value(generatorKey, Json()) == generatorName)
+                *same = std::move(one);
+        }
+        std::stable_sort(annotations.begin(), annotations.end(), [](const Json &a, const Json &b) {
+            return a.value("core:sample_start", 0.0) < b.value("core:sample_start", 0.0);
+        });
+        return count;
+    }
+
+} // namespace
+
+bool isMetadataOf(const std::string &path, const std::string &recording)
+{
+    std::error_code ignored;
+    return SigmfRecording::isNamedSo(recording)
+           && std::filesystem::equivalent(path, SigmfRecording::metaPath(recording), ignored);
+}
+
+int annotateRecording(const std::string &recording, const std::string &sigmf)
+{
+    if (!SigmfRecording::isNamedSo(recording))
+        throw Error(recording, "is not a SigMF recording, which holds its annotations itself");
+    const std::string path = SigmfRecording::metaPath(recording);
+    Json meta = readJsonFile(path);
+    const Json made = parseJson(sigmf, "events");
+    int count = 0;
+    readingJson(path, [&] {
+        if (made["global"].contains("core:extensions"))
+            declareExtensions(meta.at("global"), made["global"]["core:extensions"]);
+        count = addTo(meta["annotations"], made["annotations"]);
+    });
+    writeTextFile(path, meta.dump(4) + "\n", Durability::Machine, Written::Document);
+    return count;
+}
+
+} // namespace faintline
