@@ -109,7 +109,10 @@ Source sourceIn(const std::string &path, const OpenOptions &options);
 /// The pings of a simulated sonar; null for other sources.
 std::shared_ptr<const SimulatedPings> pingsOf(const Source &source);
 
-/// Says on standard error what was guessed of recorded pings, if anything was.
+/// Says something on standard error: "note: PATH: WORDS".
+void tellNote(const std::string &note, const Common &common);
+
+/// Says what was guessed of recorded pings, if anything was.
 void tellGuess(const NormalisedFrames &frames, const std::string &path, const Common &common);
 
 /// Options for input and output files. Every file that a command reads or writes must be declared with them, because

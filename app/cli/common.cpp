@@ -278,16 +278,18 @@ std::shared_ptr<const SimulatedPings> pingsOf(const Source &source)
                         : nullptr;
 }
 
-void tellGuess(const NormalisedFrames &frames, const std::string &path, const Common &common)
+void tellNote(const std::string &note, const Common &common)
 {
-    const std::string guess = pingGuess(frames);
-    if (guess.empty())
-        return;
-    const std::string note = oneLine(path) + ": " + guess;
     if (common.progress == "json")
         std::fprintf(stderr, "%s\n", Json{{"note", note}}.dump(-1, ' ', true).c_str());
     else
         std::fprintf(stderr, "note: %s\n", note.c_str());
+}
+
+void tellGuess(const NormalisedFrames &frames, const std::string &path, const Common &common)
+{
+    if (const std::string guess = pingGuess(frames); !guess.empty())
+        tellNote(oneLine(path) + ": " + guess, common);
 }
 
 } // namespace faintline::cli

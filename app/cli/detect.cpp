@@ -206,7 +206,13 @@ namespace {
             return input;
         if (input.frames && !input.frames->grid().isSpectrum())
             throw Error("--annotations", "requires frames on frequency only; these frames have more than one axis");
-        input.boxes = readAnnotations(options.annotations, input.recording ? input.recording->info() : RecordingInfo());
+        AnnotatedRecording of(input.recording ? input.recording->info() : RecordingInfo());
+        if (options.analysis.asTimeline)
+            of.files = options.analysis.names();
+        std::vector<std::string> notes;
+        input.boxes = readAnnotations(options.annotations, of, &notes);
+        for (const std::string &note : notes)
+            tellNote(oneLine(note), common);
         return input;
     }
 

@@ -41,7 +41,8 @@ void EventFiles::add(const QString &text, const QKeySequence &key, const QString
 void EventFiles::importFrom(const QString &path)
 {
     const RecordingInfo info = m_document.recording() ? m_document.recording()->info() : RecordingInfo();
-    const std::vector<Annotation> boxes = readAnnotations(pathBytes(path), info);
+    std::vector<std::string> notes;
+    const std::vector<Annotation> boxes = readAnnotations(pathBytes(path), info, &notes);
     Annotations after = m_document.annotations();
     JudgedByBoxes imported{{}, boxes, 0};
     if (m_document.analysis()) {
@@ -51,7 +52,10 @@ void EventFiles::importFrom(const QString &path)
     after.boxes.insert(after.boxes.end(), imported.others.begin(), imported.others.end());
     m_document.annotate(std::move(after), tr("Import %1 annotations").arg(boxes.size()));
     const QString judged = imported.judged == 0 ? QString() : tr(" They review %1 event(s).").arg(imported.judged);
-    emit told(fileLabel(path), tr("%1 annotation(s) imported; Ctrl+Z undoes the import.").arg(boxes.size()) + judged);
+    QString words = tr("%1 annotation(s) imported; Ctrl+Z undoes the import.").arg(boxes.size()) + judged;
+    for (const std::string &note : notes)
+        words += QLatin1Char(' ') + labelText(note) + QLatin1Char('.');
+    emit told(fileLabel(path), words);
 }
 
 void EventFiles::exportTo(const QString &path)

@@ -3,119 +3,24 @@
 #include "base/oneLine.h"
 #include "base/readingJson.h"
 #include "exchange/annotationText.h"
+#include "exchange/textTable.h"
+#include "recording/Timeline.h"
+#include "recording/openRecording.h"
+#include "recording/timeInName.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <charconv>
+#include <cctype>
 #include <cmath>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <string_view>
+#include <initializer_list>
+#include <map>
+#include <set>
+#include <utility>
 
 namespace faintline {
 
 namespace {
 
-    constexpr std::uintmax_t mostBytes = 64u << 20;
     constexpr std::size_t mostAnnotations = 100000;
-
-    std::string where(const std::string &path, std::size_t line)
-    {
-        return path + ", line " + std::to_string(line);
-    }
-
-    std::string readText(const std::string &path)
-    {
-        std::ifstream file(path, std::ios::binary);
-        if (!file)
-            throw Error(path, std::string("cannot be read: ") + std::strerror(errno));
-        if (std::error_code code; std::filesystem::is_directory(path, code))
-            throw Error(path, "is a folder; expected a file of annotations");
-        std::string text;
-        std::vector<char> block(1 << 16);
-        while (file.read(block.data(), static_cast<std::streamsize>(block.size())), file.gcount() > 0) {
-            text.append(block.data(), std::size_t(file.gcount()));
-            if (text.size() > mostBytes)
-                throw Error(path, "is larger than 64 MiB; expected annotations, not samples");
-        }
-        if (text.starts_with("\xef\xbb\xbf"))
-            text.erase(0, 3);
-        return text;
-    }
-
-    /// Iterates over the lines of a text; a million empty lines need no memory.
-    class Lines
-    {
-    public:
-        explicit Lines(const std::string &text) : m_text(text) {}
-
-        /// The next line, or false after the last.
-        bool next(std::string &line)
-        {
-            if (m_at >= m_text.size())
-                return false;
-            const std::size_t end = std::min(m_text.find('\n', m_at), m_text.size());
-            line.assign(m_text, m_at, end - m_at);
-            if (!line.empty() && line.back() == '\r')
-                line.pop_back();
-            m_at = end + 1;
-            ++m_number;
-            return true;
-        }
-
-        /// Of the last line read, counted from 1.
-        std::size_t number() const { return m_number; }
-
-    private:
-        const std::string &m_text;
-        std::size_t m_at = 0;
-        std::size_t m_number = 0;
-    };
-
-    std::vector<std::string> splitAtTabs(const std::string &line)
-    {
-        std::vector<std::string> cells(1);
-        for (const char c : line)
-            c == '\t' ? void(cells.emplace_back()) : cells.back().push_back(c);
-        return cells;
-    }
-
-    std::vector<std::string> splitCsv(const std::string &line)
-    {
-        std::vector<std::string> cells(1);
-        bool isQuoted = false;
-        for (std::size_t i = 0; i < line.size(); ++i) {
-            const char c = line[i];
-            if (isQuoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"')
-                cells.back().push_back(line[++i]);
-            else if (c == '"')
-                isQuoted = !isQuoted;
-            else if (c == ',' && !isQuoted)
-                cells.emplace_back();
-            else
-                cells.back().push_back(c);
-        }
-        return cells;
-    }
-
-    double numberOf(const std::string &text, const std::string &place, const std::string &what)
-    {
-        double value = 0.0;
-        const char *begin = text.data() + std::min(text.find_first_not_of(' '), text.size());
-        const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
-        if (error != std::errc()
-            || std::string_view(end, text.data() + text.size()).find_first_not_of(' ') != std::string_view::npos
-            || !std::isfinite(value))
-            throw Error(place, "\"" + oneLine(text.substr(0, 40)) + "\" is not a number for " + what);
-        return value;
-    }
-
-    std::optional<double> optionalNumber(const std::string &text, const std::string &place, const std::string &what)
-    {
-        return text.find_first_not_of(' ') == std::string::npos ? std::nullopt
-                                                                : std::optional(numberOf(text, place, what));
-    }
 
     /// Checks a box and appends it.
     void add(std::vector<Annotation> &all, Annotation box, const std::string &place)
@@ -131,139 +36,238 @@ namespace {
         all.push_back(std::move(box));
     }
 
-    /// Column names in a table's first line.
-    struct Header {
-        std::string path;
-        std::vector<std::string> names;
+    /// -1 is an open edge, as Audacity writes it. Of I/Q, which that program does not read, it is a frequency.
+    void openEdges(Annotation &box, const RecordingInfo &info)
+    {
+        constexpr double beyondHz = 1e12;
+        const auto isOpen = [](const std::optional<double> &edge) { return edge == -1.0; };
+        if (isOpen(box.lowHz) && isOpen(box.highHz))
+            box.lowHz = box.highHz = std::nullopt;
+        if (info.isComplex)
+            return;
+        if (isOpen(box.lowHz))
+            box.lowHz = 0.0;
+        if (isOpen(box.highHz))
+            box.highHz = std::max(box.lowHz.value_or(0.0), info.sampleRateHz > 0.0 ? info.sampleRateHz / 2 : beyondHz);
+    }
 
-        std::ptrdiff_t column(const std::string &name) const
+    /// A column of frequencies and the factor of its unit: "NAME (Hz)", "NAME (kHz)", "NAME (MHz)".
+    struct FrequencyColumn {
+        std::ptrdiff_t column = -1;
+        double factor = 1.0;
+
+        std::optional<double> in(TextTable &table, const std::string &what) const
         {
-            const auto found = std::find(names.begin(), names.end(), name);
-            return found == names.end() ? -1 : found - names.begin();
-        }
-        std::ptrdiff_t needed(const std::string &name) const
-        {
-            if (const std::ptrdiff_t found = column(name); found >= 0)
-                return found;
-            throw Error(where(path, 1), "missing column \"" + name + "\"");
+            const std::optional<double> value = table.numberIfAny(column, what);
+            return value && *value != -1.0 ? std::optional(*value * factor) : value;
         }
     };
 
-    /// A row's cell; empty if the row is too short.
-    std::string cellOf(const std::vector<std::string> &row, std::ptrdiff_t column)
+    FrequencyColumn frequencyColumn(const TextTable &table, const std::string &name)
     {
-        return column < 0 || column >= std::ssize(row) ? std::string() : row[std::size_t(column)];
+        if (table.column(name) >= 0)
+            return {table.column(name), 1.0};
+        for (const auto &[unit, factor] : {std::pair{"Hz", 1.0}, {"kHz", 1e3}, {"MHz", 1e6}})
+            if (const std::ptrdiff_t column = table.column(name + " (" + unit + ")"); column >= 0)
+                return {column, factor};
+        return {};
     }
 
-    bool isBlank(const std::vector<std::string> &row)
+    /// The first of these names that is a column.
+    std::ptrdiff_t columnOf(const TextTable &table, std::initializer_list<const char *> names)
     {
-        return std::all_of(row.begin(), row.end(), [](const std::string &cell) { return cell.empty(); });
+        for (const char *name : names)
+            if (const std::ptrdiff_t column = table.column(name); column >= 0)
+                return column;
+        return -1;
     }
-
-    using Split = std::vector<std::string> (*)(const std::string &);
 
     struct Columns {
-        std::ptrdiff_t begin, end, low, high, label, review, note;
+        std::ptrdiff_t begin, end;
+        FrequencyColumn low, high;
+        std::ptrdiff_t label, review, note;
         std::ptrdiff_t once = -1; ///< rows with the same value here as the previous row are further views of it
     };
 
-    /// Boxes of the rows after the header, read row by row: only boxes are kept, no cells.
-    std::vector<Annotation> fromRows(Lines &lines, const Header &header, Split split, const Columns &columns)
+    Annotation rowBox(TextTable &table, const Columns &columns, const RecordingInfo &info)
     {
-        std::vector<Annotation> all;
+        Annotation box;
+        box.startSeconds = table.number(columns.begin, "the begin");
+        box.endSeconds = table.number(columns.end, "the end");
+        box.lowHz = columns.low.in(table, "the lower frequency");
+        box.highHz = columns.high.in(table, "the upper frequency");
+        openEdges(box, info);
+        box.label = oneLine(table.cell(columns.label));
+        box.note = oneLine(table.cell(columns.note));
+        box.verdict = verdictNamed(table.cell(columns.review));
+        return box;
+    }
+
+    /// "Site/CALL.wav" → "call": another copy of a recording may have another ending.
+    std::string stemOf(const std::string &path)
+    {
+        std::string stem = path.substr(path.find_last_of("/\\") + 1);
+        stem.resize(std::min(stem.rfind('.'), stem.size()));
+        std::ranges::transform(stem, stem.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+        return stem;
+    }
+
+    /// Places the rows of a table over several files in the recording, which is one of them or consists of them.
+    class SeveralFiles
+    {
+    public:
+        SeveralFiles(const TextTable &table, const RecordingInfo &info, const std::vector<std::string> &names)
+            : m_file(columnOf(table, {"Begin File", "Begin Path"})), m_offset(table.column("File Offset (s)")),
+              m_info(info)
+        {
+            if (m_file >= 0)
+                for (const std::string &path : Timeline::filesOf(names))
+                    m_paths.emplace(stemOf(path), path);
+        }
+
+        /// Moves the row's box to its place; false if it belongs to another file.
+        bool place(TextTable &table, Annotation &box)
+        {
+            const std::string name = table.cell(m_file);
+            if (name.empty())
+                return true;
+            m_named.insert(stemOf(name));
+            const double begin = table.numberIfAny(m_offset, "the offset in its file").value_or(box.startSeconds);
+            m_isSequence = m_isSequence || begin != box.startSeconds;
+            const auto path = m_paths.find(stemOf(name));
+            if (path == m_paths.end()) {
+                m_others.insert(oneLine(name));
+                ++m_otherCount;
+                return false;
+            }
+            const double start = begin + (m_paths.size() > 1 ? startOf(path->second) : 0.0);
+            box.endSeconds += start - box.startSeconds;
+            box.startSeconds = start;
+            return true;
+        }
+
+        /// Whether all rows name one other file, which the recording may have been called.
+        bool isRenamed() const
+        {
+            return m_named.size() == 1 && m_otherCount > 0 && !m_isSequence && m_paths.size() == 1;
+        }
+
+        std::string note(const std::string &path) const
+        {
+            if (m_otherCount == 0)
+                return {};
+            const std::string first = *m_others.begin() + (m_others.size() > 1 ? " …" : "");
+            return isRenamed() ? path + ": names the file " + first + "; its rows are taken for this recording"
+                               : path + ": " + std::to_string(m_otherCount) + " row(s) belong to other files (" + first
+                                     + ") and are left out";
+        }
+
+    private:
+        /// Seconds from the recording's first sample to the file's.
+        double startOf(const std::string &path)
+        {
+            const auto known = m_starts.find(path);
+            if (known != m_starts.end())
+                return known->second;
+            std::optional<double> unixSeconds;
+            try {
+                unixSeconds = openRecording(path)->info().startUnixSeconds;
+            } catch (const Error &) { // raw samples, which have the time in their name
+            }
+            if (!unixSeconds)
+                unixSeconds = timeInName(path);
+            if (!unixSeconds || !m_info.startUnixSeconds)
+                throw Error(path, "has no time stamp, so that its annotations have no place in the recording");
+            return m_starts[path] = *unixSeconds - *m_info.startUnixSeconds;
+        }
+
+        std::ptrdiff_t m_file;
+        std::ptrdiff_t m_offset;
+        const RecordingInfo &m_info;
+        std::map<std::string, std::string> m_paths; ///< of the recording, by stem
+        std::map<std::string, double> m_starts;
+        std::set<std::string> m_named, m_others;
+        bool m_isSequence = false;
+        std::size_t m_otherCount = 0;
+    };
+
+    /// Boxes of the rows, read row by row: only boxes are kept, no cells.
+    std::vector<Annotation> fromRows(TextTable &table, const Columns &columns, const RecordingInfo &info,
+                                     SeveralFiles *files = nullptr)
+    {
+        std::vector<Annotation> all, others;
         std::string before;
-        for (std::string line; lines.next(line);) {
-            const std::string place = where(header.path, lines.number());
-            const std::vector<std::string> row = split(line);
-            if (row.size() > header.names.size())
-                throw Error(place, "has more columns than the header");
-            if (isBlank(row))
-                continue;
-            if (const std::string own = cellOf(row, columns.once); !own.empty() && own == before)
+        while (table.next()) {
+            if (const std::string own = table.cell(columns.once); !own.empty() && own == before)
                 continue;
             else
                 before = own;
-            Annotation box;
-            box.startSeconds = numberOf(cellOf(row, columns.begin), place, "the begin");
-            box.endSeconds = numberOf(cellOf(row, columns.end), place, "the end");
-            box.lowHz = optionalNumber(cellOf(row, columns.low), place, "the lower frequency");
-            box.highHz = optionalNumber(cellOf(row, columns.high), place, "the upper frequency");
-            box.label = oneLine(cellOf(row, columns.label));
-            box.note = oneLine(cellOf(row, columns.note));
-            box.verdict = verdictNamed(cellOf(row, columns.review));
-            add(all, std::move(box), place);
+            Annotation box = rowBox(table, columns, info);
+            const bool isOwn = !files || files->place(table, box);
+            add(isOwn ? all : others, std::move(box), table.place());
         }
+        return files && files->isRenamed() ? others : all;
+    }
+
+    std::vector<Annotation> fromRaven(TextTable &table, const AnnotatedRecording &of, std::vector<std::string> *notes,
+                                      const std::string &path)
+    {
+        SeveralFiles files(table, of.info, of.files);
+        const std::vector<Annotation> all =
+            fromRows(table,
+                     {table.neededColumn("Begin Time (s)"), table.neededColumn("End Time (s)"),
+                      frequencyColumn(table, "Low Freq"), frequencyColumn(table, "High Freq"),
+                      columnOf(table, {"Annotation", "Label", "Species", "Common Name", "Type", "Tag"}),
+                      table.column("Review"), table.column("Notes"), table.column("Selection")},
+                     of.info, &files);
+        if (const std::string note = files.note(path); notes && !note.empty())
+            notes->push_back(note);
         return all;
     }
 
-    Header headerOf(Lines &lines, const std::string &path, Split split)
+    std::vector<Annotation> fromCsv(TextTable &table, const RecordingInfo &info)
     {
-        std::string first;
-        lines.next(first);
-        return {path, split(first)};
-    }
-
-    std::vector<Annotation> fromRaven(const std::string &path, const std::string &text)
-    {
-        Lines lines(text);
-        const Header header = headerOf(lines, path, splitAtTabs);
-        std::ptrdiff_t label = -1;
-        for (const char *name : {"Annotation", "Label", "Species", "Common Name", "Type", "Tag"})
-            label = label < 0 ? header.column(name) : label;
-        return fromRows(lines, header, splitAtTabs,
-                        {header.needed("Begin Time (s)"), header.needed("End Time (s)"), header.column("Low Freq (Hz)"),
-                         header.column("High Freq (Hz)"), label, header.column("Review"), header.column("Notes"),
-                         header.column("Selection")});
-    }
-
-    std::vector<Annotation> fromCsv(const std::string &path, const std::string &text)
-    {
-        Lines lines(text);
-        const Header header = headerOf(lines, path, splitCsv);
         // Events without edges are located at their detected frequency.
-        const std::ptrdiff_t low = header.column("f_low") >= 0 ? header.column("f_low") : header.column("f");
-        const std::ptrdiff_t high = header.column("f_high") >= 0 ? header.column("f_high") : header.column("f");
-        const std::ptrdiff_t label = header.column("label");
-        std::vector<Annotation> all = fromRows(lines, header, splitCsv,
-                                               {header.needed("t_onset"), header.needed("t_end"), low, high, label,
-                                                header.column("review"), header.column("note")});
+        const auto edge = [&](const char *name) {
+            const FrequencyColumn own = frequencyColumn(table, name);
+            return own.column >= 0 ? own : frequencyColumn(table, "f");
+        };
+        const std::ptrdiff_t label = table.column("label");
+        std::vector<Annotation> all =
+            fromRows(table,
+                     {table.neededColumn("t_onset"), table.neededColumn("t_end"), edge("f_low"), edge("f_high"), label,
+                      table.column("review"), table.column("note")},
+                     info);
         if (label < 0)
             for (std::size_t i = 0; i < all.size(); ++i)
                 all[i].label = "event " + std::to_string(i + 1);
         return all;
     }
 
-    std::vector<Annotation> fromAudacity(const std::string &path, const std::string &text)
+    std::vector<Annotation> fromAudacity(const std::string &path, const std::string &text, const RecordingInfo &info)
     {
         std::vector<Annotation> all;
-        Lines lines(text);
-        for (std::string line; lines.next(line);) {
-            const std::string place = where(path, lines.number());
-            if (line.find_first_not_of(" \t") == std::string::npos)
-                continue;
-            const std::vector<std::string> cells = splitAtTabs(line);
-            if (cells[0] == "\\") {
-                if (all.empty() || cells.size() < 3)
-                    throw Error(place, "a line of frequencies must follow a label and contain a lower and an upper "
-                                       "frequency");
+        TextTable table(path, text, false);
+        while (table.next()) {
+            if (table.cell(0) == "\\") {
+                if (all.empty() || table.size() < 3)
+                    throw Error(table.place(), "a line of frequencies must follow a label and contain a lower and an "
+                                               "upper frequency");
                 Annotation box = all.back();
                 all.pop_back();
-                const double low = numberOf(cells[1], place, "the lower frequency");
-                const double high = numberOf(cells[2], place, "the upper frequency");
-                if (low != -1.0 || high != -1.0) { // Audacity's notation for no frequencies
-                    box.lowHz = low;
-                    box.highHz = high;
-                }
-                add(all, std::move(box), place);
+                box.lowHz = table.number(1, "the lower frequency");
+                box.highHz = table.number(2, "the upper frequency");
+                openEdges(box, info);
+                add(all, std::move(box), table.place());
                 continue;
             }
-            if (cells.size() < 2)
-                throw Error(place, "is not a label; expected begin, end and text, separated by tabs");
+            if (table.size() < 2)
+                throw Error(table.place(), "is not a label; expected begin, end and text, separated by tabs");
             Annotation box;
-            box.startSeconds = numberOf(cells[0], place, "the begin");
-            box.endSeconds = numberOf(cells[1], place, "the end");
-            takeApart(cells.size() > 2 ? oneLine(cells[2]) : std::string(), box);
-            add(all, std::move(box), place);
+            box.startSeconds = table.number(0, "the begin");
+            box.endSeconds = table.number(1, "the end");
+            takeApart(oneLine(table.cell(2)), box);
+            add(all, std::move(box), table.place());
         }
         return all;
     }
@@ -385,20 +389,21 @@ namespace {
 
 } // namespace
 
-std::vector<Annotation> readAnnotations(const std::string &path, const RecordingInfo &info)
+std::vector<Annotation> readAnnotations(const std::string &path, const AnnotatedRecording &of,
+                                        std::vector<std::string> *notes)
 {
-    const std::string text = readText(path);
-    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    const std::string text = readTableText(path);
+    const std::size_t first = text.find_first_not_of(" \t\n");
     if (first == std::string::npos)
         return {};
     if (text[first] == '{' || text[first] == '[')
-        return fromJson(path, text, info);
-    const std::string_view line = std::string_view(text).substr(0, text.find('\n'));
-    if (line.find("Begin Time (s)") != std::string_view::npos)
-        return fromRaven(path, text);
-    if (line.starts_with("event,"))
-        return fromCsv(path, text);
-    return fromAudacity(path, text);
+        return fromJson(path, text, of.info);
+    TextTable table(path, text, true);
+    if (table.column("Begin Time (s)") >= 0)
+        return fromRaven(table, of, notes, path);
+    if (table.column("t_onset") >= 0)
+        return fromCsv(table, of.info);
+    return fromAudacity(path, text, of.info);
 }
 
 } // namespace faintline

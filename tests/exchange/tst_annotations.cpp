@@ -3,9 +3,11 @@
 #include "exchange/readAnnotations.h"
 #include "exchange/writeEvents.h"
 #include "exchange/writeReviewed.h"
+#include "recording/SimulatedRecording.h"
+#include "recording/writeRecording.h"
 #include "support/recordings.h"
 #include "support/test.h"
-
+#include <QDir>
 using namespace faintline;
 using namespace faintline::test;
 
@@ -20,6 +22,13 @@ private slots:
     void eventsOfTheCommandLine();
     void severalAxes();
     void raven();
+    void severalFiles_data();
+    void severalFiles();
+    void placesInAFolderOfFiles();
+    void asOtherProgramsWriteNumbers_data();
+    void asOtherProgramsWriteNumbers();
+    void openEdges_data();
+    void openEdges();
     void audacity();
     void sigmf();
     void sigmfCountsSamplesOfTheFile();
@@ -169,6 +178,154 @@ void tst_annotations::raven()
     QVERIFY((boxes[1] == Annotation{3.0, 4.0, 100.0, 900.0, "", "", Verdict::None}));
 }
 
+namespace {
+
+const QByteArray sequence =
+    "Selection\tBegin Time (s)\tEnd Time (s)\tLow Freq (kHz)\tHigh Freq (kHz)\tBegin File\tFile "
+    "Offset (s)\tAnnotation\n"
+    "1\t3\t9\t0.06\t0.08\tother.wav\t3\tother\n"
+    "2\t80\t110.5\t0.06\t0.08\tCall.WAV\t20\tcall\n";
+
+} // namespace
+
+void tst_annotations::severalFiles_data()
+{
+    QTest::addColumn<QByteArray>("table");
+    QTest::addColumn<QList<double>>("begins");
+    QTest::addColumn<QByteArray>("note");
+    QTest::newRow("two files") << sequence << QList<double>{20.0}
+                               << QByteArray("1 row(s) belong to other files (other.wav)");
+    QByteArray paths = sequence;
+    paths.replace("Begin File", "Begin Path").replace("Call.WAV", "D:\\site\\call.flac");
+    QTest::newRow("paths") << paths << QList<double>{20.0} << QByteArray("1 row(s) belong to other files (other.wav)");
+    QByteArray none = sequence;
+    QTest::newRow("none of them") << none.replace("Call.WAV", "third.wav") << QList<double>{}
+                                  << QByteArray("2 row(s) belong to other files (other.wav …)");
+    QTest::newRow("one file of another name")
+        << sequence.left(sequence.indexOf("2\t80")) << QList<double>{3.0} << QByteArray("names the file other.wav");
+    QByteArray own = sequence;
+    QTest::newRow("this one only") << own.replace("other.wav", "call.wav") << QList<double>{3.0, 20.0} << QByteArray();
+}
+
+void tst_annotations::severalFiles()
+{
+    QFETCH(QByteArray, table);
+    QFETCH(QList<double>, begins);
+    QFETCH(QByteArray, note);
+    RecordingInfo call = m_info;
+    call.path = "/recordings/call.wav";
+    writeBytes(path("sequence.txt"), table);
+    std::vector<std::string> notes;
+    const std::vector<Annotation> boxes = readAnnotations(path("sequence.txt"), call, &notes);
+    QCOMPARE(std::ssize(boxes), begins.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        QCOMPARE(boxes[i].startSeconds, begins[qsizetype(i)]);
+        QCOMPARE(boxes[i].endSeconds - boxes[i].startSeconds, boxes[i].label == "call" ? 30.5 : 6.0);
+        QVERIFY(boxes[i].lowHz == 60.0 && boxes[i].highHz == 80.0);
+    }
+    QCOMPARE(notes.empty(), note.isEmpty());
+    if (!note.isEmpty())
+        QVERIFY2(QByteArray::fromStdString(notes.front()).contains(note), notes.front().c_str());
+}
+
+/// Rows are placed by their file's time stamp: the pause between two files is none of a table's seconds.
+void tst_annotations::placesInAFolderOfFiles()
+{
+    QVERIFY(QDir(m_folder.path()).mkpath("night"));
+    LineScene scene;
+    scene.sampleRateHz = 100.0;
+    scene.durationSeconds = 30.0;
+    for (const char *name : {"night/20260301_000000.wav", "night/20260301_000100.wav"})
+        writeRecording(SimulatedRecording(scene), path(name));
+    RecordingInfo night = m_info;
+    night.path = path("night");
+    night.startUnixSeconds = 1772323200.0; // 2026-03-01T00:00:00Z
+    QByteArray table = sequence;
+    table.replace("other.wav", "20260301_000000.wav").replace("Call.WAV", "20260301_000100.wav");
+    writeBytes(path("night.txt"), table);
+    const std::vector<Annotation> boxes = readAnnotations(path("night.txt"), night);
+    QCOMPARE(boxes.size(), std::size_t(2));
+    QCOMPARE(boxes[0].startSeconds, 3.0);
+    QCOMPARE(boxes[1].startSeconds, 80.0);
+}
+
+void tst_annotations::asOtherProgramsWriteNumbers_data()
+{
+    QTest::addColumn<QByteArray>("text");
+    QTest::newRow("decimal commas") << QByteArray("20,5\t49,5\tcall [accepted]\n\\\t60,25\t80\n");
+    QTest::newRow("old line ends") << QByteArray("20,5\t49,5\tcall [accepted]\r\\\t60,25\t80\r");
+    const QByteArray rows = "event,t_onset,t_end,f_low,f_high,review,label\n1,20.5,49.5,60.25,80,accepted,call\n";
+    QTest::newRow("commas") << rows;
+    QByteArray semicolons = rows;
+    QTest::newRow("semicolons") << semicolons.replace(',', ';').replace('.', ',');
+    QTest::newRow("semicolons, points") << QByteArray(rows).replace(',', ';');
+    QTest::newRow("separator named") << "sep=;\r\n" + semicolons;
+    QTest::newRow("tabs") << QByteArray(semicolons).replace(';', '\t');
+    QByteArray quoted = rows;
+    QTest::newRow("quoted") << "\"" + quoted.trimmed().replace(",", "\",\"").replace("\n", "\"\n\"") + "\"\n";
+    QTest::newRow("quoted names") << QByteArray(
+        "\"event\",\"t_onset\",\"t_end\",\"f_low\",\"f_high\",\"review\",\"label\"\n"
+        "1,20.5,49.5,60.25,80,accepted,\"call\"\n");
+    QTest::newRow("quoted decimal commas")
+        << QByteArray("t_onset,t_end,f_low,f_high,review,label\n\"20,5\",\"49,5\",\"60,25\",80,"
+                      "accepted,call\n");
+    QTest::newRow("index without a name")
+        << QByteArray(",t_onset,t_end,f_low,f_high,review,label\n0,20.5,49.5,60.25,80,"
+                      "accepted,call\n");
+    QTest::newRow("cell of two lines") << QByteArray(
+        "t_onset,t_end,note,f_low,f_high,review,label\n20.5,49.5,\"a\nb \"\"c\"\"\",60.25,80,accepted,call\n");
+    QTest::newRow("kilohertz") << QByteArray("t_onset;t_end;f_low (kHz);f_high (kHz);review;label\n"
+                                             "20,5;49,5;0,06025;0,08;accepted;call\n");
+    QByteArray little("\xff\xfe"), big;
+    for (const char c : rows) {
+        little.append(c).append('\0');
+        big.append('\0').append(c);
+    }
+    QTest::newRow("UTF-16") << little;
+    QTest::newRow("UTF-16 without a mark") << little.mid(2);
+    QTest::newRow("UTF-16, big-endian") << "\xfe\xff" + big;
+}
+
+void tst_annotations::asOtherProgramsWriteNumbers()
+{
+    QFETCH(QByteArray, text);
+    const auto boxes = read("numbers", text);
+    QCOMPARE(boxes.size(), std::size_t(1));
+    QCOMPARE(boxes[0].startSeconds, 20.5);
+    QCOMPARE(boxes[0].endSeconds, 49.5);
+    QVERIFY(std::abs(*boxes[0].lowHz - 60.25) < 1e-12 && boxes[0].highHz == 80.0);
+    QCOMPARE(boxes[0].label, std::string("call"));
+    QCOMPARE(boxes[0].verdict, Verdict::Accepted);
+}
+
+void tst_annotations::openEdges_data()
+{
+    QTest::addColumn<QByteArray>("text");
+    QTest::addColumn<QList<double>>("edges"); // of real samples at 1000 Hz; none: all frequencies
+    QTest::newRow("upper") << QByteArray("1\t2\tx\n\\\t60.5\t-1.0000000\n") << QList<double>{60.5, 500.0};
+    QTest::newRow("lower") << QByteArray("1\t2\tx\n\\\t-1\t80\n") << QList<double>{0.0, 80.0};
+    QTest::newRow("both") << QByteArray("1\t2\tx\n\\\t-1\t-1,0\n") << QList<double>{};
+    QTest::newRow("upper in a table") << QByteArray("t_onset;t_end;f_low;f_high\n1;2;60,5;-1\n")
+                                      << QList<double>{60.5, 500.0};
+    QTest::newRow("upper in kHz") << QByteArray(
+        "Begin Time (s)\tEnd Time (s)\tLow Freq (kHz)\tHigh Freq (kHz)\n1\t2\t0.0605\t-1\n")
+                                  << QList<double>{60.5, 500.0};
+}
+
+void tst_annotations::openEdges()
+{
+    QFETCH(QByteArray, text);
+    QFETCH(QList<double>, edges);
+    RecordingInfo real = m_info;
+    real.isComplex = false;
+    writeBytes(path("edges"), text);
+    const std::vector<Annotation> boxes = readAnnotations(path("edges"), real);
+    QCOMPARE(boxes.size(), std::size_t(1));
+    QCOMPARE(boxes[0].lowHz.has_value(), !edges.isEmpty());
+    if (!edges.isEmpty())
+        QVERIFY(std::abs(*boxes[0].lowHz - edges[0]) < 1e-12 && boxes[0].highHz == edges[1]);
+}
+
 void tst_annotations::audacity()
 {
     const auto boxes = read("l.txt", "1.000000\t2.500000\tfirst label\n\\\t100.5\t200\n3.0\t3.0\tpoint\n4\t5\n");
@@ -219,6 +376,7 @@ void tst_annotations::sigmfCountsSamplesOfTheFile()
     QVERIFY(json["captures"] == parseJson(info.sigmf, "")["captures"]);
     QCOMPARE(json["annotations"][2]["core:sample_start"].get<int>(), 2004000);
     QCOMPARE(json["annotations"][2]["core:sample_count"].get<int>(), 8000);
+}
 
 void tst_annotations::ownMetadataKeepAllElse()
 {
@@ -296,7 +454,13 @@ void tst_annotations::hostile_data()
     QTest::newRow("no label") << QByteArray("just some text\n");
     QTest::newRow("not a number") << QByteArray("nan\t1\tx\n");
     QTest::newRow("infinite") << QByteArray("0\tinf\tx\n");
-    QTest::newRow("comma for a point") << QByteArray("0,5\t1,5\tx\n");
+    QTest::newRow("commas and points") << QByteArray("0,5\t1.5\tx\n");
+    QTest::newRow("two commas") << QByteArray("0,5,1\t2\tx\n");
+    QTest::newRow("thousands") << QByteArray("0\t1,234.5\tx\n");
+    QTest::newRow("quote without an end") << QByteArray("\"event\",\"t_onset\",\"t_end\"\n1,2,\"3\n4,5,6\n");
+    QTest::newRow("half a UTF-16 character") << QByteArray("\xff\xfe"
+                                                           "1\0\t\0x",
+                                                           7);
     QTest::newRow("ends before it begins") << QByteArray("2\t1\tx\n");
     QTest::newRow("frequencies of nothing") << QByteArray("\\\t1\t2\n");
     QTest::newRow("binary") << QByteArray("RIFF\x01\0\0\0WAVE\0\0\n\0", 14);

@@ -387,7 +387,7 @@ const std::vector<Parser> &faintline::fuzz::parsers()
         {"campaign", ".json", readShard},
         {"campaignParts", ".json", readCampaignParts},
         {"curve", ".csv", [](const Input &input) { readCurve(input.path); }},
-        {"annotations", ".txt", [](const Input &input) { readAnnotations(input.path, {}); }},
+        {"annotations", ".txt", [](const Input &input) { readAnnotations(input.path, RecordingInfo()); }},
         {"calibration", ".json", readCalibration},
         {"survey", ".sqlite", readSurvey},
         {"json", ".json", [](const Input &input) { parseJson(input.text, "json"); }},
