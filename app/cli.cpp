@@ -5,6 +5,7 @@
 #include "base/Interruption.h"
 #include "base/editDistance.h"
 #include "base/oneLine.h"
+#include "base/readableNumber.h"
 #include "base/standardStreams.h"
 
 #include <CLI/CLI.hpp>
@@ -63,6 +64,14 @@ std::string unknownCommand(const CLI::App &app, const std::vector<std::string> &
            + (meant.empty() ? "" : ")");
 }
 
+/// "Could not convert: --from = 0,5" is completed.
+std::string wordsOf(const CLI::ParseError &error)
+{
+    const std::string words = error.what();
+    const bool hasComma = faintline::hasDecimalComma(std::string_view(words).substr(words.rfind(' ') + 1));
+    return hasComma ? words + " has a decimal comma; write a decimal point" : words;
+}
+
 int complain(const std::string &message, int code)
 {
     std::fprintf(stderr, "error: %s\n", faintline::oneLine(message, faintline::longestMessage).c_str());
@@ -99,7 +108,7 @@ int main(int argc, char **argv)
         }
         if (const std::string why = unknownCommand(app, common.arguments); !why.empty())
             return complain(why, 2);
-        return complain(std::string("command line: ") + error.what(), 2);
+        return complain("command line: " + wordsOf(error), 2);
     } catch (const faintline::Error &error) {
         return complain(error.what(), error.kind() == faintline::Error::Kind::Mistake ? 2 : 1);
     } catch (const faintline::Cancelled &) {

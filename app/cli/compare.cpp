@@ -1,5 +1,6 @@
 #include "app/cli/commands.h"
 #include "app/cli/inRange.h"
+#include "app/cli/printSummary.h"
 #include "app/cli/provenance.h"
 
 #include "analysis/analyse.h"
@@ -65,24 +66,26 @@ namespace {
                         oneLine(orNone(difference.a)).c_str(), oneLine(orNone(difference.b)).c_str());
     }
 
-    void printEvents(const Comparison &comparison, const Grid &grid)
+    void printEvents(const Comparison &comparison, const Analysis &analysis)
     {
         using In = ComparedEvent::In;
         std::printf("in both: %td, only in A: %td, only in B: %td\n", comparison.count(In::Both),
                     comparison.count(In::A), comparison.count(In::B));
         for (const ComparedEvent &compared : comparison.events) {
             const Event &event = compared.event();
-            std::printf("%-4s  %.6g … %.6g s, at",
+            std::printf("%-4s  %s … %s s, at",
                         compared.in() == In::A   ? "A"
                         : compared.in() == In::B ? "B"
                                                  : "both",
-                        event.onsetSeconds, event.endSeconds);
+                        secondsOf(event.onsetSeconds, analysis.time()).c_str(),
+                        secondsOf(event.endSeconds, analysis.time()).c_str());
             for (std::size_t axis = 0; axis < event.position.size(); ++axis)
-                std::printf(" %.8g %s", event.position[axis], oneLine(grid.axes[axis].unit).c_str());
+                std::printf(" %s %s", positionText(event.position[axis], analysis.grid().axes[axis]).c_str(),
+                            oneLine(analysis.grid().axes[axis].unit).c_str());
             for (const auto &[name, side] : {std::pair{"A", &compared.a}, std::pair{"B", &compared.b}})
                 if (*side)
-                    std::printf("; %s: event %d, detected at %.6g s, %.1f", name, (*side)->id, (*side)->detectSeconds,
-                                (*side)->statistic);
+                    std::printf("; %s: event %d, detected at %s s, %.1f", name, (*side)->id,
+                                secondsOf((*side)->detectSeconds, analysis.time()).c_str(), (*side)->statistic);
             std::printf("\n");
         }
     }
@@ -126,7 +129,7 @@ namespace {
         printSide("A", *a);
         printSide("B", *b);
         printDifferences(settingsA, settingsB);
-        printEvents(comparison, b->grid());
+        printEvents(comparison, *b);
         if (options.cost)
             std::printf("processor time per hour of recording: A %.3g s, B %.3g s\n", measureCost(*a, quiet),
                         measureCost(*b, quiet));

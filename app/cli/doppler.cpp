@@ -1,10 +1,12 @@
 #include "app/cli/commands.h"
 #include "app/cli/inRange.h"
+#include "app/cli/printSummary.h"
 #include "app/cli/provenance.h"
 
 #include "analysis/chooseWindow.h"
 #include "base/AtomicFile.h"
 #include "base/fileName.h"
+#include "base/readableNumber.h"
 #include "exchange/writeChart.h"
 #include "exchange/writeDoppler.h"
 
@@ -74,10 +76,11 @@ namespace {
     {
         const DopplerFit &fit = report.fit;
         const std::vector<DopplerPoint> &points = report.track.points;
-        std::printf("%s %s%s: %.6g … %.6g s, %zu points\n", report.events.size() == 1 ? "event" : "events",
-                    eventNumbers(report).c_str(),
-                    isChosen ? "" : (", the strongest of " + std::to_string(eventCount)).c_str(),
-                    points.front().seconds, points.back().seconds, points.size());
+        const double step = points.size() > 1 ? points[1].seconds - points[0].seconds : 0.0;
+        std::printf("%s %s%s: %s … %s s, %zu points\n", report.events.size() == 1 ? "event" : "events",
+                    eventNumbers(report).c_str(), isChosen ? "" : howChosen(report, analysis).c_str(),
+                    formatToStep(points.front().seconds, step, 6).c_str(),
+                    formatToStep(points.back().seconds, step, 6).c_str(), points.size());
         std::printf("%-28s %-5s %16s   %s\n", "parameter", "unit", "estimate", "90 % interval");
         for (const DopplerRow &row : dopplerRows(fit))
             std::printf("%-28s %-5s %16s   %s\n", row.name.c_str(), row.unit.c_str(),
@@ -88,8 +91,8 @@ namespace {
             "residuals: rms %.3g Hz, %.3g times the track's own errors; they count as %.0f independent points\n",
             fit.rmsHz, fit.deviationScale, fit.effectivePoints);
         if (report.centreHz != 0.0)
-            std::printf("note: %.10g Hz, the centre frequency, is added to the frequencies of the events.\n",
-                        report.centreHz);
+            std::printf("note: %s Hz, the centre frequency, is added to the frequencies of the events.\n",
+                        formatPlainly(report.centreHz).c_str());
         for (const std::string &sentence : dopplerNotes(report))
             std::printf("note: %s\n", sentence.c_str());
     }

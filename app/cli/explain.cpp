@@ -1,4 +1,5 @@
 #include "app/cli/commands.h"
+#include "app/cli/printSummary.h"
 
 #include "analysis/analyse.h"
 #include "analysis/chooseWindow.h"
@@ -94,12 +95,14 @@ namespace {
         std::printf(" %10s %10s %10s %12s\n", "llr", "ln P", "ln K", "sum");
     }
 
-    void printSteps(const Json &steps)
+    void printSteps(const Json &steps, const Analysis &analysis)
     {
         for (const Json &step : steps) {
-            std::printf("%12.6g", step["t"].get<double>());
+            std::printf("%12s", secondsOf(step["t"].get<double>(), analysis.time()).c_str());
             for (std::size_t axis = 0; axis < step["position"].size(); ++axis)
-                std::printf(" %14.8g %8d", step["position"][axis].get<double>(), step["rates"][axis].get<int>());
+                std::printf(" %14s %8d",
+                            positionText(step["position"][axis].get<double>(), analysis.grid().axes[axis]).c_str(),
+                            step["rates"][axis].get<int>());
             std::printf(" %10.4f %10.4f %10.4f %12.4f\n", step["llr"].get<double>(),
                         step["ln_transition"].get<double>(), step["lnK"].get<double>(), step["sum"].get<double>());
         }
@@ -124,10 +127,11 @@ namespace {
                         "recording's noise\n");
         std::printf("the best path began %zu frame(s) ago, when it was reset\n", explanation.steps.size() - 1);
         for (const ModelChange &change : explanation.modelChanges)
-            std::printf("from %.6g s on, the track belongs to the %s model\n",
-                        analysis.time().value(double(change.frame)), nameOfBankModel(change.model).c_str());
+            std::printf("from %s s on, the track belongs to the %s model\n",
+                        secondsOf(analysis.time().value(double(change.frame)), analysis.time()).c_str(),
+                        nameOfBankModel(change.model).c_str());
         printHeading(analysis.grid());
-        printSteps(toJson(explanation, analysis)["steps"]);
+        printSteps(toJson(explanation, analysis)["steps"], analysis);
         if (explanation.offset != 0.0)
             std::printf("and %.4f nat common to all states: K of the frame and the offset of the model\n",
                         explanation.offset);
@@ -149,8 +153,9 @@ namespace {
         return members;
     }
 
-    void print(const std::vector<FamilyTooth> &teeth, const FamilySettings &family)
+    void print(const std::vector<FamilyTooth> &teeth, const Analysis &analysis)
     {
+        const FamilySettings &family = analysis.settings.family;
         const bool areHarmonics = family.relation == FamilySettings::Relation::Harmonics;
         std::printf("%s along the path: mean power over noise, and the evidence that would be lost without it\n",
                     family.isNone() ? "channels" : "members");
@@ -158,7 +163,7 @@ namespace {
         std::printf("%12s %14s %s%10s %10s\n", areHarmonics ? "multiple" : "offset (Hz)", "f",
                     haveChannels ? " channel " : "", "dB", "nat");
         for (const FamilyTooth &tooth : teeth) {
-            std::printf("%12.6g %14.8g", tooth.member, tooth.hz);
+            std::printf("%12.6g %14s", tooth.member, positionText(tooth.hz, analysis.grid().axes.back()).c_str());
             if (haveChannels)
                 std::printf(" %7d ", tooth.channel);
             if (tooth.frames == 0)
@@ -216,7 +221,7 @@ namespace {
         }
         print(explanation, *analysis);
         if (!teeth.empty())
-            print(teeth, analysis->settings.family);
+            print(teeth, *analysis);
     }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "base/fileName.h"
 #include "base/json.h"
 #include "base/oneLine.h"
+#include "base/readableNumber.h"
 #include "exchange/openFrames.h"
 #include "exchange/openPings.h"
 #include "spectrum/guessPingValues.h"
@@ -40,15 +41,15 @@ namespace {
     {
         std::printf("file          %s\n", oneLine(info.path).c_str());
         std::printf("container     %s, %s\n", oneLine(info.container).c_str(), oneLine(info.sampleType).c_str());
-        std::printf("sample rate   %s Hz\n", formatNumber(info.sampleRateHz).c_str());
+        std::printf("sample rate   %s Hz\n", formatPlainly(info.sampleRateHz).c_str());
         std::printf("channels      %d%s\n", info.channelCount, info.isComplex ? ", I/Q" : "");
         std::printf("length        %td samples, %s s\n", info.sampleCount,
-                    formatNumber(info.durationSeconds()).c_str());
+                    formatPlainly(info.durationSeconds()).c_str());
         if (info.isComplex)
             std::printf("centre        %s\n",
-                        info.isCentreKnown() ? (formatNumber(info.centreHz) + " Hz").c_str() : "unknown");
+                        info.isCentreKnown() ? (formatPlainly(info.centreHz) + " Hz").c_str() : "unknown");
         if (info.startUnixSeconds)
-            std::printf("start         %s s after 1970-01-01 UTC\n", formatNumber(*info.startUnixSeconds).c_str());
+            std::printf("start         %s s after 1970-01-01 UTC\n", formatPlainly(*info.startUnixSeconds).c_str());
         for (const std::string &note : info.notes)
             std::printf("note          %s\n", oneLine(note).c_str());
     }
@@ -97,14 +98,14 @@ namespace {
     {
         std::printf("file          %s\n", oneLine(info.path).c_str());
         std::printf("container     %s, %s\n", oneLine(info.container).c_str(), oneLine(info.sampleType).c_str());
-        std::printf("frames        %td, one every %s s\n", info.time.count, formatNumber(info.time.step).c_str());
+        std::printf("frames        %td, one every %s s\n", info.time.count, formatPlainly(info.time.step).c_str());
         std::printf("frequencies   %td channels of %s Hz, %s … %s Hz\n", info.frequency.count,
-                    formatNumber(info.frequency.step).c_str(), formatNumber(info.frequency.first).c_str(),
-                    formatNumber(info.frequency.last()).c_str());
+                    formatPlainly(info.frequency.step).c_str(), formatPlainly(info.frequency.first).c_str(),
+                    formatPlainly(info.frequency.last()).c_str());
         if (info.channelCount > 1)
             std::printf("polarisations %d\n", info.channelCount);
         if (info.startUnixSeconds)
-            std::printf("start         %s s after 1970-01-01 UTC\n", formatNumber(*info.startUnixSeconds).c_str());
+            std::printf("start         %s s after 1970-01-01 UTC\n", formatPlainly(*info.startUnixSeconds).c_str());
         for (const std::string &note : info.notes)
             std::printf("note          %s\n", oneLine(note).c_str());
     }
@@ -143,12 +144,12 @@ namespace {
         const PingsInfo &info = pings.info();
         std::printf("file          %s\n", oneLine(info.path).c_str());
         std::printf("container     %s, %s\n", oneLine(info.container).c_str(), oneLine(info.sampleType).c_str());
-        std::printf("pings         %td, one every %s s\n", info.time.count, formatNumber(info.time.step).c_str());
+        std::printf("pings         %td, one every %s s\n", info.time.count, formatPlainly(info.time.step).c_str());
         for (const Axis &axis : info.grid.axes) {
             const std::string unit = axis.unit.empty() ? std::string() : " " + oneLine(axis.unit);
             std::printf("%-13s %td cells of %s%s, %s … %s%s%s\n", oneLine(axis.name).c_str(), axis.count,
-                        formatNumber(axis.step).c_str(), unit.c_str(), formatNumber(axis.first).c_str(),
-                        formatNumber(axis.last()).c_str(), unit.c_str(), axis.cyclic ? ", cyclic" : "");
+                        formatPlainly(axis.step).c_str(), unit.c_str(), formatPlainly(axis.first).c_str(),
+                        formatPlainly(axis.last()).c_str(), unit.c_str(), axis.cyclic ? ", cyclic" : "");
         }
         std::printf("values        %s\n", valuesOf(pings).c_str());
     }
@@ -160,20 +161,20 @@ namespace {
         const Axis &bearing = pings.grid().axes[1];
         std::printf("file          %s\n", oneLine(file).c_str());
         std::printf("container     scene of sonar pings, seed %d\n", scene.seed);
-        std::printf("pings         %d, one every %s s\n", scene.pings, formatNumber(scene.priSeconds).c_str());
-        std::printf("range         %td cells of %s m, %s … %s m\n", range.count, formatNumber(range.step).c_str(),
-                    formatNumber(range.first).c_str(), formatNumber(range.last()).c_str());
-        std::printf("bearing       %td beams of %s°%s\n", bearing.count, formatNumber(bearing.step).c_str(),
+        std::printf("pings         %d, one every %s s\n", scene.pings, formatPlainly(scene.priSeconds).c_str());
+        std::printf("range         %td cells of %s m, %s … %s m\n", range.count, formatPlainly(range.step).c_str(),
+                    formatPlainly(range.first).c_str(), formatPlainly(range.last()).c_str());
+        std::printf("bearing       %td beams of %s°%s\n", bearing.count, formatPlainly(bearing.step).c_str(),
                     bearing.cyclic ? ", full circle" : "");
         std::printf("looks         %d\n", scene.looks);
         if (scene.reverberation)
             std::printf("reverberation %s dB over the noise in the first range cell\n",
-                        formatNumber(scene.reverberation->levelDb).c_str());
+                        formatPlainly(scene.reverberation->levelDb).c_str());
         for (std::size_t i = 0; i < scene.targets.size(); ++i) {
             const PingTarget &target = scene.targets[i];
             const TruthTarget &truth = pings.truth().targets[i];
             std::printf("target %zu      %s dB, %s, pings %d … %td, from %.6g m, %.4g° to %.6g m, %.4g°\n", i + 1,
-                        formatNumber(target.snrDb).c_str(), std::string(echoNames[std::size_t(target.echo)]).c_str(),
+                        formatPlainly(target.snrDb).c_str(), std::string(echoNames[std::size_t(target.echo)]).c_str(),
                         truth.firstPing, truth.firstPing + std::ssize(truth.cell) - 1, truth.rangeMetres.front(),
                         truth.bearingDegrees.front(), truth.rangeMetres.back(), truth.bearingDegrees.back());
         }

@@ -5,6 +5,7 @@
 #include "analysis/regulation.h"
 #include "analysis/subtractLines.h"
 #include "base/oneLine.h"
+#include "base/readableNumber.h"
 #include "calibration/falseAlarmWords.h"
 #include "detect/SumDetector.h"
 #include "detect/makeDetector.h"
@@ -15,6 +16,16 @@
 #include <cstdio>
 
 namespace faintline::cli {
+
+std::string secondsOf(double seconds, const Axis &time)
+{
+    return formatToStep(seconds, time.step, 6);
+}
+
+std::string positionText(double position, const Axis &axis)
+{
+    return formatToStep(position, axis.step, 8);
+}
 
 namespace {
 
@@ -34,10 +45,10 @@ namespace {
     void printWarnings(const Analysis &analysis)
     {
         if (const std::vector<Index> dragged = draggedFrames(analysis); !dragged.empty())
-            std::printf("warning: ln K left its noise band %.3f … %.3f in %zu frame(s), the first at %.6g s; strong "
+            std::printf("warning: ln K left its noise band %.3f … %.3f in %zu frame(s), the first at %s s; strong "
                         "signals lower it\n",
                         analysis.lnKBand.low(), analysis.lnKBand.high(), dragged.size(),
-                        analysis.time().value(double(dragged.front())));
+                        secondsOf(analysis.time().value(double(dragged.front())), analysis.time()).c_str());
         if (const auto law = checkNoiseLaw(analysis); law && !law->isFollowed())
             std::printf("warning: %s\n", law->warning().c_str());
         for (const Advice &advice : advise(analysis))
@@ -54,9 +65,12 @@ namespace {
     void printEvent(const Analysis &analysis, const Event &e)
     {
         const DetectorSettings &detector = analysis.settings.detector;
-        std::printf("%5d  %.6g … %.6g s, detected at %.6g s, at", e.id, e.onsetSeconds, e.endSeconds, e.detectSeconds);
+        std::printf("%5d  %s … %s s, detected at %s s, at", e.id, secondsOf(e.onsetSeconds, analysis.time()).c_str(),
+                    secondsOf(e.endSeconds, analysis.time()).c_str(),
+                    secondsOf(e.detectSeconds, analysis.time()).c_str());
         for (std::size_t axis = 0; axis < e.position.size(); ++axis)
-            std::printf(" %.8g%s", e.position[axis], withBlank(analysis.grid().axes[axis].unit).c_str());
+            std::printf(" %s%s", positionText(e.position[axis], analysis.grid().axes[axis]).c_str(),
+                        withBlank(analysis.grid().axes[axis].unit).c_str());
         for (std::size_t axis = 0; axis < e.position.size(); ++axis)
             std::printf(", %s%.3g%s/s", axis == 0 ? "drift " : "", e.ratesPerSecond[axis],
                         withBlank(analysis.grid().axes[axis].unit).c_str());
@@ -79,8 +93,11 @@ namespace {
         std::printf("%zu area(s) of raised level without a line\n", areas.size());
         const std::string unit = oneLine(analysis.grid().axes.back().unit);
         for (const AreaEvent &area : areas)
-            std::printf("       %.6g … %.6g s, %.8g … %.8g %s, %.1f dB or more above the noise\n", area.onsetSeconds,
-                        area.endSeconds, area.low, area.high, unit.c_str(), area.levelDb);
+            std::printf("       %s … %s s, %s … %s %s, %.1f dB or more above the noise\n",
+                        secondsOf(area.onsetSeconds, analysis.time()).c_str(),
+                        secondsOf(area.endSeconds, analysis.time()).c_str(),
+                        positionText(area.low, analysis.grid().axes.back()).c_str(),
+                        positionText(area.high, analysis.grid().axes.back()).c_str(), unit.c_str(), area.levelDb);
     }
 
 } // namespace

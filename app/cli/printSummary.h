@@ -2,10 +2,16 @@
 
 #include "analysis/Analysis.h"
 
+#include <string>
+
 namespace faintline::cli {
 
 /// Prints a summary of an analysis for people: frames, window, threshold, warnings and advice, events, areas. For the
 /// columns of files see writeEvents.h.
 void printSummary(const Analysis &analysis);
+
+/// A time and a position of an event for people, with as many digits as its frame and its cell need.
+std::string secondsOf(double seconds, const Axis &time);
+std::string positionText(double position, const Axis &axis);
 
 } // namespace faintline::cli

@@ -1,5 +1,6 @@
 #include "app/cli/commands.h"
 #include "app/cli/inRange.h"
+#include "app/cli/printSummary.h"
 #include "app/cli/provenance.h"
 
 #include "analysis/chooseWindow.h"
@@ -97,9 +98,12 @@ namespace {
             writeTextFile(options.curve, toCsv(curve));
         files.commit();
         const auto [least, most] = std::minmax_element(curve.hz().begin(), curve.hz().end());
-        std::printf("event %d of %zu, %.6g … %.6g s, %.8g … %.8g Hz: %snow at %.8g Hz\n%s\n", event.id,
-                    analysis->tracks.size(), event.onsetSeconds, event.endSeconds, *least, *most,
-                    straight.kind == Straightening::Resample ? "resampled, " : "", straight.targetHz, told.c_str());
+        const Axis &axis = analysis->grid().axes.back();
+        std::printf("event %d of %zu, %s … %s s, %s … %s Hz: %snow at %s Hz\n%s\n", event.id, analysis->tracks.size(),
+                    secondsOf(event.onsetSeconds, analysis->time()).c_str(),
+                    secondsOf(event.endSeconds, analysis->time()).c_str(), positionText(*least, axis).c_str(),
+                    positionText(*most, axis).c_str(), straight.kind == Straightening::Resample ? "resampled, " : "",
+                    positionText(straight.targetHz, axis).c_str(), told.c_str());
     }
 
 } // namespace

@@ -12,6 +12,7 @@
 #include "widgets/base/quantities.h"
 
 #include "analysis/subtractLines.h"
+#include "base/readableNumber.h"
 #include "calibration/falseAlarmWords.h"
 
 #include <QCoreApplication>
@@ -59,11 +60,11 @@ namespace {
         rows.heading(tr("Recording"));
         rows.row(tr("Format"),
                  labelText(info.container + ", " + info.sampleType) + (info.isComplex ? tr(", I/Q") : QString()));
-        rows.row(tr("Sample rate"), QString::fromStdString(formatNumber(info.sampleRateHz)) + tr(" Hz"));
+        rows.row(tr("Sample rate"), QString::fromStdString(formatPlainly(info.sampleRateHz)) + tr(" Hz"));
         rows.row(tr("Length"), secondsText(info.durationSeconds(), 1e-3 * info.durationSeconds()));
         rows.row(tr("Channels"), QString::number(info.channelCount));
         if (info.centreHz != 0.0)
-            rows.row(tr("Centre frequency"), QString::fromStdString(formatNumber(info.centreHz)) + tr(" Hz"));
+            rows.row(tr("Centre frequency"), QString::fromStdString(formatPlainly(info.centreHz)) + tr(" Hz"));
         if (info.startUnixSeconds)
             rows.row(tr("Start"), QString::fromStdString(formatUtc(*info.startUnixSeconds)));
         for (const std::string &note : info.notes)

@@ -224,11 +224,12 @@ void StraightenDialog::show(const Spectra &spectra)
     const auto [least, most] = std::minmax_element(hz.begin(), hz.end());
     const Stretch &stretch = spectra.straightened.before;
     const double was = highestOf(spectra.before), is = highestOf(spectra.after);
-    QString words =
-        tr("Event %1: %2 … %3, %4 … %5, straightened at %6. ")
-            .arg(m_event.id)
-            .arg(secondsText(m_event.onsetSeconds, 0.1), secondsText(m_event.endSeconds, 0.1), hertzText(*least, 0.01),
-                 hertzText(*most, 0.01), hertzText(spectra.straightened.targetHz, 0.01));
+    const double resolution = std::min(0.01, 0.1 * m_analysis->grid().axes.back().step);
+    QString words = tr("Event %1: %2 … %3, %4 … %5, straightened at %6. ")
+                        .arg(m_event.id)
+                        .arg(secondsText(m_event.onsetSeconds, 0.1), secondsText(m_event.endSeconds, 0.1),
+                             hertzText(*least, resolution), hertzText(*most, resolution),
+                             hertzText(spectra.straightened.targetHz, resolution));
     words +=
         std::isfinite(was) && std::isfinite(is)
             ? tr("In one spectrum of its %1 the line stands %2 dB over its surroundings before, %3 dB after.")

@@ -1,6 +1,7 @@
 #include "base/Field.h"
 
 #include "base/Error.h"
+#include "base/readableNumber.h"
 
 #include <array>
 #include <charconv>
@@ -225,6 +226,8 @@ FieldValue parseFieldValue(const FieldInfo &info, std::string_view text)
 {
     if (const std::optional<FieldValue> named = parseWord(info, text))
         return *named;
+    if ((info.kind == FieldKind::Number || info.kind == FieldKind::Integer) && hasDecimalComma(text))
+        refuse(info, text, "has a decimal comma; write a decimal point");
     FieldValue value = std::string(text);
     switch (info.kind) {
     case FieldKind::Flag:

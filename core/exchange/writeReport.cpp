@@ -1,5 +1,6 @@
 #include "exchange/writeReport.h"
 
+#include "base/readableNumber.h"
 #include "base/utc.h"
 #include "detect/statisticDecimals.h"
 #include "spectrum/NormalisedFrames.h"
@@ -66,7 +67,7 @@ namespace {
         const double scale = std::pow(10.0, decimals);
         if (std::abs(value) * scale < 1e15)
             value = std::round(value * scale) / scale;
-        std::string text = formatNumber(value + 0.0);
+        std::string text = formatPlainly(value + 0.0);
         if (text.find('e') == std::string::npos && decimals > 0) {
             std::size_t point = text.find('.');
             if (point == std::string::npos) {
@@ -77,6 +78,13 @@ namespace {
                         '0');
         }
         return withMinus(text);
+    }
+
+    /// Decimals that tell values a tenth of an axis's step apart, at least `fewest`.
+    int decimalsOn(const Axis &axis, int fewest)
+    {
+        const double needed = std::ceil(-std::log10(0.1 * axis.step) - 1e-9);
+        return std::clamp(std::isfinite(needed) ? int(needed) : fewest, fewest, 9);
     }
 
     /// Rounded to three significant digits.
@@ -144,12 +152,12 @@ namespace {
         if (analysis.recording) {
             const RecordingInfo &info = analysis.recording->info();
             text += fact("Format", info.container + ", " + info.sampleType + (info.isComplex ? ", I/Q" : ""));
-            text += fact("Sample rate", formatNumber(info.sampleRateHz) + " Hz");
+            text += fact("Sample rate", formatPlainly(info.sampleRateHz) + " Hz");
             text += fact("Length",
                          fixed(info.durationSeconds(), 3) + " s, " + std::to_string(info.sampleCount) + " samples");
             text += fact("Channels", std::to_string(info.channelCount));
             if (info.centreHz != 0.0)
-                text += fact("Centre frequency", formatNumber(info.centreHz) + " Hz");
+                text += fact("Centre frequency", formatPlainly(info.centreHz) + " Hz");
             if (info.startUnixSeconds)
                 text += fact("Begins", formatUtc(*info.startUnixSeconds));
             for (const std::string &note : info.notes)
@@ -220,10 +228,11 @@ namespace {
         const std::vector<EventReview> said = eventReviews(analysis, material.events, material.annotations.reviews);
         for (std::size_t i = 0; i < material.events.size(); ++i) {
             const Event &event = material.events[i];
-            std::vector<std::string> row{std::to_string(event.id), fixed(event.onsetSeconds, 2),
-                                         fixed(event.detectSeconds, 2), fixed(event.endSeconds, 2)};
-            for (double position : event.position)
-                row.push_back(fixed(position, 2));
+            std::vector<std::string> row{std::to_string(event.id)};
+            for (const double seconds : {event.onsetSeconds, event.detectSeconds, event.endSeconds})
+                row.push_back(fixed(seconds, decimalsOn(analysis.time(), 2)));
+            for (std::size_t axis = 0; axis < axes.size(); ++axis)
+                row.push_back(fixed(event.position[axis], decimalsOn(axes[axis], 2)));
             std::string review = said[i].label;
             if (said[i].verdict != Verdict::None)
                 review += (review.empty() ? "" : ", ") + nameOf(said[i].verdict);
@@ -249,13 +258,14 @@ namespace {
         if (areas.empty())
             return {};
         const std::string &unit = analysis.grid().axes.back().unit;
+        const int time = decimalsOn(analysis.time(), 2), frequency = decimalsOn(analysis.grid().axes.back(), 2);
         std::string text =
             "<h2>Areas of raised level without a line</h2>\n<table class=\"numbers\">\n"
             + numbers({"From (s)", "To (s)", inUnit("Lowest", unit), inUnit("Highest", unit), "Level, at least (dB)"},
                       5, "th");
         for (const AreaEvent &area : areas)
-            text += numbers({fixed(area.onsetSeconds, 2), fixed(area.endSeconds, 2), fixed(area.low, 2),
-                             fixed(area.high, 2), fixed(area.levelDb, 1)},
+            text += numbers({fixed(area.onsetSeconds, time), fixed(area.endSeconds, time), fixed(area.low, frequency),
+                             fixed(area.high, frequency), fixed(area.levelDb, 1)},
                             5);
         return text + "</table>\n";
     }
@@ -303,9 +313,11 @@ namespace {
         }
         for (std::size_t i = first; i < why.steps.size(); ++i) {
             const PathStep &step = why.steps[i];
-            std::vector<std::string> row{fixed(analysis.time().value(double(step.frame)), 3)};
-            for (const double position : analysis.grid().position(space.cellOf(step.state)))
-                row.push_back(fixed(position, 3));
+            std::vector<std::string> row{
+                fixed(analysis.time().value(double(step.frame)), decimalsOn(analysis.time(), 3))};
+            const std::vector<double> position = analysis.grid().position(space.cellOf(step.state));
+            for (std::size_t axis = 0; axis < position.size(); ++axis)
+                row.push_back(fixed(position[axis], decimalsOn(analysis.grid().axes[axis], 3)));
             row.insert(row.end(), {fixed(step.logLikelihoodRatio, 4), fixed(step.lnTransition, 4), fixed(step.lnK, 4),
                                    fixed(step.score, 4)});
             text += numbers(row, row.size());

@@ -3,6 +3,7 @@
 #include "analysis/events.h"
 #include "analysis/sureStatistic.h"
 #include "base/oneLine.h"
+#include "base/readableNumber.h"
 #include "spectrum/Spectrogram.h"
 
 #include <algorithm>
@@ -116,9 +117,10 @@ namespace {
         char text[160];
         const double apart = close.bins * axis.step;
         const int decimals = apart > 0.0 ? std::clamp(1 - int(std::floor(std::log10(apart))), 0, 12) : 0; // two digits
-        std::snprintf(text, sizeof text, "%d pair%s of tracks %s less than 3 cells apart, e.g. %.*f %s at %.6g %s",
+        std::snprintf(text, sizeof text, "%d pair%s of tracks %s less than 3 cells apart, e.g. %.*f %s at %s %s",
                       close.count, close.count == 1 ? "" : "s", close.count == 1 ? "runs" : "run", decimals, apart,
-                      oneLine(axis.unit).c_str(), axis.value(close.position), oneLine(axis.unit).c_str());
+                      oneLine(axis.unit).c_str(), formatToStep(axis.value(close.position), axis.step, 6).c_str(),
+                      oneLine(axis.unit).c_str());
         return std::string(text) + "; the window is too short to separate lines this close";
     }
 

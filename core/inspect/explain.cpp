@@ -2,6 +2,7 @@
 
 #include "base/Error.h"
 #include "base/logmath.h"
+#include "base/readableNumber.h"
 #include "inspect/StateReplay.h"
 #include "plan/chain.h"
 
@@ -243,8 +244,8 @@ namespace {
                 throw Error(along.name + " nan", "must be a number");
             if (const double at = along.position(value);
                 !along.cyclic && !(at >= -0.5 && at <= double(along.count) - 0.5))
-                throw Error(along.name + " " + formatNumber(value) + " " + along.unit,
-                            "must lie in " + formatNumber(along.first) + " … " + formatNumber(along.last()) + " "
+                throw Error(along.name + " " + formatPlainly(value) + " " + along.unit,
+                            "must lie in " + formatPlainly(along.first) + " … " + formatPlainly(along.last()) + " "
                                 + along.unit);
             coordinates.push_back(along.nearest(value));
         }

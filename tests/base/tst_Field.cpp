@@ -35,6 +35,9 @@ private slots:
     void everythingPrintedReadsBack();
     void shortestForm_data();
     void shortestForm();
+    void forPeople_data();
+    void forPeople();
+    void decimalCommasAreNamed();
     void numbersReadBackBitForBit();
     void textThatIsNoNumber_data();
     void textThatIsNoNumber();
@@ -316,6 +319,58 @@ void tst_Field::shortestForm()
     QFETCH(double, value);
     QFETCH(QString, text);
     QCOMPARE(QString::fromStdString(formatNumber(value)), text);
+}
+
+void tst_Field::forPeople_data()
+{
+    QTest::addColumn<double>("value");
+    QTest::addColumn<QString>("plain");
+    QTest::addColumn<double>("step");
+    QTest::addColumn<int>("least");
+    QTest::addColumn<QString>("toStep");
+    const auto row = [](double value, const char *plain, double step, int least, const char *toStep) {
+        QTest::newRow(toStep) << value << plain << step << least << toStep;
+    };
+    row(1.42e9, "1420000000", 2.0, 8, "1420000000");
+    row(1419914464.0, "1419914464", 2.0, 8, "1419914464");
+    row(1419914464.123, "1419914464.123", 2.0, 8, "1419914464.1"); // tells 0.2 Hz apart
+    row(1419914464.123, "1419914464.123", 1e6, 8, "1419914464");   // no exponent
+    row(-1419914464.123, "-1419914464.123", 2.0, 8, "-1419914464.1");
+    row(210.0523456789, "210.0523456789", 1.0, 8, "210.05235");
+    row(10.00013889, "10.00013889", 0.000277, 8, "10.000139");
+    row(10.00013889, "10.00013889", 0.00000277, 8, "10.0001389");
+    row(86399.75, "86399.75", 0.25, 6, "86399.75");
+    row(0.0, "0", 0.25, 6, "0");
+    row(1e-9, "1e-09", 0.0, 6, "1e-09");
+    row(2e21, "2e+21", 1.0, 6, "2e+21");
+}
+
+void tst_Field::forPeople()
+{
+    QFETCH(double, value);
+    QFETCH(QString, plain);
+    QFETCH(double, step);
+    QFETCH(int, least);
+    QFETCH(QString, toStep);
+    QCOMPARE(QString::fromStdString(formatPlainly(value)), plain);
+    QCOMPARE(QString::fromStdString(formatToStep(value, step, least)), toStep);
+}
+
+void tst_Field::decimalCommasAreNamed()
+{
+    for (const char *text : {"0,5", "-1,25", "+3,0", "1,5e3"})
+        QVERIFY2(hasDecimalComma(text), text);
+    for (const char *text : {"0.5", "5", "", ",", "0,5,1", "1,234.5", "a,b", "3, 4"})
+        QVERIFY2(!hasDecimalComma(text), text);
+    for (const FieldInfo &info : fields())
+        if (info.kind == FieldKind::Number || info.kind == FieldKind::Integer) {
+            const std::string why = errorOf([&] { parseFieldValue(info, "0,5"); });
+            QVERIFY2(why.ends_with("= 0,5: has a decimal comma; write a decimal point"), why.c_str());
+        }
+    const FieldValue list{std::vector{0.0, 5.0}};
+    for (const FieldInfo &info : fields())
+        if (info.kind == FieldKind::Numbers)
+            QVERIFY(parseFieldValue(info, "0,5") == list);
 }
 
 void tst_Field::numbersReadBackBitForBit()

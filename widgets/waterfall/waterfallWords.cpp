@@ -6,6 +6,8 @@
 #include "widgets/base/rasterise.h"
 #include "widgets/waterfall/WaterfallPicture.h"
 
+#include <algorithm>
+
 namespace faintline {
 
 QString cursorText(const WaterfallPicture &view)
@@ -14,10 +16,12 @@ QString cursorText(const WaterfallPicture &view)
         return WaterfallPicture::tr("Arrow keys move the cursor, Ctrl and wheel zoom, 0 shows all.");
     const Viewport::Point &cursor = *view.viewport()->cursor();
     const Axis &frequency = view.frequencyAxis();
-    QString text = WaterfallPicture::tr("Cursor at %1, %2")
-                       .arg(view.hasTime() ? secondsText(cursor.seconds, 0.01)
-                                           : valueText(view.picture()->time(), cursor.seconds, 0.1),
-                            frequency.unit == "Hz" ? hertzText(cursor.hz, 0.1) : valueText(frequency, cursor.hz, 0.1));
+    const double resolution = frequency.step > 0.0 ? std::min(0.1, 0.1 * frequency.step) : 0.1;
+    QString text =
+        WaterfallPicture::tr("Cursor at %1, %2")
+            .arg(view.hasTime() ? secondsText(cursor.seconds, 0.01)
+                                : valueText(view.picture()->time(), cursor.seconds, 0.1),
+                 frequency.unit == "Hz" ? hertzText(cursor.hz, resolution) : valueText(frequency, cursor.hz, 0.1));
     if (const auto value = view.valueAt(cursor.seconds, cursor.hz))
         text += WaterfallPicture::tr(", %1 %2").arg(numberText(*value, 1), view.valueUnit());
     return text;

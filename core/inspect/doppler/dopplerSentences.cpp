@@ -1,5 +1,7 @@
 #include "inspect/doppler/dopplerSentences.h"
 
+#include "base/readableNumber.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -62,11 +64,11 @@ namespace {
     {
         const double beta = fit.pass.metresPerSecond / fit.propagation;
         if (!heard.mayBeIn && heard.mayBeAfter)
-            return "The source was still approaching; only f0/(1 - v/c), about " + shown(fit.pass.restHz / (1.0 - beta))
-                   + " Hz, is determined.";
+            return "The source was still approaching; only f0/(1 - v/c), about "
+                   + formatToStep(fit.pass.restHz / (1.0 - beta), fit.rmsHz, 4) + " Hz, is determined.";
         if (!heard.mayBeIn)
             return "The source was already going away; only f0/(1 + v/c), about "
-                   + shown(fit.pass.restHz / (1.0 + beta)) + " Hz, is determined.";
+                   + formatToStep(fit.pass.restHz / (1.0 + beta), fit.rmsHz, 4) + " Hz, is determined.";
         if (!heard.mayBeBefore)
             return "It may be later: the source may still have been approaching.";
         if (!heard.mayBeAfter)

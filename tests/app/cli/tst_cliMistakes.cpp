@@ -61,6 +61,10 @@ void tst_cliMistakes::mistakes_data()
     row("no assignment", {"detect", "line.wav", "--summary", "--set", "smd.lnK"}, "--set smd.lnK: must be name=value");
     row("setting out of range", {"detect", "line.wav", "--summary", "--set", "spectrogram.windowSeconds=-1"},
         "spectrogram.windowSeconds = -1: must lie in 0 … 1e+06 s");
+    row("decimal comma in a setting", {"detect", "line.wav", "--summary", "--set", "spectrogram.windowSeconds=0,5"},
+        "spectrogram.windowSeconds = 0,5: has a decimal comma; write a decimal point");
+    row("decimal comma in an option", {"detect", "line.wav", "--summary", "--from", "2,5"},
+        "command line: Could not convert: --from = 2,5 has a decimal comma; write a decimal point");
     row("setting that is no number", {"detect", "line.wav", "--summary", "--set", "smd.lnK=nan"},
         "smd.lnK = nan: must lie in -100 … 100 nat");
     row("settings that disagree", {"detect", "line.wav", "--summary", "--set", "model.slopeChange=0.5"},
