@@ -77,6 +77,7 @@ private:
     void checkSession() const;
 
     const Common *m_common = nullptr;
+    mutable RecordingPointer m_recording; ///< once opened
 };
 
 void addInfo(CLI::App &app, Common &common);

@@ -197,6 +197,8 @@ AnalysisSettings AnalysisOptions::settings() const
         settings = faintline::preset(preset).settings;
     else if (session.empty() && !named && from.pings)
         settings = firstSettings(pingGrid(*from.pings));
+    if (session.empty() && !named && !file.empty() && from.hasSamples())
+        settings = withFittedOrder(settings, recording()->info());
     if (channel >= 0)
         setSetting(settings, "selection.channel", std::to_string(channel));
     std::vector<std::string> all = part.assignments();
@@ -215,7 +217,9 @@ AnalysisSettings AnalysisOptions::settings() const
 
 RecordingPointer AnalysisOptions::recording() const
 {
-    return asTimeline ? openTogether(names(), open) : openSamples(source());
+    if (!m_recording)
+        m_recording = asTimeline ? openTogether(names(), open) : openSamples(source());
+    return m_recording;
 }
 
 NormalisedFramesPointer AnalysisOptions::frames(AnalysisSettings &settings, const RunContext &context) const

@@ -34,7 +34,9 @@ const FrameKind &kindOf(const OpenedSource &opened)
 
 AnalysisSettings firstSettings(const OpenedSource &opened)
 {
-    return opened.frames ? firstSettings(opened.frames->grid()) : AnalysisSettings();
+    return opened.frames      ? firstSettings(opened.frames->grid())
+           : opened.recording ? firstSettings(opened.recording->info())
+                              : AnalysisSettings();
 }
 
 bool needsRawOptions(const QString &path, const OpenOptions &options)

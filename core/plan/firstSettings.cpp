@@ -9,4 +9,21 @@ AnalysisSettings firstSettings(const Grid &grid)
     return preset(grid.isSurface() ? "sonar" : "radar").settings;
 }
 
+AnalysisSettings firstSettings(const RecordingInfo &recording)
+{
+    return withFittedOrder({}, recording);
+}
+
+AnalysisSettings withFittedOrder(AnalysisSettings settings, const RecordingInfo &recording)
+{
+    constexpr double slowHz = 1.0;
+    const DecideSettings usual;
+    DecideSettings &decide = settings.decide;
+    const double hours = recording.durationSeconds() / 3600.0;
+    if (recording.sampleRateHz < slowHz && hours * usual.falseAlarmsPerHour > 1.0
+        && decide.by == DecideSettings::By::FalseAlarmsPerHour && decide.falseAlarmsPerHour == usual.falseAlarmsPerHour)
+        decide.falseAlarmsPerHour = 1.0 / hours;
+    return settings;
+}
+
 } // namespace faintline

@@ -1,6 +1,6 @@
 #include "plan/AnalysisSettings.h"
 #include "support/test.h"
-
+#include "plan/firstSettings.h"
 #include "base/Random.h"
 #include "support/errors.h"
 
@@ -24,6 +24,7 @@ private slots:
     void everyRuleRefusesItsSetting();
     void stages();
     void presetsAreSound();
+    void slowRecordingsHaveOneFalseAlarmInTheirLength();
 };
 
 void tst_AnalysisSettings::everyFieldHasNameSentenceAndDefault()
@@ -240,6 +241,28 @@ void tst_AnalysisSettings::presetsAreSound()
     for (const Preset &p : presets())
         checkSettings(p.settings);
     QVERIFY(contains(errorOf([] { preset("none"); }), "choose one of lines"));
+}
+
+void tst_AnalysisSettings::slowRecordingsHaveOneFalseAlarmInTheirLength()
+{
+    RecordingInfo recording;
+    recording.sampleRateHz = 1.0 / 60.0;
+    recording.sampleCount = 86400; // 1440 h
+    QCOMPARE(firstSettings(recording).decide.falseAlarmsPerHour, 1.0 / 1440.0);
+    recording.sampleCount = 30; // half an hour: one an hour is less than one
+    QVERIFY(firstSettings(recording) == AnalysisSettings());
+    recording.sampleRateHz = 100.0;
+    recording.sampleCount = 100 * 3600 * 1440;
+    QVERIFY(firstSettings(recording) == AnalysisSettings());
+    recording.sampleRateHz = 0.5;
+    recording.sampleCount = 36000; // 20 h
+    AnalysisSettings chosen = preset("narrowband").settings;
+    chosen.decide.falseAlarmsPerHour = 3.0;
+    QVERIFY(withFittedOrder(chosen, recording) == chosen); // asked for by the user
+    chosen.decide.falseAlarmsPerHour = 1.0;
+    QCOMPARE(withFittedOrder(chosen, recording).decide.falseAlarmsPerHour, 1.0 / 20.0);
+    chosen.decide.by = DecideSettings::By::PfaPerCell;
+    QVERIFY(withFittedOrder(chosen, recording) == chosen);
 }
 
 FAINTLINE_TEST(tst_AnalysisSettings)
