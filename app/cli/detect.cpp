@@ -20,6 +20,7 @@
 #include "exchange/readAnnotations.h"
 #include "exchange/writeEvents.h"
 #include "exchange/writeReviewed.h"
+#include "inspect/advice.h"
 #include "inspect/judgeByBoxes.h"
 #include "recording/SigmfRecording.h"
 #include "recording/truthBeside.h"
@@ -357,6 +358,8 @@ namespace {
         write(*analysis, input, options, common, writer);
         if (options.summary)
             printResult(*analysis, input, !options.frames.empty());
+        else if (const std::optional<Advice> silence = adviceOnSilence(*analysis, context))
+            tellNote(oneLine(options.analysis.source().path) + ": " + silence->sentence, common);
     }
 
 } // namespace

@@ -25,8 +25,8 @@ namespace {
             channel.background = estimateBackground(*spectrogram, settings, context);
             channel.frames = std::make_shared<NormalisedSpectrogram>(spectrogram, channel.background, settings);
         }
-        if (spectrogram->recording().info().sampleCount < endlessSamples) // finished recordings only
-            checkUsable(*spectrogram, *channel.background, context.part(1.0, 1.0));
+        if (spectrogram->recording().info().sampleCount < endlessSamples)                  // finished recordings only
+            (void)silenceWords(*spectrogram, *channel.background, context.part(1.0, 1.0)); // throws if unusable
         return channel;
     }
 

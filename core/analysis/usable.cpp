@@ -7,11 +7,11 @@
 
 namespace faintline {
 
-void checkUsable(const Spectrogram &spectrogram, const NoiseBackground &background, const RunContext &context)
+std::string silenceWords(const Spectrogram &spectrogram, const NoiseBackground &background, const RunContext &context)
 {
     const auto isSilent = [](float ln) { return ln <= 0.5f * NoiseBackground::silence; };
     if (!std::all_of(background.lnPower.begin(), background.lnPower.end(), isSilent))
-        return;
+        return {};
     // The background only samples a long recording.
     constexpr Index blockSamples = 1 << 16;
     const Recording &recording = spectrogram.recording();
@@ -25,7 +25,7 @@ void checkUsable(const Spectrogram &spectrogram, const NoiseBackground &backgrou
         recording.read(channel, at, std::min(blockSamples, end - at), samples);
         const auto used = samples.begin() + std::min(blockSamples, end - at) * recording.info().floatsPerSample();
         if (std::any_of(samples.begin(), used, [](float value) { return value != 0.0f; }))
-            return;
+            return {};
     }
     const Index nonFinite = recording.nonFiniteCount() - before;
     const std::string all = "has no usable samples: all of the " + std::to_string(end - first) + " samples read ";
@@ -33,7 +33,8 @@ void checkUsable(const Spectrogram &spectrogram, const NoiseBackground &backgrou
         throw Error(recording.info().path, all + "are not finite in single precision");
     if (nonFinite > 0)
         throw Error(recording.info().path, all + "are 0 or not finite");
-    throw Error(recording.info().path, all + "are 0 or below 1e-45, the smallest value in single precision");
+    return "the recording is silent: all of the " + std::to_string(end - first)
+           + " samples read are 0 or below 1e-45, the smallest value in single precision";
 }
 
 } // namespace faintline

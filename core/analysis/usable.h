@@ -4,11 +4,14 @@
 #include "spectrum/NoiseBackground.h"
 #include "spectrum/Spectrogram.h"
 
+#include <string>
+
 namespace faintline {
 
-/// Throws Error with a one-sentence reason if a spectrogram's part of a recording holds no usable sample: all are 0,
-/// below the range of single precision, or not finite. Costs nothing if the background found any power, else one
-/// reading.
-void checkUsable(const Spectrogram &spectrogram, const NoiseBackground &background, const RunContext &context = {});
+/// What is to be said of a spectrogram's part of a recording that is silent, as a recorder without its microphone leaves
+/// it: a valid recording without events. Empty for others. Throws Error with a one-sentence reason if samples that are
+/// not finite leave none to use. Costs nothing if the background found any power, else one reading.
+std::string silenceWords(const Spectrogram &spectrogram, const NoiseBackground &background,
+                         const RunContext &context = {});
 
 } // namespace faintline

@@ -11,9 +11,10 @@ namespace faintline {
 
 /// A caveat about an analysis's numbers, and settings that would help.
 struct Advice {
-    std::string name;     ///< "slopeLimit", "closeLines", "constantCells", "commonNoise": independent of the wording
-    std::string sentence; ///< without a full stop
-    std::string remedy;   ///< "use a window of 0.25 s"; empty if no setting helps
+    std::string
+        name; ///< "slopeLimit", "closeLines", "constantCells", "commonNoise", "silence": independent of the wording
+    std::string sentence;        ///< without a full stop
+    std::string remedy;          ///< "use a window of 0.25 s"; empty if no setting helps
     AnalysisSettings settings{}; ///< settings with the remedy
 };
 
@@ -42,7 +43,10 @@ std::optional<Advice> adviceOnConstantCells(const Analysis &analysis, const RunC
 /// is lost. Cost: reads some 200 frames of each. Throws Cancelled.
 std::optional<Advice> adviceOnChannels(const Analysis &analysis, const RunContext &context = {});
 
-/// All advice that applies, most serious first.
+/// Recordings of silence, in which there is nothing to find.
+std::optional<Advice> adviceOnSilence(const Analysis &analysis, const RunContext &context = {});
+
+/// All advice that applies, most serious first; of silence, nothing else.
 std::vector<Advice> advise(const Analysis &analysis, const RunContext &context = {});
 
 } // namespace faintline

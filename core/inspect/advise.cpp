@@ -1,5 +1,7 @@
 #include "inspect/advice.h"
 
+#include "analysis/usable.h"
+
 #include <cmath>
 
 namespace faintline {
@@ -14,8 +16,19 @@ void setWindow(Advice &advice, double seconds)
     advice.remedy = "use a window of " + formatNumber(rounded) + " s";
 }
 
+std::optional<Advice> adviceOnSilence(const Analysis &analysis, const RunContext &context)
+{
+    const Spectrogram *spectrogram = analysis.frames->spectrogram();
+    if (!spectrogram || !analysis.background)
+        return {};
+    const std::string words = silenceWords(*spectrogram, *analysis.background, context);
+    return words.empty() ? std::nullopt : std::optional(Advice{"silence", words, {}, analysis.settings});
+}
+
 std::vector<Advice> advise(const Analysis &analysis, const RunContext &context)
 {
+    if (std::optional<Advice> silence = adviceOnSilence(analysis, context))
+        return {*silence};
     std::vector<Advice> all;
     for (std::optional<Advice> one : {adviceOnConstantCells(analysis, context), adviceOnChannels(analysis, context),
                                       adviceOnSlopes(analysis), adviceOnCloseLines(analysis)})

@@ -105,7 +105,7 @@ setting has that name (faintline.describe() lists both). If no window is set, it
 threads: 0 for as many as the machine has. Results do not depend on it.
 progress: called as progress(fraction, what) about ten times a second.
 
-Returns a Result. Raises Error for settings out of range and for recordings without a usable sample. KeyboardInterrupt
+Returns a Result. Raises Error for settings out of range and for recordings without a finite sample. KeyboardInterrupt
 stops the run.)");
 }
 
