@@ -4,6 +4,7 @@
 #include "app/cli/provenance.h"
 
 #include "analysis/chooseWindow.h"
+#include "analysis/events.h"
 #include "base/AtomicFile.h"
 #include "base/fileName.h"
 #include "base/readableNumber.h"
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -24,7 +26,7 @@ namespace {
 
     struct DopplerOptions {
         AnalysisOptions analysis;
-        std::vector<int> events; ///< none: the strongest
+        std::vector<int> events; ///< none: the strongest that can be fitted
         std::string medium = "air";
         std::optional<double> propagation;
         std::optional<double> centreHz;
@@ -61,18 +63,67 @@ namespace {
         return *centreHz;
     }
 
+    using Fit = std::function<DopplerReport(std::vector<Event> events)>;
+
+    /// The strongest event that can be fitted. Throws the error of the strongest one if none can be.
+    DopplerReport strongestFitted(const Analysis &analysis, const Fit &fit)
+    {
+        std::vector<Event> found = events(analysis);
+        std::ranges::stable_sort(found, std::ranges::greater(), &Event::statistic);
+        for (const Event &event : found)
+            try {
+                return fit({event});
+            } catch (const Error &) { // the next
+            }
+        return fit({chosenEvent(analysis, 0)});
+    }
+
+    /// "; events 2, 5 can be fitted"
+    std::string whichCanBe(const Analysis &analysis, const Fit &fit)
+    {
+        constexpr int most = 10;
+        std::string numbers;
+        int count = 0;
+        for (const Event &event : events(analysis))
+            try {
+                (void)fit({event});
+                if (++count > most)
+                    break;
+                numbers += (numbers.empty() ? "" : ", ") + std::to_string(event.id);
+            } catch (const Error &) { // not this one
+            }
+        if (count == 0)
+            return analysis.tracks.size() > 1 ? "; no other event can be fitted either" : "";
+        return (count == 1 ? "; event " : "; events ") + numbers + (count > most ? " …" : "") + " can be fitted";
+    }
+
     DopplerReport reportOf(const DopplerOptions &options, const Analysis &analysis)
     {
+        const Fit fit = [&, centreHz = centreOf(options, analysis)](std::vector<Event> chosen) {
+            return dopplerReport(analysis, std::move(chosen), centreHz,
+                                 options.propagation.value_or(media.at(options.medium)));
+        };
+        if (options.events.empty())
+            return strongestFitted(analysis, fit);
         std::vector<Event> chosen;
         for (const int number : options.events)
             chosen.push_back(chosenEvent(analysis, number));
-        if (chosen.empty())
-            chosen.push_back(chosenEvent(analysis, 0));
-        return dopplerReport(analysis, std::move(chosen), centreOf(options, analysis),
-                             options.propagation.value_or(media.at(options.medium)));
+        try {
+            return fit(chosen);
+        } catch (const Error &error) {
+            throw Error(error.where(), error.why() + whichCanBe(analysis, fit), error.kind());
+        }
     }
 
-    void print(const DopplerReport &report, bool isChosen, std::size_t eventCount)
+    /// ", the strongest of 3 that can be fitted"
+    std::string howChosen(const DopplerReport &report, const Analysis &analysis)
+    {
+        const bool isStrongest = report.events.front().id == chosenEvent(analysis, 0).id;
+        return ", the strongest of " + std::to_string(analysis.tracks.size())
+               + (isStrongest ? "" : " that can be fitted");
+    }
+
+    void print(const DopplerReport &report, bool isChosen, const Analysis &analysis)
     {
         const DopplerFit &fit = report.fit;
         const std::vector<DopplerPoint> &points = report.track.points;
@@ -109,7 +160,7 @@ namespace {
         if (!options.chart.empty())
             writeTextFile(options.chart, chartsSvg(dopplerCharts(report)));
         files.commit();
-        print(report, !options.events.empty(), analysis->tracks.size());
+        print(report, !options.events.empty(), *analysis);
     }
 
 } // namespace
@@ -124,7 +175,7 @@ void addDoppler(CLI::App &app, Common &common)
         ->add_option(
             "--event", options->events,
             "Number of the event, as 'detect' lists it; may be repeated for the pieces of one pass; by default "
-            "the strongest")
+            "the strongest that can be fitted")
         ->take_all()
         ->allow_extra_args(false)
         ->check(inRange(1, 1000000000));

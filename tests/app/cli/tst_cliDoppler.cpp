@@ -22,6 +22,7 @@ private slots:
     void piecesOfAFastPass();
     void mediumScalesSpeedAndRange();
     void quadratureNeedsItsCentre();
+    void aWhistleIsPassedOver();
     void refusals_data();
     void refusals();
 
@@ -49,7 +50,8 @@ private:
 
     /// Tone and noise of variance 0.01; the amplitude is that of 12 dB over the noise in one second. In quadrature
     /// 1000 Hz are taken off.
-    void writePass(const char *name, const Pass &pass, bool isComplex) const
+    /// `whistleAmplitude`: of two seconds at 330 Hz from 20 s on.
+    void writePass(const char *name, const Pass &pass, bool isComplex, double whistleAmplitude = 0.0) const
     {
         const auto count = std::size_t(length * rate);
         std::vector<float> noise(2 * count);
@@ -60,6 +62,8 @@ private:
             const double t = double(i) / rate;
             const double angle = 2.0 * std::numbers::pi * (turns(pass, t) - (isComplex ? 1000.0 * t : 0.0));
             samples.push_back(noise[2 * i] + float(amplitude * std::cos(angle)));
+            if (t >= 20.0 && t < 22.0)
+                samples.back() += float(whistleAmplitude * std::cos(2.0 * std::numbers::pi * 330.0 * t));
             if (isComplex)
                 samples.push_back(noise[2 * i + 1] + float(amplitude * std::sin(angle)));
         }
@@ -91,6 +95,7 @@ void tst_cliDoppler::initTestCase()
     writePass("slow.wav", slow, false);
     writePass("fast.wav", fast, false);
     writePass("iq.wav", high, true);
+    writePass("whistle.wav", slow, false, 30.0);
 }
 
 void tst_cliDoppler::intervalsHoldTheTruth()
@@ -184,6 +189,31 @@ void tst_cliDoppler::quadratureNeedsItsCentre()
     QVERIFY(holds(fit["speed"], high.metresPerSecond));
     QVERIFY(std::abs(fit["speed"]["estimate"].get<double>() - 8.0) < 0.1);
     QCOMPARE(fit["centre_hz"].get<double>(), 1000.0);
+}
+
+/// The strongest event is too short for a fit: the pass is taken, or named.
+void tst_cliDoppler::aWhistleIsPassedOver()
+{
+    QCOMPARE(run(QStringList{"detect", "whistle.wav", "--events", "whistle.csv"} + settings).code, 0);
+    const auto rows = numbersOf(content("whistle.csv"));
+    const auto numberNear = [&](double hz) {
+        const auto found = std::ranges::find_if(rows, [&](const auto &row) { return std::abs(row[4] - hz) < 25.0; });
+        return found == rows.end() ? 0 : int(found->front());
+    };
+    const int whistle = numberNear(330.0), pass = numberNear(210.0);
+    QVERIFY(whistle > 0 && pass > 0);
+    QVERIFY(rows[std::size_t(whistle - 1)][6] > rows[std::size_t(pass - 1)][6]); // the stronger
+
+    const Outcome told = run(QStringList{"doppler", "whistle.wav"} + settings);
+    QVERIFY2(told.code == 0, told.err.constData());
+    QVERIFY2(told.out.startsWith("event " + QByteArray::number(pass) + ", the strongest of ")
+                 && told.out.contains(" that can be fitted: "),
+             told.out.constData());
+    const Outcome asked = run(QStringList{"doppler", "whistle.wav", "--event", QString::number(whistle)} + settings);
+    QCOMPARE(asked.code, 2);
+    QVERIFY2(asked.err.contains("needs at least") && asked.err.contains(" " + QByteArray::number(pass))
+                 && asked.err.trimmed().endsWith(" can be fitted"),
+             asked.err.constData());
 }
 
 void tst_cliDoppler::refusals_data()
