@@ -178,10 +178,10 @@ namespace {
                  {point.value, point.pd, point.pdInterval.low, point.pdInterval.high, double(point.trials),
                   double(point.falseAlarms), point.hours, point.falseAlarmsPerHour, point.falseAlarmInterval.low,
                   point.falseAlarmInterval.high})
-                csv += "," + formatNumber(number);
+                csv += ',' + formatNumber(number);
             for (const double number : {point.latencySeconds, point.latencyInterval.low, point.latencyInterval.high})
-                csv += "," + (point.detections > 0 ? formatNumber(number) : std::string());
-            csv += "," + formatNumber(point.threshold) + "\n";
+                csv += ',' + (point.detections > 0 ? formatNumber(number) : std::string());
+            csv += ',' + formatNumber(point.threshold) + "\n";
         }
         return csv;
     }

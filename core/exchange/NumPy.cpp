@@ -44,7 +44,7 @@ namespace {
     /// The text after "'key':" in the header's dictionary.
     std::string_view entry(std::string_view dictionary, std::string_view key, const std::string &path)
     {
-        const std::size_t at = dictionary.find("'" + std::string(key) + "'");
+        const std::size_t at = dictionary.find('\'' + std::string(key) + '\'');
         const std::size_t colon = at == std::string_view::npos ? at : dictionary.find(':', at);
         if (colon == std::string_view::npos)
             throw Error(path, "its NumPy header has no '" + std::string(key) + "'");

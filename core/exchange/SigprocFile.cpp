@@ -198,10 +198,10 @@ SigprocFile::SigprocFile(const std::string &path) : m_file(path)
     setFilterbankAxes(m_info, axes, path);
     m_descends = axes.foff < 0.0;
     if (const auto claimed = Index(valueOr(values, "nsamples", 0.0)); claimed > frames)
-        m_info.notes.push_back("The header claims " + std::to_string(claimed) + " spectra; the "
-                               + std::to_string(frames) + " existing ones are read.");
+        m_info.notes.emplace_back("The header claims " + std::to_string(claimed) + " spectra; the "
+                                  + std::to_string(frames) + " existing ones are read.");
     else if (dataBytes % (bitsOfFrame / 8) != 0)
-        m_info.notes.push_back("The file ends within a spectrum, which is omitted.");
+        m_info.notes.emplace_back("The file ends within a spectrum, which is omitted.");
 }
 
 namespace {

@@ -154,9 +154,9 @@ namespace {
                 text += std::to_string(track.id) + "," + formatNumber(analysis.time().value(double(point.frame))) + ","
                         + joined(track.positionOf(i, analysis.grid())) + "," + formatNumber(point.statistic);
                 if (isSeenTwice)
-                    text += "," + joined(numbersOf(track.smoothed[i], analysis.grid().axes.back()));
+                    text += ',' + joined(numbersOf(track.smoothed[i], analysis.grid().axes.back()));
                 if (analysis.isBank())
-                    text += "," + modelOf(point, track);
+                    text += ',' + modelOf(point, track);
                 text += "\n";
             }
         return text;
@@ -225,8 +225,8 @@ std::string modelChangesText(const Event &event)
 {
     std::string text;
     for (const auto &[seconds, model] : event.modelChanges)
-        text += (text.empty() ? "" : ";") + formatNumber(seconds) + ":" + nameOfBankModel(model);
-    return text;
+        text += formatNumber(seconds) + ':' + nameOfBankModel(model) + ';';
+    return text.substr(0, text.size() - std::min<std::size_t>(1, text.size()));
 }
 
 std::string eventsCsv(const AnalysisPlan &plan, const std::vector<Event> &events)

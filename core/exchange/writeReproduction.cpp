@@ -134,7 +134,7 @@ void writeReproduction(const Reproduction &reproduction, const std::string &fold
     writeTextFile(base + ".json", reproductionJson(reproduction) + "\n");
     writeTextFile(base + ".csv", reproductionCsv(reproduction));
     for (std::size_t i = 0; i < reproduction.charts.size(); ++i)
-        writeTextFile(base + (i == 0 ? "" : "-" + std::to_string(i + 1)) + ".svg", chartSvg(reproduction.charts[i]));
+        writeTextFile(base + (i == 0 ? "" : '-' + std::to_string(i + 1)) + ".svg", chartSvg(reproduction.charts[i]));
 }
 
 } // namespace faintline

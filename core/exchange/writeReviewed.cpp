@@ -50,7 +50,7 @@ namespace {
         std::string text = "event,t_onset,t_detect,t_end";
         const std::vector<std::string> names = positionNames(grid);
         for (const std::string &name : names)
-            text += "," + name;
+            text += ',' + name;
         text += ",drift_hz_per_s,statistic,confirmed,open";
         if (grid.isSpectrum())
             text += ",f_low,f_high";
@@ -60,12 +60,12 @@ namespace {
             text += (e ? std::to_string(e->id) : "") + "," + formatNumber(row.box.startSeconds) + ","
                     + (e ? formatNumber(e->detectSeconds) : "") + "," + formatNumber(row.box.endSeconds);
             for (std::size_t axis = 0; axis < names.size(); ++axis)
-                text += "," + (e ? formatNumber(e->position[axis]) : "");
-            text += "," + (e ? formatNumber(e->driftPerSecond) : "") + "," + (e ? formatNumber(e->statistic) : "") + ","
+                text += ',' + (e ? formatNumber(e->position[axis]) : "");
+            text += ',' + (e ? formatNumber(e->driftPerSecond) : "") + "," + (e ? formatNumber(e->statistic) : "") + ","
                     + (e ? (e->isConfirmed ? "1" : "0") : "") + "," + (e ? (e->isOpen ? "1" : "0") : "");
             if (grid.isSpectrum())
-                text += "," + numberOrEmpty(row.box.lowHz) + "," + numberOrEmpty(row.box.highHz);
-            text += "," + nameOf(row.box.verdict) + "," + (e ? std::to_string(row.signal) : "") + ","
+                text += ',' + numberOrEmpty(row.box.lowHz) + "," + numberOrEmpty(row.box.highHz);
+            text += ',' + nameOf(row.box.verdict) + "," + (e ? std::to_string(row.signal) : "") + ","
                     + csvText(row.box.label) + "," + csvText(row.box.note) + "\n";
         }
         return text;

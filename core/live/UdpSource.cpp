@@ -38,7 +38,7 @@ SequenceNumbers parseSequenceNumbers(std::string_view name)
         return {};
     for (const int bits : {16, 32, 64})
         for (const bool isBigEndian : {false, true})
-            if (name == "u" + std::to_string(bits) + (isBigEndian ? "be" : "le"))
+            if (name == 'u' + std::to_string(bits) + (isBigEndian ? "be" : "le"))
                 return {bits / 8, isBigEndian};
     throw Error("sequence numbers " + std::string(name), "must be one of u16le, u16be, u32le, u32be, u64le, u64be");
 }

@@ -58,7 +58,8 @@ std::string memberName(const FamilySettings &settings, double member)
 {
     if (settings.relation == FamilySettings::Relation::Harmonics)
         return formatNumber(member) + "×";
-    return (member > 0.0 ? "+" : "") + formatNumber(member) + " Hz";
+    const std::string hz = formatNumber(member) + " Hz";
+    return member > 0.0 ? '+' + hz : hz;
 }
 
 } // namespace faintline

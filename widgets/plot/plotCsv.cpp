@@ -16,7 +16,7 @@ namespace {
     /// In quotes, because names may contain commas.
     std::string quoted(QString name)
     {
-        return "\"" + name.replace(QLatin1Char('"'), QStringLiteral("\"\"")).toStdString() + "\"";
+        return '"' + name.replace(QLatin1Char('"'), QStringLiteral("\"\"")).toStdString() + '"';
     }
 
 } // namespace

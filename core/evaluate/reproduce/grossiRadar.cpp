@@ -138,15 +138,16 @@ namespace {
         {
             const auto peak = std::max_element(m_stages.points.begin(), m_stages.points.end(),
                                                [](const auto &a, const auto &b) { return a.y < b.y; });
-            m_made.notes.push_back(
+            m_made.notes.emplace_back(
                 "ASN peaks at " + formatNumber(peak->x) + " dB, " + inFormat("%.2f", peak->y) + " stages against "
                 + inFormat("%.2f", m_noiseStages)
                 + " on noise: half-way between noise and the design SNR ln Λ has no drift, and only the cut-off ends "
                   "the test. A test designed at each actual SNR has no such peak; it saturates at the cut-off and "
                   "falls.");
-            m_made.notes.push_back("The publication's cell averaging is not described: sliding means of the 32 or 16 "
-                                   "neighbours in range are shown, with the exact likelihood ratio of such a quotient. "
-                                   "All other cells know the noise power.");
+            m_made.notes.emplace_back(
+                "The publication's cell averaging is not described: sliding means of the 32 or 16 "
+                "neighbours in range are shown, with the exact likelihood ratio of such a quotient. "
+                "All other cells know the noise power.");
         }
 
         const ReproduceOptions &m_options;

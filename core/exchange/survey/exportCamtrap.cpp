@@ -83,8 +83,8 @@ namespace {
         {
             std::string row;
             for (const std::string &column : m_columns)
-                row += (&column == &m_columns.front() ? "" : ",") + cell(column);
-            m_file.write(row + "\n");
+                row += cell(column) + (&column == &m_columns.back() ? '\n' : ',');
+            m_file.write(row);
         }
 
         std::vector<std::string> m_columns;

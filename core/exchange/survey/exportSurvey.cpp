@@ -25,7 +25,7 @@ namespace {
     {
         std::string text;
         for (const double number : numbers)
-            text += "," + (std::isnan(number) ? std::string() : formatNumber(number));
+            text += ',' + (std::isnan(number) ? std::string() : formatNumber(number));
         return text;
     }
 

@@ -134,11 +134,11 @@ std::string hashOf(const SurveyFile &file, const SurveySettings &settings)
     std::string hash;
     try {
         for (const std::string &one : filesOf(file.path, settings))
-            hash += (hash.empty() ? "" : "+") + fileHash(one);
+            hash += '+' + fileHash(one);
     } catch (const Error &) {
         return {};
     }
-    return hash;
+    return hash.substr(std::min<std::size_t>(1, hash.size()));
 }
 
 SurveyOutcome surveyRecording(const SurveyFile &file, const SurveySettings &settings, const RunContext &context)

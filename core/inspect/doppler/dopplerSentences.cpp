@@ -88,46 +88,47 @@ namespace {
     void addOpen(std::vector<std::string> &sentences, const DopplerFit &fit, const std::vector<DopplerPoint> &points)
     {
         if (!fit.metresPerSecond.low) {
-            sentences.push_back(
+            sentences.emplace_back(
                 "No Doppler shift exceeds the errors: the frequency is constant, as that of a source at rest.");
             return;
         }
         if (!fit.isBent)
-            sentences.push_back("A straight line fits the track nearly as well as a pass; the intervals are widened "
-                                "accordingly, and the estimates are of little use.");
+            sentences.emplace_back("A straight line fits the track nearly as well as a pass; the intervals are widened "
+                                   "accordingly, and the estimates are of little use.");
         const Heard heard(fit, points);
         if (!heard.isSurelyIn())
-            sentences.push_back(
+            sentences.emplace_back(
                 "The closest approach may lie outside the track, so rest frequency, speed and range cannot be "
                 "determined separately. "
                 + whereNotSeen(heard, fit));
         if (heard.mayBeIn && !fit.metresPerSecond.high)
-            sentences.push_back(
+            sentences.emplace_back(
                 "Speed and range cannot be determined separately, because the track ends before the frequency "
                 "levels off: for a slow source only v²/R, about "
                 + accelerationText(fit, points) + ", is determined.");
         else if (!fit.metresPerSecond.high)
-            sentences.push_back("The speed has no upper limit below the speed of propagation.");
+            sentences.emplace_back("The speed has no upper limit below the speed of propagation.");
         if (fit.metresPerSecond.high && !fit.rangeMetres.high)
-            sentences.push_back("The range has no upper limit.");
+            sentences.emplace_back("The range has no upper limit.");
         if (!fit.rangeMetres.low)
-            sentences.push_back("The range has no lower limit: the frequency changes faster than the track resolves.");
+            sentences.emplace_back(
+                "The range has no lower limit: the frequency changes faster than the track resolves.");
     }
 
     void addDoubts(std::vector<std::string> &sentences, const DopplerFit &fit)
     {
         if (fit.deviationScale > suspiciousScale)
-            sentences.push_back("The residuals are " + shown(fit.deviationScale)
-                                + " times as large as the track's own errors: the source may not have moved on a "
-                                  "straight line at constant speed.");
+            sentences.emplace_back("The residuals are " + shown(fit.deviationScale)
+                                   + " times as large as the track's own errors: the source may not have moved on a "
+                                     "straight line at constant speed.");
         if (fit.effectivePoints < fewPoints)
-            sentences.push_back("The residuals keep their sign for long stretches; the track counts as "
-                                + shown(fit.effectivePoints)
-                                + " independent points. A source that turns or changes its speed causes this.");
+            sentences.emplace_back("The residuals keep their sign for long stretches; the track counts as "
+                                   + shown(fit.effectivePoints)
+                                   + " independent points. A source that turns or changes its speed causes this.");
         const auto count = std::count(fit.isLeftOut.begin(), fit.isLeftOut.end(), char(1));
         if (count > 0)
-            sentences.push_back("Points left out because they lie more than four standard deviations off: "
-                                + std::to_string(count) + " of " + std::to_string(fit.isLeftOut.size()) + ".");
+            sentences.emplace_back("Points left out because they lie more than four standard deviations off: "
+                                   + std::to_string(count) + " of " + std::to_string(fit.isLeftOut.size()) + ".");
     }
 
 } // namespace
@@ -137,15 +138,16 @@ std::vector<std::string> dopplerSentences(const DopplerFit &fit, const std::vect
     std::vector<std::string> sentences;
     constexpr double sure = 6.0;
     if (riseInErrors(fit, points) > sure)
-        sentences.push_back(
+        sentences.emplace_back(
             "The frequency rises, but that of a source passing at constant speed only falls. The numbers do "
             "not describe a pass.");
     addOpen(sentences, fit, points);
     addDoubts(sentences, fit);
-    sentences.push_back("Speed and range are in proportion to the speed of propagation, " + shown(fit.propagation)
-                        + " m/s here.");
-    sentences.push_back("One sensor cannot tell on which side the source passed, its course, or how much of the range "
-                        "is height or depth.");
+    sentences.emplace_back("Speed and range are in proportion to the speed of propagation, " + shown(fit.propagation)
+                           + " m/s here.");
+    sentences.emplace_back(
+        "One sensor cannot tell on which side the source passed, its course, or how much of the range "
+        "is height or depth.");
     return sentences;
 }
 
