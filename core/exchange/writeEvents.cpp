@@ -142,8 +142,9 @@ namespace {
         return json.dump(2) + "\n";
     }
 
-    std::string tracksCsv(const Analysis &analysis, const std::vector<Track> &tracks)
+    void writeTracksCsv(AtomicFile &file, const Analysis &analysis, const std::vector<Track> &tracks)
     {
+        constexpr std::size_t blockBytes = 1 << 16; // tracks may have a row for every frame of a day
         const bool isSeenTwice = looksTwice(analysis);
         std::string text =
             joined(std::vector<std::string>{"track", "t", joined(positionNames(analysis.grid())), "statistic"})
@@ -158,40 +159,36 @@ namespace {
                 if (analysis.isBank())
                     text += ',' + modelOf(point, track);
                 text += "\n";
+                if (text.size() > blockBytes) {
+                    file.write(text);
+                    text.clear();
+                }
             }
-        return text;
+        file.write(text);
     }
 
-    std::string tracksJson(const Analysis &analysis, const std::vector<Track> &tracks)
+    void writeTrackJson(AtomicFile &file, const Analysis &analysis, const Track &track)
     {
-        Json json = Json::array();
-        const std::vector<std::string> names = positionNames(analysis.grid());
-        for (const Track &track : tracks) {
-            const std::vector<std::size_t> present = track.presentPoints();
-            Json one;
-            one["track"] = track.id;
-            one["t"] = Json::array();
-            for (const std::string &name : names)
-                one[name] = Json::array();
-            one["statistic"] = Json::array();
-            for (const std::size_t i : present) {
-                one["t"].push_back(analysis.time().value(double(track.points[i].frame)));
-                const std::vector<double> position = track.positionOf(i, analysis.grid());
-                for (std::size_t axis = 0; axis < names.size(); ++axis)
-                    one[names[axis]].push_back(position[axis]);
-                one["statistic"].push_back(track.points[i].statistic);
-            }
-            for (std::size_t column = 0; column < smoothedColumns.size() && looksTwice(analysis); ++column) {
-                Json &values = one[smoothedColumns[column]] = Json::array();
-                for (const std::size_t i : present)
-                    values.push_back(numbersOf(track.smoothed[i], analysis.grid().axes.back())[column]);
-            }
+        const std::vector<std::size_t> present = track.presentPoints();
+        const auto writeColumn = [&](const std::string &name, const auto &valueOf) {
+            Json values = Json::array();
             for (const std::size_t i : present)
-                if (analysis.isBank())
-                    one["model"].push_back(modelOf(track.points[i], track));
-            json.push_back(std::move(one));
-        }
-        return json.dump() + "\n";
+                values.push_back(valueOf(i));
+            file.write("," + Json(name).dump() + ":" + values.dump());
+        };
+        file.write("{\"track\":" + std::to_string(track.id));
+        writeColumn("t", [&](std::size_t i) { return analysis.time().value(double(track.points[i].frame)); });
+        const std::vector<std::string> names = positionNames(analysis.grid());
+        for (std::size_t axis = 0; axis < names.size(); ++axis)
+            writeColumn(names[axis], [&](std::size_t i) { return track.positionOf(i, analysis.grid())[axis]; });
+        writeColumn("statistic", [&](std::size_t i) { return track.points[i].statistic; });
+        for (std::size_t column = 0; column < smoothedColumns.size() && looksTwice(analysis); ++column)
+            writeColumn(smoothedColumns[column], [&](std::size_t i) {
+                return numbersOf(track.smoothed[i], analysis.grid().axes.back())[column];
+            });
+        if (analysis.isBank())
+            writeColumn("model", [&](std::size_t i) { return modelOf(track.points[i], track); });
+        file.write("}");
     }
 
     void checkExtension(const std::string &path, std::initializer_list<std::string_view> extensions,
@@ -205,7 +202,17 @@ namespace {
     void writeTracks(const Analysis &analysis, const std::vector<Track> &tracks, const std::string &path)
     {
         checkTracksPath(path);
-        writeTextFile(path, path.ends_with(".csv") ? tracksCsv(analysis, tracks) : tracksJson(analysis, tracks));
+        AtomicFile file(path);
+        if (path.ends_with(".csv")) {
+            writeTracksCsv(file, analysis, tracks);
+        } else {
+            for (const Track &track : tracks) {
+                file.write(&track == &tracks.front() ? "[" : ",");
+                writeTrackJson(file, analysis, track);
+            }
+            file.write(tracks.empty() ? "[]\n" : "]\n");
+        }
+        file.commit();
     }
 
 } // namespace
