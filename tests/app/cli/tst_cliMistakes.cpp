@@ -1,6 +1,8 @@
 #include "app/cli/CommandLineTest.h"
 #include "support/test.h"
+
 #include <QDirIterator>
+
 #include <csignal>
 
 #include <sys/resource.h>
