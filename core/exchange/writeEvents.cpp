@@ -148,7 +148,7 @@ namespace {
         const bool isSeenTwice = looksTwice(analysis);
         std::string text =
             joined(std::vector<std::string>{"track", "t", joined(positionNames(analysis.grid())), "statistic"})
-            + (isSeenTwice ? "," + joined(smoothedColumns) : "") + (analysis.isBank() ? ",model" : "") + "\n";
+            + (isSeenTwice ? ',' + joined(smoothedColumns) : "") + (analysis.isBank() ? ",model" : "") + "\n";
         for (const Track &track : tracks)
             for (const std::size_t i : track.presentPoints()) {
                 const TrackPoint &point = track.points[i];
@@ -257,12 +257,12 @@ std::string eventsCsv(const AnalysisPlan &plan, const std::vector<Event> &events
             std::to_string(e.id),       formatNumber(e.onsetSeconds), formatNumber(e.detectSeconds),
             formatNumber(e.endSeconds), joined(e.position),           formatNumber(e.driftPerSecond),
             formatNumber(e.statistic),  e.isConfirmed ? "1" : "0",    e.isOpen ? "1" : "0"};
-        text += joined(cells) + (rates.empty() ? "" : "," + joined(e.ratesPerSecond))
-                + (isSeenTwice ? "," + joined(smoothedOf(e)) : "")
+        text += joined(cells) + (rates.empty() ? "" : ',' + joined(e.ratesPerSecond))
+                + (isSeenTwice ? ',' + joined(smoothedOf(e)) : "")
                 + (!subtracts       ? ""
                    : e.isSubtracted ? ",1"
                                     : ",0")
-                + (plan.isBank() ? "," + bankTexts(e) : "") + "\n";
+                + (plan.isBank() ? ',' + bankTexts(e) : "") + "\n";
     }
     return text;
 }
