@@ -15,7 +15,7 @@ namespace {
 
     const std::string option = "--device";
     constexpr double intakeSeconds = 10.0;
-    constexpr std::chrono::seconds askingInterval{1};
+    constexpr std::chrono::seconds deviceInterval{1};
     constexpr std::chrono::seconds silence{1};
 
     StreamFormat formatFor(const SoundSettings &settings, const SoundDevice &device)
@@ -64,7 +64,7 @@ void SoundSource::open()
 
 bool SoundSource::openAgain()
 {
-    if (Clock::now() - m_asked < askingInterval)
+    if (Clock::now() - m_asked < deviceInterval)
         return false;
     m_asked = Clock::now();
     try {
