@@ -4,6 +4,7 @@
 #include "base/Error.h"
 #include "base/Random.h"
 #include "base/json.h"
+#include "base/readableNumber.h"
 #include "support/errors.h"
 
 #include <clocale>
@@ -364,7 +365,7 @@ void tst_Field::decimalCommasAreNamed()
         QVERIFY2(!hasDecimalComma(text), text);
     for (const FieldInfo &info : fields())
         if (info.kind == FieldKind::Number || info.kind == FieldKind::Integer) {
-            const std::string why = errorOf([&] { parseFieldValue(info, "0,5"); });
+            const std::string why = test::errorOf([&] { parseFieldValue(info, "0,5"); });
             QVERIFY2(why.ends_with("= 0,5: has a decimal comma; write a decimal point"), why.c_str());
         }
     const FieldValue list{std::vector{0.0, 5.0}};

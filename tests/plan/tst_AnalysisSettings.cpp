@@ -1,7 +1,7 @@
-#include "plan/AnalysisSettings.h"
 #include "support/test.h"
-#include "plan/firstSettings.h"
+
 #include "base/Random.h"
+#include "plan/firstSettings.h"
 #include "support/errors.h"
 
 using namespace faintline;

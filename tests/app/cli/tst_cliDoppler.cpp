@@ -3,6 +3,7 @@
 #include "base/json.h"
 #include "support/test.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
