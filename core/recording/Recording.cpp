@@ -1,7 +1,7 @@
 #include "recording/Recording.h"
 
-#include "base/Field.h"
 #include "base/multiversion.h"
+#include "base/readableNumber.h"
 #include "recording/timeInName.h"
 
 #include <algorithm>
@@ -106,10 +106,12 @@ void Recording::completeByName()
         return;
     if (m_info.isComplex) {
         m_info.centreHz = name->centreHz;
-        m_info.notes.push_back("Centre frequency taken from the file's name, as " + name->program + " writes it.");
+        m_info.notes.push_back(
+            (name->rawType.empty() ? "Centre frequency" : "Centre frequency, and what else was not given,")
+            + std::string(" taken from the file's name, as ") + name->program + " writes it.");
     } else if (m_info.channelCount == 2) {
         m_info.notes.push_back("The file's name is that of a recording of I and Q around "
-                               + formatNumber(name->centreHz) + " Hz by " + name->program
+                               + formatPlainly(name->centreHz) + " Hz by " + name->program
                                + ": its two channels may be I and Q.");
     }
 }

@@ -340,7 +340,7 @@ void tst_AudioRecording::damagedChunksAreIgnored_data()
 void tst_AudioRecording::damagedChunksAreIgnored()
 {
     QFETCH(QByteArray, chunk);
-    const QByteArray sound = "LIST" + littleEndian(40, 4) + "INFOICRD" + littleEndian(20, 4) + "2024-07-26T01:02:03Z";
+    const QByteArray sound = "LIST" + littleEndian(32, 4) + "INFOICRD" + littleEndian(20, 4) + "2024-07-26T01:02:03Z";
     QByteArray floats = wave(1, 8000, {0, 0x3f00, 0, -0x4180}, 8, chunk + sound); // 0.5 and -0.25 …
     floats.replace(20, 2, littleEndian(3, 2));                                    // … as 32-bit floats
     floats.replace(32, 4, littleEndian(0x200004, 4));
