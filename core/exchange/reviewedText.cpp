@@ -50,7 +50,8 @@ namespace {
     Json sigmfCaptures(const RecordingInfo &info)
     {
         Json captures = Json::array();
-        for (Index sample = 0; sample < std::max<Index>(1, info.sampleCount);) {
+        Index sample = 0;
+        do {
             Json capture;
             capture["core:sample_start"] = info.firstNumber + info.places.storedAt(sample);
             if (info.places.hasGaps())
@@ -61,7 +62,7 @@ namespace {
                 capture["core:datetime"] = formatUtc(*info.startUnixSeconds + double(sample) / info.sampleRateHz);
             captures.push_back(std::move(capture));
             sample = info.places.nextStretch(sample);
-        }
+        } while (sample < info.places.end());
         return captures;
     }
 

@@ -48,6 +48,7 @@ RecordingInfo infoOf(double rate, double centre)
     info.isComplex = centre != 0.0;
     info.channelCount = 1;
     info.sampleType = "int16";
+    info.sampleCount = 480000;
     return info;
 }
 
@@ -85,6 +86,7 @@ void tst_reviewedText::sigmfCountsSamples()
     const Json json = Json::parse(sigmfText({detected, row(3.0, 3.0, "click")}, infoOf(48000.0, 1e8)));
     QCOMPARE(json["global"]["core:sample_rate"].get<double>(), 48000.0);
     QCOMPARE(json["global"]["core:datatype"].get<std::string>(), std::string("ci16_le"));
+    QCOMPARE(json["captures"].size(), std::size_t(1));
     QCOMPARE(json["captures"][0]["core:frequency"].get<double>(), 1e8);
     const Json &first = json["annotations"][0];
     QCOMPARE(first["core:sample_start"].get<long long>(), 72000LL); // 1.5 s
