@@ -4,6 +4,7 @@
 #include "base/fileName.h"
 #include "base/utc.h"
 #include "exchange/annotationText.h"
+#include "recording/AudioDecoder.h"
 #include "recording/RawRecording.h"
 #include "recording/SigmfRecording.h"
 
@@ -90,6 +91,12 @@ Json sigmfMetadata(const RecordingInfo &info, const std::string &description)
     global["core:description"] = description;
     if (!json.contains("captures") || json["captures"].empty())
         json["captures"] = sigmfCaptures(info);
+    if (info.sigmf.empty() && info.container == "WAV" && json["global"].contains("core:dataset"))
+        if (const auto place = placeInWav(FileBytes(info.path))) {
+            json["captures"][0]["core:header_bytes"] = place->headerBytes;
+            if (place->trailingBytes > 0)
+                json["global"]["core:trailing_bytes"] = place->trailingBytes;
+        }
     json["annotations"] = Json::array();
     return json;
 }

@@ -337,6 +337,14 @@ const std::vector<std::string> &AudioDecoder::notes() const
     return m_source->notes;
 }
 
+std::optional<WavPlace> placeInWav(const FileBytes &file)
+{
+    const WavChunks chunks(file);
+    if (!chunks.isComplete())
+        return std::nullopt;
+    return WavPlace{chunks.dataOffset(), file.size() - chunks.dataOffset() - chunks.dataBytes()};
+}
+
 bool AudioDecoder::seek(Index sample)
 {
     if (sample == m_position)

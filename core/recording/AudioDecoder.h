@@ -62,4 +62,13 @@ private:
     Index m_position = 0;
 };
 
+/// Where the samples of a WAV file lie: how many bytes precede and follow them.
+struct WavPlace {
+    Index headerBytes = 0;
+    Index trailingBytes = 0;
+};
+
+/// Nothing if the file is no WAV file.
+std::optional<WavPlace> placeInWav(const FileBytes &file);
+
 } // namespace faintline

@@ -2,6 +2,7 @@
 #include "support/test.h"
 
 #include "base/json.h"
+#include "support/recordings.h"
 
 using namespace faintline;
 
@@ -15,6 +16,7 @@ private slots:
     void ravenHasARowForEach();
     void audacityPutsFrequenciesOnASecondLine();
     void sigmfCountsSamples();
+    void sigmfDescribesTheFile();
     void sigmfIsInOrderOfTime();
     void farTimesStayExact();
 };
@@ -98,6 +100,25 @@ void tst_reviewedText::sigmfCountsSamples()
     const Json &second = json["annotations"][1];
     QCOMPARE(second["core:sample_count"].get<long long>(), 1LL); // not empty
     QVERIFY(!second.contains("core:freq_lower_edge") && !second.contains("faintline:statistic"));
+}
+
+// A reader of the metadata finds the samples of a WAV file behind its header of 44 bytes.
+void tst_reviewedText::sigmfDescribesTheFile()
+{
+    const QTemporaryDir folder;
+    RecordingInfo info = infoOf(8000.0, 0.0);
+    info.path = folder.filePath("a.wav").toStdString();
+    info.container = "WAV";
+    const auto chunk = [](const char *name, const QByteArray &content) {
+        return name + QByteArray(1, static_cast<char>(content.size())) + QByteArray(3, '\0') + content;
+    };
+    writeBytes(info.path, "RIFF" + QByteArray(4, '\0') + "WAVE" + chunk("fmt ", QByteArray(16, '\1'))
+                              + chunk("data", QByteArray(20, '\2')) + chunk("LIST", "INFO"));
+    const Json json = sigmfMetadata(info, "");
+    QCOMPARE(json["global"]["core:dataset"].get<std::string>(), std::string("a.wav"));
+    QCOMPARE(json["global"]["core:datatype"].get<std::string>(), std::string("ri16_le"));
+    QCOMPARE(json["captures"][0]["core:header_bytes"].get<int>(), 44);
+    QCOMPARE(json["global"]["core:trailing_bytes"].get<int>(), 12);
 }
 
 void tst_reviewedText::sigmfIsInOrderOfTime()
