@@ -10,6 +10,7 @@
 #include "recording/SimulatedRecording.h"
 #include "recording/writeRecording.h"
 #include "session/Session.h"
+#include "support/recordings.h"
 #include "support/test.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/plot/ExceedancePlot.h"

@@ -112,7 +112,7 @@ void tst_reviewedText::sigmfDescribesTheFile()
     const auto chunk = [](const char *name, const QByteArray &content) {
         return name + QByteArray(1, static_cast<char>(content.size())) + QByteArray(3, '\0') + content;
     };
-    writeBytes(info.path, "RIFF" + QByteArray(4, '\0') + "WAVE" + chunk("fmt ", QByteArray(16, '\1'))
+    test::writeBytes(info.path, "RIFF" + QByteArray(4, '\0') + "WAVE" + chunk("fmt ", QByteArray(16, '\1'))
                               + chunk("data", QByteArray(20, '\2')) + chunk("LIST", "INFO"));
     const Json json = sigmfMetadata(info, "");
     QCOMPARE(json["global"]["core:dataset"].get<std::string>(), std::string("a.wav"));
