@@ -202,7 +202,7 @@ void tst_Field::refuses_data()
                                    << "watts = 1e999: must lie in 0 … 100 W";
     QTest::newRow("decimal comma") << "watts"
                                    << "1,5"
-                                   << "watts = 1,5: must lie in 0 … 100 W";
+                                   << "watts = 1,5: has a decimal comma; write a decimal point";
     QTest::newRow("nothing") << "watts"
                              << ""
                              << "watts = : must lie in 0 … 100 W";
