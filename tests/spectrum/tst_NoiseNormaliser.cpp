@@ -711,7 +711,7 @@ void tst_NoiseNormaliser::settingsAreDescribed()
     const NormaliserSettings defaults;
     for (const auto &f : NormaliserSettings::fields())
         checkFieldValue(f, f.get(defaults).value());
-    QCOMPARE(NormaliserSettings::fields().size(), std::size_t(4));
+    QCOMPARE(NormaliserSettings::fields().size(), std::size_t(5));
 }
 
 FAINTLINE_TEST(tst_NoiseNormaliser)

@@ -51,7 +51,7 @@ private:
 
     /// Tone and noise of variance 0.01; the amplitude is that of 12 dB over the noise in one second. In quadrature
     /// 1000 Hz are taken off.
-    /// `whistleAmplitude`: of two seconds at 330 Hz from 20 s on.
+    /// `whistleAmplitude`: of one second at 330 Hz from 20 s on.
     void writePass(const char *name, const Pass &pass, bool isComplex, double whistleAmplitude = 0.0) const
     {
         const auto count = std::size_t(length * rate);
@@ -63,7 +63,7 @@ private:
             const double t = double(i) / rate;
             const double angle = 2.0 * std::numbers::pi * (turns(pass, t) - (isComplex ? 1000.0 * t : 0.0));
             samples.push_back(noise[2 * i] + float(amplitude * std::cos(angle)));
-            if (t >= 20.0 && t < 22.0)
+            if (t >= 20.0 && t < 21.0)
                 samples.back() += float(whistleAmplitude * std::cos(2.0 * std::numbers::pi * 330.0 * t));
             if (isComplex)
                 samples.push_back(noise[2 * i + 1] + float(amplitude * std::sin(angle)));
