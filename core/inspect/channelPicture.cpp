@@ -1,6 +1,8 @@
 #include "inspect/channelPicture.h"
 
 #include "analysis/preparePlan.h"
+#include "analysis/usable.h"
+#include "base/Error.h"
 #include "inspect/closeup.h"
 
 namespace faintline {
@@ -17,6 +19,9 @@ ChannelPicture channelPicture(const RecordingPointer &recording, const AnalysisS
     alone.recording = recording;
     normalisePlan(alone, std::make_shared<Spectrogram>(recording, alone.settings.spectrogram, alone.settings.selection),
                   context.part(0.0, noiseShare));
+    if (const Spectrogram *spectrogram = alone.frames->spectrogram(); spectrogram && alone.background)
+        if (const std::string silence = silenceWords(*spectrogram, *alone.background, context); !silence.empty())
+            throw Error(recording->info().path, silence);
     const FrameStretch all{0, alone.time().count};
     return {inputCloseup(alone, all, byteBudget, context.part(noiseShare, 1.0)), alone.grid().axes.back()};
 }
