@@ -114,8 +114,8 @@ void KeysOverlay::paintEvent(QPaintEvent *)
     }
     if (ownHeight > 0) {
         painter.setPen(colours.frame);
-        painter.drawLine(sheet.left() + sheetMargin, sheet.top() + sheetMargin + ownHeight - gap / 2, sheet.right() - sheetMargin,
-                         sheet.top() + sheetMargin + ownHeight - gap / 2);
+        painter.drawLine(sheet.left() + sheetMargin, sheet.top() + sheetMargin + ownHeight - gap / 2,
+                         sheet.right() - sheetMargin, sheet.top() + sheetMargin + ownHeight - gap / 2);
     }
 }
 

@@ -13,7 +13,7 @@ namespace faintline {
 namespace {
 
     constexpr int scanHeight = 112; // with captions as high as the other cards' pictures
-    constexpr int walksShown = 12;     // per hypothesis
+    constexpr int walksShown = 12;  // per hypothesis
 
     /// Range and Doppler of the target in the displayed scan.
     std::vector<QPointF> truthOn(const ScanCard::Result &result)

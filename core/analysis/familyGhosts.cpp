@@ -10,7 +10,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr double nearestShift = 1.5;         ///< times the statistic that coinciding members explain
+    constexpr double nearestShift = 1.5; ///< times the statistic that coinciding members explain
     constexpr Index framesLookedAt = 64; ///< sampled from the time common to both tracks
 
     class Members

@@ -11,9 +11,9 @@ namespace faintline {
 
 namespace {
 
-    constexpr double costOfHiding = 0.05; ///< nat per frame
-    constexpr double raised = 1.5;        ///< floor from which on a cell may have been hidden from the first run
-    constexpr double hiddenShareLimit = 0.5;    ///< of a track's points that lie near such cells
+    constexpr double costOfHiding = 0.05;    ///< nat per frame
+    constexpr double raised = 1.5;           ///< floor from which on a cell may have been hidden from the first run
+    constexpr double hiddenShareLimit = 0.5; ///< of a track's points that lie near such cells
 
     /// y at which λ has a value; λ increases with y.
     double powerOf(const Likelihood &likelihood, double lambda)

@@ -18,10 +18,10 @@ namespace {
     constexpr Index fewestBlocks = 40;
     constexpr double framesOfTilt = 120000.0; ///< simulated for one tilt, all repetitions together
     constexpr std::size_t mostTilts = 30;
-    constexpr double levelSpacing = 0.25; ///< between levels, in deviations of V
-    constexpr double firstLevel = 1.0;    ///< deviations above the mean of V
-    constexpr double blockRateError = 0.5;  ///< relative, of an accepted rate
-    constexpr double blockDepth = 0.7;    ///< fraction of leastLnRate that must be reached with this error
+    constexpr double levelSpacing = 0.25;  ///< between levels, in deviations of V
+    constexpr double firstLevel = 1.0;     ///< deviations above the mean of V
+    constexpr double blockRateError = 0.5; ///< relative, of an accepted rate
+    constexpr double blockDepth = 0.7;     ///< fraction of leastLnRate that must be reached with this error
 
     /// V and weight of the blocks of one run at their end.
     struct TiltedBlocks {

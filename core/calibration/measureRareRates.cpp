@@ -14,7 +14,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr int streams = 16; ///< streams in which the first level is searched for
+    constexpr int streams = 16;          ///< streams in which the first level is searched for
     constexpr int quantileFrames = 2000; ///< of each stream, for the base and the first level
     constexpr double baseQuantile = 0.8;
     constexpr double firstQuantile = 0.96;

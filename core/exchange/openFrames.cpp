@@ -9,7 +9,6 @@
 #include "exchange/openPings.h"
 #include "spectrum/NormalisedPower.h"
 
-
 namespace faintline {
 
 namespace {

@@ -110,7 +110,8 @@ namespace {
     {
         std::string row = "<tr>";
         for (std::size_t i = 0; i < texts.size(); ++i)
-            row += std::string("<") + tag + (i < count ? " class=\"n\">" : ">") + escapedHtml(texts[i]) + "</" + tag + ">";
+            row +=
+                std::string("<") + tag + (i < count ? " class=\"n\">" : ">") + escapedHtml(texts[i]) + "</" + tag + ">";
         return row + "</tr>\n";
     }
 
@@ -367,8 +368,9 @@ std::string reportHtml(const Analysis &analysis, const ReportMaterial &material)
     std::string text = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
                        "content=\"width=device-width\">\n"
                        "<meta name=\"generator\" content=\"Faintline "
-                       + escapedHtml(material.version) + "\">\n<title>" + escapedHtml(material.title) + "</title>\n<style>"
-                       + style + "</style>\n</head>\n<body>\n<h1>" + escapedHtml(material.title) + "</h1>\n";
+                       + escapedHtml(material.version) + "\">\n<title>" + escapedHtml(material.title)
+                       + "</title>\n<style>" + style + "</style>\n</head>\n<body>\n<h1>" + escapedHtml(material.title)
+                       + "</h1>\n";
     text += "<h2>Recording</h2>\n" + recordingFacts(analysis);
     text += "<h2>Pictures</h2>\n<div class=\"pictures\">\n";
     for (const ReportMaterial::Picture &picture : material.pictures)

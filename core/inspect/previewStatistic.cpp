@@ -9,9 +9,9 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index leadInFrames = 128; ///< before the displayed frames
-    constexpr Index settlingPings = 16;   ///< the same of pings
-    constexpr Index averagedFrames = 48;  ///< the last settling frames, over which ln K is averaged
+    constexpr Index leadInFrames = 128;  ///< before the displayed frames
+    constexpr Index settlingPings = 16;  ///< the same of pings
+    constexpr Index averagedFrames = 48; ///< the last settling frames, over which ln K is averaged
     constexpr double settlingGain = 0.3;
     constexpr Index mostCells = 70'000'000;
     constexpr Index blockFrames = 64;

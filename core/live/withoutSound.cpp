@@ -15,8 +15,7 @@ SoundStream::SoundStream(const SoundDevice &, SoundDirection, const StreamFormat
     throw Error(where, "this build of Faintline has no sound; it needs librtaudio and libpulse");
 }
 
-struct SoundStream::Running {
-};
+struct SoundStream::Running {};
 
 SoundStream::~SoundStream() = default;
 std::optional<std::string> SoundStream::failure() const

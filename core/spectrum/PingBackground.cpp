@@ -29,8 +29,8 @@ PingBackground::PingBackground(const PingPower &power, const PingNoiseSettings &
 {
     const std::string &path = power.pings().info().path;
     if (m_cells > pingCellLimit)
-        throw Error(path, "has " + std::to_string(m_cells) + " cells in each ping; at most " + std::to_string(pingCellLimit)
-                              + " can be normalised");
+        throw Error(path, "has " + std::to_string(m_cells) + " cells in each ping; at most "
+                              + std::to_string(pingCellLimit) + " can be normalised");
     const Index pings = power.time().count;
     const auto mostBlocks = std::max<Index>(1, Index(memoryShares::background / sizeof(float)) / m_cells);
     const Index wanted = std::max(Index(settings.blockPings), (pings + mostBlocks - 1) / mostBlocks);

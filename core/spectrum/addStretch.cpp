@@ -12,7 +12,6 @@ namespace faintline {
 
 namespace {
 
-
     /// frames ← frames·e^(-ln)
     void divide(std::span<float> frame, std::span<const float> ln)
     {

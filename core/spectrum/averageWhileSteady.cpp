@@ -142,7 +142,8 @@ void averageWhileSteady(std::vector<float> &columns, const std::vector<float> &r
     for (Index block = 0; block < average.blocks(); ++block) {
         finished.push_back(average.backgroundOf(block));
         if (std::ssize(finished) > steadyReachBlocks) {
-            std::copy(finished.front().begin(), finished.front().end(), columns.begin() + (block - steadyReachBlocks) * cells);
+            std::copy(finished.front().begin(), finished.front().end(),
+                      columns.begin() + (block - steadyReachBlocks) * cells);
             finished.pop_front();
         }
     }

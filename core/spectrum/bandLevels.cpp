@@ -13,7 +13,6 @@ namespace faintline {
 
 namespace {
 
-
     /// First cell of a sub-band; column `bands` is the whole band.
     Index firstCell(Index column, Index bands, Index cells)
     {
@@ -51,7 +50,8 @@ namespace {
               m_agreeing(float(4.0 * medianScatter(double(m_cells) / double(bands)))), m_inverse(std::size_t(m_cells))
         {
             for (std::size_t cell = 0; cell < m_inverse.size(); ++cell)
-                m_inverse[cell] = block.lnPower[cell] > NoiseBackground::silence ? std::exp(-block.lnPower[cell]) : 0.0f;
+                m_inverse[cell] =
+                    block.lnPower[cell] > NoiseBackground::silence ? std::exp(-block.lnPower[cell]) : 0.0f;
         }
 
         /// Levels of each sub-band, and last of the whole band.

@@ -18,9 +18,9 @@ namespace {
     constexpr Index edgeFrames = 8192;
     constexpr Index edgeValues = Index(1) << 26; ///< frames × bins that are read
     constexpr float steep = 1.2f;                ///< change of ln B between cells
-    constexpr Index edgeReachCells = 6;                   ///< cells on either side of a steep place
+    constexpr Index edgeReachCells = 6;          ///< cells on either side of a steep place
     constexpr Index halfWidth = 5;               ///< cells; half the window of the smooth correction
-    constexpr float correctionLimit = 0.5f;                 ///< ln; of a correction
+    constexpr float correctionLimit = 0.5f;      ///< ln; of a correction
     constexpr double significant = 4.0;          ///< standard errors of a smooth correction
     constexpr double perError = 30.0;            ///< d ln(rate of false alarms)/dε for an excess ε of y
     constexpr double evidence = 12.0;            ///< nat of a false alarm, at usual rates …
@@ -197,7 +197,8 @@ std::vector<float> edgeCorrection(const Spectrogram &spectrogram, const NoiseBac
     for (Index bin = 0; bin < bins; ++bin) {
         const auto i = std::size_t(bin);
         if (isNear[std::size_t(background.frequency.nearest(spectrogram.frequency().value(double(bin))))])
-            correction[i] = std::clamp(lnMeans[i], -correctionLimit, correctionLimit) + float(marginOf(alike[i], error));
+            correction[i] =
+                std::clamp(lnMeans[i], -correctionLimit, correctionLimit) + float(marginOf(alike[i], error));
         else if (std::abs(smooth[i]) > float(significant * smoothError) && std::abs(smooth[i]) < correctionLimit)
             correction[i] = smooth[i];
     }

@@ -13,8 +13,8 @@ namespace faintline {
 namespace {
 
     constexpr std::size_t sumLanes = 16; // number of partial sums, in the same order on each processor
-    constexpr float least = 1e-12f;   // lower limit of B, relative to frames near 1
-    constexpr float lineCut = 6.0f;       // limits a line to six times its noise
+    constexpr float least = 1e-12f;      // lower limit of B, relative to frames near 1
+    constexpr float lineCut = 6.0f;      // limits a line to six times its noise
     constexpr int sweeps = 16;
     constexpr int levelUpdates = 12;
     constexpr Index profileCells = 24;

@@ -8,8 +8,8 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index pieceFrames = 64;      ///< frames
-    constexpr double perCell = 16.0; ///< entries of the leakage table
+    constexpr Index pieceFrames = 64; ///< frames
+    constexpr double perCell = 16.0;  ///< entries of the leakage table
     constexpr double margin = 2.0;
     constexpr double negligible = 0.02; ///< relative to the noise
     constexpr double leakageCells = 4096.0;
@@ -62,7 +62,8 @@ void Explanations::add(ExplainedSignal signal)
         const Index end = std::ssize(signal.positions) - 1;
         Entry entry{m_signals.size(), std::numeric_limits<double>::infinity(),
                     -std::numeric_limits<double>::infinity()};
-        for (Index at = std::clamp<Index>(begin, 0, end); at <= std::clamp<Index>(begin + pieceFrames - 1, 0, end); ++at) {
+        for (Index at = std::clamp<Index>(begin, 0, end); at <= std::clamp<Index>(begin + pieceFrames - 1, 0, end);
+             ++at) {
             const auto number = std::size_t(at);
             const double reach = reachAt(signal, number);
             entry.lowest = std::min(entry.lowest, signal.positions[number] - reach);

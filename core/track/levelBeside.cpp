@@ -14,7 +14,7 @@ namespace {
     constexpr double besideCells = 7.0;
     constexpr Index reaches[] = {6, 24, 72}; ///< frames, on either side
     constexpr Index valuesPerReach = 6;      ///< values per reach: the level is evaluated at this fraction of it
-    constexpr double besideShare = 0.35;           ///< of the values, below the quantile: lines may occupy the rest
+    constexpr double besideShare = 0.35;     ///< of the values, below the quantile: lines may occupy the rest
     constexpr double deviations = 1.5;
     constexpr double framesPerWindow = 2.0; ///< more frames add hardly any information
     constexpr std::size_t fewestValues = 8;

@@ -318,7 +318,8 @@ namespace {
 
 std::vector<Reproducible> parsonsFalseAlarms()
 {
-    return {{figure2().name, figure2().title, reproduceFigure2}, {figure3().name, figure3().title, reproduceParsonsFigure3}};
+    return {{figure2().name, figure2().title, reproduceFigure2},
+            {figure3().name, figure3().title, reproduceParsonsFigure3}};
 }
 
 } // namespace faintline

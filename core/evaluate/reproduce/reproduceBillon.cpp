@@ -292,8 +292,8 @@ std::vector<Reproducible> billonReproducibles()
         list.push_back({table->name, table->title, [table](const ReproduceOptions &options, const RunContext &context) {
                             return reproduceTable(*table, options, context);
                         }});
-    list.push_back(
-        {"billon:figure1", "Billon 2005, Figure 1: the statistic along one faint wandering line", reproduceBillonFigure1});
+    list.push_back({"billon:figure1", "Billon 2005, Figure 1: the statistic along one faint wandering line",
+                    reproduceBillonFigure1});
     return list;
 }
 
