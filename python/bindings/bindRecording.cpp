@@ -65,7 +65,7 @@ namespace {
     }
 
     void saveRecording(const HeldRecording &self, const py::object &path, const std::string &type, int threads,
-              const py::object &progress)
+                       const py::object &progress)
     {
         if (type != "float32" && type != "int16")
             throw Error("type = " + type, "must be float32 or int16");

@@ -136,7 +136,8 @@ void tst_Recovery::editsSurviveKillsAtAnyMoment()
     QRandomGenerator random(1);
     for (int kill = 0; kill < kills; ++kill) {
         QProcess program;
-        program.start(QCoreApplication::applicationFilePath(), {"tst_Recovery", "--edit-until-killed", scene, recovery});
+        program.start(QCoreApplication::applicationFilePath(),
+                      {"tst_Recovery", "--edit-until-killed", scene, recovery});
         int version = 0;
         const auto listen = [&] {
             while (program.canReadLine())

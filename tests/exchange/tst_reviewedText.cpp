@@ -113,7 +113,7 @@ void tst_reviewedText::sigmfDescribesTheFile()
         return name + QByteArray(1, static_cast<char>(content.size())) + QByteArray(3, '\0') + content;
     };
     test::writeBytes(info.path, "RIFF" + QByteArray(4, '\0') + "WAVE" + chunk("fmt ", QByteArray(16, '\1'))
-                              + chunk("data", QByteArray(20, '\2')) + chunk("LIST", "INFO"));
+                                    + chunk("data", QByteArray(20, '\2')) + chunk("LIST", "INFO"));
     const Json json = sigmfMetadata(info, "");
     QCOMPARE(json["global"]["core:dataset"].get<std::string>(), std::string("a.wav"));
     QCOMPARE(json["global"]["core:datatype"].get<std::string>(), std::string("ri16_le"));

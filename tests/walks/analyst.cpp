@@ -320,4 +320,5 @@ void goThrough(Walk &walk)
 
 } // namespace
 
-static const Registration registered("analyst", [](int argc, char **argv) { return Walk::run("analyst", argc, argv, goThrough); });
+static const Registration registered("analyst",
+                                     [](int argc, char **argv) { return Walk::run("analyst", argc, argv, goThrough); });

@@ -62,4 +62,5 @@ void goThrough(Walk &walk)
 
 } // namespace
 
-static const Registration registered("layouts", [](int argc, char **argv) { return Walk::run("layouts", argc, argv, goThrough); });
+static const Registration registered("layouts",
+                                     [](int argc, char **argv) { return Walk::run("layouts", argc, argv, goThrough); });

@@ -112,4 +112,5 @@ void goThrough(Walk &walk)
 
 } // namespace
 
-static const Registration registered("sonar", [](int argc, char **argv) { return Walk::run("sonar", argc, argv, goThrough); });
+static const Registration registered("sonar",
+                                     [](int argc, char **argv) { return Walk::run("sonar", argc, argv, goThrough); });

@@ -120,4 +120,5 @@ void goThrough(Walk &walk)
 
 } // namespace
 
-static const Registration registered("teacher", [](int argc, char **argv) { return Walk::run("teacher", argc, argv, goThrough); });
+static const Registration registered("teacher",
+                                     [](int argc, char **argv) { return Walk::run("teacher", argc, argv, goThrough); });

@@ -297,7 +297,8 @@ void tst_cliSurvey::mistakes_data()
     row("no recordings", {"night/.hidden/..", "--out", "x.sqlite", "--raw-type", "ci16_le", "--raw-rate", "1"},
         "night/.hidden/..: contains no recordings\n");
     row("no folder for it", {"night", "--out", "nowhere/x.sqlite"}, "nowhere/x.sqlite: cannot be written:");
-    row("a recording as output", {"night", "--out", "night/one.wav"}, "night/one.wav: is an input and would be replaced;");
+    row("a recording as output", {"night", "--out", "night/one.wav"},
+        "night/one.wav: is an input and would be replaced;");
     row("other settings", {"night", "--out", "first.sqlite"}, "first.sqlite: is a survey with other settings: ");
     row("shard of a whole", QStringList{"night", "--out", "first.sqlite", "--shard", "1/2"} + lineSettings,
         "first.sqlite: contains a whole survey, not shard 1/2;");
