@@ -2,17 +2,26 @@
 #include "app/cli/inRange.h"
 
 #include "analysis/chooseWindow.h"
+#include "base/AtomicFile.h"
 #include "base/json.h"
+#include "calibration/CalibrationStore.h"
 #include "calibration/calibrate.h"
 #include "calibration/falseAlarmWords.h"
+#include "calibration/keptCalibration.h"
+#include "calibration/makeCalibration.h"
 #include "inspect/surrogates.h"
 #include "spectrum/Spectrogram.h"
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
+#include <filesystem>
 #include <memory>
+#include <utility>
+#include <vector>
 
 namespace faintline::cli {
 
@@ -22,6 +31,7 @@ namespace {
         AnalysisOptions analysis;
         int surrogates = 0;
         bool json = false;
+        std::string shipped;
     };
 
     Json toJson(const Calibration &calibration, const DetectorSettings &detector)
@@ -116,8 +126,33 @@ namespace {
             printSurrogates(json["surrogates"]);
     }
 
+    /// Makes the calibrations in the files of a folder again, from their keys: those of wide bands first, from which
+    /// those of narrow ones start.
+    void makeShipped(const std::filesystem::path &folder, const Common &common)
+    {
+        if (!std::filesystem::is_directory(folder))
+            throw Error(folder.string(), "is not a folder of calibrations");
+        std::vector<std::pair<CalibrationRequest, std::string>> files;
+        for (const auto &entry : std::filesystem::directory_iterator(folder))
+            if (const std::string path = entry.path().string(); path.ends_with(".json"))
+                files.emplace_back(requestOf(readJsonFile(path).value("key", "")), path);
+        std::sort(files.begin(), files.end(), [](const auto &a, const auto &b) {
+            return std::pair(a.first.bins, a.second) < std::pair(b.first.bins, b.second);
+        });
+        for (const auto &[request, path] : files) {
+            const std::clock_t begin = std::clock();
+            const auto calibration = makeCalibration(request, thoroughEffort(), common.context());
+            rememberCalibration(request.key(), calibration);
+            writeTextFile(path, CalibrationStore::toText(request.key(), *calibration));
+            std::printf("%s: %.1f s of processor time\n", path.c_str(), double(std::clock() - begin) / CLOCKS_PER_SEC);
+            std::fflush(stdout);
+        }
+    }
+
     void calibrateFor(const CalibrateOptions &options, const Common &common)
     {
+        if (!options.shipped.empty())
+            return makeShipped(options.shipped, common);
         const bool hasFile = !options.analysis.file.empty();
         AnalysisSettings settings = options.analysis.settings();
         std::shared_ptr<const Spectrogram> spectrogram;
@@ -158,6 +193,8 @@ void addCalibrate(CLI::App &app, Common &common)
                      "quantisation and background")
         ->check(inRange(1, 10000));
     command->add_flag("--json", options->json, "Print as JSON");
+    // For maintenance, so not in the help: calibration/calibrationVersion.h.
+    addOutput(*command, common, "--shipped", options->shipped, "Folder whose calibrations are made again")->group("");
     command->callback([options, &common] { calibrateFor(*options, common); });
 }
 

@@ -2,7 +2,7 @@
 
 #include "analysis/chooseWindow.h"
 #include "app/base/filePath.h"
-#include "calibration/knownCalibration.h"
+#include "calibration/calibrate.h"
 #include "plan/scaledInjection.h"
 #include "plan/slopeUnit.h"
 #include "session/Session.h"

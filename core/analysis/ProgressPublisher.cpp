@@ -1,6 +1,6 @@
 #include "analysis/ProgressPublisher.h"
 
-#include "calibration/knownCalibration.h"
+#include "calibration/calibrate.h"
 #include "spectrum/quickLook.h"
 
 namespace faintline {

@@ -4,13 +4,24 @@ namespace faintline {
 
 CalibrationEffort effortOf(CalibrationDepth depth)
 {
-    if (depth == CalibrationDepth::Refined)
-        return {8e7};
-    SplittingSettings fewer;
-    fewer.entries = 1000;
-    fewer.pilots = 60;
-    fewer.leastLnRate = -21.0;
-    return {1.6e7, fewer, 16, true};
+    CalibrationEffort effort = thoroughEffort();
+    if (depth == CalibrationDepth::Refined) {
+        effort.enoughEvents = 100.0;
+        return effort;
+    }
+    effort.cellFrames = 1.6e7;
+    effort.splitting.pilots = 60;
+    effort.splitting.leastLnRate = -21.0;
+    effort.pieceWindowSamples = 16;
+    effort.isFirstEstimate = true;
+    return effort;
+}
+
+CalibrationEffort thoroughEffort()
+{
+    CalibrationEffort effort;
+    effort.cellFrames = 8e7;
+    return effort;
 }
 
 } // namespace faintline

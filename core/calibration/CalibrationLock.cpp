@@ -25,6 +25,12 @@ CalibrationLock::CalibrationLock(std::filesystem::path file) : m_file(std::move(
     }
 }
 
+void CalibrationLock::giveSign() const
+{
+    if (m_descriptor >= 0 && m_isHeld)
+        ::futimens(m_descriptor, nullptr);
+}
+
 CalibrationLock::~CalibrationLock()
 {
     if (m_descriptor < 0)

@@ -3,13 +3,15 @@
 #include "base/AtomicFile.h"
 #include "base/checksum.h"
 #include "base/json.h"
-#include "calibration/sourceFingerprint.h"
+#include "calibration/calibrationVersion.h"
+#include "calibration/shippedCalibrations.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <string_view>
+#include <fstream>
+#include <iterator>
 #include <vector>
 
 namespace faintline {
@@ -32,21 +34,45 @@ namespace {
         return value ? value : "";
     }
 
+    Json ratesToJson(const RareRates &rates)
+    {
+        return {{"levels", rates.levels}, {"lnRates", rates.lnRates}, {"relativeErrors", rates.relativeErrors}};
+    }
+
+    RareRates ratesFromJson(const Json &json)
+    {
+        return {json.at("levels").get<std::vector<double>>(), json.at("lnRates").get<std::vector<double>>(),
+                json.at("relativeErrors").get<std::vector<double>>()};
+    }
+
+    /// Whole numbers without a decimal point.
+    Json countsToJson(const std::vector<double> &counts)
+    {
+        Json json = Json::array();
+        for (const double count : counts)
+            if (count == std::floor(count) && std::abs(count) < 1e15)
+                json.push_back(std::int64_t(count));
+            else
+                json.push_back(count);
+        return json;
+    }
+
     Json toJson(const Calibration &c)
     {
-        return {
-            {"isFirstEstimate", c.isFirstEstimate},
-            {"lnK", c.lnK},
-            {"continuedFraction", c.continuedFraction},
-            {"anchorNats", c.anchorNats},
-            {"eventRate", c.eventRate},
-            {"tailSlope", c.tailSlope},
-            {"relativeError", c.relativeError},
-            {"slopeError", c.slopeError},
-            {"rates",
-             {{"levels", c.rates.levels}, {"lnRates", c.rates.lnRates}, {"relativeErrors", c.rates.relativeErrors}}},
-            {"levels", c.levels},
-            {"exceedance", c.exceedance}};
+        return {{"isFirstEstimate", c.isFirstEstimate},
+                {"lnK", c.lnK},
+                {"continuedFraction", c.continuedFraction},
+                {"anchorNats", c.anchorNats},
+                {"eventRate", c.eventRate},
+                {"tailSlope", c.tailSlope},
+                {"relativeError", c.relativeError},
+                {"slopeError", c.slopeError},
+                {"rates", ratesToJson(c.rates)},
+                {"excursions", ratesToJson(c.excursions)},
+                {"lowestLevel", c.lowestLevel},
+                {"levelStep", c.levelStep},
+                {"cells", c.cells},
+                {"above", countsToJson(c.above)}};
     }
 
     /// Throws if a member is missing or of another kind.
@@ -61,26 +87,40 @@ namespace {
         json.at("tailSlope").get_to(c.tailSlope);
         json.at("relativeError").get_to(c.relativeError);
         json.at("slopeError").get_to(c.slopeError);
-        json.at("rates").at("levels").get_to(c.rates.levels);
-        json.at("rates").at("lnRates").get_to(c.rates.lnRates);
-        json.at("rates").at("relativeErrors").get_to(c.rates.relativeErrors);
-        json.at("levels").get_to(c.levels);
-        json.at("exceedance").get_to(c.exceedance);
+        c.rates = ratesFromJson(json.at("rates"));
+        c.excursions = ratesFromJson(json.at("excursions"));
+        json.at("lowestLevel").get_to(c.lowestLevel);
+        json.at("levelStep").get_to(c.levelStep);
+        json.at("cells").get_to(c.cells);
+        json.at("above").get_to(c.above);
         return c;
     }
 
     /// Content of a calibration file, without its checksum.
     Json contentOf(const std::string &key, const Calibration &calibration)
     {
-        return {{"sources", sourceFingerprint()}, {"key", key}, {"calibration", toJson(calibration)}};
+        return {{"version", calibrationVersion}, {"key", key}, {"calibration", toJson(calibration)}};
+    }
+
+    bool areUsable(const RareRates &rates)
+    {
+        return rates.levels.size() == rates.lnRates.size() && rates.levels.size() == rates.relativeErrors.size()
+               && rates.levels.size() != 1 && std::is_sorted(rates.levels.begin(), rates.levels.end());
     }
 
     bool isUsable(const Calibration &c)
     {
-        return c.levels.size() >= 2 && c.levels.size() == c.exceedance.size() && c.tailSlope > 0.0 && c.eventRate > 0.0
-               && c.rates.levels.size() == c.rates.lnRates.size()
-               && c.rates.levels.size() == c.rates.relativeErrors.size() && c.rates.levels.size() != 1
-               && std::is_sorted(c.rates.levels.begin(), c.rates.levels.end());
+        return c.levelCount() >= 2 && c.level(1) > c.level(0) && std::isfinite(c.level(c.levelCount())) && c.cells > 0.0
+               && c.tailSlope > 0.0 && c.eventRate > 0.0 && areUsable(c.rates) && areUsable(c.excursions);
+    }
+
+    /// As far as it is of this program's version.
+    std::shared_ptr<const Calibration> shipped(const std::string &key)
+    {
+        for (const ShippedCalibration &candidate : shippedCalibrations())
+            if (candidate.key == key)
+                return CalibrationStore::fromText(candidate.text, key);
+        return nullptr;
     }
 
 } // namespace
@@ -119,15 +159,23 @@ fs::path CalibrationStore::fileFor(const std::string &key) const
 
 std::shared_ptr<const Calibration> CalibrationStore::load(const std::string &key) const
 {
+    if (auto calibration = shipped(key))
+        return calibration;
     if (m_folder.empty())
         return nullptr;
     const fs::path file = fileFor(key);
     std::error_code code;
     if (!fs::is_regular_file(file, code) || fs::file_size(file, code) > largestFileBytes)
         return nullptr;
+    std::ifstream stream(file, std::ios::binary);
+    return fromText(std::string(std::istreambuf_iterator<char>(stream), {}), key);
+}
+
+std::shared_ptr<const Calibration> CalibrationStore::fromText(std::string_view text, const std::string &key)
+{
     try {
-        const Json json = readJsonFile(file.string());
-        if (json.at("sources") != sourceFingerprint() || json.at("key") != key)
+        const Json json = parseJson(text, "a calibration");
+        if (json.at("version") != calibrationVersion || json.at("key") != key)
             return nullptr;
         const Calibration calibration = fromJson(json.at("calibration"));
         const bool isWhole = json.at("checksum") == checksum(contentOf(key, calibration).dump());
@@ -139,6 +187,13 @@ std::shared_ptr<const Calibration> CalibrationStore::load(const std::string &key
     }
 }
 
+std::string CalibrationStore::toText(const std::string &key, const Calibration &calibration)
+{
+    Json json = contentOf(key, calibration);
+    json["checksum"] = checksum(json.dump());
+    return json.dump();
+}
+
 void CalibrationStore::save(const std::string &key, const Calibration &calibration) const
 {
     if (m_folder.empty())
@@ -146,10 +201,8 @@ void CalibrationStore::save(const std::string &key, const Calibration &calibrati
     std::error_code code;
     fs::create_directories(m_folder, code);
     try {
-        Json json = contentOf(key, calibration);
-        json["checksum"] = checksum(json.dump());
-        writeTextFile(fileFor(key).string(), json.dump(), Durability::Program); // a file damaged by a crash is made
-                                                                                // again
+        writeTextFile(fileFor(key).string(), toText(key, calibration),
+                      Durability::Program); // a file damaged by a crash is made again
         removeOldest();
     } catch (const Error &) {
         // Then cached for the life of the program only.
@@ -162,8 +215,20 @@ bool CalibrationStore::lock(std::optional<CalibrationLock> &lock, const std::str
         return true;
     std::error_code ignored;
     fs::create_directories(m_folder, ignored);
-    lock.emplace(m_folder / ("making-" + checksum(key)));
+    lock.emplace(lockFileFor(key));
     return lock->isHeld();
+}
+
+fs::path CalibrationStore::lockFileFor(const std::string &key) const
+{
+    return m_folder / ("making-" + checksum(key));
+}
+
+fs::file_time_type CalibrationStore::lastSign(const std::string &key) const
+{
+    std::error_code code;
+    const fs::file_time_type time = fs::last_write_time(lockFileFor(key), code);
+    return code ? fs::file_time_type{} : time;
 }
 
 void CalibrationStore::removeOldest() const

@@ -11,9 +11,14 @@ namespace faintline {
 
 /// Simulates white noise through spectrogram, normaliser and detector and measures the response. Depends only on the
 /// dimensionless part of the settings (windows, overlaps, model, detector). This part is also the key under which
-/// results are cached, for the life of the program and in the `CalibrationStore`.
+/// results are cached, for the life of the program and in the `CalibrationStore`. A refined one that is cached serves
+/// as a first estimate, too.
 std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, const RunContext &context = {},
                                              CalibrationDepth depth = CalibrationDepth::Refined);
+
+/// The refined calibration that is cached or was shipped for these settings, or null; for callers that would rather do
+/// something else than wait.
+std::shared_ptr<const Calibration> knownCalibration(const AnalysisSettings &settings);
 
 /// The same for a band of `bins` bins on one axis: paths leave it at its ends, and in a narrow band few of them last.
 ///

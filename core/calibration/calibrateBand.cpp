@@ -1,11 +1,11 @@
 #include "calibration/calibrate.h"
-#include "calibration/calibrateOn.h"
 #include "calibration/followTail.h"
-#include "calibration/keptCalibration.h"
+#include "calibration/makeCalibration.h"
 #include "spectrum/Fft.h"
 #include "spectrum/channelCount.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -27,16 +27,22 @@ namespace {
         return Fft::fastLength(calibrationWindowSamples * bare.spectrogram.binsPerCell);
     }
 
+    /// Where the ends of a band do not meet, a band twice as wide loses half of the events; where they do, half of the
+    /// logarithm of what is left.
+    enum class Ends { Apart, Meeting };
+
     /// The calibration of a narrow band whose ends remove a `share` of its rate, while those of the band in which the
     /// events were counted have already removed `counted` of it.
-    std::shared_ptr<const Calibration> withShareOfEnds(const Calibration &wide, const Calibration &narrow, double share,
-                                                       double counted)
+    std::shared_ptr<const Calibration> withShareOfEnds(const Calibration &wide, const Calibration &narrow, Ends ends,
+                                                       double share, double counted)
     {
         auto result = std::make_shared<Calibration>(narrow);
         RareRates &rates = result->rates;
         for (std::size_t i = 0; i < rates.levels.size(); ++i) {
-            const double left = std::exp(narrow.rates.lnRates[i] - wide.rates.lnRates[i]);
-            rates.lnRates[i] = wide.rates.lnRates[i] + std::log(1.0 - share * (1.0 - left)) - std::log1p(-counted);
+            const double lnLeft = narrow.rates.lnRates[i] - wide.rates.lnRates[i];
+            const double lnOfShare =
+                ends == Ends::Meeting ? share * lnLeft : std::log(1.0 - share * (1.0 - std::exp(lnLeft)));
+            rates.lnRates[i] = wide.rates.lnRates[i] + lnOfShare - std::log1p(-counted);
             rates.relativeErrors[i] =
                 wide.rates.relativeErrors[i] + share * (narrow.rates.relativeErrors[i] - wide.rates.relativeErrors[i]);
         }
@@ -49,9 +55,11 @@ namespace {
     }
 
     /// A wide band's calibration reduced by the effect of a narrow band's ends.
-    std::shared_ptr<const Calibration> narrowed(const Calibration &wide, const RareRates &band, const RareRates &closed)
+    std::shared_ptr<const Calibration> narrowed(const Calibration &wide, const RareRates &band)
     {
+        const RareRates &closed = wide.excursions;
         Calibration narrow = wide;
+        narrow.excursions = {};
         RareRates &rates = narrow.rates;
         for (std::size_t i = 0; i < rates.levels.size(); ++i) {
             const double level = rates.levels[i];
@@ -59,10 +67,31 @@ namespace {
             rates.relativeErrors[i] = std::hypot(
                 rates.relativeErrors[i], std::hypot(band.relativeErrorAt(level), closed.relativeErrorAt(level)));
         }
-        return withShareOfEnds(wide, narrow, 1.0, 0.0);
+        return withShareOfEnds(wide, narrow, Ends::Apart, 1.0, 0.0);
+    }
+
+    /// Width of the band that is simulated for a narrower or wider one: steps of √2 below the width from which on the
+    /// ends do not meet, so that one simulation serves many widths.
+    Index simulatedFor(Index bins, Index endsDoNotMeet)
+    {
+        constexpr std::array<Index, 7> widths{8, 11, 16, 23, 32, 45, 64};
+        if (bins < widths.front() || bins >= endsDoNotMeet)
+            return std::min(bins, endsDoNotMeet);
+        return *(std::upper_bound(widths.begin(), widths.end(), bins) - 1);
     }
 
 } // namespace
+
+std::shared_ptr<const Calibration> makeBandCalibration(const CalibrationRequest &request,
+                                                       const CalibrationEffort &effort, const RunContext &context)
+{
+    const auto wide = calibrate(request.settings, context.part(0.0, 0.6), request.depth);
+    if (wide->rates.isEmpty())
+        return wide;
+    const RareRates band =
+        followBand(request.settings, wide->lnK, request.bins, effort.splitting, context.part(0.6, 1.0));
+    return band.isEmpty() ? wide : narrowed(*wide, band);
+}
 
 std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &settings, Index bins,
                                                  const RunContext &context, CalibrationDepth depth)
@@ -82,22 +111,15 @@ std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &setting
     if (wide->rates.isEmpty())
         return wide;
     const AnalysisSettings bare = dimensionless(settings);
-    const Index simulated = std::min(bins, endsDoNotMeet);
-    const SplittingSettings splitting = effortOf(depth).splitting;
-    auto narrow = keptCalibration(
-        "band of " + std::to_string(simulated) + " " + calibrationKey(bare, depth),
-        [&]() -> std::shared_ptr<const Calibration> {
-            const RareRates closed = followBand(bare, wide->lnK, {}, splitting, context.part(0.6, 0.8));
-            const RareRates band =
-                closed.isEmpty() ? closed : followBand(bare, wide->lnK, simulated, splitting, context.part(0.8, 1.0));
-            return band.isEmpty() ? wide : narrowed(*wide, band, closed);
-        },
-        context);
+    const Index simulated = simulatedFor(bins, endsDoNotMeet);
+    const auto narrow = requestedCalibration(
+        {bare, wide->isFirstEstimate ? depth : CalibrationDepth::Refined, simulated}, context.part(0.6, 1.0));
     if (bins == simulated || narrow->rates.isEmpty() || *narrow == *wide)
         return narrow;
     const std::optional<Index> counted = isNarrow ? std::nullopt : countedBins(bare);
     const double lost = 1.0 - std::min(1.0, leftAt(*wide, *narrow, wide->anchorNats));
-    return withShareOfEnds(*wide, *narrow, double(simulated) / double(bins),
+    return withShareOfEnds(*wide, *narrow, simulated < endsDoNotMeet ? Ends::Meeting : Ends::Apart,
+                           double(simulated) / double(bins),
                            counted ? lost * double(simulated) / double(*counted) : 0.0);
 }
 

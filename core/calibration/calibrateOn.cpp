@@ -25,7 +25,8 @@ namespace {
         return std::max(2, segmentCount / 10);
     }
 
-    /// Calls work(number) for 0 … count-1, `threads` at a time, and take(result) in the order of the numbers.
+    /// Calls work(number) for 0 … count-1, `threads` at a time, and take(result) in the order of the numbers, until it
+    /// returns that it has enough.
     template <class Work, class Take>
     void inRounds(int count, const RunContext &context, Work work, Take take)
     {
@@ -38,18 +39,20 @@ namespace {
                 futures.push_back(std::async(round > 1 ? std::launch::async : std::launch::deferred,
                                              [&work, number = done + i] { return work(number); }));
             for (auto &future : futures)
-                take(future.get());
+                if (take(future.get()))
+                    return;
             done += round;
         }
     }
 
     void fillExceedance(const std::vector<double> &counts, const StatisticLevels &levels, Calibration &result)
     {
-        const double total = std::accumulate(counts.begin(), counts.end(), 0.0);
-        double above = total;
+        result.lowestLevel = double(levels.lowest);
+        result.levelStep = double(levels.step);
+        result.cells = std::accumulate(counts.begin(), counts.end(), 0.0);
+        double above = result.cells;
         for (std::size_t i = 0; i < counts.size() && above > 0.0; ++i) {
-            result.levels.push_back(double(levels.lowest) + double(levels.step) * double(i));
-            result.exceedance.push_back(above / total);
+            result.above.push_back(above);
             above -= counts[i];
         }
     }
@@ -113,7 +116,10 @@ std::shared_ptr<const Calibration> calibrateOn(const NoiseSegments &noise, const
     inRounds(
         roughCount, context.part(0.1, 0.2),
         [&](int number) { return measureTail(*noise.segment(number), *makeDetector(trial), levels); },
-        [&](const NoiseTail &part) { add(part, rough); });
+        [&](const NoiseTail &part) {
+            add(part, rough);
+            return false;
+        });
     fillExceedance(rough.counts, levels, *result);
     const double cells = double(first->grid().size());
     const double columns = std::max(1.0, std::floor(cells / double(noiseBlockCells)));
@@ -134,7 +140,11 @@ std::shared_ptr<const Calibration> calibrateOn(const NoiseSegments &noise, const
             const bool isWithoutFirst = !rare.isEmpty() && (effort.isFirstEstimate || number % crowdedEvery != 0);
             return countEvents(*own.frames, chainsAt(thresholds, own, isWithoutFirst));
         },
-        [&](const EventCounts &part) { add(part, counts); });
+        [&](const EventCounts &part) {
+            add(part, counts);
+            return !rare.isEmpty() && counts.events.back() >= effort.enoughEvents;
+        });
+    result->excursions = rare;
     if (rare.isEmpty())
         fitEventRate(thresholds, counts.events, counts.cellFrames.front(), *result);
     else

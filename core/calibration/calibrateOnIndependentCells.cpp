@@ -1,37 +1,12 @@
-#include "base/Field.h"
 #include "base/Random.h"
 #include "calibration/calibrate.h"
 #include "calibration/calibrateOn.h"
-#include "calibration/keptCalibration.h"
+#include "calibration/makeCalibration.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace faintline {
-
-namespace {
-
-    /// Everything on which a model's response to noise depends, as text.
-    std::string nameOf(const MarkovModel &model)
-    {
-        std::string name = "cells ";
-        const auto add = [&](const std::vector<double> &values) {
-            for (const double value : values)
-                name += formatNumber(value) + ",";
-            name += ";";
-        };
-        for (const KinematicAxis &axis : model.space.axes()) {
-            add({double(axis.cells), axis.cyclic ? 1.0 : 0.0, double(axis.firstRate), double(axis.rateCount),
-                 double(axis.ratesPerCell), double(axis.rounding), axis.renormalised ? 1.0 : 0.0});
-            add(axis.rateChange);
-            add(axis.step);
-            add(axis.transition);
-        }
-        add({double(model.likelihood.kind()), model.likelihood.snr(), model.transitionScale});
-        return name;
-    }
-
-} // namespace
 
 MarkovModel calibrationSubgrid(const MarkovModel &model)
 {
@@ -52,11 +27,11 @@ MarkovModel calibrationSubgrid(const MarkovModel &model)
     return {StateSpace(std::move(axes)), model.likelihood, model.transitionScale};
 }
 
-std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel &whole,
-                                                               const AnalysisSettings &settings,
-                                                               const RunContext &context, double cellFrames)
+std::shared_ptr<const Calibration> makeIndependentCalibration(const CalibrationRequest &request,
+                                                              const CalibrationEffort &effort,
+                                                              const RunContext &context)
 {
-    const MarkovModel model = calibrationSubgrid(whole);
+    const MarkovModel &model = *request.model;
     Grid grid;
     for (const KinematicAxis &axis : model.space.axes())
         grid.axes.push_back({axis.name, "", 0.0, 1.0, axis.cells, axis.cyclic});
@@ -71,22 +46,20 @@ std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel
             value = float(random.exponential());
         return std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, frames, false}, grid, std::move(values));
     };
-    const double wanted = std::min(cellFrames, 2.0 * mostStates / double(model.space.planeCount()));
+    const double wanted =
+        std::min(request.cellFrames, 2.0 * mostStates / double(model.space.planeCount())) * effort.ofIndependentCells;
     const int segments = std::max(4, int(std::ceil(wanted / double(frames * grid.size()))));
-    AnalysisSettings bare = settings;
-    bare.selection = {};
-    bare.spectrogram = {};
-    bare.noise = {};
-    bare.pings = {};
-    bare.conventional = {};
-    bare.decide = withoutThreshold(bare.decide);
-    bare.track.bothWays = TrackSettings{}.bothWays;
-    return keptCalibration(
-        nameOf(model) + settingsToJson(bare) + formatNumber(cellFrames),
-        [&] {
-            return calibrateOn({segment, segments}, model, settings, {cellFrames}, context);
-        },
-        context);
+    return calibrateOn({segment, segments}, model, request.settings, effort, context);
+}
+
+std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel &whole,
+                                                               const AnalysisSettings &settings,
+                                                               const RunContext &context, double cellFrames)
+{
+    CalibrationRequest request{ofIndependentCells(settings)};
+    request.model = calibrationSubgrid(whole);
+    request.cellFrames = cellFrames;
+    return requestedCalibration(request, context);
 }
 
 } // namespace faintline

@@ -6,6 +6,7 @@
 #include "plan/Calibration.h"
 
 #include <cmath>
+#include <limits>
 
 namespace faintline {
 
@@ -46,20 +47,74 @@ namespace {
         return mean;
     }
 
-    /// ln K at which half of the states continue, by bisection: the fraction increases with K.
+    /// Whether more than half of the states continue, at any ln K. On given noise every score rises with K, and so does
+    /// that fraction: what lies beyond an ln K that was tried is known.
+    class HalfSearch
+    {
+    public:
+        HalfSearch(const std::vector<NormalisedFramesPointer> &noise, const MarkovModel &model)
+            : m_noise(noise), m_model(model)
+        {
+        }
+
+        double fractionAt(double lnK) const
+        {
+            return measureReset(m_noise, m_model, {ResetLaw::Fixed, lnK}).continuedFraction;
+        }
+
+        bool isAbove(double lnK)
+        {
+            if (lnK <= m_below || lnK >= m_above)
+                return lnK >= m_above;
+            const double fraction = fractionAt(lnK);
+            if (fraction > 0.5) {
+                m_above = lnK;
+                m_fractionAbove = fraction;
+                return true;
+            }
+            m_below = lnK;
+            m_fractionBelow = fraction;
+            return false;
+        }
+
+        /// Encloses the answer closely, as a rule: around where regulation settles, then around the secant's root.
+        void encloseClosely()
+        {
+            constexpr double near = 0.01;
+            constexpr double nearer = 4e-4;
+            const double settled = measureReset(m_noise, m_model, {ResetLaw::Half, 0.0}).lnK;
+            if (std::isfinite(settled) && !isAbove(settled - near) && isAbove(settled + near)) {
+                const double root =
+                    m_below + (m_above - m_below) * (0.5 - m_fractionBelow) / (m_fractionAbove - m_fractionBelow);
+                isAbove(root - nearer);
+                isAbove(root + nearer);
+            }
+        }
+
+    private:
+        const std::vector<NormalisedFramesPointer> &m_noise;
+        const MarkovModel &m_model;
+        double m_below = -std::numeric_limits<double>::infinity();
+        double m_above = std::numeric_limits<double>::infinity();
+        double m_fractionBelow = 0.0;
+        double m_fractionAbove = 1.0;
+    };
+
+    /// ln K at which half of the states continue, by bisection.
     double lnKForHalf(const std::vector<NormalisedFramesPointer> &noise, const MarkovModel &model)
     {
         constexpr double largest = 20.0;
         double low = -largest;
         double high = largest;
+        HalfSearch search(noise, model);
+        search.encloseClosely(); // most of the steps below are then known
         while (high - low > 5e-4) {
             const double middle = 0.5 * (low + high);
-            (measureReset(noise, model, {ResetLaw::Fixed, middle}).continuedFraction > 0.5 ? high : low) = middle;
+            (search.isAbove(middle) ? high : low) = middle;
         }
         const double end = low > -largest ? largest : -largest;
         const bool isInside = low > -largest && high < largest;
-        const double percent =
-            isInside ? 50.0 : 100.0 * measureReset(noise, model, {ResetLaw::Fixed, end}).continuedFraction;
+        const double percent = isInside ? 50.0 : 100.0 * search.fractionAt(end);
         if (isInside || std::isnan(percent)) // nothing can be measured on a few frames
             return 0.5 * (low + high);
         throw fieldError("model.snr", formatNumber(model.likelihood.snr()),

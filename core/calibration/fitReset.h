@@ -15,7 +15,7 @@ struct ResetFit {
 };
 
 /// Determines ln K on noise fields, after the first 300 frames of each: by bisection for half of the states continued
-/// if the settings specify that, or measures the effect of the given law. Cost: about fifteen passes over the fields.
+/// if the settings specify that, or measures the effect of the given law. Cost: about eight passes over the fields.
 ResetFit fitReset(const std::vector<NormalisedFramesPointer> &noise, const MarkovModel &model, const SmdSettings &smd);
 
 } // namespace faintline

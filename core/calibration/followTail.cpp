@@ -122,24 +122,16 @@ RareRates followTail(const AnalysisPlan &plan, const CalibrationEffort &effort, 
                    context);
 }
 
-RareRates followBand(const AnalysisSettings &bare, double lnK, std::optional<Index> bins,
-                     const SplittingSettings &splitting, const RunContext &context)
+RareRates followBand(const AnalysisSettings &bare, double lnK, Index bins, const SplittingSettings &splitting,
+                     const RunContext &context)
 {
     constexpr int least = 32;
-    const bool isCyclic = !bins;
     int samples = least;
-    while (bins && samples < *bins) // at least twice as many bins, so that the ends do not meet
+    while (samples < bins) // at least twice as many bins, so that the ends do not meet
         samples *= 2;
-    const auto makeNoise = [&]() -> std::unique_ptr<NoiseStream> {
-        auto wide = noiseOf(bare, samples);
-        if (isCyclic)
-            return wide;
-        return std::make_unique<BandNoise>(std::move(wide), *bins);
-    };
-    const Grid grid{{{"frequency", "Hz", 0.0, 1.0, makeNoise()->cells(), isCyclic}}};
+    const auto makeNoise = [&] { return std::make_unique<BandNoise>(noiseOf(bare, samples), bins); };
+    const Grid grid{{{"frequency", "Hz", 0.0, 1.0, bins, false}}};
     const MarkovModel model = makeModel(bare.model, grid);
-    if (isCyclic && grid.size() <= 4 * model.space.axes().front().largestDisplacement())
-        return {};
     return ratesOf({bare.detector, model, grid, frameGeometry(bare.spectrogram), lnK, makeNoise}, splitting, context);
 }
 

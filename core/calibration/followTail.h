@@ -5,8 +5,6 @@
 #include "calibration/measureRareRates.h"
 #include "plan/AnalysisPlan.h"
 
-#include <optional>
-
 namespace faintline {
 
 // Splitting on noise like that of a calibration.
@@ -15,8 +13,8 @@ namespace faintline {
 /// has a model, frames like those of the noise, and the calibration's K.
 RareRates followTail(const AnalysisPlan &plan, const CalibrationEffort &effort, const RunContext &context);
 
-/// As `followTail`, in `bins` bins with two ends, or in a cyclic band if `bins` is not given.
-RareRates followBand(const AnalysisSettings &bare, double lnK, std::optional<Index> bins,
-                     const SplittingSettings &splitting, const RunContext &context);
+/// As `followTail`, in `bins` bins with two ends.
+RareRates followBand(const AnalysisSettings &bare, double lnK, Index bins, const SplittingSettings &splitting,
+                     const RunContext &context);
 
 } // namespace faintline

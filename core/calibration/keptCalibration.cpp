@@ -1,67 +1,19 @@
 #include "calibration/keptCalibration.h"
 
-#include "base/Field.h"
 #include "calibration/CalibrationStore.h"
-#include "calibration/calibrateOn.h"
-#include "calibration/knownCalibration.h"
 
-#include <chrono>
 #include <map>
 #include <mutex>
-#include <numeric>
 #include <optional>
 #include <string_view>
 #include <thread>
 
 namespace faintline {
 
-DecideSettings withoutThreshold(DecideSettings decide)
-{
-    const DecideSettings defaults;
-    decide.falseAlarmsPerHour = defaults.falseAlarmsPerHour;
-    decide.pfaPerCell = defaults.pfaPerCell;
-    decide.thresholdNats = defaults.thresholdNats;
-    decide.by = defaults.by;
-    return decide;
-}
-
-namespace {
-
-    SelectionSettings onlyCounted(const SelectionSettings &selection)
-    {
-        SelectionSettings counted;
-        if (const std::vector<double> &channels = selection.channels; channels.size() > 1) {
-            counted.channels.resize(channels.size());
-            std::iota(counted.channels.begin(), counted.channels.end(), 0.0);
-        } else if (channels == std::vector{-1.0}) {
-            counted.channels = channels;
-        }
-        return counted;
-    }
-
-} // namespace
-
-AnalysisSettings dimensionless(AnalysisSettings settings)
-{
-    settings.selection = onlyCounted(settings.selection);
-    settings.decide = withoutThreshold(settings.decide);
-    settings.conventional = {};
-    settings.noise.blankDc = NormaliserSettings{}.blankDc;
-    settings.track.bothWays = TrackSettings{}.bothWays; // applies after detection
-    if (settings.spectrogram.windowSeconds > 0.0)
-        settings.family = scaledFamily(settings.family, settings.spectrogram.windowSeconds / calibrationWindowSamples);
-    settings.spectrogram.windowSeconds = calibrationWindowSamples;
-    return settings;
-}
-
-std::string calibrationKey(const AnalysisSettings &bare, CalibrationDepth depth)
-{
-    return settingsToJson(bare) + formatNumber(effortOf(depth).cellFrames);
-}
-
 namespace {
 
     using Made = std::shared_ptr<const Calibration>;
+    using Clock = std::chrono::steady_clock;
 
     /// This program's cache entry of one key.
     struct Entry {
@@ -87,35 +39,74 @@ namespace {
         return entry.made;
     }
 
-    using Clock = std::chrono::steady_clock;
-
-    /// Waits until `isSo`, or until `end`.
     template <class Condition>
-    void waitUntil(Condition isSo, Clock::time_point end, std::string_view what, const RunContext &context)
+    void waitUntil(Condition isSo, std::string_view what, const RunContext &context)
     {
-        while (!isSo() && Clock::now() < end) {
+        while (!isSo()) {
             context.checkpoint(0.0, what);
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
         }
     }
 
+    /// Whether another program still works on a key: its signs of life have not stopped.
+    class OthersWork
+    {
+    public:
+        OthersWork(const CalibrationStore &store, const std::string &key, std::chrono::milliseconds silence)
+            : m_store(store), m_key(key), m_silence(silence)
+        {
+        }
+
+        bool goesOn()
+        {
+            const auto sign = m_store.lastSign(m_key);
+            if (sign != m_sign) {
+                m_sign = sign;
+                m_since = Clock::now();
+            }
+            return Clock::now() - m_since < m_silence;
+        }
+
+    private:
+        const CalibrationStore &m_store;
+        const std::string &m_key;
+        std::chrono::milliseconds m_silence;
+        std::filesystem::file_time_type m_sign{};
+        Clock::time_point m_since = Clock::now();
+    };
+
+    /// The same context, whose checkpoints are signs of life.
+    RunContext withSigns(const RunContext &context, const std::optional<CalibrationLock> &lock)
+    {
+        RunContext making = context;
+        making.progress = [&lock, outer = context.progress](double fraction, std::string_view what) {
+            if (lock)
+                lock->giveSign();
+            if (outer)
+                outer(fraction, what);
+        };
+        return making;
+    }
+
 } // namespace
 
-std::shared_ptr<const Calibration> keptCalibration(const std::string &key, const std::function<Made()> &make,
-                                                   const RunContext &context)
+std::shared_ptr<const Calibration> keptCalibration(const std::string &key,
+                                                   const std::function<Made(const RunContext &)> &make,
+                                                   const RunContext &context, std::chrono::milliseconds silence)
 {
     const CalibrationStore store(CalibrationStore::usualFolder());
     Entry &entry = entryOf(key);
     if (Made made = known(entry, key, store))
         return made;
     std::unique_lock making(entry.making, std::defer_lock);
-    waitUntil([&] { return making.try_lock(); }, Clock::time_point::max(), "waiting for the calibration", context);
+    waitUntil([&] { return making.try_lock(); }, "waiting for the calibration", context);
     std::optional<CalibrationLock> lock;
-    const Clock::time_point end = Clock::now() + std::chrono::minutes(2); // another program may have been suspended
-    waitUntil([&] { return store.lock(lock, key); }, end, "waiting for another program's calibration", context);
+    OthersWork others(store, key, silence);
+    waitUntil([&] { return store.lock(lock, key) || !others.goesOn(); }, "waiting for another program's calibration",
+              context);
     if (Made made = known(entry, key, store))
         return made;
-    Made made = make();
+    Made made = make(withSigns(context, lock));
     if (!made)
         return nullptr;
     store.save(key, *made);
@@ -125,10 +116,16 @@ std::shared_ptr<const Calibration> keptCalibration(const std::string &key, const
     return entry.made;
 }
 
-std::shared_ptr<const Calibration> knownCalibration(const AnalysisSettings &settings)
+std::shared_ptr<const Calibration> cachedCalibration(const std::string &key)
 {
-    const std::string key = calibrationKey(dimensionless(settings), CalibrationDepth::Refined);
     return known(entryOf(key), key, CalibrationStore(CalibrationStore::usualFolder()));
+}
+
+void rememberCalibration(const std::string &key, std::shared_ptr<const Calibration> calibration)
+{
+    Entry &entry = entryOf(key);
+    const std::scoped_lock lock(entry.guard);
+    entry.made = std::move(calibration);
 }
 
 } // namespace faintline

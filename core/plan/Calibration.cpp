@@ -44,25 +44,25 @@ double Calibration::thresholdUncertainty(double eventsPerCellFrame) const
 double Calibration::exceedanceAt(double nats) const
 {
     // Simulated down to levels exceeded by more than a thousand cells, extrapolated with the tail's slope beyond.
-    std::size_t last = exceedance.size() - 1;
+    std::size_t last = levelCount() - 1;
     const double least = 1e-4;
-    while (last > 0 && exceedance[last] < least)
+    while (last > 0 && exceedance(last) < least)
         --last;
-    if (nats <= levels.front())
-        return exceedance.front();
-    if (nats >= levels[last])
-        return exceedance[last] * eventRateAt(nats)
-               / eventRateAt(levels[last]); // time above a level per event is nearly constant
-    const double position = (nats - levels.front()) / (levels[1] - levels[0]);
-    const auto lower = std::size_t(position);
+    if (nats <= level(0))
+        return exceedance(0);
+    if (nats >= level(last))
+        return exceedance(last) * eventRateAt(nats)
+               / eventRateAt(level(last)); // time above a level per event is nearly constant
+    const double position = (nats - level(0)) / (level(1) - level(0));
+    const std::size_t lower = std::min(std::size_t(position), last - 1);
     const double fraction = position - double(lower);
-    return std::exp((1.0 - fraction) * std::log(exceedance[lower]) + fraction * std::log(exceedance[lower + 1]));
+    return std::exp((1.0 - fraction) * std::log(exceedance(lower)) + fraction * std::log(exceedance(lower + 1)));
 }
 
 double Calibration::thresholdForPfa(double probability) const
 {
-    double low = levels.front();
-    double high = levels.back() + 1000.0 / tailSlope;
+    double low = level(0);
+    double high = level(levelCount() - 1) + 1000.0 / tailSlope;
     for (int i = 0; i < 100; ++i) {
         const double middle = 0.5 * (low + high);
         (exceedanceAt(middle) > probability ? low : high) = middle;
@@ -72,10 +72,12 @@ double Calibration::thresholdForPfa(double probability) const
 
 double Calibration::levelExceededBy(double probability) const
 {
-    if (levels.empty())
+    if (above.empty())
         return -std::numeric_limits<double>::infinity();
-    const auto first = std::find_if(exceedance.begin(), exceedance.end(), [&](double p) { return p <= probability; });
-    return levels[std::min(std::size_t(first - exceedance.begin()), levels.size() - 1)];
+    std::size_t number = 0;
+    while (number + 1 < levelCount() && exceedance(number) > probability)
+        ++number;
+    return level(number);
 }
 
 double thresholdNats(const DecideSettings &decide, const Calibration &calibration, double cellFramesPerHour)

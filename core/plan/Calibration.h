@@ -33,10 +33,18 @@ struct Calibration {
     double eventRate = 0.0;         ///< events per cell and frame at threshold u
     double tailSlope = 1.0;         ///< θ, 1/nat; for a tail from splitting, that of its last part
     RareRates rates;                ///< events per cell and frame at given thresholds, from splitting; may be empty
+    RareRates excursions;           ///< S, from which they were derived; empty if there are none or in a narrow band
     double relativeError = 0.0;     ///< standard error of ln(event rate) at u
     double slopeError = 0.0;        ///< standard error of θ
-    std::vector<double> levels;     ///< nats, ascending
-    std::vector<double> exceedance; ///< P(D > level) of a cell, simulated
+    double lowestLevel = 0.0;       ///< nat, of equidistant levels
+    double levelStep = 1.0;         ///< nat
+    double cells = 1.0;             ///< simulated
+    std::vector<double> above;      ///< number of these with D > level, for each level
+
+    std::size_t levelCount() const { return above.size(); }
+    double level(std::size_t number) const { return lowestLevel + levelStep * double(number); }
+    /// P(D > level) of a cell, simulated.
+    double exceedance(std::size_t number) const { return above[number] / cells; }
 
     /// Events per cell and frame on noise at a threshold.
     double eventRateAt(double nats) const;

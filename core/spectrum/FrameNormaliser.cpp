@@ -25,22 +25,23 @@ namespace {
         return ln <= 0.5f * NoiseBackground::silence ? 0.0f : most;
     }
 
-    /// y ← y/B with ln B interpolated between cells: at a band's edge B falls by 20 dB between cells. `ln` has one
-    /// value more than there are cells.
+    /// ln B of the bins, interpolated between cells: at a band's edge B falls by 20 dB between cells. `ln` has one value
+    /// more than there are cells.
     FAINTLINE_MULTIVERSION
-    void divideByBackground(std::span<float> y, const float *ln, double start, double perBin, double lastCell)
+    void interpolateCells(const float *ln, double start, double perBin, double lastCell, std::span<float> atBins)
     {
-        for (std::size_t bin = 0; bin < y.size(); ++bin) {
+        float *__restrict to = atBins.data();
+        for (std::size_t bin = 0; bin < atBins.size(); ++bin) {
             double position = start + double(std::int32_t(bin)) * perBin;
             position = position > 0.0 ? position : 0.0;
             position = position < lastCell ? position : lastCell;
             const auto lower = std::int32_t(position);
             const auto fraction = float(position - double(lower));
-            y[bin] = overPower(y[bin], ln[lower] + fraction * (ln[lower + 1] - ln[lower]));
+            to[bin] = ln[lower] + fraction * (ln[lower + 1] - ln[lower]);
         }
     }
 
-    /// The same for one bin per cell.
+    /// y ← y/B
     FAINTLINE_MULTIVERSION
     void divideBinByBin(std::span<float> y, const float *ln)
     {
@@ -97,10 +98,13 @@ void FrameNormaliser::normalise(std::span<float> values, const NoiseBackground &
     const Axis &axis = m_spectrogram.frequency();
     const double start = b.frequency.position(axis.first);
     const double perBin = axis.step / b.frequency.step;
-    if (start == 0.0 && perBin == 1.0 && values.size() <= cells)
+    if (start == 0.0 && perBin == 1.0 && values.size() <= cells) {
         divideBinByBin(values, m_ln.data());
-    else
-        divideByBackground(values, m_ln.data(), start, perBin, double(b.frequency.count - 1));
+    } else { // first all, then all: both loops are then vectorised
+        m_lnOfBins.resize(values.size());
+        interpolateCells(m_ln.data(), start, perBin, double(b.frequency.count - 1), m_lnOfBins);
+        divideBinByBin(values, m_lnOfBins.data());
+    }
     if (!b.lnAtEdges.empty() && b.bins == axis)
         divideBinByBin(values, b.lnAtEdges.data());
     if (m_guardsAgainstClicks)

@@ -28,6 +28,7 @@ private:
     const Spectrogram &m_spectrogram;
     bool m_guardsAgainstClicks;
     std::vector<float> m_ln;
+    std::vector<float> m_lnOfBins;
 };
 
 } // namespace faintline

@@ -289,8 +289,8 @@ void tst_analyse::thresholdsAgree()
     const double p = calibration->thresholdForPfa(1e-3);
     QVERIFY(std::abs(calibration->exceedanceAt(p) / 1e-3 - 1.0) < 1e-6);
     QVERIFY(calibration->thresholdUncertainty(1e-7) > 0.0 && calibration->thresholdUncertainty(1e-7) < 2.0);
-    for (std::size_t i = 1; i < calibration->exceedance.size(); ++i)
-        QVERIFY(calibration->exceedance[i] <= calibration->exceedance[i - 1]);
+    for (std::size_t i = 1; i < calibration->levelCount(); ++i)
+        QVERIFY(calibration->exceedance(i) <= calibration->exceedance(i - 1));
 }
 
 void tst_analyse::cancels()

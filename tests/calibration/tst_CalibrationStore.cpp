@@ -24,8 +24,12 @@ Calibration sample()
     c.tailSlope = 0.7;
     c.relativeError = 1e-3 / 7.0;
     c.slopeError = 1e300;
-    c.levels = {-2.0, -1.75, -1.5};
-    c.exceedance = {1.0, 2.0 / 3.0, 1e-17};
+    c.rates = {{1.0, 2.0}, {-1.5, -1.0 / 3.0}, {0.1, 0.2}};
+    c.excursions = {{1.0, 3.0}, {-2.5, -1.0 / 7.0}, {0.0, 0.3}};
+    c.lowestLevel = -2.0 / 3.0;
+    c.levelStep = 0.25;
+    c.cells = 3.0;
+    c.above = {3.0, 2.0, 1e-17};
     return c;
 }
 
@@ -49,6 +53,8 @@ private slots:
     void oneMakesWhatManyWant_data();
     void oneMakesWhatManyWant();
     void whoWaitsCanBeStopped();
+    void waitsWhileAnotherWorks();
+    void doesNotWaitForASilentOne();
 
 private:
     fs::path folder() const { return m_folder->path().toStdString(); }
@@ -82,15 +88,16 @@ void tst_CalibrationStore::damagedFilesDoNotCount_data()
 {
     QTest::addColumn<QByteArray>("before");
     QTest::addColumn<QByteArray>("after");
-    QTest::newRow("other sources") << QByteArray("\"sources\":\"") << QByteArray("\"sources\":\"0");
+    QTest::newRow("another version") << QByteArray("\"version\":") << QByteArray("\"version\":9");
     QTest::newRow("a member is missing") << QByteArray("\"tailSlope\"") << QByteArray("\"tail\"");
     QTest::newRow("a text for a number") << QByteArray("\"tailSlope\":0.7") << QByteArray("\"tailSlope\":\"0.7\"");
     QTest::newRow("null for a number") << QByteArray("\"tailSlope\":0.7") << QByteArray("\"tailSlope\":null");
     QTest::newRow("a slope that cannot be") << QByteArray("\"tailSlope\":0.7") << QByteArray("\"tailSlope\":-0.7");
     QTest::newRow("another number") << QByteArray("\"tailSlope\":0.7") << QByteArray("\"tailSlope\":0.9");
-    QTest::newRow("lengths differ") << QByteArray("[-2.0,") << QByteArray("[");
+    QTest::newRow("lengths differ") << QByteArray("\"lnRates\":[-1.5,") << QByteArray("\"lnRates\":[");
+    QTest::newRow("levels that cannot be") << QByteArray("\"levelStep\":0.25") << QByteArray("\"levelStep\":-0.25");
     QTest::newRow("no JSON") << QByteArray("{") << QByteArray("");
-    QTest::newRow("an array") << QByteArray("{\"sources\"") << QByteArray("[{\"sources\"");
+    QTest::newRow("an array") << QByteArray("{\"version\"") << QByteArray("[{\"version\"");
 }
 
 void tst_CalibrationStore::damagedFilesDoNotCount()
@@ -203,7 +210,7 @@ void tst_CalibrationStore::oneMakesWhatManyWant()
         std::vector<std::jthread> threads;
         for (int i = 0; i < 6; ++i)
             threads.emplace_back([&] {
-                const auto make = [&]() -> std::shared_ptr<const Calibration> {
+                const auto make = [&](const RunContext &) -> std::shared_ptr<const Calibration> {
                     if (++made == 1) {
                         std::this_thread::sleep_for(std::chrono::milliseconds(50));
                         throw Cancelled(); // and so the next one makes it
@@ -233,7 +240,7 @@ void tst_CalibrationStore::whoWaitsCanBeStopped()
     std::jthread waiting([&] {
         try {
             keptCalibration(
-                "stopped", [] { return std::make_shared<const Calibration>(sample()); }, context);
+                "stopped", [](const RunContext &) { return std::make_shared<const Calibration>(sample()); }, context);
         } catch (const Cancelled &) {
             isCancelled = true;
         }
@@ -242,6 +249,42 @@ void tst_CalibrationStore::whoWaitsCanBeStopped()
     stop.request_stop();
     waiting.join();
     QVERIFY(isCancelled);
+}
+
+// Another program, longer at work than a silent one is waited for, but its checkpoints are heard.
+void tst_CalibrationStore::waitsWhileAnotherWorks()
+{
+    constexpr std::chrono::milliseconds silence{300};
+    const CalibrationStore store(folder());
+    std::optional<CalibrationLock> another;
+    QVERIFY(store.lock(another, "at work"));
+    std::jthread working([&] {
+        for (int i = 0; i < 40; ++i) {
+            another->giveSign();
+            std::this_thread::sleep_for(silence / 10);
+        }
+        Calibration others = sample();
+        others.lnK = 7.0;
+        store.save("at work", others);
+        another.reset();
+    });
+    qputenv("FAINTLINE_CACHE", m_folder->path().toUtf8());
+    const auto found = keptCalibration(
+        "at work", [](const RunContext &) { return std::make_shared<const Calibration>(sample()); }, {}, silence);
+    QCOMPARE(found->lnK, 7.0);
+}
+
+// One that was suspended holds the lock as well.
+void tst_CalibrationStore::doesNotWaitForASilentOne()
+{
+    const CalibrationStore store(folder());
+    std::optional<CalibrationLock> another;
+    QVERIFY(store.lock(another, "silent"));
+    qputenv("FAINTLINE_CACHE", m_folder->path().toUtf8());
+    const auto found = keptCalibration(
+        "silent", [](const RunContext &) { return std::make_shared<const Calibration>(sample()); }, {},
+        std::chrono::milliseconds(100));
+    QVERIFY(*found == sample());
 }
 
 FAINTLINE_TEST(tst_CalibrationStore)

@@ -1,4 +1,5 @@
 #include "analysis/analyse.h"
+#include "calibration/makeCalibration.h"
 #include "recording/SimulatedRecording.h"
 #include "support/test.h"
 
@@ -12,6 +13,7 @@ class tst_bandCalibration : public QObject
 private slots:
     void aNarrowBandKeepsItsOrder();
     void theWiderTheLessIsLost();
+    void oneSimulationServesManyWidths();
     void steadyLinesLoseNothing();
 };
 
@@ -48,6 +50,24 @@ void tst_bandCalibration::theWiderTheLessIsLost()
     }
     QVERIFY(before > 0.9);
     QVERIFY(*calibrateBand(settings, 256) == *wide);
+}
+
+// 31 bins are served by 23, as far from a simulated width as can be: against a simulation of their own.
+void tst_bandCalibration::oneSimulationServesManyWidths()
+{
+    const AnalysisSettings settings;
+    const auto served = calibrateBand(settings, 31);
+    const auto own =
+        makeCalibration({dimensionless(settings), CalibrationDepth::Refined, 31}, effortOf(CalibrationDepth::Refined));
+    const auto wide = calibrate(settings);
+    for (const double rate : {1e-6, 1e-8}) {
+        const double level = wide->thresholdForEventRate(rate);
+        const double left = served->eventRateAt(level) / rate;
+        const double ratio = served->eventRateAt(level) / own->eventRateAt(level);
+        const QString said = QString("at %1: %2 is left, %3 of what was simulated").arg(rate).arg(left).arg(ratio);
+        QVERIFY2(left < 0.8, qPrintable(said)); // the ends matter
+        QVERIFY2(ratio > 0.8 && ratio < 1.25, qPrintable(said));
+    }
 }
 
 void tst_bandCalibration::steadyLinesLoseNothing()

@@ -318,8 +318,9 @@ void tst_SurveyDatabase::otherSettingsAreNamed()
     older.version = "0.0.1";
     QVERIFY(contains(said(older, originOf(there)), "was written by Faintline 0.0.1; this is Faintline "));
     older = originOf(there);
-    older.sources = "?";
-    QVERIFY(contains(said(older, originOf(there)), "another build"));
+    older.calibrations = "0";
+    QVERIFY(
+        contains(said(older, originOf(there)), "was written with calibrations of version 0; here they have version "));
     QVERIFY(contains(said(originOf(there, "1/4"), originOf(there)), "contains shard 1/4, not a whole survey"));
     QCOMPARE(said(originOf(there), originOf(there)), std::string());
 }

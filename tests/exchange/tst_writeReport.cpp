@@ -25,8 +25,8 @@ Analysis tracksOf(int count, const Grid &grid = {{{"frequency", "Hz", 1000.0, 2.
     analysis.frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.25, 0.5, 10, false}, grid,
                                                    std::vector<float>(std::size_t(10 * grid.size()), 1.0f));
     Calibration calibration;
-    calibration.levels = {0.0, 10.0};
-    calibration.exceedance = {0.5, 1e-4};
+    calibration.levelStep = 10.0;
+    calibration.above = {0.5, 1e-4};
     calibration.eventRate = 1e-5;
     analysis.calibration = std::make_shared<Calibration>(calibration);
     analysis.threshold = 12.5;

@@ -10,7 +10,7 @@
 #include "base/oneLine.h"
 #include "base/utc.h"
 #include "calibration/CalibrationStore.h"
-#include "calibration/sourceFingerprint.h"
+#include "calibration/calibrationVersion.h"
 #include "evaluate/sequential/ScanTest.h"
 #include "exchange/CampaignFile.h"
 #include "exchange/ModelFile.h"
@@ -169,7 +169,7 @@ void readCalibration(const Input &input)
     std::filesystem::create_directories(store.fileFor("key").parent_path());
     std::string text = input.text;
     if (Json json = Json::parse(text, nullptr, false); json.is_object() && json.contains("calibration")) {
-        json["sources"] = sourceFingerprint();
+        json["version"] = calibrationVersion;
         json["key"] = "key";
         json.erase("checksum");
         json["checksum"] = checksum(json.dump(-1, ' ', false, Json::error_handler_t::replace));

@@ -87,8 +87,7 @@ private slots:
         calibration->anchorNats = 5.0;
         calibration->eventRate = 1e-3;
         calibration->tailSlope = 0.5;
-        calibration->levels = {0.0, 1.0};
-        calibration->exceedance = {1.0, 0.5};
+        calibration->above = {1.0, 0.5};
         plot.setCalibration(calibration, 1e6);
         const QString csv = QString::fromStdString(plotCsv(plot, true));
         QVERIFY2(csv.startsWith("curve,x,y\n\"noise, fitted law\",5,1000"), qPrintable(csv.left(80)));

@@ -268,8 +268,8 @@ public:
         strip->setProfile("D", picture, hz);
         strip->setLevel(12.0, "threshold");
         auto *calibration = new Calibration;
-        calibration->levels = {0.0, 5.0, 10.0};
-        calibration->exceedance = {0.5, 0.05, 0.005};
+        calibration->levelStep = 5.0;
+        calibration->above = {0.5, 0.05, 0.005};
         auto *exceedance = new ExceedancePlot;
         exceedance->setCalibration(std::shared_ptr<const Calibration>(calibration), 1e6);
         auto *overview = new OverviewStrip;

@@ -29,8 +29,7 @@ private slots:
     void onlyWhatWasCountedIsSimulated()
     {
         Calibration calibration;
-        calibration.levels = {0.0, 1.0, 2.0, 3.0};
-        calibration.exceedance = {0.5, 0.1, 5e-5, 0.0}; // from the third on the tail counts
+        calibration.above = {0.5, 0.1, 5e-5, 0.0}; // from the third on the tail counts
         calibration.eventRate = 1e-3;
         QCOMPARE(simulatedCurve(calibration), QPolygonF({{0.0, std::log10(0.5)}, {1.0, std::log10(0.1)}}));
     }
@@ -47,8 +46,8 @@ private slots:
     void theSpanReachesToSignals()
     {
         Calibration calibration;
-        calibration.levels = {0.0, 10.0};
-        calibration.exceedance = {0.5, 1e-6};
+        calibration.levelStep = 10.0;
+        calibration.above = {0.5, 1e-6};
         calibration.tailSlope = 1.0;
         QCOMPARE(exceedanceSpan(&calibration, {}, 5.0).high, 18.0);
         std::vector<double> counts(400, 0.0);

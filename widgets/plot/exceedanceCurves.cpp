@@ -14,9 +14,8 @@ namespace {
     /// curve.
     bool isCountedWell(const Calibration &calibration, std::size_t level)
     {
-        const double simulated = calibration.exceedance[level];
-        return simulated > 0.0
-               && std::abs(calibration.exceedanceAt(calibration.levels[level]) / simulated - 1.0) < 1e-6;
+        const double simulated = calibration.exceedance(level);
+        return simulated > 0.0 && std::abs(calibration.exceedanceAt(calibration.level(level)) / simulated - 1.0) < 1e-6;
     }
 
 } // namespace
@@ -37,9 +36,9 @@ QPolygonF logarithmic(const QPolygonF &points)
 QPolygonF simulatedCurve(const Calibration &calibration)
 {
     QPolygonF simulated;
-    for (std::size_t i = 0; i < calibration.levels.size(); ++i)
+    for (std::size_t i = 0; i < calibration.levelCount(); ++i)
         if (isCountedWell(calibration, i))
-            simulated << QPointF(calibration.levels[i], std::log10(calibration.exceedance[i]));
+            simulated << QPointF(calibration.level(i), std::log10(calibration.exceedance(i)));
     return simulated;
 }
 
@@ -70,12 +69,12 @@ QList<QwtIntervalSample> recordedCells(const std::vector<double> &counts, double
 Span exceedanceSpan(const Calibration *calibration, const std::vector<double> &counts, double threshold)
 {
     double low = 0.0, high = 30.0;
-    if (calibration && !calibration->levels.empty()) {
-        low = std::max(calibration->levels.front(), -2.0);
-        std::size_t last = calibration->levels.size() - 1;
-        while (last > 0 && calibration->exceedance[last] <= 0.0)
+    if (calibration && calibration->levelCount() > 0) {
+        low = std::max(calibration->level(0), -2.0);
+        std::size_t last = calibration->levelCount() - 1;
+        while (last > 0 && calibration->exceedance(last) <= 0.0)
             --last;
-        high = std::max({calibration->levels[last], calibration->anchorNats, low + 5.0});
+        high = std::max({calibration->level(last), calibration->anchorNats, low + 5.0});
         high += 8.0 / std::max(calibration->tailSlope, 0.05);
         // Signals lie beyond: the threshold can be dragged to faint ones, while the noise curve keeps half of the
         // width.

@@ -110,8 +110,8 @@ SurveyOrigin SurveyDatabase::readOrigin()
     origin.version = settings.text(2);
     SqliteStatement provenance = m_database.prepare("SELECT key, value FROM provenance");
     while (provenance.next()) {
-        if (provenance.text(0) == "sources")
-            origin.sources = provenance.text(1);
+        if (provenance.text(0) == "calibrations")
+            origin.calibrations = provenance.text(1);
         if (provenance.text(0) == "shard")
             origin.shard = provenance.text(1);
     }

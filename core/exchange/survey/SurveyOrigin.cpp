@@ -3,7 +3,7 @@
 #include "base/Error.h"
 #include "base/readingJson.h"
 #include "base/wholeNumber.h"
-#include "calibration/sourceFingerprint.h"
+#include "calibration/calibrationVersion.h"
 #include "evaluate/comparison/settingDifferences.h"
 
 namespace faintline {
@@ -40,7 +40,7 @@ SurveyOrigin originOf(const SurveySettings &settings, const std::string &shard)
                    {"rawRateHz", open.rawRateHz},
                    {"rawChannels", open.rawChannels},
                    {"rawHeaderBytes", open.rawHeaderBytes}};
-    return {settingsToJson(settings.analysis), reading.dump(), FAINTLINE_VERSION, std::string(sourceFingerprint()),
+    return {settingsToJson(settings.analysis), reading.dump(), FAINTLINE_VERSION, std::to_string(calibrationVersion),
             shard};
 }
 
@@ -69,8 +69,10 @@ void checkOrigin(const SurveyOrigin &there, const SurveyOrigin &wanted, const st
     if (there.version != wanted.version)
         throw Error(path,
                     "was written by Faintline " + there.version + "; this is Faintline " + wanted.version + advice);
-    if (there.sources != wanted.sources)
-        throw Error(path, "was written by another build of Faintline " + there.version + advice);
+    if (there.calibrations != wanted.calibrations)
+        throw Error(path, "was written with calibrations of version "
+                              + (there.calibrations.empty() ? "?" : there.calibrations) + "; here they have version "
+                              + wanted.calibrations + advice);
     if (there.shard != wanted.shard)
         throw Error(path, "contains " + (there.shard.empty() ? "a whole survey" : "shard " + there.shard) + ", not "
                               + (wanted.shard.empty() ? "a whole survey" : "shard " + wanted.shard) + advice);

@@ -15,11 +15,11 @@ struct SurveySettings {
 
 /// Settings and program of a survey. Surveys whose origins differ in the shard only can be merged.
 struct SurveyOrigin {
-    std::string settings; ///< JSON of those that differ from the defaults
-    std::string reading;  ///< JSON of the OpenOptions
-    std::string version;  ///< of the program
-    std::string sources;  ///< fingerprint of the program's sources (calibration/sourceFingerprint.h)
-    std::string shard;    ///< "2/8": part of the recordings (base/Shard.h); empty: all
+    std::string settings;     ///< JSON of those that differ from the defaults
+    std::string reading;      ///< JSON of the OpenOptions
+    std::string version;      ///< of the program
+    std::string calibrations; ///< their version (calibration/calibrationVersion.h)
+    std::string shard;        ///< "2/8": part of the recordings (base/Shard.h); empty: all
 
     bool operator==(const SurveyOrigin &) const = default;
 };

@@ -40,7 +40,7 @@ namespace {
                 .run(origin.settings, origin.reading, origin.version);
             SqliteStatement provenance = m_out.prepare("INSERT INTO provenance VALUES (?, ?)");
             provenance.run(std::string("program"), "Faintline " + origin.version);
-            provenance.run(std::string("sources"), origin.sources);
+            provenance.run(std::string("calibrations"), origin.calibrations);
             if (!origin.shard.empty())
                 provenance.run(std::string("shard"), origin.shard);
             m_recording.emplace(m_out.prepare(insertionInto("recordings", "id, path, " + surveyRecordingColumns)));

@@ -148,15 +148,19 @@ void tst_cliDetect::keptCalibrationsChangeNoByte()
 {
     const QByteArray usual = qgetenv("FAINTLINE_CACHE");
     const QString folder = path("cache");
+    QByteArrayList made;
     for (const QString &cache : {QStringLiteral("off"), folder, folder}) { // none, made, read back
         qputenv("FAINTLINE_CACHE", cache.toLocal8Bit());
         const Outcome outcome = run(QStringList{"detect", "line.wav", "--events", "kept.csv", "--tracks",
-                                                "keptTracks.csv", "--statistic", "kept.npy"}
+                                                "keptTracks.csv", "--statistic", "kept.npy", "--set",
+                                                "model.snr=0.7"} // of no shipped calibration
                                     + lineSettings);
         QCOMPARE(outcome.code, 0);
-        QVERIFY(content("kept.csv") == content("events.csv"));
-        QVERIFY(content("keptTracks.csv") == content("tracks.csv"));
-        QVERIFY(content("kept.npy") == content("D.npy"));
+        const QByteArrayList written{content("kept.csv"), content("keptTracks.csv"), content("kept.npy")};
+        if (made.isEmpty())
+            made = written;
+        QVERIFY(written == made);
+        QVERIFY(written.front().count('\n') > 1);
         QCOMPARE(QDir(folder).entryList(QDir::Files).size(), cache == folder ? 1 : 0);
     }
     usual.isNull() ? qunsetenv("FAINTLINE_CACHE") : qputenv("FAINTLINE_CACHE", usual);
