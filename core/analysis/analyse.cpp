@@ -164,7 +164,7 @@ namespace {
         const NormalisedFrames &frames = *analysis.frames;
         const auto cells = std::size_t(frames.grid().size());
         const auto frameCount = double(frames.time().count);
-        std::unique_ptr<PathDetector> detector = makePathDetector(analysis);
+        std::unique_ptr<PathDetector> detector = makePathDetector(analysis, true);
         detector->useThreads(context.threads);
         const auto chain = makeChain(analysis, std::move(detector));
 

@@ -13,8 +13,11 @@ namespace faintline {
 class GuidedDetector final : public PathDetector
 {
 public:
-    GuidedDetector(std::unique_ptr<Detector> decider, const MarkovModel &model, const ResetRule &rule)
-        : m_decider(std::move(decider)), m_guide(model, rule)
+    /// `shown`: a detector like the decider, which takes all frames as they are and forgets nothing (showStatistic);
+    /// null: the statistic is only decided on.
+    GuidedDetector(std::unique_ptr<Detector> decider, const MarkovModel &model, const ResetRule &rule,
+                   std::unique_ptr<Detector> shown = {})
+        : m_decider(std::move(decider)), m_shown(std::move(shown)), m_guide(model, rule)
     {
     }
 
@@ -22,6 +25,12 @@ public:
     {
         m_guide.update(y, statistic);
         m_decider->update(y, statistic);
+    }
+
+    void showStatistic(std::span<const float> y, std::span<float> statistic) override
+    {
+        if (m_shown)
+            m_shown->update(y, statistic);
     }
 
     void forget(const Grid &grid, const CellBox &box) override
@@ -34,6 +43,8 @@ public:
     {
         m_guide.useThreads(threads);
         m_decider->useThreads(threads);
+        if (m_shown)
+            m_shown->useThreads(threads);
     }
 
     std::span<const float> scores(std::size_t /*model*/ = 0) const override { return m_guide.scores(); }
@@ -42,6 +53,7 @@ public:
 
 private:
     std::unique_ptr<Detector> m_decider;
+    std::unique_ptr<Detector> m_shown;
     Smd m_guide;
 };
 

@@ -30,6 +30,10 @@ public:
     };
     virtual Regulation regulation(std::size_t model = 0) const = 0;
 
+    /// Replaces the statistic that decides, in which what tracks follow is missing, by the one to be shown, for the
+    /// frame as it was received. Call it once per frame.
+    virtual void showStatistic(std::span<const float> /*y*/, std::span<float> /*statistic*/) {}
+
     /// The model that gave a cell's statistic after the last frame.
     virtual std::size_t winnerAt(Index /*cell*/) const { return 0; }
 };

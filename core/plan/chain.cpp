@@ -151,12 +151,13 @@ std::unique_ptr<Detector> makeDetector(const AnalysisPlan &plan)
     return makeDetector(plan.settings.detector, plan.model, plan.grid(), geometryOf(plan), {});
 }
 
-std::unique_ptr<PathDetector> makePathDetector(const AnalysisPlan &plan)
+std::unique_ptr<PathDetector> makePathDetector(const AnalysisPlan &plan, bool showsStatistic)
 {
     if (const auto *smd = std::get_if<SmdSettings>(&plan.settings.detector))
         return makeSmd(plan, *smd);
     return std::make_unique<GuidedDetector>(makeDetector(plan), plan.model,
-                                            ResetRule{ResetLaw::Fixed, plan.calibration->lnK});
+                                            ResetRule{ResetLaw::Fixed, plan.calibration->lnK},
+                                            showsStatistic ? makeDetector(plan) : nullptr);
 }
 
 std::unique_ptr<DetectionChain> makeChain(const AnalysisPlan &plan, std::unique_ptr<PathDetector> detector,
@@ -173,13 +174,13 @@ std::unique_ptr<DetectionChain> makeChain(const AnalysisPlan &plan, std::unique_
 
 std::unique_ptr<DetectionChain> makeChain(const AnalysisPlan &plan)
 {
-    return makeChain(plan, makePathDetector(plan));
+    return makeChain(plan, makePathDetector(plan, true));
 }
 
 std::unique_ptr<DetectionChain> makeScoringChain(const AnalysisPlan &plan)
 {
     constexpr bool looksBack = false;
-    return makeChain(plan, makePathDetector(plan), looksBack);
+    return makeChain(plan, makePathDetector(plan, true), looksBack);
 }
 
 std::vector<CellBox> excludedBoxes(const AnalysisPlan &plan)

@@ -21,7 +21,8 @@ std::unique_ptr<DetectionChain> makeScoringChain(const AnalysisPlan &plan);
 /// The plan's detector, or bank of detectors, at its first frame.
 std::unique_ptr<Detector> makeDetector(const AnalysisPlan &plan);
 /// The same with paths from which tracks can start: a detector without paths is guided by one with paths.
-std::unique_ptr<PathDetector> makePathDetector(const AnalysisPlan &plan);
+/// `showsStatistic`: also where tracks follow something (PathDetector::showStatistic), which is not needed for counting.
+std::unique_ptr<PathDetector> makePathDetector(const AnalysisPlan &plan, bool showsStatistic = false);
 
 /// The chain around a detector that may already have settled on noise. `looksBack`: whether tracks are traced back to
 /// their onset, which is not needed for counting.

@@ -91,14 +91,18 @@ void DetectionChain::update(Index frame, std::span<const float> y, std::span<flo
         startTrack(frame, cluster, y);
     if (m_settings.resets)
         m_seen.back().forgotten.assign(forgottenBoxes().begin(), forgottenBoxes().end());
-    for (const HmmTracker &tracker : m_trackers) {
-        if (!m_settings.trackThreshold) {
-            tracker.paint(statistic);
-            continue;
-        }
-        float &value = statistic[std::size_t(tracker.cell())];
-        value = std::max(value, float(tracker.track().detectStatistic));
-    }
+    if (m_settings.trackThreshold)
+        return showStatistic(y, statistic);
+    for (const HmmTracker &tracker : m_trackers)
+        tracker.paint(statistic);
+}
+
+void DetectionChain::showStatistic(std::span<const float> y, std::span<float> statistic)
+{
+    std::vector<float> received(y.begin(), y.end());
+    for (const std::vector<Index> &place : m_settings.excluded)
+        boxRound(place, y, excludedMargin).forEachCell(m_grid, [&](Index cell) { received[std::size_t(cell)] = 0.0f; });
+    m_detector->showStatistic(received, statistic);
 }
 
 void DetectionChain::remember(Index frame, Seen seen)

@@ -71,9 +71,9 @@ struct ChainState {
 /// track, which is traced back to its onset, and the detector resets the box around it. The output statistic is the
 /// detector's, raised to the trackers' scores where they follow something. With a bank of models, a track belongs to
 /// the model whose statistic crossed, and is traced with that model; it changes to another one that follows it better
-/// (RivalModels). With a guided detector, a track's
-/// cell shows the statistic at its detection, because its tracker's scores are another quantity. Deterministic; use one
-/// object per thread.
+/// (RivalModels). With a guided detector, the output statistic is that detector's for the frames as they are, whether
+/// tracks follow something or not, because trackers' scores are another quantity. Deterministic; use one object per
+/// thread.
 class DetectionChain
 {
 public:
@@ -141,6 +141,7 @@ private:
         std::vector<std::vector<float>> scores; ///< for each model
     };
 
+    void showStatistic(std::span<const float> y, std::span<float> statistic);
     void remember(Index frame, Seen seen);
     std::span<const CellBox> forgottenBoxes() const;
     void keepExcursions();

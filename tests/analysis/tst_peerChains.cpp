@@ -86,6 +86,8 @@ private slots:
         addKinds(1);
     } // what has branched off a path lies within 8 nat of it, whatever noise does
     void theShoulderIsAboveTheNoise();
+    void tracksLeaveTheStatisticAsItIs_data() { addKinds(1); }
+    void tracksLeaveTheStatisticAsItIs();
     void eventsHaveTheDetectorsUnit_data() { addKinds(); }
     void eventsHaveTheDetectorsUnit();
     void anOrderIsKept_data() { addKinds(); }
@@ -153,6 +155,26 @@ void tst_peerChains::theShoulderIsAboveTheNoise()
     }
     // Nobody knows a thousandth of neighbouring cells and frames to better than a factor of two.
     QVERIFY2(above / decided < 2e-3, qPrintable(QString("%1 of %2").arg(above).arg(decided)));
+}
+
+void tst_peerChains::tracksLeaveTheStatisticAsItIs()
+{
+    QFETCH(std::size_t, kind);
+    const Analysis analysis = prepared(kind, noiseWithLine(8, 500, 20.0f, 150, 250), 1e-6);
+    const auto chain = makeChain(analysis);
+    const auto alone = makeDetector(analysis);
+    std::vector<float> y(cellCount);
+    std::vector<float> statistic(cellCount);
+    std::vector<float> expected(cellCount);
+    Index followed = 0;
+    for (Index frame = 0; frame < 500; ++frame) {
+        analysis.frames->read(frame, 1, y);
+        chain->update(frame, y, statistic);
+        alone->update(y, expected);
+        QCOMPARE(statistic, expected);
+        followed += chain->trackers().empty() ? 0 : 1;
+    }
+    QVERIFY(followed > 50);
 }
 
 void tst_peerChains::eventsHaveTheDetectorsUnit()

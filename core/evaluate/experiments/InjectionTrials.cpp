@@ -61,7 +61,7 @@ namespace {
         SignalMask mask(frames.time().count, frames.grid().size());
         std::vector<std::unique_ptr<DetectionChain>> chains;
         for (const AnalysisPlan &plan : plans)
-            chains.push_back(makeChain(plan));
+            chains.push_back(makeChain(plan, makePathDetector(plan)));
         std::vector<float> statistic(std::size_t(frames.grid().size()));
         forEachFrame(frames, context, "searching for signals", [&](Index frame, std::span<float> y) {
             for (const auto &chain : chains) {

@@ -25,7 +25,7 @@ double measureCost(const Analysis &analysis, const RunContext &context)
 {
     const Index cells = analysis.grid().size();
     const Index frames = analysis.time().count;
-    const auto chain = makeChain(analysis);
+    const auto chain = makeChain(analysis, makePathDetector(analysis));
     std::vector<float> block;
     std::vector<float> scores(static_cast<std::size_t>(cells));
     Index done = 0;
