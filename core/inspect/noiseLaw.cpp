@@ -1,13 +1,17 @@
 #include "inspect/noiseLaw.h"
 
 #include "base/Random.h"
+#include "calibration/noiseStreams.h"
 #include "detect/Smd.h"
+#include "spectrum/channelCount.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iterator>
+#include <limits>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace faintline {
@@ -19,7 +23,11 @@ namespace {
     constexpr Index leastCounted = 20;
     constexpr double mostCellFrames = 4e6;
     constexpr double clusterVariance = 16.0; ///< of the fraction, relative to independent states
-    constexpr double deviations = 4.0;
+    constexpr Index tileCells = 16;
+    constexpr Index tileFrames = 50;
+    constexpr double rarelyExceeded = 1e-4; ///< fraction of cells and frames of noise
+    constexpr double quietShare = 0.25;     ///< of the tiles
+    constexpr double deviations = 5.0;      ///< four of a mean's
     constexpr double tolerance = 0.01;
     constexpr Index widestSkirt = 50; ///< resolution cells
     constexpr double noiseMean = 1.1;
@@ -68,6 +76,117 @@ namespace {
         return end;
     }
 
+    /// The fraction of states whose path continues, in tiles of cells and frames. Tiles in which the statistic exceeds
+    /// `loudest` are left out.
+    class ContinuedFractions
+    {
+    public:
+        ContinuedFractions(const MarkovModel &model, double loudest)
+            : m_loudest(float(loudest)), m_likelihood(model.likelihood), m_planes(model.space.planeCount()),
+              m_lambda(std::size_t(model.space.cellCount())),
+              m_continued(std::size_t(std::max<Index>(1, model.space.cellCount() / tileCells)), 0.0)
+        {
+            for (std::size_t cell = 0; cell < m_lambda.size(); ++cell)
+                m_columns.push_back(cell * m_continued.size() / m_lambda.size());
+        }
+
+        void add(std::span<const float> y, std::span<const float> statistic, const Smd &detector)
+        {
+            for (std::size_t cell = 0; cell < statistic.size(); ++cell)
+                if (statistic[cell] > m_loudest)
+                    m_isLoud[m_columns[cell]] = true;
+            m_likelihood.apply(y, m_lambda);
+            const std::span<const float> scores = detector.scores();
+            for (std::size_t plane = 0; plane < scores.size(); plane += m_lambda.size())
+                for (std::size_t cell = 0; cell < m_lambda.size(); ++cell)
+                    m_continued[m_columns[cell]] += scores[plane + cell] > m_lambda[cell] ? 1.0 : 0.0;
+            m_frames += 1.0;
+            if (++m_tileFrames == tileFrames)
+                close();
+        }
+
+        /// Ends the tiles, before a stretch that does not continue the last one; short ones count with the next.
+        void close()
+        {
+            if (m_tileFrames == 0 || (2 * m_tileFrames < tileFrames && !m_fractions.empty()))
+                return;
+            const auto columns = std::ssize(m_continued);
+            const auto cells = std::ssize(m_lambda);
+            for (Index column = 0; column < columns; ++column) {
+                const Index width =
+                    ((column + 1) * cells + columns - 1) / columns - (column * cells + columns - 1) / columns;
+                if (!m_isLoud[std::size_t(column)])
+                    m_fractions.push_back(m_continued[std::size_t(column)] / double(m_planes * width * m_tileFrames));
+            }
+            std::fill(m_continued.begin(), m_continued.end(), 0.0);
+            m_isLoud.assign(m_continued.size(), false);
+            m_tileFrames = 0;
+        }
+
+        double frames() const { return m_frames; }
+        bool isEmpty() const { return m_fractions.empty(); }
+
+        double mean() const
+        {
+            return std::accumulate(m_fractions.begin(), m_fractions.end(), 0.0) / double(m_fractions.size());
+        }
+
+        double lowerQuartile() const
+        {
+            std::vector<double> sorted = m_fractions;
+            const auto at = sorted.begin() + Index(quietShare * double(sorted.size()));
+            std::nth_element(sorted.begin(), at, sorted.end());
+            return *at;
+        }
+
+    private:
+        float m_loudest;
+        Likelihood m_likelihood;
+        Index m_planes;
+        std::vector<float> m_lambda;
+        std::vector<std::size_t> m_columns; ///< of each cell
+        std::vector<double> m_continued;    ///< states in the current tile of each column of cells
+        std::vector<bool> m_isLoud = std::vector<bool>(m_continued.size(), false);
+        std::vector<double> m_fractions; ///< of all tiles
+        Index m_tileFrames = 0;
+        double m_frames = 0.0;
+    };
+
+    /// Families and several channels have no simulated noise to compare with, so that nothing is left out of theirs.
+    bool isPlain(const AnalysisSettings &settings)
+    {
+        return settings.family.isNone() && channelCount(settings.selection) == 1;
+    }
+
+    double loudestOf(const AnalysisPlan &plan)
+    {
+        return isPlain(plan.settings) ? plan.calibration->levelExceededBy(rarelyExceeded)
+                                      : std::numeric_limits<double>::infinity();
+    }
+
+    /// The same on simulated white noise.
+    ContinuedFractions onWhiteNoise(const AnalysisPlan &plan, const ResetRule &rule, Index frames,
+                                    const RunContext &context)
+    {
+        const Index cells = plan.model.space.cellCount();
+        const SpectrogramSettings &settings = plan.settings.spectrogram;
+        const auto noise = spectralNoise(settings, int((cells + settings.binsPerCell - 1) / settings.binsPerCell));
+        Random random(7001, 0);
+        Smd detector(plan.model, rule);
+        ContinuedFractions fractions(plan.model, loudestOf(plan));
+        std::vector<float> y(static_cast<std::size_t>(cells));
+        std::vector<float> statistic(y.size());
+        for (Index frame = 0; frame < settlingFrames + frames; ++frame) {
+            context.checkpoint(double(frame) / double(settlingFrames + frames), "simulating noise for comparison");
+            noise->next(random, y);
+            detector.update(y, statistic);
+            if (frame >= settlingFrames)
+                fractions.add(y, statistic, detector);
+        }
+        fractions.close();
+        return fractions;
+    }
+
     /// The detector on stretches of the recording, signals replaced by simulated noise.
     class NoiseOutsideTracks
     {
@@ -75,12 +194,14 @@ namespace {
         NoiseOutsideTracks(const Analysis &analysis, const SmdSettings &smd, const RunContext &context)
             : m_analysis(analysis), m_frames(*analysis.frames), m_context(context),
               m_rule(resetRule(smd, analysis.calibration->lnK)), m_y(std::size_t(m_frames.grid().size())),
-              m_statistic(m_y.size())
+              m_statistic(m_y.size()), m_fractions(analysis.model, loudestOf(analysis))
         {
         }
 
-        /// Mean fraction of paths that continue, in evenly spread stretches.
-        double continuedFraction(Index length, Index stretches)
+        const ResetRule &rule() const { return m_rule; }
+
+        /// The fraction of paths that continue, in evenly spread stretches.
+        const ContinuedFractions &continuedFractions(Index length, Index stretches)
         {
             const Index count = m_frames.time().count;
             for (Index i = 0; i < stretches; ++i) {
@@ -88,10 +209,8 @@ namespace {
                 lookAt(first, first + length,
                        m_context.part(double(i) / double(stretches), double(i + 1) / double(stretches)));
             }
-            return m_counted > 0.0 ? m_sum / m_counted : 0.0;
+            return m_fractions;
         }
-
-        double counted() const { return m_counted; }
 
     private:
         using PointsByFrame = std::multimap<Index, std::pair<Piece *, Index>>;
@@ -110,11 +229,10 @@ namespace {
                     continue;
                 putNoiseOver(points, frame);
                 detector.update(m_y, m_statistic);
-                if (++seen <= settlingFrames)
-                    continue;
-                m_sum += detector.regulation().continuedFraction;
-                m_counted += 1.0;
+                if (++seen > settlingFrames)
+                    m_fractions.add(m_y, m_statistic, detector);
             }
+            m_fractions.close();
         }
 
         /// Determines how far the tracks' power reaches on either side.
@@ -168,8 +286,7 @@ namespace {
         Random m_random{7000, 0};
         std::vector<float> m_y;
         std::vector<float> m_statistic;
-        double m_sum = 0.0;
-        double m_counted = 0.0;
+        ContinuedFractions m_fractions;
     };
 
 } // namespace
@@ -178,11 +295,12 @@ std::string NoiseLawCheck::warning() const
 {
     if (isFollowed())
         return {};
-    char text[200];
-    std::snprintf(text, sizeof text,
-                  "the noise outside tracks differs from that of the calibration: %.1f %% of paths continue, %.1f … "
-                  "%.1f %% are expected; expect %s false alarms than specified",
-                  100.0 * found, 100.0 * band.low, 100.0 * band.high, isMore() ? "more" : "fewer");
+    char text[300];
+    std::snprintf(
+        text, sizeof text,
+        "the noise outside tracks differs from that of the calibration: in its quieter parts %.1f %% of paths "
+        "continue, %.1f … %.1f %% are expected; expect %s false alarms than specified",
+        100.0 * found, 100.0 * band.low, 100.0 * band.high, isMore() ? "more" : "fewer");
     return text;
 }
 
@@ -197,14 +315,20 @@ std::optional<NoiseLawCheck> checkNoiseLaw(const Analysis &analysis, const RunCo
         return {};
     const Index length = std::min(stretchFrames, count);
     const auto stretches = std::clamp<Index>(Index(mostCellFrames / double(length * cells)), 1, count / length);
-    NoiseOutsideTracks noise(analysis, *smd, context);
+    const RunContext looking = context.part(0.0, 0.5);
+    NoiseOutsideTracks noise(analysis, *smd, looking);
     NoiseLawCheck law;
-    law.expected = analysis.calibration->continuedFraction;
-    law.found = noise.continuedFraction(length, stretches);
-    if (noise.counted() < double(leastCounted))
+    const ContinuedFractions &fractions = noise.continuedFractions(length, stretches);
+    if (fractions.frames() < double(leastCounted) || fractions.isEmpty())
         return {};
+    const bool isCompared = isPlain(analysis.settings);
+    law.found = isCompared ? fractions.lowerQuartile() : fractions.mean();
+    law.expected =
+        isCompared
+            ? onWhiteNoise(analysis, noise.rule(), Index(fractions.frames()), context.part(0.5, 1.0)).lowerQuartile()
+            : analysis.calibration->continuedFraction;
     const double sigma =
-        std::sqrt(clusterVariance * law.expected * (1.0 - law.expected) / (noise.counted() * double(cells)));
+        std::sqrt(clusterVariance * law.expected * (1.0 - law.expected) / (fractions.frames() * double(cells)));
     const double half = deviations * sigma + tolerance + 1.0 / double(cells);
     law.band = {law.expected - half, law.expected + half};
     return law;

@@ -54,6 +54,7 @@ class tst_noiseLaw : public QObject
 private slots:
     void whiteNoiseNeverWarns();
     void aStrongLineIsNoNoise();
+    void faintLinesAreNoNoise();
     void wrongLevelsWarn();
     void whatHasNoLaw();
 };
@@ -75,6 +76,30 @@ void tst_noiseLaw::aStrongLineIsNoNoise()
     line.snrDb = 30.0;
     const auto analysis = analyse(noiseOf(7, 120.0, {line}), shortWindows());
     QVERIFY(!analysis->tracks.empty());
+    const auto law = checkNoiseLaw(*analysis);
+    QVERIFY(law);
+    QVERIFY2(law->isFollowed(), law->warning().c_str());
+}
+
+// As in a lesson: of eight lines of 3 dB, a threshold of 20 nat misses some.
+void tst_noiseLaw::faintLinesAreNoNoise()
+{
+    AnalysisSettings settings = preset("billon").settings;
+    settings.spectrogram.windowSeconds = 0.5;
+    settings.decide.by = DecideSettings::By::Nats;
+    settings.decide.thresholdNats = 60.0;
+    std::vector<LineSettings> lines;
+    for (int i = 0; i < 8; ++i) {
+        LineSettings line;
+        line.frequencyHz = 30.0 + 20.0 * i;
+        line.snrDb = 3.0;
+        line.referenceSeconds = 0.5;
+        line.startSeconds = 10.0 + 35.0 * i;
+        line.durationSeconds = 30.0;
+        lines.push_back(line);
+    }
+    const auto analysis = analyse(noiseOf(11, 300.0, lines), settings);
+    QVERIFY(analysis->tracks.size() < lines.size());
     const auto law = checkNoiseLaw(*analysis);
     QVERIFY(law);
     QVERIFY2(law->isFollowed(), law->warning().c_str());
