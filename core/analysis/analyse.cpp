@@ -143,6 +143,8 @@ namespace {
             analysis.tracks = std::move(seen.tracks);
             analysis.firstTracks = std::move(seen.first);
             analysis.areas = std::move(seen.areas);
+        } else if (cutsOnly(analysis) && request.depth != AnalysisDepth::Trial) {
+            analysis.tracks = cutToSignals(analysis, std::move(analysis.tracks), context.part(0.0, 0.5));
         }
         analysis.tracks = withoutLoneTeeth(analysis, std::move(analysis.tracks), context.part(0.5, 0.6));
         analysis.tracks = withoutGhosts(analysis, std::move(analysis.tracks));

@@ -85,8 +85,9 @@ BothWaysModel bothWaysModel(const Analysis &analysis)
     BothWaysModel model;
     model.axis = &analysis.model.space.axes().front();
     model.likelihood = analysis.model.likelihood;
-    model.threshold = analysis.threshold;
-    model.binsPerCell = analysis.frames->spectrogram()->binsPerCell();
+    model.threshold = isScoreOfPaths(analysis.settings.detector) ? analysis.threshold : analysis.settings.track.endNats;
+    const Spectrogram *spectrogram = analysis.frames->spectrogram();
+    model.binsPerCell = spectrogram ? spectrogram->binsPerCell() : 1.0;
     return model;
 }
 

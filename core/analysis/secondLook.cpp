@@ -390,6 +390,64 @@ bool looksTwice(const AnalysisPlan &analysis)
            && !analysis.isBank() && analysis.frames->spectrogram();
 }
 
+namespace {
+
+    /// The frames of a track from the first to the last one in which its signal is present; both -1 if there are none.
+    struct PresentFrames {
+        Index first = -1;
+        Index last = -1;
+    };
+
+    PresentFrames presentFrames(const Analysis &analysis, const Track &track, const RunContext &context)
+    {
+        std::vector<TrackPiece> trackPieces;
+        BothWaysModel model = bothWaysModel(analysis);
+        addPieces(trackPieces, track, analysis.time().count, model.binsPerCell);
+        PresentFrames frames;
+        for (TrackPiece &piece : trackPieces) {
+            readStrips(analysis, std::span(&piece.strip, 1), context, following);
+            setLnK(model, analysis, piece.strip);
+            model.ends = {.absentBefore = piece.isFirst(), .absentAfter = piece.isLast()};
+            const std::vector<float> present = lookBothWays(piece.strip, model).endsBy;
+            for (std::size_t i = piece.from; i < piece.to; ++i) {
+                const Index frame = track.points[i].frame;
+                if (present[std::size_t(frame - piece.strip.firstFrame)] <= 0.5f)
+                    continue;
+                frames.first = frames.first < 0 ? frame : frames.first;
+                frames.last = frame;
+            }
+            piece.strip = {};
+        }
+        return frames;
+    }
+
+} // namespace
+
+bool cutsOnly(const AnalysisPlan &analysis)
+{
+    return analysis.settings.track.bothWays && !analysis.settings.noise.causal
+           && analysis.settings.model.likelihood != LikelihoodKind::Linear && analysis.grid().isSpectrum()
+           && !analysis.isBank() && analysis.settings.family.isNone() && !looksTwice(analysis);
+}
+
+std::vector<Track> cutToSignals(const Analysis &analysis, std::vector<Track> tracks, const RunContext &context)
+{
+    for (Track &track : tracks) {
+        const PresentFrames frames = presentFrames(analysis, track, context);
+        if (frames.first < 0)
+            continue;
+        track.isOpen = track.isOpen && frames.last == track.points.back().frame;
+        std::erase_if(track.points,
+                      [&](const TrackPoint &point) { return point.frame < frames.first || point.frame > frames.last; });
+        track.onsetFrame = frames.first;
+        track.endFrame = frames.last;
+        track.detectFrame = std::clamp(track.detectFrame, frames.first, frames.last);
+        if (track.confirmFrame >= 0)
+            track.confirmFrame = std::clamp(track.confirmFrame, track.detectFrame, frames.last);
+    }
+    return tracks;
+}
+
 SecondView lookTwice(const Analysis &analysis, std::vector<Track> found, std::span<const Track> subtracted,
                      SecondLookDepth depth, const RunContext &context)
 {

@@ -15,6 +15,14 @@ bool canLookTwice(const AnalysisSettings &settings);
 /// Whether completed tracks get a second pass: if it is possible and enabled, through a spectrogram, with one model.
 bool looksTwice(const AnalysisPlan &analysis);
 
+/// Whether completed tracks are only cut to their signals: lines for which a second pass is enabled but impossible,
+/// because their frames are ready-made, or because another detector decides.
+bool cutsOnly(const AnalysisPlan &analysis);
+
+/// Cuts tracks to the frames from the first to the last one in which their signal is present (bothWays.h): a tracker
+/// follows noise for as long as it costs nothing. Tracks that are present nowhere stay as they are.
+std::vector<Track> cutToSignals(const Analysis &analysis, std::vector<Track> tracks, const RunContext &context);
+
 /// Result of the two-sided second pass over the chain's tracks.
 struct SecondView {
     std::vector<Track> tracks; ///< lines, by detection

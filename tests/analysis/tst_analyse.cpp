@@ -89,6 +89,7 @@ private slots:
     void thresholdsAgree();
     void cancels();
     void readyMadeFrames();
+    void readyMadeTracksEndWithTheirLine();
 };
 
 void tst_analyse::findsTheLine()
@@ -317,6 +318,33 @@ void tst_analyse::readyMadeFrames()
     const Event event = events(*analysis).front();
     QVERIFY(std::abs(event.position[0] - 220.0) <= 10.0);
     QVERIFY(std::abs(event.onsetSeconds - 100.0) <= 6.0 && std::abs(event.endSeconds - 298.0) <= 10.0);
+}
+
+// The tracker follows noise after the line for as long as it costs nothing; its track does not.
+void tst_analyse::readyMadeTracksEndWithTheirLine()
+{
+    constexpr Index cells = 200;
+    constexpr Index frames = 120;
+    const Grid grid{{{"frequency", "Hz", 0.0, 1.0, cells, false}}};
+    AnalysisSettings counting;
+    setSetting(counting, "detector.kind", "pOfN");
+    for (const AnalysisSettings &s : {AnalysisSettings(), preset("billon").settings, counting})
+        for (int seed = 1; seed <= 6; ++seed) {
+            Random random(std::uint64_t(seed), 3);
+            std::vector<float> y(std::size_t(cells * frames));
+            for (Index i = 0; i < cells * frames; ++i) {
+                const Index frame = i / cells;
+                const bool isLine = frame >= 30 && frame < 60 && i % cells == 20;
+                y[std::size_t(i)] = float(random.exponential()) + (isLine ? 10.0f : 0.0f);
+            }
+            const Axis time{"time", "s", 0.0, 1.0, frames, false};
+            const auto analysis = analyse(std::make_shared<FrameArray>(time, grid, std::move(y)), s);
+            QVERIFY(!analysis->tracks.empty());
+            const Track &track = analysis->tracks.front();
+            QVERIFY2(std::abs(track.onsetFrame - 30) <= 3, qPrintable(QString::number(track.onsetFrame)));
+            QVERIFY2(std::abs(track.endFrame - 59) <= 3, qPrintable(QString::number(track.endFrame)));
+            QVERIFY(!track.isOpen);
+        }
 }
 
 FAINTLINE_TEST(tst_analyse)
