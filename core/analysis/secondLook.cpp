@@ -170,8 +170,10 @@ namespace {
         {
             bool isRaised = false;
             std::vector<float> floor(std::size_t(strip.width()));
+            strip.floor.clear();
             for (Index at = 0; at < strip.frameCount(); ++at) {
                 m_explanations.read(strip.firstFrame + at, strip.firstCell(at), floor);
+                strip.floor.push_back(floor[std::size_t(strip.halfWidth)]);
                 float *y = strip.row(at);
                 for (const float level : floor) {
                     *y++ /= level;

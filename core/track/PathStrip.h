@@ -13,6 +13,7 @@ struct PathStrip {
     Index halfWidth = 0;        ///< cells on either side of the path
     std::vector<Index> centres; ///< the path, one cell per frame
     std::vector<float> y;       ///< frames × width; NaN off the axis and where not observed
+    std::vector<float> floor;   ///< by which y was divided at the path, one per frame; empty: 1
 
     Index width() const { return 2 * halfWidth + 1; }
     Index frameCount() const { return Index(centres.size()); }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace faintline {
 
@@ -16,6 +17,7 @@ namespace {
     constexpr double leastChange = 2.0;   ///< nat: minimum cost of an interruption, even with a low threshold
     constexpr double leastLevel = 0.5;
     constexpr double largestLevel = 4.0;
+    constexpr double mostLevel = 1e9;        ///< as large as any
     constexpr double levelOfOneFrame = 10.0; ///< from this SNR on, the neighbouring frames suffice for a frame's
                                              ///< position
     constexpr double framesAtMost = 8.0;
@@ -44,6 +46,8 @@ namespace {
                 seen.positions = seen.presence.mean;
             }
             seen.levels = levels(seen);
+            m_expected = expectedLevels(seen);
+            m_fades = fades(seen);
             seen.endsBy =
                 presenceIn(corridor(seen, Level::Expected), *m_model.axis, lnChange(), m_strip.firstFrame, m_model.ends)
                     .present;
@@ -97,33 +101,80 @@ namespace {
             return result;
         }
 
-        /// The likelihood at a track's own level, in half octaves.
-        const Likelihood &likelihoodAt(double level)
+        /// The likelihood at a level, in half octaves.
+        const Likelihood &likelihoodAt(LikelihoodKind kind, double level)
         {
-            const auto step =
-                int(std::lround(2.0 * std::log2(std::clamp(level, leastLevel, largestLevel) / leastLevel)));
-            const auto found = m_likelihoods.find(step);
-            return found != m_likelihoods.end() ? found->second
-                                                : m_likelihoods
-                                                      .emplace(step, Likelihood(m_model.likelihood.kind(),
-                                                                                leastLevel * std::pow(2.0, 0.5 * step)))
-                                                      .first->second;
+            const auto step = int(std::lround(2.0 * std::log2(std::clamp(level, leastLevel, mostLevel) / leastLevel)));
+            return m_likelihoods
+                .try_emplace(std::pair(kind, step), kind, leastLevel * std::pow(2.0, 0.5 * double(step)))
+                .first->second;
         }
 
-        /// The largest mean over ±12 frames about a frame, 12 frames before and 12 frames after it. About the frame
-        /// alone, a signal that ends would be expected ever fainter, and its end never be certain.
-        static double expectedLevel(const std::vector<double> &levels, Index at)
+        /// Whether the powers of the frames in which the signal is present are those of one whose amplitude varies from
+        /// frame to frame, rather than those of the detector's law. Frames near an end of it may not belong to it, so
+        /// that they count only if there are no others.
+        bool fades(const BothWays &seen)
         {
-            const Index last = std::ssize(levels) - 1;
-            return std::max({levels[std::size_t(at)], levels[std::size_t(std::max<Index>(0, at - levelFrames))],
-                             levels[std::size_t(std::min(last, at + levelFrames))]});
+            if (m_model.likelihood.kind() == LikelihoodKind::Given)
+                return false;
+            double inside = 0.0;
+            double all = 0.0;
+            bool hasInside = false;
+            for (Index at = 0; at < m_strip.frameCount(); ++at) {
+                if (!isPresentAt(seen, at))
+                    continue;
+                const auto i = std::size_t(at);
+                const auto y = double(m_strip.valueAt(at, nearest(seen.positions[i])));
+                const double difference = likelihoodAt(LikelihoodKind::Exponential, m_expected[i]).at(y)
+                                          - likelihoodAt(m_model.likelihood.kind(), m_expected[i]).at(y);
+                all += difference;
+                if (isPresentAt(seen, at - levelFrames) && isPresentAt(seen, at + levelFrames)) {
+                    inside += difference;
+                    hasInside = true;
+                }
+            }
+            return (hasInside ? inside : all) > 0.0;
+        }
+
+        bool isPresentAt(const BothWays &seen, Index at) const
+        {
+            return at >= 0 && at < m_strip.frameCount() && seen.presence.present[std::size_t(at)] > 0.5f;
+        }
+
+        double floorAt(Index at) const { return m_strip.floor.empty() ? 1.0 : double(m_strip.floor[std::size_t(at)]); }
+
+        /// The largest mean over ±12 frames about each frame, 12 frames before and 12 frames after it. About the frame
+        /// alone, a signal that ends would be expected ever fainter, and its end never be certain. The means are of
+        /// power over the noise, each frame as certain as its floor allows; the result is over the floor.
+        std::vector<double> expectedLevels(const BothWays &seen) const
+        {
+            std::vector<double> values;
+            std::vector<double> weights;
+            for (Index at = 0; at < m_strip.frameCount(); ++at) {
+                const float y = m_strip.valueAt(at, nearest(seen.positions[std::size_t(at)]));
+                weights.push_back(std::isnan(y) ? 0.0 : 1.0 / (floorAt(at) * floorAt(at)));
+                values.push_back(std::isnan(y) ? 0.0 : (double(y) - 1.0) * floorAt(at));
+            }
+            std::vector<double> means(values.size());
+            runningMean(values, weights, levelFrames, means, 1e-9);
+            std::vector<double> result;
+            const Index last = std::ssize(means) - 1;
+            for (Index at = 0; at <= last; ++at)
+                result.push_back(
+                    std::max({means[std::size_t(at)], means[std::size_t(std::max<Index>(0, at - levelFrames))],
+                              means[std::size_t(std::min(last, at + levelFrames))]})
+                    / floorAt(at));
+            return result;
         }
 
         const Likelihood &likelihoodFor(const BothWays &seen, Index at, Level level)
         {
             if (level == Level::OfDesign)
                 return m_model.likelihood;
-            return likelihoodAt(level == Level::Own ? seen.levels[std::size_t(at)] : expectedLevel(seen.levels, at));
+            if (level == Level::Own)
+                return likelihoodAt(m_model.likelihood.kind(), std::min(seen.levels[std::size_t(at)], largestLevel));
+            return likelihoodAt(m_fades ? LikelihoodKind::Exponential : m_model.likelihood.kind(),
+                                m_expected[std::size_t(at)]);
         }
 
         Corridor corridor(const BothWays &seen, Level level)
@@ -196,7 +247,9 @@ namespace {
 
         const PathStrip &m_strip;
         const BothWaysModel &m_model;
-        std::map<int, Likelihood> m_likelihoods; ///< by level, in half octaves
+        std::map<std::pair<LikelihoodKind, int>, Likelihood> m_likelihoods; ///< by level, in half octaves
+        std::vector<double> m_expected;
+        bool m_fades = false;
     };
 
 } // namespace

@@ -47,11 +47,12 @@ Index corridorHalfWidth(double binsPerCell);
 ///          logarithm, at most one bin from the mean
 ///
 /// Presence is then computed once more, along the same corridor, for the level that a frame has if the signal goes on
-/// as before or after it: the largest r of t, t - 12 and t + 12. If the signal is absent outside the strip (`ends`),
+/// as before or after it: the largest r of t, t - 12 and t + 12, over the floor in that frame. If the signal is absent outside the strip (`ends`),
 /// the evidence alone decides where it begins and ends; otherwise noise before it would count as signal, because an
-/// onset inside the strip costs T/2.
-///
-/// The stronger a line, the sooner its end is recognised, limited to SNR 4, so that a keyed line stays one track.
+/// onset inside the strip costs T/2. The stronger a line, the sooner its end is recognised; only the presence that
+/// decides what is one track is limited to SNR 4, so that a keyed line stays one. The likelihood is the detector's, or,
+/// if that explains the powers along the path better, the exponential one of an amplitude that varies from frame to
+/// frame: in a strong signal that fades, power far below its mean is far above the noise's.
 BothWays lookBothWays(const PathStrip &strip, const BothWaysModel &model);
 
 /// Expected number of slope changes by 0, 1, … steps (expectedSlopeChanges), at the track's own level.
