@@ -389,7 +389,7 @@ void ComparePanel::goTo(int row)
     if (!track || track->points.empty() || !m_document.lineAnalysis())
         return;
     m_document.viewport().reveal(trackBox(*track, *result->a));
-    m_document.viewport().setCursor({compared.a->detectSeconds, compared.a->position.back()});
+    m_document.viewport().setCursor({compared.a->detectSeconds, compared.a->detectedPosition.back()});
 }
 
 } // namespace faintline

@@ -26,12 +26,13 @@ namespace {
     {
         constexpr Index reach = 3;
         const PeakPyramid *statistic = analysis.statistic.get();
-        if (!statistic || event.position.size() != 1 || statistic->rowCount(0) == 0 || statistic->framesPerRow(0) != 1)
-            return event.position;
+        if (!statistic || event.detectedPosition.size() != 1 || statistic->rowCount(0) == 0
+            || statistic->framesPerRow(0) != 1)
+            return event.detectedPosition;
         const Axis &frequency = analysis.grid().axes.back();
         const auto row = statistic->row(
             0, std::clamp<Index>(analysis.time().nearest(event.detectSeconds), 0, statistic->rowCount(0) - 1));
-        const Index centre = frequency.nearest(event.position.back());
+        const Index centre = frequency.nearest(event.detectedPosition.back());
         Index best = centre;
         for (Index cell = std::max<Index>(0, centre - reach); cell <= std::min(frequency.count - 1, centre + reach);
              ++cell)

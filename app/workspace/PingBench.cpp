@@ -327,7 +327,7 @@ void PingBench::markSelected(int track)
 
 void PingBench::goTo(const Event &event)
 {
-    m_viewports.setPlace({event.detectSeconds, event.position});
+    m_viewports.setPlace({event.detectSeconds, event.detectedPosition});
     const double along = m_viewports.along(), across = m_viewports.across();
     m_viewports.map().reveal({{along, along}, {across, across}});
     m_viewports.alongTime().reveal({{event.onsetSeconds, event.endSeconds}, {along, along}});

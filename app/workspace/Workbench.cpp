@@ -238,7 +238,7 @@ void Workbench::placeCursor()
 {
     Viewport &viewport = m_document.viewport();
     if (const auto strongest = strongestEvent(m_document))
-        viewport.setCursor({strongest->detectSeconds, strongest->position.back()});
+        viewport.setCursor({strongest->detectSeconds, strongest->detectedPosition.back()});
     else
         viewport.setCursor({viewport.full().time.middle(), viewport.full().frequency.middle()});
 }
@@ -294,7 +294,7 @@ void Workbench::reveal(const Track &track)
 void Workbench::goTo(const Event &event)
 {
     if (m_document.track(event.id)) // not of a run in progress
-        m_document.viewport().setCursor({event.detectSeconds, event.position.back()});
+        m_document.viewport().setCursor({event.detectSeconds, event.detectedPosition.back()});
 }
 
 void Workbench::stepFrames(int frames)

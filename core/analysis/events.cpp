@@ -10,15 +10,20 @@ namespace faintline {
 
 namespace {
 
-    /// Least-squares slope of the track's position along an axis against time, per second.
-    double driftOf(const Track &track, const Axis &time, const Grid &grid, std::size_t along)
+    struct FittedLine {
+        double middle = 0.0; ///< position in the middle between the track's ends
+        double slope = 0.0;  ///< per second
+    };
+
+    /// Least-squares line through the track's positions along an axis, where its signal is present.
+    FittedLine lineThrough(const Track &track, const Axis &time, const Grid &grid, std::size_t along)
     {
         const Axis &axis = grid.axes[along];
         const bool isLast = &axis == &grid.axes.back();
-        const std::vector<std::size_t> present = track.presentPoints();
+        std::vector<std::size_t> present = track.presentPoints();
+        if (std::any_of(present.begin(), present.end(), [&](std::size_t i) { return track.isPresent(i); }))
+            std::erase_if(present, [&](std::size_t i) { return !track.isPresent(i); });
         const auto n = double(present.size());
-        if (n < 2.0)
-            return 0.0;
         double sumT = 0.0;
         double sumF = 0.0;
         double sumTT = 0.0;
@@ -26,10 +31,10 @@ namespace {
         double before = 0.0;
         for (const std::size_t i : present) {
             const TrackPoint &point = track.points[i];
-            const double t = double(point.frame - track.points.front().frame) * time.step;
+            const double t = (double(point.frame) - 0.5 * double(track.onsetFrame + track.endFrame)) * time.step;
             double f =
                 axis.value(isLast ? track.lastPosition(i, axis) : double(point.cell / grid.stride(along) % axis.count));
-            if (axis.cyclic && i > 0) {
+            if (axis.cyclic && i != present.front()) {
                 const double turn = axis.step * double(axis.count);
                 f += turn * std::round((before - f) / turn);
             }
@@ -39,7 +44,9 @@ namespace {
             sumTT += t * t;
             sumTF += t * f;
         }
-        return (n * sumTF - sumT * sumF) / (n * sumTT - sumT * sumT);
+        const double spread = n * sumTT - sumT * sumT;
+        const double slope = spread > 0.0 ? (n * sumTF - sumT * sumF) / spread : 0.0;
+        return {(sumF - slope * sumT) / n, slope};
     }
 
     /// Sets the properties that only the two-sided second pass gives.
@@ -103,9 +110,14 @@ std::vector<Event> events(const AnalysisPlan &plan, const std::vector<Track> &tr
         const auto at = std::find_if(track.points.begin(), track.points.end(),
                                      [&](const TrackPoint &point) { return point.frame >= track.detectFrame; });
         const auto detection = std::size_t(std::min(at, track.points.end() - 1) - track.points.begin());
-        event.position = track.positionOf(detection, grid);
-        for (std::size_t axis = 0; axis < event.position.size(); ++axis)
-            event.ratesPerSecond.push_back(driftOf(track, time, grid, axis));
+        event.detectedPosition = track.positionOf(detection, grid);
+        event.position = event.detectedPosition;
+        for (std::size_t axis = 0; axis < grid.axes.size(); ++axis) {
+            const FittedLine line = lineThrough(track, time, grid, axis);
+            event.ratesPerSecond.push_back(line.slope);
+            if (grid.isSpectrum())
+                event.position.back() = line.middle;
+        }
         event.driftPerSecond = event.ratesPerSecond.back();
         event.model = track.model;
         for (const ModelChange &change : track.modelChanges)

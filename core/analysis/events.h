@@ -13,8 +13,11 @@ struct Event {
     double onsetSeconds = 0.0;
     double detectSeconds = 0.0;
     double endSeconds = 0.0;
-    std::vector<double> position; ///< at detection, one per axis (Hz; or m, degrees)
-    double driftPerSecond = 0.0;  ///< straight-line slope of the track along the last axis
+    /// One per axis (Hz; or m, degrees). Of a line: the straight line fitted to its track, in the middle between onset
+    /// and end; on several axes: at detection.
+    std::vector<double> position;
+    std::vector<double> detectedPosition; ///< at detection
+    double driftPerSecond = 0.0;          ///< slope of the straight line fitted to the track along the last axis
     /// In the detector's unit: the path's largest if it is a path score, else that of the detection.
     double statistic = 0.0;
     bool isConfirmed = false;

@@ -287,6 +287,8 @@ namespace {
                 return;
             }
             Candidate &before = m_candidates.back();
+            if (holds(stretch, piece.track->detectFrame - piece.strip.firstFrame))
+                before.track.detectFrame = track.detectFrame;
             before.track.endFrame = track.endFrame;
             before.track.isOpen = track.isOpen;
             before.track.points.insert(before.track.points.end(), track.points.begin(), track.points.end());
@@ -342,6 +344,26 @@ namespace {
             return stretches;
         }
 
+        static bool holds(const Stretch &stretch, Index at) { return at >= stretch.from && at < stretch.to; }
+
+        /// Where the evidence of a stretch alone reached the threshold; or where it was largest, if it never did.
+        Index detectionIn(const Stretch &stretch, const BothWays &seen) const
+        {
+            Index largest = stretch.from;
+            double most = 0.0;
+            double score = 0.0;
+            for (Index at = stretch.from; at < stretch.to; ++at) {
+                score = std::max(0.0, score) + seen.gains[std::size_t(at)];
+                if (score > most) {
+                    most = score;
+                    largest = at;
+                }
+                if (score > m_analysis.threshold)
+                    break;
+            }
+            return largest;
+        }
+
         Track trackOf(const TrackPiece &piece, const BothWays &seen, const Stretch &stretch) const
         {
             const PathStrip &strip = piece.strip;
@@ -350,7 +372,9 @@ namespace {
             track.onsetFrame = strip.firstFrame + stretch.from;
             track.endFrame = strip.firstFrame + stretch.to - 1;
             track.isOpen = found.isOpen && track.endFrame + 1 == m_frames.time().count;
-            track.detectFrame = std::clamp(found.detectFrame, track.onsetFrame, track.endFrame);
+            track.detectFrame = holds(stretch, found.detectFrame - strip.firstFrame)
+                                    ? found.detectFrame
+                                    : strip.firstFrame + detectionIn(stretch, seen);
             if (found.confirmFrame >= 0)
                 track.confirmFrame = std::max(found.confirmFrame, track.detectFrame);
             for (Index at = stretch.from; at < stretch.to; ++at) {

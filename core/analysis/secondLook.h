@@ -38,8 +38,9 @@ enum class SecondLookDepth { Tracks, Signals, SignalsBesideTracks };
 /// to a fraction of a bin.
 ///
 /// The chain decides causally what is detected; its statistic is not changed, nor are times of detection, except those
-/// outside the signal's estimated extent, which are moved to its nearer end. Each of the chain's tracks, the strongest
-/// first, is processed in a strip of frames around its path (bothWays.h):
+/// outside the signal's estimated extent, and of further stretches: these were detected where their own evidence reached
+/// the threshold. Each of the chain's tracks, the strongest first, is processed in a strip of frames around its path
+/// (bothWays.h):
 ///
 ///   1. y is divided by the floor that stronger tracks raise (explanation.h);
 ///   2. a track that the detector would not have found over that floor belongs to them and is removed; so is one with

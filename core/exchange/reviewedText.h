@@ -17,7 +17,7 @@ struct ReviewedRow {
     Annotation box; ///< for an event, the extent of its track
 };
 
-/// Sets the box to the extent of an event's track along the last axis, or to its position at detection without a track.
+/// Sets the box to the extent of an event's track along the last axis, or to its position without a track.
 void fillBox(const Analysis &analysis, const Event &event, Annotation &box);
 
 /// Shortest form that reads back the same; empty for nothing.

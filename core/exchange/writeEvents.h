@@ -10,8 +10,9 @@ namespace faintline {
 /// Writes the events of an analysis; the extension selects the format: .csv, .json, .txt (Audacity labels), .sigmf-meta
 /// (annotations).
 ///
-/// CSV columns: event, t_onset, t_detect, t_end (s from the first sample), f (Hz at detection; or one column per axis),
-/// drift_hz_per_s (along the last axis), statistic (in the detector's unit: nat, or multiples of the noise; the .json
+/// CSV columns: event, t_onset, t_detect, t_end (s from the first sample), f (Hz, of the straight line fitted to the
+/// track, at (t_onset + t_end)/2; on several axes one column for each, at detection), drift_hz_per_s (slope of that
+/// line, or along the last axis), statistic (in the detector's unit: nat, or multiples of the noise; the .json
 /// names it), confirmed, open; on several axes AXIS_per_s of each. Numbers are in the C locale, in the shortest form
 /// that reads back the same. Lines with a two-sided second pass also have snr_db (mean, in one window), band_hz (width
 /// of the position's 5-95 % band) and noise_probability (probability that noise alone produces such an event in this

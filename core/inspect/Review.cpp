@@ -162,7 +162,7 @@ SignalPath pathOf(const Analysis &analysis, const Event &event)
     const Track *track = trackOfId(analysis.tracks, event.id);
     if (!track || track->points.empty()) {
         path.seconds = {event.detectSeconds};
-        path.position = {event.position};
+        path.position = {event.detectedPosition};
         return path;
     }
     const std::size_t last = track->points.size() - 1;

@@ -30,9 +30,12 @@ Event EventFollower::eventNow(const HmmTracker &tracker, Index frame) const
     event.onsetSeconds = time.value(double(track.onsetFrame));
     event.detectSeconds = time.value(double(track.detectFrame));
     event.endSeconds = time.value(double(frame));
+    const std::vector<Axis> &axes = m_plan.grid().axes;
     const std::vector<Index> &at = tracker.coordinates();
     for (std::size_t axis = 0; axis < at.size(); ++axis)
-        event.position.push_back(m_plan.grid().axes[axis].value(double(at[axis])));
+        event.position.push_back(axes[axis].value(double(at[axis])));
+    event.position.back() = axes.back().value(double(at.back()) + tracker.displacement());
+    event.detectedPosition = event.position;
     event.ratesPerSecond.assign(at.size(), 0.0);
     event.statistic = statisticOf(track, m_plan);
     event.isConfirmed = track.isConfirmed;

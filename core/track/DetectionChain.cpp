@@ -51,6 +51,8 @@ DetectionChain::DetectionChain(std::vector<MarkovModel> models, const Grid &grid
     for (const MarkovModel &model : m_models)
         m_trackerModels.push_back(std::make_unique<TrackerModel>(
             model, grid, m_settings.track, m_settings.trackThreshold.value_or(m_settings.threshold)));
+    for (const auto &tracker : m_trackerModels)
+        tracker->measuresOffsets = m_settings.skirtStep > 0 && m_grid.isSpectrum();
     m_rivals = RivalModels(m_trackerModels);
 }
 
@@ -353,6 +355,13 @@ void DetectionChain::startTrack(Index frame, const Cluster &cluster, std::span<c
     for (const PathStep &step : tracePath(m_models[model], m_grid, recent, {frame, state, scoreOf(state, model)}))
         track.points.push_back({step.frame, space.cellOf(step.state), space.planeOf(step.state), step.score});
     trimOnset(track.points);
+    if (m_trackerModels[model]->measuresOffsets)
+        measureOffsets(track.points, track.points.size(), [&](std::size_t i, Index cell) {
+            const std::vector<float> &seen = m_seen[std::size_t(track.points[i].frame - m_firstSeen)].y;
+            return cell < 0 || cell >= std::ssize(seen)
+                       ? 0.0
+                       : m_models[model].likelihood.at(double(seen[std::size_t(cell)]));
+        });
     track.onsetFrame = track.points.front().frame;
     track.isConfirmed = m_settings.track.confirmFrames <= 1 && m_settings.track.confirmNats <= 0.0;
     track.confirmFrame = track.isConfirmed ? frame : -1;

@@ -281,9 +281,28 @@ std::vector<TrackPoint> HmmTracker::pathTo(Index state) const
     return path;
 }
 
+void HmmTracker::measureFirst(std::size_t count, std::vector<TrackPoint> &path) const
+{
+    if (!m_model->measuresOffsets)
+        return;
+    measureOffsets(path, count, [this](std::size_t i, Index cell) {
+        const Slice &slice = m_history[i];
+        const Index at = cell - slice.centre.front() + m_model->halfWidth.front();
+        return at < 0 || at >= std::ssize(slice.lambda) ? 0.0f : slice.lambda[std::size_t(at)];
+    });
+}
+
+double HmmTracker::displacement() const
+{
+    std::vector<TrackPoint> path = pathTo(m_best);
+    measureFirst(path.size(), path);
+    return double(path.back().offset);
+}
+
 void HmmTracker::commit(std::size_t count)
 {
-    const std::vector<TrackPoint> path = pathTo(m_best);
+    std::vector<TrackPoint> path = pathTo(m_best);
+    measureFirst(count, path);
     m_track.points.insert(m_track.points.end(), path.begin(), path.begin() + std::ptrdiff_t(count));
     m_history.erase(m_history.begin(), m_history.begin() + std::ptrdiff_t(count));
     m_former.reset(); // the history no longer reaches it

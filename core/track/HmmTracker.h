@@ -60,6 +60,8 @@ public:
 
     Index cell() const { return m_model->space.cellOf(m_best); }
     const std::vector<Index> &coordinates() const { return m_history.back().centre; }
+    /// Distance of a line from the middle of the newest cell, cells (TrackPoint::offset).
+    double displacement() const;
     double statistic() const { return m_statistic; }
     double level() const { return m_level; }
     const Track &track() const { return m_track; }
@@ -120,6 +122,7 @@ private:
     /// The best state of the newest frame that changedTo() a model on `later` maps to `state`.
     Index stateBefore(Index state, const StateSpace &later) const;
     void commit(std::size_t count);
+    void measureFirst(std::size_t count, std::vector<TrackPoint> &path) const; ///< sets offsets
     void holdLevel();
 
     TrackerModel *m_model = nullptr;

@@ -36,6 +36,7 @@ struct TrackerModel {
     std::vector<Index> halfWidth; ///< of the window, per axis
     std::vector<Index> reach;     ///< largest displacement in one step, per axis
     Index largestExtent = 0;      ///< cells beyond this distance cannot affect a tracker
+    bool measuresOffsets = false; ///< TrackPoint::offset; of lines in a spectrogram
     StateSpace window;
     StateSpace padded; ///< the window extended by one step
     Recursion<MaxPlus<float>> recursion;

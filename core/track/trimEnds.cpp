@@ -12,6 +12,7 @@ namespace {
 
     void trimEnds(Track &track)
     {
+        const Index start = track.points.front().frame;
         Index first = 0;
         Index end = std::ssize(track.smoothed);
         while (first < end && !track.isPresent(std::size_t(first)))
@@ -29,7 +30,7 @@ namespace {
         track.points.erase(track.points.begin(), track.points.begin() + from);
         track.onsetFrame = track.points.front().frame;
         track.endFrame = track.points.back().frame;
-        track.detectFrame = std::clamp(track.detectFrame, track.onsetFrame, track.endFrame);
+        track.detectFrame = std::clamp(track.detectFrame, start + first, start + end - 1);
         if (track.confirmFrame >= 0)
             track.confirmFrame = std::clamp(track.confirmFrame, track.detectFrame, track.endFrame);
     }

@@ -125,8 +125,8 @@ void bindResult(py::module_ &module)
             "events", [](const Result &self) { return eventArray(*self.analysis()); },
             R"(The detected signals, a structured array with one record per event, ordered by onset, then frequency.
 
-The fields are the columns of the command line's CSV: event, t_onset, t_detect, t_end (s), f (Hz at detection; with
-several axes, one field for each), drift_hz_per_s, statistic (unit: statistic_unit), confirmed, open, and, if tracks had
+The fields are the columns of the command line's CSV: event, t_onset, t_detect, t_end (s), f (Hz, in the
+middle between onset and end; with several axes, one field for each, at detection), drift_hz_per_s, statistic (unit: statistic_unit), confirmed, open, and, if tracks had
 a second pass, snr_db, band_hz, noise_probability, window_s. With subtract.lines, subtracted follows; with two models
 in parallel (preset sonarBank), model, which found the event, and model_changes, "t:name;…". f is an offset from the
 recording's centre_hz.)")

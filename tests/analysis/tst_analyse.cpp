@@ -90,6 +90,7 @@ private slots:
     void cancels();
     void readyMadeFrames();
     void readyMadeTracksEndWithTheirLine();
+    void aLineBetweenBinsIsMeasured();
 };
 
 void tst_analyse::findsTheLine()
@@ -345,6 +346,37 @@ void tst_analyse::readyMadeTracksEndWithTheirLine()
             QVERIFY2(std::abs(track.endFrame - 59) <= 3, qPrintable(QString::number(track.endFrame)));
             QVERIFY(!track.isOpen);
         }
+}
+
+// A mean along the track, to a small part of a bin, whether it is looked at once or twice; the drift is beside it.
+void tst_analyse::aLineBetweenBinsIsMeasured()
+{
+    LineScene scene;
+    scene.sampleRateHz = 400.0;
+    scene.durationSeconds = 100.0;
+    LineSettings line;
+    line.snrDb = 10.0;
+    line.referenceSeconds = 0.25;
+    line.frequencyHz = 90.7;
+    line.driftHzPerSecond = 0.2;
+    line.startSeconds = 20.0;
+    line.durationSeconds = 60.0;
+    scene.lines = {line};
+    for (const bool bothWays : {false, true}) {
+        AnalysisSettings s;
+        s.spectrogram.windowSeconds = 0.25;
+        s.track.bothWays = bothWays;
+        const auto analysis = analyse(std::make_shared<SimulatedRecording>(scene), s);
+        QCOMPARE(analysis->tracks.size(), std::size_t(1));
+        const Event event = events(*analysis).front();
+        const double middle = 0.5 * (event.onsetSeconds + event.endSeconds);
+        const double truth = 90.7 + 0.2 * (middle - 20.0);
+        const double bin = analysis->grid().axes.front().step;
+        QVERIFY2(std::abs(event.position.back() - truth) < 0.1 * bin,
+                 qPrintable(QString("%1 for %2").arg(event.position.back()).arg(truth)));
+        QVERIFY2(std::abs(event.driftPerSecond - 0.2) < 0.01, qPrintable(QString::number(event.driftPerSecond)));
+        QVERIFY(event.detectedPosition.back() < event.position.back() - 2.0 * bin);
+    }
 }
 
 FAINTLINE_TEST(tst_analyse)

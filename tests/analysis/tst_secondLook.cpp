@@ -64,6 +64,7 @@ private slots:
     void keyedAndFadingLinesAreOneTrack();
     void pausesAreNotReported();
     void equalLinesAtTheEdgeStayOnTheAxis();
+    void everyBurstHasItsOwnDetection();
     void detectionStaysCausal();
     void aStrongLineIsOneTrack();
     void aLongTrackIsOne();
@@ -199,6 +200,35 @@ void tst_secondLook::equalLinesAtTheEdgeStayOnTheAxis()
             QVERIFY(track.points[i].cell >= 0 && track.points[i].cell < analysis->grid().size());
             QVERIFY(track.smoothed[i].position >= 0.0);
         }
+}
+
+void tst_secondLook::everyBurstHasItsOwnDetection()
+{
+    std::vector<LineSettings> bursts;
+    for (int i = 0; i < 9; ++i)
+        bursts.push_back(line(90.0, 15.0, 6.0 + 12.37 * i, 4.0));
+    for (int seed = 1; seed <= 3; ++seed) {
+        const auto analysis = analysisOf(bursts, 120.0, seed);
+        const std::vector<Event> found = events(*analysis);
+        QCOMPARE(found.size(), bursts.size());
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            const double begin = bursts[i].startSeconds;
+            const QString text = QString("seed %1, burst %2 at %3 s: detected at %4 s, %5 Hz")
+                                     .arg(seed)
+                                     .arg(i)
+                                     .arg(begin)
+                                     .arg(found[i].detectSeconds)
+                                     .arg(found[i].position.back());
+            QVERIFY2(found[i].detectSeconds > begin && found[i].detectSeconds < begin + 1.0, qPrintable(text));
+            QVERIFY2(std::abs(found[i].position.back() - 90.0) < 0.1, qPrintable(text));
+            // Nothing is there but at the ends, in frames half of whose window is empty.
+            const Track &track = *trackOfId(analysis->tracks, found[i].id);
+            for (std::size_t at = 0; at < track.points.size(); ++at)
+                if (const double t = secondsOf(*analysis, track.points[at].frame);
+                    t < begin - 0.5 * windowSeconds || t > begin + 4.0 + 0.5 * windowSeconds)
+                    QVERIFY2(track.smoothed[at].presence < 0.1f, qPrintable(text));
+        }
+    }
 }
 
 void tst_secondLook::detectionStaysCausal()

@@ -80,8 +80,8 @@ private slots:
     {
         const QList<float> presence{0.0f, 0.2f, 0.9f, 0.9f, 0.2f, 0.1f};
         QCOMPARE(trimmed(presence, 103).detectFrame, Index(103)); // as it was
-        QCOMPARE(trimmed(presence, 100).detectFrame, Index(101));
-        QCOMPARE(trimmed(presence, 105).detectFrame, Index(104));
+        QCOMPARE(trimmed(presence, 100).detectFrame, Index(102));
+        QCOMPARE(trimmed(presence, 105).detectFrame, Index(103));
         Track confirmed = track(presence, 103);
         confirmed.confirmFrame = 105;
         QCOMPARE(withEndsTrimmed({confirmed}).front().confirmFrame, Index(104));
@@ -92,7 +92,7 @@ private slots:
         const auto tracks = withEndsTrimmed({track({0.0f, 0.0f, 0.0f, 0.9f}, 100), track({0.9f, 0.9f, 0.9f}, 101)});
         QCOMPARE(tracks[0].detectFrame, Index(101));
         QCOMPARE(tracks[0].id, 1);
-        QCOMPARE(tracks[1].detectFrame, Index(102));
+        QCOMPARE(tracks[1].detectFrame, Index(103));
         QCOMPARE(tracks[1].id, 2);
     }
 

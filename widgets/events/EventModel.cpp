@@ -305,7 +305,7 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
                              tr("Note")};
     const QString tips[] = {
         tr("Number, in order of detection"),
-        m_axes.empty() ? tr("Frequency at detection") : tr("%1 at detection").arg(nameOf(0)),
+        m_axes.empty() ? tr("Frequency in the middle between onset and end") : tr("%1 at detection").arg(nameOf(0)),
         tr("%1 at detection").arg(hasBearing() ? nameOf(1) : tr("Bearing")),
         tr("%1 at detection").arg(hasColumn(ThirdAxis) ? nameOf(2) : QString()),
         tr("%1 at detection").arg(hasColumn(FourthAxis) ? nameOf(3) : QString()),
@@ -317,7 +317,7 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
         tr("Mean signal-to-noise power ratio in one window and bin"),
         tr("Length of the window that found the event: the displayed one, or a longer one for steady lines"),
         tr("Date and time of the onset"),
-        tr("Radio frequency at detection: centre frequency plus offset"),
+        tr("Radio frequency in the middle between onset and end: centre frequency plus offset"),
         tr("Last frame with evidence"),
         tr("Straight-line slope of the track"),
         tr("Confirmed or tentative; open if the data ended before the track"),

@@ -171,6 +171,7 @@ std::vector<SurveyEvent> SurveyDatabase::events(std::int64_t recording)
         event.detectSeconds = number(row, 2, path());
         event.endSeconds = number(row, 3, path());
         event.position = {number(row, 4, path())};
+        event.detectedPosition = event.position;
         event.driftPerSecond = number(row, 5, path());
         event.ratesPerSecond = {event.driftPerSecond};
         event.statistic = number(row, 6, path());
