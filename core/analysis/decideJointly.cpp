@@ -253,6 +253,7 @@ namespace {
                 at.cell = cell;
                 at.statistic = result.points.empty() ? 0.0 : result.points.back().statistic;
                 point.position = double(cell);
+                point.presence = 0.0f; // nobody has measured it there
                 point.low = float(double(cell) - 0.5 * m_binsPerCell);
                 point.high = float(double(cell) + 0.5 * m_binsPerCell);
                 result.points.push_back(at);

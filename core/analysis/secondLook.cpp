@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace faintline {
@@ -154,7 +155,85 @@ namespace {
                 };
         }
 
-        std::vector<Track> relinked(std::vector<Track> tracks) const
+        /// Reads strips that fit into memory together, and calls take(number) for each.
+        template <class Take>
+        void forEachStrip(std::vector<PathStrip> &strips, const RunContext &context, Take take) const
+        {
+            for (std::size_t first = 0; first < strips.size();) {
+                std::vector<PathStrip *> some;
+                std::size_t bytes = 0;
+                std::size_t end = first;
+                for (; end < strips.size() && (end == first || bytes < stripBytes); ++end) {
+                    bytes += sizeof(float) * std::size_t(strips[end].frameCount() * strips[end].width());
+                    some.push_back(&strips[end]);
+                }
+                readStrips(m_analysis, std::move(some), context, following);
+                for (; first < end; ++first) {
+                    take(first);
+                    strips[first] = {};
+                }
+            }
+        }
+
+        /// Replaces the cells of a frame in which a piece of the track itself was measured by that line alone.
+        void setPoint(PathStrip &strip, Index at, const SmoothedPoint &point) const
+        {
+            strip.floor[std::size_t(at)] = 1.0f;
+            for (Index i = 0; i < strip.width(); ++i) {
+                const double apart = std::abs(double(strip.firstCell(at) + i) - point.position) / m_model.binsPerCell;
+                strip.row(at)[i] = 1.0f + point.level * float(leakageBound(m_spectrogram.settings().window, apart));
+            }
+        }
+
+        /// Measures ways between pieces of tracks over the floor of everything that was found; cells that it hides are
+        /// not observed.
+        std::vector<Bridge> measured(std::span<const BridgeWay> ways)
+        {
+            std::vector<PathStrip> strips;
+            for (const BridgeWay &way : ways) {
+                PathStrip &strip = strips.emplace_back();
+                strip.firstFrame = way.firstFrame;
+                strip.halfWidth = bothWaysHalfWidth(m_model.binsPerCell);
+                for (const double position : way.positions)
+                    strip.centres.push_back(Index(std::lround(position)));
+            }
+            std::vector<Bridge> bridges(ways.size());
+            forEachStrip(strips, m_context.part(1.0, 1.0),
+                         [&](std::size_t i) { bridges[i] = bridgeAlong(ways[i], strips[i]); });
+            return bridges;
+        }
+
+        Bridge bridgeAlong(const BridgeWay &way, PathStrip &strip)
+        {
+            divideByFloor(strip);
+            const Index from = std::ssize(way.before);
+            const Index to = from + way.gap();
+            const float notObserved = std::numeric_limits<float>::quiet_NaN();
+            for (Index at = 0; at < strip.frameCount(); ++at) {
+                if (at < from)
+                    setPoint(strip, at, way.before[std::size_t(at)]);
+                else if (at >= to)
+                    setPoint(strip, at, way.after[std::size_t(at - to)]);
+                else
+                    m_explanations.hide(strip.firstFrame + at, strip.firstCell(at),
+                                        std::span(strip.row(at), std::size_t(strip.width())), notObserved);
+            }
+            setLnK(m_model, m_analysis, strip);
+            m_model.ends = {};
+            const BothWays seen = lookBothWays(strip, m_model);
+            Bridge bridge;
+            for (Index at = from; at < to; ++at) {
+                const auto i = std::size_t(at);
+                const bool isSeen = !std::isnan(strip.valueAt(at, Index(std::lround(seen.presence.mean[i]))));
+                bridge.isSeen.push_back(isSeen);
+                bridge.gain += isSeen ? seen.gains[i] : 0.0;
+                bridge.points.push_back({std::clamp(seen.positions[i], 0.0, double(m_cells - 1)), seen.presence.low[i],
+                                         seen.presence.high[i], seen.endsBy[i], float(seen.levels[i])});
+            }
+            return bridge;
+        }
+
+        std::vector<Track> relinked(std::vector<Track> tracks)
         {
             RelinkRule rule;
             rule.threshold = m_analysis.threshold;
@@ -162,6 +241,7 @@ namespace {
             rule.cells = m_cells;
             rule.slopeFrames = slopeFramesOf(*m_model.axis);
             rule.absence = [this](double level) { return evidenceOfAbsence(m_model.likelihood.kind(), level); };
+            rule.measure = [this](std::span<const BridgeWay> ways) { return measured(ways); };
             return relink(std::move(tracks), rule);
         }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -26,6 +27,9 @@ namespace {
     constexpr Index shortestPiece = 4; ///< frames
     constexpr Index longestGap = 8;    ///< in m
     constexpr int fitLengths = 3;      ///< m, 2 m, 4 m
+    constexpr double onTrackCells = 1.0;
+    constexpr double largestLevelRatio = 4.0; ///< 6 dB
+    constexpr Index seenWithin = 12;          ///< frames
 
     /// A stretch of a track between encounters: points from … to, exclusive.
     struct Piece {
@@ -240,7 +244,80 @@ namespace {
                           <= m_steepest * double(gap) + cells(endNearCells);
         }
 
+        bool isMeasured(const PairCost &pair) const
+        {
+            return isOwnWay(pair.from, pair.to) || startOf(m_pieces[pair.to]) - endOf(m_pieces[pair.from]) == 1
+                   || m_bridges.contains({pair.from, pair.to});
+        }
+
+        BridgeWay bridgeWay(const PairCost &pair) const
+        {
+            const auto a = pointsOf(m_pieces[pair.from]);
+            const auto b = pointsOf(m_pieces[pair.to]);
+            const auto before = a.last(std::min(a.size(), std::size_t(BridgeWay::pieceFrames)));
+            const auto after = b.first(std::min(b.size(), std::size_t(BridgeWay::pieceFrames)));
+            BridgeWay way;
+            way.firstFrame = endOf(m_pieces[pair.from]) + 1 - std::ssize(before);
+            way.before.assign(before.begin(), before.end());
+            way.after.assign(after.begin(), after.end());
+            for (const SmoothedPoint &point : before)
+                way.positions.push_back(point.position);
+            for (const double position : wayBetween(m_pieces[pair.from], m_pieces[pair.to]))
+                way.positions.push_back(std::clamp(position, 0.0, double(m_rule.cells - 1)));
+            for (const SmoothedPoint &point : after)
+                way.positions.push_back(point.position);
+            return way;
+        }
+
+        bool isRefuted(const Bridge &bridge) const
+        {
+            const auto seen = std::count(bridge.isSeen.begin(), bridge.isSeen.end(), true);
+            return std::ranges::any_of(bridge.points, [](const SmoothedPoint &p) { return p.presence <= 0.5f; })
+                   || (seen > longestAbsence() && bridge.gain < 0.0);
+        }
+
+        /// Measures the chosen pairs that were not measured before, and removes those that their own cells refute.
+        /// Returns whether there were any.
+        bool removeRefuted(std::vector<PairCost> &pairs, const std::vector<std::size_t> &chosen)
+        {
+            std::vector<std::size_t> asked;
+            std::vector<BridgeWay> ways;
+            for (const std::size_t number : chosen)
+                if (!isMeasured(pairs[number])) {
+                    asked.push_back(number);
+                    ways.push_back(bridgeWay(pairs[number]));
+                }
+            if (ways.empty())
+                return false;
+            std::vector<Bridge> bridges = m_rule.measure(ways);
+            std::vector<bool> isWrong(pairs.size(), false);
+            for (std::size_t i = 0; i < asked.size(); ++i) {
+                const PairCost &pair = pairs[asked[i]];
+                if (isRefuted(bridges[i]))
+                    isWrong[asked[i]] = true;
+                else
+                    m_bridges.emplace(std::pair(pair.from, pair.to), std::move(bridges[i]));
+            }
+            std::size_t number = 0;
+            return std::erase_if(pairs, [&](const PairCost &) { return isWrong[number++]; }) > 0;
+        }
+
         void link()
+        {
+            std::vector<PairCost> pairs = possiblePairs();
+            std::vector<std::size_t> links = assign(pairs, m_rule.threshold);
+            while (removeRefuted(pairs, links))
+                links = assign(pairs, m_rule.threshold);
+            for (const std::size_t chosen : links) {
+                const PairCost &pair = pairs[chosen];
+                m_next[pair.from] = pair.to;
+                m_previous[pair.to] = pair.from;
+                if (const auto found = m_bridges.find({pair.from, pair.to}); found != m_bridges.end())
+                    settle(found->second, pair);
+            }
+        }
+
+        std::vector<PairCost> possiblePairs()
         {
             for (const Piece &piece : m_pieces)
                 for (const PolynomialFit &fit : {fitAtEnd(piece, 1), fitAtStart(piece, 1)})
@@ -268,10 +345,7 @@ namespace {
                 if (isBeforeAnother(i))
                     pairs.push_back({i, i + 1, std::min(costOf(a, m_pieces[i + 1]), ownWay * m_rule.threshold)});
             }
-            for (const std::size_t chosen : assign(pairs, m_rule.threshold)) {
-                m_next[pairs[chosen].from] = pairs[chosen].to;
-                m_previous[pairs[chosen].to] = pairs[chosen].from;
-            }
+            return pairs;
         }
 
         bool isOwnWay(std::size_t from, std::size_t to) const
@@ -418,33 +492,62 @@ namespace {
             return isInA && (isFirstHalf || !isInB) ? gainAt(a, frame) : isInB ? gainAt(b, frame) : 0.0;
         }
 
-        /// Fills the gap between two pieces. What their tracks gained there is evidence for the signals that meet,
-        /// whichever of them a track followed.
+        /// What was measured nearest to a position, of a signal that is not much stronger; null if there is none.
+        const SmoothedPoint *measuredAt(Index frame, double position, double level) const
+        {
+            const SmoothedPoint *nearest = nullptr;
+            double least = cells(onTrackCells);
+            for (const Track &track : m_tracks) {
+                if (track.smoothed.empty() || frame < track.points.front().frame || frame > track.points.back().frame)
+                    continue;
+                const SmoothedPoint &point = track.smoothed[std::size_t(frame - track.points.front().frame)];
+                const double apart = std::abs(point.position - position);
+                if (apart <= least && point.presence > 0.5f && double(point.level) <= largestLevelRatio * level) {
+                    least = apart;
+                    nearest = &point;
+                }
+            }
+            return nearest;
+        }
+
+        static bool isSeenNear(const Bridge &bridge, Index at)
+        {
+            const Index last = std::ssize(bridge.isSeen) - 1;
+            if (at < seenWithin || last - at < seenWithin) // the pieces themselves
+                return true;
+            const auto from = bridge.isSeen.begin() + (at - seenWithin);
+            return std::find(from, from + 2 * seenWithin + 1, true) != from + 2 * seenWithin + 1;
+        }
+
+        /// Replaces the points of a bridge by those of an equal signal, and leaves out what could not be seen.
+        void settle(Bridge &measured, const PairCost &pair) const
+        {
+            const float level =
+                std::max(pointsOf(m_pieces[pair.from]).back().level, pointsOf(m_pieces[pair.to]).front().level);
+            Index frame = endOf(m_pieces[pair.from]);
+            for (Index at = 0; at < std::ssize(measured.points); ++at) {
+                SmoothedPoint &point = measured.points[std::size_t(at)];
+                if (const SmoothedPoint *own = measuredAt(++frame, point.position, double(level)))
+                    point = *own;
+                else if (!isSeenNear(measured, at))
+                    point.presence = 0.0f;
+            }
+        }
+
+        /// Fills the gap between two pieces with what was measured there. What their tracks gained there is evidence
+        /// for the signals that meet, whichever of them a track followed.
         void bridge(Track &track, std::size_t last, std::size_t next) const
         {
-            const Piece &a = m_pieces[last];
-            const Piece &b = m_pieces[next];
-            const Index gap = startOf(b) - endOf(a);
-            const PolynomialFit before = fitAtEnd(a, gap);
-            const PolynomialFit after = fitAtStart(b, gap);
-            const SmoothedPoint from = track.smoothed.back();
-            const SmoothedPoint to = pointsOf(b).front();
+            const auto found = m_bridges.find({last, next});
+            if (found == m_bridges.end()) // adjacent frames
+                return;
             const TrackPoint end = track.points.back();
             Index frame = end.frame;
             double statistic = end.statistic;
-            for (const double position : wayBetween(a, b)) {
-                const double share = double(++frame - end.frame) / double(gap);
-                statistic += gainBetween(last, next, frame);
-                const auto mixed = [&](float x, float y) {
-                    return float((1.0 - share) * double(x) + share * double(y));
-                };
-                const double half = 1.645
-                                    * std::sqrt(std::min(before.positionVarianceAt(double(frame)),
-                                                         after.positionVarianceAt(double(frame))));
-                const double place = std::clamp(position, 0.0, double(m_rule.cells - 1));
-                track.points.push_back({frame, Index(std::lround(place)), end.plane, statistic});
-                track.smoothed.push_back({place, float(place - half), float(place + half),
-                                          mixed(from.presence, to.presence), mixed(from.level, to.level)});
+            for (const SmoothedPoint &point : found->second.points) {
+                statistic += gainBetween(last, next, ++frame);
+                track.points.push_back({frame, Index(std::lround(point.position)), end.plane, statistic});
+                track.smoothed.push_back(point);
             }
         }
 
@@ -484,7 +587,8 @@ namespace {
         std::vector<Piece> m_pieces; ///< by track, then time
         std::vector<std::size_t> m_next;
         std::vector<std::size_t> m_previous;
-        double m_steepest = 0.0; ///< slope of any piece, cells per frame
+        std::map<std::pair<std::size_t, std::size_t>, Bridge> m_bridges; ///< between pieces of different tracks
+        double m_steepest = 0.0;                                         ///< slope of any piece, cells per frame
     };
 
 } // namespace

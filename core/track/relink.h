@@ -3,9 +3,29 @@
 #include "track/Track.h"
 
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace faintline {
+
+/// A way from one piece of a track to another, through frames that neither has measured for it: one position for each
+/// frame from `firstFrame` on. The first and the last points belong to the pieces.
+struct BridgeWay {
+    Index firstFrame = 0;
+    std::vector<double> positions;     ///< cells
+    std::vector<SmoothedPoint> before; ///< at the first frames
+    std::vector<SmoothedPoint> after;  ///< at the last frames
+
+    static constexpr Index pieceFrames = 12; ///< of either piece, if it is so long
+    Index gap() const { return std::ssize(positions) - std::ssize(before) - std::ssize(after); }
+};
+
+/// What the cells along a way say: one point for each frame between the pieces.
+struct Bridge {
+    std::vector<SmoothedPoint> points;
+    std::vector<bool> isSeen; ///< whether a cell of its own could be observed in a frame
+    double gain = 0.0;        ///< evidence in these frames, nat
+};
 
 /// Conditions for identities of tracks of lines.
 struct RelinkRule {
@@ -15,6 +35,8 @@ struct RelinkRule {
     Index slopeFrames = 56; ///< m, over which a track's way before and after an encounter is measured
     /// D(r): evidence against a signal of level r in each frame in which nothing is to be seen of it, nat.
     std::function<double(double level)> absence;
+    /// Measures ways between pieces in the frames.
+    std::function<std::vector<Bridge>(std::span<const BridgeWay>)> measure;
 };
 
 /// Assigns the pieces of tracks before and after encounters anew, and joins the pieces of one signal.
@@ -37,8 +59,14 @@ struct RelinkRule {
 /// A link is possible if it costs less than T and the signal could have been seen in few frames of the gap: those that
 /// are not within 2.5 cells of any track are at most m/5, and times D at most T (for longer ones see joinTracks.h). Two
 /// tracks of which one's end and the other's beginning were seen together for m/5 frames or more are two signals. A
-/// track's own way costs T·0.9 at most, so that it is kept unless there is a better one; no link costs T. Between
-/// linked pieces of different tracks, a cubic curve replaces what the tracks had there.
+/// track's own way costs T·0.9 at most, so that it is kept unless there is a better one; no link costs T.
+///
+/// Each chosen link between pieces of different tracks is then measured along a cubic curve, in the cells that no other
+/// track hides. Its own cells refute it if the signal is more likely absent than present in one of its frames, or if
+/// more than m/5 of them were seen and their evidence together is negative; the rest is assigned anew without it.
+/// Where a track of at most four times the pieces' level lies within a cell of the curve, the joined track has what was
+/// measured of that one: equal signals that meet. Elsewhere it has what was measured along the curve; frames farther
+/// than 12 from one in which it was seen have presence 0, and are not reported.
 ///
 /// There the statistic goes on with what the first track gained up to the middle, then the second one; where one of
 /// these has its end, with what the other gained. Frames of an encounter are evidence for the signals that meet,

@@ -65,6 +65,7 @@ private slots:
     void pausesAreNotReported();
     void equalLinesAtTheEdgeStayOnTheAxis();
     void everyBurstHasItsOwnDetection();
+    void pausesAmongDenseLinesAreNotBridged();
     void detectionStaysCausal();
     void aStrongLineIsOneTrack();
     void aLongTrackIsOne();
@@ -228,6 +229,30 @@ void tst_secondLook::everyBurstHasItsOwnDetection()
                     t < begin - 0.5 * windowSeconds || t > begin + 4.0 + 0.5 * windowSeconds)
                     QVERIFY2(track.smoothed[at].presence < 0.1f, qPrintable(text));
         }
+    }
+}
+
+// Eight lines four cells apart, and in the middle between two of them one that is switched off for 30 s.
+void tst_secondLook::pausesAmongDenseLinesAreNotBridged()
+{
+    std::vector<LineSettings> lines{line(64.0, 15.0, 20.0, 30.0), line(64.0, 15.0, 80.0, 30.0)};
+    for (int i = 0; i < 8; ++i)
+        lines.push_back(line(24.0 + 16.0 * i, 15.0, 0.0, 130.0));
+    for (int seed = 1; seed <= 3; ++seed) {
+        const auto analysis = analysisOf(lines, 130.0, seed);
+        int inPause = 0;
+        int present = 0;
+        for (const Track &track : analysis->tracks)
+            for (const std::size_t i : track.presentPoints()) {
+                const double t = secondsOf(*analysis, track.points[i].frame);
+                const double hz = analysis->grid().axes.front().value(track.smoothed[i].position);
+                if (std::abs(hz - 64.0) > cellHz)
+                    continue;
+                inPause += t > 51.0 && t < 79.0 ? 1 : 0;
+                present += (t > 21.0 && t < 49.0) || (t > 81.0 && t < 109.0) ? 1 : 0;
+            }
+        QCOMPARE(inPause, 0);
+        QVERIFY2(present > 400, qPrintable(QString::number(present))); // of 448
     }
 }
 

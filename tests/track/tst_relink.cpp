@@ -13,6 +13,19 @@ namespace {
 constexpr double binsPerCell = 2.0;
 constexpr double threshold = 15.0;
 
+/// A signal of that presence and level all along a way.
+Bridge bridgeWith(const BridgeWay &way, float presence, float level)
+{
+    Bridge bridge;
+    for (Index at = std::ssize(way.before); at < std::ssize(way.positions) - std::ssize(way.after); ++at) {
+        const double position = way.positions[std::size_t(at)];
+        bridge.points.push_back({position, float(position - 0.3), float(position + 0.3), presence, level});
+        bridge.isSeen.push_back(true);
+    }
+    bridge.gain = presence > 0.5f ? 1.0 : -1.0;
+    return bridge;
+}
+
 RelinkRule rule()
 {
     RelinkRule result;
@@ -20,6 +33,12 @@ RelinkRule rule()
     result.binsPerCell = binsPerCell;
     result.cells = 1000;
     result.absence = [](double level) { return 0.5 * std::min(level, 4.0); };
+    result.measure = [](std::span<const BridgeWay> ways) {
+        std::vector<Bridge> bridges;
+        for (const BridgeWay &way : ways)
+            bridges.push_back(bridgeWith(way, 1.0f, 3.0f));
+        return bridges;
+    };
     return result;
 }
 
@@ -95,6 +114,10 @@ private slots:
     void aSwapIsUndone();
     void curvesKissAndPart();
     void lostBehindAnotherItIsOne();
+    void bridgesAreMeasured();
+    void whatCouldNotBeSeenIsNotReported();
+    void cellsRefuteAJoin_data();
+    void cellsRefuteAJoin();
     void switchedOffItIsTwo();
     void aGhostTakesNothing();
     void piecesHaveTheirOwnEvidence();
@@ -164,6 +187,85 @@ void tst_relink::lostBehindAnotherItIsOne()
     QCOMPARE(one.endFrame, Index(800));
     QVERIFY(distance(one, up) < 1.5);
     QCOMPARE(one.detectFrame, Index(10));
+}
+
+// The line behind which one was lost is 7 dB stronger: what was measured of it is nothing of the other.
+void tst_relink::bridgesAreMeasured()
+{
+    const Way up = straight(300.0, 0.1);
+    const auto result = relink(
+        {track(0, 800, straight(300.0, 0.0), 20.0), track(0, 350, up, 4.0, 2), track(455, 800, up, 4.0, 3)}, rule());
+    const Track &one = trackAlong(result, up);
+    QCOMPARE(one.points.size(), std::size_t(801));
+    for (std::size_t i = 351; i < 455; ++i) {
+        QCOMPARE(one.smoothed[i].level, 3.0f); // as measured, not as at the ends
+        QCOMPARE(one.smoothed[i].presence, 1.0f);
+    }
+}
+
+void tst_relink::whatCouldNotBeSeenIsNotReported()
+{
+    const Way up = straight(300.0, 0.1);
+    RelinkRule blind = rule();
+    Index start = -1; // of the gap
+    Index end = -1;
+    constexpr Index seen = 395;
+    blind.measure = [&](std::span<const BridgeWay> ways) {
+        std::vector<Bridge> bridges;
+        for (const BridgeWay &way : ways) {
+            bridges.push_back(bridgeWith(way, 1.0f, 3.0f));
+            start = way.firstFrame + std::ssize(way.before);
+            end = start + way.gap();
+            bridges.back().isSeen.assign(std::size_t(way.gap()), false);
+            bridges.back().isSeen[std::size_t(seen - start)] = true;
+        }
+        return bridges;
+    };
+    const auto result = relink(
+        {track(0, 800, straight(300.0, 0.0), 20.0), track(0, 350, up, 4.0, 2), track(455, 800, up, 4.0, 3)}, blind);
+    const Track &one = trackAlong(result, up);
+    QVERIFY(start > 300 && start <= 351 && end >= 455 && end < 500);
+    for (Index frame = 0; frame <= 800; ++frame) {
+        const bool wasTracked = frame <= 350 || frame >= 455;
+        const bool isNear = frame < start + 12 || frame >= end - 12 || std::abs(frame - seen) <= 12;
+        QCOMPARE(one.isPresent(std::size_t(frame)), wasTracked || isNear);
+    }
+}
+
+void tst_relink::cellsRefuteAJoin_data()
+{
+    QTest::addColumn<float>("presence"); // in one frame
+    QTest::addColumn<int>("seen");
+    QTest::addColumn<double>("gain");
+    QTest::addColumn<int>("tracks");
+    QTest::newRow("there") << 0.9f << 104 << 5.0 << 2;
+    QTest::newRow("absent for a while") << 0.3f << 104 << 5.0 << 3;
+    QTest::newRow("nothing in many frames") << 0.9f << 104 << -5.0 << 3;
+    QTest::newRow("nothing in few frames") << 0.9f << 8 << -5.0 << 2;
+}
+
+// Among dense lines, the way between two pieces is nowhere far from a track; its own cells decide.
+void tst_relink::cellsRefuteAJoin()
+{
+    QFETCH(float, presence);
+    QFETCH(int, seen);
+    QFETCH(double, gain);
+    QFETCH(int, tracks);
+    const Way up = straight(300.0, 0.1);
+    RelinkRule measuring = rule();
+    measuring.measure = [&](std::span<const BridgeWay> ways) {
+        std::vector<Bridge> bridges;
+        for (const BridgeWay &way : ways) {
+            bridges.push_back(bridgeWith(way, 1.0f, 3.0f));
+            bridges.back().points[50].presence = presence;
+            std::fill(bridges.back().isSeen.begin() + seen, bridges.back().isSeen.end(), false);
+            bridges.back().gain = gain;
+        }
+        return bridges;
+    };
+    const auto result = relink(
+        {track(0, 800, straight(300.0, 0.0), 20.0), track(0, 350, up, 4.0, 2), track(455, 800, up, 4.0, 3)}, measuring);
+    QCOMPARE(int(result.size()), tracks);
 }
 
 void tst_relink::switchedOffItIsTwo()
