@@ -104,9 +104,9 @@ QByteArray filterbank(const std::vector<Injected> &lines, bool descends)
 TopHits tableOf(const std::string &path, double leastSnr)
 {
     AnalysisSettings settings = preset("narrowband").settings;
-    const NormalisedFramesPointer frames = openFrames(path);
-    settings = withSlopesInBins(settings, *frames);
-    const auto analysis = analyse(frames, settings);
+    const NormalisedFramesPointer opened = openFrames(path);
+    settings = withSlopesInBins(settings, *opened);
+    const auto analysis = analyse(opened, settings);
     return topHits(*analysis, {"test", openPower(path)->info().startUnixSeconds, 0.0}, leastSnr);
 }
 

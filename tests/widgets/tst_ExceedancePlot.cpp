@@ -37,10 +37,10 @@ private:
         result->anchorNats = 5.0;
         result->eventRate = 1e-3;
         result->tailSlope = 0.5;
-        for (int i = 0; i <= 100; ++i) {
-            result->levels.push_back(-2.0 + 0.25 * i);
-            result->exceedance.push_back(std::min(1.0, 0.3 * std::exp(-0.5 * result->levels.back())));
-        }
+        result->lowestLevel = -2.0;
+        result->levelStep = 0.25;
+        for (std::size_t i = 0; i <= 100; ++i)
+            result->above.push_back(std::min(1.0, 0.3 * std::exp(-0.5 * result->level(i))));
         return result;
     }
 
