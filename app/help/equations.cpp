@@ -77,7 +77,7 @@ const std::vector<Equation> &equations()
              "p  probability of an onset or an end, e^(−T/2), T threshold\n"
              "β  the same recursion, backward in time\n"
              "band  5 to 95 % of the position's law, Σ γ over the slopes",
-             "Baum and others 1970; docs/theory.md, From statistic to tracks"),
+             "Baum and others 1970; docs/theory.md, Refinement"),
         make("profile", "The statistic along time", "D(t, f) at the cursor's f",
              "D  as in the picture above, with the threshold", "the picture of the statistic"),
         make("regulation", "ln K and resets",
