@@ -17,8 +17,7 @@ namespace {
 
 SumDetector::SumDetector(const MarkovModel &model, const ResetRule &rule)
     : m_space(model.space), m_likelihood(model.likelihood), m_rule(rule),
-      m_recursion(model.space, model.transitionScale), m_weights(std::size_t(model.space.stateCount()), 1.0),
-      m_scores(m_weights.size())
+      m_recursion(model.space, model.transitionScale), m_weights(std::size_t(model.space.stateCount()), 1.0)
 {
     if (rule.law != ResetLaw::Fixed && rule.law != ResetLaw::None)
         throw Error("reset.law", "must be fixed or none if the semiring is sum");
@@ -35,43 +34,74 @@ void SumDetector::update(std::span<const float> y, std::span<float> statistic)
     const double background =
         m_rule.law == ResetLaw::Fixed ? std::abs(m_scale) : 0.0; // distance of a new path's 1 from the best
     const bool isWide = std::max(highest - *least, background) > widest;
-    if (isWide) {
+    m_scores.clear();
+    if (isWide)
         updateWide(lambda);
-    } else if (m_frames > 0) {
-        const std::span<const double> predicted = m_recursion.predict(m_weights, m_frames);
-        const double factor = m_rule.law == ResetLaw::Fixed ? std::exp(m_rule.lnK) : 1.0;
-        const double fresh = m_rule.law == ResetLaw::Fixed ? std::exp(-m_scale) : 0.0;
-        for (std::size_t n = 0; n < m_weights.size(); ++n)
-            m_weights[n] = factor * predicted[n] + fresh;
-    }
+    else
+        updateWeights(lambda, highest);
     ++m_frames;
-    if (!isWide) {
-        double largest = 0.0;
-        for (std::size_t n = 0; n < m_weights.size(); ++n) {
-            m_weights[n] *= std::exp(lambda[n % cells] - highest);
-            largest = std::max(largest, m_weights[n]);
-        }
-        m_scale += highest;
-        if (largest > 0.0) {
-            m_scale += std::log(largest);
-            for (double &weight : m_weights)
-                weight /= largest;
-        }
-    }
     m_lnMean = m_scale + std::log(std::accumulate(m_weights.begin(), m_weights.end(), 0.0) / double(m_weights.size()));
 
-    std::fill(statistic.begin(), statistic.end(), -std::numeric_limits<float>::infinity());
-    for (std::size_t n = 0; n < m_weights.size(); ++n) {
-        if (!isWide)
-            m_scores[n] = float(m_scale + std::log(m_weights[n]));
-        statistic[n % cells] = std::max(statistic[n % cells], m_scores[n]);
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+        double largest = 0.0;
+        float score = -std::numeric_limits<float>::infinity();
+        for (std::size_t n = cell; n < m_weights.size(); n += cells) {
+            largest = std::max(largest, m_weights[n]);
+            if (isWide)
+                score = std::max(score, m_scores[n]);
+        }
+        statistic[cell] = isWide ? score : scoreOf(largest);
     }
+}
+
+/// One step of the weights, the largest of which is then 1.
+void SumDetector::updateWeights(std::span<const double> lambda, double highest)
+{
+    std::vector<double> ratio(lambda.size());
+    for (std::size_t cell = 0; cell < ratio.size(); ++cell)
+        ratio[cell] = std::exp(lambda[cell] - highest);
+    std::span<const double> predicted;
+    if (m_frames > 0)
+        predicted = m_recursion.predict(m_weights, m_frames);
+    const bool isFixed = m_rule.law == ResetLaw::Fixed;
+    const double factor = isFixed ? std::exp(m_rule.lnK) : 1.0;
+    const double fresh = isFixed ? std::exp(-m_scale) : 0.0;
+    double largest = 0.0;
+    for (std::size_t first = 0; first < m_weights.size(); first += ratio.size()) {
+        for (std::size_t cell = 0; cell < ratio.size(); ++cell) {
+            double &weight = m_weights[first + cell];
+            if (!predicted.empty())
+                weight = factor * predicted[first + cell] + fresh;
+            weight *= ratio[cell];
+            largest = std::max(largest, weight);
+        }
+    }
+    m_scale += highest;
+    if (largest > 0.0) {
+        m_scale += std::log(largest);
+        for (double &weight : m_weights)
+            weight /= largest;
+    }
+}
+
+float SumDetector::scoreOf(double weight) const
+{
+    return float(m_scale + std::log(weight));
+}
+
+std::span<const float> SumDetector::scores(std::size_t /*model*/) const
+{
+    if (m_scores.empty())
+        for (double weight : m_weights)
+            m_scores.push_back(scoreOf(weight));
+    return m_scores;
 }
 
 /// The same step in logarithms, for the scores; weights and scale follow from them.
 void SumDetector::updateWide(std::span<const double> lambda)
 {
     std::vector<double> ln(m_weights.size(), 0.0);
+    m_scores.resize(ln.size());
     const bool isFixed = m_rule.law == ResetLaw::Fixed;
     if (m_frames > 0) {
         const std::span<const double> predicted = m_recursion.predict(m_weights, m_frames);
@@ -92,6 +122,7 @@ void SumDetector::updateWide(std::span<const double> lambda)
 
 void SumDetector::forget(const Grid &grid, const CellBox &box)
 {
+    scores(); // those of the last frame remain
     const double background = std::exp(-m_scale);
     box.forEachCell(grid, [&](Index cell) {
         for (Index plane = 0; plane < m_space.planeCount(); ++plane) {
@@ -104,7 +135,7 @@ void SumDetector::forget(const Grid &grid, const CellBox &box)
 /// Everything on which the next frame depends, and the last scores.
 struct SumDetector::State final : DetectorState {
     std::vector<double> weights;
-    std::vector<float> scores;
+    std::vector<float> scores; ///< may be empty
     double scale = 0.0;
     double lnMean = 0.0;
     Index frames = 0;

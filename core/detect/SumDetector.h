@@ -28,7 +28,7 @@ public:
     void forget(const Grid &grid, const CellBox &box) override;
     std::shared_ptr<const DetectorState> state() const override;
     void setState(const DetectorState &state) override;
-    std::span<const float> scores(std::size_t /*model*/ = 0) const override { return m_scores; }
+    std::span<const float> scores(std::size_t model = 0) const override;
     double offset(std::size_t /*model*/ = 0) const override { return 0.0; }
     Regulation regulation(std::size_t /*model*/ = 0) const override { return {m_rule.lnK, 1.0, m_rule.lnK}; }
 
@@ -39,6 +39,8 @@ private:
     struct State;
 
     void updateWide(std::span<const double> lambda);
+    void updateWeights(std::span<const double> lambda, double highest);
+    float scoreOf(double weight) const;
 
     StateSpace m_space;
     Likelihood m_likelihood;
@@ -47,8 +49,8 @@ private:
     std::vector<double> m_weights; ///< A·e^(-scale)
     double m_scale = 0.0;
     double m_lnMean = 0.0;
-    Index m_frames = 0; ///< number of frames taken
-    std::vector<float> m_scores;
+    Index m_frames = 0;                  ///< number of frames taken
+    mutable std::vector<float> m_scores; ///< empty until they are asked for
 };
 
 } // namespace faintline
