@@ -26,7 +26,7 @@ namespace {
 
     struct DopplerOptions {
         AnalysisOptions analysis;
-        std::vector<int> events; ///< none: the strongest that can be fitted
+        std::vector<int> events; ///< none: the strongest that determines a pass
         std::string medium = "air";
         std::optional<double> propagation;
         std::optional<double> centreHz;
@@ -65,17 +65,41 @@ namespace {
 
     using Fit = std::function<DopplerReport(std::vector<Event> events)>;
 
-    /// The strongest event that can be fitted. Throws the error of the strongest one if none can be.
-    DopplerReport strongestFitted(const Analysis &analysis, const Fit &fit)
+    /// The fit of one event that determines a pass, or why there is none.
+    struct Attempt {
+        std::optional<DopplerReport> report;
+        std::string whyNot;
+    };
+
+    Attempt attempt(const Fit &fit, const Event &event)
     {
+        try {
+            DopplerReport report = fit({event});
+            if (!report.fit.isDetermined())
+                return {{}, "intervals of the fit are open; " + dopplerNotes(report).front()};
+            return {std::move(report), {}};
+        } catch (const Error &error) {
+            return {{}, error.what()};
+        }
+    }
+
+    /// The strongest event whose track determines a pass. Throws Error if there is none.
+    DopplerReport strongestFitted(const DopplerOptions &options, const Analysis &analysis, const Fit &fit)
+    {
+        const int strongest = chosenEvent(analysis, 0).id;
         std::vector<Event> found = events(analysis);
         std::ranges::stable_sort(found, std::ranges::greater(), &Event::statistic);
-        for (const Event &event : found)
-            try {
-                return fit({event});
-            } catch (const Error &) { // the next
-            }
-        return fit({chosenEvent(analysis, 0)});
+        std::string whyNot;
+        for (const Event &event : found) {
+            Attempt one = attempt(fit, event);
+            if (one.report)
+                return std::move(*one.report);
+            if (event.id == strongest)
+                whyNot = std::move(one.whyNot);
+        }
+        const std::string number = std::to_string(strongest);
+        throw Error(options.analysis.file, "none of " + std::to_string(found.size()) + " events can be fitted; event "
+                                               + number + ", the strongest (--event " + number + "): " + whyNot);
     }
 
     /// "; events 2, 5 can be fitted"
@@ -84,14 +108,13 @@ namespace {
         constexpr int most = 10;
         std::string numbers;
         int count = 0;
-        for (const Event &event : events(analysis))
-            try {
-                (void)fit({event});
-                if (++count > most)
-                    break;
-                numbers += (numbers.empty() ? "" : ", ") + std::to_string(event.id);
-            } catch (const Error &) { // not this one
-            }
+        for (const Event &event : events(analysis)) {
+            if (!attempt(fit, event).report)
+                continue;
+            if (++count > most)
+                break;
+            numbers += (numbers.empty() ? "" : ", ") + std::to_string(event.id);
+        }
         if (count == 0)
             return analysis.tracks.size() > 1 ? "; no other event can be fitted either" : "";
         return (count == 1 ? "; event " : "; events ") + numbers + (count > most ? " …" : "") + " can be fitted";
@@ -104,7 +127,7 @@ namespace {
                                  options.propagation.value_or(media.at(options.medium)));
         };
         if (options.events.empty())
-            return strongestFitted(analysis, fit);
+            return strongestFitted(options, analysis, fit);
         std::vector<Event> chosen;
         for (const int number : options.events)
             chosen.push_back(chosenEvent(analysis, number));
@@ -175,7 +198,7 @@ void addDoppler(CLI::App &app, Common &common)
         ->add_option(
             "--event", options->events,
             "Number of the event, as 'detect' lists it; may be repeated for the pieces of one pass; by default "
-            "the strongest that can be fitted")
+            "the strongest whose track determines a pass")
         ->take_all()
         ->allow_extra_args(false)
         ->check(inRange(1, 1000000000));

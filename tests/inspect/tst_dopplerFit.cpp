@@ -212,6 +212,7 @@ void tst_dopplerFit::recoversAPassWithoutErrors()
     QVERIFY(std::abs(fit.pass.closestSeconds - 1000.0) < 1e-4 * time);
     QVERIFY(isNear(fit.slopeHzPerSecond(), -f0 * v * v / (c * R), 1e-3));
     QVERIFY(std::abs(fit.heardSeconds() - 1000.0 - R / c) < 1e-4 * time);
+    QVERIFY(fit.isDetermined());
     QVERIFY(says(fit, "which side"));
     QVERIFY(says(fit, "in proportion"));
     QCOMPARE(fit.sentences.size(), std::size_t(2));
@@ -311,6 +312,7 @@ void tst_dopplerFit::constantFrequency()
     const DopplerFit fit = fitDopplerPass(points, propagation::water);
     QVERIFY(!fit.metresPerSecond.low);
     QVERIFY(!fit.rangeMetres.low && !fit.rangeMetres.high);
+    QVERIFY(!fit.isDetermined());
     QVERIFY2(says(fit, "No Doppler shift"), fit.sentences.front().c_str());
 }
 
@@ -349,6 +351,7 @@ void tst_dopplerFit::risingFrequency()
     addErrors(points, errorsOf(80, 0.0, 0, 14));
     const DopplerFit fit = fitDopplerPass(points, propagation::water);
     QVERIFY2(contains(fit.sentences.front(), "The frequency rises"), fit.sentences.front().c_str());
+    QVERIFY(!fit.isDetermined());
 }
 
 void tst_dopplerFit::refusals()

@@ -65,6 +65,13 @@ struct DopplerFit {
     bool isBent = true;                 ///< a straight line does not explain the track
     std::vector<std::string> sentences; ///< limitations of the result, most important first
 
+    /// Whether the track shows a pass and limits all of its parameters; only the range may have no lower limit, as where
+    /// the frequency falls at once.
+    bool isDetermined() const
+    {
+        return isBent && restHz.isBounded() && metresPerSecond.isBounded() && rangeMetres.high
+               && closestSeconds.isBounded();
+    }
     double heardSeconds() const { return pass.closestSeconds + pass.rangeMetres / propagation; }
     /// df/dt there, -f0·v²/(c·R): best determined by a track around the closest approach.
     double slopeHzPerSecond() const

@@ -24,6 +24,8 @@ private slots:
     void mediumScalesSpeedAndRange();
     void quadratureNeedsItsCentre();
     void aWhistleIsPassedOver();
+    void aSteadyToneIsPassedOver();
+    void aSteadyToneAloneIsNoPass();
     void refusals_data();
     void refusals();
 
@@ -51,8 +53,9 @@ private:
 
     /// Tone and noise of variance 0.01; the amplitude is that of 12 dB over the noise in one second. In quadrature
     /// 1000 Hz are taken off.
-    /// `whistleAmplitude`: of one second at 330 Hz from 20 s on.
-    void writePass(const char *name, const Pass &pass, bool isComplex, double whistleAmplitude = 0.0) const
+    /// `whistleAmplitude`: of `whistleSeconds` at 330 Hz from 20 s on.
+    void writePass(const char *name, const Pass &pass, bool isComplex, double whistleAmplitude = 0.0,
+                   double whistleSeconds = 1.0) const
     {
         const auto count = std::size_t(length * rate);
         std::vector<float> noise(2 * count);
@@ -63,7 +66,7 @@ private:
             const double t = double(i) / rate;
             const double angle = 2.0 * std::numbers::pi * (turns(pass, t) - (isComplex ? 1000.0 * t : 0.0));
             samples.push_back(noise[2 * i] + float(amplitude * std::cos(angle)));
-            if (t >= 20.0 && t < 21.0)
+            if (t >= 20.0 && t < 20.0 + whistleSeconds)
                 samples.back() += float(whistleAmplitude * std::cos(2.0 * std::numbers::pi * 330.0 * t));
             if (isComplex)
                 samples.push_back(noise[2 * i + 1] + float(amplitude * std::sin(angle)));
@@ -75,6 +78,13 @@ private:
     {
         return (parameter["low"].is_null() || parameter["low"].get<double>() <= truth)
                && (parameter["high"].is_null() || truth <= parameter["high"].get<double>());
+    }
+
+    /// Of the first event at a frequency, as `detect` lists it; or 0.
+    static int numberNear(const std::vector<std::vector<double>> &rows, double hz)
+    {
+        const auto found = std::ranges::find_if(rows, [&](const auto &row) { return std::abs(row[4] - hz) < 25.0; });
+        return found == rows.end() ? 0 : int(found->front());
     }
 
     Json fitOf(const QStringList &arguments) const
@@ -97,6 +107,8 @@ void tst_cliDoppler::initTestCase()
     writePass("fast.wav", fast, false);
     writePass("iq.wav", high, true);
     writePass("whistle.wav", slow, false, 30.0);
+    writePass("steady.wav", slow, false, 0.1, 60.0);
+    writePass("hum.wav", {330.0, 0.0, 10.0, 0.0}, false);
 }
 
 void tst_cliDoppler::intervalsHoldTheTruth()
@@ -197,11 +209,7 @@ void tst_cliDoppler::aWhistleIsPassedOver()
 {
     QCOMPARE(run(QStringList{"detect", "whistle.wav", "--events", "whistle.csv"} + settings).code, 0);
     const auto rows = numbersOf(content("whistle.csv"));
-    const auto numberNear = [&](double hz) {
-        const auto found = std::ranges::find_if(rows, [&](const auto &row) { return std::abs(row[4] - hz) < 25.0; });
-        return found == rows.end() ? 0 : int(found->front());
-    };
-    const int whistle = numberNear(330.0), pass = numberNear(210.0);
+    const int whistle = numberNear(rows, 330.0), pass = numberNear(rows, 210.0);
     QVERIFY(whistle > 0 && pass > 0);
     QVERIFY(rows[std::size_t(whistle - 1)][6] > rows[std::size_t(pass - 1)][6]); // the stronger
 
@@ -215,6 +223,36 @@ void tst_cliDoppler::aWhistleIsPassedOver()
     QVERIFY2(asked.err.contains("needs at least") && asked.err.contains(" " + QByteArray::number(pass))
                  && asked.err.trimmed().endsWith(" can be fitted"),
              asked.err.constData());
+}
+
+/// Its fit has no errors, but says nothing: no speed explains a constant frequency better than none.
+void tst_cliDoppler::aSteadyToneIsPassedOver()
+{
+    QCOMPARE(run(QStringList{"detect", "steady.wav", "--events", "steady.csv"} + settings).code, 0);
+    const auto rows = numbersOf(content("steady.csv"));
+    const int tone = numberNear(rows, 330.0), pass = numberNear(rows, 210.0);
+    QVERIFY(tone > 0 && pass > 0);
+    QVERIFY(rows[std::size_t(tone - 1)][6] > rows[std::size_t(pass - 1)][6]); // the stronger
+
+    const Outcome told = run(QStringList{"doppler", "steady.wav"} + settings);
+    QVERIFY2(told.code == 0, told.err.constData());
+    QVERIFY2(told.out.startsWith("event " + QByteArray::number(pass) + ", the strongest of ")
+                 && told.out.contains(" that can be fitted: "),
+             told.out.constData());
+    const Outcome asked = run(QStringList{"doppler", "steady.wav", "--event", QString::number(tone)} + settings);
+    QVERIFY2(asked.code == 0, asked.err.constData()); // what was asked for, with its note
+    QVERIFY2(asked.out.contains("No Doppler shift"), asked.out.constData());
+}
+
+void tst_cliDoppler::aSteadyToneAloneIsNoPass()
+{
+    const Outcome told = run(QStringList{"doppler", "hum.wav", "--out", "hum.json"} + settings);
+    QCOMPARE(told.code, 2);
+    QVERIFY2(told.err.startsWith("error: hum.wav: none of ") && told.err.contains("can be fitted; event ")
+                 && told.err.contains("intervals of the fit are open"),
+             told.err.constData());
+    QCOMPARE(told.err.count('\n'), 1);
+    QVERIFY(!QFile::exists(path("hum.json")));
 }
 
 void tst_cliDoppler::refusals_data()
