@@ -13,12 +13,22 @@ namespace {
 
     constexpr const char *generatorKey = "core:generator", *generatorName = "Faintline";
 
-    /// Whether two annotations are of one place and have one label.
-    bool areOfOnePlace(const Json &a, const Json &b)
+    bool isOurs(const Json &one)
     {
-        constexpr const char *keys[]{"core:sample_start", "core:sample_count", "core:freq_lower_edge",
-                                     "core:freq_upper_edge", "core:label"};
-        return std::ranges::all_of(keys, [&](const char *key) { return a.value(key, Json()) == b.value(key, Json()); });
+        return one.value(generatorKey, Json()) == generatorName;
+    }
+
+    /// Whether an annotation of the file is of the same place and has the same label. Those of other programs may leave
+    /// out a count or an edge, which ours of it has, or the label.
+    bool isOfOnePlace(const Json &one, const Json &ours)
+    {
+        constexpr const char *edges[]{"core:sample_count", "core:freq_lower_edge", "core:freq_upper_edge"};
+        return one.value("core:sample_start", Json()) == ours.value("core:sample_start", Json())
+               && one.value("core:label", Json("")) == ours.value("core:label", Json(""))
+               && std::ranges::all_of(edges, [&](const char *key) {
+                      return one.value(key, Json()) == ours.value(key, Json())
+                             || (!isOurs(one) && (!one.contains(key) || !ours.contains(key)));
+                  });
     }
 
     /// The namespaces that annotations use are declared, as SigMF requires.
@@ -40,12 +50,18 @@ namespace {
         int count = 0;
         for (Json one : added) {
             one[generatorKey] = generatorName;
-            const auto same = std::find_if(annotations.begin(), annotations.end(),
-                                           [&](const Json &other) { return areOfOnePlace(one, other); });
+            const auto isSame = [&](const Json &other) { return isOfOnePlace(other, one); };
+            const auto same = std::find_if(annotations.begin(), annotations.end(), isSame);
             count += same == annotations.end();
-            if (same == annotations.end())
+            if (same == annotations.end()) {
                 annotations.push_back(std::move(one));
-            else if (same->value(generatorKey, Json()) == generatorName)
+                continue;
+            }
+            // Copies that earlier runs left go.
+            annotations.erase(std::remove_if(same + 1, annotations.end(),
+                                             [&](const Json &other) { return isOurs(other) && isSame(other); }),
+                              annotations.end());
+            if (isOurs(*same))
                 *same = std::move(one);
         }
         std::stable_sort(annotations.begin(), annotations.end(), [](const Json &a, const Json &b) {

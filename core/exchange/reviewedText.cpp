@@ -123,8 +123,9 @@ void fillBox(const Analysis &analysis, const Event &event, Annotation &box)
     const Track *track = trackOfId(analysis.tracks, event.id);
     if (!track)
         return;
-    for (const TrackPoint &point : track->points) {
-        const double hz = analysis.grid().axes.back().value(double(point.cell));
+    const Axis &frequency = analysis.grid().axes.back();
+    for (const std::size_t i : track->presentPoints()) {
+        const double hz = frequency.value(track->lastPosition(i, frequency));
         box.lowHz = std::min(*box.lowHz, hz);
         box.highHz = std::max(*box.highHz, hz);
     }

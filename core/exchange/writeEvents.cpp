@@ -105,20 +105,13 @@ namespace {
                              ? "sequential Markov detector"
                              : "detector " + std::string(detectorNames[analysis.settings.detector.index()])));
         for (const Event &e : events(analysis)) {
-            const Track &track = *trackOfId(analysis.tracks, e.id);
-            double low = e.position.back();
-            double high = low;
-            const Axis &frequency = analysis.grid().axes.back();
-            for (const std::size_t i : track.presentPoints()) {
-                const double hz = frequency.value(track.lastPosition(i, frequency));
-                low = std::min(low, hz);
-                high = std::max(high, hz);
-            }
+            Annotation box; // as with reviews, which so take the place of these
+            fillBox(analysis, e, box);
             Json annotation;
-            setSigmfTimes(annotation, e.onsetSeconds, e.endSeconds, info);
-            annotation["core:freq_lower_edge"] = centre + low;
-            annotation["core:freq_upper_edge"] = centre + high;
-            annotation["core:label"] = "line " + std::to_string(e.id);
+            setSigmfTimes(annotation, box.startSeconds, box.endSeconds, info);
+            annotation["core:freq_lower_edge"] = centre + box.lowHz.value_or(0.0);
+            annotation["core:freq_upper_edge"] = centre + box.highHz.value_or(0.0);
+            annotation["core:label"] = "event " + std::to_string(e.id);
             std::string comment =
                 "statistic " + formatNumber(e.statistic) + " " + std::string(statisticUnit(analysis.settings.detector));
             if (!std::isnan(e.snrDb))

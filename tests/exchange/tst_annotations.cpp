@@ -33,6 +33,7 @@ private slots:
     void sigmf();
     void sigmfCountsSamplesOfTheFile();
     void ownMetadataKeepAllElse();
+    void annotationsAreNotDoubled();
     void textsAreTakenApart();
     void farAway();
     void hostile_data();
@@ -405,11 +406,11 @@ void tst_annotations::ownMetadataKeepAllElse()
     QCOMPARE(annotateRecording(own, eventsSigmf(analysis)), 0);
     QVERIFY(parseJson(readBytes(own).toStdString(), own) == once);
     Annotations nothing;
-    QCOMPARE(annotateRecording(own, reviewedSigmf(analysis, events(analysis), nothing)), 3); // other labels
+    QCOMPARE(annotateRecording(own, reviewedSigmf(analysis, events(analysis), nothing)), 0);
     nothing.reviews = withVerdict({}, analysis, events(analysis), {1}, Verdict::Rejected);
     QCOMPARE(annotateRecording(own, reviewedSigmf(analysis, events(analysis), nothing)), 0);
     const Json reviewed = parseJson(readBytes(own).toStdString(), own);
-    QCOMPARE(reviewed["annotations"].size(), std::size_t(7));
+    QCOMPARE(reviewed["annotations"].size(), std::size_t(4));
     QCOMPARE(reviewed["global"]["core:extensions"].size(), std::size_t(2));
     QCOMPARE(std::ranges::count_if(reviewed["annotations"],
                                    [](const Json &one) { return one.value("faintline:review", "") == "rejected"; }),
@@ -419,6 +420,47 @@ void tst_annotations::ownMetadataKeepAllElse()
     writeBytes(own, R"({"global": 3, "annotations": [{"core:sample_start": "now"}]})");
     QVERIFY(errorOf([&] { annotateRecording(own, eventsSigmf(analysis)); }).starts_with(own));
     QCOMPARE(readBytes(own), QByteArray(R"({"global": 3, "annotations": [{"core:sample_start": "now"}]})"));
+}
+
+/// An event has one annotation by Faintline, whether it is written with its review or without, and what was annotated by
+/// others is not written again after an import.
+void tst_annotations::annotationsAreNotDoubled()
+{
+    const std::string own = path("twice.sigmf-meta");
+    const Analysis analysis = threeTracks(m_info);
+    const Json once = parseJson(eventsSigmf(analysis), "events")["annotations"];
+    Json meta = parseJson(R"({"global": {"core:datatype": "cf32_le", "core:sample_rate": 1000.0},
+        "captures": [{"core:sample_start": 0, "core:frequency": 5000.0}],
+        "annotations": [{"core:sample_start": 1250, "user:mood": "good"}]})",
+                          "metadata"); // without count, edges, label
+    for (int copy = 0; copy < 2; ++copy)
+        for (Json one : once) {
+            one["core:generator"] = "Faintline";
+            one["core:comment"] = "copy " + std::to_string(copy);
+            meta["annotations"].push_back(one);
+        }
+    Json foreign = once[1]; // shorter, and by another program
+    foreign["core:generator"] = "other";
+    foreign["core:sample_count"] = 77;
+    meta["annotations"].push_back(foreign);
+    writeBytes(own, QByteArray::fromStdString(meta.dump()));
+
+    Annotations imported;
+    imported.boxes = {{1.25, 15.0, {}, {}, "", "", Verdict::None}}; // as the first reads back
+    QCOMPARE(annotateRecording(own, reviewedSigmf(analysis, events(analysis), imported)), 0);
+    const Json after = parseJson(readBytes(own).toStdString(), own)["annotations"];
+    QCOMPARE(after.size(), std::size_t(5));
+    QVERIFY(after[0] == meta["annotations"][0]);
+    QVERIFY(after[4] == foreign);
+    for (std::size_t i = 1; i < 4; ++i) {
+        QVERIFY(after[i]["core:label"] == "event " + std::to_string(i));
+        QVERIFY(after[i]["core:comment"] == "" && after[i].contains("faintline:statistic")); // the newest
+    }
+
+    // One without edges is another box than one with them.
+    imported.boxes = {{3.0, 4.0, {}, {}, "x", "", Verdict::None}, {3.0, 4.0, 10.0, 20.0, "x", "", Verdict::None}};
+    QCOMPARE(annotateRecording(own, reviewedSigmf(analysis, {}, imported)), 2);
+    QCOMPARE(annotateRecording(own, reviewedSigmf(analysis, {}, imported)), 0);
 }
 
 void tst_annotations::textsAreTakenApart()
