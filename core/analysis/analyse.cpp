@@ -158,10 +158,9 @@ namespace {
             holdAgainstOwnNoise(analysis, context.part(0.6, 1.0));
     }
 
-    /// Streams the frames through the chain and sets the rest of the analysis. `subtracted`: lines that were removed
-    /// before the frames were made.
-    void run(Analysis &analysis, const RunContext &context, const AnalysisRequest &request,
-             ProgressPublisher &publisher, const std::vector<Track> &subtracted = {})
+    /// Streams the frames through the chain, and sets all of the analysis that does not need the tracks. Returns these.
+    std::vector<Track> detectedTracks(Analysis &analysis, const RunContext &context, const AnalysisRequest &request,
+                                      ProgressPublisher &publisher)
     {
         const NormalisedFrames &frames = *analysis.frames;
         const auto cells = std::size_t(frames.grid().size());
@@ -176,11 +175,10 @@ namespace {
         if (request.depth == AnalysisDepth::Whole)
             analysis.checkpoints = {checkpointInterval(analysis), memoryShares::checkpoints};
         FrameStream stream(frames, context.threads > 1);
-        const RunContext detecting = context.part(0.0, 0.9);
         std::vector<float> statistic;
         for (std::vector<float> block = stream.next(); !block.empty(); block = stream.next()) {
             const Index first = stream.position() - Index(block.size() / cells);
-            detecting.checkpoint(double(first) / frameCount, "detecting");
+            context.checkpoint(double(first) / frameCount, "detecting");
             statistic.resize(block.size());
             for (std::size_t at = 0; at < block.size(); at += cells) {
                 const Index frame = first + Index(at / cells);
@@ -202,7 +200,15 @@ namespace {
         chain->finish();
         pictures.finish();
         pings.finish();
-        analysis.tracks = chain->takeJoinedTracks();
+        return chain->takeJoinedTracks();
+    }
+
+    /// Sets the rest of the analysis. `subtracted`: lines that were removed before the frames were made.
+    void run(Analysis &analysis, const RunContext &context, const AnalysisRequest &request,
+             ProgressPublisher &publisher, const std::vector<Track> &subtracted = {})
+    {
+        // The chain, which may be as large as all else, is gone when others search for more.
+        analysis.tracks = detectedTracks(analysis, context.part(0.0, 0.9), request, publisher);
         settleTracks(analysis, request, subtracted, context.part(0.9, 1.0));
     }
 

@@ -80,27 +80,25 @@ namespace {
         /// Result for the chosen window; without pictures if it is not T0. Sets `choice`.
         std::shared_ptr<Analysis> run(const Analysis *previous, const PictureSink &pictures)
         {
-            const std::shared_ptr<Analysis> automatic = analyse(
+            std::shared_ptr<Analysis> automatic = analyse(
                 m_recording, m_asked, nextPart(), previous,
                 {.pictures = pictures, .calibration = m_calibrationDepth, .depth = m_depth, .keepsFirstTracks = true});
             m_windowSeconds = windowSecondsOf(*automatic);
             m_cells = double(automatic->grid().size()) * automatic->grid().axes.back().step * m_windowSeconds;
             m_frames = double(automatic->time().count);
             note(m_asked, *automatic);
-            const std::shared_ptr<Analysis> best = shorter(automatic);
-            return best == automatic ? longer(automatic) : best;
+            if (std::shared_ptr<Analysis> best = shorter(*automatic))
+                return best;
+            return longer(std::move(automatic));
         }
 
         /// Result for the next longer window, without pictures; null if it is not feasible.
         std::shared_ptr<const Analysis> nextLonger(const Analysis &chosen)
         {
-            const std::size_t number = numberOf(windowSecondsOf(chosen));
             const double step = factor * windowSecondsOf(chosen) / m_windowSeconds;
-            if (number + 1 == m_trials.size() && !isBorne(step, fewestOfSteadyLines))
-                return nullptr;
-            if (number + 1 == m_trials.size())
-                tried(step, m_asked.model);
-            return m_analyses[number + 1];
+            if (!m_longer && isBorne(step, fewestOfSteadyLines))
+                m_longer = tracksOnly(*tried(step, m_asked.model));
+            return m_longer;
         }
 
         WindowChoice choice(const Analysis &chosen) const
@@ -123,20 +121,25 @@ namespace {
             return m_context.part(from, m_done);
         }
 
-        /// The shortest window that still follows a sufficient share of what the next shorter one follows, if any.
-        std::shared_ptr<Analysis> shorter(const std::shared_ptr<Analysis> &automatic)
+        /// The shortest window that still follows a sufficient share of what the next shorter one follows; null if that
+        /// is T0, or none. No more than two windows are held at a time.
+        std::shared_ptr<Analysis> shorter(const Analysis &automatic)
         {
-            std::shared_ptr<Analysis> best = automatic;
+            std::shared_ptr<Analysis> best;
             for (double step = 1.0 / factor; m_cells * step >= fewestCells && m_trials.size() < mostTrials;
                  step /= factor) {
                 auto trial = tried(step, laws::glide());
-                const double kept = shareKept(*trial, *best);
+                const double kept = shareKept(*trial, best ? *best : automatic);
                 m_trials.front().kept = kept;
-                if (!(kept < tooFast)) // nothing to compare, or the window suffices
-                    return std::isnan(kept) ? automatic : best;
+                if (std::isnan(kept)) // nothing to compare
+                    break;
+                if (kept >= tooFast)
+                    return best;
+                m_longer = tracksOnly(best ? *best : automatic);
                 best = std::move(trial);
             }
-            return automatic;
+            m_longer = nullptr;
+            return nullptr;
         }
 
         /// Whether there are enough frames and memory: an automatic window is bounded for any length of recording.
@@ -154,8 +157,10 @@ namespace {
                 auto trial = tried(step, m_asked.model);
                 const double kept = shareKept(*best, *trial);
                 (m_trials.end() - 2)->kept = kept;
-                if (!(kept >= asGood))
+                if (!(kept >= asGood)) {
+                    m_longer = tracksOnly(*trial);
                     break;
+                }
                 best = std::move(trial);
             }
             return best;
@@ -176,9 +181,7 @@ namespace {
         {
             const WindowTrial trial{settings, windowSecondsOf(analysis), std::ssize(analysis.tracks),
                                     std::numeric_limits<double>::quiet_NaN()};
-            const auto at = Index(numberOf(trial.windowSeconds));
-            m_trials.insert(m_trials.begin() + at, trial);
-            m_analyses.insert(m_analyses.begin() + at, tracksOnly(analysis));
+            m_trials.insert(m_trials.begin() + Index(numberOf(trial.windowSeconds)), trial);
         }
 
         static bool isSure(const Analysis &analysis)
@@ -210,7 +213,7 @@ namespace {
         double m_cells = 0.0;         ///< at T0
         double m_frames = 0.0;
         std::vector<WindowTrial> m_trials;
-        std::vector<std::shared_ptr<const Analysis>> m_analyses; ///< for the trials, without pictures
+        std::shared_ptr<const Analysis> m_longer; ///< next longer than the best, if it was tried; without pictures
     };
 
     /// The settings with the window and law of one of the trials; an open window gives T0 anyway.
