@@ -3,6 +3,7 @@
 #include "analysis/chooseWindow.h"
 #include "app/control/AnalysisController.h"
 #include "app/document/OwnPresets.h"
+#include "plan/firstSettings.h"
 #include "plan/slopeUnit.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "spectrum/NormalisedPings.h"
@@ -20,6 +21,7 @@
 #include <QVBoxLayout>
 
 #include <algorithm>
+#include <utility>
 
 namespace faintline {
 
@@ -130,7 +132,7 @@ void PipelinePanel::showSettings()
         for (const QString &section : kind->sections)
             m_form->setSectionShown(section, kind->isShownLike(m_document.frameKind()));
     int taken = 1;
-    while (taken < m_preset->count() && withSelection(presetAt(taken).settings) != m_document.settings())
+    while (taken < m_preset->count() && forSource(presetAt(taken).settings) != m_document.settings())
         ++taken;
     m_preset->setCurrentIndex(taken < m_preset->count() ? taken : 0);
     showWindows();
@@ -236,7 +238,7 @@ void PipelinePanel::applyPreset(int index)
 {
     if (index == 0)
         return showSettings();
-    m_controller.setSettings(withSelection(presetAt(index).settings),
+    m_controller.setSettings(forSource(presetAt(index).settings),
                              tr("Apply preset “%1”").arg(m_preset->itemText(index)));
 }
 
@@ -249,10 +251,11 @@ void PipelinePanel::applyWindow(int index)
     m_controller.setSettings(settings, tr("Apply window “%1”").arg(m_window->itemText(index)));
 }
 
-AnalysisSettings PipelinePanel::withSelection(AnalysisSettings settings) const
+AnalysisSettings PipelinePanel::forSource(AnalysisSettings settings) const
 {
     settings.selection = m_document.settings().selection;
-    return settings;
+    const RecordingPointer &recording = m_document.openedSource().recording;
+    return recording ? withFittedOrder(std::move(settings), recording->info()) : settings;
 }
 
 } // namespace faintline

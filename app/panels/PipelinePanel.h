@@ -48,8 +48,8 @@ private:
     void showWindows();
     void applyPreset(int index);
     void applyWindow(int index);
-    /// Keeps the selected part of the recording, which presets do not contain.
-    AnalysisSettings withSelection(AnalysisSettings settings) const;
+    /// Keeps the selected part of the recording, which presets do not contain, and fits the order of false alarms to it.
+    AnalysisSettings forSource(AnalysisSettings settings) const;
 
     Document &m_document;
     AnalysisController &m_controller;

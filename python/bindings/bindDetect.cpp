@@ -65,7 +65,7 @@ namespace {
 
     std::shared_ptr<Result> detectIn(const HeldRecording &held, const AskedSettings &asked, const RunOptions &options)
     {
-        const AnalysisSettings wanted = settingsFromPython(asked, firstSettings(held.recording->info()));
+        const AnalysisSettings wanted = settingsFromPython(asked, held.recording->info());
         const AnalysisSettings settings = withSlopesInBins(wanted, held.recording->info());
         checkSettings(settings);
         std::shared_ptr<const Analysis> analysis;

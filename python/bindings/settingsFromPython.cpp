@@ -2,6 +2,7 @@
 
 #include "base/json.h"
 #include "bindings/jsonFromPython.h"
+#include "plan/firstSettings.h"
 
 #include <algorithm>
 #include <cctype>
@@ -85,15 +86,32 @@ std::string settingOfKeyword(const std::string &keyword)
                              + "': ...}");
 }
 
+namespace {
+
+    AnalysisSettings presetOr(const AskedSettings &asked, const AnalysisSettings &otherwise)
+    {
+        return asked.preset.is_none() ? otherwise : preset(py::cast<std::string>(py::str(asked.preset))).settings;
+    }
+
+    AnalysisSettings changed(AnalysisSettings settings, const AskedSettings &asked)
+    {
+        Assignments all = assignmentsOf(asked);
+        std::stable_partition(all.begin(), all.end(), [](const auto &one) { return one.first == "detector.kind"; });
+        for (const auto &[name, value] : all)
+            assign(settings, name, value);
+        return settings;
+    }
+
+} // namespace
+
 AnalysisSettings settingsFromPython(const AskedSettings &asked, const AnalysisSettings &otherwise)
 {
-    AnalysisSettings settings =
-        asked.preset.is_none() ? otherwise : preset(py::cast<std::string>(py::str(asked.preset))).settings;
-    Assignments all = assignmentsOf(asked);
-    std::stable_partition(all.begin(), all.end(), [](const auto &one) { return one.first == "detector.kind"; });
-    for (const auto &[name, value] : all)
-        assign(settings, name, value);
-    return settings;
+    return changed(presetOr(asked, otherwise), asked);
+}
+
+AnalysisSettings settingsFromPython(const AskedSettings &asked, const RecordingInfo &recording)
+{
+    return changed(withFittedOrder(presetOr(asked, {}), recording), asked);
 }
 
 } // namespace faintline::python

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "plan/AnalysisSettings.h"
+#include "recording/Recording.h"
 
 #include <pybind11/pybind11.h>
 
@@ -18,7 +19,9 @@ struct AskedSettings {
 /// Applies the preset (`otherwise` if none is given), then the dict, then the keywords, each value checked by the table
 /// of settings; `detector.kind` is applied first, because it determines the detector's settings. Throws Error as the
 /// command line does.
-AnalysisSettings settingsFromPython(const AskedSettings &asked, const AnalysisSettings &otherwise = {});
+AnalysisSettings settingsFromPython(const AskedSettings &asked, const AnalysisSettings &otherwise);
+/// The same for a recording, to which the preset's or default order of false alarms is fitted (withFittedOrder).
+AnalysisSettings settingsFromPython(const AskedSettings &asked, const RecordingInfo &recording);
 
 /// The full name of the only setting whose short name in snake case is `keyword`: "window_seconds" →
 /// "spectrogram.windowSeconds". Throws Error if there is none, or more than one.

@@ -61,6 +61,21 @@ class SameBytes(InFolder):
         settings = {"spectrogram.windowSeconds": 0.5, "decide.falseAlarmsPerHour": 2}
         self.assert_same_files(fl.detect(self.wav, preset="billon", settings=settings))
 
+    def test_a_preset_of_a_slow_recording(self):
+        """Once in two seconds for 20 hours: one false alarm in that time, not twenty."""
+        x = np.random.default_rng(3).standard_normal(36000) + np.cos(2 * np.pi * 0.2 * np.arange(36000))
+        x.astype("<f4").tofile(self.folder / "slow.sigmf-data")
+        meta = {"core:datatype": "rf32_le", "core:sample_rate": 0.5, "core:version": "1.0.0"}
+        (self.folder / "slow.sigmf-meta").write_text(
+            json.dumps({"global": meta, "captures": [{"core:sample_start": 0}], "annotations": []})
+        )
+        options = ("--preset", "steady", "--set", "spectrogram.windowSeconds=200")
+        files = ("--events", "c.csv", "--tracks", "ct.csv", "--statistic", "c.npy")
+        self.command_line("detect", "slow.sigmf-meta", *options, *files)
+        result = fl.detect(self.folder / "slow.sigmf-meta", preset="steady", window_seconds=200)
+        self.assert_same_files(result)
+        self.assertAlmostEqual(result.false_alarms_per_hour, 0.05, delta=0.005)
+
     def test_a_simulated_recording_is_what_the_command_line_simulates(self):
         recording = fl.simulate(SCENE)
         recording.save(self.folder / "python.wav")

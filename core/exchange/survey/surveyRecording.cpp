@@ -7,6 +7,7 @@
 #include "detect/SumDetector.h"
 #include "exchange/openFrames.h"
 #include "exchange/reviewedText.h"
+#include "plan/firstSettings.h"
 #include "plan/slopeUnit.h"
 #include "recording/SigmfRecording.h"
 #include "recording/fileHash.h"
@@ -66,8 +67,8 @@ namespace {
         if (info.isCentreKnown())
             described.centreHz = info.centreHz;
         described.startUnixSeconds = info.startUnixSeconds;
-        return analyseInChosenWindow(recording, withSlopesInBins(settings.analysis, info), context, nullptr,
-                                     {.depth = AnalysisDepth::Tracks});
+        return analyseInChosenWindow(recording, withSlopesInBins(withFittedOrder(settings.analysis, info), info),
+                                     context, nullptr, {.depth = AnalysisDepth::Tracks});
     }
 
     void describe(const Analysis &analysis, SurveyRecording &described)

@@ -1,4 +1,5 @@
 #include "app/cli/CommandLineTest.h"
+#include "base/Random.h"
 #include "support/test.h"
 
 #include "exchange/survey/SurveyDatabase.h"
@@ -6,6 +7,9 @@
 
 #include <QElapsedTimer>
 #include <QRegularExpression>
+
+#include <cmath>
+#include <numbers>
 
 using namespace faintline;
 using namespace faintline::test;
@@ -19,6 +23,7 @@ class tst_cliSurvey : public CommandLineTest
 private slots:
     void initTestCase();
     void eventsAreThoseOfDetect();
+    void slowRecordingsHaveAnOrderOfTheirOwn();
     void sameBytesWhateverTheShards();
     void killedIsResumed();
     void endsWithinASecond();
@@ -114,6 +119,40 @@ void tst_cliSurvey::eventsAreThoseOfDetect()
         QCOMPARE(rowsOf(content("all.csv"), name.toUtf8(), 2, 13), rows(content("e.csv")));
         QCOMPARE(rowsOf(content("tracks.csv"), name.toUtf8(), 1, 8), rows(content("t.csv")));
     }
+}
+
+/// A sample every two seconds, 20 and 40 hours of them: one false alarm in the length of each, as `detect` has it.
+void tst_cliSurvey::slowRecordingsHaveAnOrderOfTheirOwn()
+{
+    QVERIFY(QDir(folder()).mkpath("slow"));
+    const QStringList window{"--set", "spectrogram.windowSeconds=200"};
+    for (const int hours : {20, 40}) {
+        std::vector<float> samples(std::size_t(hours) * 1800);
+        Random(5, std::uint64_t(hours)).normals(samples, 1.0f);
+        for (std::size_t i = 0; i < samples.size(); ++i)
+            samples[i] += float(std::cos(2.0 * std::numbers::pi * 0.2 * double(i)));
+        const std::string name = pathOf("slow/") + std::to_string(hours);
+        writeBytes(name + ".sigmf-data", QByteArray(reinterpret_cast<const char *>(samples.data()),
+                                                    qsizetype(sizeof(float) * samples.size())));
+        writeBytes(name + ".sigmf-meta", R"({"global": {"core:datatype": "rf32_le", "core:sample_rate": 0.5,
+            "core:version": "1.0.0"}, "captures": [{"core:sample_start": 0}], "annotations": []})");
+    }
+    QCOMPARE(run(QStringList{"survey", "slow", "--out", "slow.sqlite"} + window).code, 0);
+    QCOMPARE(run({"survey", "export", "slow.sqlite", "--events", "slow.csv"}).code, 0);
+    const std::vector<SurveyRecording> recordings = database("slow.sqlite").recordings();
+    QCOMPARE(recordings.size(), std::size_t(2));
+    for (const SurveyRecording &one : recordings) {
+        QCOMPARE(settingsFromJson(one.settings, "slow").decide.falseAlarmsPerHour, 3600.0 / *one.durationSeconds);
+        const QString name = QDir(folder()).relativeFilePath(QString::fromStdString(one.file.path));
+        QCOMPARE(run(QStringList{"detect", name, "--events", "e.csv"} + window).code, 0);
+        QVERIFY(content("e.csv").count('\n') >= 2);
+        QCOMPARE(rowsOf(content("slow.csv"), name.toUtf8(), 2, 13),
+                 content("e.csv").mid(content("e.csv").indexOf('\n') + 1));
+    }
+    const QStringList asked{"--set", "decide.falseAlarmsPerHour=0.5"};
+    QCOMPARE(run(QStringList{"survey", "slow", "--out", "asked.sqlite"} + window + asked).code, 0);
+    for (const SurveyRecording &one : database("asked.sqlite").recordings())
+        QCOMPARE(settingsFromJson(one.settings, "asked").decide.falseAlarmsPerHour, 0.5);
 }
 
 void tst_cliSurvey::sameBytesWhateverTheShards()
