@@ -4,8 +4,8 @@
 #include "base/Error.h"
 #include "base/Interruption.h"
 #include "base/editDistance.h"
+#include "base/numberText.h"
 #include "base/oneLine.h"
-#include "base/readableNumber.h"
 #include "base/standardStreams.h"
 
 #include <CLI/CLI.hpp>

@@ -7,7 +7,7 @@
 #include "analysis/events.h"
 #include "base/AtomicFile.h"
 #include "base/fileName.h"
-#include "base/readableNumber.h"
+#include "base/numberText.h"
 #include "exchange/writeChart.h"
 #include "exchange/writeDoppler.h"
 

@@ -3,8 +3,8 @@
 
 #include "base/fileName.h"
 #include "base/json.h"
+#include "base/numberText.h"
 #include "base/oneLine.h"
-#include "base/readableNumber.h"
 #include "exchange/openFrames.h"
 #include "exchange/openPings.h"
 #include "spectrum/guessPingValues.h"

@@ -12,7 +12,7 @@
 #include "widgets/base/quantities.h"
 
 #include "analysis/subtractLines.h"
-#include "base/readableNumber.h"
+#include "base/numberText.h"
 #include "calibration/falseAlarmWords.h"
 
 #include <QCoreApplication>

@@ -1,10 +1,7 @@
 #include "base/Field.h"
 
 #include "base/Error.h"
-#include "base/readableNumber.h"
 
-#include <array>
-#include <charconv>
 #include <cmath>
 
 namespace faintline {
@@ -124,26 +121,6 @@ std::string labelOf(const FieldInfo &info)
     if (!words.empty() && words[0] >= 'a' && words[0] <= 'z')
         words[0] = char(words[0] - 'a' + 'A');
     return words;
-}
-
-std::optional<double> parseNumber(std::string_view text)
-{
-    double value = 0.0;
-    if (text.starts_with('+') && !text.starts_with("+-"))
-        text.remove_prefix(1);
-    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (code != std::errc() || end != text.data() + text.size() || text.empty())
-        return std::nullopt;
-    return value;
-}
-
-std::string formatNumber(double value)
-{
-    if (value == 0.0)
-        return "0"; // -0 as well
-    std::array<char, 64> buffer;
-    const auto [end, code] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-    return code == std::errc() ? std::string(buffer.data(), end) : std::string("nan");
 }
 
 std::string formatFieldValue(const FieldValue &value)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/Error.h"
+#include "base/numberText.h"
 
 #include <functional>
 #include <optional>
@@ -92,12 +93,6 @@ std::string formatFieldValue(const FieldValue &value);
 
 /// The same, but uses the field's own word if it has one for this value.
 std::string formatFieldValue(const FieldInfo &info, const FieldValue &value);
-
-/// Shortest decimal form of a number that reads back the same.
-std::string formatNumber(double value);
-
-/// Converts the whole text to a number, in the C locale; returns nothing if it is not a number.
-std::optional<double> parseNumber(std::string_view text);
 
 // ---- making tables -------------------------------------------------------------------------------------------------
 

@@ -1,6 +1,6 @@
 #include "exchange/writeReport.h"
 
-#include "base/readableNumber.h"
+#include "base/numberText.h"
 #include "base/utc.h"
 #include "detect/statisticDecimals.h"
 #include "spectrum/NormalisedFrames.h"

@@ -2,8 +2,8 @@
 
 #include "analysis/events.h"
 #include "analysis/sureStatistic.h"
+#include "base/numberText.h"
 #include "base/oneLine.h"
-#include "base/readableNumber.h"
 #include "spectrum/Spectrogram.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 
 #include "base/Error.h"
 #include "base/logmath.h"
-#include "base/readableNumber.h"
+#include "base/numberText.h"
 #include "inspect/StateReplay.h"
 #include "plan/chain.h"
 

@@ -1,7 +1,7 @@
 #include "recording/Recording.h"
 
 #include "base/multiversion.h"
-#include "base/readableNumber.h"
+#include "base/numberText.h"
 #include "recording/timeInName.h"
 
 #include <algorithm>

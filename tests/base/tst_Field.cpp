@@ -4,7 +4,7 @@
 #include "base/Error.h"
 #include "base/Random.h"
 #include "base/json.h"
-#include "base/readableNumber.h"
+#include "base/numberText.h"
 #include "support/errors.h"
 
 #include <clocale>

@@ -1,6 +1,6 @@
 #include "inspect/doppler/dopplerSentences.h"
 
-#include "base/readableNumber.h"
+#include "base/numberText.h"
 
 #include <algorithm>
 #include <cmath>
