@@ -7,7 +7,8 @@
 namespace faintline {
 
 constexpr double minusInfinity = -std::numeric_limits<double>::infinity();
-constexpr float unreached = -std::numeric_limits<float>::infinity(); ///< ln 0: the score of a state that no path reaches
+/// ln 0: the score of a state that no path reaches.
+constexpr float unreached = -std::numeric_limits<float>::infinity();
 
 /// Conversion between power ratio and decibels; used throughout the program.
 inline double dbFromRatio(double powerRatio)

@@ -28,12 +28,12 @@ struct Registration {
 } // namespace faintline::test
 
 /// Adds a test class to its program, which runs it as `PROGRAM CLASS [FUNCTION …]`, after the given set-up.
-#define FAINTLINE_REGISTER_TEST(Class, ...) \
-    static const faintline::test::Registration registered_##Class(#Class, [](int argc, char **argv) { \
-        __VA_ARGS__ \
-        Class test; \
-        QTEST_SET_MAIN_SOURCE_PATH \
-        return QTest::qExec(&test, argc, argv); \
+#define FAINTLINE_REGISTER_TEST(Class, ...)                                                                            \
+    static const faintline::test::Registration registered_##Class(#Class, [](int argc, char **argv) {                  \
+        __VA_ARGS__                                                                                                    \
+        Class test;                                                                                                    \
+        QTEST_SET_MAIN_SOURCE_PATH                                                                                     \
+        return QTest::qExec(&test, argc, argv);                                                                        \
     });
 
 #define FAINTLINE_TEST(Class) FAINTLINE_REGISTER_TEST(Class, QCoreApplication application(argc, argv);)

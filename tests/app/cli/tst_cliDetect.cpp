@@ -151,10 +151,10 @@ void tst_cliDetect::keptCalibrationsChangeNoByte()
     QByteArrayList made;
     for (const QString &cache : {QStringLiteral("off"), folder, folder}) { // none, made, read back
         qputenv("FAINTLINE_CACHE", cache.toLocal8Bit());
-        const Outcome outcome = run(QStringList{"detect", "line.wav", "--events", "kept.csv", "--tracks",
-                                                "keptTracks.csv", "--statistic", "kept.npy", "--set",
-                                                "model.snr=0.7"} // of no shipped calibration
-                                    + lineSettings);
+        const Outcome outcome =
+            run(QStringList{"detect", "line.wav", "--events", "kept.csv", "--tracks", "keptTracks.csv", "--statistic",
+                            "kept.npy", "--set", "model.snr=0.7"} // of no shipped calibration
+                + lineSettings);
         QCOMPARE(outcome.code, 0);
         const QByteArrayList written{content("kept.csv"), content("keptTracks.csv"), content("kept.npy")};
         if (made.isEmpty())
