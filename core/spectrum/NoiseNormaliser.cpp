@@ -4,6 +4,7 @@
 #include "spectrum/observed.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace faintline {
@@ -16,6 +17,20 @@ NormalisedSpectrogram::NormalisedSpectrogram(std::shared_ptr<const Spectrogram> 
 {
 }
 
+namespace {
+
+    /// Leaves the bins of a stop band out of a frame.
+    void blank(const StopBand &band, const Axis &frequency, std::span<float> values)
+    {
+        const auto binAt = [&](double hz) {
+            return std::clamp<Index>(Index(std::ceil(frequency.position(hz))), 0, frequency.count);
+        };
+        const auto begin = values.begin();
+        std::fill(begin + binAt(band.lowHz), begin + binAt(band.highHz), std::numeric_limits<float>::quiet_NaN());
+    }
+
+} // namespace
+
 void NormalisedSpectrogram::read(Index first, Index count, std::span<float> out) const
 {
     m_spectrogram->read(first, count, out);
@@ -23,10 +38,13 @@ void NormalisedSpectrogram::read(Index first, Index count, std::span<float> out)
     FrameNormaliser normaliser(*m_spectrogram, m_settings.followLevel);
     for (Index i = 0; i < count; ++i) {
         const std::span<float> values = out.subspan(std::size_t(i) * cells, cells);
-        if (isObserved(*m_spectrogram, first + i))
+        if (isObserved(*m_spectrogram, first + i)) {
             normaliser.normalise(values, *m_background, time().value(double(first + i)));
-        else
+            for (const StopBand &band : m_background->stopBands)
+                blank(band, grid().axes.front(), values);
+        } else {
             std::fill(values.begin(), values.end(), std::numeric_limits<float>::quiet_NaN());
+        }
     }
 }
 

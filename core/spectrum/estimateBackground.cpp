@@ -7,6 +7,7 @@
 #include "spectrum/blockBackground.h"
 #include "spectrum/coarseFrames.h"
 #include "spectrum/edgeCorrection.h"
+#include "spectrum/stopBands.h"
 #include "spectrum/unevenness.h"
 
 #include <algorithm>
@@ -233,6 +234,7 @@ namespace {
             if (!m_isSketch) {
                 m_background->bins = m_spectrogram.frequency();
                 m_background->lnAtEdges = edgeCorrection(m_spectrogram, *m_background);
+                m_background->stopBands = findStopBands(m_frames, *m_background);
             }
         }
 
