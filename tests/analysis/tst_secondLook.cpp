@@ -208,6 +208,7 @@ void tst_secondLook::everyBurstHasItsOwnDetection()
     std::vector<LineSettings> bursts;
     for (int i = 0; i < 9; ++i)
         bursts.push_back(line(90.0, 15.0, 6.0 + 12.37 * i, 4.0));
+    double squares = 0.0; // of the errors of frequency
     for (int seed = 1; seed <= 3; ++seed) {
         const auto analysis = analysisOf(bursts, 120.0, seed);
         const std::vector<Event> found = events(*analysis);
@@ -221,7 +222,7 @@ void tst_secondLook::everyBurstHasItsOwnDetection()
                                      .arg(found[i].detectSeconds)
                                      .arg(found[i].position.back());
             QVERIFY2(found[i].detectSeconds > begin && found[i].detectSeconds < begin + 1.0, qPrintable(text));
-            QVERIFY2(std::abs(found[i].position.back() - 90.0) < 0.1, qPrintable(text));
+            squares += std::pow(found[i].position.back() - 90.0, 2);
             // Nothing is there but at the ends, in frames half of whose window is empty.
             const Track &track = *trackOfId(analysis->tracks, found[i].id);
             for (std::size_t at = 0; at < track.points.size(); ++at)
@@ -230,6 +231,9 @@ void tst_secondLook::everyBurstHasItsOwnDetection()
                     QVERIFY2(track.smoothed[at].presence < 0.1f, qPrintable(text));
         }
     }
+    // The Cramer-Rao bound of one window's frequency at 15 dB is 0.28 Hz, of the mean of sixteen 0.07 Hz.
+    const double rms = std::sqrt(squares / double(3 * bursts.size()));
+    QVERIFY2(rms < 0.1, qPrintable(QString::number(rms)));
 }
 
 // Eight lines four cells apart, and in the middle between two of them one that is switched off for 30 s.
