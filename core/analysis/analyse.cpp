@@ -23,7 +23,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index shortestInterval = 64; ///< of checkpoints, in frames
+    constexpr Index checkpointMinimumFrames = 64; ///< of checkpoints, in frames
 
     void countValues(std::span<const float> statistic, std::vector<double> &counts)
     {
@@ -37,7 +37,7 @@ namespace {
     {
         const auto most = Index(memoryShares::checkpoints / bytesOfStates(analysis));
         const Index frames = analysis.time().count;
-        return most > 0 ? std::max(shortestInterval, (frames + most - 1) / most) : std::max<Index>(frames, 1);
+        return most > 0 ? std::max(checkpointMinimumFrames, (frames + most - 1) / most) : std::max<Index>(frames, 1);
     }
 
     /// Both pictures of a run, if they are wanted and do not exist yet.

@@ -13,13 +13,13 @@ namespace faintline {
 namespace {
 
     constexpr double nearCells = 3.0;
-    constexpr double apartCells = 1.5;    ///< from there on, two paths are not the flanks of one line
-    constexpr double onCells = 1.0;       ///< within which a measured position lies on a path
-    constexpr double designLevel = 4.0;   ///< of the evidence for either path
-    constexpr double leastLevel = 2.0;    ///< 3 dB
-    constexpr double largestRatio = 4.0;  ///< of levels, 6 dB
-    constexpr double pieceShare = 0.8;    ///< of a track's frames on the paths
-    constexpr Index shortestInSlopes = 4; ///< of slopeFrames
+    constexpr double apartCells = 1.5;             ///< from there on, two paths are not the flanks of one line
+    constexpr double onCells = 1.0;                ///< within which a measured position lies on a path
+    constexpr double jointDesignLevelRatio = 4.0;  ///< of the evidence for either path
+    constexpr double jointMinimumLevelRatio = 2.0; ///< 3 dB
+    constexpr double jointLevelRatioLimit = 4.0;   ///< of levels, 6 dB
+    constexpr double pieceShare = 0.8;             ///< of a track's frames on the paths
+    constexpr Index togetherSlopeLengths = 4;      ///< of slopeFrames
 
     struct Frames {
         Index from = 0;
@@ -43,7 +43,7 @@ namespace {
             for (std::size_t i = 0; i < m_tracks.size(); ++i)
                 for (std::size_t j = i + 1; j < m_tracks.size(); ++j) {
                     const Frames together = besideEachOther(i, j);
-                    if (together.count() >= shortestInSlopes * m_slopeFrames && areEqual(i, j, together)
+                    if (together.count() >= togetherSlopeLengths * m_slopeFrames && areEqual(i, j, together)
                         && areAlone(i, j, together))
                         decide(i, j, together, context);
                 }
@@ -110,7 +110,7 @@ namespace {
         {
             const double a = levelOf(m_tracks[i], frames);
             const double b = levelOf(m_tracks[j], frames);
-            return std::min(a, b) >= leastLevel && std::max(a, b) <= largestRatio * std::min(a, b);
+            return std::min(a, b) >= jointMinimumLevelRatio && std::max(a, b) <= jointLevelRatioLimit * std::min(a, b);
         }
 
         /// Whether no third track comes near. Tracks on one of the two or between them do not count: they are pieces.
@@ -158,7 +158,7 @@ namespace {
             strip.centres = centresOf(i, j, frames);
             readStrips(m_analysis, std::span(&strip, 1), context, "deciding between close signals");
             closeBeyondTheAxis(strip);
-            const Likelihood likelihood(m_analysis.model.likelihood.kind(), designLevel);
+            const Likelihood likelihood(m_analysis.model.likelihood.kind(), jointDesignLevelRatio);
             auto paths =
                 jointPaths(std::move(strip), likelihood, Index(std::lround(apartCells * m_binsPerCell)), context);
             const auto apart = [&](std::size_t path, std::size_t track, Index frame) {

@@ -10,8 +10,8 @@ namespace faintline {
 
 namespace {
 
-    constexpr double nearestShift = 1.5; ///< times the statistic that coinciding members explain
-    constexpr Index framesLookedAt = 64; ///< sampled from the time common to both tracks
+    constexpr double ghostStatisticFactor = 1.5; ///< times the statistic that coinciding members explain
+    constexpr Index comparedFrames = 64;         ///< sampled from the time common to both tracks
 
     class Members
     {
@@ -30,7 +30,7 @@ namespace {
             const Index last = std::min(track.points.back().frame, other.points.back().frame);
             if (first > last)
                 return 0.0;
-            const Index step = std::max<Index>(1, (last - first) / framesLookedAt);
+            const Index step = std::max<Index>(1, (last - first) / comparedFrames);
             double shared = 0.0;
             double count = 0.0;
             for (Index frame = first; frame <= last; frame += step, count += 1.0)
@@ -69,7 +69,7 @@ namespace {
     /// Whether a stronger track's members fully explain a statistic.
     bool isExplained(double statistic, double explained, double threshold)
     {
-        return explained > 0.0 && (statistic <= nearestShift * explained || statistic - explained < threshold);
+        return explained > 0.0 && (statistic <= ghostStatisticFactor * explained || statistic - explained < threshold);
     }
 
 } // namespace

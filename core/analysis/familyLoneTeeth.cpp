@@ -14,10 +14,10 @@ namespace faintline {
 
 namespace {
 
-    constexpr double mostOfLines = 0.01;  ///< share of strong lines that noise may turn into a family
-    constexpr Index longest = 65536;      ///< frames of a track
-    constexpr double floorMargin = 2.0;   ///< as in track/explanation.h
-    constexpr double lineHalfWidth = 1.0; ///< resolution cells that a line occupies
+    constexpr double toleratedFamilyProbability = 0.01; ///< share of strong lines that noise may turn into a family
+    constexpr Index testedFrames = 65536;               ///< frames of a track
+    constexpr double memberFloorFactor = 2.0;           ///< as in track/explanation.h
+    constexpr double lineHalfWidthCells = 1.0;          ///< resolution cells that a line occupies
     constexpr std::size_t blockBytes = std::size_t(1) << 20;
     constexpr std::size_t batchBytes = std::size_t(16) << 20;
     constexpr float notObserved = std::numeric_limits<float>::quiet_NaN();
@@ -43,7 +43,7 @@ namespace {
         {
             Neighbourhood around;
             const auto length = Index(track.points.size());
-            const Index count = std::min(length, longest);
+            const Index count = std::min(length, testedFrames);
             const auto from = std::size_t((length - count) / 2);
             around.strip.firstFrame = count > 0 ? track.points[from].frame : track.onsetFrame;
             around.strip.halfWidth = corridorHalfWidth(m_model.binsPerCell);
@@ -187,7 +187,7 @@ namespace {
         {
             const double cells = double(std::abs(bin - line.bin)) / m_model.binsPerCell;
             const double leakage = leakageBound(m_spectrogram.settings().window, cells);
-            return float(1.0 + floorMargin * double(line.power - 1.0f) * leakage);
+            return float(1.0 + memberFloorFactor * double(line.power - 1.0f) * leakage);
         }
 
         /// The score that noise in all members but this one reaches once per hundred strong lines in this member.
@@ -196,9 +196,9 @@ namespace {
             const double cellsPerBin = familyCellsPerBin(m_family);
             const bool isHarmonic = m_family.relation == FamilySettings::Relation::Harmonics;
             const double perBin = isHarmonic ? cellsPerBin / m_family.members[member] : 1.0;
-            const double cells = double(strip.width()) + 2.0 * lineHalfWidth * m_model.binsPerCell * perBin;
+            const double cells = double(strip.width()) + 2.0 * lineHalfWidthCells * m_model.binsPerCell * perBin;
             const double chances = double(m_family.members.size()) * cells * double(strip.frameCount());
-            return m_analysis.calibration->thresholdForEventRate(mostOfLines / chances);
+            return m_analysis.calibration->thresholdForEventRate(toleratedFamilyProbability / chances);
         }
 
         const Analysis &m_analysis;

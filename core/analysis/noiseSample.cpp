@@ -11,13 +11,13 @@ namespace faintline {
 
 namespace {
 
-    constexpr double mostValues = 4e6;
+    constexpr double sampleLimitValues = 4e6;
     constexpr double cellsBeside = 4.0; ///< resolution cells, on either side of a track
     constexpr Index framesBeside = 2;
-    constexpr Index framesBeyond = 10;    ///< beyond its ends
-    constexpr double leastObserved = 0.2; ///< of a bin's frames
-    constexpr double raised = 1.1;        ///< median of a bin with a steady line, relative to noise, apart from its
-                                          ///< scatter
+    constexpr Index framesBeyond = 10;           ///< beyond its ends
+    constexpr double observedMinimumShare = 0.2; ///< of a bin's frames
+    constexpr double lineMedianRatio = 1.1; ///< median of a bin with a steady line, relative to noise, apart from its
+                                            ///< scatter
 
 } // namespace
 
@@ -26,7 +26,7 @@ NoiseSample::NoiseSample(const NormalisedFrames &frames, std::span<const Track> 
     : m_cells(frames.grid().size())
 {
     const Index count = frames.time().count;
-    m_distance = runFrames * std::max<Index>(1, Index(std::ceil(double(count) * double(m_cells) / mostValues)));
+    m_distance = runFrames * std::max<Index>(1, Index(std::ceil(double(count) * double(m_cells) / sampleLimitValues)));
     for (Index first = 0; first < count; first += m_distance) {
         context.checkpoint(double(first) / double(count), "measuring the noise");
         const Index run = std::min(runFrames, count - first);
@@ -48,10 +48,10 @@ std::vector<float> NoiseSample::noiseIn(Index cell) const
         if (const float y = at(row, cell); !std::isnan(y))
             values.push_back(y);
     const auto count = double(values.size());
-    if (values.size() < 2 || count < leastObserved * double(m_rows))
+    if (values.size() < 2 || count < observedMinimumShare * double(m_rows))
         return {};
     const double level = double(medianOf(values)) / std::numbers::ln2;
-    return level > raised + 4.0 * std::sqrt(2.0 / count) ? std::vector<float>() : values;
+    return level > lineMedianRatio + 4.0 * std::sqrt(2.0 / count) ? std::vector<float>() : values;
 }
 
 void NoiseSample::mask(const TrackPoint &point, Index before, Index behind, Index half)

@@ -14,7 +14,7 @@ namespace faintline {
 namespace {
 
     constexpr double lineCells = 1.0;                         ///< on either side: the main lobe's upper 6 dB
-    constexpr double largestShare = 0.25;                     ///< of a line's power, on its weaker side
+    constexpr double sideLimitShare = 0.25;                   ///< of a line's power, on its weaker side
     constexpr std::size_t stripBytes = std::size_t(64) << 20; ///< read at a time
 
     class Sides
@@ -40,7 +40,7 @@ namespace {
         {
             PathStrip sides = strip;
             removeSignals(sides);
-            if (shareOfSides(strip, sides, m_model.binsPerCell) > largestShare)
+            if (shareOfSides(strip, sides, m_model.binsPerCell) > sideLimitShare)
                 return false;
             keepLine(strip, float(levelOfSides(sides, m_model.binsPerCell)));
             setLnK(m_model, m_analysis, strip);

@@ -9,18 +9,18 @@ namespace faintline {
 namespace {
 
     constexpr Index fewestFrames = 64;
-    constexpr Index mostParts = 16;
+    constexpr Index partLimit = 16;
     constexpr Index fewestCells = 40;         ///< of a part
     constexpr std::size_t fewestValues = 500; ///< of a part
-    constexpr std::ptrdiff_t fewestBeyond = 60;
-    constexpr double alike = 4.0; ///< values that count as one, because windows and bins overlap
-    constexpr double deviations = 3.0;
-    constexpr double levelError = 0.03;
-    constexpr float lowestSlope = 0.05f;
-    constexpr float highestPower = 5.0f; ///< limit of powers for measuring runs
-    constexpr double runError = 0.05;
-    constexpr Index fewestRuns = 60;
-    constexpr double leastNoise = 0.5; ///< fraction of a part's cells needed to measure runs
+    constexpr std::ptrdiff_t quantileMinimumValues = 60;
+    constexpr double likeValues = 4.0; ///< values that count as one, because windows and bins overlap
+    constexpr double sureDeviations = 3.0;
+    constexpr double quantileErrorShare = 0.03;
+    constexpr float tailMinimumSlope = 0.05f;
+    constexpr float runPowerLimit = 5.0f; ///< limit of powers for measuring runs
+    constexpr double runErrorShare = 0.05;
+    constexpr Index runMinimumMeans = 60;
+    constexpr double noiseMinimumShare = 0.5; ///< fraction of a part's cells needed to measure runs
 
     /// Running sums of values.
     struct Scatter {
@@ -46,7 +46,7 @@ namespace {
                 float sum = 0.0f;
                 for (Index row = first; row < first + length; ++row)
                     sum += std::isnan(sample.at(row, cell)) ? sample.at(row, cell)
-                                                            : std::min(sample.at(row, cell), highestPower);
+                                                            : std::min(sample.at(row, cell), runPowerLimit);
                 if (!std::isnan(sum))
                     scatter.add(double(sum) / double(length));
             }
@@ -59,7 +59,7 @@ OwnNoiseLaw::OwnNoiseLaw(const NormalisedFrames &frames, std::span<const Track> 
                          double overlap, const RunContext &context)
     : m_cells(frames.grid().size())
 {
-    m_parts.resize(std::size_t(std::clamp<Index>(m_cells / fewestCells, 1, mostParts)));
+    m_parts.resize(std::size_t(std::clamp<Index>(m_cells / fewestCells, 1, partLimit)));
     if (frames.time().count < fewestFrames)
         return;
     const NoiseSample sample(frames, tracks, binsPerCell, context);
@@ -75,7 +75,7 @@ OwnNoiseLaw::OwnNoiseLaw(const NormalisedFrames &frames, std::span<const Track> 
         const std::size_t count = values.size();
         setPowers(m_parts[std::size_t(part)], std::move(values));
         const Index all = sample.rows() * ((part + 1) * m_cells / parts - part * m_cells / parts);
-        if (double(count) >= leastNoise * double(all))
+        if (double(count) >= noiseMinimumShare * double(all))
             setRuns(m_parts[std::size_t(part)], sample, cells, overlap);
     }
 }
@@ -89,10 +89,10 @@ void OwnNoiseLaw::setPowers(Part &part, std::vector<float> values)
     bool isExponential = true;
     std::vector<float> quantiles{0.0f};
     std::vector<float> worths{0.0f};
-    for (std::ptrdiff_t beyond = std::ssize(values) / 2; beyond >= fewestBeyond; beyond /= 2) {
+    for (std::ptrdiff_t beyond = std::ssize(values) / 2; beyond >= quantileMinimumValues; beyond /= 2) {
         const float y = values[std::size_t(beyond)];
         const double g = -std::log(double(beyond) / count);
-        const double error = levelError * double(y) + deviations * std::sqrt(alike / double(beyond));
+        const double error = quantileErrorShare * double(y) + sureDeviations * std::sqrt(likeValues / double(beyond));
         isExponential = isExponential && double(y) - g < error;
         quantiles.push_back(y);
         worths.push_back(std::min(y, float(g)));
@@ -104,7 +104,7 @@ void OwnNoiseLaw::setPowers(Part &part, std::vector<float> values)
     const std::size_t last = part.y.size() - 1;
     if (last >= 4 && part.y[last] > part.y[last - 3])
         part.slope =
-            std::clamp((part.g[last] - part.g[last - 3]) / (part.y[last] - part.y[last - 3]), lowestSlope, 1.0f);
+            std::clamp((part.g[last] - part.g[last - 3]) / (part.y[last] - part.y[last - 3]), tailMinimumSlope, 1.0f);
 }
 
 void OwnNoiseLaw::setRuns(Part &part, const NoiseSample &sample, const std::vector<Index> &cells, double overlap)
@@ -117,9 +117,9 @@ void OwnNoiseLaw::setRuns(Part &part, const NoiseSample &sample, const std::vect
         const Scatter means = meansOf(sample, cells, length);
         const auto count = double(means.count);
         double ratio = 1.0;
-        if (means.count >= fewestRuns)
+        if (means.count >= runMinimumMeans)
             ratio = means.variance() * double(length) / (single.variance() * overlap);
-        const bool isSure = ratio > 1.0 + runError + deviations * std::sqrt(2.0 * alike / count);
+        const bool isSure = ratio > 1.0 + runErrorShare + sureDeviations * std::sqrt(2.0 * likeValues / count);
         runs.push_back(isSure ? std::max(ratio, runs.back()) : runs.back());
     }
     if (runs.back() > 1.0)

@@ -11,9 +11,9 @@ namespace faintline {
 
 namespace {
 
-    constexpr double costOfHiding = 0.05;    ///< nat per frame
-    constexpr double raised = 1.5;           ///< floor from which on a cell may have been hidden from the first run
-    constexpr double hiddenShareLimit = 0.5; ///< of a track's points that lie near such cells
+    constexpr double hidingNatsPerFrame = 0.05; ///< nat per frame
+    constexpr double raisedFloorRatio = 1.5;    ///< floor from which on a cell may have been hidden from the first run
+    constexpr double hiddenShareLimit = 0.5;    ///< of a track's points that lie near such cells
 
     /// y at which λ has a value; λ increases with y.
     double powerOf(const Likelihood &likelihood, double lambda)
@@ -34,7 +34,7 @@ namespace {
         double hidden = 0.0;
         for (const TrackPoint &point : track.points) {
             explanations.read(point.frame, point.cell - reach, floor);
-            hidden += *std::max_element(floor.begin(), floor.end()) >= float(raised) ? 1.0 : 0.0;
+            hidden += *std::max_element(floor.begin(), floor.end()) >= float(raisedFloorRatio) ? 1.0 : 0.0;
         }
         return hidden / double(track.points.size());
     }
@@ -47,8 +47,9 @@ std::vector<Track> searchBehind(const Analysis &analysis, const Explanations &ex
     const Index cells = frames.grid().size();
     const Index frameCount = frames.time().count;
     const KinematicAxis &axis = analysis.model.space.axes().front();
-    const auto hidden = float(powerOf(analysis.model.likelihood,
-                                      -(analysis.calibration->lnK + std::log(axis.rateChange.front())) - costOfHiding));
+    const auto hidden =
+        float(powerOf(analysis.model.likelihood,
+                      -(analysis.calibration->lnK + std::log(axis.rateChange.front())) - hidingNatsPerFrame));
     std::unique_ptr<PathDetector> detector = makePathDetector(analysis);
     detector->useThreads(context.threads);
     const auto chain = makeChain(analysis, std::move(detector));

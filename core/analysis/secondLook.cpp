@@ -23,9 +23,9 @@ namespace {
 
     constexpr std::string_view following = "refining tracks in both directions";
     constexpr Index largestGapFrames = 24;                    ///< between stretches of one signal
-    constexpr int mostPasses = 3;                             ///< of the search behind what is explained
+    constexpr int behindLimitPasses = 3;                      ///< of the search behind what is explained
     constexpr double hiddenCells = 1.0;                       ///< beside a signal
-    constexpr double ghostShare = 0.08;                       ///< of a path's statistic, above the floor
+    constexpr double ghostStatisticShare = 0.08;              ///< of a path's statistic, above the floor
     constexpr std::size_t stripBytes = std::size_t(16) << 20; ///< read at a time
 
     struct Stretch {
@@ -53,10 +53,12 @@ namespace {
     /// Frames over which a track's way is measured: the faster the law, the fewer.
     Index slopeFramesOf(const KinematicAxis &axis)
     {
-        constexpr double slow = 56.0;
-        constexpr double fast = 16.0; // from a largest slope of four cells per frame on
+        constexpr double slowLawFrames = 56.0;
+        constexpr double fastLawFrames = 16.0; // from a largest slope of four cells per frame on
         const double steepest = std::max({1.0, std::abs(axis.rate(0)), std::abs(axis.rate(axis.rateCount - 1))});
-        return Index(std::lround(std::max(fast, slow * std::pow(steepest, std::log(fast / slow) / std::log(4.0)))));
+        return Index(std::lround(
+            std::max(fastLawFrames,
+                     slowLawFrames * std::pow(steepest, std::log(fastLawFrames / slowLawFrames) / std::log(4.0)))));
     }
 
     /// Mean evidence, in a frame of noise alone, against a signal of that level, nat. A level above 4 counts as 4, so
@@ -137,7 +139,7 @@ namespace {
         /// Searches behind what is explained, as long as that finds something.
         void lookBehind()
         {
-            for (int pass = 0; pass < mostPasses && m_accepted > 0; ++pass) {
+            for (int pass = 0; pass < behindLimitPasses && m_accepted > 0; ++pass) {
                 const RunContext context = m_context.part(0.4 + 0.2 * pass, 0.6 + 0.2 * pass);
                 m_accepted = 0;
                 lookAtAll(searchBehind(m_analysis, m_explanations, context.part(0.0, 0.7)), {}, context.part(0.7, 1.0));
@@ -312,7 +314,7 @@ namespace {
             double statistic = track.peakStatistic;
             if (divideByFloor(strip)) {
                 const double left = strongestIn(strip, m_model);
-                const bool isMore = left >= ghostShare * statistic; // more than a ghost of the stronger track
+                const bool isMore = left >= ghostStatisticShare * statistic; // more than a ghost of the stronger track
                 statistic -= strongestIn(before, m_model) - left;
                 if (isMore)
                     statistic = std::max(left, statistic);

@@ -9,10 +9,10 @@ namespace faintline {
 
 namespace {
 
-    constexpr double widestCells = 2.2;  ///< of a line's band at 0 dB or more
-    constexpr double strongLevel = 4.0;  ///< 6 dB
-    constexpr double leastInertia = 0.8; ///< h(0)
-    constexpr Index areaFrames = 25;     ///< over which a level is averaged (bothWays.h)
+    constexpr double lineBandCells = 2.2;             ///< of a line's band at 0 dB or more
+    constexpr double strongLevelRatio = 4.0;          ///< 6 dB
+    constexpr double stayingMinimumProbability = 0.8; ///< h(0)
+    constexpr Index areaFrames = 25;                  ///< over which a level is averaged (bothWays.h)
 
     bool isSpread(const Track &track, const Analysis &analysis)
     {
@@ -26,8 +26,8 @@ namespace {
             level += double(track.smoothed[i].level) / count;
             bins += double(track.smoothed[i].high - track.smoothed[i].low) / count;
         }
-        const double limit = widestCells * std::max(1.0, 1.0 / std::sqrt(std::max(level, 1e-9)));
-        return level < strongLevel && bins > limit * analysis.frames->spectrogram()->binsPerCell();
+        const double limit = lineBandCells * std::max(1.0, 1.0 / std::sqrt(std::max(level, 1e-9)));
+        return level < strongLevelRatio && bins > limit * analysis.frames->spectrogram()->binsPerCell();
     }
 
     void addAreas(const Track &track, Index cells, std::vector<Area> &areas)
@@ -54,7 +54,8 @@ namespace {
 
 void moveSpreadTracks(Analysis &analysis)
 {
-    if (!analysis.settings.family.isNone() || analysis.model.space.axes().front().rateChange.front() < leastInertia)
+    if (!analysis.settings.family.isNone()
+        || analysis.model.space.axes().front().rateChange.front() < stayingMinimumProbability)
         return;
     const auto spread = std::stable_partition(analysis.tracks.begin(), analysis.tracks.end(),
                                               [&](const Track &track) { return !isSpread(track, analysis); });

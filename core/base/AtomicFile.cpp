@@ -50,10 +50,12 @@ namespace {
     /// Common prefix of a file's temporary files: its name, shortened to leave room for the suffix.
     std::string beginningOf(const std::string &path)
     {
-        constexpr std::size_t most = 200;
+        constexpr std::size_t longestNameBytes = 200;
         const std::size_t slash = path.rfind('/') + 1;
         const std::string name = path.substr(slash);
-        return path.substr(0, slash) + (name.size() <= most ? name : name.substr(0, most - 17) + "~" + checksum(name));
+        return path.substr(0, slash)
+               + (name.size() <= longestNameBytes ? name
+                                                  : name.substr(0, longestNameBytes - 17) + "~" + checksum(name));
     }
 
     /// "NAME.PID-N.part"

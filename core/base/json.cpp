@@ -31,7 +31,7 @@ namespace {
     class BoundedParser : public nlohmann::detail::json_sax_dom_parser<Json>
     {
         using Base = nlohmann::detail::json_sax_dom_parser<Json>;
-        static constexpr std::size_t deepest = 100; // values are processed recursively
+        static constexpr std::size_t nestingLimit = 100; // values are processed recursively
         static constexpr int mostKeys = 1000;
 
     public:
@@ -70,8 +70,8 @@ namespace {
         void goDown()
         {
             m_keys.push_back(0);
-            if (m_keys.size() > deepest)
-                throw Error(m_where, "is nested more than " + std::to_string(deepest)
+            if (m_keys.size() > nestingLimit)
+                throw Error(m_where, "is nested more than " + std::to_string(nestingLimit)
                                          + " levels deep, the limit for "
                                            "any input");
         }
@@ -108,14 +108,14 @@ Json parseJson(std::string_view text, const std::string &where)
 
 Json readJsonFile(const std::string &path)
 {
-    constexpr std::uintmax_t largest = std::uintmax_t(64) << 20;
+    constexpr std::uintmax_t jsonFileLimitBytes = std::uintmax_t(64) << 20;
     std::error_code code;
     if (!std::filesystem::exists(path, code))
         throw Error(path, "no such file");
     if (!std::filesystem::is_regular_file(path, code))
         throw Error(path, "is not a file; expected a JSON file");
     const std::uintmax_t size = std::filesystem::file_size(path, code);
-    if (!code && size > largest)
+    if (!code && size > jsonFileLimitBytes)
         throw Error(path, "is larger than 64 MiB, too large for a JSON file");
     std::ifstream stream(path, std::ios::binary);
     std::string text(std::size_t(code ? 0 : size), '\0');

@@ -18,10 +18,10 @@ namespace {
     constexpr Index fewestBlocks = 40;
     constexpr double framesOfTilt = 120000.0; ///< simulated for one tilt, all repetitions together
     constexpr std::size_t mostTilts = 30;
-    constexpr double levelSpacing = 0.25;  ///< between levels, in deviations of V
-    constexpr double firstLevel = 1.0;     ///< deviations above the mean of V
-    constexpr double blockRateError = 0.5; ///< relative, of an accepted rate
-    constexpr double blockDepth = 0.7;     ///< fraction of leastLnRate that must be reached with this error
+    constexpr double levelSpacingDeviations = 0.25; ///< between levels, in deviations of V
+    constexpr double firstLevelDeviations = 1.0;    ///< deviations above the mean of V
+    constexpr double blockRateError = 0.5;          ///< relative, of an accepted rate
+    constexpr double blockDepthShare = 0.7;         ///< fraction of leastLnRate that must be reached with this error
 
     /// V and weight of the blocks of one run at their end.
     struct TiltedBlocks {
@@ -234,8 +234,8 @@ RareRates measureBlockRates(const std::function<std::unique_ptr<Detector>()> &ma
         for (std::size_t i = 0; i < runs.size(); ++i)
             tails[i].add(tilt, std::move(runs[i]));
         if (number == 0) {
-            from = mean + firstLevel * deviation;
-            spacing = levelSpacing * deviation;
+            from = mean + firstLevelDeviations * deviation;
+            spacing = levelSpacingDeviations * deviation;
         }
         double rate = 0.0;
         for (const Tail &tail : tails)
@@ -247,7 +247,7 @@ RareRates measureBlockRates(const std::function<std::unique_ptr<Detector>()> &ma
     RareRates result;
     for (double level = from; level <= highest && append(tails, level, cellFrames, result);)
         level += spacing;
-    if (result.isEmpty() || result.lnRates.back() > blockDepth * settings.leastLnRate)
+    if (result.isEmpty() || result.lnRates.back() > blockDepthShare * settings.leastLnRate)
         return {};
     return result;
 }

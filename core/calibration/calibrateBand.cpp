@@ -100,10 +100,10 @@ std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &setting
                           && (settings.model.lowestSlope != 0.0 || settings.model.highestSlope != 0.0);
     const double steepest = std::max(std::abs(settings.model.lowestSlope), std::abs(settings.model.highestSlope));
     // Less than a twentieth of the false alarms is lost at the ends, as many steps away as at one bin a frame.
-    constexpr Index wideAtOneBin = 256;
-    const auto wideEnough = Index(double(wideAtOneBin) * std::clamp(steepest, 1.0, 4.0));
+    constexpr Index wideFromBins = 256;
+    const auto wideEnough = Index(double(wideFromBins) * std::clamp(steepest, 1.0, 4.0));
     // From here on the loss at the ends hardly depends on the width. Narrow bands are as measured with 64 bins.
-    const bool isNarrow = bins < wideAtOneBin;
+    const bool isNarrow = bins < wideFromBins;
     const auto endsDoNotMeet = Index(64.0 * (isNarrow ? 1.0 : std::clamp(0.5 * steepest, 1.0, 2.0)));
     if (bins >= wideEnough || !isMoving)
         return calibrate(settings, context, depth);

@@ -17,7 +17,7 @@ namespace faintline {
 namespace {
 
     constexpr int regulationFrames = 1500;
-    constexpr int crowdedEvery = 10; ///< segments
+    constexpr int crowdedEverySegments = 10; ///< segments
 
     /// Number of segments for the first rough pass.
     int roughCountOf(int segmentCount)
@@ -137,7 +137,8 @@ std::shared_ptr<const Calibration> calibrateOn(const NoiseSegments &noise, const
         [&](int number) {
             AnalysisPlan own = trial;
             own.frames = noise.segment(number);
-            const bool isWithoutFirst = !rare.isEmpty() && (effort.isFirstEstimate || number % crowdedEvery != 0);
+            const bool isWithoutFirst =
+                !rare.isEmpty() && (effort.isFirstEstimate || number % crowdedEverySegments != 0);
             return countEvents(*own.frames, chainsAt(thresholds, own, isWithoutFirst));
         },
         [&](const EventCounts &part) {

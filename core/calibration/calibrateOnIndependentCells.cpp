@@ -10,9 +10,9 @@ namespace faintline {
 
 MarkovModel calibrationSubgrid(const MarkovModel &model)
 {
-    constexpr Index many = 20000;
-    constexpr Index handy = 5000;
-    if (model.space.cellCount() <= many)
+    constexpr Index cutFromCells = 20000;
+    constexpr Index simulatedCells = 5000;
+    if (model.space.cellCount() <= cutFromCells)
         return model;
     std::vector<KinematicAxis> axes = model.space.axes();
     KinematicAxis *longest = nullptr;
@@ -22,7 +22,7 @@ MarkovModel calibrationSubgrid(const MarkovModel &model)
     if (!longest)
         return model;
     const Index others = model.space.cellCount() / longest->cells;
-    longest->cells = std::clamp<Index>(handy / others, 4 * longest->largestDisplacement() + 1, longest->cells);
+    longest->cells = std::clamp<Index>(simulatedCells / others, 4 * longest->largestDisplacement() + 1, longest->cells);
     longest->cyclic = true;
     return {StateSpace(std::move(axes)), model.likelihood, model.transitionScale};
 }

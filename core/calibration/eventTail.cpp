@@ -13,7 +13,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr std::size_t leastMaxima = 40;
+    constexpr std::size_t tailMinimumMaxima = 40;
     /// Block maxima above the thresholds at which events are counted, per cell and frame; after clustering and
     /// inhibition a quarter of them are events. A tail from splitting is counted where events crowd each other out, in
     /// a tenth of the noise, and where they do not (800 and 400 events in the usual 8·10⁷ cells × frames). One that is
@@ -24,8 +24,8 @@ namespace {
     constexpr std::array<double, 2> ratesOfLine{2e-5, 2.5e-6};
     /// Expected number of maxima at 2·10⁻⁵, a third of which become events of lines; in small volumes the rates are
     /// higher.
-    constexpr double leastExpected = 300.0;
-    constexpr double leastEvents = 20.0;
+    constexpr double tailMinimumExpected = 300.0;
+    constexpr double tailMinimumEvents = 20.0;
 
 } // namespace
 
@@ -35,7 +35,7 @@ std::vector<double> thresholdsForEvents(std::vector<float> maxima, double cellFr
     // A detector that decides in its own blocks leaves some of ours without a decision.
     const auto blocks = double(maxima.size());
     std::erase_if(maxima, [](float maximum) { return !std::isfinite(maximum); });
-    if (maxima.size() < leastMaxima)
+    if (maxima.size() < tailMinimumMaxima)
         throw Error("detector", "decides too rarely to be calibrated on noise; choose a shorter window");
     std::sort(maxima.begin(), maxima.end());
     const double perMaximum = cellFramesPerBlock * blocks / double(maxima.size());
@@ -46,7 +46,7 @@ std::vector<double> thresholdsForEvents(std::vector<float> maxima, double cellFr
         std::log(std::log(lower) / std::log(upper)) / std::max(1e-6, quantile(upper) - quantile(lower));
     std::vector<double> thresholds;
     const bool isLine = shape == TailShape::Line;
-    const double expected = isLine ? leastExpected / 3.0 : leastExpected;
+    const double expected = isLine ? tailMinimumExpected / 3.0 : tailMinimumExpected;
     const double scale = std::max(1.0, expected / (ratesOfLine.front() * cellFrames));
     for (const double rate : isLine ? ratesOfLine : shape == TailShape::Blocks ? ratesOfBlocks : ratesBeforeSplitting)
         thresholds.push_back(quantile(upper) + std::log(-std::log(upper) / perMaximum / (rate * scale)) / theta);
@@ -57,7 +57,7 @@ void fitEventRate(std::span<const double> thresholds, std::span<const double> ev
                   Calibration &result)
 {
     const double total = std::accumulate(events.begin(), events.end(), 0.0);
-    if (total < leastEvents)
+    if (total < tailMinimumEvents)
         throw Error("detector", "exceeds thresholds on noise too rarely to be calibrated");
     double anchor = 0.0; // where both parameters' errors are independent
     for (std::size_t i = 0; i < thresholds.size(); ++i)
@@ -96,7 +96,7 @@ void anchorTail(const RareRates &rare, std::span<const double> thresholds, const
     std::vector<double> offsets;
     double events = 0.0;
     for (std::size_t i = 0; i < thresholds.size(); ++i) {
-        if (counts.events[i] < leastEvents)
+        if (counts.events[i] < tailMinimumEvents)
             continue;
         events = counts.events[i];
         levels.push_back(thresholds[i]);

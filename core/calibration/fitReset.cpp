@@ -80,14 +80,15 @@ namespace {
         /// Encloses the answer closely, as a rule: around where regulation settles, then around the secant's root.
         void encloseClosely()
         {
-            constexpr double near = 0.01;
-            constexpr double nearer = 4e-4;
+            constexpr double bracketHalfWidthNats = 0.01;
+            constexpr double toleranceNats = 4e-4;
             const double settled = measureReset(m_noise, m_model, {ResetLaw::Half, 0.0}).lnK;
-            if (std::isfinite(settled) && !isAbove(settled - near) && isAbove(settled + near)) {
+            if (std::isfinite(settled) && !isAbove(settled - bracketHalfWidthNats)
+                && isAbove(settled + bracketHalfWidthNats)) {
                 const double root =
                     m_below + (m_above - m_below) * (0.5 - m_fractionBelow) / (m_fractionAbove - m_fractionBelow);
-                isAbove(root - nearer);
-                isAbove(root + nearer);
+                isAbove(root - toleranceNats);
+                isAbove(root + toleranceNats);
             }
         }
 
@@ -103,17 +104,17 @@ namespace {
     /// ln K at which half of the states continue, by bisection.
     double lnKForHalf(const std::vector<NormalisedFramesPointer> &noise, const MarkovModel &model)
     {
-        constexpr double largest = 20.0;
-        double low = -largest;
-        double high = largest;
+        constexpr double searchLimitNats = 20.0;
+        double low = -searchLimitNats;
+        double high = searchLimitNats;
         HalfSearch search(noise, model);
         search.encloseClosely(); // most of the steps below are then known
         while (high - low > 5e-4) {
             const double middle = 0.5 * (low + high);
             (search.isAbove(middle) ? high : low) = middle;
         }
-        const double end = low > -largest ? largest : -largest;
-        const bool isInside = low > -largest && high < largest;
+        const double end = low > -searchLimitNats ? searchLimitNats : -searchLimitNats;
+        const bool isInside = low > -searchLimitNats && high < searchLimitNats;
         const double percent = isInside ? 50.0 : 100.0 * search.fractionAt(end);
         if (isInside || std::isnan(percent)) // nothing can be measured on a few frames
             return 0.5 * (low + high);

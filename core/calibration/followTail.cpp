@@ -125,8 +125,8 @@ RareRates followTail(const AnalysisPlan &plan, const CalibrationEffort &effort, 
 RareRates followBand(const AnalysisSettings &bare, double lnK, Index bins, const SplittingSettings &splitting,
                      const RunContext &context)
 {
-    constexpr int least = 32;
-    int samples = least;
+    constexpr int bandMinimumSamples = 32;
+    int samples = bandMinimumSamples;
     while (samples < bins) // at least twice as many bins, so that the ends do not meet
         samples *= 2;
     const auto makeNoise = [&] { return std::make_unique<BandNoise>(noiseOf(bare, samples), bins); };

@@ -18,16 +18,16 @@ namespace {
     constexpr int quantileFrames = 2000; ///< of each stream, for the base and the first level
     constexpr double baseQuantile = 0.8;
     constexpr double firstQuantile = 0.96;
-    constexpr double pilotFraction = 0.2; ///< fraction that reaches the next level
-    constexpr int longestTrial = 3000;    ///< frames; if K is so large that paths do not end, there are no rare
-                                          ///< excursions
-    constexpr int longestSearch = 20000;  ///< frames per stream until the first level is entered
-    constexpr int mostEndless = 4;        ///< of the pilot trials
+    constexpr double pilotFraction = 0.2;    ///< fraction that reaches the next level
+    constexpr int trialLimitFrames = 3000;   ///< frames; if K is so large that paths do not end, there are no rare
+                                             ///< excursions
+    constexpr int searchLimitFrames = 20000; ///< frames per stream until the first level is entered
+    constexpr int endlessLimitPilots = 4;    ///< of the pilot trials
     constexpr int mostLevels = 60;
-    constexpr int leastSuccesses = 10;
-    constexpr int replicates = 4;        ///< independent runs, whose scatter includes the effect of shared ancestors
-    constexpr double largestError = 0.5; ///< relative, of an accepted rate
-    constexpr double deepEnough = 0.7;   ///< fraction of leastLnRate that must be reached with this error
+    constexpr int levelMinimumSuccesses = 10;
+    constexpr int replicates = 4; ///< independent runs, whose scatter includes the effect of shared ancestors
+    constexpr double acceptedRelativeError = 0.5; ///< relative, of an accepted rate
+    constexpr double acceptedDepthShare = 0.7;    ///< fraction of leastLnRate that must be reached with this error
 
     double quantileOf(std::vector<double> values, double p)
     {
@@ -66,7 +66,7 @@ namespace {
                 for (const std::optional<NoiseParticle> &outcome : outcomes)
                     if (outcome)
                         entered.push_back(*outcome);
-                if (std::ssize(entered) < leastSuccesses)
+                if (std::ssize(entered) < levelMinimumSuccesses)
                     break;
                 const double p = double(entered.size()) / double(outcomes.size());
                 lnRate += std::log(p);
@@ -127,8 +127,8 @@ namespace {
                         walker->step(random);
                     auto &own = entered[std::size_t(stream)];
                     bool isBelow = false;
-                    for (double &count = frames[std::size_t(stream)]; std::ssize(own) < wanted && count < longestSearch;
-                         ++count) {
+                    for (double &count = frames[std::size_t(stream)];
+                         std::ssize(own) < wanted && count < searchLimitFrames; ++count) {
                         const double reached = walker->step(random);
                         if (isBelow && reached > m_level) {
                             own.push_back(walker->particle(reached));
@@ -162,7 +162,7 @@ namespace {
                 return highest;
             }
             walker.take(start);
-            for (int frame = 0; frame < longestTrial; ++frame) {
+            for (int frame = 0; frame < trialLimitFrames; ++frame) {
                 const double reached = walker.step(random);
                 highest = std::max(highest, reached);
                 if (reached > next) {
@@ -186,7 +186,8 @@ namespace {
                         walk(*walker, random, std::numeric_limits<double>::infinity(), &ignored);
                 };
             });
-            if (std::count(highest.begin(), highest.end(), std::numeric_limits<double>::infinity()) > mostEndless)
+            if (std::count(highest.begin(), highest.end(), std::numeric_limits<double>::infinity())
+                > endlessLimitPilots)
                 return std::numeric_limits<double>::infinity();
             return quantileOf(highest, 1.0 - pilotFraction);
         }
@@ -231,7 +232,7 @@ namespace {
                 variance += run.relativeErrorAt(level) * run.relativeErrorAt(level) / (count * count);
             }
             const double scatter = (square / (mean * mean) - 1.0) / (count - 1.0);
-            if (std::max(variance, scatter) > largestError * largestError)
+            if (std::max(variance, scatter) > acceptedRelativeError * acceptedRelativeError)
                 break;
             result.levels.push_back(level);
             result.lnRates.push_back(runs.front().lnRates[i] + std::log(mean));
@@ -262,7 +263,7 @@ RareRates measureRareRates(const std::function<std::unique_ptr<Detector>()> &mak
             return {};
     }
     RareRates result = combined(runs);
-    if (result.isEmpty() || result.lnRates.back() > deepEnough * settings.leastLnRate)
+    if (result.isEmpty() || result.lnRates.back() > acceptedDepthShare * settings.leastLnRate)
         return {};
     return result;
 }

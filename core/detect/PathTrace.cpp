@@ -125,9 +125,9 @@ namespace {
         std::vector<Index> m_cells;
     };
 
-    constexpr double scoreTolerance = 1e-4;
+    constexpr double scoreToleranceNats = 1e-4;
     constexpr Index historyFloats = Index(1) << 24;
-    constexpr Index shortestCorridor = 8;
+    constexpr Index firstCorridorFrames = 8;
 
     /// Memory reused by consecutive corridors, because new pages cost as much as writing to them.
     class Storage
@@ -206,19 +206,19 @@ namespace {
         /// Returns the newest step first.
         std::vector<PathStep> trace(PathEnd end)
         {
-            for (Index length = shortestCorridor; !m_isReset;) {
+            for (Index length = firstCorridorFrames; !m_isReset;) {
                 const Beginning begin = beginningOf(end.frame, length);
                 const Corridor corridor(m_model, m_grid, end.state, end.frame - begin.frame);
                 const CorridorScores history = run(corridor, begin, end.frame);
                 const Index local = corridor.toLocal(m_model.space, end.state);
                 // Paths that start outside the corridor are missing, so its score is at most the detector's.
                 if (begin.isWithinRecord
-                    && double(history.at(end.frame)[std::size_t(local)]) < end.score - scoreTolerance) {
+                    && double(history.at(end.frame)[std::size_t(local)]) < end.score - scoreToleranceNats) {
                     length *= 2;
                     continue;
                 }
                 end = follow(corridor, history, begin, {end.frame, local, end.score});
-                length = std::max(shortestCorridor, end.frame - begin.frame + 1);
+                length = std::max(firstCorridorFrames, end.frame - begin.frame + 1);
             }
             return std::move(m_path);
         }

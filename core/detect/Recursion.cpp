@@ -15,8 +15,8 @@ namespace {
     constexpr Index fewestCells = 256;
     constexpr Index tileBytes = 1 << 19; ///< read and written, for all planes of a tile
     constexpr Index vectorCells = 32;
-    constexpr Index manyFrames = 16;        ///< processed at a time; memory traffic is then negligible
-    constexpr Index worthAThread = 1 << 19; ///< states × frames
+    constexpr Index manyFrames = 16;                ///< processed at a time; memory traffic is then negligible
+    constexpr Index stateFramesPerThread = 1 << 19; ///< states × frames
 
     /// Prefetches memory for the next tile, because there are many planes, whose pieces are too short for the hardware
     /// prefetcher.
@@ -313,7 +313,7 @@ Continued Recursion<Semiring>::advance(std::span<const float> scores, std::span<
     if constexpr (std::same_as<Semiring, MaxPlus<float>>) { // clang 14 instantiates it for others as well
         RunContext context;
         const Index work = std::ssize(frames.y) * m_planeCount;
-        context.threads = int(std::clamp<Index>(work / worthAThread, 1, m_threads));
+        context.threads = int(std::clamp<Index>(work / stateFramesPerThread, 1, m_threads));
         const Passage passage{scores, next, frames, likelihood, join};
         return std::ssize(frames.y) > m_planeSize ? m_slanted->advance(passage, context) : advanceOne(passage, context);
     } else {

@@ -8,7 +8,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr std::size_t fewest = 4; ///< number of rates from which sharing pays off
+    constexpr std::size_t sharedFromRates = 4; ///< number of rates from which sharing pays off
 
     template <class Real>
     using Shifts = std::vector<Shift<Real>>;
@@ -16,7 +16,7 @@ namespace {
     template <class Real>
     bool isWorthSharing(const Shifts<Real> &shifts)
     {
-        return shifts.size() >= fewest && std::all_of(shifts.begin(), shifts.end(), [&](const Shift<Real> &s) {
+        return shifts.size() >= sharedFromRates && std::all_of(shifts.begin(), shifts.end(), [&](const Shift<Real> &s) {
                    return s.weight == shifts.front().weight;
                });
     }

@@ -13,8 +13,8 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index longest = 4096; ///< cells: copies between tiles should be small compared with it …
-    constexpr Index shortest = 512;
+    constexpr Index tileLimitCells = 4096; ///< cells: copies between tiles should be small compared with it …
+    constexpr Index worthwhileTileCells = 512;
     constexpr Index cacheBytes = 7 << 16; ///< … and both windows should fit into the second-level cache
     constexpr Index cacheLineFloats = 16;
     constexpr Index vectorCells = 32;
@@ -57,7 +57,7 @@ SlantedTiles::SlantedTiles(Index cells, std::vector<Targets> phases)
             for (const Source &source : sources)
                 m_reach = std::max(m_reach, std::abs(source.displacement));
     const Index fitting = cacheBytes / (2 * m_rates * Index(sizeof(float))) - 2 * m_reach;
-    m_tileCells = std::min(longest, fitting / vectorCells * vectorCells);
+    m_tileCells = std::min(tileLimitCells, fitting / vectorCells * vectorCells);
     // Targets are aligned to cache lines, and rates are not a power of two apart.
     m_margin = (2 * m_reach + vectorCells) / vectorCells * vectorCells;
     m_stride = m_margin + m_tileCells;
@@ -65,7 +65,7 @@ SlantedTiles::SlantedTiles(Index cells, std::vector<Targets> phases)
 
 bool SlantedTiles::areWorthwhile() const
 {
-    return m_tileCells >= shortest;
+    return m_tileCells >= worthwhileTileCells;
 }
 
 Continued SlantedTiles::advance(const Passage &passage, const RunContext &context)

@@ -11,7 +11,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr double widest = 600.0; ///< nats; e^±700 is still representable
+    constexpr double representableSpanNats = 600.0; ///< nats; e^±700 is still representable
 
 } // namespace
 
@@ -33,7 +33,7 @@ void SumDetector::update(std::span<const float> y, std::span<float> statistic)
     const double highest = *most;
     const double background =
         m_rule.law == ResetLaw::Fixed ? std::abs(m_scale) : 0.0; // distance of a new path's 1 from the best
-    const bool isWide = std::max(highest - *least, background) > widest;
+    const bool isWide = std::max(highest - *least, background) > representableSpanNats;
     m_scores.clear();
     if (isWide)
         updateWide(lambda);

@@ -142,9 +142,10 @@ namespace {
     /// Of a sweep: number of false alarms and observed seconds.
     bool isCount(const std::vector<float> &noise)
     {
-        constexpr float most = 1e9f; // of either in one run
-        return noise.size() == 2
-               && std::all_of(noise.begin(), noise.end(), [](float value) { return value >= 0.0f && value <= most; });
+        constexpr float countLimitPerRun = 1e9f; // of either in one run
+        return noise.size() == 2 && std::all_of(noise.begin(), noise.end(), [](float value) {
+                   return value >= 0.0f && value <= countLimitPerRun;
+               });
     }
 
     /// Every detector and SNR of the experiment must have its answers.

@@ -57,11 +57,11 @@ namespace {
             throw Error(where + ".step",
                         "must be a list of probabilities, \"uniform-admissible\" or {\"gaussian\": cells}");
         checkKeys(*step, where + ".step", {"gaussian"});
-        constexpr double widest = 1e5; // the law has nine times as many values
+        constexpr double deviationLimitCells = 1e5; // the law has nine times as many values
         const double deviation = number(*step, where + ".step", "gaussian", -1.0);
-        if (!(deviation >= 0.0 && deviation <= widest))
+        if (!(deviation >= 0.0 && deviation <= deviationLimitCells))
             throw Error(where + ".step.gaussian",
-                        "must be a standard deviation of 0 … " + formatNumber(widest) + " cells");
+                        "must be a standard deviation of 0 … " + formatNumber(deviationLimitCells) + " cells");
         axis.step = gaussianStep(deviation, axis.cyclic ? (axis.cells + 1) / 2 : axis.cells);
     }
 

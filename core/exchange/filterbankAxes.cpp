@@ -23,13 +23,13 @@ namespace {
 
 void setFilterbankAxes(PowerInfo &info, const FilterbankHeader &header, const std::string &path)
 {
-    constexpr double farthest = 1e9; // MHz
+    constexpr double frequencyLimitMHz = 1e9; // MHz
     constexpr double megahertz = 1e6;
     constexpr double unixDay = 40587.0; // MJD of 1970-01-01
     constexpr double daySeconds = 86400.0;
     check(header.tsamp, 1e-12, 1e7, "tsamp", path);
-    check(header.fch1, -farthest, farthest, "fch1", path);
-    check(header.foff, -farthest, farthest, "foff", path);
+    check(header.fch1, -frequencyLimitMHz, frequencyLimitMHz, "fch1", path);
+    check(header.foff, -frequencyLimitMHz, frequencyLimitMHz, "foff", path);
     if (!(std::abs(header.foff) > 0.0))
         throw Error(path + ": foff = 0", "must be the channel spacing, MHz");
     const double lowest = header.foff < 0.0 ? header.fch1 + double(header.channels - 1) * header.foff : header.fch1;

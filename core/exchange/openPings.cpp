@@ -27,8 +27,9 @@ namespace {
     bool hasSeveralAxes(const std::string &path, const std::string &gridPath)
     {
         const std::vector<Index> shape = shapeOf(path);
-        constexpr std::size_t least = 3;
-        return shape.size() >= least && (gridPath.empty() || !readGridFile(gridPath, shape).grid.isSpectrum());
+        constexpr std::size_t pingDimensionMinimum = 3;
+        return shape.size() >= pingDimensionMinimum
+               && (gridPath.empty() || !readGridFile(gridPath, shape).grid.isSpectrum());
     }
 
 } // namespace

@@ -21,8 +21,8 @@ namespace {
     /// A box may lie anywhere; the sample number must be exact as a double, here and in the file.
     long long sampleAt(double seconds, double rate)
     {
-        constexpr double most = 9007199254740992.0; // 2⁵³
-        return std::llround(std::clamp(seconds * rate, -most, most));
+        constexpr double exactWholeLimit = 9007199254740992.0; // 2⁵³
+        return std::llround(std::clamp(seconds * rate, -exactWholeLimit, exactWholeLimit));
     }
 
     /// The samples' type by SigMF's name; floats if SigMF has no name for it.

@@ -11,8 +11,8 @@ namespace {
     constexpr Index sampledFrames = 200;
     constexpr Index fewestFrames = 16;
     constexpr double mostValues = 8e6;
-    constexpr double mostLost = 0.1;    ///< of the channels
-    constexpr double steadyPower = 1.5; ///< mean of a cell with a line
+    constexpr double toleratedLossShare = 0.1; ///< of the channels
+    constexpr double steadyPower = 1.5;        ///< mean of a cell with a line
 
     /// e^(-y) of some frames, spread over the analysis, for each channel: uniform on noise.
     class Shares
@@ -102,7 +102,7 @@ std::optional<Advice> adviceOnChannels(const Analysis &analysis, const RunContex
     const double coherence = coherenceOf(Shares(analysis, context));
     const auto count = double(analysis.lines.size());
     const double left = count / (1.0 + (count - 1.0) * coherence);
-    if (left >= (1.0 - mostLost) * count)
+    if (left >= (1.0 - toleratedLossShare) * count)
         return {};
     char sentence[200];
     std::snprintf(sentence, sizeof sentence,

@@ -15,10 +15,10 @@ namespace faintline {
 namespace {
 
     constexpr std::string_view learning = "learning motion from tracks";
-    constexpr double firstStaying = 0.9;
-    constexpr double leastStaying = 0.8;
-    constexpr double mostStaying = 0.998;
-    constexpr int steps = 3;
+    constexpr double stayingFirstProbability = 0.9;
+    constexpr double stayingLowerProbability = 0.8;
+    constexpr double stayingUpperProbability = 0.998;
+    constexpr int learningIterations = 3;
     constexpr std::size_t mostFrames = 20'000;
 
     const Spectrogram &spectrogramOf(const Analysis &analysis)
@@ -62,7 +62,7 @@ namespace {
     std::vector<double> lawOf(std::vector<double> changes)
     {
         const double all = std::accumulate(changes.begin(), changes.end(), 0.0);
-        const double staying = std::clamp(changes.front() / all, leastStaying, mostStaying);
+        const double staying = std::clamp(changes.front() / all, stayingLowerProbability, stayingUpperProbability);
         const double others = all - changes.front();
         std::vector<double> law{staying};
         for (std::size_t i = 1; i < changes.size(); ++i) {
@@ -108,10 +108,11 @@ LearnedMotion learnMotion(const Analysis &analysis, const RunContext &context)
     const std::vector<PathStrip> strips = stripsOf(analysis, tracks, context.part(0.0, 0.2));
     LearnedMotion motion;
     motion.present = analysis.settings.model.slopeChange;
-    motion.learned.assign(motion.present.size(), 0.5 * (1.0 - firstStaying) / double(motion.present.size() - 1));
-    motion.learned.front() = firstStaying;
+    motion.learned.assign(motion.present.size(),
+                          0.5 * (1.0 - stayingFirstProbability) / double(motion.present.size() - 1));
+    motion.learned.front() = stayingFirstProbability;
     std::vector<double> changes;
-    for (int step = 0; step < steps; ++step) {
+    for (int step = 0; step < learningIterations; ++step) {
         changes = changesUnder(motion.learned, analysis, strips, context.part(0.2 + 0.2 * step, 0.4 + 0.2 * step));
         motion.learned = lawOf(changes);
     }

@@ -17,7 +17,7 @@ namespace faintline {
 namespace {
 
     constexpr double oversampling = 4.0; ///< of the band, so that the averaging filter's response is flat over it
-    constexpr Index fewest = 16;
+    constexpr Index averageMinimumSamples = 16;
     constexpr Index pathFrames = Index(1) << 22;
     constexpr Index runSamples = Index(1) << 18; ///< read at a time
 
@@ -133,7 +133,7 @@ namespace {
         const Stretch stretch = shortened(whole, double(pathFrames * averaged) / rate);
         const auto first = Index(std::llround(stretch.fromSeconds * rate));
         const auto count = Index(std::llround(stretch.toSeconds * rate)) - first;
-        if (count / averaged < fewest)
+        if (count / averaged < averageMinimumSamples)
             refuse();
         const std::vector<float> all = powerSpectrum(
             mixedDown(recording, {stretch.channel, first, count}, {stretch.hz / rate, averaged}, context));

@@ -25,11 +25,11 @@ namespace {
     constexpr double clusterVariance = 16.0; ///< of the fraction, relative to independent states
     constexpr Index tileCells = 16;
     constexpr Index tileFrames = 50;
-    constexpr double rarelyExceeded = 1e-4; ///< fraction of cells and frames of noise
-    constexpr double quietShare = 0.25;     ///< of the tiles
-    constexpr double deviations = 5.0;      ///< four of a mean's
-    constexpr double tolerance = 0.01;
-    constexpr Index widestSkirt = 50; ///< resolution cells
+    constexpr double rareExceedanceProbability = 1e-4; ///< fraction of cells and frames of noise
+    constexpr double quietShare = 0.25;                ///< of the tiles
+    constexpr double deviations = 5.0;                 ///< four of a mean's
+    constexpr double normaliserErrorShare = 0.01;
+    constexpr Index skirtLimitCells = 50; ///< resolution cells
     constexpr double noiseMean = 1.1;
     constexpr double overlap = 1.3; ///< standard deviation of a mean over overlapping frames, relative to independent
                                     ///< ones
@@ -160,7 +160,7 @@ namespace {
 
     double loudestOf(const AnalysisPlan &plan)
     {
-        return isPlain(plan.settings) ? plan.calibration->levelExceededBy(rarelyExceeded)
+        return isPlain(plan.settings) ? plan.calibration->levelExceededBy(rareExceedanceProbability)
                                       : std::numeric_limits<double>::infinity();
     }
 
@@ -240,7 +240,7 @@ namespace {
         {
             const int binsPerCell = m_analysis.settings.spectrogram.binsPerCell;
             const auto least = Index(std::ceil(m_analysis.settings.decide.inhibitCells.front() * binsPerCell));
-            const auto widest = std::max(least + 1, widestSkirt * binsPerCell);
+            const auto widest = std::max(least + 1, skirtLimitCells * binsPerCell);
             const Index cells = std::ssize(m_y);
             for (Piece &piece : pieces) {
                 piece.below.resize(std::size_t(widest));
@@ -329,7 +329,7 @@ std::optional<NoiseLawCheck> checkNoiseLaw(const Analysis &analysis, const RunCo
             : analysis.calibration->continuedFraction;
     const double sigma =
         std::sqrt(clusterVariance * law.expected * (1.0 - law.expected) / (fractions.frames() * double(cells)));
-    const double half = deviations * sigma + tolerance + 1.0 / double(cells);
+    const double half = deviations * sigma + normaliserErrorShare + 1.0 / double(cells);
     law.band = {law.expected - half, law.expected + half};
     return law;
 }

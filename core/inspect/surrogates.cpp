@@ -51,10 +51,10 @@ SurrogateCount countOnSurrogates(RecordingPointer recording, const AnalysisSetti
     const Interval counted = poissonInterval(result.events);
     result.interval = {counted.low / result.ordered, counted.high / result.ordered};
     if (result.events > 0 && !result.interval.contains(1.0)) {
-        constexpr double near = 0.5;
-        const double slope = std::log(calibration->eventRateAt(result.threshold - near)
-                                      / calibration->eventRateAt(result.threshold + near))
-                             / (2.0 * near);
+        constexpr double slopeHalfStepNats = 0.5;
+        const double slope = std::log(calibration->eventRateAt(result.threshold - slopeHalfStepNats)
+                                      / calibration->eventRateAt(result.threshold + slopeHalfStepNats))
+                             / (2.0 * slopeHalfStepNats);
         result.correction = std::log(result.ratio) / slope;
     }
     return result;

@@ -64,8 +64,9 @@ namespace {
     private:
         std::size_t bufferBytes() const
         {
-            constexpr std::size_t enough = std::size_t(4) << 20; // for a source that can wait
-            return std::max(m_source.isPatient() ? std::min(enough, m_settings.bufferBytes) : m_settings.bufferBytes,
+            constexpr std::size_t patientBufferBytes = std::size_t(4) << 20; // for a source that can wait
+            return std::max(m_source.isPatient() ? std::min(patientBufferBytes, m_settings.bufferBytes)
+                                                 : m_settings.bufferBytes,
                             bytesFor(m_settings.analysis));
         }
 

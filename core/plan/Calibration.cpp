@@ -36,8 +36,10 @@ double Calibration::rateUncertaintyAt(double nats) const
 double Calibration::thresholdUncertainty(double eventsPerCellFrame) const
 {
     const double threshold = thresholdForEventRate(eventsPerCellFrame);
-    constexpr double near = 0.5;
-    const double slope = std::log(eventRateAt(threshold - near) / eventRateAt(threshold + near)) / (2.0 * near);
+    constexpr double slopeHalfWidthNats = 0.5;
+    const double slope =
+        std::log(eventRateAt(threshold - slopeHalfWidthNats) / eventRateAt(threshold + slopeHalfWidthNats))
+        / (2.0 * slopeHalfWidthNats);
     return std::log(rateUncertaintyAt(threshold)) / slope;
 }
 

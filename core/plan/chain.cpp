@@ -13,11 +13,12 @@ namespace faintline {
 namespace {
 
     constexpr double shoulderNats = 8.0;
-    constexpr double noiseOnShoulder = 1e-3; ///< fraction of the cells of a frame that decides
-    constexpr Index manyStates = 1'000'000;  ///< from this number on, tracing a path back over tens of frames takes
-                                             ///< seconds
+    constexpr double shoulderNoiseProbability = 1e-3; ///< fraction of the cells of a frame that decides
+    constexpr Index tracedBrieflyFromStates =
+        1'000'000; ///< from this number on, tracing a path back over tens of frames takes
+                   ///< seconds
     constexpr Index onsetFramesOfMany = 16;
-    constexpr Index longestRunUpLive = 512;
+    constexpr Index liveRunUpFrames = 512;
 
     /// The values in whole cells; the last one is used for all remaining axes.
     std::vector<Index> perAxis(const std::vector<double> &values, const Grid &grid)
@@ -73,7 +74,7 @@ namespace {
         if (isScoreOfPaths(plan.settings.detector))
             return threshold - std::min(shoulderNats, 0.5 * std::abs(threshold));
         const auto decision = double(framesPerDecision(plan.settings.detector, geometryOf(plan)));
-        return std::min(threshold, plan.calibration->levelExceededBy(noiseOnShoulder / decision));
+        return std::min(threshold, plan.calibration->levelExceededBy(shoulderNoiseProbability / decision));
     }
 
     ChainSettings chainSettings(const AnalysisPlan &plan)
@@ -101,12 +102,12 @@ namespace {
         chain.inhibitCells = inBins(settings.decide.inhibitCells);
         if (!settings.decide.forgetCells.empty())
             chain.forgetCells = inBins(settings.decide.forgetCells);
-        if (plan.model.space.stateCount() > manyStates)
+        if (plan.model.space.stateCount() > tracedBrieflyFromStates)
             chain.onsetFrames = onsetFramesOfMany;
         if (settings.noise.causal) {
             // A live run reports an event once nothing can be joined to it any more, so the onset of tracks must be
             // bounded.
-            chain.onsetFrames = chain.onsetFrames > 0 ? chain.onsetFrames : longestRunUpLive;
+            chain.onsetFrames = chain.onsetFrames > 0 ? chain.onsetFrames : liveRunUpFrames;
             chain.keepsNumbers = true;
         }
         chain.resets = settings.decide.resets;

@@ -10,8 +10,8 @@ namespace faintline {
 
 namespace {
 
-    constexpr double largestSlope = 100.0; // bins per frame
-    constexpr int mostSlopes = 1001;
+    constexpr double slopeLimitBinsPerFrame = 100.0; // bins per frame
+    constexpr int slopeCountLimit = 1001;
 
     void checkLaw(const std::string &name, const std::vector<double> &law, int rateCount)
     {
@@ -43,7 +43,7 @@ namespace {
     {
         if (!isInBins(model))
             return;
-        if (std::abs(slope) > largestSlope)
+        if (std::abs(slope) > slopeLimitBinsPerFrame)
             throw fieldError(name, formatNumber(slope),
                              "must lie in -100 … 100 bins/frame; use a shorter window to reduce it for the same Hz/s");
         const double inSteps = slope * model.slopesPerBin;
@@ -55,7 +55,7 @@ namespace {
 
     void checkSlopeCount(const ModelSettings &model)
     {
-        if (isInBins(model) && slopeCount(model) > mostSlopes)
+        if (isInBins(model) && slopeCount(model) > slopeCountLimit)
             throw fieldError("model.slopesPerBin", std::to_string(model.slopesPerBin),
                              "gives " + std::to_string(slopeCount(model)) + " slopes; at most 1001 are possible");
     }

@@ -227,8 +227,10 @@ struct AudioDecoder::Source {
     {
         Source &source = of(user);
         const Index base = whence == SEEK_CUR ? source.offset : whence == SEEK_END ? source.size() : 0;
-        constexpr Index farthest = Index(1) << 60; // beyond the end of any file; a chunk's length may point there
-        source.offset = std::clamp<Index>(base + std::clamp<Index>(offset, -farthest, farthest), 0, farthest);
+        constexpr Index offsetLimitBytes = Index(1)
+                                           << 60; // beyond the end of any file; a chunk's length may point there
+        source.offset = std::clamp<Index>(base + std::clamp<Index>(offset, -offsetLimitBytes, offsetLimitBytes), 0,
+                                          offsetLimitBytes);
         return source.offset;
     }
 

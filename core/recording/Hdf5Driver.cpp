@@ -16,7 +16,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr haddr_t farthest = ~haddr_t(0) >> 1;
+    constexpr haddr_t addressLimitBytes = ~haddr_t(0) >> 1;
 
     /// The library's part must come first.
     struct OpenFile {
@@ -92,7 +92,7 @@ namespace {
         driver.value = static_cast<H5FD_class_value_t>(600); // from the range for unregistered drivers
 #endif
         driver.name = "faintline";
-        driver.maxaddr = farthest;
+        driver.maxaddr = addressLimitBytes;
         driver.fc_degree = H5F_CLOSE_WEAK;
         driver.open = open;
         driver.close = close;

@@ -341,9 +341,9 @@ std::optional<std::string> Hdf5Dataset::text(const std::string &name) const
 {
     const LibraryUse use;
     const Attribute attribute(m_handle, name);
-    constexpr std::size_t longest = 4096;
+    constexpr std::size_t textLimitBytes = 4096;
     if (!attribute.isOne() || H5Tget_class(attribute.type) != H5T_STRING || H5Tis_variable_str(attribute.type) != 0
-        || H5Tget_size(attribute.type) > longest)
+        || H5Tget_size(attribute.type) > textLimitBytes)
         return std::nullopt;
     std::string value(H5Tget_size(attribute.type), '\0');
     if (H5Aread(attribute.handle, attribute.type, value.data()) < 0)
@@ -384,11 +384,11 @@ void Hdf5Dataset::read(const std::vector<Index> &first, const std::vector<Index>
 
 std::vector<std::int64_t> Hdf5Dataset::readIntegers() const
 {
-    constexpr double most = 1 << 20;
+    constexpr double tableLimitRows = 1 << 20;
     double count = 1.0;
     for (const Index size : m_shape)
         count *= double(size);
-    if (m_isFloat || m_isComplex || count > most)
+    if (m_isFloat || m_isComplex || count > tableLimitRows)
         throw Error(m_path, "must hold a table of at most a million whole numbers");
     const LibraryUse use;
     std::vector<std::int64_t> values(static_cast<std::size_t>(count));

@@ -4,9 +4,9 @@ namespace faintline {
 
 void checkInjections(const std::vector<InjectedLine> &lines, const RecordingInfo &recording, const std::string &name)
 {
-    constexpr std::size_t most = 1000;
-    if (lines.size() > most)
-        throw Error(name, "must be at most " + std::to_string(most) + " lines");
+    constexpr std::size_t injectionLimitLines = 1000;
+    if (lines.size() > injectionLimitLines)
+        throw Error(name, "must be at most " + std::to_string(injectionLimitLines) + " lines");
     std::vector<LineSettings> settings;
     for (const InjectedLine &one : lines)
         settings.push_back(one.line);

@@ -113,8 +113,8 @@ namespace {
             const double seconds = m_longestEnd.seconds - m_longestBegin.seconds;
             const double rate = double(m_longestEnd.sample - m_longestBegin.sample) / seconds;
             constexpr double farOff = 1e-3;
-            constexpr double shortest = 1.0;
-            return seconds >= shortest && std::abs(rate / m_nominalHz - 1.0) < farOff ? rate : m_nominalHz;
+            constexpr double rateFromSeconds = 1.0;
+            return seconds >= rateFromSeconds && std::abs(rate / m_nominalHz - 1.0) < farOff ? rate : m_nominalHz;
         }
 
         /// Second of the GPS week of the first sample.

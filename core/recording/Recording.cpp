@@ -119,10 +119,10 @@ void Recording::completeByName()
 int Recording::scaleExponentOf(double magnitude)
 {
     constexpr int step = 60;
-    constexpr int most = 120; // the range of floats ends beyond it
+    constexpr int exponentLimit = 120; // the range of floats ends beyond it
     if (!(magnitude > 0.0) || !std::isfinite(magnitude))
         return 0;
-    return std::clamp(step * int(std::lround(std::log2(magnitude) / step)), -most, most);
+    return std::clamp(step * int(std::lround(std::log2(magnitude) / step)), -exponentLimit, exponentLimit);
 }
 
 /// Mean magnitude of the non-zero samples from one on; 0 if there are none.

@@ -39,10 +39,10 @@ namespace {
             return float(std::bit_cast<std::conditional_t<bytes == 4, float, double>>(bits));
         } else {
             // Inverting the highest bit of an unsigned number gives the signed number relative to mid-scale.
-            constexpr auto highest = static_cast<Bits<bytes>>(Bits<bytes>(1) << (8 * bytes - 1));
+            constexpr auto signBit = static_cast<Bits<bytes>>(Bits<bytes>(1) << (8 * bytes - 1));
             if constexpr (number == SampleType::Number::Unsigned)
-                bits = static_cast<Bits<bytes>>(bits ^ highest);
-            return float(static_cast<std::make_signed_t<Bits<bytes>>>(bits)) * (1.0f / float(highest));
+                bits = static_cast<Bits<bytes>>(bits ^ signBit);
+            return float(static_cast<std::make_signed_t<Bits<bytes>>>(bits)) * (1.0f / float(signBit));
         }
     }
 

@@ -25,8 +25,8 @@ StrainRecording::StrainRecording(const std::string &path)
     if (!m_strain || m_strain->isComplex() || m_strain->shape().size() != 1)
         throw Error(path, "holds no strain/Strain with one number per sample");
     const double spacing = m_strain->number("Xspacing").value_or(0.0);
-    constexpr double shortest = 1e-9;
-    if (!(spacing >= shortest && spacing <= 1e6))
+    constexpr double spacingMinimumSeconds = 1e-9;
+    if (!(spacing >= spacingMinimumSeconds && spacing <= 1e6))
         throw Error(path + ": strain/Strain: Xspacing = " + formatNumber(spacing),
                     "must be the sample interval in seconds");
     m_info.path = path;

@@ -324,11 +324,11 @@ namespace {
             }
             const double freedom = double(m_files.size()) - double(m_runs.size()) - 1.0;
             const double measured = freedom > 0.0 ? std::sqrt(squares / freedom) : 0.0;
-            constexpr double enough = 3.0; // stamps that show their scatter
-            const double byResolution = m_areExact         ? leastScatter
-                                        : freedom < enough ? m_resolution / std::sqrt(12.0)
-                                        : m_areWhole       ? 1.0 / std::sqrt(12.0)
-                                                           : leastScatter;
+            constexpr double scatterMinimumFreedom = 3.0; // stamps that show their scatter
+            const double byResolution = m_areExact                        ? leastScatter
+                                        : freedom < scatterMinimumFreedom ? m_resolution / std::sqrt(12.0)
+                                        : m_areWhole                      ? 1.0 / std::sqrt(12.0)
+                                                                          : leastScatter;
             return std::max(byResolution, measured);
         }
 

@@ -142,7 +142,7 @@ namespace {
 
     Stretches readHarp(const std::vector<std::byte> &harp, RecordingInfo &info)
     {
-        constexpr double smallest = 0.01; // its times are in milliseconds
+        constexpr double gapMinimumSeconds = 0.01; // its times are in milliseconds
         Stretches stretches;
         const std::vector<HarpEntry> entries = harpEntries(harp, std::max(1, info.channelCount));
         if (entries.empty() || info.isComplex)
@@ -155,7 +155,7 @@ namespace {
                 entry.startUnixSeconds - *info.startUnixSeconds - double(stretches.end()) / info.sampleRateHz;
             if (late > Stretches::longestSeconds)
                 break;
-            const Index gap = late > smallest ? std::llround(late * info.sampleRateHz) : 0;
+            const Index gap = late > gapMinimumSeconds ? std::llround(late * info.sampleRateHz) : 0;
             const Index count = std::min(entry.samples, info.sampleCount - stored);
             stretches.add(stretches.end() + gap, stored, count);
             stored += std::max<Index>(0, count);
@@ -174,8 +174,8 @@ namespace {
         static const std::regex pattern(R"((\d{1,2}):(\d{2}):(\d{2})(?:\.(\d{1,6}))? (\d{1,2})/(\d{1,2})/(\d{4}) )"
                                         R"(\(UTC(?:([+-])(\d{1,2})(?::?(\d{2}))?)?\))");
         std::smatch match;
-        constexpr std::size_t longest = 4096;
-        if (comment.size() > longest || !std::regex_search(comment, match, pattern))
+        constexpr std::size_t commentLimitBytes = 4096;
+        if (comment.size() > commentLimitBytes || !std::regex_search(comment, match, pattern))
             return std::nullopt;
         const auto whole = [&](std::size_t group) { return std::max(0, number(match[group].str())); };
         const double fraction = whole(4) / std::pow(10.0, double(match[4].length()));
@@ -206,7 +206,7 @@ namespace {
     {
         constexpr double tolerance = 2.0; // of two times in whole seconds
         constexpr double quarter = 900.0;
-        constexpr double farthest = 14.0 * 3600.0;
+        constexpr double zoneLimitSeconds = 14.0 * 3600.0;
         const std::optional<double> named = timeInName(info.path);
         const double lasts = info.durationSeconds();
         if (!named || lasts <= 2.0 * tolerance)
@@ -215,7 +215,7 @@ namespace {
         if (std::abs(rest) <= tolerance)
             return named;
         const auto fromQuarter = [](double seconds) { return std::abs(std::remainder(seconds, quarter)); };
-        const bool isZone = std::abs(rest) <= farthest && fromQuarter(rest) <= tolerance;
+        const bool isZone = std::abs(rest) <= zoneLimitSeconds && fromQuarter(rest) <= tolerance;
         return isZone && fromQuarter(lasts) > 2.0 * tolerance ? std::optional(said - lasts) : std::nullopt;
     }
 

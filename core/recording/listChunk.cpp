@@ -11,7 +11,7 @@ namespace faintline {
 namespace {
 
     constexpr Index wordBytes = 4;
-    constexpr Index most = Index(16) << 20; ///< bytes to examine
+    constexpr Index listLimitBytes = Index(16) << 20; ///< bytes to examine
 
     std::uint32_t number(std::span<const std::byte> bytes, bool isBigEndian)
     {
@@ -48,7 +48,7 @@ bool isChunkHead(std::span<const std::byte> bytes)
         return false;
     const std::string_view name = nameAt(bytes);
     const bool isPrintable = std::all_of(name.begin(), name.end(), [](char c) { return c >= ' ' && c <= '~'; });
-    return isPrintable && (hasKnownName(name) || number(bytes.subspan(wordBytes, wordBytes), false) <= most);
+    return isPrintable && (hasKnownName(name) || number(bytes.subspan(wordBytes, wordBytes), false) <= listLimitBytes);
 }
 
 BehindSamples behindSamples(std::span<const std::byte> bytes, bool isOdd, bool isAll)
@@ -79,7 +79,7 @@ bool leadsBackwards(const FileBytes &file, Index chunk)
     const bool isBigEndian = std::memcmp(kind.data(), "RIFX", kind.size()) == 0;
     const Index length =
         std::min<Index>(number(std::span(head).last(wordBytes), isBigEndian), file.size() - chunk - std::ssize(head));
-    std::vector<std::byte> bytes(std::size_t(std::clamp<Index>(length, 0, most)));
+    std::vector<std::byte> bytes(std::size_t(std::clamp<Index>(length, 0, listLimitBytes)));
     bytes.resize(file.readAt(chunk + std::ssize(head), bytes));
 
     Index at = 0;
@@ -99,7 +99,7 @@ bool leadsBackwards(const FileBytes &file, Index chunk)
             return true;
         at += size + size % 2;
     }
-    return at < length && length > most; // longer lists are not examined
+    return at < length && length > listLimitBytes; // longer lists are not examined
 }
 
 } // namespace faintline

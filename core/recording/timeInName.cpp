@@ -41,9 +41,9 @@ namespace {
 
     std::optional<double> countedTime(const std::smatch &match)
     {
-        constexpr double latest = 4102444800.0; // 2100
+        constexpr double latestUnixSeconds = 4102444800.0; // 2100
         const double time = numberIn(match, 1) / (match[1].length() == 13 ? 1e3 : 1.0);
-        return time >= 1e9 && time < latest ? std::optional(time) : std::nullopt;
+        return time >= 1e9 && time < latestUnixSeconds ? std::optional(time) : std::nullopt;
     }
 
     struct Pattern {

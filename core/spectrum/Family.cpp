@@ -99,12 +99,13 @@ Axis familyAxis(const FamilySettings &settings, const Axis &band)
             refuse("must lie at least a bin apart; a longer window (spectrogram.windowSeconds) has narrower bins");
         return band;
     }
-    constexpr double apart = 3.0; // bins between neighbouring members
+    constexpr double memberSpacingBins = 3.0; // bins between neighbouring members
     Axis axis = band;
     axis.name = "fundamental " + band.name;
     axis.step = band.step / familyCellsPerBin(settings);
     const auto [least, most] = std::minmax_element(settings.members.begin(), settings.members.end());
-    const double first = std::max({band.step, apart * band.step / closest(settings.members), band.value(0.0) / *least});
+    const double first =
+        std::max({band.step, memberSpacingBins * band.step / closest(settings.members), band.value(0.0) / *least});
     axis.first = axis.step * std::ceil(first / axis.step);
     axis.count = Index(std::floor((band.last() / *most - axis.first) / axis.step)) + 1;
     if (axis.count < 1)

@@ -24,7 +24,7 @@ namespace {
     constexpr double tableLowest = -8.0;
     constexpr double tableStep = 1.0 / 64.0;
     constexpr double tableHighest = 36.0;
-    constexpr double smallest = 1e-290; ///< smallest probability with full precision
+    constexpr double preciseProbability = 1e-290; ///< smallest probability with full precision
 
     constexpr Index mostBlocks = 256;
     constexpr Index valuesPerBlock = Index(1) << 20;
@@ -60,7 +60,7 @@ LooksLaw::LooksLaw(double looks, double median)
     for (double z = tableLowest; z <= tableHighest; z += tableStep) {
         const double root = std::max(0.0, double(m_centre) + z / double(m_spread));
         const double q = boost::math::gamma_q(looks, looks * root * root * root);
-        if (!(q > smallest))
+        if (!(q > preciseProbability))
             break; // extrapolated beyond this with the last step
         m_table.push_back(float(-std::log(q)));
     }

@@ -26,13 +26,14 @@ namespace {
     FAINTLINE_MULTIVERSION
     void encodePower(const float *values, std::uint8_t *bytes, Index n)
     {
-        constexpr float stepsPerNeper = 8.6858896381f;                      // 2 · 10 / ln 10
-        constexpr auto lowest = std::bit_cast<std::int32_t>(0.0316227766f); // -15 dB
+        constexpr float stepsPerNeper = 8.6858896381f;                                 // 2 · 10 / ln 10
+        constexpr auto bitsOfLowestPower = std::bit_cast<std::int32_t>(0.0316227766f); // -15 dB
         constexpr auto infinite = std::bit_cast<std::int32_t>(std::numeric_limits<float>::infinity());
         for (Index i = 0; i < n; ++i) {
             // Positive floats have the same order as integers; a comparison of floats would prevent vectorisation.
             const auto given = std::bit_cast<std::int32_t>(values[i]);
-            const std::int32_t bits = given > infinite ? lowest : std::max(given, lowest); // NaN: lowest
+            const std::int32_t bits =
+                given > infinite ? bitsOfLowestPower : std::max(given, bitsOfLowestPower); // NaN: lowest
             const auto byte = std::int32_t(stepsPerNeper * fastLn(std::bit_cast<float>(bits)) + 30.5f);
             bytes[i] = std::uint8_t(std::min(byte, 255));
         }

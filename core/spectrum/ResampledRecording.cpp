@@ -14,7 +14,7 @@ namespace faintline {
 namespace {
 
     constexpr double largestStretch = 8.0;
-    constexpr double passed = 0.94; ///< fraction of half the rate
+    constexpr double passedBandShare = 0.94; ///< fraction of half the rate
     constexpr Index blockSamples = 8192;
 
     /// One side of a Kaiser-windowed sinc, interpolated linearly.
@@ -111,14 +111,14 @@ void ResampledRecording::readBlock(Index first, std::span<float> out) const
     const double rate = m_info.sampleRateHz;
     const auto floats = std::size_t(m_info.floatsPerSample());
     const std::size_t count = out.size() / floats;
-    constexpr double widest = Kernel::crossings * largestStretch / passed;
-    const auto begin = Index(std::floor(baseSecondsOf(double(first) / rate) * rate - widest));
-    const auto end = Index(std::ceil(baseSecondsOf(double(first + Index(count)) / rate) * rate + widest));
+    constexpr double kernelReachSamples = Kernel::crossings * largestStretch / passedBandShare;
+    const auto begin = Index(std::floor(baseSecondsOf(double(first) / rate) * rate - kernelReachSamples));
+    const auto end = Index(std::ceil(baseSecondsOf(double(first + Index(count)) / rate) * rate + kernelReachSamples));
     std::vector<float> base(std::size_t(end - begin) * floats);
     m_base->read(m_channel, begin, end - begin, base);
     for (std::size_t n = 0; n < count; ++n) {
         const double seconds = baseSecondsOf(double(first + Index(n)) / rate);
-        const double width = passed * std::min(1.0, m_curve.at(seconds) / m_toHz); // relative to half the rate
+        const double width = passedBandShare * std::min(1.0, m_curve.at(seconds) / m_toHz); // relative to half the rate
         const double centre = seconds * rate - double(begin);
         const double reach = Kernel::crossings / width;
         std::array<double, 2> sum{};

@@ -36,9 +36,9 @@ namespace {
     /// Range half width of the window around a cell, shorter at the axis's ends so that the cell stays in its middle.
     Index windowAt(Index range, Index rangeCells)
     {
-        constexpr Index widest = 16;
-        constexpr Index narrowest = 4;
-        return std::clamp(std::min(range, rangeCells - 1 - range), narrowest, widest);
+        constexpr Index filterLimitCells = 16;
+        constexpr Index filterMinimumCells = 4;
+        return std::clamp(std::min(range, rangeCells - 1 - range), filterMinimumCells, filterLimitCells);
     }
 
 } // namespace

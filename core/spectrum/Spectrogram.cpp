@@ -36,10 +36,10 @@ namespace {
     void squaredMagnitude(const float *bins, std::size_t n, float *out)
     {
         // Samples whose square overflows a float give ∞ or NaN; both are replaced by the largest float.
-        constexpr float largest = std::numeric_limits<float>::max();
+        constexpr float powerLimit = std::numeric_limits<float>::max();
         for (std::size_t i = 0; i < n; ++i) {
             const float power = bins[2 * i] * bins[2 * i] + bins[2 * i + 1] * bins[2 * i + 1];
-            out[i] = power <= largest ? power : largest;
+            out[i] = power <= powerLimit ? power : powerLimit;
         }
     }
 
@@ -231,9 +231,9 @@ double Spectrogram::automaticWindowSeconds(const RecordingInfo &info)
     const double mantissa = wanted / decade;
     double chosen = decade * (mantissa < 1.5 ? 1.0 : mantissa < 3.5 ? 2.0 : mantissa < 7.5 ? 5.0 : 10.0);
     // At least 16 samples, so that a spectrum exists; at most a quarter of the recording, and limited by memory.
-    constexpr double fewest = 16.0;
+    constexpr double windowMinimumSamples = 16.0;
     constexpr double most = 4e6;
-    chosen = std::clamp(chosen, fewest / info.sampleRateHz, most / info.sampleRateHz);
+    chosen = std::clamp(chosen, windowMinimumSamples / info.sampleRateHz, most / info.sampleRateHz);
     return std::min(chosen, std::max(info.durationSeconds() / 4.0, 1.0 / info.sampleRateHz));
 }
 

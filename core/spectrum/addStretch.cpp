@@ -56,8 +56,8 @@ namespace {
         /// Returns false if there are none.
         bool findSources()
         {
-            constexpr Index cellsForThree = 144;
-            m_stretch.sources = fitSources(m_frames, m_cells, m_cells < cellsForThree ? 2 : 3, m_half);
+            constexpr Index threeSourcesFromCells = 144;
+            m_stretch.sources = fitSources(m_frames, m_cells, m_cells < threeSourcesFromCells ? 2 : 3, m_half);
             const Index sources = m_stretch.sources.count();
             m_stretch.sourceLevels.assign(std::size_t(m_stretchFrames.count * m_stretchFrames.steps * sources), 0.0f);
             return sources > 0;
@@ -66,17 +66,17 @@ namespace {
         /// Whether sources explain more than the background, leaving only chance.
         bool isBetter(double likeness)
         {
-            constexpr double better = 1.1;
-            constexpr double explained = 1.4;
+            constexpr double improvedVarianceRatio = 1.1;
+            constexpr double remainingVarianceRatio = 1.4;
             divideByNoise(0);
             m_rest = blockBackground(m_frames, m_cells, m_half);
             for (Index frame = 0; frame < m_stretchFrames.count; ++frame)
                 divide(frameOf(m_frames, frame), m_rest.lnPower);
             // Signals also change with time but are not sources of noise, so that nothing but chance may remain.
             const Unevenness after = unevenness(m_frames, m_asTheyAre, m_each);
-            const bool isLess = m_before.variance() > better * after.variance()
-                                || m_before.varianceOfMeans() > better * after.varianceOfMeans();
-            return isLess && !(after.variance() > explained * Unevenness::ofNoise(likeness));
+            const bool isLess = m_before.variance() > improvedVarianceRatio * after.variance()
+                                || m_before.varianceOfMeans() > improvedVarianceRatio * after.varianceOfMeans();
+            return isLess && !(after.variance() > remainingVarianceRatio * Unevenness::ofNoise(likeness));
         }
 
         /// Replaces the levels of the stretch by levels relative to its noise.

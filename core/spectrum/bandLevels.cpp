@@ -160,9 +160,9 @@ std::vector<float> mediansOf(const std::vector<float> &levels, Index columns)
 
 float shareOfLines(float median)
 {
-    constexpr float chance = 0.02f;
-    constexpr float most = 0.15f;
-    return std::clamp(median - chance, 0.0f, most);
+    constexpr float medianChanceLn = 0.02f;
+    constexpr float lineShareLimitLn = 0.15f;
+    return std::clamp(median - medianChanceLn, 0.0f, lineShareLimitLn);
 }
 
 LevelOffsets::LevelOffsets(const std::vector<float> &levels, Index columns)
@@ -180,7 +180,7 @@ LevelOffsets::LevelOffsets(const std::vector<float> &levels, Index columns)
 void removeOffsets(std::vector<float> &levels, const std::vector<LevelOffsets> &offsets,
                    const std::vector<Index> &blockOfLevel)
 {
-    constexpr Index reach = 6;
+    constexpr Index offsetReachBlocks = 6;
     if (offsets.empty())
         return;
     const std::size_t columns = offsets.front().medians.size();
@@ -197,8 +197,8 @@ void removeOffsets(std::vector<float> &levels, const std::vector<LevelOffsets> &
             if (column + 1 == columns)
                 continue;
             few.clear();
-            for (Index other = std::max<Index>(0, block - reach);
-                 other <= std::min(std::ssize(offsets) - 1, block + reach); ++other)
+            for (Index other = std::max<Index>(0, block - offsetReachBlocks);
+                 other <= std::min(std::ssize(offsets) - 1, block + offsetReachBlocks); ++other)
                 if (const LevelOffsets &each = offsets[std::size_t(other)]; !each.isSure[column])
                     few.push_back(each.medians[column]);
             taken.back()[column] = shareOfLines(medianOf(few));

@@ -12,8 +12,8 @@ namespace faintline {
 namespace {
 
     // Height of a background above the rounding floor, in ln power, above which it is used
-    constexpr double roundingMargin = 4.0;   ///< for the level of the whole band
-    constexpr double roundingNearness = 0.1; ///< at all
+    constexpr double roundingMarginLn = 4.0;   ///< for the level of the whole band
+    constexpr double roundingNearnessLn = 0.1; ///< at all
 
 } // namespace
 
@@ -68,8 +68,8 @@ BlockBackground blockBackground(const std::vector<float> &frames, Index cells, I
     std::vector<bool> isNoise = refine(ln, background, half, mostNoiseRatio(double(used)));
     std::vector<bool> isFirm(isNoise.size());
     for (std::size_t cell = 0; cell < background.size(); ++cell) {
-        isNoise[cell] = isNoise[cell] && double(background[cell]) > floor + roundingNearness;
-        isFirm[cell] = isNoise[cell] && double(background[cell]) > floor + roundingMargin;
+        isNoise[cell] = isNoise[cell] && double(background[cell]) > floor + roundingNearnessLn;
+        isFirm[cell] = isNoise[cell] && double(background[cell]) > floor + roundingMarginLn;
         background[cell] = std::max(background[cell], float(floor));
     }
     return {std::move(ln), std::move(background), std::move(isNoise), std::move(isFirm)};

@@ -16,24 +16,24 @@ namespace {
 
     constexpr Index fewestWindows = 1024;
     constexpr Index edgeFrames = 8192;
-    constexpr Index edgeValues = Index(1) << 26; ///< frames × bins that are read
-    constexpr float steep = 1.2f;                ///< change of ln B between cells
-    constexpr Index edgeReachCells = 6;          ///< cells on either side of a steep place
-    constexpr Index halfWidth = 5;               ///< cells; half the window of the smooth correction
-    constexpr float correctionLimit = 0.5f;      ///< ln; of a correction
-    constexpr double significant = 4.0;          ///< standard errors of a smooth correction
-    constexpr double perError = 30.0;            ///< d ln(rate of false alarms)/dε for an excess ε of y
-    constexpr double evidence = 12.0;            ///< nat of a false alarm, at usual rates …
-    constexpr double perExcess = 50.0;           ///< … and d ln rate/dε of those
-    constexpr float clipped = 5.0f;              ///< y of a line, at most
-    constexpr Index windowsTogether = 8;         ///< of a run of frames
-    constexpr Index windowsApart = 2;            ///< frames that may still be correlated
+    constexpr Index edgeValues = Index(1) << 26;  ///< frames × bins that are read
+    constexpr float steepLnPerCell = 1.2f;        ///< change of ln B between cells
+    constexpr Index edgeReachCells = 6;           ///< cells on either side of a steep place
+    constexpr Index smoothHalfWidthCells = 5;     ///< cells; half the window of the smooth correction
+    constexpr float correctionLimitLn = 0.5f;     ///< ln; of a correction
+    constexpr double significantDeviations = 4.0; ///< standard errors of a smooth correction
+    constexpr double alarmsPerErrorLn = 30.0;     ///< d ln(rate of false alarms)/dε for an excess ε of y
+    constexpr double alarmEvidenceNats = 12.0;    ///< nat of a false alarm, at usual rates …
+    constexpr double alarmsPerExcessLn = 50.0;    ///< … and d ln rate/dε of those
+    constexpr float lineLimitPower = 5.0f;        ///< y of a line, at most
+    constexpr Index windowsTogether = 8;          ///< of a run of frames
+    constexpr Index windowsApart = 2;             ///< frames that may still be correlated
 
     /// Counts how often each cell's background changes steeply to the next cell.
     void countSteep(std::span<const float> ln, std::vector<Index> &counts)
     {
         for (std::size_t cell = 0; cell + 1 < ln.size(); ++cell)
-            counts[cell] += std::abs(ln[cell + 1] - ln[cell]) > steep ? 1 : 0;
+            counts[cell] += std::abs(ln[cell + 1] - ln[cell]) > steepLnPerCell ? 1 : 0;
     }
 
     /// Cells near one that is steep in half of the frames.
@@ -51,7 +51,7 @@ namespace {
     /// ln; compensates for the error of a bin's level, and for frames of which only one in `alike` is independent.
     double marginOf(double alike, double error)
     {
-        return 0.5 * perError * error * error + evidence / perExcess * (1.0 - 1.0 / alike);
+        return 0.5 * alarmsPerErrorLn * error * error + alarmEvidenceNats / alarmsPerExcessLn * (1.0 - 1.0 / alike);
     }
 
     /// Sums over frames of a recording over its background, bin by bin.
@@ -122,7 +122,7 @@ namespace {
             m_normaliser.normalise(y, m_background, seconds);
             for (std::size_t bin = 0; bin < y.size(); ++bin) {
                 m_below[bin] += y[bin] < std::numbers::ln2_v<float> ? 1 : 0;
-                y[bin] = std::min(y[bin], clipped);
+                y[bin] = std::min(y[bin], lineLimitPower);
                 m_sum[bin] += double(y[bin]);
                 m_squares[bin] += double(y[bin] * y[bin]);
             }
@@ -186,20 +186,23 @@ std::vector<float> edgeCorrection(const Spectrogram &spectrogram, const NoiseBac
 
     const std::vector<float> lnMeans = ratios.lnMeans();
     const double binsPerCell = spectrogram.binsPerCell();
-    const std::vector<float> smooth = runningMedian(lnMeans, Index(std::lround(double(halfWidth) * binsPerCell)));
+    const std::vector<float> smooth =
+        runningMedian(lnMeans, Index(std::lround(double(smoothHalfWidthCells) * binsPerCell)));
     const std::vector<bool> isNear = ratios.nearSteepPlaces();
     const std::vector<double> alike = ratios.framesAlike();
     const double independent = double(ratios.frames()) * std::min(1.0, 2.0 / double(steps));
     const double error = inverseLn2 / std::sqrt(independent);
-    constexpr double ofMedian = 1.25; // its error over that of a mean
-    const double smoothError = ofMedian * error * medianScatter(2.0 * double(halfWidth) + 1.0) / inverseLn2;
+    constexpr double medianErrorRatio = 1.25; // its error over that of a mean
+    const double smoothError =
+        medianErrorRatio * error * medianScatter(2.0 * double(smoothHalfWidthCells) + 1.0) / inverseLn2;
     std::vector<float> correction(std::size_t(bins), 0.0f);
     for (Index bin = 0; bin < bins; ++bin) {
         const auto i = std::size_t(bin);
         if (isNear[std::size_t(background.frequency.nearest(spectrogram.frequency().value(double(bin))))])
             correction[i] =
-                std::clamp(lnMeans[i], -correctionLimit, correctionLimit) + float(marginOf(alike[i], error));
-        else if (std::abs(smooth[i]) > float(significant * smoothError) && std::abs(smooth[i]) < correctionLimit)
+                std::clamp(lnMeans[i], -correctionLimitLn, correctionLimitLn) + float(marginOf(alike[i], error));
+        else if (std::abs(smooth[i]) > float(significantDeviations * smoothError)
+                 && std::abs(smooth[i]) < correctionLimitLn)
             correction[i] = smooth[i];
     }
     return correction;

@@ -29,9 +29,9 @@ namespace {
     /// The detector's frames between two windows, up to three: spectra of windows that each begin a hop later.
     std::vector<Spectrogram> betweenWindows(const Spectrogram &detector, const Spectrogram &windows)
     {
-        constexpr Index most = 4;
+        constexpr Index levelFramesPerWindow = 4;
         std::vector<Spectrogram> result;
-        const Index steps = std::min<Index>(detector.settings().stepsPerWindow, most);
+        const Index steps = std::min<Index>(detector.settings().stepsPerWindow, levelFramesPerWindow);
         const double rate = detector.recording().info().sampleRateHz;
         for (Index shift = 1; shift < steps; ++shift) {
             SelectionSettings later = windows.selection();
@@ -61,7 +61,7 @@ namespace {
                       Index half, double likeness, std::vector<float> &levels)
     {
         constexpr Index stretchBlocks = 13;
-        constexpr double noticeable = 1.5;
+        constexpr double noticeableVarianceRatio = 1.5;
         const Index blockCount = std::ssize(changes);
         const double expected = Unevenness::ofNoise(likeness);
         const Index together = std::clamp<Index>(
@@ -75,7 +75,7 @@ namespace {
             }
             const Index first = blocked.blockBegin(block);
             const Index end = next < blockCount ? blocked.blockBegin(next) : blocked.frames.time().count;
-            if (change.variance() > noticeable * expected)
+            if (change.variance() > noticeableVarianceRatio * expected)
                 addStretch(background, {first, end - first, blocked.steps, blocked.frames, blocked.shifted}, half,
                            likeness, levels);
         }

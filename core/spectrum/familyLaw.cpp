@@ -13,7 +13,8 @@ namespace faintline {
 
 namespace {
 
-    constexpr float exact = 12.0f; ///< beyond this maximum, 1 - (1 - e^-m)^K is K·e^-m to single precision
+    constexpr float singlePrecisionNats =
+        12.0f; ///< beyond this maximum, 1 - (1 - e^-m)^K is K·e^-m to single precision
 
     LooksLaw sumLaw(std::size_t members)
     {
@@ -43,7 +44,7 @@ float powerOfSum(float sum, std::size_t members)
 float powerOfLargest(float maximum, std::size_t members)
 {
     const auto K = float(members);
-    if (maximum > exact)
+    if (maximum > singlePrecisionNats)
         return maximum - std::log(K);
     return -std::log(-std::expm1(K * std::log1p(-std::exp(-maximum))));
 }

@@ -97,13 +97,14 @@ double meanScatter(double cells, double likeness)
 
 float truncatedMean(std::span<const float> cells, float guess)
 {
-    constexpr float cut = 5.0f;
-    const float kept = (1.0f - (1.0f + cut) * std::exp(-cut)) / (1.0f - std::exp(-cut)); // E[y | y < cut]
+    constexpr float truncatedAtMeans = 5.0f;
+    const float kept = (1.0f - (1.0f + truncatedAtMeans) * std::exp(-truncatedAtMeans))
+                       / (1.0f - std::exp(-truncatedAtMeans)); // E[y | y < cut]
     for (int pass = 0; pass < 2; ++pass) {
         double sum = 0.0;
         double count = 0.0;
         for (float value : cells)
-            if (value < cut * guess) {
+            if (value < truncatedAtMeans * guess) {
                 sum += double(value);
                 count += 1.0;
             }

@@ -12,9 +12,9 @@ namespace faintline {
 
 namespace {
 
-    constexpr std::size_t sumLanes = 16; // number of partial sums, in the same order on each processor
-    constexpr float least = 1e-12f;      // lower limit of B, relative to frames near 1
-    constexpr float lineCut = 6.0f;      // limits a line to six times its noise
+    constexpr std::size_t sumLanes = 16;       // number of partial sums, in the same order on each processor
+    constexpr float lowestNoisePower = 1e-12f; // lower limit of B, relative to frames near 1
+    constexpr float lineLimitRatio = 6.0f;     // limits a line to six times its noise
     constexpr int sweeps = 16;
     constexpr int levelUpdates = 12;
     constexpr Index profileCells = 24;
@@ -33,9 +33,9 @@ namespace {
     void weigh(const float *frame, const float *sum, std::size_t cells, float *pull, float *inverse)
     {
         for (std::size_t cell = 0; cell < cells; ++cell) {
-            const float b = sum[cell] > least ? sum[cell] : least;
+            const float b = sum[cell] > lowestNoisePower ? sum[cell] : lowestNoisePower;
             const float over = 1.0f / b;
-            const float y = frame[cell] < lineCut * b ? frame[cell] : lineCut * b;
+            const float y = frame[cell] < lineLimitRatio * b ? frame[cell] : lineLimitRatio * b;
             inverse[cell] = over;
             pull[cell] = y * over * over;
         }
@@ -93,7 +93,7 @@ namespace {
         for (std::size_t k = 0; k < count; ++k) {
             std::vector<float> ratios(frame.size());
             for (std::size_t cell = 0; cell < frame.size(); ++cell)
-                ratios[cell] = frame[cell] / std::max(sources.colours[k * frame.size() + cell], least);
+                ratios[cell] = frame[cell] / std::max(sources.colours[k * frame.size() + cell], lowestNoisePower);
             const auto middle = ratios.begin() + std::ssize(ratios) / 2;
             std::nth_element(ratios.begin(), middle, ratios.end());
             levels[k] = *middle / float(count);
@@ -111,7 +111,7 @@ namespace {
             std::vector<float> values(frame.begin() + part * cells / parts, frame.begin() + (part + 1) * cells / parts);
             const auto middle = values.begin() + std::ssize(values) / 2;
             std::nth_element(values.begin(), middle, values.end());
-            profile.push_back(std::log(std::max(*middle, least)));
+            profile.push_back(std::log(std::max(*middle, lowestNoisePower)));
         }
         std::vector<float> sorted = profile;
         std::nth_element(sorted.begin(), sorted.begin() + parts / 2, sorted.end());
@@ -132,8 +132,8 @@ namespace {
     /// averaged with its nearest frames.
     NoiseSources firstSources(std::span<const float> frames, Index cells, Index count)
     {
-        constexpr double oddest = 0.03;
-        constexpr std::size_t alike = 5;
+        constexpr double oddestFrameShare = 0.03;
+        constexpr std::size_t likeFramesLimit = 5;
         std::vector<std::vector<float>> profiles;
         for (Index first = 0; first < std::ssize(frames); first += cells)
             profiles.push_back(profileOf(frames.subspan(std::size_t(first), std::size_t(cells))));
@@ -153,14 +153,14 @@ namespace {
         for (Index k = 0; k < count; ++k) {
             std::iota(order.begin(), order.end(), std::size_t(0));
             std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return far[a] > far[b]; });
-            const std::size_t seed = order[std::size_t(oddest * double(order.size()))];
+            const std::size_t seed = order[std::size_t(oddestFrameShare * double(order.size()))];
             std::vector<double> near(profiles.size());
             for (std::size_t i = 0; i < profiles.size(); ++i)
                 near[i] = distance(profiles[i], profiles[seed]);
             std::iota(order.begin(), order.end(), std::size_t(0));
             std::stable_sort(order.begin(), order.end(),
                              [&](std::size_t a, std::size_t b) { return near[a] < near[b]; });
-            const std::size_t taken = std::min(alike, order.size());
+            const std::size_t taken = std::min(likeFramesLimit, order.size());
             const Index parts = std::ssize(centre);
             for (Index cell = 0; cell < cells; ++cell) {
                 const auto part = std::size_t(std::min(parts - 1, cell * parts / cells));
@@ -178,13 +178,13 @@ namespace {
     /// Cells near steep changes of a colour, where smoothing would move the edge and flatten the leakage.
     void markEdges(const std::vector<float> &ln, std::vector<char> &isEdge)
     {
-        constexpr float steep = 1.4f; // 6 dB between neighbours
-        constexpr Index reach = 6;
+        constexpr float steepLnPerTwoCells = 1.4f; // 6 dB between neighbours
+        constexpr Index edgeReachInCells = 6;
         const Index cells = std::ssize(ln);
         for (Index cell = 1; cell + 1 < cells; ++cell)
-            if (std::abs(ln[std::size_t(cell + 1)] - ln[std::size_t(cell - 1)]) > steep)
-                std::fill(isEdge.begin() + std::max<Index>(0, cell - reach),
-                          isEdge.begin() + std::min(cells, cell + reach + 1), 1);
+            if (std::abs(ln[std::size_t(cell + 1)] - ln[std::size_t(cell - 1)]) > steepLnPerTwoCells)
+                std::fill(isEdge.begin() + std::max<Index>(0, cell - edgeReachInCells),
+                          isEdge.begin() + std::min(cells, cell + edgeReachInCells + 1), 1);
     }
 
     void smoothColours(NoiseSources &sources, Index half)
@@ -196,7 +196,7 @@ namespace {
             const float *colour = sources.colours.data() + k * sources.cells;
             std::vector<float> ln(cells);
             for (std::size_t cell = 0; cell < cells; ++cell)
-                ln[cell] = std::log(std::max(colour[cell], least));
+                ln[cell] = std::log(std::max(colour[cell], lowestNoisePower));
             smooth.push_back(runningMedian(ln, half));
             markEdges(smooth.back(), isEdge);
         }

@@ -11,7 +11,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr float cut = 5.0f;             ///< largest value that counts, relative to the first estimate
+    constexpr float truncatedRatio = 5.0f;  ///< largest value that counts, relative to the first estimate
     constexpr double shapeValues = 4000.0;  ///< from which each cell of the shared shape is estimated
     constexpr Index fewestLevelCells = 100; ///< from which the level of a ping is estimated
 
@@ -141,7 +141,8 @@ namespace {
         constexpr int passes = 12;
         double whole = mean;
         for (int pass = 0; pass < passes; ++pass)
-            whole = std::min(double(cut), mean + double(cut) / std::expm1(double(cut) / whole));
+            whole = std::min(double(truncatedRatio),
+                             mean + double(truncatedRatio) / std::expm1(double(truncatedRatio) / whole));
         return whole;
     }
 
@@ -149,7 +150,7 @@ namespace {
     void refineBeam(std::span<float> estimate, const BeamLayout &layout, Index beam, const std::vector<Below> &upTo,
                     const PingNoiseSettings &settings)
     {
-        constexpr double fewest = 16.0;
+        constexpr double splitMinimumValues = 16.0;
         const Index ranges = layout.ranges();
         for (Index range = 0; range < ranges; ++range) {
             const auto place = [&](Index at) { return std::size_t(std::clamp<Index>(at, 0, ranges)); };
@@ -159,7 +160,7 @@ namespace {
             const Below guarded = upTo[place(range + inner + 1)] - upTo[place(range - inner)];
             const Below used = window - guarded;
             float &own = estimate[std::size_t(layout.cell(beam, range))];
-            if (isNoise(own) && used.count >= fewest && used.sum > 0.0)
+            if (isNoise(own) && used.count >= splitMinimumValues && used.sum > 0.0)
                 own += float(std::log(exponentialMean(used.sum / used.count)));
         }
     }
@@ -174,7 +175,7 @@ namespace {
                 if (!isNoise(estimate[cell]))
                     continue;
                 const float ratio = pings[std::size_t(first) + cell] * std::exp(-estimate[cell]);
-                if (ratio < cut) { // not NaN
+                if (ratio < truncatedRatio) { // not NaN
                     below[cell].sum += double(ratio);
                     below[cell].count += 1.0;
                 }

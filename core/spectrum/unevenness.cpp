@@ -17,7 +17,7 @@ namespace {
 Unevenness unevenness(std::span<const float> frames, const std::vector<float> &ofCell,
                       const std::vector<float> &ofFrame)
 {
-    constexpr float most = 5.0f;
+    constexpr float tileLimitPower = 5.0f;
     const Index cells = std::ssize(ofCell);
     Unevenness result;
     for (Index cell = 0; cell + Unevenness::tileCells <= cells; cell += Unevenness::tileCells) {
@@ -32,7 +32,7 @@ Unevenness unevenness(std::span<const float> frames, const std::vector<float> &o
                 const float *row = frames.data() + frame * cells;
                 const float factor = ofFrame[std::size_t(frame)];
                 for (Index i = cell; i < cell + Unevenness::tileCells; ++i)
-                    mean += double(std::min(row[i] * factor * ofCell[std::size_t(i)], most));
+                    mean += double(std::min(row[i] * factor * ofCell[std::size_t(i)], tileLimitPower));
             }
             if (mean <= 0.0)
                 continue;

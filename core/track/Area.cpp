@@ -6,7 +6,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr double largestGrowth = 1.2;
+    constexpr double joinedAreaRatio = 1.2;
 
     double sizeOf(const Area &area)
     {
@@ -37,7 +37,7 @@ std::vector<Area> joinAreas(std::vector<Area> areas)
         double size = sizeOf(area);
         for (std::size_t other = 0; other < joined.size();) {
             const Area both = united(area, joined[other]);
-            if (!isBeside(area, joined[other]) || sizeOf(both) > largestGrowth * (size + taken[other])) {
+            if (!isBeside(area, joined[other]) || sizeOf(both) > joinedAreaRatio * (size + taken[other])) {
                 ++other;
                 continue;
             }

@@ -15,7 +15,7 @@ namespace {
     constexpr Index checkpointFrames = 32; ///< frames between checkpoints
     /// Factor by which a constant leaks more than a line: where noise falls steeply from 0 Hz on, its side lobes lie on
     /// less noise.
-    constexpr double excludedMargin = 10.0;
+    constexpr double constantLeakageFactor = 10.0;
 
     /// Number of frames to record: only the newest one without traceback.
     std::size_t framesOf(const Grid &grid, const ChainSettings &settings)
@@ -77,7 +77,7 @@ void DetectionChain::update(Index frame, std::span<const float> y, std::span<flo
         m_boxTracks.push_back(tracker.track().id);
     }
     for (const std::vector<Index> &place : m_settings.excluded) {
-        m_boxes.push_back(boxRound(place, y, excludedMargin));
+        m_boxes.push_back(boxRound(place, y, constantLeakageFactor));
         m_boxTracks.push_back(0);
     }
     const std::size_t leftAlone = m_settings.inhibits ? 0 : m_excursions + m_trackers.size();
@@ -103,7 +103,9 @@ void DetectionChain::showStatistic(std::span<const float> y, std::span<float> st
 {
     std::vector<float> received(y.begin(), y.end());
     for (const std::vector<Index> &place : m_settings.excluded)
-        boxRound(place, y, excludedMargin).forEachCell(m_grid, [&](Index cell) { received[std::size_t(cell)] = 0.0f; });
+        boxRound(place, y, constantLeakageFactor).forEachCell(m_grid, [&](Index cell) {
+            received[std::size_t(cell)] = 0.0f;
+        });
     m_detector->showStatistic(received, statistic);
 }
 
@@ -179,7 +181,7 @@ void DetectionChain::updateTrackers(Index frame, std::span<const float> y)
         return;
     m_models.front().likelihood.apply(y, m_lambda);
     for (const std::vector<Index> &place : m_settings.excluded) {
-        const CellBox box = boxRound(place, y, excludedMargin);
+        const CellBox box = boxRound(place, y, constantLeakageFactor);
         if (box.halfWidth.back() > m_settings.inhibitCells.back()) // there is a constant with side lobes
             box.forEachCell(m_grid, [this](Index cell) { m_lambda[std::size_t(cell)] = nothingSeen(); });
     }

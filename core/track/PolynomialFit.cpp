@@ -9,8 +9,8 @@ namespace faintline {
 namespace {
 
     constexpr double correlatedFrames = 6.0;
-    constexpr double significant = 3.0; ///< standard deviations
-    constexpr std::size_t fewestForCurvature = 8;
+    constexpr double curvatureDeviations = 3.0; ///< standard deviations
+    constexpr std::size_t curvatureMinimumFrames = 8;
 
 } // namespace
 
@@ -42,10 +42,10 @@ PolynomialFit::PolynomialFit(std::span<const SmoothedPoint> points, Index first,
             m_variances[k] =
                 squares[k] > 0.0 ? correlatedFrames * residual / squares[k] : std::numeric_limits<double>::infinity();
     };
-    if (points.size() >= fewestForCurvature) {
+    if (points.size() >= curvatureMinimumFrames) {
         m_isCurved = true;
         setVariances(3);
-        m_isCurved = std::abs(m_coefficients[2]) > significant * std::sqrt(m_variances[2]);
+        m_isCurved = std::abs(m_coefficients[2]) > curvatureDeviations * std::sqrt(m_variances[2]);
     }
     if (!m_isCurved)
         setVariances(2);

@@ -8,7 +8,7 @@ namespace faintline {
 namespace {
 
     const double lnChange = std::log(0.05); ///< ln p
-    constexpr Index longestDelay = 16;      ///< frames from a change to the frame in which it is the better explanation
+    constexpr Index rivalFrames = 16;       ///< frames from a change to the frame in which it is the better explanation
 
     std::map<int, std::vector<HmmTracker>> copyOf(const std::map<int, std::vector<HmmTracker>> &rivals,
                                                   std::span<const std::unique_ptr<TrackerModel>> models)
@@ -40,7 +40,7 @@ bool RivalModels::update(HmmTracker &tracker, bool goesOn, Index frame, std::spa
     if (!goesOn)
         return false;
     std::erase_if(rivals, [frame](const HmmTracker &rival) {
-        return frame - rival.track().modelChanges.back().frame >= longestDelay;
+        return frame - rival.track().modelChanges.back().frame >= rivalFrames;
     });
     for (std::size_t model = 0; model < m_models.size(); ++model)
         if (model != tracker.model())

@@ -12,10 +12,10 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index slopeFrames = 24;    ///< at either end, for extrapolating it
-    constexpr double strongGrowth = 2.0; ///< nats per frame
-    constexpr Index longestPiece = 4096; ///< frames of a track that are processed together
-    constexpr Index pieceOverlap = 64;   ///< frames of the neighbouring pieces that are also processed
+    constexpr Index slopeFrames = 24;          ///< at either end, for extrapolating it
+    constexpr double strongNatsPerFrame = 2.0; ///< nats per frame
+    constexpr Index pieceLimitFrames = 4096;   ///< frames of a track that are processed together
+    constexpr Index pieceOverlapFrames = 64;   ///< frames of the neighbouring pieces that are also processed
 
     /// Least-squares slope of `count` points from `first` on, cells per frame.
     double slopeOf(const std::vector<TrackPoint> &points, std::size_t first, std::size_t count)
@@ -41,8 +41,8 @@ namespace {
             strip.centres.push_back(end.cell + Index(std::lround(slope * double(frame - end.frame))));
         };
         const std::size_t count = std::min(points.size(), std::size_t(slopeFrames));
-        const std::size_t from = piece.from - std::min(piece.from, std::size_t(pieceOverlap));
-        const std::size_t to = std::min(points.size(), piece.to + std::size_t(pieceOverlap));
+        const std::size_t from = piece.from - std::min(piece.from, std::size_t(pieceOverlapFrames));
+        const std::size_t to = std::min(points.size(), piece.to + std::size_t(pieceOverlapFrames));
         strip.firstFrame = points[from].frame;
         if (piece.isFirst()) {
             strip.firstFrame = std::max<Index>(0, points.front().frame - TrackPiece::extraFrames);
@@ -56,7 +56,7 @@ namespace {
             for (Index frame = points.back().frame + 1; frame < end; ++frame)
                 goesOn(points.back(), slopeOf(points, points.size() - count, count), frame);
         }
-        const bool isStrong = piece.track->peakStatistic > strongGrowth * double(points.size());
+        const bool isStrong = piece.track->peakStatistic > strongNatsPerFrame * double(points.size());
         strip.halfWidth =
             std::max({bothWaysHalfWidth(binsPerCell), levelBesideHalfWidth(binsPerCell), isStrong ? skirtBins : 0});
         return strip;
@@ -67,7 +67,7 @@ namespace {
 void addPieces(std::vector<TrackPiece> &pieces, const Track &track, Index frameCount, double binsPerCell)
 {
     const std::size_t length = track.points.size();
-    const std::size_t count = (length + longestPiece - 1) / longestPiece;
+    const std::size_t count = (length + pieceLimitFrames - 1) / pieceLimitFrames;
     for (std::size_t i = 0; i < count; ++i) {
         TrackPiece piece{&track, i * length / count, (i + 1) * length / count, {}};
         piece.strip = stripRound(piece, frameCount, binsPerCell);

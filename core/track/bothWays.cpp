@@ -12,15 +12,15 @@ namespace faintline {
 
 namespace {
 
-    constexpr double corridorCells = 3.0; ///< resolution cells on either side of the path
-    constexpr Index levelFrames = 12;     ///< on either side
-    constexpr double leastChange = 2.0;   ///< nat: minimum cost of an interruption, even with a low threshold
-    constexpr double leastLevel = 0.5;
-    constexpr double largestLevel = 4.0;
-    constexpr double mostLevel = 1e9;        ///< as large as any
-    constexpr double levelOfOneFrame = 10.0; ///< from this SNR on, the neighbouring frames suffice for a frame's
-                                             ///< position
-    constexpr double framesAtMost = 8.0;
+    constexpr double corridorCells = 3.0;     ///< resolution cells on either side of the path
+    constexpr Index levelFrames = 12;         ///< on either side
+    constexpr double changeMinimumNats = 2.0; ///< nat: minimum cost of an interruption, even with a low threshold
+    constexpr double levelMinimumRatio = 0.5;
+    constexpr double levelLimitRatio = 4.0;
+    constexpr double anyLevelRatio = 1e9;          ///< as large as any
+    constexpr double singleFrameLevelRatio = 10.0; ///< from this SNR on, the neighbouring frames suffice for a frame's
+                                                   ///< position
+    constexpr double positionLimitFrames = 8.0;
 
     Index inBins(double cells, double binsPerCell)
     {
@@ -83,7 +83,7 @@ namespace {
             return seen;
         }
 
-        double lnChange() const { return -std::max(0.5 * m_model.threshold, leastChange); }
+        double lnChange() const { return -std::max(0.5 * m_model.threshold, changeMinimumNats); }
 
         std::vector<double> levels(const BothWays &seen) const
         {
@@ -104,9 +104,10 @@ namespace {
         /// The likelihood at a level, in half octaves.
         const Likelihood &likelihoodAt(LikelihoodKind kind, double level)
         {
-            const auto step = int(std::lround(2.0 * std::log2(std::clamp(level, leastLevel, mostLevel) / leastLevel)));
+            const auto step = int(
+                std::lround(2.0 * std::log2(std::clamp(level, levelMinimumRatio, anyLevelRatio) / levelMinimumRatio)));
             return m_likelihoods
-                .try_emplace(std::pair(kind, step), kind, leastLevel * std::pow(2.0, 0.5 * double(step)))
+                .try_emplace(std::pair(kind, step), kind, levelMinimumRatio * std::pow(2.0, 0.5 * double(step)))
                 .first->second;
         }
 
@@ -172,7 +173,7 @@ namespace {
             if (level == Level::OfDesign)
                 return m_model.likelihood;
             if (level == Level::Own)
-                return likelihoodAt(m_model.likelihood.kind(), std::min(seen.levels[std::size_t(at)], largestLevel));
+                return likelihoodAt(m_model.likelihood.kind(), std::min(seen.levels[std::size_t(at)], levelLimitRatio));
             return likelihoodAt(m_fades ? LikelihoodKind::Exponential : m_model.likelihood.kind(),
                                 m_expected[std::size_t(at)]);
         }
@@ -223,16 +224,17 @@ namespace {
 
         std::vector<double> refined(const BothWays &seen) const
         {
-            constexpr int farthest = 2; ///< maximum distance, in bins, of a parabola from the mean
+            constexpr int parabolaReachBins = 2; ///< maximum distance, in bins, of a parabola from the mean
             std::vector<double> result;
             for (Index at = 0; at < m_strip.frameCount(); ++at) {
                 const double level = seen.levels[std::size_t(at)];
-                const auto half = Index(std::clamp(levelOfOneFrame / std::max(level, 0.1), 1.0, framesAtMost));
-                std::array<double, 2 * farthest + 1> power{};
+                const auto half =
+                    Index(std::clamp(singleFrameLevelRatio / std::max(level, 0.1), 1.0, positionLimitFrames));
+                std::array<double, 2 * parabolaReachBins + 1> power{};
                 for (Index other = std::max<Index>(0, at - half);
                      other <= std::min(m_strip.frameCount() - 1, at + half); ++other)
                     for (std::size_t i = 0; i < power.size(); ++i)
-                        if (const double y = powerBeside(seen, other, double(i) - farthest); !std::isnan(y))
+                        if (const double y = powerBeside(seen, other, double(i) - parabolaReachBins); !std::isnan(y))
                             power[i] += y;
                 const auto peak = std::size_t(std::max_element(power.begin() + 1, power.end() - 1) - power.begin());
                 const auto ln = [&](std::size_t i) { return std::log(std::max(power[i], 1e-9)); };
@@ -240,7 +242,7 @@ namespace {
                 const double within =
                     curvature < 0.0 ? std::clamp(0.5 * (ln(peak - 1) - ln(peak + 1)) / curvature, -0.5, 0.5) : 0.0;
                 result.push_back(seen.presence.mean[std::size_t(at)]
-                                 + std::clamp(double(peak) - farthest + within, -1.0, 1.0));
+                                 + std::clamp(double(peak) - parabolaReachBins + within, -1.0, 1.0));
             }
             return result;
         }

@@ -7,8 +7,8 @@ namespace faintline {
 
 namespace {
 
-    constexpr double skirtLevel = 8.0; ///< y that noise rarely exceeds
-    constexpr Index largestSkirtSteps = 16;
+    constexpr double skirtPower = 8.0; ///< y that noise rarely exceeds
+    constexpr Index skirtLimitSteps = 16;
 
 } // namespace
 
@@ -16,7 +16,7 @@ CellBox overSkirts(CellBox box, const Grid &grid, std::span<const float> y, Inde
 {
     const Index middle = grid.cell(box.centre);
     const double level = double(std::max(0.0f, y[std::size_t(middle)])); // 0 if not observed
-    if (step <= 0 || level < skirtLevel)
+    if (step <= 0 || level < skirtPower)
         return box;
     // Beyond the window's own side lobes a modulated line has skirts: extend the box down the hill to where it stops
     // falling.
@@ -31,11 +31,11 @@ CellBox overSkirts(CellBox box, const Grid &grid, std::span<const float> y, Inde
             return peak;
         };
         Index reach = box.halfWidth.back();
-        const Index limit = reach + largestSkirtSteps * step;
+        const Index limit = reach + skirtLimitSteps * step;
         float before = groupPeak(std::max<Index>(0, reach - step + 1));
         while (reach < limit) {
             const float next = groupPeak(reach + 1);
-            if (double(next) < skirtLevel || next > before)
+            if (double(next) < skirtPower || next > before)
                 break;
             before = next;
             reach += step;

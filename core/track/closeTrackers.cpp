@@ -8,7 +8,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr int framesUntilDuplicate = 3;
+    constexpr int duplicateAfterFrames = 3;
 
 } // namespace
 
@@ -57,14 +57,14 @@ std::vector<Track> endedDuplicates(std::vector<HmmTracker> &trackers, const Grid
         std::sort(near.begin(), near.end());
         std::vector<HmmTracker::Beside> beside;
         int longest = 0;
-        for (std::size_t i = 0; i < near.size() && longest < framesUntilDuplicate; ++i) {
+        for (std::size_t i = 0; i < near.size() && longest < duplicateAfterFrames; ++i) {
             const int older = trackers[near[i]].track().id;
             const auto known = std::find_if(young.beside().begin(), young.beside().end(),
                                             [older](const HmmTracker::Beside &other) { return other.track == older; });
             longest = known == young.beside().end() ? 1 : known->frames + 1;
             beside.push_back({older, longest});
         }
-        if (longest < framesUntilDuplicate) {
+        if (longest < duplicateAfterFrames) {
             young.setBeside(std::move(beside));
             continue;
         }

@@ -11,8 +11,8 @@ namespace faintline {
 
 namespace {
 
-    constexpr std::size_t shortestRun = 4; ///< points
-    constexpr double farShare = 1.5;       ///< of endNear: from there on, an end beside a track was an approach
+    constexpr std::size_t runMinimumPoints = 4; ///< points
+    constexpr double approachInEndNears = 1.5;  ///< of endNear: from there on, an end beside a track was an approach
 
     /// Frames from … to, inclusive.
     struct Frames {
@@ -55,7 +55,7 @@ namespace {
             std::size_t to = from;
             while (to < marks.size() && marks[to] == marks[from])
                 ++to;
-            if (!marks[from] && to - from >= shortestRun)
+            if (!marks[from] && to - from >= runMinimumPoints)
                 runs.push_back({from, to});
             from = to;
         }
@@ -148,7 +148,7 @@ namespace {
                 near = frame;
             const Index run = std::abs(end - near) + 1;
             const bool isLong = run >= rule.fitFrames / 4 && std::ssize(track.smoothed) - run >= rule.fitFrames / 2;
-            if (apart >= farShare * rule.endNear && isLong)
+            if (apart >= approachInEndNears * rule.endNear && isLong)
                 return mark(track, {std::min(end, near), std::max(end, near)}, marks);
         }
     }

@@ -9,10 +9,10 @@ namespace faintline {
 
 namespace {
 
-    constexpr double levelCells = 0.75;       ///< distance on either side within which a signal's own maximum lies
-    constexpr float strongerThanNoise = 7.0f; ///< probability on noise 1/1000
-    constexpr double notchCells = 1.0;        ///< distance on either side within which a subtracted line leaves less
-                                              ///< than noise
+    constexpr double levelCells = 0.75;    ///< distance on either side within which a signal's own maximum lies
+    constexpr float rareNoisePower = 7.0f; ///< probability on noise 1/1000
+    constexpr double notchCells = 1.0;     ///< distance on either side within which a subtracted line leaves less
+                                           ///< than noise
 
     /// Power beside the path in units of its level, the lower of both sides, decreasing outward, as far as it is
     /// significant. Nearer than `nearest` it is constant.
@@ -82,7 +82,7 @@ std::vector<ExplainedSignal> explainSubtracted(const PathStrip &strip, double bi
             if (const float y = strip.valueAt(at, centre + d); !std::isnan(y))
                 power = std::max(power, y);
         rest.positions.push_back(double(centre));
-        rest.levels.push_back(power > strongerThanNoise ? power - 1.0f : 0.0f);
+        rest.levels.push_back(power > rareNoisePower ? power - 1.0f : 0.0f);
     }
     ExplainedSignal skirts{rest.firstFrame, rest.positions, std::vector<float>(rest.levels.size(), 1.0f), {}};
     const auto notch = Index(std::ceil(notchCells * binsPerCell));

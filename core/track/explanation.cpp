@@ -8,10 +8,10 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index pieceFrames = 64; ///< frames
-    constexpr double perCell = 16.0;  ///< entries of the leakage table
-    constexpr double margin = 2.0;
-    constexpr double negligible = 0.02; ///< relative to the noise
+    constexpr Index pieceFrames = 64;              ///< frames
+    constexpr double leakageEntriesPerCell = 16.0; ///< entries of the leakage table
+    constexpr double explainedPowerFactor = 2.0;
+    constexpr double negligiblePowerRatio = 0.02; ///< relative to the noise
     constexpr double leakageCells = 4096.0;
     constexpr double steadyCells = 0.1; ///< per frame
 
@@ -21,7 +21,7 @@ Explanations::Explanations(Index cells, const std::function<double(double)> &bou
                            const std::function<double(double)> &exact)
 {
     const double farthest = std::min(leakageCells, double(cells));
-    for (double distance = 0.0; distance <= farthest; distance += 1.0 / perCell) {
+    for (double distance = 0.0; distance <= farthest; distance += 1.0 / leakageEntriesPerCell) {
         m_bound.push_back(float(bound(distance)));
         m_exact.push_back(std::min(m_bound.back(), float(exact(distance))));
     }
@@ -46,10 +46,10 @@ std::span<const float> Explanations::skirtAt(const ExplainedSignal &signal, std:
 /// Distance, in cells, within which a signal's contribution is not negligible.
 double Explanations::reachAt(const ExplainedSignal &signal, std::size_t at) const
 {
-    const double least = negligible / (margin * std::max(1e-3, double(signal.levels[at])));
+    const double least = negligiblePowerRatio / (explainedPowerFactor * std::max(1e-3, double(signal.levels[at])));
     const auto end =
         std::partition_point(m_bound.begin(), m_bound.end(), [least](float share) { return double(share) > least; });
-    return std::max(double(end - m_bound.begin()) / perCell, double(skirtAt(signal, at).size()));
+    return std::max(double(end - m_bound.begin()) / leakageEntriesPerCell, double(skirtAt(signal, at).size()));
 }
 
 void Explanations::add(ExplainedSignal signal)
@@ -103,10 +103,10 @@ void Explanations::read(Index frame, Index firstCell, std::span<float> floor) co
         const auto last = Index(std::clamp(std::ceil(position + end) + 1.0, 0.0, size));
         for (Index cell = first; cell < last; ++cell) {
             const double distance = std::abs(double(cell) - position);
-            double share = double(leakage[std::min(std::size_t(distance * perCell), leakage.size() - 1)]);
+            double share = double(leakage[std::min(std::size_t(distance * leakageEntriesPerCell), leakage.size() - 1)]);
             if (const auto step = std::size_t(std::lround(distance)); step < skirt.size())
                 share = std::max(share, double(skirt[step]));
-            floor[std::size_t(cell)] *= float(1.0 + margin * level * share);
+            floor[std::size_t(cell)] *= float(1.0 + explainedPowerFactor * level * share);
         }
     });
 }

@@ -12,14 +12,14 @@ namespace {
 
     constexpr double nearestCells = 2.5; ///< beyond the main lobe of any window
     constexpr double besideCells = 7.0;
-    constexpr Index reaches[] = {6, 24, 72}; ///< frames, on either side
-    constexpr Index valuesPerReach = 6;      ///< values per reach: the level is evaluated at this fraction of it
-    constexpr double besideShare = 0.35;     ///< of the values, below the quantile: lines may occupy the rest
-    constexpr double deviations = 1.5;
+    constexpr Index besideReachFrames[] = {6, 24, 72}; ///< frames, on either side
+    constexpr Index valuesPerReach = 6;  ///< values per reach: the level is evaluated at this fraction of it
+    constexpr double besideShare = 0.35; ///< of the values, below the quantile: lines may occupy the rest
+    constexpr double chanceDeviations = 1.5;
     constexpr double framesPerWindow = 2.0; ///< more frames add hardly any information
-    constexpr std::size_t fewestValues = 8;
-    constexpr double nearestOfSide = 1.5; ///< cells; there the main lobe is 15 dB down
-    constexpr double farthestOfSide = 3.5;
+    constexpr std::size_t sideMinimumValues = 8;
+    constexpr double sideFromCells = 1.5; ///< cells; there the main lobe is 15 dB down
+    constexpr double sideToCells = 3.5;
 
     /// Bins beside a path, nearest to farthest or the other way round.
     struct Side {
@@ -44,7 +44,10 @@ namespace {
         double independent; ///< number of independent values; 0: too few
 
         /// Level minus what chance may contribute.
-        double least() const { return independent > 0.0 ? mean * (1.0 - deviations * scatterOf(independent)) : 1.0; }
+        double least() const
+        {
+            return independent > 0.0 ? mean * (1.0 - chanceDeviations * scatterOf(independent)) : 1.0;
+        }
     };
 
     /// The level on either side of a path.
@@ -76,7 +79,7 @@ namespace {
                     if (const float y = m_strip.valueAt(frame, m_strip.centres[std::size_t(frame)] + bin);
                         !std::isnan(y))
                         m_values.push_back(y);
-            if (m_values.size() < fewestValues)
+            if (m_values.size() < sideMinimumValues)
                 return {1.0, 0.0};
             const auto count = double(m_values.size());
             const auto quantile = m_values.begin() + std::ptrdiff_t(besideShare * count);
@@ -110,7 +113,7 @@ namespace {
     /// Below and above.
     std::array<std::vector<double>, 2> valuesOfSides(const PathStrip &strip, double binsPerCell)
     {
-        const auto nearest = Index(std::ceil(nearestOfSide * binsPerCell));
+        const auto nearest = Index(std::ceil(sideFromCells * binsPerCell));
         const Index farthest = levelOfSidesHalfWidth(binsPerCell);
         std::array<std::vector<double>, 2> values;
         appendValues(strip, -farthest, -nearest, values[0]);
@@ -134,7 +137,7 @@ std::vector<double> levelBeside(const PathStrip &strip, double binsPerCell)
 {
     std::vector<double> levels(std::size_t(strip.frameCount()), 1.0);
     Surroundings surroundings(strip, binsPerCell);
-    for (const Index reach : reaches) {
+    for (const Index reach : besideReachFrames) {
         const Index step = std::max<Index>(1, reach / valuesPerReach);
         for (Index from = 0; from < strip.frameCount(); from += step) {
             const Index end = std::min(strip.frameCount(), from + step);
@@ -150,14 +153,14 @@ std::vector<double> levelBeside(const PathStrip &strip, double binsPerCell)
 
 Index levelOfSidesHalfWidth(double binsPerCell)
 {
-    return Index(std::ceil(farthestOfSide * binsPerCell));
+    return Index(std::ceil(sideToCells * binsPerCell));
 }
 
 double levelOfSides(const PathStrip &strip, double binsPerCell)
 {
     double level = 1.0;
     for (const std::vector<double> &side : valuesOfSides(strip, binsPerCell))
-        if (side.size() >= fewestValues) {
+        if (side.size() >= sideMinimumValues) {
             double sum = 0.0;
             for (const double y : side)
                 sum += std::log(y);
@@ -170,7 +173,7 @@ double shareOfSides(const PathStrip &line, const PathStrip &sides, double binsPe
 {
     const std::vector<double> path = valuesAlong(line);
     const auto [below, above] = valuesOfSides(sides, binsPerCell);
-    if (std::min({path.size(), below.size(), above.size()}) < fewestValues || meanOf(path) <= 1.0)
+    if (std::min({path.size(), below.size(), above.size()}) < sideMinimumValues || meanOf(path) <= 1.0)
         return 0.0;
     return std::max(0.0, (std::min(meanOf(below), meanOf(above)) - 1.0) / (meanOf(path) - 1.0));
 }

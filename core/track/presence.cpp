@@ -10,7 +10,7 @@ namespace {
 
     constexpr double lowQuantile = 0.05;
     constexpr double highQuantile = 0.95;
-    constexpr double largestLambda = 60.0; ///< larger values would not change a decision
+    constexpr double lambdaLimitNats = 60.0; ///< larger values would not change a decision
 
     /// Probabilities of the states after a frame: rates × width, followed by "off".
     using Weights = std::vector<double>;
@@ -175,9 +175,9 @@ namespace {
             const float *lambda = m_corridor.lambda.data() + frame * m_width;
             double largest = 0.0;
             for (Index c = 0; c < m_width; ++c)
-                largest = std::max(largest, std::min(largestLambda, double(lambda[c])));
+                largest = std::max(largest, std::min(lambdaLimitNats, double(lambda[c])));
             for (Index c = 0; c < m_width; ++c) {
-                const double factor = std::exp(std::min(largestLambda, double(lambda[c])) - largest);
+                const double factor = std::exp(std::min(lambdaLimitNats, double(lambda[c])) - largest);
                 for (Index s = c; s < m_states; s += m_width)
                     weights[std::size_t(s)] *= factor;
             }

@@ -17,19 +17,19 @@ namespace {
 
     constexpr double nearCells = 1.8;
     constexpr double endNearCells = 3.0;
-    constexpr double joinedShare = 0.7;   ///< of m
-    constexpr double hiddenCells = 2.5;   ///< within which of a track another signal is not to be seen
-    constexpr double farthestCells = 0.5; ///< deviation up to which the way of a lost track is known
+    constexpr double joinedSlopeLengths = 0.7; ///< of m
+    constexpr double hiddenCells = 2.5;        ///< within which of a track another signal is not to be seen
+    constexpr double farthestCells = 0.5;      ///< deviation up to which the way of a lost track is known
     constexpr double positionCells = 0.35;
     constexpr double levelDb = 3.0;
-    constexpr double leastErrorCells = 0.05;
-    constexpr double ownWay = 0.9;     ///< largest cost of a track's own way, in T
-    constexpr Index shortestPiece = 4; ///< frames
-    constexpr Index longestGap = 8;    ///< in m
-    constexpr int fitLengths = 3;      ///< m, 2 m, 4 m
+    constexpr double errorMinimumCells = 0.05;
+    constexpr double ownWayThresholds = 0.9;  ///< largest cost of a track's own way, in T
+    constexpr Index pieceMinimumFrames = 4;   ///< frames
+    constexpr Index gapLimitSlopeLengths = 8; ///< in m
+    constexpr int fitLengthOctaves = 3;       ///< m, 2 m, 4 m
     constexpr double onTrackCells = 1.0;
     constexpr double largestLevelRatio = 4.0; ///< 6 dB
-    constexpr Index seenWithin = 12;          ///< frames
+    constexpr Index seenWithinFrames = 12;    ///< frames
 
     /// A stretch of a track between encounters: points from … to, exclusive.
     struct Piece {
@@ -90,12 +90,12 @@ namespace {
             EncounterRule rule;
             rule.near = cells(nearCells);
             rule.endNear = cells(endNearCells);
-            rule.joined = Index(std::lround(joinedShare * double(m())));
+            rule.joined = Index(std::lround(joinedSlopeLengths * double(m())));
             rule.widening = m() / 5;
-            rule.fitFrames = m() << (fitLengths - 1);
-            rule.extension = longestGap * m();
+            rule.fitFrames = m() << (fitLengthOctaves - 1);
+            rule.extension = gapLimitSlopeLengths * m();
             rule.farthest = cells(farthestCells);
-            rule.leastDeviation = cells(leastErrorCells);
+            rule.leastDeviation = cells(errorMinimumCells);
             const auto marks = encounters(m_tracks, rule);
             for (std::size_t i = 0; i < m_tracks.size(); ++i) {
                 if (m_tracks[i].smoothed.empty())
@@ -106,7 +106,7 @@ namespace {
                     while (to < marks[i].size() && marks[i][to] == marks[i][from])
                         ++to;
                     const bool isBetween = from > 0 && to < marks[i].size(); // two encounters
-                    if (!marks[i][from] && Index(to - from) >= (isBetween ? m() / 2 : shortestPiece))
+                    if (!marks[i][from] && Index(to - from) >= (isBetween ? m() / 2 : pieceMinimumFrames))
                         m_pieces.push_back({i, from, to});
                     from = to;
                 }
@@ -133,7 +133,7 @@ namespace {
             double count = 0.0;
             std::optional<PolynomialFit> before;
             for (std::size_t from = 0; from + block <= points.size(); from += block) {
-                const PolynomialFit fit(points.subspan(from, block), Index(from), cells(leastErrorCells));
+                const PolynomialFit fit(points.subspan(from, block), Index(from), cells(errorMinimumCells));
                 const auto middle = [&](std::size_t first) { return double(first) + 0.5 * double(block - 1); };
                 if (before) {
                     const double change = fit.slopeAt(middle(from)) - before->slopeAt(middle(from - block));
@@ -148,19 +148,19 @@ namespace {
 
         std::size_t fitLength(const Piece &piece, Index gap) const
         {
-            const auto wanted = std::size_t(std::clamp(gap, m(), m() << (fitLengths - 1)));
+            const auto wanted = std::size_t(std::clamp(gap, m(), m() << (fitLengthOctaves - 1)));
             return std::min(wanted, piece.to - piece.from);
         }
 
         PolynomialFit fitAtEnd(const Piece &piece, Index gap) const
         {
             const std::size_t count = fitLength(piece, gap);
-            return {pointsOf(piece).last(count), endOf(piece) - Index(count) + 1, cells(leastErrorCells)};
+            return {pointsOf(piece).last(count), endOf(piece) - Index(count) + 1, cells(errorMinimumCells)};
         }
 
         PolynomialFit fitAtStart(const Piece &piece, Index gap) const
         {
-            return {pointsOf(piece).first(fitLength(piece, gap)), startOf(piece), cells(leastErrorCells)};
+            return {pointsOf(piece).first(fitLength(piece, gap)), startOf(piece), cells(errorMinimumCells)};
         }
 
         double costOf(const Piece &a, const Piece &b) const
@@ -239,7 +239,7 @@ namespace {
         bool isInReach(const Piece &a, const Piece &b) const
         {
             const Index gap = startOf(b) - endOf(a);
-            return gap >= 1 && gap <= longestGap * m()
+            return gap >= 1 && gap <= gapLimitSlopeLengths * m()
                    && std::abs(pointsOf(a).back().position - pointsOf(b).front().position)
                           <= m_steepest * double(gap) + cells(endNearCells);
         }
@@ -334,7 +334,7 @@ namespace {
                 const Piece &a = m_pieces[i];
                 auto at = std::upper_bound(byStart.begin(), byStart.end(), endOf(a),
                                            [this](Index frame, std::size_t b) { return frame < startOf(m_pieces[b]); });
-                for (; at != byStart.end() && startOf(m_pieces[*at]) - endOf(a) <= longestGap * m(); ++at) {
+                for (; at != byStart.end() && startOf(m_pieces[*at]) - endOf(a) <= gapLimitSlopeLengths * m(); ++at) {
                     const Piece &b = m_pieces[*at];
                     const bool isOwn = *at == i + 1 && a.track == b.track;
                     if (isOwn || !isInReach(a, b) || areSeenTogether(i, *at))
@@ -343,7 +343,8 @@ namespace {
                         pairs.push_back({i, *at, cost});
                 }
                 if (isBeforeAnother(i))
-                    pairs.push_back({i, i + 1, std::min(costOf(a, m_pieces[i + 1]), ownWay * m_rule.threshold)});
+                    pairs.push_back(
+                        {i, i + 1, std::min(costOf(a, m_pieces[i + 1]), ownWayThresholds * m_rule.threshold)});
             }
             return pairs;
         }
@@ -513,10 +514,10 @@ namespace {
         static bool isSeenNear(const Bridge &bridge, Index at)
         {
             const Index last = std::ssize(bridge.isSeen) - 1;
-            if (at < seenWithin || last - at < seenWithin) // the pieces themselves
+            if (at < seenWithinFrames || last - at < seenWithinFrames) // the pieces themselves
                 return true;
-            const auto from = bridge.isSeen.begin() + (at - seenWithin);
-            return std::find(from, from + 2 * seenWithin + 1, true) != from + 2 * seenWithin + 1;
+            const auto from = bridge.isSeen.begin() + (at - seenWithinFrames);
+            return std::find(from, from + 2 * seenWithinFrames + 1, true) != from + 2 * seenWithinFrames + 1;
         }
 
         /// Replaces the points of a bridge by those of an equal signal, and leaves out what could not be seen.

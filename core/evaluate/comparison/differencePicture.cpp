@@ -10,7 +10,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr double rarest = 700.0; ///< nat; smaller probabilities underflow in double precision
+    constexpr double rarityLimitNats = 700.0; ///< nat; smaller probabilities underflow in double precision
 
     bool isInNats(const Analysis &analysis)
     {
@@ -21,7 +21,7 @@ namespace {
     std::array<float, 256> margins(const Analysis &analysis, bool isPlain)
     {
         const auto rarity = [&](double statistic) {
-            return std::min(-std::log(analysis.calibration->exceedanceAt(statistic)), rarest);
+            return std::min(-std::log(analysis.calibration->exceedanceAt(statistic)), rarityLimitNats);
         };
         std::array<float, 256> result{};
         for (int byte = 0; byte < 256; ++byte) {

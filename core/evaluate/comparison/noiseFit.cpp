@@ -132,7 +132,7 @@ namespace {
             const double vouched = std::log(std::max<double>(double(law.count()), 100.0) / 30.0);
             const double slope =
                 (law.quantile(std::exp(-vouched)) - law.quantile(std::exp(-0.5 * vouched))) / (0.5 * vouched);
-            for (int i = 0; i <= int(longest * stepsPerNat); ++i) {
+            for (int i = 0; i <= int(fittedRangeNats * stepsPerNat); ++i) {
                 const double x = double(i) / stepsPerNat;
                 m_values.push_back(law.quantile(std::exp(-std::min(x, vouched))) + slope * std::max(0.0, x - vouched));
             }
@@ -148,7 +148,7 @@ namespace {
 
     private:
         static constexpr double stepsPerNat = 32.0;
-        static constexpr double longest = 24.0;
+        static constexpr double fittedRangeNats = 24.0;
         std::vector<double> m_values;
     };
 

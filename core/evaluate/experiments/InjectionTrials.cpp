@@ -29,7 +29,7 @@ namespace {
     constexpr double certainSignals = 1e-3; ///< fraction of the requested false-alarm rate at which a detection is
                                             ///< taken for a signal
     constexpr int attempts = 1000;
-    constexpr float lowest = -std::numeric_limits<float>::infinity();
+    constexpr float belowAnyStatistic = -std::numeric_limits<float>::infinity();
 
     /// Normalised frames of a selection, with the levels of its background: clicks are detected only in a whole band.
     std::shared_ptr<const NormalisedSpectrogram> framesOf(std::shared_ptr<const Spectrogram> spectrogram,
@@ -107,7 +107,7 @@ namespace {
         forEachFrame(frames, context, "counting false alarms", [&](Index frame, std::span<float> y) {
             if (frame % blockFrames == 0) {
                 close();
-                open.assign(detectors.size(), std::vector<float>(std::size_t(columns), lowest));
+                open.assign(detectors.size(), std::vector<float>(std::size_t(columns), belowAnyStatistic));
                 isFree.assign(isFree.size(), false);
             }
             mask.blank(frame, 0, y);
@@ -281,7 +281,7 @@ public:
         const Axis &time = m_shared.spectrogram->time();
         const Index firstBin = m_shared.spectrogram->frequency().nearest(m_frames->grid().axes.front().first);
         const auto [first, last] = frameRange();
-        std::vector<float> largest(m_detectors.size(), lowest);
+        std::vector<float> largest(m_detectors.size(), belowAnyStatistic);
         std::vector<float> y(std::size_t(m_frames->grid().size()));
         std::vector<float> statistic(y.size());
         for (Index frame = first; frame <= last; ++frame) {

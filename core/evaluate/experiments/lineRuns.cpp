@@ -96,7 +96,7 @@ namespace {
         return detectors;
     }
 
-    constexpr float lowest = -std::numeric_limits<float>::infinity();
+    constexpr float belowEachStatistic = -std::numeric_limits<float>::infinity();
 
     /// Runs all detectors on the field of one run.
     class Run
@@ -127,7 +127,10 @@ namespace {
     private:
         using Largest = std::vector<std::vector<float>>; ///< [detector][block or signal]
 
-        Largest lowestOfAll() const { return Largest(m_recipes.size(), std::vector<float>(m_signals, lowest)); }
+        Largest lowestOfAll() const
+        {
+            return Largest(m_recipes.size(), std::vector<float>(m_signals, belowEachStatistic));
+        }
 
         Index blockedFrames() const { return Index(m_experiment.blocksInTime()) * m_experiment.blockFrames; }
 

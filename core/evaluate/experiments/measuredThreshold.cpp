@@ -9,9 +9,9 @@ namespace faintline {
 double measuredThreshold(std::vector<float> maxima, double falseAlarms, const Calibration &calibration,
                          double eventsPerCellFrame)
 {
-    constexpr double least = 10.0;
+    constexpr double countedAlarmsMinimum = 10.0;
     const auto blocks = double(maxima.size());
-    const double counted = std::max(falseAlarms, std::min(least, 0.5 * blocks));
+    const double counted = std::max(falseAlarms, std::min(countedAlarmsMinimum, 0.5 * blocks));
     const auto exceeding = std::size_t(std::llround(blocks * -std::expm1(-counted / blocks)));
     std::sort(maxima.begin(), maxima.end(), std::greater<>());
     const double calibrated = calibration.thresholdForEventRate(eventsPerCellFrame);

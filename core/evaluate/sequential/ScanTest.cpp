@@ -13,7 +13,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index mostStages = 2000;
+    constexpr Index scanLimitStages = 2000;
     constexpr double mostCells = 0x1p20;
     constexpr int firstLook = 1 << 24; ///< first run number of the survey
 
@@ -113,9 +113,9 @@ void checkScanTest(const ScanTest &test)
 {
     checkFields(test, ScanTest::fields());
     checkSprt(test.sprt, "sprt");
-    if (test.sprt.cutOffStage > mostStages)
+    if (test.sprt.cutOffStage > scanLimitStages)
         throw fieldError("sprt.cutOffStage", std::to_string(test.sprt.cutOffStage),
-                         "must lie in 0 … " + std::to_string(mostStages) + " if tests are simulated");
+                         "must lie in 0 … " + std::to_string(scanLimitStages) + " if tests are simulated");
     ScanScene scene = test.scene;
     scene.stages = 1;
     checkScene(scene);
@@ -144,7 +144,7 @@ SequentialModel scanModel(const ScanScene &scene, double designSnrDb)
 
 Index stageLimit(const ScanTest &test)
 {
-    return test.sprt.cutOffStage > 0 ? test.sprt.cutOffStage : mostStages;
+    return test.sprt.cutOffStage > 0 ? test.sprt.cutOffStage : scanLimitStages;
 }
 
 std::vector<ScanCell> truthOf(const ScanTest &test, const ScanRun &run)
@@ -218,10 +218,10 @@ SequentialStudy studyOf(const ScanTest &test, double designSnrDb, std::optional<
 
 std::optional<Index> fixedSizeOf(const ScanTest &test, const RunContext &context)
 {
-    constexpr Index largest = 40;
+    constexpr Index fixedSampleLimitStages = 40;
     SequentialStudy study = studyOf(test, test.designSnrDb, {});
     study.trials = Index(std::clamp(3.0 / test.sprt.miss, 200.0, 2000.0));
-    return simulatedFixedSampleSize(study, largest, context);
+    return simulatedFixedSampleSize(study, fixedSampleLimitStages, context);
 }
 
 } // namespace faintline

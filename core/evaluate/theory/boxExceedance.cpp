@@ -9,7 +9,7 @@ namespace faintline {
 namespace {
 
     constexpr Index mostCells = 2'000'000;
-    constexpr std::int64_t fewest = 10; ///< cells above a level that is worth a point
+    constexpr std::int64_t pointMinimumCells = 10; ///< cells above a level that is worth a point
 
 } // namespace
 
@@ -37,7 +37,7 @@ std::vector<ExceedancePoint> boxExceedance(const PeakPyramid &statistic, Index b
     std::int64_t above = total;
     for (int byte = 0; byte < 255; ++byte) {
         above -= counts[std::size_t(byte)];
-        if (above < fewest)
+        if (above < pointMinimumCells)
             break;
         points.push_back(
             {0.5 * (statistic.scale().value(byte) + statistic.scale().value(byte + 1)), double(above) / double(total)});

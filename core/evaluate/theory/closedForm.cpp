@@ -9,7 +9,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr double rarest = 1e-15;
+    constexpr double smallestDrawnProbability = 1e-15;
     constexpr double step = 0.25;
     constexpr double highestLevel = 1000.0;
 
@@ -50,7 +50,7 @@ std::vector<ExceedancePoint> closedFormExceedance(const AnalysisSettings &settin
         const double probability = law(level);
         if (probability < 0.0)
             continue; // below where the law holds
-        if (!(probability >= rarest))
+        if (!(probability >= smallestDrawnProbability))
             break;
         points.push_back({level, probability});
     }

@@ -143,11 +143,11 @@ namespace {
     /// Flags the points that follow a gap.
     std::vector<char> firstsOf(const std::vector<DopplerPoint> &points)
     {
-        constexpr double gap = 4.0; // typical steps
+        constexpr double gapInTypicalSteps = 4.0; // typical steps
         std::vector<double> steps;
         for (std::size_t i = 1; i < points.size(); ++i)
             steps.push_back(points[i].seconds - points[i - 1].seconds);
-        const double longest = gap * medianOf(steps);
+        const double longest = gapInTypicalSteps * medianOf(steps);
         std::vector<char> isFirst{1};
         for (const double step : steps)
             isFirst.push_back(step > longest ? 1 : 0);

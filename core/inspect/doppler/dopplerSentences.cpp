@@ -136,8 +136,8 @@ namespace {
 std::vector<std::string> dopplerSentences(const DopplerFit &fit, const std::vector<DopplerPoint> &points)
 {
     std::vector<std::string> sentences;
-    constexpr double sure = 6.0;
-    if (riseInErrors(fit, points) > sure)
+    constexpr double sureDeviations = 6.0;
+    if (riseInErrors(fit, points) > sureDeviations)
         sentences.emplace_back(
             "The frequency rises, but that of a source passing at constant speed only falls. The numbers do "
             "not describe a pass.");

@@ -24,20 +24,21 @@ namespace {
         /// Whether a line may be steeper than a path of this slope.
         bool isLimit(double slope) const
         {
-            constexpr double nearly = 0.85;
-            return (slope < 0.0 && slope <= nearly * lowest) || (slope > 0.0 && slope >= nearly * highest);
+            constexpr double steepShareOfLimit = 0.85;
+            return (slope < 0.0 && slope <= steepShareOfLimit * lowest)
+                   || (slope > 0.0 && slope >= steepShareOfLimit * highest);
         }
     };
 
     /// In a short piece next to a steep one, the path has probably lost its line.
     void dropShortPieces(std::vector<char> &isSteep)
     {
-        constexpr std::ptrdiff_t least = 16;
+        constexpr std::ptrdiff_t stretchMinimumPoints = 16;
         if (std::find(isSteep.begin(), isSteep.end(), char(1)) == isSteep.end())
             return;
         for (auto from = isSteep.begin(); from != isSteep.end();) {
             const auto to = std::find(from, isSteep.end(), char(1));
-            if (to - from < least)
+            if (to - from < stretchMinimumPoints)
                 std::fill(from, to, char(1));
             from = std::find(to, isSteep.end(), char(0));
         }
@@ -46,14 +47,14 @@ namespace {
     /// Flags points within two frames of where the path, or its mean slope over four frames, is at the limit.
     std::vector<char> steepPoints(const StateSpace &space, const Axis &axis, const Track &track)
     {
-        constexpr std::ptrdiff_t reach = 2;
+        constexpr std::ptrdiff_t slopeReachPoints = 2;
         const Slopes slopes(space);
         const std::ptrdiff_t count = std::ssize(track.points);
         const auto at = [&](std::ptrdiff_t i) { return track.lastPosition(std::size_t(i), axis); };
         std::vector<char> isSteep(track.points.size(), 0);
         for (std::ptrdiff_t i = 0; i < count; ++i) {
-            const std::ptrdiff_t from = std::max<std::ptrdiff_t>(0, i - reach);
-            const std::ptrdiff_t to = std::min(count - 1, i + reach);
+            const std::ptrdiff_t from = std::max<std::ptrdiff_t>(0, i - slopeReachPoints);
+            const std::ptrdiff_t to = std::min(count - 1, i + slopeReachPoints);
             const double mean = to > from ? (at(to) - at(from)) / double(to - from) : 0.0;
             const Index plane = track.points[std::size_t(i)].plane;
             if (slopes.isLimit(space.ratesOfPlane(plane).back()) || (!track.smoothed.empty() && slopes.isLimit(mean)))
