@@ -187,8 +187,8 @@ namespace {
             }
         }
 
-        /// Measures ways between pieces of tracks over the floor of everything that was found; cells that it hides are
-        /// not observed.
+        /// Measures ways between pieces of tracks over the floor of everything that was found; frames in which it hides
+        /// the way are not observed.
         std::vector<Bridge> measured(std::span<const BridgeWay> ways)
         {
             std::vector<PathStrip> strips;
@@ -205,30 +205,43 @@ namespace {
             return bridges;
         }
 
+        /// Whether the middle of a strip can be seen in a frame; if another signal hides it, none of the frame's cells
+        /// counts, or a path would take those that do not count.
+        bool isSeenOrCleared(PathStrip &strip, Index at) const
+        {
+            constexpr float notObserved = std::numeric_limits<float>::quiet_NaN();
+            float middle = 0.0f;
+            m_explanations.hide(strip.firstFrame + at, strip.centres[std::size_t(at)], std::span(&middle, 1),
+                                notObserved);
+            if (std::isnan(middle))
+                std::fill_n(strip.row(at), strip.width(), notObserved);
+            return !std::isnan(middle);
+        }
+
         Bridge bridgeAlong(const BridgeWay &way, PathStrip &strip)
         {
             divideByFloor(strip);
             const Index from = std::ssize(way.before);
             const Index to = from + way.gap();
-            const float notObserved = std::numeric_limits<float>::quiet_NaN();
+            Bridge bridge;
             for (Index at = 0; at < strip.frameCount(); ++at) {
                 if (at < from)
                     setPoint(strip, at, way.before[std::size_t(at)]);
                 else if (at >= to)
                     setPoint(strip, at, way.after[std::size_t(at - to)]);
                 else
-                    m_explanations.hide(strip.firstFrame + at, strip.firstCell(at),
-                                        std::span(strip.row(at), std::size_t(strip.width())), notObserved);
+                    bridge.isSeen.push_back(isSeenOrCleared(strip, at));
             }
             setLnK(m_model, m_analysis, strip);
             m_model.ends = {};
             const BothWays seen = lookBothWays(strip, m_model);
-            Bridge bridge;
+            double against = 0.0;
             for (Index at = from; at < to; ++at) {
                 const auto i = std::size_t(at);
-                const bool isSeen = !std::isnan(strip.valueAt(at, Index(std::lround(seen.presence.mean[i]))));
-                bridge.isSeen.push_back(isSeen);
-                bridge.gain += isSeen ? seen.gains[i] : 0.0;
+                const double gain = bridge.isSeen[std::size_t(at - from)] ? seen.gains[i] : 0.0;
+                bridge.gain += gain;
+                against = std::max(0.0, against - gain);
+                bridge.absence = std::max(bridge.absence, against);
                 bridge.points.push_back({std::clamp(seen.positions[i], 0.0, double(m_cells - 1)), seen.presence.low[i],
                                          seen.presence.high[i], seen.endsBy[i], float(seen.levels[i])});
             }

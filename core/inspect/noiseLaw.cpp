@@ -22,12 +22,14 @@ namespace {
     constexpr Index stretchFrames = 400; ///< including them
     constexpr Index leastCounted = 20;
     constexpr double mostCellFrames = 4e6;
+    constexpr double blockCellFrames = 3e5; ///< of simulated noise
+    constexpr int referenceBlocks = 12;
     constexpr double clusterVariance = 16.0; ///< of the fraction, relative to independent states
     constexpr Index tileCells = 16;
     constexpr Index tileFrames = 50;
     constexpr double rareExceedanceProbability = 1e-4; ///< fraction of cells and frames of noise
     constexpr double quietShare = 0.25;                ///< of the tiles
-    constexpr double deviations = 5.0;                 ///< four of a mean's
+    constexpr double deviations = 4.0;
     constexpr double normaliserErrorShare = 0.01;
     constexpr Index skirtLimitCells = 50; ///< resolution cells
     constexpr double noiseMean = 1.1;
@@ -76,15 +78,34 @@ namespace {
         return end;
     }
 
+    /// Families and several channels have no simulated noise to compare with, so that nothing is left out of theirs.
+    bool isPlain(const AnalysisSettings &settings)
+    {
+        return settings.family.isNone() && channelCount(settings.selection) == 1;
+    }
+
+    double loudestOf(const AnalysisPlan &plan)
+    {
+        return isPlain(plan.settings) ? plan.calibration->levelExceededBy(rareExceedanceProbability)
+                                      : std::numeric_limits<double>::infinity();
+    }
+
+    /// Cells on either side of a track that do not count as noise.
+    Index inhibitedBins(const AnalysisSettings &settings)
+    {
+        return Index(std::ceil(settings.decide.inhibitCells.front() * settings.spectrogram.binsPerCell));
+    }
+
     /// The fraction of states whose path continues, in tiles of cells and frames. Tiles in which the statistic exceeds
-    /// `loudest` are left out.
+    /// what is rare on noise are left out, and its paths are forgotten there.
     class ContinuedFractions
     {
     public:
-        ContinuedFractions(const MarkovModel &model, double loudest)
-            : m_loudest(float(loudest)), m_likelihood(model.likelihood), m_planes(model.space.planeCount()),
-              m_lambda(std::size_t(model.space.cellCount())),
-              m_continued(std::size_t(std::max<Index>(1, model.space.cellCount() / tileCells)), 0.0)
+        explicit ContinuedFractions(const AnalysisPlan &plan)
+            : m_loudest(float(loudestOf(plan))), m_likelihood(plan.model.likelihood),
+              m_planes(plan.model.space.planeCount()), m_grid(plan.grid()),
+              m_inhibitedBins(inhibitedBins(plan.settings)), m_lambda(std::size_t(plan.model.space.cellCount())),
+              m_continued(std::size_t(std::max<Index>(1, plan.model.space.cellCount() / tileCells)), 0.0)
         {
             for (std::size_t cell = 0; cell < m_lambda.size(); ++cell)
                 m_columns.push_back(cell * m_continued.size() / m_lambda.size());
@@ -103,6 +124,14 @@ namespace {
             m_frames += 1.0;
             if (++m_tileFrames == tileFrames)
                 close();
+        }
+
+        /// Ends the paths that are too good for noise, before they branch into other tiles.
+        void forgetLoud(std::span<const float> statistic, Smd &detector) const
+        {
+            for (std::size_t cell = 0; cell < statistic.size(); ++cell)
+                if (statistic[cell] > m_loudest)
+                    detector.forget(m_grid, {{Index(cell)}, {m_inhibitedBins}});
         }
 
         /// Ends the tiles, before a stretch that does not continue the last one; short ones count with the next.
@@ -143,6 +172,8 @@ namespace {
         float m_loudest;
         Likelihood m_likelihood;
         Index m_planes;
+        Grid m_grid;
+        Index m_inhibitedBins;
         std::vector<float> m_lambda;
         std::vector<std::size_t> m_columns; ///< of each cell
         std::vector<double> m_continued;    ///< states in the current tile of each column of cells
@@ -152,41 +183,6 @@ namespace {
         double m_frames = 0.0;
     };
 
-    /// Families and several channels have no simulated noise to compare with, so that nothing is left out of theirs.
-    bool isPlain(const AnalysisSettings &settings)
-    {
-        return settings.family.isNone() && channelCount(settings.selection) == 1;
-    }
-
-    double loudestOf(const AnalysisPlan &plan)
-    {
-        return isPlain(plan.settings) ? plan.calibration->levelExceededBy(rareExceedanceProbability)
-                                      : std::numeric_limits<double>::infinity();
-    }
-
-    /// The same on simulated white noise.
-    ContinuedFractions onWhiteNoise(const AnalysisPlan &plan, const ResetRule &rule, Index frames,
-                                    const RunContext &context)
-    {
-        const Index cells = plan.model.space.cellCount();
-        const SpectrogramSettings &settings = plan.settings.spectrogram;
-        const auto noise = spectralNoise(settings, int((cells + settings.binsPerCell - 1) / settings.binsPerCell));
-        Random random(7001, 0);
-        Smd detector(plan.model, rule);
-        ContinuedFractions fractions(plan.model, loudestOf(plan));
-        std::vector<float> y(static_cast<std::size_t>(cells));
-        std::vector<float> statistic(y.size());
-        for (Index frame = 0; frame < settlingFrames + frames; ++frame) {
-            context.checkpoint(double(frame) / double(settlingFrames + frames), "simulating noise for comparison");
-            noise->next(random, y);
-            detector.update(y, statistic);
-            if (frame >= settlingFrames)
-                fractions.add(y, statistic, detector);
-        }
-        fractions.close();
-        return fractions;
-    }
-
     /// The detector on stretches of the recording, signals replaced by simulated noise.
     class NoiseOutsideTracks
     {
@@ -194,7 +190,7 @@ namespace {
         NoiseOutsideTracks(const Analysis &analysis, const SmdSettings &smd, const RunContext &context)
             : m_analysis(analysis), m_frames(*analysis.frames), m_context(context),
               m_rule(resetRule(smd, analysis.calibration->lnK)), m_y(std::size_t(m_frames.grid().size())),
-              m_statistic(m_y.size()), m_fractions(analysis.model, loudestOf(analysis))
+              m_statistic(m_y.size()), m_fractions(analysis)
         {
         }
 
@@ -231,6 +227,7 @@ namespace {
                 detector.update(m_y, m_statistic);
                 if (++seen > settlingFrames)
                     m_fractions.add(m_y, m_statistic, detector);
+                m_fractions.forgetLoud(m_statistic, detector);
             }
             m_fractions.close();
         }
@@ -239,7 +236,7 @@ namespace {
         void findSkirts(std::vector<Piece> &pieces, const PointsByFrame &points)
         {
             const int binsPerCell = m_analysis.settings.spectrogram.binsPerCell;
-            const auto least = Index(std::ceil(m_analysis.settings.decide.inhibitCells.front() * binsPerCell));
+            const Index least = inhibitedBins(m_analysis.settings);
             const auto widest = std::max(least + 1, skirtLimitCells * binsPerCell);
             const Index cells = std::ssize(m_y);
             for (Piece &piece : pieces) {
@@ -289,6 +286,47 @@ namespace {
         ContinuedFractions m_fractions;
     };
 
+    /// The lower quartile on white noise, and its standard deviation, for so many frames.
+    struct ExpectedFraction {
+        double mean = 0.0;
+        double deviation = 0.0;
+    };
+
+    /// From simulated noise in blocks: paths that branch freely make the fractions of all tiles rise and fall together.
+    ExpectedFraction onWhiteNoise(const AnalysisPlan &plan, const ResetRule &rule, double seenFrames,
+                                  const RunContext &context)
+    {
+        const Index cells = plan.model.space.cellCount();
+        const SpectrogramSettings &settings = plan.settings.spectrogram;
+        const auto noise = spectralNoise(settings, int((cells + settings.binsPerCell - 1) / settings.binsPerCell));
+        const auto frames = Index(std::min(seenFrames, std::max(double(tileFrames), blockCellFrames / double(cells))));
+        Random random(7001, 0);
+        Smd detector(plan.model, rule);
+        std::vector<float> y(static_cast<std::size_t>(cells));
+        std::vector<float> statistic(y.size());
+        double sum = 0.0;
+        double squares = 0.0;
+        for (int block = 0; block < referenceBlocks; ++block) {
+            ContinuedFractions fractions(plan);
+            const Index settling = block == 0 ? settlingFrames : 0;
+            for (Index frame = 0; frame < settling + frames; ++frame) {
+                context.checkpoint(double(block) / referenceBlocks, "simulating noise for comparison");
+                noise->next(random, y);
+                detector.update(y, statistic);
+                if (frame >= settling)
+                    fractions.add(y, statistic, detector);
+                fractions.forgetLoud(statistic, detector);
+            }
+            fractions.close();
+            const double fraction = fractions.lowerQuartile();
+            sum += fraction;
+            squares += fraction * fraction;
+        }
+        const double mean = sum / referenceBlocks;
+        const double variance = (squares / referenceBlocks - mean * mean) * referenceBlocks / (referenceBlocks - 1);
+        return {mean, std::sqrt(std::max(0.0, variance) * (double(frames) / seenFrames + 1.0 / referenceBlocks))};
+    }
+
 } // namespace
 
 std::string NoiseLawCheck::warning() const
@@ -316,20 +354,25 @@ std::optional<NoiseLawCheck> checkNoiseLaw(const Analysis &analysis, const RunCo
     const Index length = std::min(stretchFrames, count);
     const auto stretches = std::clamp<Index>(Index(mostCellFrames / double(length * cells)), 1, count / length);
     const RunContext looking = context.part(0.0, 0.5);
-    NoiseOutsideTracks noise(analysis, *smd, looking);
+    NoiseOutsideTracks outside(analysis, *smd, looking);
     NoiseLawCheck law;
-    const ContinuedFractions &fractions = noise.continuedFractions(length, stretches);
-    if (fractions.frames() < double(leastCounted) || fractions.isEmpty())
+    const ContinuedFractions &found = outside.continuedFractions(length, stretches);
+    if (found.frames() < double(leastCounted) || found.isEmpty())
         return {};
-    const bool isCompared = isPlain(analysis.settings);
-    law.found = isCompared ? fractions.lowerQuartile() : fractions.mean();
-    law.expected =
-        isCompared
-            ? onWhiteNoise(analysis, noise.rule(), Index(fractions.frames()), context.part(0.5, 1.0)).lowerQuartile()
-            : analysis.calibration->continuedFraction;
-    const double sigma =
-        std::sqrt(clusterVariance * law.expected * (1.0 - law.expected) / (fractions.frames() * double(cells)));
-    const double half = deviations * sigma + normaliserErrorShare + 1.0 / double(cells);
+    double half = normaliserErrorShare;
+    if (isPlain(analysis.settings)) {
+        const ExpectedFraction expected =
+            onWhiteNoise(analysis, outside.rule(), found.frames(), context.part(0.5, 1.0));
+        law.found = found.lowerQuartile();
+        law.expected = expected.mean;
+        half += deviations * expected.deviation;
+    } else {
+        const double p = analysis.calibration->continuedFraction;
+        law.found = found.mean();
+        law.expected = p;
+        half += deviations * std::sqrt(clusterVariance * p * (1.0 - p) / (found.frames() * double(cells)))
+                + 1.0 / double(cells);
+    }
     law.band = {law.expected - half, law.expected + half};
     return law;
 }

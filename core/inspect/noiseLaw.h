@@ -16,15 +16,15 @@ namespace faintline {
 /// by simulated noise. Parts of lines that were missed raise the fraction in many cells around, because paths branch off
 /// them. Therefore the fraction is counted in tiles of 16 cells and 50 frames, and p is the lower quartile of the tiles,
 /// which a wrong level moves as much as their mean, but lines hardly: of the recording's, and of simulated white noise.
-/// Tiles whose statistic exceeds what noise exceeds in one of 10 000 cells and frames are left out of both.
-/// (For families and several channels, p is the mean, and the calibration's.) The band is
+/// Tiles whose statistic exceeds what noise exceeds in one of 10 000 cells and frames are left out of both, and paths as
+/// good as that are forgotten there, before they branch. The band is
 ///
-///   p ± (5 σ + 0.01 + 1/cells),   σ² = 16·p(1 - p)/(cells·frames)
+///   p ± (4 σ + 0.01)
 ///
-/// A sixteenth of the cells and frames counts as independent, because windows and bins overlap, and paths last; a
-/// quantile and its reference scatter more than a mean. One per cent is the normaliser's own error, which the calibrated
-/// threshold includes; 1/cells is the loss at the ends of a band. Oracle: a hundred recordings of white noise without a
-/// warning.
+/// where σ is that of twelve blocks of the simulated noise: under laws that let paths branch freely, the fractions of all
+/// cells rise and fall together. One per cent is the normaliser's own error, which the calibrated threshold includes. For
+/// families and several channels, p is the mean, and the calibration's, σ² = 16·p(1 - p)/(cells·frames), and 1/cells is
+/// added for the ends of the band. Oracle: a hundred recordings of white noise without a warning.
 struct NoiseLawCheck {
     double expected = 0.0; ///< p on white noise
     double found = 0.0;    ///< p of the recording's noise outside tracks

@@ -272,8 +272,7 @@ namespace {
         bool isRefuted(const Bridge &bridge) const
         {
             const auto seen = std::count(bridge.isSeen.begin(), bridge.isSeen.end(), true);
-            return std::ranges::any_of(bridge.points, [](const SmoothedPoint &p) { return p.presence <= 0.5f; })
-                   || (seen > longestAbsence() && bridge.gain < 0.0);
+            return bridge.absence > m_rule.threshold || (seen > longestAbsence() && bridge.gain < 0.0);
         }
 
         /// Measures the chosen pairs that were not measured before, and removes those that their own cells refute.

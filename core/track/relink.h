@@ -23,8 +23,9 @@ struct BridgeWay {
 /// What the cells along a way say: one point for each frame between the pieces.
 struct Bridge {
     std::vector<SmoothedPoint> points;
-    std::vector<bool> isSeen; ///< whether a cell of its own could be observed in a frame
+    std::vector<bool> isSeen; ///< whether it could be observed in a frame
     double gain = 0.0;        ///< evidence in these frames, nat
+    double absence = 0.0;     ///< largest evidence against the signal in any stretch of them, nat
 };
 
 /// Conditions for identities of tracks of lines.
@@ -62,8 +63,8 @@ struct RelinkRule {
 /// track's own way costs T·0.9 at most, so that it is kept unless there is a better one; no link costs T.
 ///
 /// Each chosen link between pieces of different tracks is then measured along a cubic curve, in the cells that no other
-/// track hides. Its own cells refute it if the signal is more likely absent than present in one of its frames, or if
-/// more than m/5 of them were seen and their evidence together is negative; the rest is assigned anew without it.
+/// track hides. Its own cells refute it if the evidence against the signal exceeds T in a stretch of its frames, or if more
+/// than m/5 of them were seen and their evidence together is negative; the rest is assigned anew without it.
 /// Where a track of at most four times the pieces' level lies within a cell of the curve, the joined track has what was
 /// measured of that one: equal signals that meet. Elsewhere it has what was measured along the curve; frames farther
 /// than 12 from one in which it was seen have presence 0, and are not reported.

@@ -47,6 +47,7 @@ AnalysisSettings settings()
     chosen.detector = SmdSettings{SmdSettings::Reset::Fixed, 0.6};
     chosen.decide.by = DecideSettings::By::Nats;
     chosen.decide.thresholdNats = 12.0;
+    chosen.track.bothWays = false; // which cuts tracks at the signal's own level, for which other values are neutral
     return chosen;
 }
 

@@ -19,11 +19,11 @@ std::shared_ptr<const Calibration> calibrationIn(const ShippedCalibration &shipp
     return CalibrationStore::fromText(shipped.text, std::string(shipped.key));
 }
 
-/// A fifth of the noise and shorter splitting.
+/// A fifth of the noise.
 CalibrationEffort smallEffort()
 {
-    CalibrationEffort effort = effortOf(CalibrationDepth::FirstEstimate);
-    effort.isFirstEstimate = false; // where splitting is not possible, the counts are all there is
+    CalibrationEffort effort = effortOf(CalibrationDepth::Refined);
+    effort.cellFrames *= 0.2;
     effort.ofIndependentCells = 0.2;
     return effort;
 }

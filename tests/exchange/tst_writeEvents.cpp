@@ -93,7 +93,7 @@ void tst_writeEvents::eventsAsCsv()
     QCOMPARE(written(twoTracks(), "e.csv"),
              QByteArray("event,t_onset,t_detect,t_end,f,drift_hz_per_s,statistic,confirmed,open\n"
                         "2,0.75,2.25,3.75,1002.5,0,0.3333333333333333,0,1\n"
-                        "1,1.25,1.75,2.75,1012.5,5,14.75,1,0\n"));
+                        "1,1.25,1.75,2.75,1013.75,5,14.75,1,0\n"));
 }
 
 void tst_writeEvents::tracksAsCsv()
@@ -162,7 +162,7 @@ void tst_writeEvents::audacityLabels()
 {
     // Begin, end, label, separated by tabs.
     QCOMPARE(written(twoTracks(), "e.txt"), QByteArray("0.75\t3.75\t1002.5 Hz, 0.3 nat\n"
-                                                       "1.25\t2.75\t1012.5 Hz, 14.8 nat\n"));
+                                                       "1.25\t2.75\t1013.75 Hz, 14.8 nat\n"));
 }
 
 void tst_writeEvents::sigmfAnnotations()

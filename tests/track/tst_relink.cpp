@@ -234,20 +234,20 @@ void tst_relink::whatCouldNotBeSeenIsNotReported()
 
 void tst_relink::cellsRefuteAJoin_data()
 {
-    QTest::addColumn<float>("presence"); // in one frame
+    QTest::addColumn<double>("absence"); // evidence in a stretch of frames
     QTest::addColumn<int>("seen");
     QTest::addColumn<double>("gain");
     QTest::addColumn<int>("tracks");
-    QTest::newRow("there") << 0.9f << 104 << 5.0 << 2;
-    QTest::newRow("absent for a while") << 0.3f << 104 << 5.0 << 3;
-    QTest::newRow("nothing in many frames") << 0.9f << 104 << -5.0 << 3;
-    QTest::newRow("nothing in few frames") << 0.9f << 8 << -5.0 << 2;
+    QTest::newRow("there") << 2.0 << 104 << 5.0 << 2;
+    QTest::newRow("absent for a while") << rule().threshold + 1.0 << 104 << 5.0 << 3;
+    QTest::newRow("nothing in many frames") << 7.0 << 104 << -5.0 << 3;
+    QTest::newRow("nothing in few frames") << 7.0 << 8 << -5.0 << 2;
 }
 
 // Among dense lines, the way between two pieces is nowhere far from a track; its own cells decide.
 void tst_relink::cellsRefuteAJoin()
 {
-    QFETCH(float, presence);
+    QFETCH(double, absence);
     QFETCH(int, seen);
     QFETCH(double, gain);
     QFETCH(int, tracks);
@@ -257,7 +257,7 @@ void tst_relink::cellsRefuteAJoin()
         std::vector<Bridge> bridges;
         for (const BridgeWay &way : ways) {
             bridges.push_back(bridgeWith(way, 1.0f, 3.0f));
-            bridges.back().points[50].presence = presence;
+            bridges.back().absence = absence;
             std::fill(bridges.back().isSeen.begin() + seen, bridges.back().isSeen.end(), false);
             bridges.back().gain = gain;
         }
