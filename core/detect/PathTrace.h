@@ -1,6 +1,6 @@
 #pragma once
 
-#include "detect/Detector.h"
+#include "detect/CellBox.h"
 #include "model/MarkovModel.h"
 
 #include <functional>
