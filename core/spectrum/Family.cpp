@@ -1,6 +1,6 @@
 #include "spectrum/Family.h"
 
-#include "spectrum/NormalisedPower.h"
+#include "spectrum/LooksLaw.h"
 #include "spectrum/Spectrogram.h"
 #include "spectrum/familyLaw.h"
 

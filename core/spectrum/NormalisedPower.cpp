@@ -8,8 +8,6 @@
 #include "spectrum/levels.h"
 #include "spectrum/medians.h"
 
-#include <boost/math/special_functions/gamma.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -21,21 +19,11 @@ namespace faintline {
 
 namespace {
 
-    constexpr double tableLowest = -8.0;
-    constexpr double tableStep = 1.0 / 64.0;
-    constexpr double tableHighest = 36.0;
-    constexpr double preciseProbability = 1e-290; ///< smallest probability with full precision
-
     constexpr Index mostBlocks = 256;
     constexpr Index valuesPerBlock = Index(1) << 20;
     constexpr Index fewestFramesPerBlock = 16;
     constexpr Index mostCells = Index(1) << 20;
     constexpr Index levelCells = 500; ///< cells from which a frame's level is estimated
-
-    double gammaQuantile(double looks, double p)
-    {
-        return boost::math::gamma_p_inv(looks, p) / looks;
-    }
 
     float quantile(std::vector<float> &values, double p)
     {
@@ -50,46 +38,6 @@ namespace {
         for (float &value : values)
             value = value > 0.0f && std::isfinite(value) ? value : 0.0f;
     }
-
-} // namespace
-
-LooksLaw::LooksLaw(double looks, double median)
-    : m_looks(looks), m_median(float(median)), m_scale(float(gammaQuantile(looks, 0.5) / median)),
-      m_centre(float(1.0 - 1.0 / (9.0 * looks))), m_spread(float(std::sqrt(9.0 * looks)))
-{
-    for (double z = tableLowest; z <= tableHighest; z += tableStep) {
-        const double root = std::max(0.0, double(m_centre) + z / double(m_spread));
-        const double q = boost::math::gamma_q(looks, looks * root * root * root);
-        if (!(q > preciseProbability))
-            break; // extrapolated beyond this with the last step
-        m_table.push_back(float(-std::log(q)));
-    }
-}
-
-float LooksLaw::operator()(float ratio) const
-{
-    const float z = (std::cbrt(ratio * m_scale) - m_centre) * m_spread;
-    const float place = std::max(0.0f, (z - float(tableLowest)) / float(tableStep));
-    const auto last = m_table.size() - 2;
-    const std::size_t lower = place < float(last) ? std::size_t(place) : last;
-    return m_table[lower] + (place - float(lower)) * (m_table[lower + 1] - m_table[lower]);
-}
-
-LooksLaw LooksLaw::fromQuantiles(double low, double middle, double high)
-{
-    const double spread = (high - low) / middle;
-    double least = std::log(0.3);
-    double most = std::log(1e6);
-    constexpr int halvings = 40;
-    for (int i = 0; i < halvings; ++i) {
-        const double looks = std::exp(0.5 * (least + most));
-        const double own = (gammaQuantile(looks, 0.84) - gammaQuantile(looks, 0.16)) / gammaQuantile(looks, 0.5);
-        (own > spread ? least : most) = 0.5 * (least + most);
-    }
-    return LooksLaw(std::exp(0.5 * (least + most)), middle);
-}
-
-namespace {
 
     /// Estimates B of a part from blocks of frames evenly spread over it.
     NoiseBackground estimate(const Axis &time, const Axis &frequency, const NormaliserSettings &settings,
@@ -140,7 +88,7 @@ NormalisedPower::NormalisedPower(std::shared_ptr<const PowerFrames> power, const
                                  const NormaliserSettings &settings, const RunContext &context)
     : NormalisedFrames(partOfAxis(power->info().time, part.firstFrame, part.frames),
                        Grid{{partOfAxis(power->info().frequency, part.firstCell, part.cells)}}),
-      m_power(std::move(power)), m_part(part), m_law(1.0, gammaQuantile(1.0, 0.5))
+      m_power(std::move(power)), m_part(part), m_law(1.0, LooksLaw::quantile(1.0, 0.5))
 {
     const std::string &path = m_power->info().path;
     const Axis &frequency = grid().axes.front();

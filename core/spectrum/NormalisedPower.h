@@ -1,5 +1,6 @@
 #pragma once
 
+#include "spectrum/LooksLaw.h"
 #include "spectrum/NoiseBackground.h"
 #include "spectrum/NormalisedFrames.h"
 #include "spectrum/PowerFrames.h"
@@ -9,35 +10,6 @@
 #include <vector>
 
 namespace faintline {
-
-/// Transforms power that is the mean of K looks at noise to the distribution of one look, for which detectors are
-/// designed.
-///
-///   p/B ~ Gamma(K)/K,   y = -ln Q(K, K·p/B)
-///
-/// Q: regularised upper incomplete gamma function. y is exponential of mean 1 on noise and increases with p; K = 1
-/// changes nothing. `median` is the measured median of p/B on noise; it replaces that of the gamma law and removes the
-/// remaining bias of B. Uses a table over Wilson and Hilferty's cube root, |error| ≤ 1e-3 relative. Oracle: Boost.Math.
-class LooksLaw
-{
-public:
-    LooksLaw(double looks, double median);
-
-    double looks() const { return m_looks; }
-    float median() const { return m_median; }
-    float operator()(float ratio) const;
-
-    /// K and the median of noise whose 16, 50 and 84 % quantiles are the given values; 0.3 ≤ K ≤ 1e6.
-    static LooksLaw fromQuantiles(double low, double middle, double high);
-
-private:
-    double m_looks;
-    float m_median;
-    float m_scale;  ///< scale of a ratio
-    float m_centre; ///< centre of its cube root
-    float m_spread;
-    std::vector<float> m_table;
-};
 
 /// Power stored in a file over its noise: y(t, f), exponential of mean 1 on noise.
 ///

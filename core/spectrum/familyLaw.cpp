@@ -1,8 +1,6 @@
 #include "spectrum/familyLaw.h"
 
-#include "spectrum/NormalisedPower.h"
-
-#include <boost/math/special_functions/gamma.hpp>
+#include "spectrum/LooksLaw.h"
 
 #include <array>
 #include <cmath>
@@ -19,7 +17,7 @@ namespace {
     LooksLaw sumLaw(std::size_t members)
     {
         const auto looks = double(members);
-        return {looks, boost::math::gamma_p_inv(looks, 0.5) / looks};
+        return {looks, LooksLaw::quantile(looks, 0.5)};
     }
 
 } // namespace
