@@ -7,6 +7,7 @@
 #include "detect/Sprt.h"
 #include "detect/averagedStages.h"
 #include "exchange/ModelFile.h"
+#include "exchange/openFrames.h"
 #include "plan/lineSequentialModel.h"
 
 #include <CLI/CLI.hpp>

@@ -4,8 +4,8 @@
 
 #include "base/AtomicFile.h"
 #include "base/json.h"
-#include "exchange/ModelFile.h"
 #include "exchange/NumPy.h"
+#include "exchange/gridFile.h"
 #include "recording/ScanScene.h"
 #include "recording/SimulatedRecording.h"
 #include "recording/writeRecording.h"

@@ -2,7 +2,6 @@
 
 #include "base/json.h"
 #include "detect/SumDetector.h"
-#include "exchange/NumPy.h"
 #include "exchange/jsonFields.h"
 
 #include <algorithm>
@@ -238,48 +237,6 @@ SequentialModel readSequentialModel(const std::string &path, const FrameCells *f
     } catch (const Error &error) {
         throw error.in(path);
     }
-}
-
-namespace {
-
-    template <class Real>
-    void checkValues(std::span<Real> values, const std::string &where)
-    {
-        const auto bad = std::find_if(values.begin(), values.end(), [](auto y) { return y < 0 || std::isinf(y); });
-        if (bad != values.end())
-            throw Error(where, "holds " + formatNumber(double(*bad)) + " at position "
-                                   + std::to_string(bad - values.begin())
-                                   + "; normalised power must be finite and not negative, or NaN for unobserved cells");
-    }
-
-    template <class Array>
-    void checkFrames(const Array &array, const std::string &path)
-    {
-        if (array.shape.size() < 2 || array.values.empty())
-            throw Error(path, "must have the shape (frames, cells…) with at least one of each");
-        checkValues(std::span(array.values), path);
-    }
-
-} // namespace
-
-void checkFrameValues(std::span<const float> values, const std::string &where)
-{
-    checkValues(values, where);
-}
-
-DoubleFrames readDoubleFrames(const std::string &path)
-{
-    NumPyDoubles array = readNumPyDoubles(path);
-    checkFrames(array, path);
-    return {std::move(array.shape), std::move(array.values)};
-}
-
-NormalisedFramesPointer readFrames(const std::string &path, const std::string &gridPath)
-{
-    NumPyArray array = readNumPy(path);
-    checkFrames(array, path);
-    const GridFile file = gridPath.empty() ? plainGrid(array.shape) : readGridFile(gridPath, array.shape);
-    return std::make_shared<FrameArray>(file.time, file.grid, std::move(array.values));
 }
 
 } // namespace faintline

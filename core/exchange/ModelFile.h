@@ -3,12 +3,9 @@
 #include "base/Grid.h"
 #include "base/json.h"
 #include "detect/Smd.h"
-#include "exchange/gridFile.h"
 #include "model/SequentialModel.h"
-#include "spectrum/NormalisedFrames.h"
 
 #include <memory>
-#include <span>
 #include <string>
 
 namespace faintline {
@@ -54,19 +51,5 @@ struct FrameCells {
     std::vector<Index> cells; ///< for each axis
 };
 SequentialModel readSequentialModel(const std::string &path, const FrameCells *frames = nullptr);
-
-/// Ready-made frames in double precision, cell by cell, stage by stage, checked as by readFrames.
-struct DoubleFrames {
-    std::vector<Index> shape; ///< stages, cells…
-    std::vector<double> values;
-};
-DoubleFrames readDoubleFrames(const std::string &path);
-
-/// Throws Error naming `where` if a value is negative or infinite.
-void checkFrameValues(std::span<const float> values, const std::string &where);
-
-/// Reads ready-made frames from a NumPy file of shape (frames, cells…); `grid` may be empty (axes without units).
-/// Negative or infinite values are errors; NaN denotes a cell that was not observed.
-NormalisedFramesPointer readFrames(const std::string &path, const std::string &gridPath);
 
 } // namespace faintline

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/Grid.h"
-#include "spectrum/PingNoise.h"
+#include "spectrum/RawPings.h"
 
 #include <string>
 #include <vector>

@@ -1,13 +1,18 @@
 #include "exchange/openFrames.h"
 
+#include "base/Error.h"
+#include "base/Field.h"
 #include "base/fileName.h"
 #include "exchange/Hdf5Filterbank.h"
 #include "exchange/Hdf5Pings.h"
-#include "exchange/ModelFile.h"
 #include "exchange/NumPyPower.h"
 #include "exchange/SigprocFile.h"
+#include "exchange/gridFile.h"
 #include "exchange/openPings.h"
 #include "spectrum/NormalisedPower.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace faintline {
 
@@ -16,6 +21,24 @@ namespace {
     bool isStack(const std::string &path)
     {
         return hasEnding(path, ".npy");
+    }
+
+    template <class Real>
+    void checkValues(std::span<Real> values, const std::string &where)
+    {
+        const auto bad = std::find_if(values.begin(), values.end(), [](auto y) { return y < 0 || std::isinf(y); });
+        if (bad != values.end())
+            throw Error(where, "holds " + formatNumber(double(*bad)) + " at position "
+                                   + std::to_string(bad - values.begin())
+                                   + "; normalised power must be finite and not negative, or NaN for unobserved cells");
+    }
+
+    template <class Array>
+    void checkFrames(const Array &array, const std::string &path)
+    {
+        if (array.shape.size() < 2 || array.values.empty())
+            throw Error(path, "must have the shape (frames, cells…) with at least one of each");
+        checkValues(std::span(array.values), path);
     }
 
 } // namespace
@@ -41,6 +64,26 @@ std::shared_ptr<const PowerFrames> openPower(const std::string &path)
     if (isFile(path) && Hdf5Filterbank::recognises(path))
         return std::make_shared<Hdf5Filterbank>(path);
     return nullptr;
+}
+
+void checkFrameValues(std::span<const float> values, const std::string &where)
+{
+    checkValues(values, where);
+}
+
+DoubleFrames readDoubleFrames(const std::string &path)
+{
+    NumPyDoubles array = readNumPyDoubles(path);
+    checkFrames(array, path);
+    return {std::move(array.shape), std::move(array.values)};
+}
+
+NormalisedFramesPointer readFrames(const std::string &path, const std::string &gridPath)
+{
+    NumPyArray array = readNumPy(path);
+    checkFrames(array, path);
+    const GridFile file = gridPath.empty() ? plainGrid(array.shape) : readGridFile(gridPath, array.shape);
+    return std::make_shared<FrameArray>(file.time, file.grid, std::move(array.values));
 }
 
 NormalisedFramesPointer openFrames(const std::string &path, const FramesOptions &options, const RunContext &context)

@@ -8,7 +8,9 @@
 #include "spectrum/Spectrogram.h"
 
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace faintline {
 
@@ -27,6 +29,20 @@ bool holdsFrames(const std::string &path);
 ///
 /// Throws Error naming the file and the cause.
 std::shared_ptr<const PowerFrames> openPower(const std::string &path);
+
+/// Ready-made frames in double precision, cell by cell, stage by stage, checked as by readFrames.
+struct DoubleFrames {
+    std::vector<Index> shape; ///< stages, cells…
+    std::vector<double> values;
+};
+DoubleFrames readDoubleFrames(const std::string &path);
+
+/// Throws Error naming `where` if a value is negative or infinite.
+void checkFrameValues(std::span<const float> values, const std::string &where);
+
+/// Reads ready-made frames from a NumPy file of shape (frames, cells…); `grid` may be empty (axes without units).
+/// Negative or infinite values are errors; NaN denotes a cell that was not observed.
+NormalisedFramesPointer readFrames(const std::string &path, const std::string &gridPath);
 
 /// The part of a power file to normalise, and how.
 struct FramesOptions {

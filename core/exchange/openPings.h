@@ -2,6 +2,7 @@
 
 #include "base/RunContext.h"
 #include "spectrum/NormalisedFrames.h"
+#include "spectrum/PingNoise.h"
 #include "spectrum/RawPings.h"
 
 #include <memory>

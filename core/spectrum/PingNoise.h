@@ -1,23 +1,11 @@
 #pragma once
 
 #include "base/Field.h"
+#include "spectrum/RawPings.h"
 
-#include <array>
-#include <string_view>
 #include <vector>
 
 namespace faintline {
-
-/// What the numbers of recorded pings are. Complex numbers, I and Q of a beam, need no such statement.
-enum class PingValues {
-    Automatic,  ///< as the file's grid says; otherwise guessed (guessPingValues)
-    Normalised, ///< power over noise power already
-    Power,
-    Magnitude, ///< envelope: the root of the power
-    Decibels   ///< 10 log10 of the power
-};
-inline constexpr std::array<std::string_view, 5> pingValuesNames{"auto", "normalised", "power", "magnitude",
-                                                                 "decibels"};
 
 /// How recorded pings, frames on several axes that are not power over noise yet, are normalised (PingBackground).
 struct PingNoiseSettings {

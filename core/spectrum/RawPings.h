@@ -1,12 +1,24 @@
 #pragma once
 
 #include "base/Grid.h"
-#include "spectrum/PingNoise.h"
 
+#include <array>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace faintline {
+
+/// What the numbers of recorded pings are. Complex numbers, I and Q of a beam, need no such statement.
+enum class PingValues {
+    Automatic,  ///< as the file's grid says; otherwise guessed (guessPingValues)
+    Normalised, ///< power over noise power already
+    Power,
+    Magnitude, ///< envelope: the root of the power
+    Decibels   ///< 10 log10 of the power
+};
+inline constexpr std::array<std::string_view, 5> pingValuesNames{"auto", "normalised", "power", "magnitude",
+                                                                 "decibels"};
 
 /// Properties of recorded pings that are known without reading their values.
 struct PingsInfo {

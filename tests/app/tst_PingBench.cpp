@@ -15,6 +15,7 @@
 #include "app/workspace/Workbench.h"
 #include "exchange/ModelFile.h"
 #include "exchange/NumPy.h"
+#include "exchange/gridFile.h"
 #include "session/Session.h"
 #include "spectrum/SimulatedPings.h"
 #include "support/test.h"

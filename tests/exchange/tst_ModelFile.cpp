@@ -3,6 +3,8 @@
 
 #include "detect/Sprt.h"
 #include "exchange/NumPy.h"
+#include "exchange/gridFile.h"
+#include "exchange/openFrames.h"
 #include "support/recordings.h"
 
 #include <limits>

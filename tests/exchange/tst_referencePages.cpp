@@ -3,6 +3,7 @@
 #include "evaluate/experiments/LineExperiment.h"
 #include "evaluate/experiments/SweepExperiment.h"
 #include "exchange/ModelFile.h"
+#include "exchange/gridFile.h"
 #include "exchange/survey/surveySchema.h"
 #include "recording/LineScene.h"
 #include "recording/PingScene.h"

@@ -17,6 +17,7 @@
 #include "exchange/NumPy.h"
 #include "exchange/TopHits.h"
 #include "exchange/findCadence.h"
+#include "exchange/gridFile.h"
 #include "exchange/openFrames.h"
 #include "exchange/readAnnotations.h"
 #include "exchange/survey/exportSurvey.h"
