@@ -2,11 +2,11 @@
 #include "app/cli/readProvenance.h"
 
 #include "base/Error.h"
-#include "base/Interruption.h"
 #include "base/editDistance.h"
+#include "base/files/Interruption.h"
+#include "base/files/standardStreams.h"
 #include "base/numberText.h"
 #include "base/oneLine.h"
-#include "base/standardStreams.h"
 
 #include <CLI/CLI.hpp>
 

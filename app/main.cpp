@@ -6,9 +6,9 @@
 #include "app/render/subcommands.h"
 #include "app/window/MainWindow.h"
 #include "app/window/programWindows.h"
-#include "base/keepNoHoles.h"
+#include "base/files/keepNoHoles.h"
+#include "base/files/standardStreams.h"
 #include "base/oneLine.h"
-#include "base/standardStreams.h"
 #include "widgets/base/icon.h"
 
 #include <QApplication>

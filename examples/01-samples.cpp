@@ -1,6 +1,6 @@
 // Finds a faint tone among samples in memory.
-#include "analysis/chooseWindow.h"
-#include "recording/ArrayRecording.h"
+#include "analyse/chooseWindow.h"
+#include "signal/ArrayRecording.h"
 
 #include <cmath>
 #include <cstdio>

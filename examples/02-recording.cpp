@@ -1,10 +1,10 @@
 // Finds the lines of a recording, and writes them as a table: 02-recording RECORDING EVENTS.csv
-#include "analysis/chooseWindow.h"
+#include "analyse/chooseWindow.h"
 #include "base/Error.h"
 #include "exchange/writeEvents.h"
-#include "recording/SimulatedRecording.h"
-#include "recording/openRecording.h"
-#include "recording/writeRecording.h"
+#include "scene/SimulatedRecording.h"
+#include "signal/formats/writeRecording.h"
+#include "signal/openRecording.h"
 
 #include <cstdio>
 #include <string>

@@ -31,7 +31,7 @@ def read(file):
         return opened.read()
 
 
-PRODUCT = {file: read(file) for file in sources("core", "widgets", "app")}
+PRODUCT = {file: read(file) for file in sources("core", "reproduce", "widgets", "app")}
 TESTS = {file: read(file) for file in sources("tests", endings=(".h", ".cpp", ".py"))}
 OTHERS = {file: read(file) for file in sources("python", "vamp", "examples")}
 
@@ -95,7 +95,7 @@ def size():
     for folder, aim in (("core", 45_000), ("app", 29_000), ("widgets", 13_000), ("tests", 48_000)):
         lines = sum(text.count("\n") for text in (TESTS if folder == "tests" else inside(folder + "/")).values())
         row(f"lines of {folder}", lines, f"<= {aim}")
-    row("product files, with CMakeLists.txt", len(sources("core", "widgets", "app", endings=(".h", ".cpp", "CMakeLists.txt"))), "<= 750")
+    row("product files, with CMakeLists.txt", len(sources("core", "reproduce", "widgets", "app", endings=(".h", ".cpp", "CMakeLists.txt"))), "<= 750")
     row("headers of core with one includer", with_one_includer("core"), "<= 40")
     row("test programs", test_programs(), "<= 13")
 
@@ -107,8 +107,8 @@ STAGES = ("secondLook explanation levelBeside searchBehind relink decideJointly 
           " steadyLines trimEnds trimOnset").split()
 PROGRAMMES = {"ForwardBackward": 1, "presence": 2, "jointPaths": 1, "outputLayers": 1}
 
-# The rooms from spectrum to plan, by their names before and after the third design. The chain's own model and calibrate are not among them.
-ROOMS = tuple(f"core/{room}/" for room in "spectrum frames noise detect track refine plan session analysis analyse".split())
+# The rooms from frames to plan, and analyse. The chain's own model and calibrate are not among them.
+ROOMS = tuple(f"core/{room}/" for room in "frames noise detect track refine plan analyse".split())
 
 # Choosing between frames and recording: a file that hands frames to one call and a recording to another. Trials, which make theirs, do not choose.
 ANALYSE = r"\banalyse(?:[A-Z]\w*)?\(\s*"
@@ -150,12 +150,12 @@ def stages():
     row("back-steps by hand", "by hand", "0")
     row("runs of the chain in a default detect: noise; signals", "by hand", "<= 2; <= 3")
     row("entry points", count(rf"^[^\s/*#(][^()\n]*{ANALYSE}", headers), "1")
-    callers = uncommented({**outside("core/analysis/", "core/analyse/", "core/session/", "core/evaluate/"), **OTHERS})
+    callers = uncommented({**outside("core/analyse/", "core/evaluate/"), **OTHERS})
     row("callers that choose frames or recording",
         sum(bool(re.search(OF_FRAMES, text) and re.search(OF_RECORDING, text)) for text in callers.values()), "0")
-    row("named constants from spectrum to plan", count(CONSTANT, between), "<= 150")
+    row("named constants from frames to plan", count(CONSTANT, between), "<= 150")
     row("files that hold them", holding(CONSTANT, between), "one a room")
-    row("spectrogram() outside frames and noise", count(r"\bspectrogram\(\)", outside("core/spectrum/", "core/frames/", "core/noise/")), "0")
+    row("spectrogram() outside frames and noise", count(r"\bspectrogram\(\)", outside("core/frames/", "core/noise/")), "0")
     row("smoothed.empty()", count(r"\bsmoothed\.empty\(\)", PRODUCT), "0")
     row("guards for family, channels, subtraction", count(GUARD, uncommented(core)), "<= 10")
     structs = Counter(name for text in core.values() for name in re.findall(STRUCT, text, re.M))

@@ -15,7 +15,7 @@ usage() {
     sed -n '2,/^set -eu/s/^# //p' "$0"
 }
 
-programs="tests-base tests-recording tests-spectrum tests-track tests-analysis tests-inspect tests-evaluate tests-cli tests-jobs" # that hold them
+programs="tests-base tests-signal tests-frames tests-track tests-analyse tests-inspect tests-evaluate tests-cli tests-jobs" # that hold them
 
 configure() { # an existing folder may have other flags or time limits
     cmake --preset "$1" > /dev/null

@@ -25,7 +25,7 @@ layout() {
 
 # By syntax only, one process for each processor.
 loneHeaders() {
-    git ls-files 'core/*.h' | xargs -P "$(nproc)" -I HEADER sh -c 'echo "#include \"HEADER\"" |
+    git ls-files 'core/*.h' 'reproduce/*.h' | xargs -P "$(nproc)" -I HEADER sh -c 'echo "#include \"HEADER\"" |
         g++ -std=c++20 -fsyntax-only -Wall -Wextra -Werror -I . -I core -isystem /usr/include/eigen3 -x c++ -'
 }
 

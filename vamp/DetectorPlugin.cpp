@@ -1,11 +1,11 @@
 #include "DetectorPlugin.h"
 
-#include "analysis/chooseWindow.h"
-#include "analysis/events.h"
+#include "analyse/chooseWindow.h"
+#include "analyse/events.h"
 #include "base/Error.h"
 #include "exchange/writeEvents.h"
 #include "plan/slopeUnit.h"
-#include "recording/ArrayRecording.h"
+#include "signal/ArrayRecording.h"
 
 #include <algorithm>
 #include <cstdio>

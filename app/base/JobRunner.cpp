@@ -1,6 +1,6 @@
 #include "app/base/JobRunner.h"
 
-#include "base/keepNoHoles.h"
+#include "base/files/keepNoHoles.h"
 
 #include <algorithm>
 #include <atomic>

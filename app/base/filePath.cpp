@@ -1,7 +1,7 @@
 #include "app/base/filePath.h"
 
 #include "base/Error.h"
-#include "base/fileName.h"
+#include "base/files/fileName.h"
 #include "base/oneLine.h"
 #include "widgets/base/labelText.h"
 

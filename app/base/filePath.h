@@ -10,7 +10,7 @@ class QUrl;
 namespace faintline {
 
 /// The window's paths are text, but file names are bytes. Bytes that are not part of a character map to special
-/// characters in the text (base/fileName.h), so that any file can be opened, stored and reopened. QFile and QFileInfo
+/// characters in the text (base/files/fileName.h), so that any file can be opened, stored and reopened. QFile and QFileInfo
 /// do not know these characters; use these functions to access files.
 
 QString pathText(const std::string &bytes);

@@ -1,7 +1,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/inRange.h"
 
-#include "base/AtomicFile.h"
+#include "base/files/AtomicFile.h"
 #include "exchange/findCadence.h"
 
 #include <CLI/CLI.hpp>

@@ -1,16 +1,16 @@
 #include "app/cli/commands.h"
 #include "app/cli/inRange.h"
 
-#include "analysis/chooseWindow.h"
-#include "base/AtomicFile.h"
+#include "analyse/chooseWindow.h"
+#include "base/files/AtomicFile.h"
 #include "base/json.h"
-#include "calibration/CalibrationStore.h"
-#include "calibration/calibrate.h"
-#include "calibration/falseAlarmWords.h"
-#include "calibration/keptCalibration.h"
-#include "calibration/makeCalibration.h"
+#include "calibrate/CalibrationStore.h"
+#include "calibrate/calibrate.h"
+#include "calibrate/falseAlarmWords.h"
+#include "calibrate/keptCalibration.h"
+#include "calibrate/makeCalibration.h"
+#include "frames/Spectrogram.h"
 #include "inspect/surrogates.h"
-#include "spectrum/Spectrogram.h"
 
 #include <CLI/CLI.hpp>
 
@@ -193,7 +193,7 @@ void addCalibrate(CLI::App &app, Common &common)
                      "quantisation and background")
         ->check(inRange(1, 10000));
     command->add_flag("--json", options->json, "Print as JSON");
-    // For maintenance, so not in the help: calibration/calibrationVersion.h.
+    // For maintenance, so not in the help: plan/calibrationVersion.h.
     addOutput(*command, common, "--shipped", options->shipped, "Folder whose calibrations are made again")->group("");
     command->callback([options, &common] { calibrateFor(*options, common); });
 }

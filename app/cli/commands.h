@@ -3,13 +3,13 @@
 #include "app/cli/PartOptions.h"
 
 #include "base/Error.h"
-#include "base/InputFiles.h"
 #include "base/RunContext.h"
 #include "base/Shard.h"
+#include "base/files/InputFiles.h"
+#include "exchange/Session.h"
 #include "plan/AnalysisSettings.h"
-#include "recording/openRecording.h"
-#include "session/Session.h"
-#include "spectrum/SimulatedPings.h"
+#include "scene/SimulatedPings.h"
+#include "signal/openRecording.h"
 
 #include <functional>
 #include <memory>

@@ -1,15 +1,15 @@
 #include "app/cli/commands.h"
 #include "app/cli/inRange.h"
 
-#include "base/AtomicFile.h"
+#include "base/files/AtomicFile.h"
 #include "base/json.h"
 #include "base/oneLine.h"
-#include "exchange/openFrames.h"
+#include "noise/openFrames.h"
+#include "noise/pings/NormalisedPings.h"
 #include "plan/firstSettings.h"
 #include "plan/slopeUnit.h"
-#include "recording/Timeline.h"
-#include "recording/openTogether.h"
-#include "spectrum/NormalisedPings.h"
+#include "signal/Timeline.h"
+#include "signal/openTogether.h"
 
 #include <CLI/CLI.hpp>
 

@@ -3,10 +3,10 @@
 #include "app/cli/printSummary.h"
 #include "app/cli/provenance.h"
 
-#include "analysis/analyse.h"
-#include "analysis/chooseWindow.h"
-#include "base/AtomicFile.h"
+#include "analyse/analyse.h"
+#include "analyse/chooseWindow.h"
 #include "base/Error.h"
+#include "base/files/AtomicFile.h"
 #include "base/oneLine.h"
 #include "evaluate/comparison/compareAnalyses.h"
 #include "evaluate/comparison/differencePicture.h"

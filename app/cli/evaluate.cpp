@@ -1,9 +1,9 @@
 #include "app/cli/commands.h"
 #include "app/cli/inRange.h"
 
-#include "base/AtomicFile.h"
 #include "base/Error.h"
-#include "base/fileName.h"
+#include "base/files/AtomicFile.h"
+#include "base/files/fileName.h"
 #include "base/json.h"
 #include "base/oneLine.h"
 #include "evaluate/experiments/SweepTrials.h"
@@ -12,7 +12,7 @@
 #include "evaluate/experiments/sweepCurve.h"
 #include "exchange/CampaignFile.h"
 #include "exchange/writeChart.h"
-#include "recording/openRecording.h"
+#include "signal/openRecording.h"
 
 #include <CLI/CLI.hpp>
 

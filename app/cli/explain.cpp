@@ -1,14 +1,14 @@
 #include "app/cli/commands.h"
 #include "app/cli/printSummary.h"
 
-#include "analysis/analyse.h"
-#include "analysis/chooseWindow.h"
+#include "analyse/analyse.h"
+#include "analyse/chooseWindow.h"
 #include "base/json.h"
 #include "base/logmath.h"
 #include "base/oneLine.h"
-#include "exchange/openFrames.h"
 #include "inspect/explain.h"
 #include "inspect/familyTeeth.h"
+#include "noise/openFrames.h"
 
 #include <CLI/CLI.hpp>
 

@@ -1,13 +1,13 @@
 #include "app/cli/commands.h"
 #include "app/cli/inRange.h"
 
-#include "base/fileName.h"
+#include "base/files/fileName.h"
 #include "base/json.h"
 #include "base/numberText.h"
 #include "base/oneLine.h"
-#include "exchange/openFrames.h"
-#include "exchange/openPings.h"
-#include "spectrum/guessPingValues.h"
+#include "noise/openFrames.h"
+#include "noise/pings/guessPingValues.h"
+#include "noise/pings/openPings.h"
 
 #include <CLI/CLI.hpp>
 

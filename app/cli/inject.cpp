@@ -2,9 +2,9 @@
 #include "app/cli/inRange.h"
 #include "app/cli/provenance.h"
 
-#include "base/AtomicFile.h"
-#include "plan/scaledInjection.h"
-#include "recording/writeRecording.h"
+#include "base/files/AtomicFile.h"
+#include "evaluate/experiments/scaledInjection.h"
+#include "signal/formats/writeRecording.h"
 
 #include <CLI/CLI.hpp>
 

@@ -1,18 +1,18 @@
 #include "app/cli/commands.h"
 #include "app/cli/inRange.h"
 
-#include "base/AtomicFile.h"
+#include "base/files/AtomicFile.h"
+#include "base/files/keepNoHoles.h"
 #include "base/json.h"
-#include "base/keepNoHoles.h"
 #include "exchange/writeEvents.h"
 #include "live/EventCommand.h"
-#include "live/IqSource.h"
-#include "live/PipeSource.h"
-#include "live/RtlTcpSource.h"
-#include "live/SoundSource.h"
-#include "live/UdpSource.h"
 #include "live/eventLines.h"
 #include "live/listen.h"
+#include "live/sources/IqSource.h"
+#include "live/sources/PipeSource.h"
+#include "live/sources/RtlTcpSource.h"
+#include "live/sources/SoundSource.h"
+#include "live/sources/UdpSource.h"
 
 #include <CLI/CLI.hpp>
 

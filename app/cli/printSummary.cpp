@@ -1,17 +1,17 @@
 #include "app/cli/printSummary.h"
 
-#include "analysis/chooseWindow.h"
-#include "analysis/events.h"
-#include "analysis/regulation.h"
-#include "analysis/subtractLines.h"
+#include "analyse/chooseWindow.h"
+#include "analyse/events.h"
+#include "analyse/regulation.h"
 #include "base/numberText.h"
 #include "base/oneLine.h"
-#include "calibration/falseAlarmWords.h"
+#include "calibrate/falseAlarmWords.h"
 #include "detect/SumDetector.h"
 #include "detect/makeDetector.h"
 #include "detect/statisticDecimals.h"
 #include "inspect/advice.h"
 #include "inspect/noiseLaw.h"
+#include "refine/subtractLines.h"
 
 #include <cstdio>
 

@@ -1,7 +1,7 @@
 #include "app/cli/readProvenance.h"
 
 #include "base/Error.h"
-#include "base/fileName.h"
+#include "base/files/fileName.h"
 #include "base/json.h"
 
 #include <algorithm>

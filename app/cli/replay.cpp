@@ -3,16 +3,16 @@
 #include "app/cli/readProvenance.h"
 #include "app/cli/windowExport.h"
 
-#include "base/AtomicFile.h"
 #include "base/Error.h"
-#include "base/fileName.h"
+#include "base/files/AtomicFile.h"
+#include "base/files/fileName.h"
+#include "base/files/temporaries.h"
 #include "base/json.h"
 #include "base/oneLine.h"
-#include "base/temporaries.h"
-#include "calibration/CalibrationStore.h"
-#include "recording/SigmfRecording.h"
-#include "recording/Timeline.h"
-#include "recording/fileHash.h"
+#include "calibrate/CalibrationStore.h"
+#include "signal/Timeline.h"
+#include "signal/fileHash.h"
+#include "signal/formats/SigmfRecording.h"
 
 #include <CLI/CLI.hpp>
 

@@ -1,8 +1,8 @@
 #include "app/cli/commands.h"
 
 #include "base/Error.h"
-#include "evaluate/reproduce/reproduce.h"
-#include "exchange/writeReproduction.h"
+#include "reproduce/reproduce.h"
+#include "reproduce/writeReproduction.h"
 
 #include <CLI/CLI.hpp>
 

@@ -1,13 +1,13 @@
 #include "app/cli/commands.h"
 
-#include "analysis/analyse.h"
-#include "analysis/preparePlan.h"
-#include "base/AtomicFile.h"
+#include "analyse/analyse.h"
+#include "analyse/preparePlan.h"
+#include "base/files/AtomicFile.h"
 #include "base/json.h"
 #include "detect/Sprt.h"
 #include "detect/averagedStages.h"
 #include "exchange/ModelFile.h"
-#include "exchange/openFrames.h"
+#include "noise/openFrames.h"
 #include "plan/lineSequentialModel.h"
 
 #include <CLI/CLI.hpp>

@@ -2,14 +2,14 @@
 #include "app/cli/inRange.h"
 #include "app/cli/provenance.h"
 
-#include "base/AtomicFile.h"
+#include "base/files/AtomicFile.h"
 #include "base/json.h"
-#include "exchange/NumPy.h"
-#include "exchange/gridFile.h"
-#include "recording/ScanScene.h"
-#include "recording/SimulatedRecording.h"
-#include "recording/writeRecording.h"
-#include "spectrum/SimulatedPings.h"
+#include "scene/ScanScene.h"
+#include "scene/SimulatedPings.h"
+#include "scene/SimulatedRecording.h"
+#include "signal/formats/NumPy.h"
+#include "signal/formats/gridFile.h"
+#include "signal/formats/writeRecording.h"
 
 #include <CLI/CLI.hpp>
 

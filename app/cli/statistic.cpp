@@ -1,10 +1,10 @@
 #include "app/cli/commands.h"
 
-#include "base/AtomicFile.h"
+#include "base/files/AtomicFile.h"
 #include "exchange/ModelFile.h"
-#include "exchange/NumPy.h"
-#include "exchange/openFrames.h"
-#include "exchange/openPings.h"
+#include "noise/openFrames.h"
+#include "noise/pings/openPings.h"
+#include "signal/formats/NumPy.h"
 
 #include <CLI/CLI.hpp>
 

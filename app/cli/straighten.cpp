@@ -3,13 +3,13 @@
 #include "app/cli/printSummary.h"
 #include "app/cli/provenance.h"
 
-#include "analysis/chooseWindow.h"
-#include "analysis/events.h"
-#include "analysis/subtractLines.h"
-#include "base/AtomicFile.h"
+#include "analyse/chooseWindow.h"
+#include "analyse/events.h"
 #include "base/Field.h"
+#include "base/files/AtomicFile.h"
 #include "inspect/straighten.h"
-#include "recording/writeRecording.h"
+#include "refine/subtractLines.h"
+#include "signal/formats/writeRecording.h"
 
 #include <CLI/CLI.hpp>
 

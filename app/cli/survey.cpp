@@ -2,7 +2,7 @@
 #include "app/cli/inRange.h"
 
 #include "base/Error.h"
-#include "base/fileName.h"
+#include "base/files/fileName.h"
 #include "base/oneLine.h"
 #include "base/utc.h"
 #include "exchange/survey/carryOutSurvey.h"

@@ -1,18 +1,18 @@
 #include "app/cli/windowExport.h"
 
-#include "analysis/analyse.h"
-#include "base/fileName.h"
+#include "analyse/analyse.h"
+#include "base/files/fileName.h"
 #include "base/readingJson.h"
 #include "exchange/CampaignFile.h"
+#include "exchange/Session.h"
 #include "exchange/writeDoppler.h"
 #include "exchange/writeEvents.h"
 #include "exchange/writeReviewed.h"
 #include "inspect/Review.h"
 #include "inspect/straighten.h"
-#include "recording/Timeline.h"
-#include "recording/openRecording.h"
-#include "recording/writeRecording.h"
-#include "session/Session.h"
+#include "signal/Timeline.h"
+#include "signal/formats/writeRecording.h"
+#include "signal/openRecording.h"
 
 #include <filesystem>
 #include <numeric>

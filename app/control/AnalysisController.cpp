@@ -1,13 +1,13 @@
 #include "app/control/AnalysisController.h"
 
-#include "analysis/chooseWindow.h"
+#include "analyse/chooseWindow.h"
 #include "app/base/filePath.h"
-#include "calibration/calibrate.h"
-#include "plan/scaledInjection.h"
+#include "calibrate/calibrate.h"
+#include "evaluate/experiments/scaledInjection.h"
+#include "exchange/Session.h"
+#include "noise/noiseMean.h"
+#include "noise/pings/NormalisedPings.h"
 #include "plan/slopeUnit.h"
-#include "session/Session.h"
-#include "spectrum/NormalisedPings.h"
-#include "spectrum/noiseMean.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "app/document/Document.h"
 #include "evaluate/comparison/compareAnalyses.h"
 #include "evaluate/comparison/settingDifferences.h"
-#include "spectrum/PeakPyramid.h"
+#include "frames/PeakPyramid.h"
 
 #include <QObject>
 

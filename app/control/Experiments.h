@@ -3,7 +3,7 @@
 #include "app/base/JobRunner.h"
 #include "evaluate/experiments/InjectionTrials.h"
 #include "evaluate/experiments/campaignCurve.h"
-#include "evaluate/reproduce/reproduce.h"
+#include "reproduce/reproduce.h"
 
 #include <QObject>
 #include <QString>

@@ -2,7 +2,7 @@
 
 #include "app/document/Document.h"
 #include "inspect/straighten.h"
-#include "spectrum/BandRecording.h"
+#include "signal/BandRecording.h"
 
 #include <QActionGroup>
 #include <QMenu>

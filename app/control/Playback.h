@@ -1,10 +1,10 @@
 #pragma once
 
-#include "analysis/Analysis.h"
-#include "analysis/events.h"
+#include "analyse/events.h"
 #include "app/base/JobRunner.h"
 #include "base/Error.h"
 #include "live/Player.h"
+#include "plan/Analysis.h"
 #include "widgets/base/Span.h"
 
 #include <QObject>

@@ -1,6 +1,6 @@
 #include "app/control/SceneEditor.h"
 
-#include "recording/PingTruth.h"
+#include "scene/PingTruth.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/document/Document.h"
-#include "recording/editTargets.h"
+#include "scene/editTargets.h"
 #include "widgets/pings/PingViewports.h"
 #include "widgets/pings/TargetShape.h"
 

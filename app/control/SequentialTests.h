@@ -4,8 +4,8 @@
 #include "detect/inspectStages.h"
 #include "evaluate/sequential/ScanTest.h"
 #include "evaluate/sequential/scanCurves.h"
+#include "frames/NormalisedFrames.h"
 #include "plan/AnalysisSettings.h"
-#include "spectrum/NormalisedFrames.h"
 
 #include <QObject>
 #include <QString>

@@ -1,6 +1,6 @@
 #include "app/control/trackBox.h"
 
-#include "analysis/Analysis.h"
+#include "plan/Analysis.h"
 
 #include <algorithm>
 

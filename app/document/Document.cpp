@@ -1,7 +1,7 @@
 #include "app/document/Document.h"
 
+#include "exchange/Session.h"
 #include "plan/slopeUnit.h"
-#include "session/Session.h"
 
 #include <QUndoCommand>
 

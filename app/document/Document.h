@@ -1,9 +1,9 @@
 #pragma once
 
-#include "analysis/analyse.h"
+#include "analyse/analyse.h"
 #include "app/base/filePath.h"
 #include "app/document/sourceAt.h"
-#include "base/InputFiles.h"
+#include "base/files/InputFiles.h"
 #include "inspect/Review.h"
 #include "live/LiveHistory.h"
 #include "widgets/base/Viewport.h"

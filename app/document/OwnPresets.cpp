@@ -1,7 +1,7 @@
 #include "app/document/OwnPresets.h"
 
 #include "app/base/filePath.h"
-#include "base/AtomicFile.h"
+#include "base/files/AtomicFile.h"
 
 #include <QDir>
 #include <QFile>

@@ -1,9 +1,9 @@
 #include "app/document/Provenance.h"
 
 #include "app/base/filePath.h"
-#include "base/AtomicFile.h"
-#include "recording/openRecording.h"
-#include "session/Session.h"
+#include "base/files/AtomicFile.h"
+#include "exchange/Session.h"
+#include "signal/openRecording.h"
 
 #include <filesystem>
 #include <utility>

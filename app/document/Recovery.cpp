@@ -1,7 +1,7 @@
 #include "app/document/Recovery.h"
 
 #include "app/base/filePath.h"
-#include "session/Session.h"
+#include "exchange/Session.h"
 
 #include <QDir>
 #include <QFile>

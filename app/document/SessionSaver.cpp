@@ -1,7 +1,7 @@
 #include "app/document/SessionSaver.h"
 
 #include "app/base/filePath.h"
-#include "session/Session.h"
+#include "exchange/Session.h"
 #include "widgets/base/labelText.h"
 
 #include <QFileDialog>

@@ -2,7 +2,7 @@
 
 #include "app/base/filePath.h"
 #include "app/base/tr.h"
-#include "base/fileName.h"
+#include "base/files/fileName.h"
 #include "exchange/survey/findRecordings.h"
 
 #include <QCoreApplication>

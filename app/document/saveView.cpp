@@ -2,8 +2,8 @@
 
 #include "app/base/filePath.h"
 #include "app/document/Provenance.h"
-#include "base/AtomicFile.h"
-#include "base/fileName.h"
+#include "base/files/AtomicFile.h"
+#include "base/files/fileName.h"
 
 #include <QBuffer>
 #include <QCoreApplication>

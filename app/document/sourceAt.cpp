@@ -3,8 +3,8 @@
 #include "app/base/filePath.h"
 #include "base/json.h"
 #include "plan/firstSettings.h"
-#include "recording/AudioRecording.h"
-#include "recording/RawRecording.h"
+#include "signal/formats/AudioRecording.h"
+#include "signal/formats/RawRecording.h"
 
 namespace faintline {
 

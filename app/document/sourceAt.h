@@ -1,7 +1,7 @@
 #pragma once
 
+#include "analyse/Source.h"
 #include "app/document/FrameKind.h"
-#include "session/Source.h"
 
 #include <QString>
 

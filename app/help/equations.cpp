@@ -170,7 +170,7 @@ const std::vector<Equation> &equations()
         make("targets", "Path of a simulated target", "p(k+1) = p(k) + [ v(k) + v(k+1) ] / 2  on each axis",
              "k  pings since the target appeared\n"
              "v  rate of the leg; over its turn, between that of the leg before and its own",
-             "recording/PingScene.h"),
+             "scene/PingScene.h"),
         make("hand", "A line drawn by hand",
              "Σ λ(y(t, f(t)))  over its frames\n"
              "SNR per frame = mean y − 1",

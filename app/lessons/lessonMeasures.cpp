@@ -8,7 +8,7 @@
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
 #include "base/Error.h"
-#include "spectrum/NoiseNormaliser.h"
+#include "noise/NoiseNormaliser.h"
 
 #include <algorithm>
 #include <functional>

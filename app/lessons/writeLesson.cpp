@@ -6,9 +6,9 @@
 #include "app/views/WindowParts.h"
 #include "app/views/WindowViews.h"
 #include "app/workspace/Bench.h"
-#include "base/AtomicFile.h"
+#include "base/files/AtomicFile.h"
 #include "base/json.h"
-#include "session/Session.h"
+#include "exchange/Session.h"
 
 #include <QDir>
 #include <QDockWidget>

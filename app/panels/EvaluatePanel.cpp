@@ -4,7 +4,7 @@
 #include "app/panels/ExperimentForm.h"
 #include "app/panels/StartColumn.h"
 #include "evaluate/experiments/campaignCharts.h"
-#include "spectrum/Spectrogram.h"
+#include "frames/Spectrogram.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 #include "widgets/plot/ChartPlot.h"

@@ -2,10 +2,10 @@
 
 #include "app/base/filePath.h"
 #include "app/document/Provenance.h"
-#include "base/fileName.h"
+#include "base/files/fileName.h"
 #include "base/json.h"
 #include "exchange/CampaignFile.h"
-#include "exchange/writeReproduction.h"
+#include "reproduce/writeReproduction.h"
 #include "widgets/base/labelText.h"
 
 #include <QFileDialog>

@@ -7,13 +7,13 @@
 #include "app/document/statisticUnit.h"
 #include "app/panels/NoiseCheck.h"
 #include "base/utc.h"
-#include "spectrum/NoiseNormaliser.h"
+#include "noise/NoiseNormaliser.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 
-#include "analysis/subtractLines.h"
 #include "base/numberText.h"
-#include "calibration/falseAlarmWords.h"
+#include "calibrate/falseAlarmWords.h"
+#include "refine/subtractLines.h"
 
 #include <QCoreApplication>
 #include <QLabel>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "recording/LineScene.h"
-#include "recording/Recording.h"
+#include "scene/LineScene.h"
+#include "signal/Recording.h"
 
 #include <QDialog>
 

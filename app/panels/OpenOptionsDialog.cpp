@@ -3,8 +3,8 @@
 #include "app/base/filePath.h"
 #include "app/panels/sampleTypeBox.h"
 #include "base/Error.h"
-#include "recording/RawRecording.h"
-#include "recording/SampleType.h"
+#include "signal/formats/RawRecording.h"
+#include "signal/formats/SampleType.h"
 #include "widgets/base/labelText.h"
 
 #include <QCheckBox>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "recording/openRecording.h"
+#include "signal/openRecording.h"
 
 #include <QDialog>
 

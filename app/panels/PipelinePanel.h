@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/WindowChoice.h"
+#include "plan/WindowChoice.h"
 
 #include <QWidget>
 

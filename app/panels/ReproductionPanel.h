@@ -1,6 +1,6 @@
 #pragma once
 
-#include "evaluate/reproduce/reproduce.h"
+#include "reproduce/reproduce.h"
 
 #include <QWidget>
 

@@ -2,7 +2,7 @@
 
 #include "app/base/tr.h"
 #include "app/document/FrameKind.h"
-#include "spectrum/pictureCuts.h"
+#include "frames/pictureCuts.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 

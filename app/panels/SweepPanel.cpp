@@ -4,7 +4,7 @@
 #include "app/panels/StartColumn.h"
 #include "app/panels/SweepForm.h"
 #include "evaluate/experiments/SweepTrials.h"
-#include "spectrum/NoiseNormaliser.h"
+#include "noise/NoiseNormaliser.h"
 #include "widgets/plot/ChartPlot.h"
 
 #include <QHBoxLayout>

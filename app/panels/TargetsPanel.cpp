@@ -3,7 +3,7 @@
 #include "app/base/filePath.h"
 #include "app/base/readingTable.h"
 #include "app/panels/TargetModel.h"
-#include "base/AtomicFile.h"
+#include "base/files/AtomicFile.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
 #include "widgets/pings/PingMap.h"

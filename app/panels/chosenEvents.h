@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/events.h"
+#include "analyse/events.h"
 
 #include <vector>
 

@@ -4,12 +4,12 @@
 #include "app/base/tr.h"
 #include "app/panels/sampleTypeBox.h"
 #include "base/Error.h"
-#include "live/IqSource.h"
-#include "live/PipeSource.h"
-#include "live/RtlTcpSource.h"
-#include "live/SoundSource.h"
-#include "live/UdpSource.h"
-#include "live/soundDevices.h"
+#include "live/sources/IqSource.h"
+#include "live/sources/PipeSource.h"
+#include "live/sources/RtlTcpSource.h"
+#include "live/sources/SoundSource.h"
+#include "live/sources/UdpSource.h"
+#include "live/sources/soundDevices.h"
 
 #include <QCheckBox>
 #include <QComboBox>

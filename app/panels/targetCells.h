@@ -1,6 +1,6 @@
 #pragma once
 
-#include "recording/editTargets.h"
+#include "scene/editTargets.h"
 
 #include <QString>
 

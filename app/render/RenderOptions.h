@@ -2,7 +2,7 @@
 
 #include "app/cli/PartOptions.h"
 #include "base/json.h"
-#include "recording/openRecording.h"
+#include "signal/openRecording.h"
 
 #include <QSize>
 

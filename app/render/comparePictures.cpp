@@ -1,8 +1,8 @@
 #include "app/render/comparePictures.h"
 
 #include "app/render/readPicture.h"
-#include "base/AtomicFile.h"
 #include "base/Error.h"
+#include "base/files/AtomicFile.h"
 #include "widgets/plot/ColourMap.h"
 
 #include <QBuffer>

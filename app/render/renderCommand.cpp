@@ -15,11 +15,11 @@
 #include "app/window/MainWindow.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
-#include "base/AtomicFile.h"
-#include "base/InputFiles.h"
-#include "base/fileName.h"
+#include "base/files/AtomicFile.h"
+#include "base/files/InputFiles.h"
+#include "base/files/fileName.h"
 #include "base/json.h"
-#include "session/Session.h"
+#include "exchange/Session.h"
 #include "widgets/pings/PingMap.h"
 
 #include <QApplication>

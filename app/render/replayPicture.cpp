@@ -9,12 +9,12 @@
 #include "app/render/renderCommand.h"
 #include "app/render/settleViews.h"
 #include "app/window/MainWindow.h"
-#include "base/AtomicFile.h"
+#include "base/files/AtomicFile.h"
 #include "base/oneLine.h"
 #include "base/readingJson.h"
 #include "base/wholeNumber.h"
-#include "calibration/CalibrationStore.h"
-#include "session/Session.h"
+#include "calibrate/CalibrationStore.h"
+#include "exchange/Session.h"
 
 #include <QDir>
 #include <QFileInfo>

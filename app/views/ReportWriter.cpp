@@ -5,7 +5,7 @@
 #include "app/document/Document.h"
 #include "app/document/Provenance.h"
 #include "app/views/WindowViews.h"
-#include "base/AtomicFile.h"
+#include "base/files/AtomicFile.h"
 #include "widgets/base/Theme.h"
 
 #include <QApplication>

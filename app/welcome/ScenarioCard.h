@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/analyse.h"
+#include "analyse/analyse.h"
 #include "app/document/scenarios.h"
 #include "app/document/sourceAt.h"
 #include "app/welcome/Card.h"

@@ -1,6 +1,6 @@
 #include "app/welcome/WelcomePage.h"
 
-#include "analysis/analyse.h"
+#include "analyse/analyse.h"
 #include "app/base/distinctLabels.h"
 #include "app/base/filePath.h"
 #include "app/welcome/ScanCard.h"

@@ -36,7 +36,7 @@
 #include "app/window/currentView.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
-#include "spectrum/NoiseNormaliser.h"
+#include "noise/NoiseNormaliser.h"
 #include "widgets/base/ReadOut.h"
 #include "widgets/base/familyWords.h"
 #include "widgets/events/EventTable.h"

@@ -8,7 +8,7 @@
 #include "app/panels/LearnMotionDialog.h"
 #include "app/panels/StraightenDialog.h"
 #include "app/panels/chosenEvents.h"
-#include "spectrum/Spectrogram.h"
+#include "frames/Spectrogram.h"
 
 namespace faintline {
 

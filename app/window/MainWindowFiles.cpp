@@ -22,7 +22,7 @@
 #include "app/window/Panels.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
-#include "base/AtomicFile.h"
+#include "base/files/AtomicFile.h"
 #include "widgets/base/labelText.h"
 #include "widgets/plot/WalkPlot.h"
 

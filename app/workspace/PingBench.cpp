@@ -6,7 +6,7 @@
 #include "app/workspace/PingRegulation.h"
 #include "app/workspace/pingReading.h"
 #include "app/workspace/strongestPlace.h"
-#include "spectrum/pictureCuts.h"
+#include "frames/pictureCuts.h"
 #include "widgets/base/TimeStack.h"
 #include "widgets/base/labelText.h"
 #include "widgets/pings/PingMap.h"

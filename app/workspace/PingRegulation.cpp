@@ -1,6 +1,6 @@
 #include "app/workspace/PingRegulation.h"
 
-#include "analysis/regulation.h"
+#include "analyse/regulation.h"
 #include "app/document/FrameKind.h"
 #include "app/workspace/RegulationPlot.h"
 

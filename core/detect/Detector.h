@@ -1,6 +1,6 @@
 #pragma once
 
-#include "detect/CellBox.h"
+#include "base/CellBox.h"
 #include "model/StateSpace.h"
 
 #include <memory>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/RunContext.h"
-#include "detect/Recursion.h"
 #include "model/SequentialModel.h"
+#include "recursion/Recursion.h"
 
 #include <functional>
 #include <map>

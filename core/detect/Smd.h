@@ -3,8 +3,8 @@
 #include "base/Field.h"
 #include "base/LargeVector.h"
 #include "detect/PathDetector.h"
-#include "detect/Recursion.h"
 #include "model/MarkovModel.h"
+#include "recursion/Recursion.h"
 
 #include <array>
 #include <optional>

@@ -2,9 +2,9 @@
 
 #include "base/Field.h"
 #include "base/RunContext.h"
-#include "detect/Recursion.h"
+#include "frames/NormalisedFrames.h"
 #include "model/SequentialModel.h"
-#include "spectrum/NormalisedFrames.h"
+#include "recursion/Recursion.h"
 
 #include <array>
 #include <functional>

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "detect/PathDetector.h"
-#include "detect/Recursion.h"
 #include "detect/Smd.h"
 #include "model/MarkovModel.h"
+#include "recursion/Recursion.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #include "detect/averagedStages.h"
 
 #include "base/Error.h"
-#include "spectrum/cellAveraging.h"
+#include "detect/cellAveraging.h"
 
 #include <algorithm>
 #include <cmath>

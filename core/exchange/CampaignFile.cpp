@@ -1,9 +1,9 @@
 #include "exchange/CampaignFile.h"
 #include "evaluate/experiments/campaignCurve.h"
 
-#include "base/AtomicFile.h"
 #include "base/Error.h"
-#include "base/checksum.h"
+#include "base/files/AtomicFile.h"
+#include "base/files/checksum.h"
 #include "base/oneLine.h"
 #include "base/readingJson.h"
 #include "evaluate/experiments/sweepCurve.h"

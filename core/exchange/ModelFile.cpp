@@ -2,7 +2,7 @@
 
 #include "base/json.h"
 #include "detect/SumDetector.h"
-#include "exchange/jsonFields.h"
+#include "signal/formats/jsonFields.h"
 
 #include <algorithm>
 #include <cmath>

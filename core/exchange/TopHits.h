@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/Analysis.h"
+#include "plan/Analysis.h"
 
 #include <optional>
 #include <string>

@@ -1,8 +1,8 @@
 #include "exchange/annotateRecording.h"
 
-#include "base/AtomicFile.h"
+#include "base/files/AtomicFile.h"
 #include "base/readingJson.h"
-#include "recording/SigmfRecording.h"
+#include "signal/formats/SigmfRecording.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -4,9 +4,9 @@
 #include "base/readingJson.h"
 #include "exchange/annotationText.h"
 #include "exchange/textTable.h"
-#include "recording/Timeline.h"
-#include "recording/openRecording.h"
-#include "recording/timeInName.h"
+#include "signal/Timeline.h"
+#include "signal/openRecording.h"
+#include "signal/timeInName.h"
 
 #include <algorithm>
 #include <cctype>

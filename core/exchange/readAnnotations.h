@@ -1,7 +1,7 @@
 #pragma once
 
 #include "inspect/Review.h"
-#include "recording/Recording.h"
+#include "signal/Recording.h"
 
 #include <string>
 #include <vector>

@@ -1,12 +1,12 @@
 #include "exchange/reviewedText.h"
 
 #include "base/Field.h"
-#include "base/fileName.h"
+#include "base/files/fileName.h"
 #include "base/utc.h"
 #include "exchange/annotationText.h"
-#include "recording/AudioDecoder.h"
-#include "recording/RawRecording.h"
-#include "recording/SigmfRecording.h"
+#include "signal/formats/AudioDecoder.h"
+#include "signal/formats/RawRecording.h"
+#include "signal/formats/SigmfRecording.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 
 #include "base/json.h"
 #include "inspect/Review.h"
-#include "recording/Recording.h"
+#include "signal/Recording.h"
 
 #include <optional>
 #include <string>

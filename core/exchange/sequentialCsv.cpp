@@ -4,7 +4,7 @@ namespace faintline {
 
 namespace {
 
-    std::string nameOf(SprtDecision decision)
+    std::string nameOfDecision(SprtDecision decision)
     {
         return std::string(sprtDecisionNames[std::size_t(decision)]);
     }
@@ -21,7 +21,7 @@ std::string walksCsv(const std::vector<std::pair<ScanRun, SprtResult>> &walks, b
                                                : "H0")
                    + "," + std::to_string(run.number) + "," + std::to_string(i + 1) + ","
                    + formatNumber(result.lnLambda[i]) + ","
-                   + (i + 1 == result.lnLambda.size() ? nameOf(result.decision) : "") + "\n";
+                   + (i + 1 == result.lnLambda.size() ? nameOfDecision(result.decision) : "") + "\n";
     return csv;
 }
 
@@ -42,7 +42,7 @@ std::string surveyCsv(const ScanTest &test, const Survey &survey)
     for (const SectorVisit &visit : survey.visits)
         csv += std::to_string(visit.round + 1) + "," + std::to_string(visit.sector + 1) + ","
                + (holdsTarget(test, visit.sector) ? "1" : "0") + "," + std::to_string(visit.firstStage) + ","
-               + std::to_string(visit.result.stages) + "," + nameOf(visit.result.decision) + "\n";
+               + std::to_string(visit.result.stages) + "," + nameOfDecision(visit.result.decision) + "\n";
     return csv;
 }
 

@@ -1,9 +1,9 @@
 #include "exchange/writeComparison.h"
 
-#include "base/AtomicFile.h"
 #include "base/Error.h"
-#include "exchange/NumPy.h"
+#include "base/files/AtomicFile.h"
 #include "exchange/positionNames.h"
+#include "signal/formats/NumPy.h"
 
 #include <functional>
 
@@ -11,7 +11,7 @@ namespace faintline {
 
 namespace {
 
-    const char *nameOf(ComparedEvent::In in)
+    const char *nameOfSide(ComparedEvent::In in)
     {
         return in == ComparedEvent::In::A ? "A" : in == ComparedEvent::In::B ? "B" : "both";
     }
@@ -27,7 +27,7 @@ namespace {
         const auto id = [](const Event &e) { return double(e.id); };
         const auto detected = [](const Event &e) { return e.detectSeconds; };
         const auto statistic = [](const Event &e) { return e.statistic; };
-        std::string text = nameOf(compared.in());
+        std::string text = nameOfSide(compared.in());
         const auto add = [&text](const std::string &word) { text += "," + word; };
         add(cell(compared.a, id));
         add(cell(compared.b, id));

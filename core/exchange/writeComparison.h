@@ -1,7 +1,6 @@
 #pragma once
 
 #include "evaluate/comparison/compareAnalyses.h"
-#include "spectrum/PeakPyramid.h"
 
 #include <string>
 

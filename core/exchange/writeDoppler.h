@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/events.h"
+#include "analyse/events.h"
 #include "evaluate/experiments/Chart.h"
 #include "inspect/doppler/DopplerPass.h"
 #include "inspect/doppler/dopplerTrack.h"

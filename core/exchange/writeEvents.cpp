@@ -1,12 +1,12 @@
 #include "exchange/writeEvents.h"
 
-#include "analysis/secondLook.h"
-#include "base/AtomicFile.h"
+#include "base/files/AtomicFile.h"
 #include "base/json.h"
 #include "base/logmath.h"
 #include "detect/statisticDecimals.h"
 #include "exchange/positionNames.h"
 #include "exchange/reviewedText.h"
+#include "refine/secondLook.h"
 
 #include <algorithm>
 #include <cmath>

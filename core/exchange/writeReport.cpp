@@ -3,7 +3,6 @@
 #include "base/numberText.h"
 #include "base/utc.h"
 #include "detect/statisticDecimals.h"
-#include "spectrum/NormalisedFrames.h"
 
 #include <algorithm>
 #include <cmath>
@@ -106,7 +105,7 @@ namespace {
     }
 
     /// A row whose first `count` cells are numbers.
-    std::string numbers(const std::vector<std::string> &texts, std::size_t count, const char *tag = "td")
+    std::string rowOfNumbers(const std::vector<std::string> &texts, std::size_t count, const char *tag = "td")
     {
         std::string row = "<tr>";
         for (std::size_t i = 0; i < texts.size(); ++i)
@@ -225,7 +224,7 @@ namespace {
         names.push_back("D (" + std::string(statisticUnit(analysis.settings.detector)) + ")");
         const std::size_t numeric = names.size();
         names.insert(names.end(), {"State", "Review", "Note"});
-        std::string text = "<table class=\"numbers\">\n" + numbers(names, numeric, "th");
+        std::string text = "<table class=\"numbers\">\n" + rowOfNumbers(names, numeric, "th");
         const std::vector<EventReview> said = eventReviews(analysis, material.events, material.annotations.reviews);
         for (std::size_t i = 0; i < material.events.size(); ++i) {
             const Event &event = material.events[i];
@@ -245,7 +244,7 @@ namespace {
                        {fixed(event.statistic, statisticDecimals(analysis.settings.detector)),
                         std::string(event.isConfirmed ? "confirmed" : "tentative") + (event.isOpen ? ", open" : ""),
                         review, said[i].note});
-            std::string line = numbers(row, numeric);
+            std::string line = rowOfNumbers(row, numeric);
             if (said[i].verdict == Verdict::Rejected)
                 line.insert(3, " class=\"rejected\"");
             text += line;
@@ -260,14 +259,14 @@ namespace {
             return {};
         const std::string &unit = analysis.grid().axes.back().unit;
         const int time = decimalsOn(analysis.time(), 2), frequency = decimalsOn(analysis.grid().axes.back(), 2);
-        std::string text =
-            "<h2>Areas of raised level without a line</h2>\n<table class=\"numbers\">\n"
-            + numbers({"From (s)", "To (s)", inUnit("Lowest", unit), inUnit("Highest", unit), "Level, at least (dB)"},
-                      5, "th");
+        std::string text = "<h2>Areas of raised level without a line</h2>\n<table class=\"numbers\">\n"
+                           + rowOfNumbers({"From (s)", "To (s)", inUnit("Lowest", unit), inUnit("Highest", unit),
+                                           "Level, at least (dB)"},
+                                          5, "th");
         for (const AreaEvent &area : areas)
-            text += numbers({fixed(area.onsetSeconds, time), fixed(area.endSeconds, time), fixed(area.low, frequency),
-                             fixed(area.high, frequency), fixed(area.levelDb, 1)},
-                            5);
+            text += rowOfNumbers({fixed(area.onsetSeconds, time), fixed(area.endSeconds, time),
+                                  fixed(area.low, frequency), fixed(area.high, frequency), fixed(area.levelDb, 1)},
+                                 5);
         return text + "</table>\n";
     }
 
@@ -277,12 +276,12 @@ namespace {
             return {};
         std::string text =
             "<h2>Annotations</h2>\n<table class=\"numbers\">\n"
-            + numbers({"From (s)", "To (s)", "Lowest (Hz)", "Highest (Hz)", "Label", "Review", "Note"}, 4, "th");
+            + rowOfNumbers({"From (s)", "To (s)", "Lowest (Hz)", "Highest (Hz)", "Label", "Review", "Note"}, 4, "th");
         for (const Annotation &box : boxes)
-            text +=
-                numbers({fixed(box.startSeconds, 2), fixed(box.endSeconds, 2), box.lowHz ? fixed(*box.lowHz, 2) : "",
-                         box.highHz ? fixed(*box.highHz, 2) : "", box.label, nameOf(box.verdict), box.note},
-                        4);
+            text += rowOfNumbers({fixed(box.startSeconds, 2), fixed(box.endSeconds, 2),
+                                  box.lowHz ? fixed(*box.lowHz, 2) : "", box.highHz ? fixed(*box.highHz, 2) : "",
+                                  box.label, nameOf(box.verdict), box.note},
+                                 4);
         return text + "</table>\n";
     }
 
@@ -304,13 +303,13 @@ namespace {
         for (const Axis &axis : axes)
             names.push_back(inUnit(capitalised(axis.name), axis.unit));
         names.insert(names.end(), {"ln likelihood ratio", "ln P(transition)", "ln K", "Sum (nat)"});
-        text += "<table class=\"numbers\">\n" + numbers(names, names.size(), "th");
+        text += "<table class=\"numbers\">\n" + rowOfNumbers(names, names.size(), "th");
         const std::size_t first = why.steps.size() > mostRungs ? why.steps.size() - mostRungs : 0;
         if (first > 0) {
             std::vector<std::string> row{std::to_string(first) + " frames before"};
             row.resize(names.size() - 1);
             row.push_back(fixed(why.steps[first - 1].score, 4));
-            text += numbers(row, row.size());
+            text += rowOfNumbers(row, row.size());
         }
         for (std::size_t i = first; i < why.steps.size(); ++i) {
             const PathStep &step = why.steps[i];
@@ -321,7 +320,7 @@ namespace {
                 row.push_back(fixed(position[axis], decimalsOn(analysis.grid().axes[axis], 3)));
             row.insert(row.end(), {fixed(step.logLikelihoodRatio, 4), fixed(step.lnTransition, 4), fixed(step.lnK, 4),
                                    fixed(step.score, 4)});
-            text += numbers(row, row.size());
+            text += rowOfNumbers(row, row.size());
         }
         text += "</table>\n";
         if (why.offset != 0.0)

@@ -1,6 +1,6 @@
 #include "exchange/writeReviewed.h"
 
-#include "base/AtomicFile.h"
+#include "base/files/AtomicFile.h"
 #include "base/oneLine.h"
 #include "exchange/csvText.h"
 #include "exchange/positionNames.h"
@@ -71,7 +71,7 @@ namespace {
         return text;
     }
 
-    Json jsonOf(const ReviewedRow &row, const Grid &grid)
+    Json jsonOfRow(const ReviewedRow &row, const Grid &grid)
     {
         Json json = Json::object();
         if (const Event *e = row.event) {
@@ -106,7 +106,7 @@ namespace {
                      {"settings", parseJson(settingsToJson(analysis.settings), "settings")}};
         json["events"] = Json::array();
         for (const ReviewedRow &row : rows)
-            json["events"].push_back(jsonOf(row, analysis.grid()));
+            json["events"].push_back(jsonOfRow(row, analysis.grid()));
         return json.dump(2) + "\n";
     }
 

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "analysis/Analysis.h"
 #include "base/Checkpoints.h"
-#include "track/DetectionChain.h"
+#include "plan/Analysis.h"
 
 #include <cstddef>
 #include <memory>

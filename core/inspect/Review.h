@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/analyse.h"
+#include "analyse/analyse.h"
 #include "base/json.h"
 
 #include <optional>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/Analysis.h"
 #include "base/RunContext.h"
+#include "plan/Analysis.h"
 
 #include <optional>
 #include <string>
@@ -44,7 +44,7 @@ std::optional<Advice> adviceOnConstantCells(const Analysis &analysis, const RunC
 /// is lost. Cost: reads some 200 frames of each. Throws Cancelled.
 std::optional<Advice> adviceOnChannels(const Analysis &analysis, const RunContext &context = {});
 
-/// Stop bands of filters, which are excluded (spectrum/stopBands.h), in Hz.
+/// Stop bands of filters, which are excluded (noise/stopBands.h), in Hz.
 std::optional<Advice> adviceOnStopBands(const Analysis &analysis);
 
 /// Recordings of silence, in which there is nothing to find.

@@ -1,10 +1,10 @@
 #include "inspect/advice.h"
 
-#include "analysis/events.h"
-#include "analysis/sureStatistic.h"
+#include "analyse/events.h"
 #include "base/numberText.h"
 #include "base/oneLine.h"
-#include "spectrum/Spectrogram.h"
+#include "frames/Spectrogram.h"
+#include "plan/sureStatistic.h"
 
 #include <algorithm>
 #include <cmath>

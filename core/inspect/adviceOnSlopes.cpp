@@ -1,9 +1,9 @@
 #include "inspect/advice.h"
 
-#include "analysis/events.h"
-#include "analysis/sureStatistic.h"
+#include "analyse/events.h"
 #include "base/driftWords.h"
-#include "spectrum/Spectrogram.h"
+#include "frames/Spectrogram.h"
+#include "plan/sureStatistic.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "inspect/advice.h"
 
-#include "analysis/usable.h"
+#include "analyse/usable.h"
 
 #include <cmath>
 

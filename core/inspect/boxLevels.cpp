@@ -1,8 +1,8 @@
 #include "inspect/boxLevels.h"
 
 #include "base/Error.h"
+#include "noise/levels.h"
 #include "plan/Calibration.h"
-#include "spectrum/levels.h"
 
 #include <algorithm>
 #include <cmath>

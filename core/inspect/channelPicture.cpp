@@ -1,7 +1,7 @@
 #include "inspect/channelPicture.h"
 
-#include "analysis/preparePlan.h"
-#include "analysis/usable.h"
+#include "analyse/preparePlan.h"
+#include "analyse/usable.h"
 #include "base/Error.h"
 #include "inspect/closeup.h"
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "base/RunContext.h"
+#include "frames/PeakPyramid.h"
 #include "plan/AnalysisSettings.h"
-#include "recording/Recording.h"
-#include "spectrum/PeakPyramid.h"
+#include "signal/Recording.h"
 
 #include <memory>
 

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "analysis/analyse.h"
-#include "detect/PathTrace.h"
+#include "analyse/analyse.h"
 
 #include <optional>
 #include <vector>

@@ -1,8 +1,8 @@
 #include "inspect/familyTeeth.h"
 
 #include "base/Error.h"
-#include "spectrum/Spectrogram.h"
-#include "spectrum/familyMembers.h"
+#include "frames/Spectrogram.h"
+#include "frames/familyMembers.h"
 
 #include <algorithm>
 #include <cmath>

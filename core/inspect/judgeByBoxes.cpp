@@ -7,7 +7,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr double leastShare = 0.5;
+    constexpr double leastShareInBox = 0.5;
     constexpr double toleranceBins = 2.0;
 
     bool isOf(const Annotation &box, const Event &event, const Analysis &analysis)
@@ -15,7 +15,7 @@ namespace {
         const double from = std::max(box.startSeconds, event.onsetSeconds);
         const double to = std::min(box.endSeconds, event.endSeconds);
         const double shorter = std::min(box.endSeconds - box.startSeconds, event.endSeconds - event.onsetSeconds);
-        if (to < from || to - from < leastShare * shorter)
+        if (to < from || to - from < leastShareInBox * shorter)
             return false;
         const Track *track = trackOfId(analysis.tracks, event.id);
         if (!track || !box.lowHz)
@@ -33,7 +33,7 @@ namespace {
             ++there;
             inside += hz >= *box.lowHz - margin && hz <= *box.highHz + margin ? 1 : 0;
         }
-        return there > 0 && inside >= leastShare * there;
+        return there > 0 && inside >= leastShareInBox * there;
     }
 
 } // namespace

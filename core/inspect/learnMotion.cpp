@@ -1,10 +1,10 @@
 #include "inspect/learnMotion.h"
 
-#include "analysis/pathStrips.h"
-#include "analysis/sureStatistic.h"
 #include "base/Error.h"
-#include "spectrum/NoiseNormaliser.h"
-#include "track/bothWays.h"
+#include "noise/NoiseNormaliser.h"
+#include "plan/sureStatistic.h"
+#include "refine/bothWays.h"
+#include "refine/pathStrips.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,14 +19,14 @@ namespace {
     constexpr double stayingLowerProbability = 0.8;
     constexpr double stayingUpperProbability = 0.998;
     constexpr int learningIterations = 3;
-    constexpr std::size_t mostFrames = 20'000;
+    constexpr std::size_t mostLearnedFrames = 20'000;
 
     const Spectrogram &spectrogramOf(const Analysis &analysis)
     {
         return *analysis.frames->spectrogram();
     }
 
-    std::vector<const Track *> sureTracks(const Analysis &analysis)
+    std::vector<const Track *> tracksToLearnFrom(const Analysis &analysis)
     {
         std::vector<const Track *> tracks;
         for (const Track &track : analysis.tracks)
@@ -36,7 +36,7 @@ namespace {
                          [](const Track *a, const Track *b) { return a->peakStatistic > b->peakStatistic; });
         std::size_t frames = 0;
         const auto end = std::find_if(tracks.begin(), tracks.end(), [&](const Track *track) {
-            return (frames += track->points.size()) > mostFrames;
+            return (frames += track->points.size()) > mostLearnedFrames;
         });
         tracks.erase(tracks.empty() ? end : std::max(end, tracks.begin() + 1), tracks.end());
         return tracks;
@@ -50,7 +50,7 @@ namespace {
             PathStrip strip;
             strip.firstFrame = track->points.front().frame;
             strip.halfWidth = bothWaysHalfWidth(spectrogramOf(analysis).binsPerCell());
-            for (std::size_t i = 0; i < std::min(mostFrames, track->points.size()); ++i)
+            for (std::size_t i = 0; i < std::min(mostLearnedFrames, track->points.size()); ++i)
                 strip.centres.push_back(Index(std::lround(track->smoothed[i].position)));
             strips.push_back(std::move(strip));
         }
@@ -96,7 +96,7 @@ bool canLearnMotion(const Analysis &analysis)
 {
     return analysis.grid().isSpectrum() && analysis.settings.model.motion == Motion::Slopes
            && analysis.settings.model.slopeChange.size() > 1 && analysis.frames->spectrogram()
-           && !sureTracks(analysis).empty();
+           && !tracksToLearnFrom(analysis).empty();
 }
 
 LearnedMotion learnMotion(const Analysis &analysis, const RunContext &context)
@@ -104,7 +104,7 @@ LearnedMotion learnMotion(const Analysis &analysis, const RunContext &context)
     if (!canLearnMotion(analysis))
         throw Error("motion",
                     "can be learned only from strong tracks of lines whose slope may change; no such track was found");
-    const std::vector<const Track *> tracks = sureTracks(analysis);
+    const std::vector<const Track *> tracks = tracksToLearnFrom(analysis);
     const std::vector<PathStrip> strips = stripsOf(analysis, tracks, context.part(0.0, 0.2));
     LearnedMotion motion;
     motion.present = analysis.settings.model.slopeChange;

@@ -3,8 +3,8 @@
 #include "base/Error.h"
 #include "base/Field.h"
 #include "base/logmath.h"
-#include "spectrum/Fft.h"
-#include "spectrum/levels.h"
+#include "noise/levels.h"
+#include "signal/Fft.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/RunContext.h"
-#include "recording/Recording.h"
+#include "signal/Recording.h"
 
 #include <vector>
 

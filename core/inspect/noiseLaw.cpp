@@ -1,9 +1,8 @@
 #include "inspect/noiseLaw.h"
 
 #include "base/Random.h"
-#include "calibration/noiseStreams.h"
-#include "detect/Smd.h"
-#include "spectrum/channelCount.h"
+#include "calibrate/noiseStreams.h"
+#include "frames/channelCount.h"
 
 #include <algorithm>
 #include <cmath>

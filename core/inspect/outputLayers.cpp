@@ -1,7 +1,6 @@
 #include "inspect/outputLayers.h"
 
 #include "base/logmath.h"
-#include "detect/Smd.h"
 #include "inspect/StateReplay.h"
 
 #include <algorithm>

@@ -4,7 +4,6 @@
 #include "base/FramePlane.h"
 #include "base/memoryShares.h"
 #include "inspect/ChainReplay.h"
-#include "model/MarkovModel.h"
 
 #include <array>
 #include <cstdint>

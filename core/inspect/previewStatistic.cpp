@@ -13,7 +13,7 @@ namespace {
     constexpr Index settlingPings = 16;  ///< the same of pings
     constexpr Index averagedFrames = 48; ///< the last settling frames, over which ln K is averaged
     constexpr double settlingGain = 0.3;
-    constexpr Index mostCells = 70'000'000;
+    constexpr Index mostPreviewCells = 70'000'000;
     constexpr Index blockFrames = 64;
 
     /// Blocks of frames, from memory if available.
@@ -92,7 +92,7 @@ FrameRange previewRange(const NormalisedFrames &frames, Index first, Index last)
     range.end = std::clamp<Index>(last, range.first, count - 1) + 1;
     const Index cells = (range.end - range.readFirst) * frames.grid().size();
     range.isKeepable = std::size_t(cells) * sizeof(float) <= memoryShares::previewFrames;
-    return cells <= mostCells ? range : FrameRange{};
+    return cells <= mostPreviewCells ? range : FrameRange{};
 }
 
 bool isWorthAPreview(const Analysis &before, const AnalysisSettings &settings)

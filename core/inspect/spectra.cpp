@@ -1,7 +1,7 @@
 #include "inspect/spectra.h"
 
-#include "analysis/preparePlan.h"
-#include "spectrum/Spectrogram.h"
+#include "analyse/preparePlan.h"
+#include "frames/Spectrogram.h"
 
 #include <algorithm>
 #include <cmath>

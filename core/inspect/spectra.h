@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/Analysis.h"
 #include "base/RunContext.h"
+#include "plan/Analysis.h"
 
 #include <vector>
 

@@ -1,9 +1,9 @@
 #include "inspect/straighten.h"
 
-#include "analysis/smoothFrequency.h"
 #include "base/Error.h"
-#include "spectrum/ResampledRecording.h"
-#include "spectrum/StraightenedRecording.h"
+#include "refine/smoothFrequency.h"
+#include "signal/ResampledRecording.h"
+#include "signal/StraightenedRecording.h"
 
 #include <algorithm>
 #include <memory>

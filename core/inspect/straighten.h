@@ -1,9 +1,9 @@
 #pragma once
 
-#include "analysis/Analysis.h"
-#include "analysis/events.h"
+#include "analyse/events.h"
 #include "inspect/lineHeight.h"
-#include "spectrum/FrequencyCurve.h"
+#include "plan/Analysis.h"
+#include "signal/FrequencyCurve.h"
 
 #include <array>
 #include <optional>

@@ -2,8 +2,8 @@
 
 #include "base/Error.h"
 #include "base/Interval.h"
-#include "spectrum/NoiseNormaliser.h"
-#include "spectrum/SurrogateRecording.h"
+#include "noise/NoiseNormaliser.h"
+#include "noise/SurrogateRecording.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "analysis/events.h"
-#include "track/DetectionChain.h"
+#include "analyse/events.h"
 
 #include <functional>
 #include <map>

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "live/SampleSource.h"
-#include "recording/FileBytes.h"
-#include "recording/Recording.h"
-#include "recording/Stretches.h"
+#include "live/sources/SampleSource.h"
+#include "signal/FileBytes.h"
+#include "signal/Recording.h"
+#include "signal/Stretches.h"
 
 #include <memory>
 #include <mutex>

@@ -1,9 +1,8 @@
 #include "live/LiveHistory.h"
 
 #include "base/memoryShares.h"
+#include "noise/CausalSpectrogram.h"
 #include "plan/chain.h"
-#include "spectrum/CausalSpectrogram.h"
-#include "spectrum/Family.h"
 
 #include <algorithm>
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "live/listen.h"
-#include "spectrum/PeakPyramid.h"
 
 #include <chrono>
 #include <map>

@@ -1,7 +1,7 @@
 #include "live/PlayedSound.h"
 
-#include "spectrum/BandRecording.h"
-#include "spectrum/StraightenedRecording.h"
+#include "signal/BandRecording.h"
+#include "signal/StraightenedRecording.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "recording/Recording.h"
-#include "spectrum/FrequencyCurve.h"
+#include "signal/FrequencyCurve.h"
+#include "signal/Recording.h"
 
 #include <functional>
 #include <span>

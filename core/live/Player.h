@@ -1,7 +1,7 @@
 #pragma once
 
 #include "live/PlayedSound.h"
-#include "live/SoundStream.h"
+#include "live/sources/SoundStream.h"
 
 #include <condition_variable>
 #include <deque>

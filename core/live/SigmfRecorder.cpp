@@ -1,10 +1,10 @@
 #include "live/SigmfRecorder.h"
 
-#include "base/AtomicFile.h"
 #include "base/Error.h"
+#include "base/files/AtomicFile.h"
 #include "base/json.h"
 #include "base/utc.h"
-#include "recording/SigmfRecording.h"
+#include "signal/formats/SigmfRecording.h"
 
 #include <cerrno>
 #include <cstring>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/Axis.h"
-#include "live/SampleSource.h"
+#include "live/sources/SampleSource.h"
 
 #include <chrono>
 #include <condition_variable>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "live/StreamBuffer.h"
-#include "recording/Recording.h"
+#include "signal/Recording.h"
 
 #include <memory>
 #include <optional>

@@ -1,14 +1,14 @@
 #include "live/listen.h"
 
-#include "analysis/events.h"
-#include "analysis/preparePlan.h"
+#include "analyse/events.h"
+#include "analyse/preparePlan.h"
 #include "base/Error.h"
 #include "live/Hearing.h"
 #include "live/StreamRecording.h"
 #include "live/streamInfo.h"
+#include "noise/CausalSpectrogram.h"
 #include "plan/chain.h"
 #include "plan/slopeUnit.h"
-#include "spectrum/CausalSpectrogram.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "analysis/Analysis.h"
 #include "base/RunContext.h"
 #include "live/EventFollower.h"
 #include "live/HeardRecording.h"
 #include "live/ListenSettings.h"
-#include "live/SampleSource.h"
+#include "live/sources/SampleSource.h"
+#include "plan/Analysis.h"
 
 #include <chrono>
 #include <functional>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "live/SampleSource.h"
-#include "recording/Recording.h"
-#include "recording/endless.h"
+#include "live/sources/SampleSource.h"
+#include "signal/Recording.h"
+#include "signal/endless.h"
 
 namespace faintline {
 

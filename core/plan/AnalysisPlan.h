@@ -1,10 +1,9 @@
 #pragma once
 
+#include "frames/NormalisedFrames.h"
+#include "noise/NoiseBackground.h"
 #include "plan/AnalysisSettings.h"
 #include "plan/Calibration.h"
-#include "recording/Recording.h"
-#include "spectrum/NoiseBackground.h"
-#include "spectrum/NormalisedFrames.h"
 
 #include <memory>
 #include <vector>

@@ -2,11 +2,11 @@
 
 #include "base/Field.h"
 #include "detect/makeDetector.h"
+#include "frames/Family.h"
+#include "frames/Spectrogram.h"
 #include "model/MarkovModel.h"
-#include "spectrum/Family.h"
-#include "spectrum/NoiseNormaliser.h"
-#include "spectrum/PingNoise.h"
-#include "spectrum/Spectrogram.h"
+#include "noise/NoiseNormaliser.h"
+#include "noise/pings/PingNoise.h"
 #include "track/ConventionalTracker.h"
 #include "track/HmmTracker.h"
 
@@ -82,7 +82,7 @@ namespace laws {
     ModelSettings glide();
 } // namespace laws
 
-/// Whether strong lines are subtracted, and weaker ones searched for in the remainder (analysis/subtractLines.h).
+/// Whether strong lines are subtracted, and weaker ones searched for in the remainder (refine/subtractLines.h).
 struct SubtractSettings {
     bool lines = false;
     double leastDb = 20.0; ///< mean power over the noise along the track, per frame

@@ -17,7 +17,7 @@ namespace faintline {
 /// They are large if single cells carry an excursion (exponential likelihood far above its K), but not with Rice's
 /// likelihood.
 /// Source: Kahn and Harris 1951; Au and Beck 2001. Oracles: Lindley's recursion in closed form for one slope;
-/// importance sampling with planted lines (tests/calibration/tst_rareRates).
+/// importance sampling with planted lines (tests/calibrate/tst_rareRates).
 struct RareRates {
     std::vector<double> levels;         ///< ascending, in the statistic's own unit
     std::vector<double> lnRates;        ///< ln of the rate of cycles per cell and frame that reach the level

@@ -3,7 +3,7 @@
 #include "base/logmath.h"
 #include "detect/GuidedDetector.h"
 #include "detect/ModelBank.h"
-#include "spectrum/Spectrogram.h"
+#include "frames/Spectrogram.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "plan/AnalysisSettings.h"
-#include "recording/Recording.h"
 
 namespace faintline {
 

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "frames/NormalisedFrames.h"
 #include "model/SequentialModel.h"
 #include "plan/AnalysisSettings.h"
-#include "spectrum/NormalisedFrames.h"
 
 #include <string>
 

@@ -1,8 +1,7 @@
 #pragma once
 
+#include "frames/NormalisedFrames.h"
 #include "plan/AnalysisSettings.h"
-#include "recording/Recording.h"
-#include "spectrum/NormalisedFrames.h"
 
 namespace faintline {
 

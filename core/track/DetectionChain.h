@@ -1,8 +1,8 @@
 #pragma once
 
 #include "detect/PathDetector.h"
-#include "detect/PathTrace.h"
 #include "model/MarkovModel.h"
+#include "recursion/PathTrace.h"
 #include "track/Cluster.h"
 #include "track/HmmTracker.h"
 #include "track/PlaceIndex.h"

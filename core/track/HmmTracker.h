@@ -1,6 +1,6 @@
 #pragma once
 
-#include "detect/PathTrace.h"
+#include "recursion/PathTrace.h"
 #include "track/Track.h"
 #include "track/TrackerModel.h"
 

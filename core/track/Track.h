@@ -35,7 +35,7 @@ void measureOffsets(std::vector<TrackPoint> &path, std::size_t count, Lambda lam
     }
 }
 
-/// Result of the two-sided second pass (analysis/secondLook.h) for one point, along the last axis.
+/// Result of the two-sided second pass (refine/secondLook.h) for one point, along the last axis.
 struct SmoothedPoint {
     double position = 0.0; ///< in cells, with subcell precision
     float low = 0.0f;      ///< 5 % quantile of the posterior, cells
@@ -80,9 +80,8 @@ struct Track {
     std::size_t model = 0;                 ///< index of the bank's model that found it
     double detectStatistic = 0.0;          ///< the detector's statistic at the detection, in its own unit
     std::vector<SmoothedPoint> smoothed{}; ///< one per point; empty without the second pass
-    double windowSeconds =
-        0.0;                   ///< T_FT of the longer window that found it (analysis/steadyLines.h); 0: the frames' own
-    bool isSubtracted = false; ///< from the recording whose frames are displayed (analysis/subtractLines.h)
+    double windowSeconds = 0.0; ///< T_FT of the longer window that found it (refine/steadyLines.h); 0: the frames' own
+    bool isSubtracted = false;  ///< from the recording whose frames are displayed (refine/subtractLines.h)
     std::vector<ModelChange>
         modelChanges{}; ///< ordered by frame; the points' planes are those of the model at their frame
 

@@ -2,8 +2,8 @@
 
 #include "base/Field.h"
 #include "base/Grid.h"
-#include "detect/Recursion.h"
 #include "model/MarkovModel.h"
+#include "recursion/Recursion.h"
 
 #include <vector>
 
@@ -18,7 +18,7 @@ struct TrackSettings {
     double confirmNats = 0.0;              ///< a track is confirmed this far above the threshold …
     int confirmFrames = 1;                 ///< … and at this age
     int smoothingFrames = 48;              ///< lag of the path's smoothing
-    bool bothWays = true;                  ///< completed tracks get a two-sided second pass (analysis/secondLook.h)
+    bool bothWays = true;                  ///< completed tracks get a two-sided second pass (refine/secondLook.h)
 
     static const std::vector<Field<TrackSettings>> &fields();
     bool operator==(const TrackSettings &) const = default;

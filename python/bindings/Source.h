@@ -1,9 +1,9 @@
 #pragma once
 
 #include "base/json.h"
-#include "recording/Recording.h"
-#include "spectrum/NormalisedFrames.h"
-#include "spectrum/PowerFrames.h"
+#include "frames/NormalisedFrames.h"
+#include "signal/PowerFrames.h"
+#include "signal/Recording.h"
 
 #include <pybind11/pybind11.h>
 

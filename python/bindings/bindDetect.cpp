@@ -1,14 +1,14 @@
 #include "bindings/bind.h"
 
-#include "analysis/chooseWindow.h"
+#include "analyse/chooseWindow.h"
 #include "bindings/Result.h"
 #include "bindings/Source.h"
 #include "bindings/jsonFromPython.h"
 #include "bindings/settingsFromPython.h"
-#include "exchange/openFrames.h"
+#include "noise/NormalisedPower.h"
+#include "noise/openFrames.h"
 #include "plan/firstSettings.h"
 #include "plan/slopeUnit.h"
-#include "spectrum/NormalisedPower.h"
 
 #include <pybind11/stl.h>
 

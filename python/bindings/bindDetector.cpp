@@ -4,7 +4,7 @@
 #include "bindings/interruptible.h"
 #include "bindings/jsonFromPython.h"
 #include "exchange/ModelFile.h"
-#include "exchange/openFrames.h"
+#include "noise/openFrames.h"
 
 #include <pybind11/stl.h>
 

@@ -1,12 +1,12 @@
 #include "bindings/bind.h"
 
-#include "base/InputFiles.h"
+#include "base/files/InputFiles.h"
 #include "bindings/arrays.h"
 #include "bindings/interruptible.h"
 #include "bindings/jsonFromPython.h"
 #include "evaluate/experiments/sweepCurve.h"
 #include "exchange/CampaignFile.h"
-#include "session/Session.h"
+#include "exchange/Session.h"
 
 #include <limits>
 

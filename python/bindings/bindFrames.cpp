@@ -4,7 +4,7 @@
 #include "bindings/Source.h"
 #include "bindings/arrays.h"
 #include "bindings/jsonFromPython.h"
-#include "exchange/openFrames.h"
+#include "noise/openFrames.h"
 
 #include <pybind11/stl.h>
 

@@ -2,8 +2,8 @@
 
 #include "bindings/Source.h"
 #include "bindings/jsonFromPython.h"
-#include "exchange/openFrames.h"
-#include "recording/openTogether.h"
+#include "noise/openFrames.h"
+#include "signal/openTogether.h"
 
 #include <filesystem>
 

@@ -3,9 +3,9 @@
 #include "bindings/arrays.h"
 #include "bindings/interruptible.h"
 #include "bindings/jsonFromPython.h"
-#include "detect/ForwardBackward.h"
 #include "detect/MapTrajectory.h"
 #include "exchange/ModelFile.h"
+#include "recursion/ForwardBackward.h"
 
 #include <algorithm>
 #include <cmath>

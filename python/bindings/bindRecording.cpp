@@ -1,14 +1,14 @@
 #include "bindings/bind.h"
 
-#include "base/InputFiles.h"
-#include "base/fileName.h"
+#include "base/files/InputFiles.h"
+#include "base/files/fileName.h"
 #include "bindings/Source.h"
 #include "bindings/arrays.h"
 #include "bindings/interruptible.h"
 #include "bindings/jsonFromPython.h"
-#include "recording/ArrayRecording.h"
-#include "recording/writeRecording.h"
-#include "session/Session.h"
+#include "exchange/Session.h"
+#include "signal/ArrayRecording.h"
+#include "signal/formats/writeRecording.h"
 
 #include <pybind11/stl.h>
 

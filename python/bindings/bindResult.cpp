@@ -1,17 +1,17 @@
 #include "bindings/bind.h"
 
-#include "base/AtomicFile.h"
-#include "base/InputFiles.h"
+#include "base/files/AtomicFile.h"
+#include "base/files/InputFiles.h"
 #include "bindings/HeldTrack.h"
 #include "bindings/Result.h"
 #include "bindings/arrays.h"
 #include "bindings/eventArray.h"
 #include "bindings/explanation.h"
 #include "bindings/jsonFromPython.h"
-#include "exchange/NumPy.h"
+#include "exchange/Session.h"
 #include "exchange/writeEvents.h"
 #include "inspect/explain.h"
-#include "session/Session.h"
+#include "signal/formats/NumPy.h"
 
 #include <pybind11/stl.h>
 

@@ -2,9 +2,9 @@
 
 #include "bindings/Source.h"
 #include "bindings/jsonFromPython.h"
-#include "recording/ScanScene.h"
-#include "recording/SimulatedRecording.h"
-#include "spectrum/SimulatedPings.h"
+#include "scene/ScanScene.h"
+#include "scene/SimulatedPings.h"
+#include "scene/SimulatedRecording.h"
 
 namespace faintline::python {
 

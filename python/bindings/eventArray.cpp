@@ -1,8 +1,8 @@
 #include "bindings/eventArray.h"
 
-#include "analysis/secondLook.h"
 #include "bindings/arrays.h"
 #include "exchange/writeEvents.h"
+#include "refine/secondLook.h"
 
 namespace faintline::python {
 

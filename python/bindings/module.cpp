@@ -1,6 +1,6 @@
 #include "bindings/bind.h"
 
-#include "recording/Hdf5File.h"
+#include "signal/formats/Hdf5File.h"
 
 PYBIND11_MODULE(_faintline, module)
 {

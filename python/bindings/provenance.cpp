@@ -1,10 +1,10 @@
 #include "bindings/provenance.h"
 
-#include "base/AtomicFile.h"
-#include "base/fileName.h"
+#include "base/files/AtomicFile.h"
+#include "base/files/fileName.h"
 #include "base/json.h"
-#include "recording/Timeline.h"
-#include "recording/fileHash.h"
+#include "signal/Timeline.h"
+#include "signal/fileHash.h"
 
 #include <algorithm>
 #include <filesystem>

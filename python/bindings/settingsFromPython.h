@@ -1,7 +1,7 @@
 #pragma once
 
 #include "plan/AnalysisSettings.h"
-#include "recording/Recording.h"
+#include "signal/Recording.h"
 
 #include <pybind11/pybind11.h>
 

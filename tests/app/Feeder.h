@@ -1,8 +1,8 @@
 #pragma once
 
 #include "app/openWindow.h"
-#include "live/PipeSource.h"
-#include "recording/SimulatedRecording.h"
+#include "live/sources/PipeSource.h"
+#include "scene/SimulatedRecording.h"
 #include "support/recordings.h"
 
 #include <atomic>

@@ -5,7 +5,7 @@
 #include "app/panels/targetCells.h"
 #include "app/welcome/WelcomePage.h"
 #include "app/workspace/PingBench.h"
-#include "recording/PingTruth.h"
+#include "scene/PingTruth.h"
 #include "widgets/pings/PingMap.h"
 
 #include <QLineEdit>

@@ -1,7 +1,7 @@
 #include "app/base/MessageBar.h"
 #include "app/openWindow.h"
-#include "recording/SimulatedRecording.h"
-#include "recording/writeRecording.h"
+#include "scene/SimulatedRecording.h"
+#include "signal/formats/writeRecording.h"
 #include "support/test.h"
 
 #include <QToolButton>

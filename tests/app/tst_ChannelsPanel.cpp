@@ -4,8 +4,8 @@
 #include "app/openWindow.h"
 #include "app/workspace/Workbench.h"
 #include "base/Random.h"
-#include "recording/ArrayRecording.h"
-#include "recording/writeRecording.h"
+#include "signal/ArrayRecording.h"
+#include "signal/formats/writeRecording.h"
 #include "widgets/waterfall/LinkedPictures.h"
 
 #include <qwt_text.h>

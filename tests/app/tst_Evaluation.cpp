@@ -13,7 +13,7 @@
 #include "app/window/TrialWindow.h"
 #include "app/workspace/Workbench.h"
 #include "evaluate/experiments/peers.h"
-#include "session/Session.h"
+#include "exchange/Session.h"
 #include "support/test.h"
 #include "widgets/plot/ChartPlot.h"
 

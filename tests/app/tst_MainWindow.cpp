@@ -8,7 +8,7 @@
 #include "app/welcome/ScenarioCard.h"
 #include "app/welcome/WelcomePage.h"
 #include "app/workspace/Workbench.h"
-#include "session/Session.h"
+#include "exchange/Session.h"
 #include "support/test.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/plot/ExceedancePlot.h"

@@ -4,7 +4,7 @@
 #include "app/base/filePath.h"
 #include "app/document/Recovery.h"
 #include "app/openWindow.h"
-#include "session/Session.h"
+#include "exchange/Session.h"
 #include "support/test.h"
 
 #include <QApplication>

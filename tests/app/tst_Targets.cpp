@@ -4,8 +4,8 @@
 #include "app/document/Recovery.h"
 #include "app/welcome/WelcomePage.h"
 #include "app/workspace/PingBench.h"
-#include "session/Session.h"
-#include "spectrum/SimulatedPings.h"
+#include "exchange/Session.h"
+#include "scene/SimulatedPings.h"
 #include "support/test.h"
 #include "widgets/pings/PolarView.h"
 

@@ -4,7 +4,7 @@
 #include "app/base/filePath.h"
 #include "app/document/Document.h"
 #include "app/document/ViewState.h"
-#include "session/Session.h"
+#include "exchange/Session.h"
 #include "support/test.h"
 
 #include <QFile>

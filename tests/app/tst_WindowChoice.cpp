@@ -1,4 +1,4 @@
-#include "analysis/chooseWindow.h"
+#include "analyse/chooseWindow.h"
 #include "app/openWindow.h"
 #include "app/panels/PipelinePanel.h"
 #include "support/test.h"

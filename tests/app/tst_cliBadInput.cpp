@@ -1,4 +1,4 @@
-#include "exchange/NumPy.h"
+#include "signal/formats/NumPy.h"
 #include "support/recordings.h"
 #include "support/slowdown.h"
 #include "support/test.h"

@@ -2,7 +2,7 @@
 #include "app/openWindow.h"
 #include "support/test.h"
 
-#include "analysis/events.h"
+#include "analyse/events.h"
 #include "exchange/writeEvents.h"
 
 #include <QStandardPaths>

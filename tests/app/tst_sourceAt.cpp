@@ -3,8 +3,8 @@
 #include "support/test.h"
 
 #include "base/Error.h"
-#include "recording/SimulatedRecording.h"
-#include "recording/writeRecording.h"
+#include "scene/SimulatedRecording.h"
+#include "signal/formats/writeRecording.h"
 #include "support/errors.h"
 
 #include <QComboBox>

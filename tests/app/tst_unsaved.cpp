@@ -3,7 +3,7 @@
 #include "app/base/filePath.h"
 #include "app/lessons/LessonGuide.h"
 #include "app/openWindow.h"
-#include "session/Session.h"
+#include "exchange/Session.h"
 #include "support/test.h"
 
 #include <QAbstractButton>

@@ -1,8 +1,8 @@
-#include "base/AtomicFile.h"
+#include "base/files/AtomicFile.h"
 #include "support/test.h"
 
 #include "base/Error.h"
-#include "base/InputFiles.h"
+#include "base/files/InputFiles.h"
 
 #include <QDir>
 

@@ -1,4 +1,4 @@
-#include "base/checksum.h"
+#include "base/files/checksum.h"
 #include "support/test.h"
 
 using namespace faintline;

@@ -1,5 +1,5 @@
-#include "base/AtomicFile.h"
 #include "base/Error.h"
+#include "base/files/AtomicFile.h"
 #include "support/test.h"
 
 #include <QDir>

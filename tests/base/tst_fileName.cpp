@@ -1,4 +1,4 @@
-#include "base/fileName.h"
+#include "base/files/fileName.h"
 #include "support/test.h"
 
 #include "base/oneLine.h"

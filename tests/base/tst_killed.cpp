@@ -1,4 +1,4 @@
-#include "base/AtomicFile.h"
+#include "base/files/AtomicFile.h"
 #include "support/test.h"
 
 #include <csignal>

@@ -5,7 +5,7 @@
 
 /// Who may include whom: a folder includes itself and the folders to its left. The core includes nothing else of the
 /// project, the widgets the core as well, the app both. No two units (a header with its source) include each other, at
-/// no distance.
+/// no distance. The core has few arrows, that is pairs of rooms of which one includes the other.
 class tst_layers : public QObject
 {
     Q_OBJECT
@@ -20,7 +20,10 @@ private slots:
     void commandLineIncludesTheCoreOnly();
     void noUnitsInACircle();
     void circlesAreFound();
-    void pythonIncludesTheCoreOnly();
+    void arrowsAreFew();
+    void arrowsAreFound();
+    void besideTheCore_data();
+    void besideTheCore();
     void wrongIncludesAreFound_data();
     void wrongIncludesAreFound();
 
@@ -30,8 +33,9 @@ private:
 
 namespace {
 
-const QStringList order{"base",        "recording", "spectrum", "model",    "detect",   "track",   "plan",
-                        "calibration", "analysis",  "inspect",  "evaluate", "exchange", "session", "live"};
+const QStringList order{"base", "signal", "frames",    "noise",   "scene",   "model",    "recursion", "detect", "track",
+                        "plan", "refine", "calibrate", "analyse", "inspect", "evaluate", "exchange",  "live"};
+constexpr int mostArrows = 86;
 const QStringList widgetOrder{"base", "plot", "waterfall", "pings", "events", "forms"};
 const QStringList appOrder{"cli",   "base",    "document", "control", "workspace", "panels",
                            "views", "lessons", "help",     "welcome", "window",    "render"};
@@ -77,10 +81,11 @@ QString wrongInCore(const QString &path, const QString &text)
     for (const Include &include : includesOf(text)) {
         if (isQt(include.name))
             return include.name + " is Qt";
-        if (include.name == "fftw3.h" && path != "spectrum/Fft.cpp")
-            return "fftw3.h belongs to spectrum/Fft.cpp alone";
-        if (include.name == "hdf5.h" && path != "recording/Hdf5File.cpp" && path != "recording/Hdf5Driver.cpp")
-            return "hdf5.h belongs to recording/Hdf5File.cpp and Hdf5Driver.cpp alone";
+        if (include.name == "fftw3.h" && path != "signal/Fft.cpp")
+            return "fftw3.h belongs to signal/Fft.cpp alone";
+        if (include.name == "hdf5.h" && path != "signal/formats/Hdf5File.cpp"
+            && path != "signal/formats/Hdf5Driver.cpp")
+            return "hdf5.h belongs to signal/formats/Hdf5File.cpp and Hdf5Driver.cpp alone";
         if (!include.isQuoted)
             continue;
         const auto other = order.indexOf(include.name.section('/', 0, 0));
@@ -149,6 +154,19 @@ QStringList circleIn(const Units &units)
     return {};
 }
 
+/// Which rooms each room includes, from the texts of their files by path.
+Units arrowsOf(const QMap<QString, QString> &texts)
+{
+    Units arrows;
+    for (auto text = texts.begin(); text != texts.end(); ++text)
+        for (const Include &include : includesOf(*text)) {
+            const QString from = text.key().section('/', 0, 0), to = include.name.section('/', 0, 0);
+            if (include.isQuoted && from != to)
+                arrows[from].insert(to);
+        }
+    return arrows;
+}
+
 } // namespace
 
 QStringList tst_layers::filesIn(const QString &folder) const
@@ -213,6 +231,7 @@ void tst_layers::commandLineIncludesTheCoreOnly()
         ++seen;
         for (const Include &include : includesOf(contentOf("app/" + path))) {
             const bool isKnown = !include.isQuoted || include.name.startsWith("app/cli/")
+                                 || include.name.startsWith("reproduce/")
                                  || order.contains(include.name.section('/', 0, 0));
             QVERIFY2(isKnown && !isQt(include.name), qPrintable(path + " includes " + include.name));
         }
@@ -223,7 +242,7 @@ void tst_layers::commandLineIncludesTheCoreOnly()
 void tst_layers::noUnitsInACircle()
 {
     Units units;
-    for (const QString part : {"core", "widgets", "app"})
+    for (const QString part : {"core", "reproduce", "widgets", "app"})
         for (const QString &path : filesIn(part)) {
             const QString unit = unitOf(part + "/" + path);
             for (const Include &include : includesOf(contentOf(part + "/" + path))) {
@@ -243,14 +262,51 @@ void tst_layers::circlesAreFound()
     QCOMPARE(circleIn({{"a", {"b"}}, {"b", {"c"}}, {"c", {"d", "b"}}}).join(" "), QString("b c b"));
 }
 
-void tst_layers::pythonIncludesTheCoreOnly()
+void tst_layers::arrowsAreFew()
 {
+    QMap<QString, QString> texts;
+    for (const QString &path : filesIn("core"))
+        texts[path] = contentOf("core/" + path);
+    const Units arrows = arrowsOf(texts);
+    qsizetype count = 0;
+    for (const QString &room : order) {
+        QStringList others = arrows[room].values();
+        std::sort(others.begin(), others.end(),
+                  [](const QString &a, const QString &b) { return order.indexOf(a) < order.indexOf(b); });
+        qInfo().noquote() << room << "->" << others.join(' ');
+        count += others.size();
+    }
+    QVERIFY2(count <= mostArrows, qPrintable(QString("%1 arrows").arg(count)));
+}
+
+void tst_layers::arrowsAreFound()
+{
+    const Units arrows =
+        arrowsOf({{"track/A.h", "#include \"detect/Smd.h\"\n#include \"track/B.h\"\n#include <vector>"},
+                  {"track/B.h", "#include \"detect/Detector.h\"\n#include \"base/Axis.h\""}});
+    QCOMPARE(arrows, (Units{{"track", {"detect", "base"}}}));
+}
+
+void tst_layers::besideTheCore_data()
+{
+    QTest::addColumn<QString>("folder");
+    QTest::addColumn<QString>("own");
+    QTest::newRow("python") << "python"
+                            << "bindings/";
+    QTest::newRow("reproduce") << "reproduce"
+                               << "reproduce/";
+}
+
+void tst_layers::besideTheCore()
+{
+    QFETCH(QString, folder);
+    QFETCH(QString, own);
     int seen = 0;
-    for (const QString &path : filesIn("python")) {
+    for (const QString &path : filesIn(folder)) {
         ++seen;
-        for (const Include &include : includesOf(contentOf("python/" + path))) {
-            const bool isKnown = !include.isQuoted || include.name.startsWith("bindings/")
-                                 || order.contains(include.name.section('/', 0, 0));
+        for (const Include &include : includesOf(contentOf(folder + "/" + path))) {
+            const bool isKnown =
+                !include.isQuoted || include.name.startsWith(own) || order.contains(include.name.section('/', 0, 0));
             QVERIFY2(isKnown && !isQt(include.name), qPrintable(path + " includes " + include.name));
         }
     }
@@ -280,9 +336,9 @@ void tst_layers::wrongIncludesAreFound_data()
                               << "#include <QString>" << true;
     QTest::newRow("Qt module") << "model/X.h"
                                << "#include <QtCore/QString>" << true;
-    QTest::newRow("FFTW") << "spectrum/Spectrogram.cpp"
+    QTest::newRow("FFTW") << "frames/Spectrogram.cpp"
                           << "#include <fftw3.h>" << true;
-    QTest::newRow("FFTW in its place") << "spectrum/Fft.cpp"
+    QTest::newRow("FFTW in its place") << "signal/Fft.cpp"
                                        << "#include <fftw3.h>" << false;
 }
 

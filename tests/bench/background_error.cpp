@@ -6,10 +6,10 @@
 // A tile is 16 frames × 200 resolution cells, and others for comparison. --dump writes PREFIX.s.npy and PREFIX.y.npy,
 // frames × bins.
 
-#include "exchange/NumPy.h"
+#include "noise/NoiseNormaliser.h"
 #include "plan/AnalysisSettings.h"
-#include "recording/openRecording.h"
-#include "spectrum/NoiseNormaliser.h"
+#include "signal/formats/NumPy.h"
+#include "signal/openRecording.h"
 
 #include <algorithm>
 #include <cmath>

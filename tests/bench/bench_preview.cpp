@@ -2,7 +2,7 @@
 // thread.
 
 #include "inspect/previewStatistic.h"
-#include "recording/SimulatedRecording.h"
+#include "scene/SimulatedRecording.h"
 
 #include <benchmark/benchmark.h>
 

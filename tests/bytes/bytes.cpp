@@ -3,11 +3,11 @@
 
 #include "base/Random.h"
 #include "detect/ModelBank.h"
+#include "frames/PeakPyramid.h"
+#include "noise/NoiseNormaliser.h"
 #include "plan/AnalysisSettings.h"
-#include "recording/SimulatedRecording.h"
-#include "spectrum/NoiseNormaliser.h"
-#include "spectrum/PeakPyramid.h"
-#include "spectrum/SimulatedPings.h"
+#include "scene/SimulatedPings.h"
+#include "scene/SimulatedRecording.h"
 
 #include <cstdint>
 #include <cstdio>

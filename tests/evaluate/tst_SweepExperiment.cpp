@@ -3,7 +3,7 @@
 #include "evaluate/experiments/campaignCurve.h"
 #include "evaluate/experiments/sweepCurve.h"
 #include "exchange/CampaignFile.h"
-#include "recording/SimulatedRecording.h"
+#include "scene/SimulatedRecording.h"
 #include "support/test.h"
 
 #include "base/Error.h"

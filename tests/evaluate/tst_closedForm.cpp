@@ -1,4 +1,4 @@
-#include "calibration/calibrate.h"
+#include "calibrate/calibrate.h"
 #include "evaluate/theory/boxExceedance.h"
 #include "evaluate/theory/closedForm.h"
 #include "support/test.h"

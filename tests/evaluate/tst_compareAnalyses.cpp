@@ -6,7 +6,7 @@
 #include "support/test.h"
 
 #include "base/Error.h"
-#include "recording/SimulatedRecording.h"
+#include "scene/SimulatedRecording.h"
 
 #include <QTemporaryDir>
 

@@ -2,9 +2,9 @@
 #include "support/test.h"
 
 #include "detect/Sprt.h"
-#include "exchange/NumPy.h"
-#include "exchange/gridFile.h"
-#include "exchange/openFrames.h"
+#include "noise/openFrames.h"
+#include "signal/formats/NumPy.h"
+#include "signal/formats/gridFile.h"
 #include "support/recordings.h"
 
 #include <limits>

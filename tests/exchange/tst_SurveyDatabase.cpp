@@ -1,7 +1,7 @@
 #include "exchange/survey/SurveyDatabase.h"
 #include "support/test.h"
 
-#include "base/AtomicFile.h"
+#include "base/files/AtomicFile.h"
 #include "base/json.h"
 #include "exchange/readAnnotations.h"
 #include "exchange/survey/exportCamtrap.h"

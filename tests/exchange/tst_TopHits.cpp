@@ -1,10 +1,10 @@
 #include "exchange/TopHits.h"
 #include "support/test.h"
 
-#include "analysis/analyse.h"
+#include "analyse/analyse.h"
 #include "base/Random.h"
 #include "exchange/findCadence.h"
-#include "exchange/openFrames.h"
+#include "noise/openFrames.h"
 #include "plan/slopeUnit.h"
 #include "support/errors.h"
 #include "support/recordings.h"

@@ -3,8 +3,8 @@
 #include "exchange/readAnnotations.h"
 #include "exchange/writeEvents.h"
 #include "exchange/writeReviewed.h"
-#include "recording/SimulatedRecording.h"
-#include "recording/writeRecording.h"
+#include "scene/SimulatedRecording.h"
+#include "signal/formats/writeRecording.h"
 #include "support/recordings.h"
 #include "support/test.h"
 #include <QDir>

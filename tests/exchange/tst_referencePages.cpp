@@ -3,11 +3,11 @@
 #include "evaluate/experiments/LineExperiment.h"
 #include "evaluate/experiments/SweepExperiment.h"
 #include "exchange/ModelFile.h"
-#include "exchange/gridFile.h"
 #include "exchange/survey/surveySchema.h"
-#include "recording/LineScene.h"
-#include "recording/PingScene.h"
-#include "recording/ScanScene.h"
+#include "scene/LineScene.h"
+#include "scene/PingScene.h"
+#include "scene/ScanScene.h"
+#include "signal/formats/gridFile.h"
 #include "support/test.h"
 
 #include <QRegularExpression>

@@ -10,7 +10,7 @@
 #include "app/render/readPicture.h"
 #include "app/render/replayPicture.h"
 #include "base/oneLine.h"
-#include "session/Session.h"
+#include "exchange/Session.h"
 #include "widgets/base/labelText.h"
 
 #include <QFileInfo>

@@ -1,10 +1,10 @@
-#include "analysis/analyse.h"
+#include "analyse/analyse.h"
 #include "inspect/StateReplay.h"
 #include "support/test.h"
 
 #include "base/Random.h"
 #include "plan/chain.h"
-#include "spectrum/SimulatedPings.h"
+#include "scene/SimulatedPings.h"
 #include "support/frames.h"
 
 #include <QTest>

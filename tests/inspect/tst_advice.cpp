@@ -1,7 +1,7 @@
-#include "analysis/analyse.h"
+#include "analyse/analyse.h"
 #include "inspect/advice.h"
-#include "recording/ArrayRecording.h"
-#include "recording/SimulatedRecording.h"
+#include "scene/SimulatedRecording.h"
+#include "signal/ArrayRecording.h"
 #include "support/test.h"
 
 #include <cmath>

@@ -1,10 +1,10 @@
 // A box's levels: sums one can check by hand, and a simulated line's own SNR whatever the window.
 
 #include "base/Error.h"
+#include "frames/Spectrogram.h"
 #include "inspect/boxLevels.h"
-#include "recording/SimulatedRecording.h"
-#include "spectrum/NoiseNormaliser.h"
-#include "spectrum/Spectrogram.h"
+#include "noise/NoiseNormaliser.h"
+#include "scene/SimulatedRecording.h"
 #include "support/frames.h"
 #include "support/test.h"
 

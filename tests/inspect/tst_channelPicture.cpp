@@ -1,8 +1,8 @@
 #include "inspect/channelPicture.h"
 #include "support/test.h"
 
-#include "analysis/analyse.h"
-#include "recording/ArrayRecording.h"
+#include "analyse/analyse.h"
+#include "signal/ArrayRecording.h"
 #include "support/errors.h"
 #include "support/recordings.h"
 

@@ -1,7 +1,7 @@
 #include "inspect/closeup.h"
 #include "support/test.h"
 
-#include "recording/SimulatedRecording.h"
+#include "scene/SimulatedRecording.h"
 
 #include <QTest>
 

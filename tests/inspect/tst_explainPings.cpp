@@ -3,7 +3,7 @@
 #include "inspect/explain.h"
 #include "support/test.h"
 
-#include "spectrum/SimulatedPings.h"
+#include "scene/SimulatedPings.h"
 #include "support/errors.h"
 
 #include <QTest>

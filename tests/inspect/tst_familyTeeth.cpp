@@ -1,6 +1,6 @@
 #include "base/Error.h"
 #include "inspect/familyTeeth.h"
-#include "recording/SimulatedRecording.h"
+#include "scene/SimulatedRecording.h"
 #include "support/test.h"
 
 #include <boost/math/special_functions/gamma.hpp>

@@ -1,6 +1,6 @@
 #include "base/Error.h"
 #include "inspect/learnMotion.h"
-#include "recording/SimulatedRecording.h"
+#include "scene/SimulatedRecording.h"
 #include "support/test.h"
 
 #include <cmath>

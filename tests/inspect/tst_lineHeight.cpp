@@ -1,7 +1,7 @@
 #include "base/Error.h"
 #include "inspect/lineHeight.h"
-#include "recording/ArrayRecording.h"
-#include "recording/SimulatedRecording.h"
+#include "scene/SimulatedRecording.h"
+#include "signal/ArrayRecording.h"
 #include "support/test.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include "inspect/noiseLaw.h"
-#include "recording/SimulatedRecording.h"
+#include "scene/SimulatedRecording.h"
 #include "support/test.h"
 
 using namespace faintline;

@@ -3,7 +3,7 @@
 
 #include "base/Random.h"
 #include "inspect/explain.h"
-#include "spectrum/SimulatedPings.h"
+#include "scene/SimulatedPings.h"
 #include "support/frames.h"
 
 #include <QTest>

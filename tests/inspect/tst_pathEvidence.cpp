@@ -3,7 +3,7 @@
 #include "base/Error.h"
 #include "inspect/explain.h"
 #include "inspect/pathEvidence.h"
-#include "recording/SimulatedRecording.h"
+#include "scene/SimulatedRecording.h"
 #include "support/frames.h"
 #include "support/test.h"
 

@@ -1,9 +1,9 @@
-#include "calibration/fitReset.h"
+#include "calibrate/fitReset.h"
 #include "detect/ModelBank.h"
 #include "inspect/previewStatistic.h"
-#include "recording/SimulatedRecording.h"
-#include "spectrum/NoiseNormaliser.h"
-#include "spectrum/SimulatedPings.h"
+#include "noise/NoiseNormaliser.h"
+#include "scene/SimulatedPings.h"
+#include "scene/SimulatedRecording.h"
 #include "support/test.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
-#include "analysis/analyse.h"
+#include "analyse/analyse.h"
 #include "inspect/spectra.h"
-#include "recording/SimulatedRecording.h"
+#include "scene/SimulatedRecording.h"
 #include "support/test.h"
 
 #include <cmath>

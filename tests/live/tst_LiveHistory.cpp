@@ -1,12 +1,12 @@
 #include "live/LiveHistory.h"
 #include "support/test.h"
 
-#include "analysis/analyse.h"
+#include "analyse/analyse.h"
 #include "exchange/writeEvents.h"
 #include "inspect/closeup.h"
-#include "recording/SigmfRecording.h"
-#include "recording/SimulatedRecording.h"
-#include "recording/Timeline.h"
+#include "scene/SimulatedRecording.h"
+#include "signal/Timeline.h"
+#include "signal/formats/SigmfRecording.h"
 #include "support/recordings.h"
 
 #include <set>

@@ -1,8 +1,8 @@
 #include "live/Player.h"
-#include "live/SoundSource.h"
+#include "live/sources/SoundSource.h"
 #include "support/test.h"
 
-#include "spectrum/BandRecording.h"
+#include "signal/BandRecording.h"
 #include "support/PulseServer.h"
 #include "support/recordings.h"
 

@@ -1,4 +1,4 @@
-#include "live/SoundSource.h"
+#include "live/sources/SoundSource.h"
 #include "support/test.h"
 
 #include "support/PulseServer.h"

@@ -1,11 +1,11 @@
 #include "live/listen.h"
 #include "support/test.h"
 
-#include "analysis/analyse.h"
+#include "analyse/analyse.h"
 #include "exchange/writeEvents.h"
 #include "live/eventLines.h"
-#include "recording/SigmfRecording.h"
-#include "recording/SimulatedRecording.h"
+#include "scene/SimulatedRecording.h"
+#include "signal/formats/SigmfRecording.h"
 #include "support/recordings.h"
 
 #include <map>

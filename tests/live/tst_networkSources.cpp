@@ -1,5 +1,5 @@
-#include "live/RtlTcpSource.h"
-#include "live/UdpSource.h"
+#include "live/sources/RtlTcpSource.h"
+#include "live/sources/UdpSource.h"
 #include "support/test.h"
 
 #include "base/Random.h"

@@ -1,4 +1,4 @@
-#include "live/wavHeader.h"
+#include "live/sources/wavHeader.h"
 #include "support/test.h"
 
 #include "support/errors.h"

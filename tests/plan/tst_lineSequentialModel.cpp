@@ -1,7 +1,7 @@
 #include "detect/Sprt.h"
-#include "model/TrajectorySampler.h"
+#include "evaluate/sequential/TrajectorySampler.h"
 #include "plan/lineSequentialModel.h"
-#include "recording/SimulatedRecording.h"
+#include "scene/SimulatedRecording.h"
 #include "support/test.h"
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "spectrum/NormalisedFrames.h"
+#include "frames/NormalisedFrames.h"
 
 #include <memory>
 #include <utility>

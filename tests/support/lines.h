@@ -1,6 +1,6 @@
 #pragma once
 
-#include "recording/LineScene.h"
+#include "scene/LineScene.h"
 
 namespace faintline::test {
 

@@ -1,6 +1,6 @@
 #include "support/manySignals.h"
 
-#include "analysis/analyse.h"
+#include "analyse/analyse.h"
 #include "base/Error.h"
 #include "base/Random.h"
 #include "support/recordings.h"

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/Analysis.h"
-#include "recording/Recording.h"
+#include "plan/Analysis.h"
+#include "signal/Recording.h"
 
 #include <functional>
 #include <string>

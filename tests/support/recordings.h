@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/Random.h"
-#include "recording/Recording.h"
+#include "signal/Recording.h"
 #include "support/errors.h"
 
 #include <sndfile.h>

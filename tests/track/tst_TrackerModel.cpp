@@ -1,7 +1,7 @@
 #include "support/test.h"
 #include "track/TrackerModel.h"
 
-#include "track/numberByDetection.h"
+#include "refine/numberByDetection.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #include "detect/ModelBank.h"
 #include "evaluate/comparison/trackScore.h"
 #include "model/sonarModels.h"
-#include "spectrum/SimulatedPings.h"
+#include "scene/SimulatedPings.h"
 #include "support/test.h"
 #include "track/DetectionChain.h"
 

@@ -1,9 +1,9 @@
 // An analyst's hour: a recording from a file to judged events and back, by mouse and keys.
 
 #include "app/workspace/Workbench.h"
-#include "base/AtomicFile.h"
-#include "recording/SimulatedRecording.h"
-#include "recording/writeRecording.h"
+#include "base/files/AtomicFile.h"
+#include "scene/SimulatedRecording.h"
+#include "signal/formats/writeRecording.h"
 #include "support/lines.h"
 #include "support/test.h"
 #include "walks/Walk.h"

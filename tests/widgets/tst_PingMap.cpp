@@ -3,8 +3,8 @@
 #include "support/test.h"
 #include "widgets/pings/PingMap.h"
 
+#include "frames/pictureCuts.h"
 #include "pixels.h"
-#include "spectrum/pictureCuts.h"
 #include "widgets/base/Theme.h"
 #include "widgets/pings/PingOverlayItem.h"
 #include "widgets/pings/PingViewports.h"

@@ -1,8 +1,8 @@
 #include "support/test.h"
 #include "widgets/pings/PolarView.h"
 
+#include "frames/pictureCuts.h"
 #include "pixels.h"
-#include "spectrum/pictureCuts.h"
 #include "widgets/base/Theme.h"
 #include "widgets/pings/PolarItem.h"
 

@@ -1,6 +1,6 @@
 #include "widgets/base/familyWords.h"
 
-#include "spectrum/familyMembers.h"
+#include "frames/familyMembers.h"
 #include "widgets/base/quantities.h"
 
 #include <QCoreApplication>

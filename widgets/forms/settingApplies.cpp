@@ -1,6 +1,6 @@
 #include "widgets/forms/settingApplies.h"
 
-#include "analysis/secondLook.h"
+#include "refine/secondLook.h"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "analysis/analyse.h"
+#include "analyse/analyse.h"
 #include "base/FramePlane.h"
-#include "recording/PingTruth.h"
-#include "recording/Truth.h"
+#include "scene/PingTruth.h"
+#include "scene/Truth.h"
 #include "widgets/base/Span.h"
 
 #include <optional>

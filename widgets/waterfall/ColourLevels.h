@@ -1,6 +1,6 @@
 #pragma once
 
-#include "spectrum/PeakPyramid.h"
+#include "frames/PeakPyramid.h"
 #include "widgets/base/Span.h"
 
 #include <optional>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "inspect/Review.h"
-#include "recording/Truth.h"
+#include "scene/Truth.h"
 #include "track/Track.h"
 #include "widgets/waterfall/Sidebands.h"
 #include "widgets/waterfall/WaterfallPicture.h"

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "analysis/analyse.h"
+#include "analyse/analyse.h"
 #include "base/Axis.h"
-#include "spectrum/PeakPyramid.h"
+#include "frames/PeakPyramid.h"
 #include "widgets/base/Viewport.h"
 #include "widgets/plot/ColourMap.h"
 

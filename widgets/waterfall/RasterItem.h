@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/Axis.h"
-#include "spectrum/PeakPyramid.h"
+#include "frames/PeakPyramid.h"
 #include "widgets/base/Span.h"
 #include "widgets/base/rasterise.h"
 #include "widgets/plot/ColourMap.h"

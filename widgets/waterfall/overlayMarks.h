@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/analyse.h"
-#include "recording/Truth.h"
+#include "analyse/analyse.h"
+#include "scene/Truth.h"
 #include "widgets/base/Viewport.h"
 
 #include <QPolygonF>

@@ -3,10 +3,10 @@
 #include "app/cli/speed/SpeedKernel.h"
 #include "app/cli/speed/plainForms.h"
 #include "base/Random.h"
-#include "detect/Recursion.h"
 #include "model/Likelihood.h"
-#include "spectrum/NoiseNormaliser.h"
-#include "spectrum/medians.h"
+#include "noise/NoiseNormaliser.h"
+#include "noise/medians.h"
+#include "recursion/Recursion.h"
 
 #include <algorithm>
 #include <cmath>

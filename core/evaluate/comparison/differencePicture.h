@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/analyse.h"
-#include "spectrum/PeakPyramid.h"
+#include "analyse/analyse.h"
+#include "frames/PeakPyramid.h"
 
 #include <memory>
 

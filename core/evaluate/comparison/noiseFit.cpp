@@ -1,7 +1,7 @@
 #include "evaluate/comparison/noiseFit.h"
 
 #include "base/Random.h"
-#include "calibration/fitReset.h"
+#include "calibrate/fitReset.h"
 #include "plan/Calibration.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/RunContext.h"
+#include "frames/NormalisedFrames.h"
 #include "plan/AnalysisSettings.h"
-#include "spectrum/NormalisedFrames.h"
 
 #include <cstdint>
 #include <span>

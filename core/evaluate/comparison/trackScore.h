@@ -1,6 +1,6 @@
 #pragma once
 
-#include "recording/PingTruth.h"
+#include "scene/PingTruth.h"
 #include "track/Track.h"
 
 #include <span>

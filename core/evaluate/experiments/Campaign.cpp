@@ -2,12 +2,12 @@
 
 #include "base/Error.h"
 #include "base/Overloaded.h"
-#include "base/fileName.h"
+#include "base/files/fileName.h"
 #include "base/wholeNumber.h"
 #include "evaluate/experiments/InjectionTrials.h"
 #include "evaluate/experiments/SweepTrials.h"
 #include "evaluate/experiments/lineRuns.h"
-#include "recording/openRecording.h"
+#include "signal/openRecording.h"
 
 #include <algorithm>
 #include <set>

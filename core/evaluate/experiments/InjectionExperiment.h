@@ -22,7 +22,7 @@ namespace faintline {
 /// in the rest of this recording (measuredThreshold), counted in blocks as long as a line and 12 resolution cells wide,
 /// with the statistic used in the trials.
 struct InjectionExperiment {
-    std::string recording; ///< path, as text (base/fileName.h)
+    std::string recording; ///< path, as text (base/files/fileName.h)
     bool iq = false;       ///< two channels as I and Q
     int seed = 1;
     int trials = 200;

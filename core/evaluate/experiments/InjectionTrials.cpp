@@ -3,13 +3,12 @@
 #include "base/Error.h"
 #include "base/Random.h"
 #include "base/parallel.h"
-#include "calibration/calibrate.h"
+#include "calibrate/calibrate.h"
 #include "evaluate/experiments/SignalMask.h"
 #include "evaluate/experiments/measuredThreshold.h"
 #include "plan/chain.h"
 #include "plan/slopeUnit.h"
-#include "recording/InjectedRecording.h"
-#include "spectrum/NoiseNormaliser.h"
+#include "scene/InjectedRecording.h"
 
 #include <algorithm>
 #include <cmath>

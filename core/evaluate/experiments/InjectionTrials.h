@@ -3,8 +3,8 @@
 #include "base/RunContext.h"
 #include "evaluate/experiments/InjectionExperiment.h"
 #include "evaluate/experiments/RunOutcome.h"
-#include "recording/Recording.h"
-#include "recording/Truth.h"
+#include "scene/Truth.h"
+#include "signal/Recording.h"
 
 #include <memory>
 #include <vector>

@@ -2,7 +2,7 @@
 
 #include "base/json.h"
 #include "plan/AnalysisSettings.h"
-#include "recording/LineScene.h"
+#include "scene/LineScene.h"
 
 #include <string>
 #include <vector>

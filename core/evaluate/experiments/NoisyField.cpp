@@ -2,7 +2,7 @@
 
 #include "base/Random.h"
 #include "base/multiversion.h"
-#include "recording/Tone.h"
+#include "scene/Tone.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "evaluate/experiments/LineExperiment.h"
-#include "spectrum/Fft.h"
+#include "signal/Fft.h"
 
 #include <complex>
 #include <memory>

@@ -4,7 +4,7 @@
 #include "base/parallel.h"
 #include "detect/Smd.h"
 #include "plan/chain.h"
-#include "spectrum/SimulatedPings.h"
+#include "scene/SimulatedPings.h"
 
 namespace faintline {
 

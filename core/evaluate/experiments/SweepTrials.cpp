@@ -1,16 +1,15 @@
 #include "evaluate/experiments/SweepTrials.h"
 
-#include "analysis/analyse.h"
+#include "analyse/analyse.h"
 #include "base/Error.h"
 #include "base/Random.h"
 #include "base/parallel.h"
-#include "calibration/calibrate.h"
+#include "calibrate/calibrate.h"
 #include "evaluate/experiments/measureCost.h"
-#include "plan/scaledInjection.h"
+#include "evaluate/experiments/scaledInjection.h"
 #include "plan/slopeUnit.h"
-#include "recording/InjectedRecording.h"
-#include "recording/SimulatedRecording.h"
-#include "spectrum/NoiseNormaliser.h"
+#include "scene/InjectedRecording.h"
+#include "scene/SimulatedRecording.h"
 
 #include <algorithm>
 #include <cmath>

@@ -141,7 +141,7 @@ namespace {
 
     /// Number of values above a threshold, and of all values, in the runs' lists.
     template <class ListOf>
-    std::pair<std::int64_t, std::int64_t> countAbove(const Campaign &campaign, double threshold, ListOf listOf)
+    std::pair<std::int64_t, std::int64_t> countTrialsAbove(const Campaign &campaign, double threshold, ListOf listOf)
     {
         std::int64_t above = 0;
         std::int64_t all = 0;
@@ -158,7 +158,7 @@ namespace {
         const auto signals = [&](const RunOutcome &outcome) -> const std::vector<float> & {
             return outcome.signal[detector][snr];
         };
-        const auto [above, all] = countAbove(campaign, threshold, signals);
+        const auto [above, all] = countTrialsAbove(campaign, threshold, signals);
         return {x, double(above) / double(all), wilsonInterval(above, all)};
     }
 
@@ -185,8 +185,9 @@ std::optional<Curve> operatingPoint(const Campaign &campaign, std::size_t snr, c
     if (!detector)
         return {};
     const auto [above, all] =
-        countAbove(campaign, threshold,
-                   [&](const RunOutcome &outcome) -> const std::vector<float> & { return outcome.noise[*detector]; });
+        countTrialsAbove(campaign, threshold, [&](const RunOutcome &outcome) -> const std::vector<float> & {
+            return outcome.noise[*detector];
+        });
     // None or all cannot be drawn on a logarithmic axis: half a block is added or subtracted.
     const double share = std::clamp(double(above), 0.5, double(all) - 0.5) / double(all);
     const bool isInBlocks = std::holds_alternative<LineExperiment>(campaign.experiment);

@@ -2,8 +2,8 @@
 
 #include "base/logmath.h"
 #include "base/parallel.h"
-#include "calibration/fitReset.h"
-#include "calibration/noiseCounts.h"
+#include "calibrate/fitReset.h"
+#include "calibrate/noiseCounts.h"
 #include "evaluate/experiments/NoisyField.h"
 #include "plan/Calibration.h"
 

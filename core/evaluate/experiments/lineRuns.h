@@ -4,7 +4,7 @@
 #include "detect/Smd.h"
 #include "evaluate/experiments/LineExperiment.h"
 #include "evaluate/experiments/RunOutcome.h"
-#include "spectrum/NormalisedFrames.h"
+#include "frames/NormalisedFrames.h"
 
 #include <memory>
 #include <vector>

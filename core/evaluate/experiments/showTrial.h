@@ -1,9 +1,9 @@
 #pragma once
 
-#include "analysis/analyse.h"
+#include "analyse/analyse.h"
 #include "evaluate/experiments/Campaign.h"
 #include "evaluate/experiments/InjectionTrials.h"
-#include "recording/Truth.h"
+#include "scene/Truth.h"
 
 #include <cstddef>
 #include <memory>

@@ -3,7 +3,7 @@
 #include "base/Field.h"
 #include "detect/Survey.h"
 #include "evaluate/sequential/SequentialStudy.h"
-#include "recording/ScanScene.h"
+#include "scene/ScanScene.h"
 
 #include <optional>
 #include <string>

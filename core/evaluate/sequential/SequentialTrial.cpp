@@ -1,6 +1,6 @@
 #include "evaluate/sequential/SequentialTrial.h"
 
-#include "spectrum/cellAveraging.h"
+#include "detect/cellAveraging.h"
 
 #include <algorithm>
 

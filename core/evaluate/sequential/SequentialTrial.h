@@ -2,7 +2,7 @@
 
 #include "base/Random.h"
 #include "evaluate/sequential/SequentialStudy.h"
-#include "model/TrajectorySampler.h"
+#include "evaluate/sequential/TrajectorySampler.h"
 
 #include <span>
 #include <vector>

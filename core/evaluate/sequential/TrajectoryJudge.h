@@ -2,7 +2,7 @@
 
 #include "detect/MapTrajectory.h"
 #include "evaluate/sequential/SequentialStudy.h"
-#include "model/TrajectorySampler.h"
+#include "evaluate/sequential/TrajectorySampler.h"
 
 #include <vector>
 

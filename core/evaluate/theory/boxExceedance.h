@@ -1,7 +1,7 @@
 #pragma once
 
 #include "evaluate/theory/closedForm.h"
-#include "spectrum/PeakPyramid.h"
+#include "frames/PeakPyramid.h"
 
 #include <vector>
 

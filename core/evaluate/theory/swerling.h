@@ -1,6 +1,6 @@
 #pragma once
 
-#include "recording/Fluctuation.h"
+#include "scene/Fluctuation.h"
 
 namespace faintline {
 

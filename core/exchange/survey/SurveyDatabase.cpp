@@ -1,7 +1,7 @@
 #include "exchange/survey/SurveyDatabase.h"
 
 #include "base/Error.h"
-#include "base/fileName.h"
+#include "base/files/fileName.h"
 #include "exchange/survey/surveySchema.h"
 
 #include <array>

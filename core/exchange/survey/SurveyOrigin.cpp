@@ -3,8 +3,8 @@
 #include "base/Error.h"
 #include "base/readingJson.h"
 #include "base/wholeNumber.h"
-#include "calibration/calibrationVersion.h"
 #include "evaluate/comparison/settingDifferences.h"
+#include "plan/calibrationVersion.h"
 
 namespace faintline {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "plan/AnalysisSettings.h"
-#include "recording/openRecording.h"
+#include "signal/openRecording.h"
 
 #include <string>
 
@@ -18,7 +18,7 @@ struct SurveyOrigin {
     std::string settings;     ///< JSON of those that differ from the defaults
     std::string reading;      ///< JSON of the OpenOptions
     std::string version;      ///< of the program
-    std::string calibrations; ///< their version (calibration/calibrationVersion.h)
+    std::string calibrations; ///< their version (plan/calibrationVersion.h)
     std::string shard;        ///< "2/8": part of the recordings (base/Shard.h); empty: all
 
     bool operator==(const SurveyOrigin &) const = default;

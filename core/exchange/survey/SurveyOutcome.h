@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/events.h"
+#include "analyse/events.h"
 #include "inspect/Review.h"
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct SurveyFile {
     std::string path;          ///< absolute
     std::int64_t bytes = 0;    ///< length
     std::int64_t modified = 0; ///< ns since 1970-01-01 UTC
-    std::string hash;          ///< see recording/fileHash.h; two hashes are joined by "+"
+    std::string hash;          ///< see signal/fileHash.h; two hashes are joined by "+"
 };
 
 /// One recording of a survey: its properties, and the settings of its analysis or the reason why it failed.

@@ -1,9 +1,9 @@
 #include "exchange/survey/exportCamtrap.h"
 
-#include "base/AtomicFile.h"
 #include "base/Error.h"
 #include "base/Field.h"
-#include "base/fileName.h"
+#include "base/files/AtomicFile.h"
+#include "base/files/fileName.h"
 #include "base/json.h"
 #include "base/oneLine.h"
 #include "base/utc.h"

@@ -1,14 +1,14 @@
 #include "exchange/survey/exportSurvey.h"
 
-#include "base/AtomicFile.h"
 #include "base/Error.h"
 #include "base/Field.h"
-#include "base/fileName.h"
+#include "base/files/AtomicFile.h"
+#include "base/files/fileName.h"
 #include "base/oneLine.h"
 #include "base/utc.h"
 #include "exchange/csvText.h"
 #include "exchange/reviewedText.h"
-#include "recording/openRecording.h"
+#include "signal/openRecording.h"
 
 #include <cmath>
 #include <filesystem>

@@ -1,11 +1,11 @@
 #include "exchange/survey/findRecordings.h"
 
 #include "base/Error.h"
-#include "base/fileName.h"
-#include "exchange/openFrames.h"
-#include "recording/SampleType.h"
-#include "recording/SigmfRecording.h"
-#include "recording/Timeline.h"
+#include "base/files/fileName.h"
+#include "noise/openFrames.h"
+#include "signal/Timeline.h"
+#include "signal/formats/SampleType.h"
+#include "signal/formats/SigmfRecording.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,16 +1,16 @@
 #include "exchange/survey/surveyRecording.h"
 
-#include "analysis/chooseWindow.h"
-#include "base/fileName.h"
+#include "analyse/chooseWindow.h"
+#include "base/files/fileName.h"
 #include "base/logmath.h"
 #include "base/oneLine.h"
 #include "detect/SumDetector.h"
-#include "exchange/openFrames.h"
 #include "exchange/reviewedText.h"
+#include "noise/openFrames.h"
 #include "plan/firstSettings.h"
 #include "plan/slopeUnit.h"
-#include "recording/SigmfRecording.h"
-#include "recording/fileHash.h"
+#include "signal/fileHash.h"
+#include "signal/formats/SigmfRecording.h"
 
 #include <sys/stat.h>
 

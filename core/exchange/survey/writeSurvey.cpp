@@ -1,7 +1,7 @@
 #include "exchange/survey/writeSurvey.h"
 
-#include "base/AtomicFile.h"
 #include "base/Error.h"
+#include "base/files/AtomicFile.h"
 #include "exchange/survey/surveySchema.h"
 
 #include <cstdlib>

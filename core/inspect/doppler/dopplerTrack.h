@@ -2,7 +2,6 @@
 
 #include "inspect/doppler/DopplerPass.h"
 #include "plan/AnalysisPlan.h"
-#include "track/Track.h"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "exchange/NumPy.h"
+#include "signal/formats/NumPy.h"
 #include "support/recordings.h"
 #include "support/slowdown.h"
 

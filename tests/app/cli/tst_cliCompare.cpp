@@ -1,5 +1,5 @@
 #include "app/cli/CommandLineTest.h"
-#include "exchange/NumPy.h"
+#include "signal/formats/NumPy.h"
 #include "support/test.h"
 
 using namespace faintline;

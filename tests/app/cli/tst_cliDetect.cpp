@@ -1,10 +1,10 @@
-#include "analysis/analyse.h"
+#include "analyse/analyse.h"
 #include "app/cli/CommandLineTest.h"
 #include "base/json.h"
-#include "exchange/NumPy.h"
 #include "exchange/writeEvents.h"
 #include "inspect/explain.h"
-#include "recording/openRecording.h"
+#include "signal/formats/NumPy.h"
+#include "signal/openRecording.h"
 #include "support/test.h"
 
 using namespace faintline;

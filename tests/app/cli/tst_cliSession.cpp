@@ -1,10 +1,10 @@
 #include "app/cli/CommandLineTest.h"
 #include "support/test.h"
 
-#include "analysis/events.h"
+#include "analyse/events.h"
 #include "base/json.h"
+#include "exchange/Session.h"
 #include "exchange/writeReviewed.h"
-#include "session/Session.h"
 
 using namespace faintline;
 using namespace faintline::test;

@@ -2,8 +2,8 @@
 #include "support/test.h"
 
 #include "base/Random.h"
-#include "recording/ArrayRecording.h"
-#include "recording/writeRecording.h"
+#include "signal/ArrayRecording.h"
+#include "signal/formats/writeRecording.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,304 @@
+#include "analyse/chooseWindow.h"
+
+#include "analyse/energyKept.h"
+#include "plan/sureStatistic.h"
+#include "refine/secondLook.h"
+#include "refine/steadyLines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace faintline {
+
+namespace {
+
+    constexpr double factor = 4.0;        ///< ratio of consecutive windows
+    constexpr double tooFast = 1.0 / 3.0; ///< below it the longer window loses moving signals
+    constexpr double asGood = 0.85;       ///< from there on it loses almost nothing
+    constexpr double fewestCells = 24.0;
+    constexpr double fewestFrames = 16.0;
+    constexpr double fewestOfSteadyLines = 4.0; ///< frames
+    constexpr std::size_t mostTrials = 5;
+
+    ModelSettings withLaw(ModelSettings model, const ModelSettings &law)
+    {
+        model.lowestSlope = law.lowestSlope;
+        model.highestSlope = law.highestSlope;
+        model.slopesPerBin = law.slopesPerBin;
+        model.slopeChange = law.slopeChange;
+        return model;
+    }
+
+    double resolutionHz(const Analysis &analysis)
+    {
+        const Spectrogram &spectrogram = *analysis.frames->spectrogram();
+        return spectrogram.recording().info().sampleRateHz / spectrogram.windowSamples();
+    }
+
+    double windowSecondsOf(const Analysis &analysis)
+    {
+        const double asked = analysis.settings.spectrogram.windowSeconds;
+        return asked > 0.0 ? asked : 1.0 / resolutionHz(analysis);
+    }
+
+    /// Includes tracks that the noise explains: a fast line breaks into short, strong pieces in a window too long for
+    /// it, which is informative on the window.
+    std::vector<Track> foundIn(const Analysis &analysis)
+    {
+        if (!analysis.firstTracks.empty())
+            return analysis.firstTracks;
+        std::vector<Track> found = analysis.tracks;
+        found.insert(found.end(), analysis.explainedByNoise.begin(), analysis.explainedByNoise.end());
+        return found;
+    }
+
+    /// An analysis with tracks only, for comparison with other windows and as a start after a change of the threshold.
+    std::shared_ptr<const Analysis> tracksOnly(const Analysis &analysis)
+    {
+        auto result = std::make_shared<Analysis>();
+        static_cast<AnalysisPlan &>(*result) = analysis;
+        result->tracks = analysis.tracks;
+        result->explainedByNoise = analysis.explainedByNoise;
+        result->firstTracks = analysis.firstTracks;
+        result->lnK = analysis.lnK;
+        result->unsubtracted = analysis.unsubtracted;
+        return result;
+    }
+
+    class WindowSearch
+    {
+    public:
+        WindowSearch(RecordingPointer recording, const AnalysisSettings &asked, CalibrationDepth calibrationDepth,
+                     AnalysisDepth depth, RunContext context)
+            : m_recording(std::move(recording)), m_asked(asked), m_calibrationDepth(calibrationDepth), m_depth(depth),
+              m_context(std::move(context))
+        {
+        }
+
+        /// Result for the chosen window; without pictures if it is not T0. Sets `choice`.
+        std::shared_ptr<Analysis> run(const Analysis *previous, const PictureSink &pictures)
+        {
+            std::shared_ptr<Analysis> automatic = analyse(
+                m_recording, m_asked, nextPart(), previous,
+                {.pictures = pictures, .calibration = m_calibrationDepth, .depth = m_depth, .keepsFirstTracks = true});
+            m_windowSeconds = windowSecondsOf(*automatic);
+            m_cells = double(automatic->grid().size()) * automatic->grid().axes.back().step * m_windowSeconds;
+            m_frames = double(automatic->time().count);
+            note(m_asked, *automatic);
+            if (std::shared_ptr<Analysis> best = shorter(*automatic))
+                return best;
+            return longer(std::move(automatic));
+        }
+
+        /// Result for the next longer window, without pictures; null if it is not feasible.
+        std::shared_ptr<const Analysis> nextLonger(const Analysis &chosen)
+        {
+            const double step = factor * windowSecondsOf(chosen) / m_windowSeconds;
+            if (!m_longer && isBorne(step, fewestOfSteadyLines))
+                m_longer = tracksOnly(*tried(step, m_asked.model));
+            return m_longer;
+        }
+
+        WindowChoice choice(const Analysis &chosen) const
+        {
+            return {m_asked, m_trials, numberOf(m_windowSeconds), numberOf(windowSecondsOf(chosen))};
+        }
+
+    private:
+        std::size_t numberOf(double windowSeconds) const
+        {
+            return std::size_t(std::count_if(m_trials.begin(), m_trials.end(), [&](const WindowTrial &trial) {
+                return trial.windowSeconds < windowSeconds;
+            }));
+        }
+
+        /// Any trial may be the last one, so each takes half of the remaining progress.
+        RunContext nextPart()
+        {
+            const double from = std::exchange(m_done, m_done + 0.5 * (1.0 - m_done));
+            return m_context.part(from, m_done);
+        }
+
+        /// The shortest window that still follows a sufficient share of what the next shorter one follows; null if that
+        /// is T0, or none. No more than two windows are held at a time.
+        std::shared_ptr<Analysis> shorter(const Analysis &automatic)
+        {
+            std::shared_ptr<Analysis> best;
+            for (double step = 1.0 / factor; m_cells * step >= fewestCells && m_trials.size() < mostTrials;
+                 step /= factor) {
+                auto trial = tried(step, laws::glide());
+                const double kept = shareKept(*trial, best ? *best : automatic);
+                m_trials.front().kept = kept;
+                if (std::isnan(kept)) // nothing to compare
+                    break;
+                if (kept >= tooFast)
+                    return best;
+                m_longer = tracksOnly(best ? *best : automatic);
+                best = std::move(trial);
+            }
+            m_longer = nullptr;
+            return nullptr;
+        }
+
+        /// Whether there are enough frames and memory: an automatic window is bounded for any length of recording.
+        bool isBorne(double step, double frames) const
+        {
+            RecordingInfo endless = m_recording->info();
+            endless.sampleCount = std::numeric_limits<Index>::max();
+            return m_frames / step >= frames && step * m_windowSeconds <= Spectrogram::automaticWindowSeconds(endless);
+        }
+
+        std::shared_ptr<Analysis> longer(std::shared_ptr<Analysis> best)
+        {
+            for (double step = factor; isBorne(step, fewestFrames) && m_trials.size() < mostTrials && isSure(*best);
+                 step *= factor) {
+                auto trial = tried(step, m_asked.model);
+                const double kept = shareKept(*best, *trial);
+                (m_trials.end() - 2)->kept = kept;
+                if (!(kept >= asGood)) {
+                    m_longer = tracksOnly(*trial);
+                    break;
+                }
+                best = std::move(trial);
+            }
+            return best;
+        }
+
+        std::shared_ptr<Analysis> tried(double step, const ModelSettings &law)
+        {
+            AnalysisSettings settings = m_asked;
+            settings.spectrogram.windowSeconds = step * m_windowSeconds;
+            settings.model = withLaw(m_asked.model, law);
+            auto analysis = analyse(m_recording, settings, nextPart(), nullptr,
+                                    {.calibration = m_calibrationDepth, .depth = AnalysisDepth::Trial});
+            note(settings, *analysis);
+            return analysis;
+        }
+
+        void note(const AnalysisSettings &settings, const Analysis &analysis)
+        {
+            const WindowTrial trial{settings, windowSecondsOf(analysis), std::ssize(analysis.tracks),
+                                    std::numeric_limits<double>::quiet_NaN()};
+            m_trials.insert(m_trials.begin() + Index(numberOf(trial.windowSeconds)), trial);
+        }
+
+        static bool isSure(const Analysis &analysis)
+        {
+            const auto hasSure = [limit = sureStatistic(analysis)](const std::vector<Track> &tracks) {
+                return std::any_of(tracks.begin(), tracks.end(),
+                                   [limit](const Track &track) { return track.peakStatistic >= limit; });
+            };
+            return hasSure(analysis.tracks) || hasSure(analysis.explainedByNoise);
+        }
+
+        static double shareKept(const Analysis &shorter, const Analysis &longer)
+        {
+            const std::vector<Track> ofShorter = foundIn(shorter);
+            const std::vector<Track> ofLonger = foundIn(longer);
+            const auto onAxes = [](const Analysis &analysis, const std::vector<Track> &tracks) {
+                return TracksOnAxes{tracks, analysis.time(), analysis.grid().axes.back(), resolutionHz(analysis)};
+            };
+            return energyKept(onAxes(shorter, ofShorter), onAxes(longer, ofLonger), sureStatistic(shorter));
+        }
+
+        RecordingPointer m_recording;
+        const AnalysisSettings &m_asked;
+        CalibrationDepth m_calibrationDepth;
+        AnalysisDepth m_depth;
+        RunContext m_context;
+        double m_done = 0.0;
+        double m_windowSeconds = 0.0; ///< T0
+        double m_cells = 0.0;         ///< at T0
+        double m_frames = 0.0;
+        std::vector<WindowTrial> m_trials;
+        std::shared_ptr<const Analysis> m_longer; ///< next longer than the best, if it was tried; without pictures
+    };
+
+    /// The settings with the window and law of one of the trials; an open window gives T0 anyway.
+    AnalysisSettings ofTrial(const WindowChoice &choice, std::size_t number, const AnalysisSettings &settings)
+    {
+        return number == choice.automatic ? settings : inWindowOf(choice.trials[number], settings);
+    }
+
+    /// Whether all settings that affect the choice of a window are equal.
+    bool asksForTheSame(const AnalysisSettings &a, const AnalysisSettings &b)
+    {
+        return a.selection == b.selection && a.spectrogram == b.spectrogram && a.noise == b.noise && a.model == b.model
+               && a.detector == b.detector;
+    }
+
+} // namespace
+
+bool leavesWindowToRecording(const AnalysisSettings &settings)
+{
+    const ModelSettings &model = settings.model;
+    return settings.spectrogram.windowSeconds == 0.0 && settings.track.bothWays && canLookTwice(settings)
+           && model.motion == Motion::Slopes && model == withLaw(model, ModelSettings());
+}
+
+AnalysisSettings inWindowOf(const WindowTrial &trial, AnalysisSettings settings)
+{
+    settings.spectrogram.windowSeconds = trial.windowSeconds;
+    settings.model = withLaw(settings.model, trial.settings.model);
+    return settings;
+}
+
+AnalysisSettings inWindowOf(const Analysis &analysis, const AnalysisSettings &settings)
+{
+    const auto &choice = analysis.choice;
+    const bool isOther = choice && choice->chosen != choice->automatic && leavesWindowToRecording(settings);
+    return isOther ? inWindowOf(choice->trials[choice->chosen], settings) : settings;
+}
+
+std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording, const AnalysisSettings &settings,
+                                                      const RunContext &context, const Analysis *previous,
+                                                      const AnalysisRequest &request)
+{
+    AnalysisRequest wanted = request;
+    wanted.statistic = {};
+    if (!leavesWindowToRecording(settings))
+        return analyse(recording, settings, context, previous, wanted);
+    const bool isChosen = previous && previous->recording == recording && previous->choice
+                          && !previous->calibration->isFirstEstimate
+                          && asksForTheSame(previous->choice->asked, settings);
+    const bool subtracts = settings.subtract.lines;
+    AnalysisSettings asked = settings; // subtraction does not affect the choice
+    asked.subtract.lines = false;
+    const double searched = isChosen ? 0.0 : subtracts ? 0.4 : 0.7; // shares of the progress
+    const double detected = isChosen ? 0.6 : subtracts ? 0.8 : 0.98;
+    const double compared = 0.98;
+    WindowChoice choice;
+    std::shared_ptr<const Analysis> longer;
+    std::shared_ptr<Analysis> found;
+    if (isChosen) {
+        choice = *previous->choice;
+        longer = previous->longer;
+    } else {
+        WindowSearch search(recording, asked, wanted.calibration, subtracts ? AnalysisDepth::Trial : wanted.depth,
+                            context.part(0.0, searched));
+        found = search.run(previous, wanted.pictures);
+        longer = search.nextLonger(*found);
+        choice = search.choice(*found);
+    }
+    choice.asked = settings;
+    const bool isTrial = !isChosen && choice.chosen != choice.automatic;
+    const bool isComplete = !isChosen && !subtracts; // the search ran with these settings
+    if (isTrial || !isComplete)
+        found = analyse(recording, ofTrial(choice, choice.chosen, settings), context.part(searched, detected),
+                        isChosen ? previous : found.get(), wanted);
+    if (longer && !isComplete) // after the pictures, which the user waits for
+        longer = analyse(recording, ofTrial(choice, choice.chosen + 1, settings), context.part(detected, compared),
+                         longer.get(), {.calibration = wanted.calibration, .depth = AnalysisDepth::Trial});
+    found->firstTracks = {};
+    found->longer = std::move(longer);
+    if (found->longer)
+        found->tracks = withSteadyLines(*found, *found->longer, context.part(compared, 1.0));
+    choice.steadyLines = std::count_if(found->tracks.begin(), found->tracks.end(),
+                                       [](const Track &track) { return track.windowSeconds > 0.0; });
+    found->choice = std::move(choice);
+    return found;
+}
+
+} // namespace faintline

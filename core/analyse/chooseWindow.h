@@ -1,0 +1,47 @@
+#pragma once
+
+#include "analyse/analyse.h"
+
+namespace faintline {
+
+/// Whether these settings let the recording determine window and law of motion: T_FT = 0 and the default law of the
+/// sequential Markov detector, with two-sided tracks.
+bool leavesWindowToRecording(const AnalysisSettings &settings);
+
+/// The settings with the window and law chosen for an analysis, if both leave them open; else unchanged.
+AnalysisSettings inWindowOf(const Analysis &analysis, const AnalysisSettings &settings);
+
+/// The settings with the window and law of motion of a trial.
+AnalysisSettings inWindowOf(const WindowTrial &trial, AnalysisSettings settings);
+
+/// `analyse`, with a window that suits the recording's signals if the settings leave it open.
+///
+/// The automatic window T0 (Spectrogram::automaticWindowSeconds) is used first, with its pictures. Others, each four
+/// times as long or short as the previous one, are tried for their tracks alone, and judged by the fraction k of the
+/// energy along the shorter one's tracks that the longer one follows as well (energyKept; for tracks a hundred times
+/// rarer on noise than specified):
+///
+///   shorter  while k < 1/3: signals move too fast for the longer one. Accepted only if k ≥ 1/3 is reached, because for
+///            signals other than lines every shorter window follows more. Shorter windows use the law of fast signals
+///            (laws::glide).
+///   longer   while k ≥ 0.85: a window four times as long loses almost nothing, and fainter lines stand out of the
+///            noise.
+///
+/// Windows have at least 24 cells in the band and 16 frames, and no more samples than any T0. On noise no track is sure
+/// enough, and T0 is kept; at most five windows are tried. The result's `choice` lists the trials, and its `settings`
+/// have the window and law used. If only the threshold or the tracks' settings change, the choice of `previous` is
+/// kept, unless it was made with a first estimate.
+///
+/// If strong lines are subtracted, windows are tried on the unchanged recording, and lines are subtracted in the chosen
+/// window and in the next longer one.
+///
+/// The statistic is not delivered: a second run with the chosen window (`inWindowOf`) gives it.
+///
+/// The result's tracks are those of the chosen window and the steady lines that only the next longer one detects
+/// (steadyLines.h), which may have as few as four frames.
+std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording, const AnalysisSettings &settings,
+                                                      const RunContext &context = {},
+                                                      const Analysis *previous = nullptr,
+                                                      const AnalysisRequest &request = {});
+
+} // namespace faintline

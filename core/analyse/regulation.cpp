@@ -1,0 +1,45 @@
+#include "analyse/regulation.h"
+
+#include "base/Random.h"
+#include "calibrate/calibrate.h"
+
+#include <cmath>
+
+namespace faintline {
+
+NoiseBand regulationBand(const MarkovModel &model, const ResetRule &rule, const RunContext &context)
+{
+    constexpr int settlingFrames = 150;
+    constexpr int frames = 400;
+    if (rule.law != ResetLaw::Mean && rule.law != ResetLaw::Half)
+        return {};
+    const MarkovModel piece = calibrationSubgrid(model);
+    Smd detector(piece, rule);
+    std::vector<float> y(std::size_t(piece.space.cellCount()));
+    std::vector<float> statistic(y.size());
+    std::vector<double> lnK;
+    Random random(2000, 0);
+    for (int frame = 0; frame < frames; ++frame) {
+        context.checkpoint(double(frame) / frames, "regulating K on noise");
+        for (float &value : y)
+            value = float(random.exponential());
+        detector.update(y, statistic);
+        if (frame >= settlingFrames)
+            lnK.push_back(detector.regulation().lnK);
+    }
+    NoiseBand band = noiseBand(lnK);
+    band.deviation *= std::sqrt(double(piece.space.cellCount()) / double(model.space.cellCount()));
+    return band;
+}
+
+std::vector<Index> draggedFrames(const Analysis &analysis)
+{
+    std::vector<Index> frames;
+    if (analysis.lnKBand.deviation > 0.0)
+        for (std::size_t frame = 0; frame < analysis.lnK.size(); ++frame)
+            if (double(analysis.lnK[frame]) < analysis.lnKBand.low())
+                frames.push_back(Index(frame));
+    return frames;
+}
+
+} // namespace faintline

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "calibrate/CalibrationDepth.h"
+#include "plan/AnalysisSettings.h"
+
+#include <optional>
+#include <string>
+
+namespace faintline {
+
+inline constexpr int calibrationWindowSamples = 256; ///< of the simulated recording; noise is independent of it
+
+/// What a calibration is of. Two requests with the same key have the same calibration, and a key says all that is
+/// needed to make it: shipped ones are made again from their keys.
+struct CalibrationRequest {
+    AnalysisSettings settings; ///< those on which the response to noise depends, others at their defaults
+    CalibrationDepth depth = CalibrationDepth::Refined;
+    Index bins = 0;                     ///< of a band with two ends; 0: a wide band
+    std::optional<MarkovModel> model{}; ///< of independent cells, in place of a spectrogram
+    double cellFrames = 0.0;            ///< of independent cells
+
+    /// JSON on one line.
+    std::string key() const;
+};
+
+/// The request with a key. Throws Error naming the cause.
+CalibrationRequest requestOf(const std::string &key);
+
+/// For frames of a recording. The key is in bins and frames: neither the sample rate nor the length of the window
+/// splits it, nor what does not act on the causal chain. For channels, it has their number.
+AnalysisSettings dimensionless(AnalysisSettings settings);
+
+/// For ready-made frames, with a model of their own.
+AnalysisSettings ofIndependentCells(AnalysisSettings settings);
+
+} // namespace faintline

@@ -1,0 +1,297 @@
+#include "noise/bandLevels.h"
+
+#include "noise/between.h"
+#include "noise/levels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace faintline {
+
+namespace {
+
+    /// First cell of a sub-band; column `bands` is the whole band.
+    Index firstCell(Index column, Index bands, Index cells)
+    {
+        return column == bands ? 0 : column * cells / bands;
+    }
+
+    Index endCell(Index column, Index bands, Index cells)
+    {
+        return column == bands ? cells : (column + 1) * cells / bands;
+    }
+
+    /// ln of the true mean estimated by a mean of `cells` cells, corrected for the bias of the logarithm.
+    float lnMean(float mean, std::ptrdiff_t cells, double likeness)
+    {
+        const double scatter = meanScatter(double(cells), likeness);
+        return std::log(mean) + float(0.5 * scatter * scatter);
+    }
+
+    /// Replaces silence by the preceding level, or by the first known one.
+    void bridgeSilence(std::vector<float> &series)
+    {
+        const auto first =
+            std::find_if(series.begin(), series.end(), [](float value) { return value < levelNotKnown; });
+        float level = first == series.end() ? 0.0f : *first;
+        for (float &value : series)
+            level = value = value < levelNotKnown ? value : level;
+    }
+
+    /// Computes levels over a block's background, frame by frame.
+    class FrameLevels
+    {
+    public:
+        FrameLevels(const BlockBackground &block, Index bands, double likeness)
+            : m_block(block), m_bands(bands), m_cells(std::ssize(block.lnPower)), m_likeness(likeness),
+              m_agreeing(float(4.0 * medianScatter(double(m_cells) / double(bands)))), m_inverse(std::size_t(m_cells))
+        {
+            for (std::size_t cell = 0; cell < m_inverse.size(); ++cell)
+                m_inverse[cell] =
+                    block.lnPower[cell] > NoiseBackground::silence ? std::exp(-block.lnPower[cell]) : 0.0f;
+        }
+
+        /// Levels of each sub-band, and last of the whole band.
+        void read(std::span<const float> frame, std::span<float> levels)
+        {
+            levelsOfBands(frame, levels);
+            const bool isFirm = 2 * std::ssize(m_telling) >= m_bands || m_known.size() == m_telling.size();
+            if (!isFirm) // a few sub-bands do not represent the whole band
+                m_telling = m_known;
+            std::vector<float> told;
+            for (const Index band : m_telling)
+                told.push_back(levels[std::size_t(band)]);
+            const float middle = middleOf(told);
+            m_sample.clear();
+            for (Index band : m_telling)
+                if (m_telling.size() < 3 || std::abs(levels[std::size_t(band)] - middle) < m_agreeing)
+                    collect(frame, band, isFirm ? m_block.isFirm : m_block.isNoise);
+            const float mean = truncatedMean(m_sample, std::exp(middle));
+            levels.back() =
+                mean > 0.0f && !m_sample.empty() ? lnMean(mean, std::ssize(m_sample), m_likeness) : levelNotKnown;
+            std::replace(levels.begin(), levels.end() - 1, levelNotKnown, levels.back());
+        }
+
+    private:
+        /// Levels of the sub-bands, the known ones, and those that represent the whole band.
+        void levelsOfBands(std::span<const float> frame, std::span<float> levels)
+        {
+            constexpr std::ptrdiff_t fewestCells = 24;
+            m_telling.clear();
+            m_known.clear();
+            for (Index band = 0; band < m_bands; ++band) {
+                m_sample.clear();
+                collect(frame, band, m_block.isNoise);
+                const std::ptrdiff_t count = std::ssize(m_sample);
+                if (count < fewestCells)
+                    continue;
+                const float median = medianOf(m_sample);
+                if (!(median > 0.0f))
+                    continue;
+                levels[std::size_t(band)] =
+                    lnMean(truncatedMean(m_sample, median / std::numbers::ln2_v<float>), count, m_likeness);
+                m_known.push_back(band);
+                const Index first = firstCell(band, m_bands, m_cells);
+                const Index end = endCell(band, m_bands, m_cells);
+                if (2 * std::count(m_block.isFirm.begin() + first, m_block.isFirm.begin() + end, true) >= end - first)
+                    m_telling.push_back(band);
+            }
+        }
+
+        void collect(std::span<const float> frame, Index band, const std::vector<bool> &wanted)
+        {
+            for (Index cell = firstCell(band, m_bands, m_cells); cell < endCell(band, m_bands, m_cells); ++cell)
+                if (const auto c = std::size_t(cell); wanted[c])
+                    m_sample.push_back(frame[c] * m_inverse[c]);
+        }
+
+        /// Median; two values have no majority, so all count.
+        static float middleOf(std::vector<float> &levels)
+        {
+            if (levels.size() > 2)
+                return medianOf(levels);
+            return levels.empty() ? 0.0f : std::accumulate(levels.begin(), levels.end(), 0.0f) / float(levels.size());
+        }
+
+        const BlockBackground &m_block;
+        Index m_bands;
+        Index m_cells;
+        double m_likeness;
+        float m_agreeing; ///< maximum distance of a sub-band's level from the median one
+        std::vector<float> m_inverse;
+        std::vector<float> m_sample;
+        std::vector<Index> m_telling;
+        std::vector<Index> m_known;
+    };
+
+} // namespace
+
+std::vector<float> levelsOf(std::span<const float> frames, const BlockBackground &block, Index bands, double likeness)
+{
+    if (bands == 0)
+        return {};
+    const auto cells = block.lnPower.size();
+    const std::size_t count = frames.size() / cells;
+    const auto columns = std::size_t(bands + 1);
+    std::vector<float> levels(count * columns, levelNotKnown);
+    FrameLevels levelsIn(block, bands, likeness);
+    for (std::size_t frame = 0; frame < count; ++frame)
+        levelsIn.read(frames.subspan(frame * cells, cells), std::span(levels).subspan(frame * columns, columns));
+    return levels;
+}
+
+std::vector<float> mediansOf(const std::vector<float> &levels, Index columns)
+{
+    std::vector<float> medians(std::size_t(columns), 0.0f);
+    std::vector<float> series;
+    for (std::size_t column = 0; column < medians.size(); ++column) {
+        series.clear();
+        for (std::size_t i = column; i < levels.size(); i += medians.size())
+            if (levels[i] < levelNotKnown)
+                series.push_back(levels[i]);
+        if (!series.empty())
+            medians[column] = medianOf(series);
+    }
+    return medians;
+}
+
+float shareOfLines(float median)
+{
+    constexpr float medianChanceLn = 0.02f;
+    constexpr float lineShareLimitLn = 0.15f;
+    return std::clamp(median - medianChanceLn, 0.0f, lineShareLimitLn);
+}
+
+LevelOffsets::LevelOffsets(const std::vector<float> &levels, Index columns)
+    : medians(mediansOf(levels, columns)), isSure(medians.size(), false)
+{
+    std::vector<float> deviations = levels;
+    for (std::size_t i = 0; i < levels.size(); ++i)
+        if (levels[i] < levelNotKnown)
+            deviations[i] = std::abs(levels[i] - medians[i % medians.size()]);
+    const std::vector<float> typical = mediansOf(deviations, columns);
+    for (std::size_t column = 0; column < medians.size(); ++column)
+        isSure[column] = std::ssize(levels) > 7 * columns && std::abs(medians[column]) >= 1.4826f * typical[column];
+}
+
+void removeOffsets(std::vector<float> &levels, const std::vector<LevelOffsets> &offsets,
+                   const std::vector<Index> &blockOfLevel)
+{
+    constexpr Index offsetReachBlocks = 6;
+    if (offsets.empty())
+        return;
+    const std::size_t columns = offsets.front().medians.size();
+    std::vector<std::vector<float>> taken;
+    std::vector<float> few;
+    for (Index block = 0; block < std::ssize(offsets); ++block) {
+        const LevelOffsets &own = offsets[std::size_t(block)];
+        taken.push_back(std::vector<float>(columns, 0.0f));
+        for (std::size_t column = 0; column < columns; ++column) {
+            if (own.isSure[column]) {
+                taken.back()[column] = own.medians[column];
+                continue;
+            }
+            if (column + 1 == columns)
+                continue;
+            few.clear();
+            for (Index other = std::max<Index>(0, block - offsetReachBlocks);
+                 other <= std::min(std::ssize(offsets) - 1, block + offsetReachBlocks); ++other)
+                if (const LevelOffsets &each = offsets[std::size_t(other)]; !each.isSure[column])
+                    few.push_back(each.medians[column]);
+            taken.back()[column] = shareOfLines(medianOf(few));
+        }
+    }
+    for (std::size_t i = 0; i < levels.size(); ++i)
+        if (levels[i] < levelNotKnown)
+            levels[i] -= taken[std::size_t(blockOfLevel[i / columns])][i % columns];
+}
+
+std::vector<double> meanOver(const float *upper, const float *lower, std::vector<bool>::const_iterator isNoise,
+                             Index cells, Index bands)
+{
+    std::vector<double> result(std::size_t(bands + 1), 0.0);
+    std::vector<double> counts(result.size(), 0.0);
+    for (Index band = 0; band < bands; ++band)
+        for (Index cell = firstCell(band, bands, cells); cell < endCell(band, bands, cells); ++cell)
+            if (isNoise[cell]) {
+                result[std::size_t(band)] += double(upper[cell] - lower[cell]);
+                counts[std::size_t(band)] += 1.0;
+            }
+    result.back() = std::accumulate(result.begin(), result.end(), 0.0);
+    counts.back() = std::accumulate(counts.begin(), counts.end(), 0.0);
+    for (std::size_t column = 0; column < result.size(); ++column)
+        result[column] = counts[column] > 0.0 ? result[column] / counts[column] : 0.0;
+    for (std::size_t column = 0; column < result.size(); ++column)
+        if (counts[column] == 0.0) // uses the common level
+            result[column] = result.back();
+    return result;
+}
+
+void moveToBackground(std::vector<float> &levels, const BlockRows &rows, const NoiseBackground &background,
+                      const std::vector<Index> &blockOfLevel)
+{
+    const Index columns = background.bandCount + 1;
+    const Index cells = background.frequency.count;
+    const Index last = background.time.count - 1;
+    std::array<std::vector<double>, 3> over; // the previous block, its own, the next
+    Index known = -1;
+    for (Index i = 0; i < background.levelTime.count; ++i) {
+        const Index block = blockOfLevel[std::size_t(i)];
+        const float *own = rows.lnPower.data() + block * cells;
+        if (block != known)
+            for (Index side = -1; side <= 1; ++side)
+                over[std::size_t(side + 1)] =
+                    meanOver(own, background.lnPower.data() + std::clamp<Index>(block + side, 0, last) * cells,
+                             rows.isNoise.begin() + block * cells, cells, background.bandCount);
+        known = block;
+        if (own[0] <= NoiseBackground::silence)
+            continue;
+        const Between t = between(background.time, background.levelTime.value(double(i)));
+        const auto isSilent = [&](Index b) {
+            return background.lnPower[std::size_t(std::min(b, last) * cells)] <= NoiseBackground::silence;
+        };
+        const Index early = isSilent(t.lower) ? t.lower + 1 : t.lower;
+        const Index late = isSilent(t.lower + 1) ? t.lower : t.lower + 1;
+        for (Index column = 0; column < columns; ++column) {
+            const auto difference = [&](Index b) {
+                return over[std::size_t(std::clamp<Index>(std::min(b, last) - block + 1, 0, 2))][std::size_t(column)];
+            };
+            float &level = levels[std::size_t(i * columns + column)];
+            if (level < levelNotKnown)
+                level += float((1.0 - t.fraction) * difference(early) + t.fraction * difference(late));
+        }
+    }
+}
+
+std::vector<float> finishLevels(const std::vector<float> &levels, const NoiseBackground &background, double overlap,
+                                double likeness)
+{
+    const auto bands = std::size_t(background.bandCount);
+    const auto count = std::size_t(background.levelTime.count);
+    std::vector<float> result(count * bands);
+    if (bands == 0)
+        return result;
+    const auto cells = double(background.frequency.count);
+    const auto column = [&](std::size_t number) {
+        std::vector<float> series(count);
+        for (std::size_t i = 0; i < count; ++i)
+            series[i] = levels[i * (bands + 1) + number];
+        bridgeSilence(series);
+        return series;
+    };
+    const std::vector<float> common = beyondScatter(column(bands), overlap * meanScatter(cells, likeness));
+    for (std::size_t band = 0; band < bands; ++band) {
+        std::vector<float> own = column(band);
+        for (std::size_t i = 0; i < count; ++i)
+            own[i] -= common[i];
+        own = beyondScatter(own, overlap * meanScatter(cells / double(bands), likeness));
+        for (std::size_t i = 0; i < count; ++i)
+            result[i * bands + band] = common[i] + own[i];
+    }
+    return result;
+}
+
+} // namespace faintline

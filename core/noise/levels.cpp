@@ -1,0 +1,191 @@
+#include "noise/levels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    constexpr double likeness = 1.5; // neighbouring cells that count as one
+
+    constexpr int scales = 7;
+
+    /// Reflects an index beyond the ends of a series into it.
+    std::ptrdiff_t reflected(std::ptrdiff_t i, std::ptrdiff_t n)
+    {
+        if (n == 1)
+            return 0;
+        const std::ptrdiff_t period = 2 * (n - 1);
+        i = std::abs(i) % period;
+        return i < n ? i : period - i;
+    }
+
+    /// ¼ x(i - lag) + ½ x(i) + ¼ x(i + lag)
+    std::vector<double> smoothed(const std::vector<double> &x, std::ptrdiff_t lag)
+    {
+        const std::ptrdiff_t n = std::ssize(x);
+        std::vector<double> result(x.size());
+        for (std::ptrdiff_t i = 0; i < n; ++i)
+            result[std::size_t(i)] = 0.25 * x[std::size_t(reflected(i - lag, n))] + 0.5 * x[std::size_t(i)]
+                                     + 0.25 * x[std::size_t(reflected(i + lag, n))];
+        return result;
+    }
+
+    /// Standard deviation of a scale's details for white noise of deviation 1: the root of the energy of the details of
+    /// a unit impulse.
+    const std::array<double, scales> &detailDeviations()
+    {
+        static const std::array<double, scales> deviations = [] {
+            std::array<double, scales> result{};
+            std::vector<double> impulse(std::size_t(4) << scales, 0.0);
+            impulse[impulse.size() / 2] = 1.0;
+            for (int scale = 0; scale < scales; ++scale) {
+                const std::vector<double> coarse = smoothed(impulse, std::ptrdiff_t(1) << scale);
+                for (std::size_t i = 0; i < impulse.size(); ++i)
+                    result[std::size_t(scale)] += (impulse[i] - coarse[i]) * (impulse[i] - coarse[i]);
+                impulse = coarse;
+            }
+            for (double &value : result)
+                value = std::sqrt(value);
+            return result;
+        }();
+        return deviations;
+    }
+
+    /// Cumulative sums of squares.
+    std::vector<double> energyUpTo(const std::vector<double> &x)
+    {
+        std::vector<double> sums(x.size() + 1, 0.0);
+        for (std::size_t i = 0; i < x.size(); ++i)
+            sums[i + 1] = sums[i] + x[i] * x[i];
+        return sums;
+    }
+
+} // namespace
+
+float medianOf(std::vector<float> &values)
+{
+    const auto middle = values.begin() + std::ptrdiff_t((values.size() - 1) / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+double medianMean(int n)
+{
+    double mean = 0.0;
+    for (int i = 0; i < (n + 1) / 2; ++i)
+        mean += 1.0 / (n - i);
+    return mean;
+}
+
+double lnMedianMean(std::ptrdiff_t n)
+{
+    return std::log(medianMean(int(n))) - 0.5 * inverseLn2 * inverseLn2 * likeness / double(n);
+}
+
+double medianScatter(double cells)
+{
+    return inverseLn2 * std::sqrt(likeness / cells);
+}
+
+double meanScatter(double cells, double likeness)
+{
+    return std::sqrt(likeness / cells);
+}
+
+float truncatedMean(std::span<const float> cells, float guess)
+{
+    constexpr float truncatedAtMeans = 5.0f;
+    const float kept = (1.0f - (1.0f + truncatedAtMeans) * std::exp(-truncatedAtMeans))
+                       / (1.0f - std::exp(-truncatedAtMeans)); // E[y | y < cut]
+    for (int pass = 0; pass < 2; ++pass) {
+        double sum = 0.0;
+        double count = 0.0;
+        for (float value : cells)
+            if (value < truncatedAtMeans * guess) {
+                sum += double(value);
+                count += 1.0;
+            }
+        if (sum > 0.0)
+            guess = float(sum / count) / kept;
+    }
+    return guess;
+}
+
+std::vector<float> beyondScatter(const std::vector<float> &series, double scatter)
+{
+    // Neighbours on either side, in steps of the scale, and the E/σ² that white noise hardly ever reaches with that
+    // many: few neighbours detect short changes, many detect faint ones.
+    struct Neighbourhood {
+        std::ptrdiff_t half;
+        double chance;
+    };
+    constexpr std::array<Neighbourhood, 2> neighbourhoods{{{1, 8.0}, {12, 1.8}}};
+    const std::ptrdiff_t n = std::ssize(series);
+    std::vector<double> rest(series.begin(), series.end());
+    std::vector<double> kept(series.size(), 0.0);
+    for (int scale = 0; scale < scales && (std::ptrdiff_t(2) << scale) <= n; ++scale) {
+        const std::ptrdiff_t lag = std::ptrdiff_t(1) << scale;
+        const std::vector<double> coarse = smoothed(rest, lag);
+        for (std::size_t i = 0; i < rest.size(); ++i)
+            rest[i] -= coarse[i];
+        const std::vector<double> energy = energyUpTo(rest);
+        const double deviation = scatter * detailDeviations()[std::size_t(scale)];
+        for (std::ptrdiff_t i = 0; i < n; ++i) {
+            double factor = 0.0;
+            for (const Neighbourhood &near : neighbourhoods) {
+                const std::ptrdiff_t from = std::max<std::ptrdiff_t>(0, i - near.half * lag);
+                const std::ptrdiff_t to = std::min(n, i + near.half * lag + 1);
+                const double mean = (energy[std::size_t(to)] - energy[std::size_t(from)]) / double(to - from);
+                if (mean > near.chance * deviation * deviation)
+                    factor = std::max(factor, 1.0 - deviation * deviation / mean);
+            }
+            kept[std::size_t(i)] += factor * rest[std::size_t(i)];
+        }
+        rest = coarse;
+    }
+    std::vector<float> result(series.size());
+    for (std::size_t i = 0; i < result.size(); ++i)
+        result[i] = float(kept[i] + rest[i]);
+    return result;
+}
+
+float latestBeyondScatter(std::span<const float> series, double scatter)
+{
+    // As in beyondScatter, with all neighbours on one side; short changes are detected by the newest detail itself.
+    struct Neighbourhood {
+        std::ptrdiff_t before;
+        double chance;
+    };
+    constexpr std::array<Neighbourhood, 2> neighbourhoods{{{0, 8.0}, {24, 1.8}}};
+    const std::ptrdiff_t n = std::ssize(series);
+    std::vector<double> rest(series.begin(), series.end());
+    std::vector<double> detail(rest.size());
+    double kept = 0.0;
+    for (int scale = 0; scale < scales && (std::ptrdiff_t(2) << scale) <= n; ++scale) {
+        const std::ptrdiff_t lag = std::ptrdiff_t(1) << scale;
+        const std::ptrdiff_t first = 2 * lag - 1; // first value whose mean lies in the series
+        for (std::ptrdiff_t i = n - 1; i >= first; --i) {
+            const auto at = std::size_t(i);
+            detail[at] = 0.5 * (rest[at] - rest[std::size_t(i - lag)]);
+            rest[at] -= detail[at];
+        }
+        const double variance = scatter * scatter / double(2 * lag);
+        double factor = 0.0;
+        for (const Neighbourhood &near : neighbourhoods) {
+            const std::ptrdiff_t from = std::max(first, n - 1 - near.before * lag);
+            double mean = 0.0;
+            for (std::ptrdiff_t i = from; i < n; ++i)
+                mean += detail[std::size_t(i)] * detail[std::size_t(i)];
+            mean /= double(n - from);
+            if (mean > near.chance * variance)
+                factor = std::max(factor, 1.0 - variance / mean);
+        }
+        kept += factor * detail.back();
+    }
+    return float(kept + rest.back());
+}
+
+} // namespace faintline

@@ -1,0 +1,121 @@
+#include "noise/medians.h"
+
+#include "base/multiversion.h"
+#include "noise/levels.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+namespace faintline {
+
+namespace {
+
+    constexpr std::size_t lanes = 32; ///< columns processed at a time, in a few registers
+
+    /// The value of a rank in each of `lanes` columns, found bit by bit: the bits of non-negative floats have the order
+    /// of the floats.
+    template <int bytes>
+    [[gnu::always_inline]] inline void rankedBy(const float *columns, std::size_t rows, std::int32_t rank, float *out)
+    {
+        using Bits = typename Vector<std::int32_t, bytes>::Type;
+        using UnalignedBits = typename Vector<std::int32_t, bytes>::Unaligned;
+        constexpr std::size_t parts = lanes / Vector<std::int32_t, bytes>::lanes;
+        Bits found[parts]{};
+        for (std::int32_t bit = 1 << 30; bit > 0; bit >>= 1) {
+            Bits smaller[parts]{};
+            for (std::size_t row = 0; row < rows; ++row) {
+                const auto *values = reinterpret_cast<const UnalignedBits *>(columns + row * lanes);
+#pragma GCC unroll 8
+                for (std::size_t part = 0; part < parts; ++part)
+                    smaller[part] -= values[part] < (found[part] | bit);
+            }
+#pragma GCC unroll 8
+            for (std::size_t part = 0; part < parts; ++part)
+                found[part] = smaller[part] <= rank ? found[part] | bit : found[part];
+        }
+#pragma GCC unroll 8
+        for (std::size_t part = 0; part < parts; ++part)
+            reinterpret_cast<UnalignedBits *>(out)[part] = found[part];
+    }
+
+    void ranked(const float *columns, std::size_t rows, std::int32_t rank, float *out)
+    {
+        withVectors([&](auto bytes) __attribute__((always_inline)) { rankedBy<bytes>(columns, rows, rank, out); });
+    }
+
+} // namespace
+
+void columnMedians(std::span<const float> frames, std::span<float> out)
+{
+    const std::size_t cells = out.size();
+    const std::size_t rows = frames.size() / cells;
+    const auto rank = std::int32_t((rows - 1) / 2);
+    // A contiguous copy, because rows at a power-of-two distance would evict one another from the cache.
+    std::vector<float> columns(rows * lanes, 0.0f);
+    std::array<float, lanes> medians;
+    for (std::size_t cell = 0; cell < cells; cell += lanes) {
+        const std::size_t count = std::min(lanes, cells - cell);
+        for (std::size_t row = 0; row < rows; ++row)
+            std::copy_n(frames.data() + row * cells + cell, count, columns.data() + row * lanes);
+        ranked(columns.data(), rows, rank, medians.data());
+        std::copy_n(medians.begin(), count, out.begin() + std::ptrdiff_t(cell));
+    }
+}
+
+std::vector<float> runningMedian(const std::vector<float> &sequence, Index half)
+{
+    const Index n = std::ssize(sequence);
+    half = std::min(half, n - 1);
+    const auto pivot = [&](Index from) {
+        std::vector<float> few;
+        for (Index i = from; i < std::min(from + pivotCells, n); ++i)
+            few.push_back(sequence[std::size_t(i)]);
+        return medianOf(few);
+    };
+    const float low = pivot(0);
+    const float high = pivot(std::max<Index>(0, n - pivotCells));
+    const Index centre = (std::min(pivotCells, n) - 1) / 2; // for a slope, the pivot's value is that of its middle
+    const auto at = [&](Index i) {
+        if (i < 0)
+            return 2.0f * low - sequence[std::size_t(std::min(2 * centre - i, n - 1))];
+        if (i >= n)
+            return 2.0f * high - sequence[std::size_t(std::max<Index>(0, 2 * (n - 1 - centre) - i))];
+        return sequence[std::size_t(i)];
+    };
+    // A sorted window, with one value inserted and one removed per step.
+    std::vector<float> window;
+    for (Index i = -half; i <= half; ++i)
+        window.push_back(at(i));
+    std::sort(window.begin(), window.end());
+    std::vector<float> medians(sequence.size());
+    for (Index i = 0; i < n; ++i) {
+        medians[std::size_t(i)] = window[std::size_t(half)];
+        const auto leaving = std::lower_bound(window.begin(), window.end(), at(i - half));
+        window.erase(leaving);
+        const float entering = at(i + half + 1);
+        window.insert(std::upper_bound(window.begin(), window.end(), entering), entering);
+    }
+    return medians;
+}
+
+void runningMean(std::span<const double> values, std::span<const double> weights, Index half, std::span<double> out,
+                 double least)
+{
+    const std::size_t n = values.size();
+    std::vector<double> sum(n + 1, 0.0);
+    std::vector<double> weight(n + 1, 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+        sum[i + 1] = sum[i] + weights[i] * values[i];
+        weight[i + 1] = weight[i] + weights[i];
+    }
+    const auto reach = std::size_t(half);
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t from = i < reach ? 0 : i - reach;
+        const std::size_t to = std::min(n, i + reach + 1);
+        const double total = weight[to] - weight[from];
+        out[i] = total >= least ? (sum[to] - sum[from]) / total : 1.0;
+    }
+}
+
+} // namespace faintline

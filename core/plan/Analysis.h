@@ -1,0 +1,61 @@
+#pragma once
+
+#include "base/Checkpoints.h"
+#include "detect/NoiseBand.h"
+#include "frames/PeakPyramid.h"
+#include "plan/AnalysisPlan.h"
+#include "plan/WindowChoice.h"
+#include "track/Area.h"
+#include "track/DetectionChain.h"
+#include "track/Track.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace faintline {
+
+/// Result of a run of the chain, with its plan. Immutable; parts that remain valid after a change of settings are
+/// shared.
+struct Analysis : AnalysisPlan {
+    std::shared_ptr<const PeakPyramid> input;     ///< y in dB
+    std::shared_ptr<const PeakPyramid> statistic; ///< D in nats
+    /// Both pictures along each axis, the maximum over the others; for lines, the pictures themselves.
+    std::vector<std::shared_ptr<const PeakPyramid>> inputAlong, statisticAlong;
+    /// For frames on several axes: the boxes inhibited in each frame, and their tracks.
+    std::vector<std::vector<DetectionChain::Inhibition>> inhibitions;
+    std::vector<Track> tracks; ///< ordered by detection, then cell
+    /// Tracks that the recording's own noise explains (overOwnNoise.h), not among `tracks`.
+    std::vector<Track> explainedByNoise;
+    /// The tracks before signals were searched for behind others and identities assigned (secondLook.h), including
+    /// those that the noise explains, untrimmed; kept while a window is chosen, because trials of other windows have no
+    /// others.
+    std::vector<Track> firstTracks;
+    std::vector<Area> areas; ///< regions of raised level without a line, ordered by time (secondLook.h)
+    /// For frames on several axes: the tracks found by thresholding each frame separately.
+    std::vector<Track> conventional;
+    std::vector<float> lnK;               ///< per frame
+    NoiseBand lnKBand;                    ///< its range on noise, under a law that regulates it (regulation.h)
+    std::vector<float> continuedFraction; ///< per frame
+    std::vector<double> statisticCounts;  ///< cells whose D lies in [i/4 - 4, (i+1)/4 - 4) nat: histogram of the data
+
+    /// States of the chain, evenly spaced, for repeating a part of the run: ≤ 32 MiB for any number of tracks; none for
+    /// detectors that cannot save their state.
+    Checkpoints<ChainState> checkpoints;
+
+    std::optional<WindowChoice> choice; ///< if the recording determined the window (chooseWindow.h)
+    /// In that case: analysis with the next longer window, whose steady lines are among `tracks` (steadyLines.h).
+    /// Without pictures; null if there is no longer window.
+    std::shared_ptr<const Analysis> longer;
+    /// If strong lines were subtracted: analysis of the unchanged recording, without pictures. The frames and all other
+    /// results are then those of the remainder; `tracks` has both (subtractLines.h). Null if nothing was subtracted.
+    std::shared_ptr<const Analysis> unsubtracted;
+
+    /// Whether this analysis has the given settings.
+    bool answers(const AnalysisSettings &wanted) const
+    {
+        return settings == wanted || (choice && choice->asked == wanted);
+    }
+};
+
+} // namespace faintline

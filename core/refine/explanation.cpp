@@ -1,0 +1,125 @@
+#include "refine/explanation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace faintline {
+
+namespace {
+
+    constexpr Index pieceFrames = 64;              ///< frames
+    constexpr double leakageEntriesPerCell = 16.0; ///< entries of the leakage table
+    constexpr double explainedPowerFactor = 2.0;
+    constexpr double negligiblePowerRatio = 0.02; ///< relative to the noise
+    constexpr double leakageCells = 4096.0;
+    constexpr double steadyCells = 0.1; ///< per frame
+
+} // namespace
+
+Explanations::Explanations(Index cells, const std::function<double(double)> &bound,
+                           const std::function<double(double)> &exact)
+{
+    const double farthest = std::min(leakageCells, double(cells));
+    for (double distance = 0.0; distance <= farthest; distance += 1.0 / leakageEntriesPerCell) {
+        m_bound.push_back(float(bound(distance)));
+        m_exact.push_back(std::min(m_bound.back(), float(exact(distance))));
+    }
+}
+
+/// Whether a signal is as narrow as the window allows, as far as is known.
+bool Explanations::isSharp(const ExplainedSignal &signal, std::size_t at)
+{
+    const std::size_t before = at > 0 ? at - 1 : 0;
+    const std::size_t after = std::min(at + 1, signal.positions.size() - 1);
+    return !signal.skirts.empty()
+           && std::abs(signal.positions[after] - signal.positions[before]) <= steadyCells * double(after - before);
+}
+
+std::span<const float> Explanations::skirtAt(const ExplainedSignal &signal, std::size_t at) const
+{
+    if (signal.skirts.empty())
+        return {};
+    return signal.skirts[std::min(at / std::size_t(ExplainedSignal::skirtFrames), signal.skirts.size() - 1)];
+}
+
+/// Distance, in cells, within which a signal's contribution is not negligible.
+double Explanations::reachAt(const ExplainedSignal &signal, std::size_t at) const
+{
+    const double least = negligiblePowerRatio / (explainedPowerFactor * std::max(1e-3, double(signal.levels[at])));
+    const auto end =
+        std::partition_point(m_bound.begin(), m_bound.end(), [least](float share) { return double(share) > least; });
+    return std::max(double(end - m_bound.begin()) / leakageEntriesPerCell, double(skirtAt(signal, at).size()));
+}
+
+void Explanations::add(ExplainedSignal signal)
+{
+    const auto last = std::size_t(signal.endFrame() / pieceFrames); // including the frame after it
+    if (m_byTime.size() <= last)
+        m_byTime.resize(last + 1);
+    for (auto i = std::size_t(std::max<Index>(0, signal.firstFrame - 1) / pieceFrames); i <= last; ++i) {
+        const Index begin = Index(i) * pieceFrames - signal.firstFrame;
+        const Index end = std::ssize(signal.positions) - 1;
+        Entry entry{m_signals.size(), std::numeric_limits<double>::infinity(),
+                    -std::numeric_limits<double>::infinity()};
+        for (Index at = std::clamp<Index>(begin, 0, end); at <= std::clamp<Index>(begin + pieceFrames - 1, 0, end);
+             ++at) {
+            const auto number = std::size_t(at);
+            const double reach = reachAt(signal, number);
+            entry.lowest = std::min(entry.lowest, signal.positions[number] - reach);
+            entry.highest = std::max(entry.highest, signal.positions[number] + reach);
+        }
+        m_byTime[i].push_back(entry);
+    }
+    m_signals.push_back(std::move(signal));
+}
+
+template <class Take>
+void Explanations::forEachAt(Index frame, Index firstCell, Index count, Take take) const
+{
+    const auto number = std::size_t(frame / pieceFrames);
+    if (number >= m_byTime.size())
+        return;
+    for (const Entry &entry : m_byTime[number]) {
+        const ExplainedSignal &signal = m_signals[entry.signal];
+        const bool isBeside = entry.highest < double(firstCell) || entry.lowest > double(firstCell + count);
+        if (!isBeside && frame >= signal.firstFrame - 1 && frame <= signal.endFrame())
+            take(signal,
+                 std::size_t(std::clamp<Index>(frame - signal.firstFrame, 0, std::ssize(signal.positions) - 1)));
+    }
+}
+
+void Explanations::read(Index frame, Index firstCell, std::span<float> floor) const
+{
+    std::fill(floor.begin(), floor.end(), 1.0f);
+    forEachAt(frame, firstCell, std::ssize(floor), [&](const ExplainedSignal &signal, std::size_t at) {
+        const double position = signal.positions[at] - double(firstCell);
+        const auto level = double(signal.levels[at]);
+        const std::span<const float> skirt = skirtAt(signal, at);
+        const double end = reachAt(signal, at);
+        const std::vector<float> &leakage = isSharp(signal, at) ? m_exact : m_bound;
+        const auto size = double(floor.size());
+        const auto first = Index(std::clamp(std::floor(position - end), 0.0, size));
+        const auto last = Index(std::clamp(std::ceil(position + end) + 1.0, 0.0, size));
+        for (Index cell = first; cell < last; ++cell) {
+            const double distance = std::abs(double(cell) - position);
+            double share = double(leakage[std::min(std::size_t(distance * leakageEntriesPerCell), leakage.size() - 1)]);
+            if (const auto step = std::size_t(std::lround(distance)); step < skirt.size())
+                share = std::max(share, double(skirt[step]));
+            floor[std::size_t(cell)] *= float(1.0 + explainedPowerFactor * level * share);
+        }
+    });
+}
+
+void Explanations::hide(Index frame, Index firstCell, std::span<float> y, float value) const
+{
+    forEachAt(frame, firstCell, std::ssize(y), [&](const ExplainedSignal &signal, std::size_t at) {
+        const double position = signal.positions[at] - double(firstCell);
+        const auto first = std::max<Index>(0, Index(std::ceil(position - signal.hides)));
+        const auto last = std::min<Index>(std::ssize(y) - 1, Index(std::floor(position + signal.hides)));
+        for (Index cell = first; cell <= last; ++cell)
+            y[std::size_t(cell)] = value;
+    });
+}
+
+} // namespace faintline

@@ -1,0 +1,100 @@
+#include "refine/pathStrips.h"
+
+#include "frames/Spectrogram.h"
+#include "plan/chain.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace faintline {
+
+namespace {
+
+    constexpr std::size_t readBlockBytes = std::size_t(1) << 20;
+
+    void copyFrame(std::span<const float> y, Index at, PathStrip &strip)
+    {
+        if (at < 0 || at >= strip.frameCount())
+            return;
+        const Index first = strip.firstCell(at);
+        const Index from = std::clamp<Index>(first, 0, std::ssize(y));
+        const Index to = std::clamp<Index>(first + strip.width(), 0, std::ssize(y));
+        if (from < to)
+            std::copy(y.begin() + from, y.begin() + to, strip.row(at) + (from - first));
+    }
+
+} // namespace
+
+void readStrips(const Analysis &analysis, std::vector<PathStrip *> strips, const RunContext &context,
+                std::string_view what)
+{
+    std::stable_sort(strips.begin(), strips.end(),
+                     [](const PathStrip *a, const PathStrip *b) { return a->firstFrame < b->firstFrame; });
+    const NormalisedFrames &frames = *analysis.frames;
+    const Index cells = frames.grid().size();
+    const Index frameCount = frames.time().count;
+    const Index block = std::max<Index>(1, Index(readBlockBytes / sizeof(float)) / cells);
+    const std::vector<CellBox> excluded = excludedBoxes(analysis);
+    std::vector<PathStrip *> open;
+    std::size_t next = 0;
+    std::vector<float> values;
+    for (Index first = 0; first < frameCount && (next < strips.size() || !open.empty()); first += block) {
+        context.checkpoint(double(first) / double(frameCount), what);
+        const Index count = std::min(block, frameCount - first);
+        for (; next < strips.size() && strips[next]->firstFrame < first + count; ++next) {
+            PathStrip &strip = *strips[next];
+            strip.y.assign(std::size_t(strip.frameCount() * strip.width()), std::numeric_limits<float>::quiet_NaN());
+            open.push_back(&strip);
+        }
+        std::erase_if(open,
+                      [first](const PathStrip *strip) { return strip->firstFrame + strip->frameCount() <= first; });
+        if (open.empty())
+            continue;
+        values.resize(std::size_t(count * cells));
+        frames.read(first, count, values);
+        for (Index i = 0; i < count; ++i) {
+            const std::span<float> y = std::span(values).subspan(std::size_t(i * cells), std::size_t(cells));
+            for (const CellBox &box : excluded)
+                box.forEachCell(frames.grid(), [&](Index cell) { y[std::size_t(cell)] = 0.0f; });
+            for (PathStrip *strip : open)
+                copyFrame(y, first + i - strip->firstFrame, *strip);
+        }
+    }
+}
+
+void readStrips(const Analysis &analysis, std::span<PathStrip> strips, const RunContext &context, std::string_view what)
+{
+    std::vector<PathStrip *> all;
+    for (PathStrip &strip : strips)
+        all.push_back(&strip);
+    readStrips(analysis, std::move(all), context, what);
+}
+
+PathStrip stripAlong(const Track &track, Index halfWidth)
+{
+    PathStrip strip;
+    strip.firstFrame = track.points.front().frame;
+    strip.halfWidth = halfWidth;
+    for (const TrackPoint &point : track.points)
+        strip.centres.push_back(point.cell);
+    return strip;
+}
+
+BothWaysModel bothWaysModel(const Analysis &analysis)
+{
+    BothWaysModel model;
+    model.axis = &analysis.model.space.axes().front();
+    model.likelihood = analysis.model.likelihood;
+    model.threshold = isScoreOfPaths(analysis.settings.detector) ? analysis.threshold : analysis.settings.track.endNats;
+    const Spectrogram *spectrogram = analysis.frames->spectrogram();
+    model.binsPerCell = spectrogram ? spectrogram->binsPerCell() : 1.0;
+    return model;
+}
+
+void setLnK(BothWaysModel &model, const Analysis &analysis, const PathStrip &strip)
+{
+    const auto first = analysis.lnK.begin() + strip.firstFrame;
+    model.lnK.assign(first, first + strip.frameCount());
+}
+
+} // namespace faintline

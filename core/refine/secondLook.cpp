@@ -1,0 +1,578 @@
+#include "refine/secondLook.h"
+
+#include "frames/Window.h"
+#include "noise/NoiseNormaliser.h"
+#include "refine/TrackPiece.h"
+#include "refine/bothWays.h"
+#include "refine/decideJointly.h"
+#include "refine/explainPath.h"
+#include "refine/levelBeside.h"
+#include "refine/numberByDetection.h"
+#include "refine/pathStrips.h"
+#include "refine/relink.h"
+#include "refine/searchBehind.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace faintline {
+
+namespace {
+
+    constexpr std::string_view following = "refining tracks in both directions";
+    constexpr Index largestGapFrames = 24;                    ///< between stretches of one signal
+    constexpr int behindLimitPasses = 3;                      ///< of the search behind what is explained
+    constexpr double hiddenCells = 1.0;                       ///< beside a signal
+    constexpr double ghostStatisticShare = 0.08;              ///< of a path's statistic, above the floor
+    constexpr std::size_t stripBytes = std::size_t(16) << 20; ///< read at a time
+
+    struct Stretch {
+        Index from;      ///< frames of the piece's strip
+        Index to;        ///< one past the last
+        double gain;     ///< gain of the path's statistic, nat
+        double evidence; ///< evidence of the mean path, nat
+    };
+
+    /// Result of a stretch, or of several that were separated by the cuts between pieces.
+    struct Candidate {
+        Track track;
+        std::vector<ExplainedSignal> signals;
+        double gain;
+        double evidence;
+    };
+
+    /// The point at a frame, or the nearest one.
+    const TrackPoint &pointAt(const Track &track, Index frame)
+    {
+        const Index first = track.points.front().frame;
+        return track.points[std::size_t(std::clamp(frame, first, track.points.back().frame) - first)];
+    }
+
+    /// Frames over which a track's way is measured: the faster the law, the fewer.
+    Index slopeFramesOf(const KinematicAxis &axis)
+    {
+        constexpr double slowLawFrames = 56.0;
+        constexpr double fastLawFrames = 16.0; // from a largest slope of four cells per frame on
+        const double steepest = std::max({1.0, std::abs(axis.rate(0)), std::abs(axis.rate(axis.rateCount - 1))});
+        return Index(std::lround(
+            std::max(fastLawFrames,
+                     slowLawFrames * std::pow(steepest, std::log(fastLawFrames / slowLawFrames) / std::log(4.0)))));
+    }
+
+    /// Mean evidence, in a frame of noise alone, against a signal of that level, nat. A level above 4 counts as 4, so
+    /// that a keyed line is one signal.
+    double evidenceOfAbsence(LikelihoodKind kind, double level)
+    {
+        constexpr int quantiles = 128;
+        const Likelihood likelihood(kind, std::clamp(level, 0.1, 4.0));
+        double sum = 0.0;
+        for (int i = 0; i < quantiles; ++i)
+            sum -= likelihood.at(-std::log((i + 0.5) / quantiles));
+        return sum / quantiles;
+    }
+
+    class SecondLook
+    {
+    public:
+        SecondLook(const Analysis &analysis, const RunContext &context)
+            : m_analysis(analysis), m_context(context), m_frames(*analysis.frames), m_cells(m_frames.grid().size()),
+              m_spectrogram(*m_frames.spectrogram()),
+              m_explanations(m_cells, leakageAround(leakageBound, 0.0), leakageAround(leakageAt, 0.02)),
+              m_model(bothWaysModel(analysis))
+        {
+        }
+
+        SecondView run(std::vector<Track> found, std::span<const Track> subtracted, SecondLookDepth depth)
+        {
+            lookAtAll(std::move(found), subtracted, m_context.part(0.0, 0.4));
+            SecondView view;
+            if (depth != SecondLookDepth::Tracks && m_analysis.settings.family.isNone()) {
+                if (depth == SecondLookDepth::SignalsBesideTracks) {
+                    view.first = m_tracks;
+                    numberByDetection(view.first);
+                }
+                lookBehind();
+                m_tracks = relinked(std::move(m_tracks));
+                m_tracks = decideJointly(m_analysis, std::move(m_tracks), slopeFramesOf(*m_model.axis),
+                                         m_context.part(1.0, 1.0));
+            }
+            numberByDetection(m_tracks);
+            view.tracks = std::move(m_tracks);
+            view.areas = joinAreas(std::move(m_areas));
+            return view;
+        }
+
+    private:
+        void lookAtAll(std::vector<Track> found, std::span<const Track> subtracted, const RunContext &context)
+        {
+            std::stable_sort(found.begin(), found.end(),
+                             [](const Track &a, const Track &b) { return a.peakStatistic > b.peakStatistic; });
+            std::vector<TrackPiece> pieces;
+            for (const Track &track : subtracted)
+                addPieces(pieces, track, m_frames.time().count, m_model.binsPerCell);
+            for (const Track &track : found)
+                addPieces(pieces, track, m_frames.time().count, m_model.binsPerCell);
+            for (std::size_t first = 0; first < pieces.size();) {
+                std::size_t bytes = 0;
+                std::size_t end = first;
+                while (end < pieces.size() && (end == first || bytes < stripBytes)) {
+                    const PathStrip &strip = pieces[end++].strip;
+                    bytes += sizeof(float) * std::size_t(strip.frameCount() * strip.width());
+                }
+                const std::span<TrackPiece> some = std::span(pieces).subspan(first, end - first);
+                const auto done = [&](std::size_t piece) { return double(piece) / double(pieces.size()); };
+                std::vector<PathStrip *> strips;
+                for (TrackPiece &piece : some)
+                    strips.push_back(&piece.strip);
+                readStrips(m_analysis, std::move(strips), context.part(done(first), 0.5 * (done(first) + done(end))),
+                           following);
+                for (TrackPiece &piece : some) {
+                    context.checkpoint(done(end), following);
+                    piece.track->isSubtracted ? lookAtRest(piece) : lookAt(piece);
+                }
+                first = end;
+            }
+        }
+
+        /// Searches behind what is explained, as long as that finds something.
+        void lookBehind()
+        {
+            for (int pass = 0; pass < behindLimitPasses && m_accepted > 0; ++pass) {
+                const RunContext context = m_context.part(0.4 + 0.2 * pass, 0.6 + 0.2 * pass);
+                m_accepted = 0;
+                lookAtAll(searchBehind(m_analysis, m_explanations, context.part(0.0, 0.7)), {}, context.part(0.7, 1.0));
+            }
+        }
+
+        /// The window's leakage over a distance in bins that is known to `error` cells.
+        std::function<double(double)> leakageAround(double (*leakage)(WindowShape, double), double error) const
+        {
+            return
+                [=, shape = m_spectrogram.settings().window, binsPerCell = m_spectrogram.binsPerCell()](double bins) {
+                    const double cells = bins / binsPerCell;
+                    return std::max({leakage(shape, std::max(0.0, cells - error)), leakage(shape, cells),
+                                     leakage(shape, cells + error)});
+                };
+        }
+
+        /// Reads strips that fit into memory together, and calls take(number) for each.
+        template <class Take>
+        void forEachStrip(std::vector<PathStrip> &strips, const RunContext &context, Take take) const
+        {
+            for (std::size_t first = 0; first < strips.size();) {
+                std::vector<PathStrip *> some;
+                std::size_t bytes = 0;
+                std::size_t end = first;
+                for (; end < strips.size() && (end == first || bytes < stripBytes); ++end) {
+                    bytes += sizeof(float) * std::size_t(strips[end].frameCount() * strips[end].width());
+                    some.push_back(&strips[end]);
+                }
+                readStrips(m_analysis, std::move(some), context, following);
+                for (; first < end; ++first) {
+                    take(first);
+                    strips[first] = {};
+                }
+            }
+        }
+
+        /// Replaces the cells of a frame in which a piece of the track itself was measured by that line alone.
+        void setPoint(PathStrip &strip, Index at, const SmoothedPoint &point) const
+        {
+            strip.floor[std::size_t(at)] = 1.0f;
+            for (Index i = 0; i < strip.width(); ++i) {
+                const double apart = std::abs(double(strip.firstCell(at) + i) - point.position) / m_model.binsPerCell;
+                strip.row(at)[i] = 1.0f + point.level * float(leakageBound(m_spectrogram.settings().window, apart));
+            }
+        }
+
+        /// Measures ways between pieces of tracks over the floor of everything that was found; frames in which it hides
+        /// the way are not observed.
+        std::vector<Bridge> measured(std::span<const BridgeWay> ways)
+        {
+            std::vector<PathStrip> strips;
+            for (const BridgeWay &way : ways) {
+                PathStrip &strip = strips.emplace_back();
+                strip.firstFrame = way.firstFrame;
+                strip.halfWidth = bothWaysHalfWidth(m_model.binsPerCell);
+                for (const double position : way.positions)
+                    strip.centres.push_back(Index(std::lround(position)));
+            }
+            std::vector<Bridge> bridges(ways.size());
+            forEachStrip(strips, m_context.part(1.0, 1.0),
+                         [&](std::size_t i) { bridges[i] = bridgeAlong(ways[i], strips[i]); });
+            return bridges;
+        }
+
+        /// Whether the middle of a strip can be seen in a frame; if another signal hides it, none of the frame's cells
+        /// counts, or a path would take those that do not count.
+        bool isSeenOrCleared(PathStrip &strip, Index at) const
+        {
+            constexpr float notObserved = std::numeric_limits<float>::quiet_NaN();
+            float middle = 0.0f;
+            m_explanations.hide(strip.firstFrame + at, strip.centres[std::size_t(at)], std::span(&middle, 1),
+                                notObserved);
+            if (std::isnan(middle))
+                std::fill_n(strip.row(at), strip.width(), notObserved);
+            return !std::isnan(middle);
+        }
+
+        Bridge bridgeAlong(const BridgeWay &way, PathStrip &strip)
+        {
+            divideByFloor(strip);
+            const Index from = std::ssize(way.before);
+            const Index to = from + way.gap();
+            Bridge bridge;
+            for (Index at = 0; at < strip.frameCount(); ++at) {
+                if (at < from)
+                    setPoint(strip, at, way.before[std::size_t(at)]);
+                else if (at >= to)
+                    setPoint(strip, at, way.after[std::size_t(at - to)]);
+                else
+                    bridge.isSeen.push_back(isSeenOrCleared(strip, at));
+            }
+            setLnK(m_model, m_analysis, strip);
+            m_model.ends = {};
+            const BothWays seen = lookBothWays(strip, m_model);
+            double against = 0.0;
+            for (Index at = from; at < to; ++at) {
+                const auto i = std::size_t(at);
+                const double gain = bridge.isSeen[std::size_t(at - from)] ? seen.gains[i] : 0.0;
+                bridge.gain += gain;
+                against = std::max(0.0, against - gain);
+                bridge.absence = std::max(bridge.absence, against);
+                bridge.points.push_back({std::clamp(seen.positions[i], 0.0, double(m_cells - 1)), seen.presence.low[i],
+                                         seen.presence.high[i], seen.endsBy[i], float(seen.levels[i])});
+            }
+            return bridge;
+        }
+
+        std::vector<Track> relinked(std::vector<Track> tracks)
+        {
+            RelinkRule rule;
+            rule.threshold = m_analysis.threshold;
+            rule.binsPerCell = m_model.binsPerCell;
+            rule.cells = m_cells;
+            rule.slopeFrames = slopeFramesOf(*m_model.axis);
+            rule.absence = [this](double level) { return evidenceOfAbsence(m_model.likelihood.kind(), level); };
+            rule.measure = [this](std::span<const BridgeWay> ways) { return measured(ways); };
+            return relink(std::move(tracks), rule);
+        }
+
+        /// Divides a strip by the floor of stronger tracks; returns whether they raise it.
+        bool divideByFloor(PathStrip &strip) const
+        {
+            bool isRaised = false;
+            std::vector<float> floor(std::size_t(strip.width()));
+            strip.floor.clear();
+            for (Index at = 0; at < strip.frameCount(); ++at) {
+                m_explanations.read(strip.firstFrame + at, strip.firstCell(at), floor);
+                strip.floor.push_back(floor[std::size_t(strip.halfWidth)]);
+                float *y = strip.row(at);
+                for (const float level : floor) {
+                    *y++ /= level;
+                    isRaised = isRaised || level > 1.0f;
+                }
+            }
+            return isRaised;
+        }
+
+        /// Loss of a path's score, in nats, if y is replaced by `less`; the strongest of three bins along its way
+        /// counts.
+        double lossAlongPath(const PathStrip &strip, const PathStrip &less) const
+        {
+            double loss = 0.0;
+            for (Index at = 0; at < strip.frameCount(); ++at) {
+                const Index centre = strip.centres[std::size_t(at)];
+                const auto lambda = [&](const PathStrip &of) {
+                    const float y =
+                        std::max({of.valueAt(at, centre), of.valueAt(at, centre - 1), of.valueAt(at, centre + 1)});
+                    return std::isnan(y) ? 0.0 : m_model.likelihood.at(double(y));
+                };
+                loss += lambda(strip) - lambda(less);
+            }
+            return loss;
+        }
+
+        /// Loss of score over the level of its surroundings: in a burst, a cloud or a hum a path is not a signal of its
+        /// own.
+        double lossOver(const std::vector<double> &levels, const PathStrip &strip) const
+        {
+            PathStrip alone = strip;
+            for (Index at = 0; at < alone.frameCount(); ++at)
+                for (float &y : std::span(alone.row(at), std::size_t(alone.width())))
+                    y /= float(levels[std::size_t(at)]);
+            return lossAlongPath(strip, alone);
+        }
+
+        /// Adds the areas in which the levels beside a path are raised, within the examined width.
+        void addAreas(const PathStrip &strip, const std::vector<double> &levels)
+        {
+            const Index half = levelBesideHalfWidth(m_model.binsPerCell);
+            for (Index at = 0; at < strip.frameCount(); ++at) {
+                const auto i = std::size_t(at);
+                if (levels[i] > 1.0)
+                    m_areas.push_back({strip.firstFrame + at, strip.firstFrame + at,
+                                       std::clamp<Index>(strip.centres[i] - half, 0, m_cells - 1),
+                                       std::clamp<Index>(strip.centres[i] + half, 0, m_cells - 1), levels[i]});
+            }
+        }
+
+        /// Divides the strip by the floor; returns whether a line remains that the detector would still have found.
+        /// Otherwise the areas through which it runs are stored.
+        bool isLineOverFloor(const Track &track, PathStrip &strip)
+        {
+            const PathStrip before = strip;
+            double statistic = track.peakStatistic;
+            if (divideByFloor(strip)) {
+                const double left = strongestIn(strip, m_model);
+                const bool isMore = left >= ghostStatisticShare * statistic; // more than a ghost of the stronger track
+                statistic -= strongestIn(before, m_model) - left;
+                if (isMore)
+                    statistic = std::max(left, statistic);
+                if (statistic < m_analysis.threshold)
+                    return false;
+            }
+            if (!m_analysis.settings.family.isNone())
+                return true; // the family's own members lie one cell beside it
+            const std::vector<double> levels = levelBeside(strip, m_model.binsPerCell);
+            const double loss = lossOver(levels, strip);
+            if (loss <= 0.0 || statistic - loss >= m_analysis.threshold)
+                return true;
+            addAreas(strip, levels);
+            return false;
+        }
+
+        void lookAt(TrackPiece &piece)
+        {
+            PathStrip &strip = piece.strip;
+            setLnK(m_model, m_analysis, strip);
+            if (isLineOverFloor(*piece.track, strip)) {
+                m_model.ends = {.absentBefore = piece.isFirst(), .absentAfter = piece.isLast()};
+                const BothWays seen = lookBothWays(strip, m_model);
+                for (const Stretch &stretch : stretchesOf(piece, seen))
+                    propose(piece, seen, stretch);
+            }
+            strip = {};
+            if (piece.isLast())
+                accept();
+        }
+
+        /// What subtraction left of a line is not a separate signal.
+        void lookAtRest(TrackPiece &piece)
+        {
+            for (ExplainedSignal &signal : explainSubtracted(piece.strip, m_model.binsPerCell))
+                m_explanations.add(std::move(signal));
+            piece.strip = {};
+        }
+
+        void propose(const TrackPiece &piece, const BothWays &seen, const Stretch &stretch)
+        {
+            Track track = trackOf(piece, seen, stretch);
+            ExplainedSignal signal = explainPath(piece.strip, seen, stretch.from, stretch.to, m_model.binsPerCell);
+            signal.hides = hiddenCells * m_model.binsPerCell;
+            if (m_candidates.empty() || m_candidates.back().track.endFrame + 1 != track.onsetFrame) {
+                if (!piece.isLast()) { // long: no room needed beyond that
+                    track.points.reserve(piece.track->points.size() - piece.from
+                                         + 2 * std::size_t(TrackPiece::extraFrames));
+                    track.smoothed.reserve(track.points.capacity());
+                }
+                m_candidates.push_back({std::move(track), {std::move(signal)}, stretch.gain, stretch.evidence});
+                return;
+            }
+            Candidate &before = m_candidates.back();
+            if (holds(stretch, piece.track->detectFrame - piece.strip.firstFrame))
+                before.track.detectFrame = track.detectFrame;
+            before.track.endFrame = track.endFrame;
+            before.track.isOpen = track.isOpen;
+            before.track.points.insert(before.track.points.end(), track.points.begin(), track.points.end());
+            before.track.smoothed.insert(before.track.smoothed.end(), track.smoothed.begin(), track.smoothed.end());
+            before.signals.push_back(std::move(signal));
+            before.gain += stretch.gain;
+            before.evidence += stretch.evidence;
+        }
+
+        /// Accepts the stretch of a track with the largest gain, and all others with sufficient evidence of their own.
+        void accept()
+        {
+            const auto best = std::max_element(m_candidates.begin(), m_candidates.end(),
+                                               [](const Candidate &a, const Candidate &b) { return a.gain < b.gain; });
+            for (auto candidate = m_candidates.begin(); candidate != m_candidates.end(); ++candidate) {
+                if (candidate != best && candidate->evidence < m_analysis.threshold)
+                    continue;
+                if (candidate != best)
+                    candidate->track.peakStatistic = candidate->evidence;
+                m_tracks.push_back(std::move(candidate->track));
+                ++m_accepted;
+                for (ExplainedSignal &signal : candidate->signals)
+                    m_explanations.add(std::move(signal));
+            }
+            m_candidates.clear();
+        }
+
+        /// The stretches of a piece, without those that its neighbours give.
+        std::vector<Stretch> stretchesOf(const TrackPiece &piece, const BothWays &seen) const
+        {
+            const std::vector<TrackPoint> &points = piece.track->points;
+            const Index from = piece.isFirst() ? 0 : points[piece.from].frame - piece.strip.firstFrame;
+            const Index to =
+                piece.isLast() ? piece.strip.frameCount() : points[piece.to].frame - piece.strip.firstFrame;
+            const std::vector<float> &present = seen.presence.present;
+            const float least = std::min(0.5f, 0.5f * *std::max_element(present.begin(), present.end()));
+            std::vector<Stretch> stretches;
+            for (Index at = from; at < to; ++at) {
+                const auto i = std::size_t(at);
+                if (present[i] <= least)
+                    continue;
+                if (stretches.empty() || at - stretches.back().to > largestGapFrames)
+                    stretches.push_back({at, at, 0.0, 0.0});
+                stretches.back().to = at + 1;
+                stretches.back().evidence += seen.gains[i];
+            }
+            const auto statistic = [&](Index at) { // of the path up to there
+                const Index frame = piece.strip.firstFrame + at;
+                return frame < points.front().frame ? 0.0 : pointAt(*piece.track, frame).statistic;
+            };
+            for (Stretch &stretch : stretches)
+                stretch.gain = statistic(stretch.to - 1) - statistic(stretch.from - 1);
+            return stretches;
+        }
+
+        static bool holds(const Stretch &stretch, Index at) { return at >= stretch.from && at < stretch.to; }
+
+        /// Where the evidence of a stretch alone reached the threshold; or where it was largest, if it never did.
+        Index detectionIn(const Stretch &stretch, const BothWays &seen) const
+        {
+            Index largest = stretch.from;
+            double most = 0.0;
+            double score = 0.0;
+            for (Index at = stretch.from; at < stretch.to; ++at) {
+                score = std::max(0.0, score) + seen.gains[std::size_t(at)];
+                if (score > most) {
+                    most = score;
+                    largest = at;
+                }
+                if (score > m_analysis.threshold)
+                    break;
+            }
+            return largest;
+        }
+
+        Track trackOf(const TrackPiece &piece, const BothWays &seen, const Stretch &stretch) const
+        {
+            const PathStrip &strip = piece.strip;
+            const Track &found = *piece.track;
+            Track track = found.withoutPoints();
+            track.onsetFrame = strip.firstFrame + stretch.from;
+            track.endFrame = strip.firstFrame + stretch.to - 1;
+            track.isOpen = found.isOpen && track.endFrame + 1 == m_frames.time().count;
+            track.detectFrame = holds(stretch, found.detectFrame - strip.firstFrame)
+                                    ? found.detectFrame
+                                    : strip.firstFrame + detectionIn(stretch, seen);
+            if (found.confirmFrame >= 0)
+                track.confirmFrame = std::max(found.confirmFrame, track.detectFrame);
+            for (Index at = stretch.from; at < stretch.to; ++at) {
+                const auto i = std::size_t(at);
+                const double position = std::clamp(seen.positions[i], 0.0, double(m_cells - 1));
+                const TrackPoint &before = pointAt(found, strip.firstFrame + at);
+                track.points.push_back(
+                    {strip.firstFrame + at, Index(std::lround(position)), before.plane, before.statistic});
+                track.smoothed.push_back(
+                    {position, seen.presence.low[i], seen.presence.high[i], seen.endsBy[i], float(seen.levels[i])});
+            }
+            return track;
+        }
+
+        const Analysis &m_analysis;
+        const RunContext &m_context;
+        const NormalisedFrames &m_frames;
+        Index m_cells;
+        const Spectrogram &m_spectrogram;
+        Explanations m_explanations;
+        BothWaysModel m_model;
+        std::vector<Candidate> m_candidates; ///< for the current track
+        std::vector<Track> m_tracks;
+        int m_accepted = 0; ///< tracks in the last pass
+        std::vector<Area> m_areas;
+    };
+
+} // namespace
+
+bool canLookTwice(const AnalysisSettings &settings)
+{
+    return std::holds_alternative<SmdSettings>(settings.detector) && !settings.noise.causal
+           && settings.model.likelihood != LikelihoodKind::Linear;
+}
+
+bool looksTwice(const AnalysisPlan &analysis)
+{
+    return analysis.settings.track.bothWays && canLookTwice(analysis.settings) && analysis.grid().isSpectrum()
+           && !analysis.isBank() && analysis.frames->spectrogram();
+}
+
+namespace {
+
+    /// The frames of a track from the first to the last one in which its signal is present; both -1 if there are none.
+    struct PresentFrames {
+        Index first = -1;
+        Index last = -1;
+    };
+
+    PresentFrames presentFrames(const Analysis &analysis, const Track &track, const RunContext &context)
+    {
+        std::vector<TrackPiece> trackPieces;
+        BothWaysModel model = bothWaysModel(analysis);
+        addPieces(trackPieces, track, analysis.time().count, model.binsPerCell);
+        PresentFrames frames;
+        for (TrackPiece &piece : trackPieces) {
+            readStrips(analysis, std::span(&piece.strip, 1), context, following);
+            setLnK(model, analysis, piece.strip);
+            model.ends = {.absentBefore = piece.isFirst(), .absentAfter = piece.isLast()};
+            const std::vector<float> present = lookBothWays(piece.strip, model).endsBy;
+            for (std::size_t i = piece.from; i < piece.to; ++i) {
+                const Index frame = track.points[i].frame;
+                if (present[std::size_t(frame - piece.strip.firstFrame)] <= 0.5f)
+                    continue;
+                frames.first = frames.first < 0 ? frame : frames.first;
+                frames.last = frame;
+            }
+            piece.strip = {};
+        }
+        return frames;
+    }
+
+} // namespace
+
+bool cutsOnly(const AnalysisPlan &analysis)
+{
+    return analysis.settings.track.bothWays && !analysis.settings.noise.causal
+           && analysis.settings.model.likelihood != LikelihoodKind::Linear && analysis.grid().isSpectrum()
+           && !analysis.isBank() && analysis.settings.family.isNone() && !looksTwice(analysis);
+}
+
+std::vector<Track> cutToSignals(const Analysis &analysis, std::vector<Track> tracks, const RunContext &context)
+{
+    for (Track &track : tracks) {
+        const PresentFrames frames = presentFrames(analysis, track, context);
+        if (frames.first < 0)
+            continue;
+        track.isOpen = track.isOpen && frames.last == track.points.back().frame;
+        std::erase_if(track.points,
+                      [&](const TrackPoint &point) { return point.frame < frames.first || point.frame > frames.last; });
+        track.onsetFrame = frames.first;
+        track.endFrame = frames.last;
+        track.detectFrame = std::clamp(track.detectFrame, frames.first, frames.last);
+        if (track.confirmFrame >= 0)
+            track.confirmFrame = std::clamp(track.confirmFrame, track.detectFrame, frames.last);
+    }
+    return tracks;
+}
+
+SecondView lookTwice(const Analysis &analysis, std::vector<Track> found, std::span<const Track> subtracted,
+                     SecondLookDepth depth, const RunContext &context)
+{
+    return SecondLook(analysis, context).run(std::move(found), subtracted, depth);
+}
+
+} // namespace faintline

@@ -1,0 +1,70 @@
+#pragma once
+
+#include "plan/Analysis.h"
+#include "track/Area.h"
+
+#include <span>
+#include <vector>
+
+namespace faintline {
+
+/// Whether tracks can have a second pass under these settings: paths of the sequential Markov detector in a complete
+/// recording. Not under the linear likelihood, which rescales scores for a fixed level and ignores a track's own level.
+bool canLookTwice(const AnalysisSettings &settings);
+
+/// Whether completed tracks get a second pass: if it is possible and enabled, through a spectrogram, with one model.
+bool looksTwice(const AnalysisPlan &analysis);
+
+/// Whether completed tracks are only cut to their signals: lines for which a second pass is enabled but impossible,
+/// because their frames are ready-made, or because another detector decides.
+bool cutsOnly(const AnalysisPlan &analysis);
+
+/// Cuts tracks to the frames from the first to the last one in which their signal is present (bothWays.h): a tracker
+/// follows noise for as long as it costs nothing. Tracks that are present nowhere stay as they are.
+std::vector<Track> cutToSignals(const Analysis &analysis, std::vector<Track> tracks, const RunContext &context);
+
+/// Result of the two-sided second pass over the chain's tracks.
+struct SecondView {
+    std::vector<Track> tracks; ///< lines, by detection
+    std::vector<Area> areas;   ///< by time
+    std::vector<Track> first;  ///< tracks after step 4, by detection; if requested and if steps 5 to 7 were taken
+};
+
+/// How far the second pass goes: to the tracks of the chain; or also to signals hidden by them, and to identities; or
+/// the same with the former beside the result.
+enum class SecondLookDepth { Tracks, Signals, SignalsBesideTracks };
+
+/// Two-sided second pass over detected tracks: limits each signal to the time it was present and estimates its position
+/// to a fraction of a bin.
+///
+/// The chain decides causally what is detected; its statistic is not changed, nor are times of detection, except those
+/// outside the signal's estimated extent, and of further stretches: these were detected where their own evidence reached
+/// the threshold. Each of the chain's tracks, the strongest first, is processed in a strip of frames around its path
+/// (bothWays.h):
+///
+///   1. y is divided by the floor that stronger tracks raise (explanation.h);
+///   2. a track that the detector would not have found over that floor belongs to them and is removed; so is one with
+///      less than the threshold above the level of its surroundings (levelBeside.h): it was a path through a burst, a
+///      cloud or a hum, which becomes an area;
+///   3. the stretches where the signal is present are kept, joined over up to 24 frames: the one in which the path's
+///      statistic gained most, and every other whose own evidence reaches the threshold, which is then its statistic;
+///   4. remaining tracks are explained: they raise the floor for weaker ones;
+///   5. signals that they hide are searched for behind them (searchBehind.h), which then take the same steps, until
+///      nothing more is found;
+///   6. where signals met, the pieces of tracks before and after are assigned to each other anew (relink.h);
+///   7. equal signals that run beside each other are decided jointly (decideJointly.h).
+///
+/// The ends of the resulting tracks are still generous, for comparison with other windows and for subtraction; they are
+/// trimmed at the very end of an analysis (trimEnds.h).
+///
+/// Steps 5 to 7 are left out at depth Tracks, and for families, whose members lie beside each other.
+///
+/// `subtracted`: lines that were removed before the frames were made (subtractLines.h). Their remainders and skirts are
+/// explained before all others, because they are not separate signals.
+///
+/// `found`: ordered by detection, as is the result, which is renumbered. Reads all frames once; memory is proportional
+/// to the tracks' length. Deterministic.
+SecondView lookTwice(const Analysis &analysis, std::vector<Track> found, std::span<const Track> subtracted,
+                     SecondLookDepth depth, const RunContext &context);
+
+} // namespace faintline

@@ -1,0 +1,103 @@
+#include "refine/subtractLines.h"
+
+#include "base/Field.h"
+#include "base/logmath.h"
+#include "frames/Spectrogram.h"
+#include "noise/SurrogateRecording.h"
+#include "refine/smoothFrequency.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+
+namespace faintline {
+
+namespace {
+
+    constexpr double endWindows = 4.0;
+    constexpr double smoothedWindows = 4.0; ///< variations of this period are halved, in windows
+
+    double meanLevel(const Track &track)
+    {
+        double sum = 0.0;
+        for (const SmoothedPoint &point : track.smoothed)
+            sum += double(point.level);
+        return track.smoothed.empty() ? 0.0 : sum / double(track.smoothed.size());
+    }
+
+    /// Removes the track's ends, whose windows hold less of the line than of its abrupt onset or of noise. The curve is
+    /// later extended straight from the rest.
+    Track middleOf(const Track &track, Index endFrames)
+    {
+        const Index cut = std::min(endFrames, std::ssize(track.points) / 4);
+        Track middle = track.withoutPoints();
+        middle.points.assign(track.points.begin() + cut, track.points.end() - cut);
+        if (!track.smoothed.empty())
+            middle.smoothed.assign(track.smoothed.begin() + cut, track.smoothed.end() - cut);
+        return middle;
+    }
+
+    LinePath pathOf(const AnalysisPlan &plan, const Track &track)
+    {
+        const double window = plan.frames->spectrogram()->windowSeconds();
+        const auto endFrames = Index(std::lround(endWindows * window / plan.time().step));
+        const auto secondsAt = [&](const TrackPoint &point) { return plan.time().value(double(point.frame)); };
+        return {smoothFrequency(plan, middleOf(track, endFrames), smoothedWindows * window),
+                secondsAt(track.points.front()), secondsAt(track.points.back()), window};
+    }
+
+} // namespace
+
+std::vector<Track> tracksToSubtract(const Analysis &analysis)
+{
+    const double least = ratioFromDb(analysis.settings.subtract.leastDb);
+    std::vector<Track> strong;
+    for (const Track &track : analysis.tracks)
+        if (meanLevel(track) >= least) {
+            strong.push_back(track);
+            strong.back().isSubtracted = true;
+        }
+    return strong;
+}
+
+std::vector<LinePath> pathsOf(const AnalysisPlan &plan, std::vector<Track> tracks)
+{
+    std::stable_sort(tracks.begin(), tracks.end(),
+                     [](const Track &a, const Track &b) { return meanLevel(a) > meanLevel(b); });
+    std::vector<LinePath> paths;
+    for (const Track &track : tracks)
+        paths.push_back(pathOf(plan, track));
+    return paths;
+}
+
+RecordingPointer restOf(const AnalysisPlan &plan, std::vector<Track> tracks, const RunContext &context)
+{
+    constexpr std::uint64_t seed = 4711; // the noise only has to differ from the recording's own
+    const SurrogateRecording noise(*plan.frames->spectrogram(), plan.background, seed);
+    return std::make_shared<ResidualRecording>(plan.recording, plan.settings.selection.channel,
+                                               pathsOf(plan, std::move(tracks)), &noise, context);
+}
+
+std::string subtractionWords(const Analysis &analysis)
+{
+    if (!analysis.settings.subtract.lines)
+        return {};
+    const std::string least = formatNumber(analysis.settings.subtract.leastDb) + " dB";
+    Index count = 0;
+    double strongest = 0.0;
+    for (const Track &track : analysis.tracks)
+        if (track.isSubtracted) {
+            ++count;
+            strongest = std::max(strongest, meanLevel(track));
+        }
+    if (count == 0)
+        return "no line of " + least + " or more to subtract";
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "%td line%s of %s or more subtracted, up to %.1f dB; all other events are in the rest", count,
+                  count == 1 ? "" : "s", least.c_str(), dbFromRatio(strongest));
+    return text;
+}
+
+} // namespace faintline

@@ -1,0 +1,224 @@
+#include "signal/formats/NumPy.h"
+
+#include "base/Error.h"
+#include "base/Field.h"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <numeric>
+
+namespace faintline {
+
+namespace {
+
+    constexpr std::string_view numPyMagic("\x93NUMPY", 6);
+    constexpr int arrayExponent = 31; ///< of arrays read as a whole
+    constexpr int fileExponent = 50;
+
+    std::string shapeText(const std::vector<Index> &shape)
+    {
+        std::string text = "(";
+        for (Index n : shape)
+            text += std::to_string(n) + ",";
+        return text + ")";
+    }
+
+    std::string header(const std::vector<Index> &shape)
+    {
+        std::string dictionary = "{'descr': '<f4', 'fortran_order': False, 'shape': " + shapeText(shape) + ", }";
+        while ((numPyMagic.size() + 4 + dictionary.size() + 1) % 64 != 0)
+            dictionary += ' ';
+        dictionary += '\n';
+        std::string text(numPyMagic);
+        text += '\x01';
+        text += '\x00';
+        text += static_cast<char>(dictionary.size() & 0xff);
+        text += static_cast<char>(dictionary.size() >> 8);
+        return text + dictionary;
+    }
+
+    /// The text after "'key':" in the header's dictionary.
+    std::string_view entry(std::string_view dictionary, std::string_view key, const std::string &path)
+    {
+        const std::size_t at = dictionary.find('\'' + std::string(key) + '\'');
+        const std::size_t colon = at == std::string_view::npos ? at : dictionary.find(':', at);
+        if (colon == std::string_view::npos)
+            throw Error(path, "its NumPy header has no '" + std::string(key) + "'");
+        std::string_view rest = dictionary.substr(colon + 1);
+        while (rest.starts_with(' '))
+            rest.remove_prefix(1);
+        return rest;
+    }
+
+    /// Parses a shape whose partial products are at most 2^mostExponent.
+    std::vector<Index> parseShape(std::string_view text, int mostExponent, const std::string &path)
+    {
+        if (!text.starts_with('('))
+            throw Error(path, "its NumPy header has no shape");
+        text = text.substr(1, text.find(')') - 1);
+        std::vector<Index> shape;
+        double values = 1.0;
+        while (!text.empty()) {
+            const std::size_t comma = text.find(',');
+            std::string_view word = text.substr(0, comma);
+            while (word.starts_with(' '))
+                word.remove_prefix(1);
+            while (word.ends_with(' '))
+                word.remove_suffix(1);
+            if (!word.empty()) {
+                const auto number = parseNumber(word);
+                if (!number || *number < 0.0 || *number != std::floor(*number) || *number > 0x1p40)
+                    throw Error(path, "its NumPy shape holds '" + std::string(word) + "'");
+                shape.push_back(Index(*number));
+                values *= *number;
+                if (values > std::ldexp(1.0, mostExponent))
+                    throw Error(path, "holds more than " + std::string(mostExponent == arrayExponent ? "2³¹" : "2⁵⁰")
+                                          + " values");
+            }
+            text = comma == std::string_view::npos ? std::string_view() : text.substr(comma + 1);
+        }
+        return shape;
+    }
+
+    Index valueCount(const NumPyLayout &layout)
+    {
+        return std::accumulate(layout.shape.begin(), layout.shape.end(), Index(1), std::multiplies<>());
+    }
+
+    Error cutShort(const NumPyLayout &layout, const std::string &path)
+    {
+        return Error(path, "is truncated: its shape " + shapeText(layout.shape) + " requires "
+                               + std::to_string(valueCount(layout)) + " values");
+    }
+
+    /// The header's dictionary; the values follow it in the file.
+    std::string readDictionary(std::ifstream &file, const std::string &path)
+    {
+        if (!file)
+            throw Error(path, "cannot be opened; expected a NumPy file (.npy)");
+        char start[10] = {};
+        if (!file.read(start, 10) || std::string_view(start, 6) != numPyMagic)
+            throw Error(path, "is not a NumPy file (.npy)");
+        std::size_t length = static_cast<unsigned char>(start[8]) + 256u * static_cast<unsigned char>(start[9]);
+        if (start[6] >= 2) {
+            unsigned char more[2] = {};
+            file.read(reinterpret_cast<char *>(more), 2);
+            length += (std::size_t(more[0]) << 16) + (std::size_t(more[1]) << 24);
+        }
+        if (length > (1u << 20))
+            throw Error(path, "its NumPy header is too long");
+        std::string dictionary(length, ' ');
+        if (!file.read(dictionary.data(), static_cast<std::streamsize>(length)))
+            throw Error(path, "is truncated within its NumPy header");
+        if (entry(dictionary, "fortran_order", path).starts_with("True"))
+            throw Error(path, "is in Fortran order; save it in C order (numpy.ascontiguousarray)");
+        return dictionary;
+    }
+
+    NumPyLayout readLayout(std::ifstream &file, int mostExponent, const std::string &path)
+    {
+        const std::string dictionary = readDictionary(file, path);
+        const std::string_view type = entry(dictionary, "descr", path);
+        if (!type.starts_with("'<f4'") && !type.starts_with("'<f8'"))
+            throw Error(path, "holds " + std::string(type.substr(0, type.find(',')))
+                                  + "; expected float32 or float64, little-endian");
+        const auto begin = Index(file.tellg());
+        NumPyLayout layout{parseShape(entry(dictionary, "shape", path), mostExponent, path), begin,
+                           type.starts_with("'<f8'")};
+        std::error_code code;
+        const std::uintmax_t size = std::filesystem::file_size(path, code);
+        const auto wanted =
+            static_cast<std::uintmax_t>(valueCount(layout)) * (layout.isDouble ? sizeof(double) : sizeof(float));
+        if (!code && size - std::uintmax_t(begin) < wanted) // before memory is allocated for missing values
+            throw cutShort(layout, path);
+        return layout;
+    }
+
+    template <class T, class Array>
+    void readValues(std::ifstream &file, Array &array, std::size_t total, const NumPyLayout &layout,
+                    const std::string &path)
+    {
+        array.values.resize(total);
+        std::vector<T> chunk(1 << 16);
+        for (std::size_t done = 0; done < total;) {
+            const std::size_t count = std::min(chunk.size(), total - done);
+            if (!file.read(reinterpret_cast<char *>(chunk.data()), static_cast<std::streamsize>(count * sizeof(T))))
+                throw cutShort(layout, path);
+            for (std::size_t i = 0; i < count; ++i)
+                array.values[done + i] = static_cast<typename decltype(array.values)::value_type>(chunk[i]);
+            done += count;
+        }
+    }
+
+    template <class Array>
+    Array readArray(const std::string &path)
+    {
+        std::ifstream file(path, std::ios::binary);
+        const NumPyLayout layout = readLayout(file, arrayExponent, path);
+        const Index total = valueCount(layout);
+        Array array;
+        array.shape = layout.shape;
+        if (layout.isDouble)
+            readValues<double>(file, array, std::size_t(total), layout, path);
+        else
+            readValues<float>(file, array, std::size_t(total), layout, path);
+        return array;
+    }
+
+} // namespace
+
+NumPyHeader readNumPyHeader(const std::string &path)
+{
+    std::ifstream file(path, std::ios::binary);
+    const std::string dictionary = readDictionary(file, path);
+    const std::string_view type = entry(dictionary, "descr", path);
+    const std::size_t end = type.starts_with('\'') ? type.find('\'', 1) : std::string_view::npos;
+    if (end == std::string_view::npos)
+        throw Error(path, "holds records; expected numbers");
+    return {parseShape(entry(dictionary, "shape", path), fileExponent, path), Index(file.tellg()),
+            std::string(type.substr(1, end - 1))};
+}
+
+NumPyLayout readNumPyLayout(const std::string &path)
+{
+    std::ifstream file(path, std::ios::binary);
+    return readLayout(file, fileExponent, path);
+}
+
+NumPyArray readNumPy(const std::string &path)
+{
+    return readArray<NumPyArray>(path);
+}
+
+NumPyDoubles readNumPyDoubles(const std::string &path)
+{
+    return readArray<NumPyDoubles>(path);
+}
+
+NumPyWriter::NumPyWriter(const std::string &path, const std::vector<Index> &shape) : m_file(path), m_path(path)
+{
+    static_assert(std::endian::native == std::endian::little);
+    for (Index n : shape)
+        m_expected *= n;
+    m_file.write(header(shape));
+}
+
+void NumPyWriter::write(std::span<const float> values)
+{
+    m_file.write(std::as_bytes(values));
+    m_written += std::ssize(values);
+}
+
+void NumPyWriter::finish()
+{
+    if (m_written != m_expected)
+        throw Error(m_path, std::to_string(m_written) + " of " + std::to_string(m_expected) + " values were written",
+                    Error::Kind::Failure);
+    m_file.commit();
+}
+
+} // namespace faintline

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "base/Axis.h"
+#include "base/files/AtomicFile.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace faintline {
+
+/// An array in NumPy's .npy format, version 1.0: float32 or float64, little-endian, C order.
+struct NumPyArray {
+    std::vector<Index> shape;
+    std::vector<float> values; ///< float64 is rounded to single precision
+};
+
+/// The same in double precision.
+struct NumPyDoubles {
+    std::vector<Index> shape;
+    std::vector<double> values;
+};
+
+/// Shape, position and type of the values of any .npy file in C order, without reading them.
+struct NumPyHeader {
+    std::vector<Index> shape;
+    Index offset = 0;       ///< of the first value, bytes
+    std::string descriptor; ///< NumPy's name of the type: "<f4", "|u1" …
+};
+
+/// Throws Error if the file is not such an array; its length and type are not checked.
+NumPyHeader readNumPyHeader(const std::string &path);
+
+/// The same of an array of float32 or float64.
+struct NumPyLayout {
+    std::vector<Index> shape;
+    Index offset = 0; ///< of the first value, bytes
+    bool isDouble = false;
+};
+
+/// Throws Error if the file is not such an array or is truncated; it may be larger than memory.
+NumPyLayout readNumPyLayout(const std::string &path);
+
+/// Throws Error if the file is not such an array, is truncated, or holds more than 2³¹ values.
+NumPyArray readNumPy(const std::string &path);
+NumPyDoubles readNumPyDoubles(const std::string &path);
+
+/// Writes a float32 array piece by piece; the file appears with `finish`, when it holds all values.
+class NumPyWriter
+{
+public:
+    NumPyWriter(const std::string &path, const std::vector<Index> &shape);
+    void write(std::span<const float> values);
+    /// Throws Error if the number of values does not match the shape.
+    void finish();
+
+private:
+    AtomicFile m_file;
+    std::string m_path;
+    Index m_expected = 1;
+    Index m_written = 0;
+};
+
+} // namespace faintline

@@ -1,0 +1,98 @@
+#include "signal/formats/NumPyPings.h"
+
+#include "base/Error.h"
+#include "signal/formats/gridFile.h"
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <numeric>
+#include <vector>
+
+namespace faintline {
+
+namespace {
+
+    template <class T>
+    void toDoubles(std::span<const std::byte> bytes, std::span<double> out)
+    {
+        for (std::size_t i = 0; i < out.size(); ++i) {
+            T value;
+            std::memcpy(&value, bytes.data() + i * sizeof value, sizeof value);
+            out[i] = double(value);
+        }
+    }
+
+    struct NumberType {
+        std::string_view descriptor; ///< NumPy's
+        std::string_view name;
+        Index bytes; ///< of a real number
+        void (*convert)(std::span<const std::byte>, std::span<double>);
+        bool isInteger = false;
+        bool isComplex = false;
+    };
+
+    constexpr std::array<NumberType, 10> types{{{"|i1", "int8", 1, &toDoubles<std::int8_t>, true},
+                                                {"|u1", "uint8", 1, &toDoubles<std::uint8_t>, true},
+                                                {"<i2", "int16", 2, &toDoubles<std::int16_t>, true},
+                                                {"<u2", "uint16", 2, &toDoubles<std::uint16_t>, true},
+                                                {"<i4", "int32", 4, &toDoubles<std::int32_t>, true},
+                                                {"<u4", "uint32", 4, &toDoubles<std::uint32_t>, true},
+                                                {"<f4", "float32", 4, &toDoubles<float>},
+                                                {"<f8", "float64", 8, &toDoubles<double>},
+                                                {"<c8", "complex64", 4, &toDoubles<float>, false, true},
+                                                {"<c16", "complex128", 8, &toDoubles<double>, false, true}}};
+
+    const NumberType &typeOf(const NumPyHeader &header, const std::string &path)
+    {
+        for (const NumberType &type : types)
+            if (type.descriptor == header.descriptor)
+                return type;
+        throw Error(path, "holds '" + header.descriptor
+                              + "'; expected integers of 8, 16 or 32 bits, float32, float64, complex64 or complex128, "
+                                "little-endian");
+    }
+
+} // namespace
+
+NumPyPings::NumPyPings(const std::string &path, const std::string &gridPath)
+    : m_file(path), m_header(readNumPyHeader(path))
+{
+    const NumberType &type = typeOf(m_header, path);
+    if (m_header.shape.size() < 2)
+        throw Error(path, "must have the shape (pings, cells…)");
+    const GridFile grid = gridPath.empty() ? plainGrid(m_header.shape) : readGridFile(gridPath, m_header.shape);
+    if (grid.isIq && type.isComplex)
+        throw Error(gridPath + ": values", "\"iq\" is for pairs of real numbers; these are complex already");
+    const Index values = std::accumulate(m_header.shape.begin(), m_header.shape.end(), Index(1), std::multiplies<>());
+    if (values < 1)
+        throw Error(path, "holds no values");
+    if (m_file.size() - m_header.offset < values * type.bytes * (type.isComplex ? 2 : 1))
+        throw Error(path, "is truncated: its shape requires " + std::to_string(values) + " values");
+    m_info.path = path;
+    m_info.container = "NumPy pings";
+    m_info.sampleType = type.name;
+    m_info.time = grid.time;
+    m_info.grid = grid.grid;
+    m_info.isComplex = type.isComplex || grid.isIq;
+    m_info.quantum = type.isInteger ? grid.scale : 0.0;
+    m_info.stated = grid.values;
+    m_scale = grid.scale;
+    m_offset = grid.offset;
+}
+
+void NumPyPings::read(Index first, Index count, std::span<double> out) const
+{
+    const NumberType &type = typeOf(m_header, m_info.path);
+    const Index perPing = cells() * (m_info.isComplex ? 2 : 1);
+    std::vector<std::byte> bytes(std::size_t(count * perPing * type.bytes));
+    if (m_file.readAt(m_header.offset + first * perPing * type.bytes, bytes) < bytes.size())
+        throw Error(m_info.path, "was truncated while open", Error::Kind::Failure);
+    type.convert(bytes, out);
+    if (m_scale != 1.0 || m_offset != 0.0)
+        for (double &value : out)
+            value = m_scale * value + m_offset;
+}
+
+} // namespace faintline

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "signal/FileBytes.h"
+#include "signal/PowerFrames.h"
+
+namespace faintline {
+
+/// A sigproc filterbank (.fil): consecutive spectra of 1, 2, 4, 8, 16 (unsigned) or 32 bits (float).
+///
+///   header   HEADER_START, then keywords with values, texts as a 32-bit length and that many characters, up to
+///            HEADER_END
+///   data     frames × IFs × channels; for 1, 2 and 4 bits the lowest bits come first
+///
+/// Channel i lies at fch1 + i·foff MHz; if foff is negative the channels are reversed, so that frequencies ascend. The
+/// time of a frame is the middle of its tsamp seconds; tstart (MJD) is the beginning of the first one. IFs are the
+/// channels of PowerInfo. A file that ends within a frame is read up to that frame, with a note. Source: sigproc
+/// (Lorimer), read_header.c. Reads only the requested part; thread-safe.
+class SigprocFile final : public PowerFrames
+{
+public:
+    /// Throws Error if the header is truncated or invalid.
+    explicit SigprocFile(const std::string &path);
+
+    void read(const PowerPart &part, std::span<float> out) const override;
+
+    /// Whether a file begins with a sigproc header.
+    static bool recognises(const std::string &path);
+
+private:
+    void readRow(Index row, Index firstChannel, std::span<float> out) const;
+
+    FileBytes m_file;
+    Index m_dataOffset = 0;
+    int m_bits = 8;
+    bool m_isSigned = false;
+    bool m_descends = false; ///< foff < 0: the file's first channel is the highest
+};
+
+} // namespace faintline

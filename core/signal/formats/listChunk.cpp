@@ -1,0 +1,106 @@
+#include "signal/formats/listChunk.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+namespace faintline {
+
+namespace {
+
+    constexpr Index wordBytes = 4;
+    constexpr Index listLimitBytes = Index(16) << 20; ///< bytes to examine
+
+    std::uint32_t wordValue(std::span<const std::byte> bytes, bool isBigEndian)
+    {
+        std::uint32_t value = 0;
+        for (std::size_t i = 0; i < wordBytes; ++i)
+            value = value << 8 | std::to_integer<std::uint32_t>(bytes[isBigEndian ? i : wordBytes - 1 - i]);
+        return value;
+    }
+
+    /// Whether the library stops at a name: one that is not part of the list, or invalid.
+    bool isEnd(std::string_view name)
+    {
+        return name == "data" || name == std::string_view("\0\0\0\0", wordBytes);
+    }
+
+    bool hasKnownName(std::string_view name)
+    {
+        constexpr std::array<std::string_view, 20> known{"LIST", "INFO", "bext", "iXML", "axml", "id3 ", "ID3 ",
+                                                         "cue ", "smpl", "inst", "JUNK", "junk", "PAD ", "FLLR",
+                                                         "fact", "PEAK", "_PMX", "guan", "wamd", "auxi"};
+        return std::find(known.begin(), known.end(), name) != known.end();
+    }
+
+    std::string_view nameAt(std::span<const std::byte> bytes)
+    {
+        return {reinterpret_cast<const char *>(bytes.data()), std::min<std::size_t>(bytes.size(), wordBytes)};
+    }
+
+} // namespace
+
+bool isChunkHead(std::span<const std::byte> bytes)
+{
+    if (std::ssize(bytes) < chunkHeadBytes)
+        return false;
+    const std::string_view name = nameAt(bytes);
+    const bool isPrintable = std::all_of(name.begin(), name.end(), [](char c) { return c >= ' ' && c <= '~'; });
+    return isPrintable
+           && (hasKnownName(name) || wordValue(bytes.subspan(wordBytes, wordBytes), false) <= listLimitBytes);
+}
+
+BehindSamples behindSamples(std::span<const std::byte> bytes, bool isOdd, bool isAll)
+{
+    constexpr std::size_t tagBytes = 128;
+    const std::size_t padding = isOdd ? 1 : 0;
+    if (isChunkHead(bytes) || (isOdd && !bytes.empty() && isChunkHead(bytes.subspan(1))))
+        return BehindSamples::Chunk;
+    if (std::ssize(bytes) < chunkHeadBytes + Index(padding))
+        return isAll ? BehindSamples::Nothing : BehindSamples::Unknown;
+    if (const auto tag = bytes.subspan(padding); nameAt(tag).starts_with("TAG") && tag.size() <= tagBytes) {
+        if (!isAll)
+            return BehindSamples::Unknown;
+        return tag.size() == tagBytes ? BehindSamples::Chunk : BehindSamples::Samples;
+    }
+    if (bytes.size() < mostToTellByBytes
+        && std::all_of(bytes.begin(), bytes.end(), [](std::byte b) { return b == std::byte(0); }))
+        return isAll ? BehindSamples::Padding : BehindSamples::Unknown;
+    return BehindSamples::Samples;
+}
+
+bool leadsBackwards(const FileBytes &file, Index chunk)
+{
+    std::array<std::byte, wordBytes> kind;
+    std::array<std::byte, 2 * wordBytes> head;
+    if (file.readAt(0, kind) < kind.size() || file.readAt(chunk, head) < head.size())
+        return false;
+    const bool isBigEndian = std::memcmp(kind.data(), "RIFX", kind.size()) == 0;
+    const Index length = std::min<Index>(wordValue(std::span(head).last(wordBytes), isBigEndian),
+                                         file.size() - chunk - std::ssize(head));
+    std::vector<std::byte> bytes(std::size_t(std::clamp<Index>(length, 0, listLimitBytes)));
+    bytes.resize(file.readAt(chunk + std::ssize(head), bytes));
+
+    Index at = 0;
+    while (at + 2 * wordBytes <= std::ssize(bytes)) {
+        const auto word = [&](Index place) { return std::span(bytes).subspan(std::size_t(place)).first(wordBytes); };
+        const std::string_view name(reinterpret_cast<const char *>(word(at).data()), wordBytes);
+        at += wordBytes;
+        if (name == "INFO" || name == "adtl")
+            continue;
+        if (name == "exif")
+            return true;
+        if (isEnd(name))
+            return false;
+        const Index size = wordValue(word(at), isBigEndian);
+        at += wordBytes;
+        if (at + size + size % 2 > 0xffffffff)
+            return true;
+        at += size + size % 2;
+    }
+    return at < length && length > listLimitBytes; // longer lists are not examined
+}
+
+} // namespace faintline

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "signal/FileBytes.h"
+
+#include <span>
+
+namespace faintline {
+
+/// Bytes of a RIFF chunk's name and length.
+constexpr Index chunkHeadBytes = 8;
+
+/// Whether bytes begin as a RIFF chunk does, rather than as samples: a name of four printable characters, and a length
+/// of at most 16 MiB, or the name of a chunk that programs write behind samples.
+bool isChunkHead(std::span<const std::byte> bytes);
+
+/// What follows the declared end of a WAV file's samples.
+enum class BehindSamples { Nothing, Chunk, Padding, Samples, Unknown };
+
+/// Tells by the first bytes behind a declared end. A length in 32 bits may be too small, because a recorder passed 4 GiB
+/// or was killed; what begins as no chunk is then more samples. Fewer bytes than a chunk's head, zeros of up to 64 KiB
+/// and an ID3 tag (128 bytes) to the end are none. `isOdd`: the declared length is, so that a byte of padding may
+/// precede a chunk. `isAll`: no more bytes follow; else Unknown says that more are needed.
+BehindSamples behindSamples(std::span<const std::byte> bytes, bool isOdd, bool isAll);
+constexpr std::size_t mostToTellByBytes = (std::size_t(1) << 16) + 2; ///< bytes that are enough for behindSamples
+
+/// Whether a LIST or INFO chunk of a RIFF file holds a length that would make libsndfile 1.2 (wavlike_subchunk_parse),
+/// which adds lengths in 32 bits, seek backwards and possibly loop forever. Chunks for photographs (exif) count as
+/// such: they are not parsed here, and no recorder writes them.
+///
+///   "LIST" size "INFO"|"adtl",  then repeatedly  name size content
+bool leadsBackwards(const FileBytes &file, Index chunk);
+
+} // namespace faintline

@@ -1,0 +1,142 @@
+#include "base/Random.h"
+#include "noise/NoiseNormaliser.h"
+#include "noise/SurrogateRecording.h"
+#include "scene/SimulatedRecording.h"
+#include "support/test.h"
+
+using namespace faintline;
+
+namespace {
+
+/// A recording of given samples.
+class Samples final : public Recording
+{
+public:
+    Samples(std::vector<float> values, bool isComplex, const char *sampleType) : m_values(std::move(values))
+    {
+        m_info.path = "samples";
+        m_info.sampleType = sampleType;
+        m_info.sampleRateHz = 100.0;
+        m_info.channelCount = 1;
+        m_info.isComplex = isComplex;
+        m_info.sampleCount = std::ssize(m_values) / m_info.floatsPerSample();
+    }
+
+    void read(int, Index first, Index count, std::span<float> out) const override
+    {
+        fill(first, count, out, [&](Index from, std::span<float> inside) {
+            std::copy_n(m_values.begin() + from * m_info.floatsPerSample(), inside.size(), inside.begin());
+        });
+    }
+
+private:
+    std::vector<float> m_values;
+};
+
+/// Noise that falls toward high frequencies and doubles its amplitude half way; silent between seconds 40 and 60.
+std::shared_ptr<const Samples> colouredNoise(bool isComplex)
+{
+    constexpr Index count = 40000;
+    const std::size_t floats = isComplex ? 2 : 1;
+    std::vector<float> values(std::size_t(count) * floats);
+    Random(7, 0).normals(values, 0.05f);
+    for (std::size_t i = floats; i < values.size(); ++i)
+        values[i] += 0.7f * values[i - floats];
+    for (std::size_t i = values.size() / 2; i < values.size(); ++i)
+        values[i] *= 2.0f;
+    std::fill(values.begin() + std::ptrdiff_t(4000 * floats), values.begin() + std::ptrdiff_t(6000 * floats), 0.0f);
+    return std::make_shared<Samples>(std::move(values), isComplex, isComplex ? "cf32" : "float32");
+}
+
+} // namespace
+
+/// Noise like a recording's own.
+class tst_SurrogateRecording : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void hasTheBackgroundOfTheRecording_data();
+    void hasTheBackgroundOfTheRecording();
+    void isSilentWhereTheRecordingIs();
+    void doesNotDependOnHowItIsRead();
+    void keepsTheQuantisationStep();
+};
+
+void tst_SurrogateRecording::hasTheBackgroundOfTheRecording_data()
+{
+    QTest::addColumn<bool>("isComplex");
+    QTest::newRow("real") << false;
+    QTest::newRow("I/Q") << true;
+}
+
+void tst_SurrogateRecording::hasTheBackgroundOfTheRecording()
+{
+    QFETCH(bool, isComplex);
+    SpectrogramSettings settings;
+    settings.windowSeconds = 2.0;
+    const auto original = std::make_shared<Spectrogram>(colouredNoise(isComplex), settings);
+    const auto background = estimateBackground(*original, {});
+    const auto surrogate =
+        std::make_shared<Spectrogram>(std::make_shared<SurrogateRecording>(*original, background, 1), settings);
+    const auto again = estimateBackground(*surrogate, {});
+    QCOMPARE(surrogate->time().count, original->time().count);
+    for (const double seconds : {20.0, 100.0, 150.0, 250.0, 350.0})
+        for (const double hz : {3.0, 12.0, 25.0, 40.0}) {
+            const double difference = again->lnPowerAt(seconds, hz) - background->lnPowerAt(seconds, hz);
+            QVERIFY2(std::abs(difference) < 0.25,
+                     qPrintable(QString("%1 at %2 s, %3 Hz").arg(difference).arg(seconds).arg(hz)));
+        }
+    // Another seed is other noise.
+    std::vector<float> a(200);
+    std::vector<float> b(200);
+    const Index samples = isComplex ? 100 : 200;
+    SurrogateRecording(*original, background, 1).read(0, 1000, samples, a);
+    SurrogateRecording(*original, background, 2).read(0, 1000, samples, b);
+    QVERIFY(a != b);
+}
+
+void tst_SurrogateRecording::isSilentWhereTheRecordingIs()
+{
+    SpectrogramSettings settings;
+    settings.windowSeconds = 2.0;
+    const Spectrogram original(colouredNoise(false), settings);
+    const SurrogateRecording surrogate(original, estimateBackground(original, {}), 1);
+    std::vector<float> values(4000);
+    surrogate.read(0, 3000, 4000, values);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        QCOMPARE(values[i] == 0.0f, i >= 1000 && i < 3000);
+}
+
+void tst_SurrogateRecording::doesNotDependOnHowItIsRead()
+{
+    SpectrogramSettings settings;
+    settings.windowSeconds = 2.0;
+    const Spectrogram original(colouredNoise(true), settings);
+    const SurrogateRecording surrogate(original, estimateBackground(original, {}), 1);
+    std::vector<float> whole(2 * 5000);
+    surrogate.read(0, 1000, 5000, whole);
+    std::vector<float> part(2 * 77);
+    surrogate.read(0, 3123, 77, part);
+    QVERIFY(std::equal(part.begin(), part.end(), whole.begin() + 2 * (3123 - 1000)));
+}
+
+void tst_SurrogateRecording::keepsTheQuantisationStep()
+{
+    std::vector<float> values(20000);
+    Random random(9, 0);
+    for (float &value : values)
+        value = float(std::round(1.5 * random.normal()) / 32768.0);
+    SpectrogramSettings settings;
+    settings.windowSeconds = 2.0;
+    const Spectrogram original(std::make_shared<Samples>(std::move(values), false, "int16"), settings);
+    const SurrogateRecording surrogate(original, estimateBackground(original, {}), 1);
+    std::vector<float> read(2000);
+    surrogate.read(0, 100, 2000, read);
+    for (const float value : read)
+        QCOMPARE(double(value) * 32768.0, std::round(double(value) * 32768.0));
+    QVERIFY(std::any_of(read.begin(), read.end(), [](float value) { return value != 0.0f; }));
+}
+
+FAINTLINE_TEST(tst_SurrogateRecording)
+#include "tst_SurrogateRecording.moc"

@@ -1,0 +1,198 @@
+#include "refine/steadyLines.h"
+#include "support/test.h"
+
+#include "analyse/chooseWindow.h"
+#include "analyse/events.h"
+#include "scene/SimulatedRecording.h"
+#include "support/lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+using namespace faintline;
+using namespace faintline::test;
+
+namespace {
+
+constexpr double steadyHz = 3000.3;
+
+/// Sweeps that need a short window, and a steady line too faint for it.
+LineScene sweepsBesideAFaintLine(double faintDb)
+{
+    LineScene result = sweeps();
+    result.lines.push_back(line(steadyHz, 0.0, 0.0, result.durationSeconds, faintDb, 0.025));
+    return result;
+}
+
+std::shared_ptr<const Analysis> analysed(const LineScene &scene, const AnalysisSettings &settings = {},
+                                         const Analysis *previous = nullptr)
+{
+    return analyseInChosenWindow(std::make_shared<SimulatedRecording>(scene), settings, {}, previous);
+}
+
+struct Analyses {
+    std::shared_ptr<const Analysis> chosen; ///< windows of 25 ms, which suit the sweeps
+    std::shared_ptr<const Analysis> longer; ///< 100 ms
+};
+
+Analyses inBothWindows(const LineScene &scene)
+{
+    const auto recording = std::make_shared<SimulatedRecording>(scene);
+    AnalysisSettings settings;
+    settings.spectrogram.windowSeconds = 0.1;
+    const auto longer = analyse(recording, settings);
+    settings.spectrogram.windowSeconds = 0.025;
+    settings.model.lowestSlope = laws::glide().lowestSlope;
+    settings.model.highestSlope = laws::glide().highestSlope;
+    settings.model.slopesPerBin = laws::glide().slopesPerBin;
+    settings.model.slopeChange = laws::glide().slopeChange;
+    return {analyse(recording, settings), longer};
+}
+
+std::vector<Event> ofLongerWindow(const Analysis &analysis)
+{
+    std::vector<Event> result;
+    for (const Event &event : events(analysis))
+        if (trackOfId(analysis.tracks, event.id)->windowSeconds > 0.0)
+            result.push_back(event);
+    return result;
+}
+
+} // namespace
+
+/// Lines that a longer window than the one chosen knows better.
+class tst_steadyLines : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void oneBesideSweepsIsFound();
+    void numbersFollowTheOrderOfDetection();
+    void whatTheChosenWindowHasIsNotTakenTwice();
+    void onePutsPiecesTogether();
+    void noiseBringsNone();
+    void oneInAHumHasToBeSureOverIt();
+    void aChangeOfTheThresholdAsksAgain();
+};
+
+void tst_steadyLines::oneBesideSweepsIsFound()
+{
+    const auto analysis = analysed(sweepsBesideAFaintLine(-4.0));
+    QVERIFY(analysis->longer);
+    QVERIFY(!analysis->longer->input && !analysis->longer->statistic);
+    const std::vector<Event> found = ofLongerWindow(*analysis);
+    QCOMPARE(found.size(), std::size_t(1));
+    const Event &event = found.front();
+    const double longer = analysis->longer->frames->spectrogram()->windowSeconds();
+    QCOMPARE(event.windowSeconds, longer);
+    QVERIFY(std::abs(longer / analysis->frames->spectrogram()->windowSeconds() - 4.0) < 0.05);
+    QVERIFY2(std::abs(event.position.front() - steadyHz) < 0.2 / longer,
+             qPrintable(QString::number(event.position.front(), 'g', 9)));
+    QVERIFY(event.onsetSeconds < 1.0 && event.endSeconds > 9.0);
+    // Its power in one window of those shown: -4 dB in 1/40 s.
+    const double shown = -4.0 + 10.0 * std::log10(analysis->frames->spectrogram()->windowSeconds() / 0.025);
+    QVERIFY2(std::abs(event.snrDb - shown) < 1.5, qPrintable(QString::number(event.snrDb)));
+    const Track &track = *trackOfId(analysis->tracks, event.id);
+    QCOMPARE(std::ssize(track.points), track.endFrame - track.onsetFrame + 1);
+    QCOMPARE(track.points.size(), track.smoothed.size());
+    for (const TrackPoint &point : track.points)
+        QVERIFY(point.statistic <= track.peakStatistic);
+}
+
+void tst_steadyLines::numbersFollowTheOrderOfDetection()
+{
+    const auto analysis = analysed(sweepsBesideAFaintLine(-4.0));
+    for (std::size_t i = 0; i < analysis->tracks.size(); ++i) {
+        QCOMPARE(analysis->tracks[i].id, int(i) + 1);
+        QVERIFY(i == 0 || analysis->tracks[i - 1].detectFrame <= analysis->tracks[i].detectFrame);
+    }
+}
+
+/// Of a somewhat stronger line the shorter window finds several pieces.
+void tst_steadyLines::onePutsPiecesTogether()
+{
+    const auto [chosen, longer] = inBothWindows(sweepsBesideAFaintLine(3.0));
+    const auto near = [](const std::vector<Event> &all) {
+        std::vector<Event> result;
+        std::copy_if(all.begin(), all.end(), std::back_inserter(result),
+                     [](const Event &event) { return std::abs(event.position.front() - steadyHz) < 40.0; });
+        return result;
+    };
+    const std::vector<Event> pieces = near(events(*chosen));
+    QVERIFY2(pieces.size() > 1, qPrintable(QString::number(pieces.size())));
+    const std::vector<Event> whole = near(events(*chosen, withSteadyLines(*chosen, *longer)));
+    QCOMPARE(whole.size(), std::size_t(1));
+    QVERIFY(whole.front().onsetSeconds < 0.5 && whole.front().endSeconds > 9.5);
+    QVERIFY(whole.front().detectSeconds <= pieces.front().detectSeconds);
+}
+
+/// A stronger line is found by both windows, and stays one event.
+void tst_steadyLines::whatTheChosenWindowHasIsNotTakenTwice()
+{
+    const auto analysis = analysed(sweepsBesideAFaintLine(9.0));
+    QVERIFY(analysis->longer && !analysis->longer->tracks.empty());
+    QVERIFY(ofLongerWindow(*analysis).empty());
+    const std::vector<Event> all = events(*analysis);
+    QCOMPARE(std::count_if(all.begin(), all.end(),
+                           [](const Event &event) { return std::abs(event.position.front() - steadyHz) < 40.0; }),
+             Index(1));
+}
+
+/// Half an hour in which the longer window alone brings a thousand false alarms: ten are sure, and these wander.
+void tst_steadyLines::noiseBringsNone()
+{
+    AnalysisSettings settings;
+    settings.decide.falseAlarmsPerHour = 3600.0;
+    LineScene noise;
+    noise.sampleRateHz = 400.0;
+    noise.durationSeconds = 1800.0;
+    noise.seed = 11;
+    const auto analysis = analysed(noise, settings);
+    QVERIFY2(analysis->longer->tracks.size() > 800, qPrintable(QString::number(analysis->longer->tracks.size())));
+    const std::size_t added = ofLongerWindow(*analysis).size();
+    QVERIFY2(added <= 3, qPrintable(QString::number(added)));
+}
+
+/// A hum of eight cells of the longer window, in which nothing is found, brings a line above the sure statistic of the
+/// noise around it.
+void tst_steadyLines::oneInAHumHasToBeSureOverIt()
+{
+    LineScene scene = sweeps();
+    const double lineHz = 3040.0;
+    scene.lines.push_back(line(lineHz, 0.0, 0.0, scene.durationSeconds, -4.0, 0.025));
+    const auto isTheLine = [=](const Event &event) { return std::abs(event.position.front() - lineHz) < 5.0; };
+    const auto countIn = [&](const Analyses &both) {
+        return std::ranges::count_if(events(*both.chosen, withSteadyLines(*both.chosen, *both.longer)), isTheLine);
+    };
+    QCOMPARE(countIn(inBothWindows(scene)), 1);
+
+    constexpr int tones = 27; // three in a cell, at incommensurate frequencies
+    for (int i = 0; i < tones; ++i)
+        scene.lines.push_back(
+            line(lineHz - 40.0 + 3.0 * i + 0.75 * std::sin(17.0 * i), 0.0, 0.0, scene.durationSeconds, -15.0, 0.025));
+    const Analyses both = inBothWindows(scene);
+    QVERIFY(std::ranges::any_of(events(*both.longer), isTheLine));
+    QCOMPARE(countIn(both), 0);
+}
+
+void tst_steadyLines::aChangeOfTheThresholdAsksAgain()
+{
+    const LineScene scene = sweepsBesideAFaintLine(-4.0);
+    const auto recording = std::make_shared<SimulatedRecording>(scene);
+    const auto first = analyseInChosenWindow(recording, {});
+    AnalysisSettings settings;
+    settings.decide.falseAlarmsPerHour = 10.0;
+    const auto second = analyseInChosenWindow(recording, settings, {}, first.get());
+    QVERIFY(second->longer->frames == first->longer->frames);
+    QCOMPARE(ofLongerWindow(*second).size(), std::size_t(1));
+    const Event event = ofLongerWindow(*second).front();
+    // Counted from the threshold of the window shown.
+    QVERIFY(std::abs((event.statistic - second->threshold)
+                     - (ofLongerWindow(*first).front().statistic - first->threshold)
+                     - (first->longer->threshold - second->longer->threshold))
+            < 1e-6);
+}
+
+FAINTLINE_TEST(tst_steadyLines)
+#include "tst_steadyLines.moc"
