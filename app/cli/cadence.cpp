@@ -2,7 +2,7 @@
 #include "app/cli/inRange.h"
 
 #include "base/files/AtomicFile.h"
-#include "exchange/findCadence.h"
+#include "exchange/TopHits.h"
 
 #include <CLI/CLI.hpp>
 

@@ -4,11 +4,11 @@
 #include "analyse/chooseWindow.h"
 #include "base/files/AtomicFile.h"
 #include "base/json.h"
+#include "calibrate/CalibrationRequest.h"
 #include "calibrate/CalibrationStore.h"
 #include "calibrate/calibrate.h"
 #include "calibrate/falseAlarmWords.h"
 #include "calibrate/keptCalibration.h"
-#include "calibrate/makeCalibration.h"
 #include "frames/Spectrogram.h"
 #include "inspect/surrogates.h"
 

@@ -9,7 +9,7 @@
 #include "plan/firstSettings.h"
 #include "plan/slopeUnit.h"
 #include "signal/Timeline.h"
-#include "signal/openTogether.h"
+#include "signal/openRecording.h"
 
 #include <CLI/CLI.hpp>
 

@@ -6,7 +6,6 @@
 #include "base/oneLine.h"
 #include "base/utc.h"
 #include "exchange/survey/carryOutSurvey.h"
-#include "exchange/survey/exportCamtrap.h"
 #include "exchange/survey/exportSurvey.h"
 #include "exchange/survey/findRecordings.h"
 #include "exchange/survey/writeSurvey.h"

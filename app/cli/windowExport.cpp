@@ -2,7 +2,7 @@
 
 #include "analyse/analyse.h"
 #include "base/files/fileName.h"
-#include "base/readingJson.h"
+#include "base/json.h"
 #include "exchange/CampaignFile.h"
 #include "exchange/Session.h"
 #include "exchange/writeDoppler.h"

@@ -1,7 +1,6 @@
 #include "app/control/ThresholdCurves.h"
 
 #include "app/document/Document.h"
-#include "evaluate/theory/boxExceedance.h"
 #include "evaluate/theory/closedForm.h"
 #include "widgets/plot/ExceedancePlot.h"
 

@@ -1,6 +1,6 @@
 #include "app/document/ViewState.h"
 
-#include "base/readingJson.h"
+#include "base/json.h"
 #include "base/wholeNumber.h"
 
 namespace faintline {

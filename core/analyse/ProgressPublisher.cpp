@@ -1,9 +1,53 @@
 #include "analyse/ProgressPublisher.h"
 
-#include "analyse/quickLook.h"
 #include "calibrate/calibrate.h"
+#include "frames/PeakPyramid.h"
+#include "noise/NoiseNormaliser.h"
+
+#include <algorithm>
+#include <memory>
 
 namespace faintline {
+
+namespace {
+
+    /// A quick look at a recording of any length: frames spread evenly over it, in dB over a background from a few of
+    /// them.
+    ///
+    /// At most 256 frames, fewer for long windows: some 2²⁵ samples are transformed, which takes a fraction of a
+    /// second. Its time axis is that of the frames it holds. For display only: it shows nothing between these frames.
+    std::shared_ptr<const PeakPyramid> quickLook(std::shared_ptr<const Spectrogram> spectrogram,
+                                                 const NormaliserSettings &settings, const RunContext &context = {});
+
+    constexpr double affordableSamples = 33554432.0;
+    constexpr Index mostFrames = 256;
+    constexpr Index fewestShownFrames = 32;
+
+    std::shared_ptr<const PeakPyramid> quickLook(std::shared_ptr<const Spectrogram> spectrogram,
+                                                 const NormaliserSettings &settings, const RunContext &context)
+    {
+        const auto background = estimateBackground(*spectrogram, settings, context, BackgroundDepth::Sketch);
+        const NormalisedSpectrogram frames(spectrogram, background, settings);
+        const Index all = frames.time().count;
+        const double perFrame = spectrogram->windowSamples() * spectrogram->settings().binsPerCell;
+        const auto affordable = Index(affordableSamples / perFrame);
+        const Index count = std::min(all, std::clamp(affordable, fewestShownFrames, mostFrames));
+
+        Axis time = frames.time();
+        time.step *= double(all) / double(count);
+        time.count = count;
+        auto picture = std::make_shared<PeakPyramid>(time, frames.grid().size(), ByteScale(ByteScale::Kind::PowerDb));
+        std::vector<float> frame(std::size_t(frames.grid().size()));
+        for (Index i = 0; i < count; ++i) {
+            context.checkpoint(double(i) / double(count), "first look");
+            frames.read((2 * i + 1) * all / (2 * count), 1, frame);
+            picture->append(frame);
+        }
+        picture->finish();
+        return picture;
+    }
+
+} // namespace
 
 ProgressPublisher::ProgressPublisher(const PictureSink &sink, const Axis &time, const Axis &frequency,
                                      const AnalysisSettings &settings)

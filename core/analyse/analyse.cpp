@@ -11,7 +11,7 @@
 #include "refine/familyGhosts.h"
 #include "refine/familyLoneTeeth.h"
 #include "refine/numberByDetection.h"
-#include "refine/overOwnNoise.h"
+#include "refine/ownNoiseLaw.h"
 #include "refine/secondLook.h"
 #include "refine/spreadTracks.h"
 #include "refine/subtractLines.h"

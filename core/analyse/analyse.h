@@ -16,7 +16,7 @@ namespace faintline {
 using StatisticSink = std::function<void(Index firstFrame, std::span<const float> statistic)>;
 
 /// Scope of an analysis: everything; its tracks, without pictures and checkpoints; or a trial of its settings, whose
-/// tracks are also not tested against the recording's own noise (overOwnNoise.h), which is not searched for signals
+/// tracks are also not tested against the recording's own noise (ownNoiseLaw.h), which is not searched for signals
 /// behind others (secondLook.h), and whose tracks are not trimmed to their signals (trimEnds.h).
 enum class AnalysisDepth { Whole, Tracks, Trial };
 

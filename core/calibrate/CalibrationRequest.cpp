@@ -1,6 +1,6 @@
 #include "calibrate/CalibrationRequest.h"
 
-#include "base/readingJson.h"
+#include "base/json.h"
 
 #include <numeric>
 

@@ -1,8 +1,8 @@
 #include "calibrate/calibrate.h"
 
+#include "calibrate/CalibrationRequest.h"
 #include "calibrate/calibrateOn.h"
 #include "calibrate/keptCalibration.h"
-#include "calibrate/makeCalibration.h"
 #include "frames/channelCount.h"
 #include "noise/normalise.h"
 #include "scene/SimulatedRecording.h"

@@ -1,6 +1,6 @@
+#include "calibrate/CalibrationRequest.h"
 #include "calibrate/calibrate.h"
 #include "calibrate/followTail.h"
-#include "calibrate/makeCalibration.h"
 #include "frames/channelCount.h"
 #include "signal/Fft.h"
 

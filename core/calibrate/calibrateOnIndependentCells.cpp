@@ -1,7 +1,7 @@
 #include "base/Random.h"
+#include "calibrate/CalibrationRequest.h"
 #include "calibrate/calibrate.h"
 #include "calibrate/calibrateOn.h"
-#include "calibrate/makeCalibration.h"
 
 #include <algorithm>
 #include <cmath>

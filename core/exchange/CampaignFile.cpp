@@ -4,8 +4,8 @@
 #include "base/Error.h"
 #include "base/files/AtomicFile.h"
 #include "base/files/checksum.h"
+#include "base/json.h"
 #include "base/oneLine.h"
-#include "base/readingJson.h"
 #include "evaluate/experiments/sweepCurve.h"
 #include "exchange/csvText.h"
 

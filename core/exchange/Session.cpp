@@ -3,7 +3,7 @@
 #include "base/files/AtomicFile.h"
 #include "base/files/InputFiles.h"
 #include "base/files/fileName.h"
-#include "base/readingJson.h"
+#include "base/json.h"
 #include "base/wholeNumber.h"
 #include "exchange/survey/findRecordings.h"
 #include "scene/truthBeside.h"

@@ -1,7 +1,7 @@
 #include "exchange/annotateRecording.h"
 
 #include "base/files/AtomicFile.h"
-#include "base/readingJson.h"
+#include "base/json.h"
 #include "signal/formats/SigmfRecording.h"
 
 #include <algorithm>

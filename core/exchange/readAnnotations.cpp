@@ -1,7 +1,7 @@
 #include "exchange/readAnnotations.h"
 
+#include "base/json.h"
 #include "base/oneLine.h"
-#include "base/readingJson.h"
 #include "exchange/annotationText.h"
 #include "exchange/textTable.h"
 #include "signal/Timeline.h"

@@ -3,7 +3,7 @@
 #include "analyse/events.h"
 #include "evaluate/experiments/Chart.h"
 #include "inspect/doppler/DopplerPass.h"
-#include "inspect/doppler/dopplerTrack.h"
+#include "inspect/doppler/dopplerFit.h"
 
 #include <optional>
 #include <string>
@@ -25,7 +25,7 @@ std::optional<double> centreOfFrames(const AnalysisPlan &plan);
 
 /// Fits events of an analysis, the pieces of one pass. `centreHz`: frequency, in Hz, that corresponds to 0 Hz of its
 /// frames (centreOfFrames); `propagation`: speed of the waves, m/s, > 0. Throws Error if the events are not such pieces
-/// or their tracks are too short (dopplerTrack.h, dopplerFit.h).
+/// or their tracks are too short (dopplerFit.h, dopplerFit.h).
 DopplerReport dopplerReport(const Analysis &analysis, std::vector<Event> events, double centreHz, double propagation);
 
 /// One parameter as displayed in tables.

@@ -40,7 +40,7 @@ struct Explanation {
     /// Track for which the cell was inhibited in this frame; 0: an excluded cell, -1: a track dropped later.
     std::optional<int> inhibitedFor;
     bool isSubtracted = false;       ///< on a subtracted line: the explanation is for the remainder (subtractLines.h)
-    bool isExplainedByNoise = false; ///< on a path that the recording's own noise explains (overOwnNoise.h)
+    bool isExplainedByNoise = false; ///< on a path that the recording's own noise explains (ownNoiseLaw.h)
     bool isTracked = false;          ///< a tracker follows this cell; its path continues without reset
 };
 

@@ -1,9 +1,14 @@
 #include "live/Player.h"
 
 #include "base/Error.h"
+#include "signal/BandRecording.h"
+#include "signal/StraightenedRecording.h"
 
 #include <algorithm>
+#include <cmath>
+#include <complex>
 #include <cstring>
+#include <numbers>
 
 namespace faintline {
 
@@ -101,6 +106,142 @@ std::optional<std::string> Player::failure() const
             return m_failure;
     }
     return m_stream.failure();
+}
+
+namespace {
+
+    constexpr double crossings = 16.0; ///< zero crossings of the kernel on each side
+    constexpr Index kernelSteps = 512; ///< points per crossing
+    constexpr double transition = 0.95;
+    constexpr double meanLevel = 0.1;
+    constexpr double besideHz = 300.0;
+    constexpr double levelSeconds = 10.0; ///< preceding time that sets the level of a recording in progress
+    constexpr double farBehindSeconds = 2.0;
+    constexpr double behindSeconds = 0.5;
+
+    /// Right half of a Hann-windowed sinc.
+    std::vector<float> halfKernel()
+    {
+        std::vector<float> kernel(std::size_t(crossings * double(kernelSteps)) + 2, 0.0f);
+        for (std::size_t i = 0; i + 2 < kernel.size(); ++i) {
+            const double u = std::numbers::pi * double(i) / double(kernelSteps);
+            const double window = 0.5 + 0.5 * std::cos(u / crossings);
+            kernel[i] = float(i == 0 ? 1.0 : std::sin(u) / u * window);
+        }
+        return kernel;
+    }
+
+} // namespace
+
+PlayedSound::PlayedSound(RecordingPointer recording, int channel, const PlaySettings &settings, double deviceRateHz)
+    : m_recording(std::move(recording)), m_channel(channel), m_settings(settings), m_deviceRate(deviceRateHz),
+      m_step(settings.speed * m_recording->info().sampleRateHz / deviceRateHz),
+      m_cutoff(std::min(1.0, transition / m_step)),
+      m_length(Index(std::ceil((settings.toSeconds - settings.fromSeconds) / settings.speed * deviceRateHz))),
+      m_kernel(halfKernel()), m_gain(measuredGain())
+{
+}
+
+double PlayedSound::reachSeconds() const
+{
+    return (crossings / m_cutoff + 2.0) / m_recording->info().sampleRateHz;
+}
+
+bool PlayedSound::isThere(Index sample) const
+{
+    return !m_settings.endSeconds || secondsAt(sample) + reachSeconds() <= m_settings.endSeconds();
+}
+
+Index PlayedSound::behindBy(Index sample) const
+{
+    const double behind = m_settings.endSeconds ? m_settings.endSeconds() - secondsAt(sample) : 0.0;
+    return behind < farBehindSeconds ? 0 : Index((behind - behindSeconds) / m_settings.speed * m_deviceRate);
+}
+
+/// From samples spread over the interval played or, live, over the preceding seconds.
+double PlayedSound::measuredGain() const
+{
+    constexpr Index stretches = 16;
+    constexpr Index stretch = 4096;
+    const RecordingInfo &info = m_recording->info();
+    const bool isGrowing = bool(m_settings.endSeconds);
+    const double from = isGrowing ? std::max(0.0, m_settings.fromSeconds - levelSeconds) : m_settings.fromSeconds;
+    const double to = isGrowing ? m_settings.fromSeconds : m_settings.toSeconds;
+    const auto first = Index(from * info.sampleRateHz);
+    const auto last = Index(to * info.sampleRateHz);
+    std::vector<float> samples(std::size_t(stretch * info.floatsPerSample()));
+    double sum = 0.0;
+    Index count = 0;
+    for (Index i = 0; i < stretches; ++i) {
+        const Index length = std::min(stretch, last - first);
+        m_recording->read(m_channel, first + (last - first - length) * i / stretches, length, samples);
+        for (const float value : std::span(samples).first(std::size_t(length * info.floatsPerSample()))) {
+            sum += double(value) * double(value);
+            count += value != 0.0f;
+        }
+    }
+    return sum > 0.0 ? meanLevel / std::sqrt(sum / double(count)) : 0.0;
+}
+
+float PlayedSound::kernel(double distance) const
+{
+    const double at = std::min(std::abs(distance), crossings) * double(kernelSteps);
+    const auto below = std::size_t(at);
+    const auto rest = float(at - double(below));
+    return m_kernel[below] + rest * (m_kernel[below + 1] - m_kernel[below]);
+}
+
+double PlayedSound::secondsAt(Index sample) const
+{
+    if (!m_settings.loops && sample >= m_length)
+        return m_settings.toSeconds;
+    return m_settings.fromSeconds + double(sample % m_length) * m_settings.speed / m_deviceRate;
+}
+
+void PlayedSound::render(Index first, std::span<float> out) const
+{
+    while (!out.empty()) {
+        const Index inPass = m_settings.loops ? first % m_length : first;
+        const Index count = std::min(std::ssize(out), m_length - inPass);
+        if (count <= 0)
+            return std::fill(out.begin(), out.end(), 0.0f);
+        renderPass(inPass, first, out.first(std::size_t(count)));
+        out = out.subspan(std::size_t(count));
+        first += count;
+    }
+}
+
+/// Samples of one pass from `first` on; `number`: index of the first one over all passes, for the tone's phase.
+void PlayedSound::renderPass(Index first, Index number, std::span<float> out) const
+{
+    const RecordingInfo &info = m_recording->info();
+    const double reach = crossings / m_cutoff;
+    const double begin = m_settings.fromSeconds * info.sampleRateHz + double(first) * m_step;
+    const auto from = Index(std::floor(begin - reach));
+    const Index count = Index(std::ceil(double(out.size()) * m_step + 2.0 * reach)) + 2;
+    const Index floats = info.floatsPerSample();
+    std::vector<float> samples(std::size_t(count * floats));
+    m_recording->read(m_channel, from, count, samples);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const double position = begin + double(i) * m_step - double(from);
+        std::complex<double> sum = 0.0;
+        const auto last = std::min(count - 1, Index(std::floor(position + reach)));
+        for (auto k = Index(std::ceil(position - reach)); k <= last; ++k) {
+            const auto weight = double(kernel(m_cutoff * (position - double(k))));
+            const float *const value = samples.data() + k * floats;
+            sum += weight * std::complex<double>(double(value[0]), floats == 2 ? double(value[1]) : 0.0);
+        }
+        const double cycles = m_settings.toneHz * double(number + Index(i)) / m_deviceRate;
+        sum *= std::polar(m_gain * m_cutoff, 2.0 * std::numbers::pi * (cycles - std::floor(cycles)));
+        out[i] = float(std::clamp(sum.real(), -1.0, 1.0));
+    }
+}
+
+RecordingPointer lineToPlay(const RecordingPointer &recording, int channel, const FrequencyCurve &line)
+{
+    const auto [least, most] = std::minmax_element(line.hz().begin(), line.hz().end());
+    const auto band = std::make_shared<BandRecording>(recording, channel, *least - besideHz, *most + besideHz);
+    return std::make_shared<StraightenedRecording>(band, 0, line, 0.0);
 }
 
 } // namespace faintline

@@ -1,5 +1,7 @@
 #include "live/StreamBuffer.h"
 
+#include "live/streamInfo.h"
+
 #include <algorithm>
 
 namespace faintline {
@@ -139,6 +141,22 @@ bool StreamBuffer::isWhole(Index first, Index count) const
     for (; piece != m_pieces.end() && piece->first <= known && known < first + count; ++piece)
         known = piece->first + piece->count;
     return known >= first + count;
+}
+
+StreamRecording::StreamRecording(std::shared_ptr<const StreamBuffer> buffer, std::optional<double> startUnixSeconds)
+    : m_buffer(std::move(buffer))
+{
+    m_info = streamInfo(m_buffer->format());
+    if (m_buffer->isEnded())
+        m_info.sampleCount = m_buffer->length();
+    m_info.startUnixSeconds = startUnixSeconds;
+}
+
+void StreamRecording::read(int channel, Index first, Index count, std::span<float> out) const
+{
+    fill(first, count, out, [&](Index from, std::span<float> inside) {
+        m_buffer->read(channel, from, std::ssize(inside) / m_info.floatsPerSample(), inside);
+    });
 }
 
 } // namespace faintline

@@ -2,11 +2,13 @@
 
 #include "base/Axis.h"
 #include "live/sources/SampleSource.h"
+#include "signal/Recording.h"
 
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -72,6 +74,26 @@ private:
     std::size_t m_heldBytes = 0;
     Index m_length = 0;
     bool m_isEnded = false;
+};
+
+/// A buffer's stream as a recording; released samples read as 0.
+///
+/// Its length is `endlessSamples` unless the stream ended before construction. Floats are assumed to lie within 2^±30.
+class StreamRecording final : public Recording
+{
+public:
+    StreamRecording(std::shared_ptr<const StreamBuffer> buffer, std::optional<double> startUnixSeconds);
+
+    void read(int channel, Index first, Index count, std::span<float> out) const override;
+    bool isWhole(Index first, Index count) const override { return m_buffer->isWhole(first, count); }
+    bool isFinite(int channel, Index first, Index count) const override
+    {
+        return m_buffer->format().type.number != SampleType::Number::Float
+               || nonFiniteCountIn(channel, first, count) == 0;
+    }
+
+private:
+    std::shared_ptr<const StreamBuffer> m_buffer;
 };
 
 } // namespace faintline

@@ -4,7 +4,7 @@
 #include "analyse/preparePlan.h"
 #include "base/Error.h"
 #include "live/Hearing.h"
-#include "live/StreamRecording.h"
+#include "live/StreamBuffer.h"
 #include "live/streamInfo.h"
 #include "noise/CausalSpectrogram.h"
 #include "plan/chain.h"

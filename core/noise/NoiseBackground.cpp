@@ -1,5 +1,6 @@
 #include "noise/NoiseBackground.h"
 
+#include "base/fastmath.h"
 #include "base/multiversion.h"
 #include "noise/between.h"
 
@@ -168,6 +169,13 @@ void NoiseBackground::readLnPower(double seconds, std::span<float> ln) const
 Index NoiseBackground::subBandCount(double cells)
 {
     return cells < 48.0 ? 0 : Index(std::clamp(cells / 96.0, 1.0, 64.0));
+}
+
+void readStretch(const NoiseStretch &stretch, std::span<const float> levels, std::span<float> ln)
+{
+    stretch.sources.addUp(levels, ln);
+    for (std::size_t cell = 0; cell < ln.size(); ++cell)
+        ln[cell] = std::max(stretch.floor, stretch.lnPower[cell] + fastLn(std::max(ln[cell], 1e-30f)));
 }
 
 } // namespace faintline

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "base/Checkpoints.h"
-#include "detect/NoiseBand.h"
 #include "frames/PeakPyramid.h"
 #include "plan/AnalysisPlan.h"
 #include "plan/WindowChoice.h"
@@ -11,9 +10,25 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace faintline {
+
+/// Range of ln K on settled noise: mean ± 4 standard deviations. One global K regulates all states, so strong signals
+/// without a track lower it, and thereby all other paths; a value outside the band shows that this has begun. Source:
+/// Parsons 2008 has no such check; eight targets of 7 dB take K from -1.5 to -2.9 within 25 pings.
+struct NoiseBand {
+    double mean = 0.0;
+    double deviation = 0.0;
+
+    double low() const { return mean - 4.0 * deviation; }
+    double high() const { return mean + 4.0 * deviation; }
+    bool contains(double lnK) const { return lnK >= low() && lnK <= high(); }
+};
+
+/// The band of ln K values, one per frame, from settled noise. Precondition: at least two.
+NoiseBand noiseBand(std::span<const double> lnK);
 
 /// Result of a run of the chain, with its plan. Immutable; parts that remain valid after a change of settings are
 /// shared.
@@ -25,7 +40,7 @@ struct Analysis : AnalysisPlan {
     /// For frames on several axes: the boxes inhibited in each frame, and their tracks.
     std::vector<std::vector<DetectionChain::Inhibition>> inhibitions;
     std::vector<Track> tracks; ///< ordered by detection, then cell
-    /// Tracks that the recording's own noise explains (overOwnNoise.h), not among `tracks`.
+    /// Tracks that the recording's own noise explains (ownNoiseLaw.h), not among `tracks`.
     std::vector<Track> explainedByNoise;
     /// The tracks before signals were searched for behind others and identities assigned (secondLook.h), including
     /// those that the noise explains, untrimmed; kept while a window is chosen, because trials of other windows have no

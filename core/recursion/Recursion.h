@@ -5,7 +5,6 @@
 #include "model/StateSpace.h"
 #include "recursion/AxisStep.h"
 #include "recursion/Departures.h"
-#include "recursion/SharedMaxima.h"
 #include "recursion/SlantedTiles.h"
 #include "recursion/TiledPlanes.h"
 #include "recursion/finishMax.h"

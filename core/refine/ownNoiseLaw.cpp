@@ -1,8 +1,16 @@
 #include "refine/ownNoiseLaw.h"
 
+#include "frames/Spectrogram.h"
+#include "noise/levels.h"
+#include "refine/pathStrips.h"
+#include "refine/secondLook.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <numbers>
+#include <utility>
 
 namespace faintline {
 
@@ -159,6 +167,128 @@ float OwnNoiseLaw::operator()(Index cell, float y) const
     const auto i = std::size_t(above - part.y.begin());
     const float share = (y - part.y[i - 1]) / (part.y[i] - part.y[i - 1]);
     return std::min(y, part.g[i - 1] + share * (part.g[i] - part.g[i - 1]));
+}
+
+namespace {
+
+    constexpr double sampleLimitValues = 4e6;
+    constexpr double cellsBeside = 4.0; ///< resolution cells, on either side of a track
+    constexpr Index framesBeside = 2;
+    constexpr Index framesBeyond = 10;           ///< beyond its ends
+    constexpr double observedMinimumShare = 0.2; ///< of a bin's frames
+    constexpr double lineMedianRatio = 1.1; ///< median of a bin with a steady line, relative to noise, apart from its
+                                            ///< scatter
+
+} // namespace
+
+NoiseSample::NoiseSample(const NormalisedFrames &frames, std::span<const Track> tracks, double binsPerCell,
+                         const RunContext &context)
+    : m_cells(frames.grid().size())
+{
+    const Index count = frames.time().count;
+    m_distance = runFrames * std::max<Index>(1, Index(std::ceil(double(count) * double(m_cells) / sampleLimitValues)));
+    for (Index first = 0; first < count; first += m_distance) {
+        context.checkpoint(double(first) / double(count), "measuring the noise");
+        const Index run = std::min(runFrames, count - first);
+        m_y.resize(std::size_t((m_rows + run) * m_cells));
+        frames.read(first, run, std::span(m_y).last(std::size_t(run * m_cells)));
+        m_rows += run;
+    }
+    std::replace_if(
+        m_y.begin(), m_y.end(), [](float y) { return !(y > 0.0f); }, std::numeric_limits<float>::quiet_NaN());
+    for (const Track &track : tracks)
+        if (!track.points.empty())
+            mask(track, Index(std::ceil(cellsBeside * binsPerCell)));
+}
+
+std::vector<float> NoiseSample::noiseIn(Index cell) const
+{
+    std::vector<float> values;
+    for (Index row = 0; row < m_rows; ++row)
+        if (const float y = at(row, cell); !std::isnan(y))
+            values.push_back(y);
+    const auto count = double(values.size());
+    if (values.size() < 2 || count < observedMinimumShare * double(m_rows))
+        return {};
+    const double level = double(medianOf(values)) / std::numbers::ln2;
+    return level > lineMedianRatio + 4.0 * std::sqrt(2.0 / count) ? std::vector<float>() : values;
+}
+
+void NoiseSample::mask(const TrackPoint &point, Index before, Index behind, Index half)
+{
+    const Index low = std::max<Index>(0, point.cell - half);
+    const Index high = std::min(m_cells - 1, point.cell + half);
+    for (Index frame = std::max<Index>(0, point.frame - before); frame <= point.frame + behind; ++frame) {
+        const Index row = frame / m_distance * runFrames + frame % m_distance;
+        if (frame % m_distance < runFrames && row < m_rows)
+            std::fill_n(m_y.begin() + row * m_cells + low, high - low + 1, std::numeric_limits<float>::quiet_NaN());
+    }
+}
+
+void NoiseSample::mask(const Track &track, Index half)
+{
+    for (const TrackPoint &point : track.points)
+        mask(point, framesBeside, framesBeside, half);
+    mask(track.points.front(), framesBeyond, 0, half);
+    mask(track.points.back(), 0, framesBeyond, half);
+}
+
+namespace {
+
+    /// ln Λ against noise of n exponential cells with this mean.
+    double evidence(double count, double mean)
+    {
+        return mean > 1.0 ? count * (mean - 1.0 - std::log(mean)) : 0.0;
+    }
+
+    /// Factor by which overlap increases the variance of means over many frames.
+    double overlapOf(const Spectrogram &spectrogram)
+    {
+        const SpectrogramSettings &settings = spectrogram.settings();
+        const double scatter =
+            overlapFactor(sampleWindow(settings.window, spectrogram.windowSamples()), settings.stepsPerWindow);
+        return scatter * scatter;
+    }
+
+    /// Fraction of a track's evidence that remains under the noise's own law.
+    double shareLeft(const PathStrip &strip, const OwnNoiseLaw &law)
+    {
+        double runs = 0.0;
+        double count = 0.0;
+        double power = 0.0;
+        double own = 0.0;
+        for (std::size_t i = 0; i < strip.centres.size(); ++i)
+            if (const float y = strip.y[i]; !std::isnan(y)) {
+                count += 1.0;
+                power += double(y);
+                own += double(law(strip.centres[i], y));
+                runs += law.runs(strip.centres[i], std::ssize(strip.centres));
+            }
+        const double all = evidence(count, power / count);
+        return all > 0.0 ? evidence(count, own / count) / all * count / runs : 1.0;
+    }
+
+} // namespace
+
+void holdAgainstOwnNoise(Analysis &analysis, const RunContext &context)
+{
+    if (!looksTwice(analysis) || !analysis.settings.family.isNone())
+        return;
+    const Spectrogram &spectrogram = *analysis.frames->spectrogram();
+    const OwnNoiseLaw law(*analysis.frames, analysis.tracks, spectrogram.binsPerCell(), overlapOf(spectrogram),
+                          context.part(0.0, 0.5));
+    if (law.isAsAssumed())
+        return;
+    std::vector<Track> tracks = std::exchange(analysis.tracks, {});
+    std::vector<PathStrip> strips;
+    for (const Track &track : tracks)
+        strips.push_back(stripAlong(track, 0));
+    readStrips(analysis, strips, context.part(0.5, 1.0), "testing tracks against the noise");
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+        const bool isKept =
+            tracks[i].isSubtracted || tracks[i].peakStatistic * shareLeft(strips[i], law) >= analysis.threshold;
+        (isKept ? analysis.tracks : analysis.explainedByNoise).push_back(std::move(tracks[i]));
+    }
 }
 
 } // namespace faintline

@@ -1,11 +1,46 @@
 #pragma once
 
-#include "refine/noiseSample.h"
+#include "base/RunContext.h"
+#include "frames/NormalisedFrames.h"
+#include "plan/Analysis.h"
+#include "track/Track.h"
 
 #include <span>
 #include <vector>
 
 namespace faintline {
+
+/// Frames of a recording in runs of successive ones, without cells that may hold a signal.
+///
+/// At most four million cells, in runs of `runFrames` frames at even intervals. Cells within four resolution cells of a
+/// track, two frames before and after each of its points and ten before and after the track are NaN, and so are cells
+/// without power.
+class NoiseSample
+{
+public:
+    static constexpr Index runFrames = 32;
+
+    /// Throws Cancelled.
+    NoiseSample(const NormalisedFrames &frames, std::span<const Track> tracks, double binsPerCell,
+                const RunContext &context);
+
+    Index rows() const { return m_rows; }
+    Index cells() const { return m_cells; }
+    float at(Index row, Index cell) const { return m_y[std::size_t(row * m_cells + cell)]; }
+
+    /// Values of a bin, in any order; empty if their median exceeds that of noise, because the bin holds a steady line,
+    /// or if too few are known.
+    std::vector<float> noiseIn(Index cell) const;
+
+private:
+    void mask(const TrackPoint &point, Index before, Index behind, Index half);
+    void mask(const Track &track, Index half);
+
+    Index m_cells;
+    Index m_distance; ///< frames between the beginnings of runs, ≥ runFrames
+    Index m_rows = 0;
+    std::vector<float> m_y;
+};
 
 /// Deviation of a recording's noise, away from its tracks (NoiseSample), from the noise that detectors assume.
 ///
@@ -53,5 +88,21 @@ private:
     Index m_cells;
     std::vector<Part> m_parts;
 };
+
+/// Moves tracks that the recording's own noise explains (OwnNoiseLaw) from `tracks` to `explainedByNoise`.
+///
+/// A track is kept if its statistic D, without the share of its evidence that this noise explains, reaches the
+/// threshold T:
+///
+///   D · Λ(ḡ)/Λ(ȳ) / V̄(n) ≥ T,   Λ(a) = n (a - 1 - ln a)
+///
+/// ȳ, ḡ, V̄: means of y, g(y) and V(n) over the track's n points. Λ is the log-likelihood ratio of exponential cells of
+/// an unknown mean a > 1 to noise, and V(n) cells in a run count as one. A path through many small excesses keeps its
+/// share, because there g(y) ≈ y; one that depends on a few high cells, or on a run of raised cells, of a kind that
+/// this noise has everywhere, loses it. If the noise is as assumed, all tracks are kept.
+///
+/// Numbers are not changed. Nothing is done if tracks have no second pass (secondLook.h), and for families, which have
+/// their own members beside them. Throws Cancelled.
+void holdAgainstOwnNoise(Analysis &analysis, const RunContext &context);
 
 } // namespace faintline

@@ -6,11 +6,11 @@
 #include "refine/bothWays.h"
 #include "refine/decideJointly.h"
 #include "refine/explainPath.h"
+#include "refine/explanation.h"
 #include "refine/levelBeside.h"
 #include "refine/numberByDetection.h"
 #include "refine/pathStrips.h"
 #include "refine/relink.h"
-#include "refine/searchBehind.h"
 
 #include <algorithm>
 #include <cmath>

@@ -49,7 +49,7 @@ enum class SecondLookDepth { Tracks, Signals, SignalsBesideTracks };
 ///   3. the stretches where the signal is present are kept, joined over up to 24 frames: the one in which the path's
 ///      statistic gained most, and every other whose own evidence reaches the threshold, which is then its statistic;
 ///   4. remaining tracks are explained: they raise the floor for weaker ones;
-///   5. signals that they hide are searched for behind them (searchBehind.h), which then take the same steps, until
+///   5. signals that they hide are searched for behind them (explanation.h), which then take the same steps, until
 ///      nothing more is found;
 ///   6. where signals met, the pieces of tracks before and after are assigned to each other anew (relink.h);
 ///   7. equal signals that run beside each other are decided jointly (decideJointly.h).

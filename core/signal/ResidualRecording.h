@@ -1,9 +1,82 @@
 #pragma once
 
 #include "base/RunContext.h"
-#include "signal/LineFit.h"
+#include "signal/FrequencyCurve.h"
+#include "signal/Recording.h"
+
+#include <functional>
+#include <span>
+#include <vector>
 
 namespace faintline {
+
+/// Path along which a strong line of a recording was followed.
+struct LinePath {
+    FrequencyCurve curve;     ///< frequency, Hz, relative to the centre for I/Q; accurate to 0.3/T
+    double fromSeconds = 0.0; ///< middles of the first and last window with the line
+    double toSeconds = 0.0;
+    double windowSeconds = 0.0; ///< T_FT
+};
+
+/// Least-squares fit of a strong line to samples of one channel, as a function of the sample index:
+///
+///   s(n) = Re{ a(n)·e^(iφ(n)) },   φ' = 2π f(t);   for I/Q samples without Re
+///
+/// a is a complex cubic spline with knots about T_FT apart, so the fit captures components within ±0.4/T of the curve
+/// and leaves the rest. Of a line at distance Δ, in cells 1/T, it captures the fraction of the amplitude
+///
+///   G(Δ) = sinc⁸(Δ) / Σ_k sinc⁸(Δ + k)            (1 - 2·10⁻⁵ at 0.2, ½ at ½, at most 2·10⁻⁴ from ¾ on)
+///
+/// The curve is first corrected by the phase of a. The line begins and ends, to a sample, where it explains most
+/// energy, from 4T inside the path's ends to 2T beyond them. The spline breaks there, so that neither an abrupt nor a
+/// gradual end leaves a residual. Silence (`silentSamples` zeros or more) stays silent and is ignored by the fit.
+/// Source: Unser 1999 (splines as filters). Thread-safe; values are a pure function of the samples and the path.
+class LineFit
+{
+public:
+    static constexpr Index silentSamples = 32; ///< from multiples of it on
+
+    /// The samples to fit: `read(first, out)` fills whole runs of silentSamples, interleaved if complex.
+    struct Samples {
+        const RecordingInfo &info;
+        std::function<void(Index first, std::span<float> out)> read;
+    };
+
+    LineFit(const Samples &samples, LinePath path);
+
+    /// The path with its curve corrected by the phase of the amplitude.
+    const LinePath &path() const { return m_path; }
+    Index beginSample() const { return m_pieces.empty() ? 0 : m_pieces.front().begin; }
+    Index endSample() const { return m_pieces.empty() ? 0 : m_pieces.back().end; }
+
+    /// Whether both lines come within `cells` resolution cells of each other at any time.
+    bool comesNear(const LinePath &other, double cells) const;
+
+    /// Subtracts the line from samples first …; both ends must be multiples of silentSamples.
+    void subtractFrom(Index first, std::span<float> samples) const;
+
+private:
+    /// One stretch of the amplitude without a break.
+    struct Piece {
+        Index begin = 0;
+        Index end = 0;
+        std::vector<double> coefficients; ///< real and imaginary parts alternate
+
+        double intervals() const;
+    };
+    class Equations;
+
+    Piece fitted(const Samples &samples, Piece piece) const;
+    void add(Piece piece);
+    Index goOn(const Samples &samples, const Piece &sure, Index farthest);
+    void follow(const Piece &piece, bool isBegin, bool isEnd);
+    Index brink(const Samples &samples, const Piece &inner, bool isBegin, Index farthest) const;
+
+    LinePath m_path;
+    double m_rate;
+    bool m_isComplex;
+    std::vector<Piece> m_pieces;
+};
 
 /// A recording minus strong lines of one of its channels. Each line is fitted in amplitude and phase (LineFit) and
 /// subtracted, the strongest first, to reveal weaker signals nearby. Other channels are unchanged.

@@ -95,4 +95,10 @@ std::string recordingHash(const std::string &path)
     return fileHash(path.ends_with(".sigmf-meta") ? SigmfRecording::dataPath(path) : path);
 }
 
+RecordingPointer openTogether(const std::vector<std::string> &names, const OpenOptions &options)
+{
+    return std::make_shared<Timeline>(names,
+                                      [options](const std::string &path) { return openRecording(path, options); });
+}
+
 } // namespace faintline

@@ -3,6 +3,7 @@
 #include "signal/Recording.h"
 
 #include <string>
+#include <vector>
 
 namespace faintline {
 
@@ -31,5 +32,8 @@ OpenOptions withNamedFormat(const std::string &path, OpenOptions options);
 /// SHA-256 of the recording's data file as lower-case hexadecimal digits. For files larger than 64 MiB, only the first
 /// and last mebibyte and the length are hashed, so that opening stays fast; such a hash begins with "part:".
 std::string recordingHash(const std::string &path);
+
+/// Opens files, folders and lists as one recording (Timeline). Throws Error.
+RecordingPointer openTogether(const std::vector<std::string> &names, const OpenOptions &options = {});
 
 } // namespace faintline

@@ -1,7 +1,7 @@
 #include "track/DetectionChain.h"
 
 #include "base/memoryShares.h"
-#include "track/boxExtent.h"
+#include "track/Cluster.h"
 #include "track/closeTrackers.h"
 #include "track/trimOnset.h"
 

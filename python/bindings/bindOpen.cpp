@@ -3,7 +3,7 @@
 #include "bindings/Source.h"
 #include "bindings/jsonFromPython.h"
 #include "noise/openFrames.h"
-#include "signal/openTogether.h"
+#include "signal/openRecording.h"
 
 #include <filesystem>
 

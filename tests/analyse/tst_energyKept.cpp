@@ -1,4 +1,4 @@
-#include "analyse/energyKept.h"
+#include "analyse/chooseWindow.h"
 #include "support/test.h"
 
 #include <cmath>

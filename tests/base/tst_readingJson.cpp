@@ -1,4 +1,4 @@
-#include "base/readingJson.h"
+#include "base/json.h"
 #include "support/test.h"
 
 #include "support/errors.h"

@@ -1,5 +1,5 @@
 #include "analyse/analyse.h"
-#include "calibrate/makeCalibration.h"
+#include "calibrate/CalibrationRequest.h"
 #include "scene/SimulatedRecording.h"
 #include "support/test.h"
 

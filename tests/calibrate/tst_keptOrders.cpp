@@ -3,7 +3,6 @@
 #include "base/files/checksum.h"
 #include "calibrate/CalibrationRequest.h"
 #include "calibrate/calibrate.h"
-#include "calibrate/makeCalibration.h"
 #include "frames/NormalisedFrames.h"
 #include "plan/chain.h"
 #include "support/slowdown.h"

@@ -1,7 +1,7 @@
 #include "base/json.h"
+#include "calibrate/CalibrationRequest.h"
 #include "calibrate/CalibrationStore.h"
 #include "calibrate/calibrate.h"
-#include "calibrate/makeCalibration.h"
 #include "calibrate/shippedCalibrations.h"
 #include "support/test.h"
 

@@ -1,7 +1,6 @@
 #include "base/Random.h"
 #include "detect/MapTrajectory.h"
 #include "detect/Sprt.h"
-#include "detect/Survey.h"
 #include "support/errors.h"
 #include "support/paths.h"
 #include "support/test.h"

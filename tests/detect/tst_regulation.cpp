@@ -1,7 +1,7 @@
 #include "base/Random.h"
-#include "detect/NoiseBand.h"
 #include "detect/Smd.h"
 #include "model/sonarModels.h"
+#include "plan/Analysis.h"
 #include "support/test.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "support/test.h"
 
 #include "base/Random.h"
-#include "evaluate/experiments/SignalMask.h"
+#include "evaluate/experiments/InjectionTrials.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "evaluate/sequential/TrajectoryJudge.h"
+#include "evaluate/sequential/SequentialTrial.h"
 #include "support/test.h"
 
 #include "support/studies.h"

@@ -2,7 +2,6 @@
 #include "support/test.h"
 
 #include "evaluate/experiments/peers.h"
-#include "evaluate/theory/swerling.h"
 #include "evaluate/theory/theory.h"
 
 #include <cmath>

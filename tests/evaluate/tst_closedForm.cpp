@@ -1,5 +1,4 @@
 #include "calibrate/calibrate.h"
-#include "evaluate/theory/boxExceedance.h"
 #include "evaluate/theory/closedForm.h"
 #include "support/test.h"
 

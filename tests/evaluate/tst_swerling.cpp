@@ -1,10 +1,9 @@
-#include "evaluate/theory/swerling.h"
+#include "evaluate/theory/theory.h"
 #include "support/test.h"
 
 #include "base/Random.h"
 #include "detect/Integrator.h"
 #include "evaluate/experiments/NoisyField.h"
-#include "evaluate/theory/theory.h"
 
 #include <algorithm>
 #include <cmath>

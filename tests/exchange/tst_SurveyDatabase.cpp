@@ -4,7 +4,6 @@
 #include "base/files/AtomicFile.h"
 #include "base/json.h"
 #include "exchange/readAnnotations.h"
-#include "exchange/survey/exportCamtrap.h"
 #include "exchange/survey/exportSurvey.h"
 #include "exchange/survey/surveySchema.h"
 #include "exchange/survey/writeSurvey.h"

@@ -3,7 +3,6 @@
 
 #include "analyse/analyse.h"
 #include "base/Random.h"
-#include "exchange/findCadence.h"
 #include "noise/openFrames.h"
 #include "plan/slopeUnit.h"
 #include "support/errors.h"

@@ -15,7 +15,6 @@
 #include "exchange/ModelFile.h"
 #include "exchange/Session.h"
 #include "exchange/TopHits.h"
-#include "exchange/findCadence.h"
 #include "exchange/readAnnotations.h"
 #include "exchange/survey/exportSurvey.h"
 #include "inspect/Review.h"

@@ -1,5 +1,5 @@
 #include "base/Random.h"
-#include "inspect/doppler/CorrelatedErrors.h"
+#include "inspect/doppler/DopplerProblem.h"
 #include "support/test.h"
 
 #include <Eigen/Dense>

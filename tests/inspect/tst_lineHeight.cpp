@@ -1,5 +1,5 @@
 #include "base/Error.h"
-#include "inspect/lineHeight.h"
+#include "inspect/straighten.h"
 #include "scene/SimulatedRecording.h"
 #include "signal/ArrayRecording.h"
 #include "support/test.h"

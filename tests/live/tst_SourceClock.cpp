@@ -1,4 +1,4 @@
-#include "live/SourceClock.h"
+#include "live/Hearing.h"
 #include "support/test.h"
 
 #include "base/Random.h"

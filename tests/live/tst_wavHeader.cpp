@@ -1,4 +1,4 @@
-#include "live/sources/wavHeader.h"
+#include "live/sources/PipeSource.h"
 #include "support/test.h"
 
 #include "support/errors.h"

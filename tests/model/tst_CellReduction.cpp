@@ -1,4 +1,4 @@
-#include "model/CellReduction.h"
+#include "model/SequentialModel.h"
 #include "support/test.h"
 
 #include "base/Random.h"

@@ -2,7 +2,7 @@
 #include "support/test.h"
 
 #include "base/Random.h"
-#include "noise/CausalLevels.h"
+#include "noise/CausalBackground.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #include "detect/Sprt.h"
-#include "evaluate/sequential/TrajectorySampler.h"
+#include "evaluate/sequential/SequentialTrial.h"
 #include "plan/lineSequentialModel.h"
 #include "scene/SimulatedRecording.h"
 #include "support/test.h"

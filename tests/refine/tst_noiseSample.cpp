@@ -1,4 +1,4 @@
-#include "refine/noiseSample.h"
+#include "refine/ownNoiseLaw.h"
 #include "support/test.h"
 
 #include "base/Random.h"

@@ -1,6 +1,6 @@
 #include "analyse/analyse.h"
 #include "base/Error.h"
-#include "inspect/lineHeight.h"
+#include "inspect/straighten.h"
 #include "refine/smoothFrequency.h"
 #include "scene/SimulatedRecording.h"
 #include "signal/StraightenedRecording.h"

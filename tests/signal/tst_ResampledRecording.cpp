@@ -1,6 +1,6 @@
 #include "base/Error.h"
 #include "signal/ArrayRecording.h"
-#include "signal/ResampledRecording.h"
+#include "signal/StraightenedRecording.h"
 #include "support/errors.h"
 #include "support/recordings.h"
 #include "support/test.h"

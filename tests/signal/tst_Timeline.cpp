@@ -2,7 +2,7 @@
 #include "support/test.h"
 
 #include "base/Error.h"
-#include "signal/openTogether.h"
+#include "signal/openRecording.h"
 #include "signal/timeInName.h"
 #include "support/errors.h"
 #include "support/recordings.h"

@@ -1,5 +1,5 @@
 #include "support/test.h"
-#include "track/boxExtent.h"
+#include "track/Cluster.h"
 
 using namespace faintline;
 

@@ -4,14 +4,13 @@
 #include "base/Random.h"
 #include "base/parallel.h"
 #include "calibrate/calibrate.h"
-#include "evaluate/experiments/SignalMask.h"
-#include "evaluate/experiments/measuredThreshold.h"
 #include "plan/chain.h"
 #include "plan/slopeUnit.h"
 #include "scene/InjectedRecording.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <mutex>
 #include <optional>
@@ -386,6 +385,68 @@ std::vector<RunOutcome> InjectionTrials::run(const std::vector<int> &trials, con
         };
     });
     return outcomes;
+}
+
+SignalMask::SignalMask(Index frames, Index bins) : m_bins(bins), m_stretches(std::size_t(frames)) {}
+
+void SignalMask::add(Index frame, Index low, Index high)
+{
+    low = std::max<Index>(low, 0);
+    high = std::min(high, m_bins - 1);
+    if (frame < 0 || frame >= std::ssize(m_stretches) || low > high)
+        return;
+    auto &stretches = m_stretches[std::size_t(frame)];
+    const auto first =
+        std::find_if(stretches.begin(), stretches.end(), [low](const auto &one) { return one.second + 1 >= low; });
+    auto last = first;
+    for (; last != stretches.end() && last->first <= high + 1; ++last) {
+        low = std::min(low, last->first);
+        high = std::max(high, last->second);
+    }
+    stretches.insert(stretches.erase(first, last), {low, high});
+}
+
+bool SignalMask::touches(Index frame, Index low, Index high) const
+{
+    if (frame < 0 || frame >= std::ssize(m_stretches))
+        return false;
+    const auto &stretches = m_stretches[std::size_t(frame)];
+    return std::any_of(stretches.begin(), stretches.end(),
+                       [&](const auto &one) { return one.first <= high && one.second >= low; });
+}
+
+void SignalMask::blank(Index frame, Index firstBin, std::span<float> y) const
+{
+    for (const auto &[low, high] : m_stretches[std::size_t(frame)]) {
+        const Index from = std::max<Index>(low - firstBin, 0);
+        const Index to = std::min(high - firstBin, std::ssize(y) - 1);
+        for (Index i = from; i <= to; ++i)
+            y[std::size_t(i)] = 0.0f;
+    }
+}
+
+double SignalMask::freeShare() const
+{
+    double taken = 0.0;
+    for (const auto &stretches : m_stretches)
+        for (const auto &[low, high] : stretches)
+            taken += double(high - low + 1);
+    return 1.0 - taken / (double(m_bins) * double(m_stretches.size()));
+}
+
+double measuredThreshold(std::vector<float> maxima, double falseAlarms, const Calibration &calibration,
+                         double eventsPerCellFrame)
+{
+    constexpr double countedAlarmsMinimum = 10.0;
+    const auto blocks = double(maxima.size());
+    const double counted = std::max(falseAlarms, std::min(countedAlarmsMinimum, 0.5 * blocks));
+    const auto exceeding = std::size_t(std::llround(blocks * -std::expm1(-counted / blocks)));
+    std::sort(maxima.begin(), maxima.end(), std::greater<>());
+    const double calibrated = calibration.thresholdForEventRate(eventsPerCellFrame);
+    if (exceeding == 0 || exceeding >= maxima.size() || !std::isfinite(maxima[exceeding]))
+        return calibrated;
+    const double measured = 0.5 * (double(maxima[exceeding - 1]) + double(maxima[exceeding]));
+    return measured + calibrated - calibration.thresholdForEventRate(eventsPerCellFrame * counted / falseAlarms);
 }
 
 } // namespace faintline

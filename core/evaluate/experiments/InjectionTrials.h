@@ -1,12 +1,16 @@
 #pragma once
 
+#include "base/Axis.h"
 #include "base/RunContext.h"
 #include "evaluate/experiments/InjectionExperiment.h"
 #include "evaluate/experiments/RunOutcome.h"
+#include "plan/Calibration.h"
 #include "scene/Truth.h"
 #include "signal/Recording.h"
 
 #include <memory>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace faintline {
@@ -42,5 +46,42 @@ private:
     std::unique_ptr<const Shared> m_shared;
     std::vector<double> m_thresholds;
 };
+
+/// Cells of a recording that hold signals: ranges of bins, frame by frame.
+class SignalMask
+{
+public:
+    SignalMask(Index frames, Index bins);
+
+    /// Adds bins low … high of a frame, clipped at the band's edges; frames outside the recording are ignored.
+    void add(Index frame, Index low, Index high);
+
+    /// Whether any of the bins low … high holds a signal in that frame.
+    bool touches(Index frame, Index low, Index high) const;
+
+    /// Sets y = 0 where there is a signal, in a row that begins with `firstBin`.
+    void blank(Index frame, Index firstBin, std::span<float> y) const;
+
+    /// Fraction of all frames × bins without signals.
+    double freeShare() const;
+
+private:
+    Index m_bins;
+    std::vector<std::vector<std::pair<Index, Index>>> m_stretches; ///< for each frame, ascending, disjoint
+};
+
+/// A threshold for a number of false alarms, from counts rather than a model.
+///
+/// `maxima` holds the largest statistic of each block of a recording without signals, for any detector in its own unit;
+/// of N blocks, m exceed a threshold with
+///
+///   false alarms = -N ln(1 - m/N)
+///
+/// The threshold lies half way between the two maxima that this separates. If fewer than ten false alarms are
+/// specified, it is determined for ten and shifted by the difference of the calibration's thresholds for the two rates.
+/// Blocks that decide nothing (-∞) exceed no threshold; if too few others remain, the calibration's own threshold is
+/// used. `eventsPerCellFrame`: the same rate in the calibration's unit.
+double measuredThreshold(std::vector<float> maxima, double falseAlarms, const Calibration &calibration,
+                         double eventsPerCellFrame);
 
 } // namespace faintline

@@ -5,7 +5,6 @@
 #include "base/logmath.h"
 #include "evaluate/experiments/PdCurve.h"
 #include "evaluate/experiments/sweepCurve.h"
-#include "evaluate/theory/swerling.h"
 #include "evaluate/theory/theory.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/Field.h"
-#include "detect/Survey.h"
+#include "detect/Sprt.h"
 #include "evaluate/sequential/SequentialStudy.h"
 #include "scene/ScanScene.h"
 

@@ -1,13 +1,45 @@
 #pragma once
 
 #include "base/Random.h"
+#include "detect/MapTrajectory.h"
 #include "evaluate/sequential/SequentialStudy.h"
-#include "evaluate/sequential/TrajectorySampler.h"
+#include "model/SequentialModel.h"
 
 #include <span>
 #include <vector>
 
 namespace faintline {
+
+/// Draws trajectories from a model's own law: the start from P(x1), then one move after the other.
+///
+/// A target does not leave a bounded axis or the set of rates: the moves that stay share the probability of leaving, as
+/// in the model's stochastic law (KinematicAxis). Oracle: StateSpace::predecessors. Uses one uniform number for the
+/// start and one per axis for a move. Thread-safe.
+class TrajectorySampler
+{
+public:
+    explicit TrajectorySampler(const SequentialModel &model);
+
+    Index first(Random &random) const;
+    /// Draws step number `step`.
+    Index next(Index state, Random &random, Index step = 0) const;
+
+private:
+    struct Move {
+        int toRate;
+        Index cells;
+        double probability;
+    };
+    struct AxisLaw {
+        std::vector<std::vector<std::vector<Move>>> moves; ///< for each phase and source rate
+        std::vector<double> matrix;                        ///< replaces moves if the axis has one
+    };
+    void move(std::size_t axis, Index step, int &rate, Index &cell, double uniform) const;
+
+    StateSpace m_space;
+    std::vector<double> m_initial; ///< cumulative; empty: uniform
+    std::vector<AxisLaw> m_laws;
+};
 
 /// One trial of a study: its frames and its truth, as in `simulate`.
 class SequentialTrial
@@ -33,6 +65,32 @@ private:
     Index m_stage = 0; ///< of the next frame
     Index m_state = -1;
     Index m_folded = 0;
+};
+
+/// Estimates the trajectory of an accepted trial and compares it with the truth. Use one object per thread.
+class TrajectoryJudge
+{
+public:
+    TrajectoryJudge(const SequentialStudy &study, const TrajectorySampler &sampler);
+
+    /// Largest distance along any axis, in cells.
+    struct Errors {
+        Index last = 0; ///< at the stopping stage
+        Index largest = 0;
+    };
+    Errors errorsOf(Index trial, Index stages);
+
+private:
+    std::vector<Index> readTrial(Index number, Index stages);
+    bool isAllFolded() const { return m_study.model.reduction.stateCells() == 1; }
+    Index position(Index state, Index folded) const;
+    Index distance(Index a, Index b) const;
+
+    const SequentialStudy &m_study;
+    const TrajectorySampler &m_sampler;
+    MapEstimator m_map;
+    std::vector<double> m_lambda; ///< stages × cells: λ of the best among the cells folded into one
+    std::vector<Index> m_best;    ///< index of that cell
 };
 
 } // namespace faintline

@@ -5,7 +5,6 @@
 #include "base/multiversion.h"
 #include "base/parallel.h"
 #include "evaluate/sequential/SequentialTrial.h"
-#include "evaluate/sequential/TrajectoryJudge.h"
 
 #include <algorithm>
 #include <cmath>

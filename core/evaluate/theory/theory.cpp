@@ -4,6 +4,7 @@
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/non_central_chi_squared.hpp>
 #include <boost/math/distributions/non_central_f.hpp>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 #include <boost/math/tools/roots.hpp>
 
@@ -76,6 +77,100 @@ double lindleyExceedance(double threshold, double lnK)
 {
     const double sigma = lindleySigma(lnK);
     return sigma * std::exp(-(1.0 - sigma) * threshold);
+}
+
+namespace math = boost::math;
+
+namespace {
+
+    /// P( Γ(shape) > value ).
+    double upperTail(int shape, double value)
+    {
+        return shape <= 0 ? 0.0 : math::gamma_q(double(shape), value);
+    }
+
+    /// A(n) = ∫₀ⱽ f_n(x) e^{-(V-x)/a} dx; for n = 0, where Γ(0) is 0, e^{-V/a}.
+    ///
+    /// Up to z = (1 - 1/a)V = n + 1 by the series f_{n+1}(V)·Σ zʲ/((n+1)…(n+j)), beyond by
+    /// P(n, z)·e^{-V/a}·(1 - 1/a)^-n; there P(n, z) is at least a third, so that neither factor underflows alone.
+    double decayedGamma(int n, double v, double a)
+    {
+        const double share = 1.0 - 1.0 / a;
+        const double z = share * v;
+        if (n == 0)
+            return std::exp(-v / a);
+        if (z > n + 1.0)
+            return std::exp(-v / a - n * std::log(share)) * math::gamma_p(double(n), z);
+        double sum = 0.0;
+        double term = 1.0;
+        for (int j = 1; term > 1e-17 * sum; ++j) {
+            sum += term;
+            term *= z / (n + j);
+        }
+        return math::gamma_p_derivative(n + 1.0, v) * sum;
+    }
+
+    double pdOfSwerling1(double v, int looks, double snr)
+    {
+        return upperTail(looks - 1, v) + decayedGamma(looks - 1, v, 1.0 + looks * snr);
+    }
+
+    double pdOfSwerling3(double v, int looks, double snr)
+    {
+        const double a = 1.0 + 0.5 * looks * snr;
+        if (looks == 1)
+            return std::exp(-v / a) * (1.0 + (a - 1.0) * v / (a * a));
+        const int n = looks - 2;
+        return upperTail(n, v) + (1.0 + v / a) * decayedGamma(n, v, a)
+               - (n == 0 ? 0.0 : n / a * decayedGamma(n + 1, v, a));
+    }
+
+    double pdOfSwerling4(double v, int looks, double snr)
+    {
+        const double a = 1.0 + 0.5 * snr;
+        const math::binomial law(looks, 1.0 - 1.0 / a);
+        double sum = 0.0;
+        for (int more = 0; more <= looks; ++more)
+            sum += math::pdf(law, more) * upperTail(looks + more, v / a);
+        return sum;
+    }
+
+} // namespace
+
+double pdOfMeanPower(double threshold, int looks, double snr, Fluctuation fluctuation)
+{
+    if (threshold <= 0.0)
+        return 1.0;
+    if (snr <= 0.0)
+        return pfaOfMeanPower(threshold, looks);
+    const double v = looks * threshold;
+    switch (fluctuation) {
+    case Fluctuation::None:
+        break;
+    case Fluctuation::Swerling1:
+        return pdOfSwerling1(v, looks, snr);
+    case Fluctuation::Swerling2:
+        return upperTail(looks, v / (1.0 + snr));
+    case Fluctuation::Swerling3:
+        return pdOfSwerling3(v, looks, snr);
+    case Fluctuation::Swerling4:
+        return pdOfSwerling4(v, looks, snr);
+    }
+    return pdOfMeanPower(threshold, looks, snr);
+}
+
+double pdOfPofN(int p, int n, double threshold, double snr, Fluctuation fluctuation)
+{
+    if (fluctuation == Fluctuation::None || changesFromFrameToFrame(fluctuation))
+        return pdOfPofN(p, n, pdOfMeanPower(threshold, 1, snr, fluctuation));
+    // Over the amplitude √g, whose density 2√g·f(g) is below 1e-20 from 7 on.
+    const double shape = fluctuation == Fluctuation::Swerling1 ? 1.0 : 2.0;
+    const auto weighted = [&](double amplitude) {
+        const double g = amplitude * amplitude;
+        const double density = 2.0 * amplitude * shape * math::gamma_p_derivative(shape, shape * g);
+        return density * pdOfPofN(p, n, pdOfMeanPower(threshold, 1, g * snr));
+    };
+    return math::quadrature::gauss_kronrod<double, 31>::integrate(weighted, 0.0, 7.0, 12, 1e-9);
 }
 
 } // namespace faintline

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "scene/Fluctuation.h"
+
 namespace faintline {
 
 // Closed forms for detectors. Noise cells are exponential of mean 1, signals of constant amplitude add power `snr` (a
@@ -34,5 +36,27 @@ double pdOfPofN(int p, int n, double event);
 /// for ln K < -1. The probability of a reset is 1 - σ. Oracle: 2·10⁸ simulated steps.
 double lindleySigma(double lnK);
 double lindleyExceedance(double threshold, double lnK);
+
+// Detection probabilities of fluctuating targets in closed form. Noise cells are exponential of mean 1, looks are
+// independent, and a target of relative power g adds a constant amplitude of power g·snr in a look; g has mean 1.
+
+/// P( mean of `looks` cells > threshold ) of a target with mean SNR `snr` (a power ratio), V = looks·threshold.
+///
+///   none        Marcum's Q (theory.h)
+///   swerling1   Σ = Γ(N-1) + (1 + N·snr)·Γ(1):  Q(N-1, V) + A(N-1),  a = 1 + N·snr
+///   swerling2   Σ = (1 + snr)·Γ(N):             Q(N, V/(1 + snr))
+///   swerling3   Σ = Γ(N-2) + a·Γ(2):            Q(N-2, V) + (1 + V/a)·A(N-2) - (N-2)/a·A(N-1),  a = 1 + N·snr/2
+///   swerling4   Σ = a·Γ(N + B):                 E Q(N + B, V/a),  B binomial of N and 1 - 1/a,  a = 1 + snr/2
+///
+/// with Γ(n) a gamma variable of shape n, Q its upper tail, and A(n) = ∫₀ⱽ f_n(x) e^{-(V-x)/a} dx over its density f_n.
+/// One look: e^{-V/a} (1, 2) and e^{-V/a}·(1 + (a - 1)V/a²) (3, 4). Sources: Swerling 1954; Meyer and Mayer 1973; the
+/// forms are exact. Oracles: the mixture of Poisson and negative binomial laws; simulation.
+double pdOfMeanPower(double threshold, int looks, double snr, Fluctuation fluctuation);
+
+/// P( at least p of n independent frames have an event ), an event being a cell that exceeds `threshold`.
+///
+/// A binomial tail without fluctuation and where each frame has its own power (Swerling 2 and 4). With one power for
+/// all frames (1 and 3), the mean of the binomial tail over that power, by quadrature to 1e-9. Oracle: simulation.
+double pdOfPofN(int p, int n, double threshold, double snr, Fluctuation fluctuation);
 
 } // namespace faintline

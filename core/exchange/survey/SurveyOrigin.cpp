@@ -1,7 +1,7 @@
 #include "exchange/survey/SurveyOrigin.h"
 
 #include "base/Error.h"
-#include "base/readingJson.h"
+#include "base/json.h"
 #include "base/wholeNumber.h"
 #include "evaluate/comparison/settingDifferences.h"
 #include "plan/calibrationVersion.h"

@@ -4,15 +4,23 @@
 #include "base/Field.h"
 #include "base/files/AtomicFile.h"
 #include "base/files/fileName.h"
+#include "base/json.h"
 #include "base/oneLine.h"
 #include "base/utc.h"
 #include "exchange/csvText.h"
 #include "exchange/reviewedText.h"
 #include "signal/openRecording.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <initializer_list>
+#include <limits>
+#include <map>
+#include <vector>
+
+#include <sys/stat.h>
 
 namespace faintline {
 
@@ -151,6 +159,260 @@ void exportLists(SurveyDatabase &survey, SurveyList list, const std::string &fol
         fs::create_directories(path.parent_path(), code);
         writeTextFile(path.string(), listText(events, recording, list));
     }
+}
+
+namespace fs = std::filesystem;
+
+namespace {
+
+    const std::string standard = "https://raw.githubusercontent.com/tdwg/camtrap-dp/1.0.2/";
+
+    /// Columns of observations.csv in the order of the schema.
+    const std::vector<std::string> observationColumns{"observationID",
+                                                      "deploymentID",
+                                                      "mediaID",
+                                                      "eventID",
+                                                      "eventStart",
+                                                      "eventEnd",
+                                                      "observationLevel",
+                                                      "observationType",
+                                                      "cameraSetupType",
+                                                      "scientificName",
+                                                      "count",
+                                                      "lifeStage",
+                                                      "sex",
+                                                      "behavior",
+                                                      "individualID",
+                                                      "individualPositionRadius",
+                                                      "individualPositionAngle",
+                                                      "individualSpeed",
+                                                      "bboxX",
+                                                      "bboxY",
+                                                      "bboxWidth",
+                                                      "bboxHeight",
+                                                      "classificationMethod",
+                                                      "classifiedBy",
+                                                      "classificationTimestamp",
+                                                      "classificationProbability",
+                                                      "observationTags",
+                                                      "observationComments"};
+
+    /// A table of the standard as a file; columns that are not set stay empty.
+    class Table
+    {
+    public:
+        Table(const std::string &path, std::vector<std::string> columns) : m_columns(std::move(columns)), m_file(path)
+        {
+            write([](const std::string &column) { return column; });
+        }
+
+        void add(const std::map<std::string, std::string> &values)
+        {
+            write([&](const std::string &column) {
+                const auto value = values.find(column);
+                return value == values.end() ? std::string() : csvText(value->second);
+            });
+        }
+
+        void commit() { m_file.commit(); }
+
+    private:
+        template <class Cell>
+        void write(const Cell &cell)
+        {
+            std::string row;
+            for (const std::string &column : m_columns)
+                row += cell(column) + (&column == &m_columns.back() ? '\n' : ',');
+            m_file.write(row);
+        }
+
+        std::vector<std::string> m_columns;
+        AtomicFile m_file;
+    };
+
+    /// A recording and its names in the package.
+    struct Medium {
+        SurveyRecording recording;
+        std::string path;
+        std::string deployment;
+        double start = 0.0;
+        double end = 0.0;
+    };
+
+    struct Stretch {
+        double start = std::numeric_limits<double>::infinity();
+        double end = -std::numeric_limits<double>::infinity();
+    };
+
+    /// The standard requires whole seconds.
+    std::string wholeSeconds(double unixSeconds)
+    {
+        return formatUtc(std::floor(unixSeconds));
+    }
+
+    std::string dateOf(double unixSeconds)
+    {
+        return formatUtc(unixSeconds).substr(0, 10);
+    }
+
+    std::vector<Medium> mediaOf(SurveyDatabase &survey, const CamtrapPlace &place)
+    {
+        std::vector<Medium> media;
+        for (SurveyRecording &recording : survey.recordings()) {
+            if (!recording.isAnalysed())
+                continue;
+            const std::optional<double> start =
+                recording.startUnixSeconds ? recording.startUnixSeconds : place.startUnixSeconds;
+            if (!start || formatUtc(*start).empty())
+                throw Error(recording.file.path, "has no start time, which Camtrap DP requires; give --start, such as "
+                                                 "2024-07-26T00:00:00Z");
+            Medium one;
+            one.path = textFromFileName(pathBelow(recording.file.path, survey.path()));
+            const std::string folder = fs::path(one.path).parent_path().string();
+            one.deployment = folder.empty() ? "recordings" : folder;
+            one.start = *start;
+            one.end = *start + recording.durationSeconds.value_or(0.0);
+            one.recording = std::move(recording);
+            media.push_back(std::move(one));
+        }
+        if (media.empty())
+            throw Error(survey.path(), "contains no analysed recordings");
+        return media;
+    }
+
+    void writeDeployments(const std::string &path, const std::vector<Medium> &media, const CamtrapPlace &place)
+    {
+        Table table(path, {"deploymentID",     "locationID",        "locationName",
+                           "latitude",         "longitude",         "coordinateUncertainty",
+                           "deploymentStart",  "deploymentEnd",     "setupBy",
+                           "cameraID",         "cameraModel",       "cameraDelay",
+                           "cameraHeight",     "cameraDepth",       "cameraTilt",
+                           "cameraHeading",    "detectionDistance", "timestampIssues",
+                           "baitUse",          "featureType",       "habitat",
+                           "deploymentGroups", "deploymentTags",    "deploymentComments"});
+        std::map<std::string, Stretch> stretches;
+        for (const Medium &one : media) {
+            Stretch &stretch = stretches[one.deployment];
+            stretch.start = std::min(stretch.start, one.start);
+            stretch.end = std::max(stretch.end, one.end);
+        }
+        for (const auto &[name, stretch] : stretches)
+            table.add({{"deploymentID", name},
+                       {"latitude", formatNumber(place.latitude)},
+                       {"longitude", formatNumber(place.longitude)},
+                       {"deploymentStart", wholeSeconds(stretch.start)},
+                       {"deploymentEnd", wholeSeconds(std::ceil(stretch.end))}});
+        table.commit();
+    }
+
+    std::string mediatypeOf(const SurveyRecording &recording)
+    {
+        std::string type;
+        for (const char c : recording.container)
+            if (std::isalnum(static_cast<unsigned char>(c)))
+                type += char(std::tolower(static_cast<unsigned char>(c)));
+        return "audio/" + (type.empty() ? "basic" : type);
+    }
+
+    void writeMedia(const std::string &path, const std::vector<Medium> &media)
+    {
+        Table table(path, {"mediaID", "deploymentID", "captureMethod", "timestamp", "filePath", "filePublic",
+                           "fileName", "fileMediatype", "exifData", "favorite", "mediaComments"});
+        for (const Medium &one : media)
+            table.add({{"mediaID", one.path},
+                       {"deploymentID", one.deployment},
+                       {"timestamp", wholeSeconds(one.start)},
+                       {"filePath", one.path},
+                       {"filePublic", "false"},
+                       {"fileName", fs::path(one.path).filename().string()},
+                       {"fileMediatype", mediatypeOf(one.recording)}});
+        table.commit();
+    }
+
+    std::string tagsOf(const SurveyEvent &one)
+    {
+        const auto tag = [](const std::string &name, double value) { return name + ":" + formatNumber(value); };
+        const Event &e = one.event;
+        return tag("f_low", one.box.lowHz.value_or(0.0)) + " | " + tag("f_high", one.box.highHz.value_or(0.0)) + " | "
+               + tag("f", e.position.back()) + " | " + tag("drift_hz_per_s", e.driftPerSecond) + " | "
+               + tag("statistic", e.statistic) + " | " + tag("t_onset", e.onsetSeconds) + " | "
+               + tag("t_end", e.endSeconds);
+    }
+
+    void writeObservations(const std::string &path, SurveyDatabase &survey, const std::vector<Medium> &media)
+    {
+        Table table(path, observationColumns);
+        for (const Medium &medium : media)
+            for (const SurveyEvent &one : survey.events(medium.recording.id)) {
+                const Verdict verdict = one.box.verdict;
+                const std::string id = medium.path + "#" + std::to_string(one.event.id);
+                table.add({{"observationID", id},
+                           {"deploymentID", medium.deployment},
+                           {"mediaID", medium.path},
+                           {"eventID", id},
+                           {"eventStart", wholeSeconds(medium.start + one.event.onsetSeconds)},
+                           {"eventEnd", wholeSeconds(medium.start + one.event.endSeconds)},
+                           {"observationLevel", "media"},
+                           {"observationType", verdict == Verdict::Accepted   ? "unknown"
+                                               : verdict == Verdict::Rejected ? "blank"
+                                                                              : "unclassified"},
+                           {"classificationMethod", verdict == Verdict::None ? "machine" : "human"},
+                           {"classifiedBy", verdict == Verdict::None ? "Faintline " + survey.origin().version : ""},
+                           {"observationTags", tagsOf(one)},
+                           {"observationComments", oneLine(one.box.note)}});
+            }
+        table.commit();
+    }
+
+    std::string package(const SurveyDatabase &survey, const std::vector<Medium> &media, const CamtrapPlace &place)
+    {
+        Stretch whole;
+        for (const Medium &one : media) {
+            whole.start = std::min(whole.start, one.start);
+            whole.end = std::max(whole.end, one.end);
+        }
+        struct stat status = {};
+        ::stat(survey.path().c_str(), &status);
+        Json json;
+        json["resources"] = Json::array();
+        for (const char *name : {"deployments", "media", "observations"})
+            json["resources"].push_back({{"name", name},
+                                         {"path", std::string(name) + ".csv"},
+                                         {"profile", "tabular-data-resource"},
+                                         {"format", "csv"},
+                                         {"mediatype", "text/csv"},
+                                         {"encoding", "utf-8"},
+                                         {"schema", standard + name + "-table-schema.json"}});
+        json["profile"] = standard + "camtrap-dp-profile.json";
+        json["created"] = formatUtc(double(status.st_mtim.tv_sec)); // date of the survey, to which the export adds
+                                                                    // nothing
+        json["title"] = "Survey of recordings by Faintline " + survey.origin().version;
+        json["contributors"] = Json::array({{{"title", "Faintline " + survey.origin().version}}});
+        json["project"] = {{"title", "Survey of recordings"},
+                           {"samplingDesign", "opportunistic"},
+                           {"captureMethod", {"timeLapse"}},
+                           {"individualAnimals", false},
+                           {"observationLevel", {"media"}}};
+        json["spatial"] = {{"type", "Point"}, {"coordinates", {place.longitude, place.latitude}}};
+        json["temporal"] = {{"start", dateOf(whole.start)}, {"end", dateOf(whole.end)}};
+        json["taxonomic"] = Json::array();
+        return json.dump(2) + "\n";
+    }
+
+} // namespace
+
+void exportCamtrap(SurveyDatabase &survey, const std::string &folder, const CamtrapPlace &place)
+{
+    const std::vector<Medium> media = mediaOf(survey, place);
+    std::error_code code;
+    fs::create_directories(folder, code);
+    const auto in = [&](const char *name) { return (fs::path(folder) / name).string(); };
+    CommitTogether files;
+    writeDeployments(in("deployments.csv"), media, place);
+    writeMedia(in("media.csv"), media);
+    writeObservations(in("observations.csv"), survey, media);
+    writeTextFile(in("datapackage.json"), package(survey, media, place));
+    files.commit();
 }
 
 } // namespace faintline

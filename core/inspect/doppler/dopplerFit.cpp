@@ -1,9 +1,8 @@
 #include "inspect/doppler/dopplerFit.h"
 
 #include "base/Error.h"
+#include "inspect/doppler/DopplerPass.h"
 #include "inspect/doppler/dopplerLimits.h"
-#include "inspect/doppler/dopplerSentences.h"
-#include "inspect/doppler/dopplerStarts.h"
 
 #include <Eigen/Dense>
 #include <boost/math/distributions/fisher_f.hpp>
@@ -12,10 +11,140 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
 
 namespace faintline {
 
 namespace {
+
+    /// Starting passes for a fit of these points: the `most` best, and the best of those heard before and after the
+    /// points. The best comes first.
+    ///
+    /// Searches a grid over v, R/v and the time at which the closest approach is heard; f0 is the median of measured
+    /// frequency over f/f0. Passes are ranked by Σ |measured - fitted|/deviation, which is robust against a few
+    /// outliers. v starts where the pass just spans the points (5 to 95 %). At most 60 evenly spread points are used.
+    /// Precondition: times increase, frequencies above 0.
+    std::vector<DopplerPass> dopplerStarts(const std::vector<DopplerPoint> &points, double propagation,
+                                           std::size_t most);
+
+    /// Passes long before and long after the points, at speeds up to 0.9 c, which may explain a constant frequency.
+    std::vector<DopplerPass> passesElsewhere(const std::vector<DopplerPoint> &points, double propagation);
+
+    /// Σ |measured - fitted|/deviation.
+    double absoluteMisfit(const std::vector<DopplerPoint> &points, double propagation, const DopplerPass &pass);
+
+    constexpr std::size_t mostPoints = 60;
+    constexpr double speedFactors[]{1.0, 1.3, 1.8, 3.0, 6.0, 15.0};
+    constexpr double timeFactors[]{0.003, 0.01, 0.03, 0.1, 0.25, 0.6, 1.5, 4.0, 10.0}; ///< R/v in track lengths
+    constexpr double heardStep = 0.125; ///< in track lengths, from one before its middle to one after
+    constexpr double mostBeta = 0.95;
+
+    std::vector<DopplerPoint> evenly(const std::vector<DopplerPoint> &points)
+    {
+        const std::size_t count = std::min(points.size(), mostPoints);
+        std::vector<DopplerPoint> some;
+        for (std::size_t i = 0; i < count; ++i)
+            some.push_back(points[i * (points.size() - 1) / (count - 1)]);
+        return some;
+    }
+
+    /// The smallest v/c whose pass spans the points.
+    double leastBeta(const std::vector<DopplerPoint> &points)
+    {
+        std::vector<double> hz;
+        for (const DopplerPoint &point : points)
+            hz.push_back(point.hz);
+        std::sort(hz.begin(), hz.end());
+        const double low = hz[hz.size() / 20];
+        const double high = hz[hz.size() - 1 - hz.size() / 20];
+        const double errors = 0.1 * points.front().deviationHz / high;
+        return std::clamp((high - low) / (high + low), std::max(errors, 1e-14), mostBeta);
+    }
+
+    double medianOfStarts(std::vector<double> &values)
+    {
+        const auto middle = values.begin() + std::ssize(values) / 2;
+        std::nth_element(values.begin(), middle, values.end());
+        return *middle;
+    }
+
+    void setMedianRest(DopplerPass &pass, const std::vector<DopplerPoint> &points, double propagation)
+    {
+        pass.restHz = 1.0;
+        std::vector<double> ratios;
+        for (const DopplerPoint &point : points)
+            ratios.push_back(point.hz / receivedHz(pass, propagation, point.seconds));
+        pass.restHz = medianOfStarts(ratios);
+    }
+
+    /// When the closest approach is heard, relative to the points.
+    enum class When { Any, Before, After };
+
+    bool isHeard(When when, const DopplerPass &pass, const std::vector<DopplerPoint> &points, double propagation)
+    {
+        const double heard = pass.closestSeconds + pass.rangeMetres / propagation;
+        return when == When::Any || (when == When::Before && heard < points.front().seconds)
+               || (when == When::After && heard > points.back().seconds);
+    }
+
+    double absoluteMisfit(const std::vector<DopplerPoint> &points, double propagation, const DopplerPass &pass)
+    {
+        double sum = 0.0;
+        for (const DopplerPoint &point : points)
+            sum += std::abs(point.hz - receivedHz(pass, propagation, point.seconds)) / point.deviationHz;
+        return sum;
+    }
+
+    std::vector<DopplerPass> passesElsewhere(const std::vector<DopplerPoint> &points, double propagation)
+    {
+        const std::vector<DopplerPoint> some = evenly(points);
+        const double length = some.back().seconds - some.front().seconds;
+        const double middle = 0.5 * (some.back().seconds + some.front().seconds);
+        std::vector<DopplerPass> passes;
+        for (const double beta : {0.003, 0.03, 0.1, 0.3, 0.9})
+            for (const double heard : {-3.0, 3.0}) {
+                DopplerPass pass;
+                pass.metresPerSecond = beta * propagation;
+                pass.rangeMetres = 0.1 * pass.metresPerSecond * length;
+                pass.closestSeconds = middle + heard * length - pass.rangeMetres / propagation;
+                setMedianRest(pass, some, propagation);
+                passes.push_back(pass);
+            }
+        return passes;
+    }
+
+    std::vector<DopplerPass> dopplerStarts(const std::vector<DopplerPoint> &points, double propagation,
+                                           std::size_t most)
+    {
+        const std::vector<DopplerPoint> some = evenly(points);
+        const double length = some.back().seconds - some.front().seconds;
+        const double middle = 0.5 * (some.back().seconds + some.front().seconds);
+        const double least = leastBeta(some);
+        std::vector<std::pair<double, DopplerPass>> ranked;
+        for (const double speedFactor : speedFactors)
+            for (const double timeFactor : timeFactors)
+                for (double heard = -1.0; heard <= 1.0; heard += heardStep) {
+                    DopplerPass pass;
+                    pass.metresPerSecond = propagation * std::min(least * speedFactor, mostBeta);
+                    pass.rangeMetres = pass.metresPerSecond * timeFactor * length;
+                    pass.closestSeconds = middle + heard * length - pass.rangeMetres / propagation;
+                    setMedianRest(pass, some, propagation);
+                    ranked.emplace_back(absoluteMisfit(some, propagation, pass), pass);
+                }
+        std::sort(ranked.begin(), ranked.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
+        std::vector<DopplerPass> best;
+        for (const When when : {When::Any, When::Before, When::After})
+            for (const auto &[misfit, pass] : ranked)
+                if (isHeard(when, pass, some, propagation)) {
+                    best.push_back(pass);
+                    break;
+                }
+        for (std::size_t i = 1; i < std::min(most, ranked.size()); ++i)
+            best.push_back(ranked[i].second);
+        return best;
+    }
 
     constexpr int parameterCount = 4;
     constexpr double outlierDeviations = 4.0;
@@ -200,6 +329,110 @@ DopplerFit fitDopplerPass(const std::vector<DopplerPoint> &points, double propag
     fit.isBent = isBent;
     fit.sentences = dopplerSentences(fit, points);
     return fit;
+}
+
+namespace {
+
+    /// Limits of a model's slopes, bins per frame.
+    struct Slopes {
+        double lowest = 0.0, highest = 0.0;
+
+        explicit Slopes(const StateSpace &space)
+        {
+            for (Index plane = 0; plane < space.planeCount(); ++plane) {
+                lowest = std::min(lowest, space.ratesOfPlane(plane).back());
+                highest = std::max(highest, space.ratesOfPlane(plane).back());
+            }
+        }
+        /// Whether a line may be steeper than a path of this slope.
+        bool isLimit(double slope) const
+        {
+            constexpr double steepShareOfLimit = 0.85;
+            return (slope < 0.0 && slope <= steepShareOfLimit * lowest)
+                   || (slope > 0.0 && slope >= steepShareOfLimit * highest);
+        }
+    };
+
+    /// In a short piece next to a steep one, the path has probably lost its line.
+    void dropShortPieces(std::vector<char> &isSteep)
+    {
+        constexpr std::ptrdiff_t stretchMinimumPoints = 16;
+        if (std::find(isSteep.begin(), isSteep.end(), char(1)) == isSteep.end())
+            return;
+        for (auto from = isSteep.begin(); from != isSteep.end();) {
+            const auto to = std::find(from, isSteep.end(), char(1));
+            if (to - from < stretchMinimumPoints)
+                std::fill(from, to, char(1));
+            from = std::find(to, isSteep.end(), char(0));
+        }
+    }
+
+    /// Flags points within two frames of where the path, or its mean slope over four frames, is at the limit.
+    std::vector<char> steepPoints(const StateSpace &space, const Axis &axis, const Track &track)
+    {
+        constexpr std::ptrdiff_t slopeReachPoints = 2;
+        const Slopes slopes(space);
+        const std::ptrdiff_t count = std::ssize(track.points);
+        const auto at = [&](std::ptrdiff_t i) { return track.lastPosition(std::size_t(i), axis); };
+        std::vector<char> isSteep(track.points.size(), 0);
+        for (std::ptrdiff_t i = 0; i < count; ++i) {
+            const std::ptrdiff_t from = std::max<std::ptrdiff_t>(0, i - slopeReachPoints);
+            const std::ptrdiff_t to = std::min(count - 1, i + slopeReachPoints);
+            const double mean = to > from ? (at(to) - at(from)) / double(to - from) : 0.0;
+            const Index plane = track.points[std::size_t(i)].plane;
+            if (slopes.isLimit(space.ratesOfPlane(plane).back()) || (!track.smoothed.empty() && slopes.isLimit(mean)))
+                std::fill(isSteep.begin() + from, isSteep.begin() + to + 1, char(1));
+        }
+        dropShortPieces(isSteep);
+        return isSteep;
+    }
+
+    /// Standard deviation of a point's position, in cells; empty if the signal is absent.
+    std::optional<double> deviationOf(const Track &track, std::size_t point)
+    {
+        if (track.smoothed.empty())
+            return 1.0 / std::sqrt(12.0);
+        if (!track.isPresent(point))
+            return {};
+        return track.smoothed[point].deviation();
+    }
+
+} // namespace
+
+DopplerTrack dopplerTrack(const AnalysisPlan &plan, const Track &track, double centreHz)
+{
+    if (!plan.grid().isSpectrum())
+        throw Error("Doppler fit", "needs frames on frequency alone; these have more than one axis");
+    const Axis &axis = plan.grid().axes.back();
+    const StateSpace &space = plan.modelAt(track.model).space;
+    const std::vector<char> isSteep = steepPoints(space, axis, track);
+    DopplerTrack result;
+    result.steepestHzPerSecond = -Slopes(space).lowest * std::abs(axis.step) / plan.time().step;
+    for (std::size_t i = 0; i < track.points.size(); ++i) {
+        const std::optional<double> cells = deviationOf(track, i);
+        if (cells && isSteep[i])
+            ++result.steepCount;
+        else if (cells)
+            result.points.push_back({plan.time().value(double(track.points[i].frame)),
+                                     centreHz + axis.value(track.lastPosition(i, axis)), *cells * std::abs(axis.step)});
+    }
+    return result;
+}
+
+DopplerTrack joined(const std::vector<DopplerTrack> &tracks)
+{
+    DopplerTrack all;
+    for (const DopplerTrack &track : tracks) {
+        all.points.insert(all.points.end(), track.points.begin(), track.points.end());
+        all.steepCount += track.steepCount;
+        all.steepestHzPerSecond = std::max(all.steepestHzPerSecond, track.steepestHzPerSecond);
+    }
+    const auto isEarlier = [](const DopplerPoint &a, const DopplerPoint &b) { return a.seconds < b.seconds; };
+    std::stable_sort(all.points.begin(), all.points.end(), isEarlier);
+    for (std::size_t i = 1; i < all.points.size(); ++i)
+        if (!isEarlier(all.points[i - 1], all.points[i]))
+            throw Error("Doppler fit", "the events are there at the same time, so they are not one pass");
+    return all;
 }
 
 } // namespace faintline

@@ -1,7 +1,10 @@
 #include "noise/pings/NormalisedPings.h"
 
+#include "base/Error.h"
+#include "base/memoryShares.h"
 #include "noise/pings/pingBlock.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -49,6 +52,76 @@ std::string pingAssumption(const NormalisedFrames &frames)
 std::string pingGuess(const NormalisedFrames &frames)
 {
     return frames.isGuessed() ? frames.assumption() : std::string();
+}
+
+namespace {
+
+    constexpr Index pingCellLimit = Index(1) << 20;
+    constexpr Index mostValues = Index(1) << 24; ///< of a block
+    constexpr Index fewestPings = 16;
+
+    void checkHasNoise(const std::vector<float> &ln, const std::string &path)
+    {
+        const auto dead = std::count_if(ln.begin(), ln.end(), [](float value) { return value < 0.5f * noPingNoise; });
+        if (2 * dead >= std::ssize(ln))
+            throw Error(path, "holds no power in most of its cells: their values are 0, negative or not finite");
+    }
+
+} // namespace
+
+PingBackground::PingBackground(const PingPower &power, const PingNoiseSettings &settings, const RunContext &context)
+    : m_cells(power.grid().size()), m_pastOnly(settings.pastOnly)
+{
+    const std::string &path = power.pings().info().path;
+    if (m_cells > pingCellLimit)
+        throw Error(path, "has " + std::to_string(m_cells) + " cells in each ping; at most "
+                              + std::to_string(pingCellLimit) + " can be normalised");
+    const Index pings = power.time().count;
+    const auto mostBlocks = std::max<Index>(1, Index(memoryShares::background / sizeof(float)) / m_cells);
+    const Index wanted = std::max(Index(settings.blockPings), (pings + mostBlocks - 1) / mostBlocks);
+    m_blocks = std::max<Index>(1, pings / wanted);
+    m_blockPings = double(pings) / double(m_blocks);
+    const double stride = std::max(1.0, m_blockPings / double(std::max(fewestPings, mostValues / m_cells)));
+
+    const BeamLayout layout(power.grid());
+    std::vector<float> values;
+    for (Index b = 0; b < m_blocks; ++b) {
+        context.checkpoint(double(b) / double(m_blocks), "noise background");
+        values.clear();
+        const double end = std::min(double(b + 1) * m_blockPings, double(pings));
+        for (double ping = std::ceil(double(b) * m_blockPings); ping < end; ping += stride) {
+            const std::size_t before = values.size();
+            values.resize(before + std::size_t(m_cells));
+            power.read(Index(ping), 1, std::span(values).subspan(before));
+        }
+        const std::vector<float> ln = pingBlockNoise(values, layout, settings);
+        m_ln.insert(m_ln.end(), ln.begin(), ln.end());
+    }
+    checkHasNoise(m_ln, path);
+}
+
+std::span<const float> PingBackground::block(Index index) const
+{
+    return std::span(m_ln).subspan(std::size_t(index * m_cells), std::size_t(m_cells));
+}
+
+void PingBackground::readLn(Index ping, std::span<float> ln) const
+{
+    const double place = (double(ping) + 0.5) / m_blockPings;
+    if (m_pastOnly) {
+        const auto own = std::min(Index(place), m_blocks - 1);
+        std::ranges::copy(block(std::max<Index>(0, own - 1)), ln.begin());
+        return;
+    }
+    const double centred = std::clamp(place - 0.5, 0.0, double(m_blocks - 1));
+    const auto lower = std::min(Index(centred), m_blocks - 1);
+    const std::span<const float> before = block(lower);
+    const std::span<const float> after = block(std::min(lower + 1, m_blocks - 1));
+    const auto share = float(centred - double(lower));
+    for (std::size_t cell = 0; cell < ln.size(); ++cell) {
+        const bool areBoth = std::min(before[cell], after[cell]) > 0.5f * noPingNoise;
+        ln[cell] = areBoth ? before[cell] + share * (after[cell] - before[cell]) : std::max(before[cell], after[cell]);
+    }
 }
 
 } // namespace faintline

@@ -1,4 +1,4 @@
-#include "detect/NoiseBand.h"
+#include "plan/Analysis.h"
 
 #include <cmath>
 #include <numeric>
