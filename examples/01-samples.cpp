@@ -1,6 +1,5 @@
 // Finds a faint tone among samples in memory.
-#include "analyse/chooseWindow.h"
-#include "signal/ArrayRecording.h"
+#include <faintline.h>
 
 #include <cmath>
 #include <cstdio>
@@ -25,7 +24,7 @@ int main()
     const ArrayLayout layout{.sampleRateHz = rate, .sampleCount = std::ssize(*samples)};
     const auto recording =
         std::make_shared<ArrayRecording>("tone", std::shared_ptr<const float>(samples, samples->data()), layout);
-    const auto analysis = analyseInChosenWindow(recording, AnalysisSettings());
+    const auto analysis = analyse(recording, AnalysisSettings());
 
     std::printf("threshold %.1f nat, one false alarm an hour\n", analysis->threshold);
     for (const Event &event : events(*analysis))

@@ -1,5 +1,5 @@
 // Finds the lines of a recording, and writes them as a table: 02-recording RECORDING EVENTS.csv
-#include "analyse/chooseWindow.h"
+#include "analyse/analyse.h"
 #include "base/Error.h"
 #include "exchange/writeEvents.h"
 #include "scene/SimulatedRecording.h"
@@ -25,7 +25,7 @@ try {
     const RecordingPointer recording = openRecording(path);
     AnalysisSettings settings;
     settings.decide.falseAlarmsPerHour = 1.0;
-    const auto analysis = analyseInChosenWindow(recording, settings);
+    const auto analysis = analyse(recording, settings);
     const std::string events = argc > 2 ? argv[2] : "example.csv";
     writeEvents(*analysis, events);
     std::printf("%s: wrote %zu event(s) to %s\n", path.c_str(), analysis->tracks.size(), events.c_str());

@@ -1,6 +1,6 @@
 #include "DetectorPlugin.h"
 
-#include "analyse/chooseWindow.h"
+#include "analyse/analyse.h"
 #include "analyse/events.h"
 #include "base/Error.h"
 #include "exchange/writeEvents.h"
@@ -184,8 +184,7 @@ DetectorPlugin::Found DetectorPlugin::search() const
     RunContext context;
     context.threads = std::max(1, int(std::thread::hardware_concurrency()));
     Found found;
-    found.analysis = analyseInChosenWindow(recording, withSlopesInBins(settings(), recording->info()), context, nullptr,
-                                           {.depth = AnalysisDepth::Tracks});
+    found.analysis = analyse(recording, settings(), {.depth = AnalysisDepth::Tracks}, context);
     const Index cells = found.analysis->grid().size();
     if (found.analysis->time().count > mostGridValues / cells) {
         std::fprintf(stderr, "faintline: the statistic has too many values for a host; choose a narrower band\n");
@@ -195,8 +194,8 @@ DetectorPlugin::Found DetectorPlugin::search() const
         for (Index at = 0; at < std::ssize(values); at += cells)
             found.statistic.emplace_back(values.begin() + at, values.begin() + at + cells);
     };
-    analyse(recording, found.analysis->settings, context, found.analysis.get(),
-            {.statistic = keep, .depth = AnalysisDepth::Trial});
+    analyse(recording, found.analysis->settings,
+            {.previous = found.analysis.get(), .statistic = keep, .depth = AnalysisDepth::Trial}, context);
     return found;
 }
 

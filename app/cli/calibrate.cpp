@@ -1,6 +1,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/inRange.h"
 
+#include "analyse/analyse.h"
 #include "analyse/chooseWindow.h"
 #include "base/files/AtomicFile.h"
 #include "base/json.h"
@@ -157,7 +158,7 @@ namespace {
         AnalysisSettings settings = options.analysis.settings();
         std::shared_ptr<const Spectrogram> spectrogram;
         if (hasFile && leavesWindowToRecording(settings))
-            settings = analyseInChosenWindow(options.analysis.recording(), settings, common.context())->settings;
+            settings = analyse(options.analysis.recording(), settings, {}, common.context())->settings;
         if (hasFile)
             spectrogram =
                 std::make_shared<Spectrogram>(options.analysis.recording(), settings.spectrogram, settings.selection);

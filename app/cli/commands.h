@@ -68,9 +68,9 @@ struct AnalysisOptions {
     Source source() const;
     AnalysisSettings settings() const;
     RecordingPointer recording() const;
-    /// The frames of a file that is not a recording: simulated pings, a stack (FILE.npy), power over time and
-    /// frequency; null for other files. Converts slopes in the settings to bins per frame.
-    NormalisedFramesPointer frames(AnalysisSettings &settings, const RunContext &context) const;
+    /// The recording, or the frames of a file that is none: simulated pings, a stack (FILE.npy), power over time and
+    /// frequency. Converts slopes in the settings to bins per frame.
+    OpenedSource opened(AnalysisSettings &settings, const RunContext &context) const;
     std::vector<std::string> inputs() const; ///< all input files; a SigMF recording has two
 
 private:

@@ -8,6 +8,7 @@
 #include "noise/pings/NormalisedPings.h"
 #include "plan/firstSettings.h"
 #include "plan/slopeUnit.h"
+#include "scene/truthBeside.h"
 #include "signal/Timeline.h"
 #include "signal/openRecording.h"
 
@@ -222,18 +223,22 @@ RecordingPointer AnalysisOptions::recording() const
     return m_recording;
 }
 
-NormalisedFramesPointer AnalysisOptions::frames(AnalysisSettings &settings, const RunContext &context) const
+OpenedSource AnalysisOptions::opened(AnalysisSettings &settings, const RunContext &context) const
 {
     const Source from = source();
-    if (const auto pings = pingsOf(from))
-        return pings;
+    if (from.pings) {
+        const auto pings = pingsOf(from);
+        OpenedSource opened(pings);
+        opened.pingTruth = pings->truth();
+        return opened;
+    }
     if (from.hasSamples() || !more.empty())
-        return nullptr;
-    const NormalisedFramesPointer frames =
-        openFrames(from.path, {settings.selection, settings.noise, settings.pings}, context);
-    tellGuess(*frames, from.path, *m_common);
-    settings = withSlopesInBins(settings, *frames);
-    return frames;
+        return recording();
+    OpenedSource opened(openFrames(from.path, normalisationBy(settings), context));
+    tellGuess(*opened.frames, from.path, *m_common);
+    opened.pingTruth = pingTruthBeside(from.path, opened.frames->grid());
+    settings = withSlopesInBins(settings, *opened.frames);
+    return opened;
 }
 
 std::vector<std::string> AnalysisOptions::inputs() const

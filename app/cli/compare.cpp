@@ -4,7 +4,6 @@
 #include "app/cli/provenance.h"
 
 #include "analyse/analyse.h"
-#include "analyse/chooseWindow.h"
 #include "base/Error.h"
 #include "base/files/AtomicFile.h"
 #include "base/oneLine.h"
@@ -98,19 +97,11 @@ namespace {
         AnalysisSettings settingsA = settingsOf(options.common, options.presetA, options.setA);
         AnalysisSettings settingsB = settingsOf(options.common, options.presetB, options.setB);
         const RunContext context = common.context();
-        const NormalisedFramesPointer frames = options.common.frames(settingsA, context);
-        if (frames)
-            settingsB = withSlopesInBins(settingsB, *frames);
-        const RecordingPointer recording = frames ? nullptr : options.common.recording();
-        const bool areAlike = !frames || settingsA.pings == settingsB.pings;
-        const NormalisedFramesPointer framesB = areAlike ? frames : options.common.frames(settingsB, context);
-        const auto analysed = [&](const AnalysisSettings &settings, const RunContext &part, const Analysis *previous) {
-            const NormalisedFramesPointer &own = previous ? framesB : frames;
-            return frames ? analyse(own, settings, part, previous)
-                          : analyseInChosenWindow(recording, settings, part, previous);
-        };
-        const auto a = analysed(settingsA, context.part(0.0, 0.5), nullptr);
-        const auto b = analysed(settingsB, context.part(0.5, 1.0), a.get());
+        const OpenedSource openedA = options.common.opened(settingsA, context);
+        const bool areAlike = !openedA.frames || settingsA.pings == settingsB.pings;
+        const OpenedSource openedB = areAlike ? openedA : options.common.opened(settingsB, context);
+        const auto a = analyse(openedA, settingsA, {}, context.part(0.0, 0.5));
+        const auto b = analyse(openedB, settingsB, {.previous = a.get()}, context.part(0.5, 1.0));
         const Comparison comparison = compareAnalyses(*a, *b, options.tolerance);
         context.checkpoint(1.0, "done");
         RunContext quiet;

@@ -4,7 +4,6 @@
 #include "app/cli/provenance.h"
 
 #include "analyse/analyse.h"
-#include "analyse/chooseWindow.h"
 #include "base/files/AtomicFile.h"
 #include "base/json.h"
 #include "base/oneLine.h"
@@ -159,9 +158,7 @@ namespace {
     /// What is looked through: a recording, or frames that are ready for the detector.
     struct DetectInput {
         AnalysisSettings settings;
-        RecordingPointer recording;
-        NormalisedFramesPointer frames;
-        PingTruth truth;                 ///< of simulated pings, or beside recorded ones
+        OpenedSource opened;
         Annotations reviewed;            ///< in a session
         std::vector<Annotation> boxes{}; ///< that are given as annotations
     };
@@ -172,9 +169,9 @@ namespace {
         Observation observation;
         const std::string path = options.analysis.source().path;
         observation.name = std::filesystem::path(path).filename().string();
-        if (input.recording) {
-            observation.startUnixSeconds = input.recording->info().startUnixSeconds;
-            observation.centreHz = input.recording->info().centreHz;
+        if (input.opened.recording) {
+            observation.startUnixSeconds = input.opened.recording->info().startUnixSeconds;
+            observation.centreHz = input.opened.recording->info().centreHz;
         } else if (const auto power = path.empty() ? nullptr : openPower(path)) {
             observation.startUnixSeconds = power->info().startUnixSeconds;
         }
@@ -187,27 +184,20 @@ namespace {
         input.settings = options.analysis.settings();
         if (const std::optional<Session> session = options.analysis.namedSession())
             input.reviewed = session->annotations;
-        if (!options.frames.empty()) {
-            input.frames = openStack(options.frames, options.grid, input.settings.pings, context);
-            tellGuess(*input.frames, options.frames, common);
-            input.truth = pingTruthBeside(options.frames, input.frames->grid());
-        } else if (const auto pings = pingsOf(options.analysis.source())) {
-            input.frames = pings;
-            input.truth = pings->truth();
-        } else {
-            input.frames = options.analysis.frames(input.settings, context);
-            if (input.frames)
-                input.truth = pingTruthBeside(options.analysis.source().path, input.frames->grid());
-        }
-        if (!input.frames && options.analysis.file.empty())
+        if (options.frames.empty() && options.analysis.file.empty())
             throw Error("detect", "needs a recording, or --frames with ready-made frames");
-        if (!input.frames)
-            input.recording = options.analysis.recording();
+        if (options.frames.empty()) {
+            input.opened = options.analysis.opened(input.settings, context);
+        } else {
+            input.opened = openStack(options.frames, options.grid, input.settings.pings, context);
+            tellGuess(*input.opened.frames, options.frames, common);
+            input.opened.pingTruth = pingTruthBeside(options.frames, input.opened.frames->grid());
+        }
         if (options.annotations.empty())
             return input;
-        if (input.frames && !input.frames->grid().isSpectrum())
+        if (input.opened.frames && !input.opened.frames->grid().isSpectrum())
             throw Error("--annotations", "requires frames on frequency only; these frames have more than one axis");
-        AnnotatedRecording of(input.recording ? input.recording->info() : RecordingInfo());
+        AnnotatedRecording of(input.opened.recording ? input.opened.recording->info() : RecordingInfo());
         if (options.analysis.asTimeline)
             of.files = options.analysis.names();
         std::vector<std::string> notes;
@@ -215,16 +205,6 @@ namespace {
         for (const std::string &note : notes)
             tellNote(oneLine(note), common);
         return input;
-    }
-
-    std::shared_ptr<const Analysis> analyseFrames(const DetectInput &input, const DetectOptions &options,
-                                                  const RunContext &context, const StatisticSink &sink)
-    {
-        if (options.model.empty())
-            return analyse(input.frames, input.settings, context, nullptr, sink);
-        AnalysisSettings settings = input.settings;
-        const MarkovModel model = modelFor(options.model, *input.frames, settings);
-        return analyse(input.frames, model, settings, context, sink);
     }
 
     /// Frames, then the cells of each axis.
@@ -236,45 +216,21 @@ namespace {
         return shape;
     }
 
-    std::vector<Index> shapeOf(const RecordingPointer &recording, const AnalysisSettings &settings)
-    {
-        const Spectrogram geometry(recording, settings.spectrogram, settings.selection);
-        return {geometry.time().count, familyAxis(settings.family, geometry.frequency()).count};
-    }
-
-    StatisticSink sinkOf(std::optional<NumPyWriter> &writer, const std::string &path, const std::vector<Index> &shape)
-    {
-        writer.emplace(path, shape);
-        return [&writer](Index, std::span<const float> values) { writer->write(values); };
-    }
-
-    std::shared_ptr<const Analysis> tracksOf(const DetectInput &input, const RunContext &context)
-    {
-        return analyseInChosenWindow(input.recording, input.settings, context, nullptr,
-                                     {.depth = AnalysisDepth::Tracks});
-    }
-
     /// `writer`: where the statistic goes, if it is asked for.
     std::shared_ptr<const Analysis> run(const DetectInput &input, const DetectOptions &options,
                                         const RunContext &context, std::optional<NumPyWriter> &writer)
     {
-        const bool writesStatistic = !options.statistic.empty();
-        if (input.frames)
-            return analyseFrames(input, options, context,
-                                 writesStatistic ? sinkOf(writer, options.statistic, shapeOf(*input.frames))
-                                                 : StatisticSink());
-        if (!writesStatistic)
-            return tracksOf(input, context);
-        if (!leavesWindowToRecording(input.settings))
-            return analyse(input.recording, input.settings, context, nullptr,
-                           {.statistic = sinkOf(writer, options.statistic, shapeOf(input.recording, input.settings)),
-                            .depth = AnalysisDepth::Tracks});
-        // A window that is chosen first; its tracks are more than those of the statistic.
-        const auto chosen = tracksOf(input, context.part(0.0, 0.7));
-        analyse(input.recording, chosen->settings, context.part(0.7, 1.0), chosen.get(),
-                {.statistic = sinkOf(writer, options.statistic, shapeOf(input.recording, chosen->settings)),
-                 .depth = AnalysisDepth::Trial});
-        return chosen;
+        AnalysisSettings settings = input.settings;
+        AnalysisRequest request{.depth = AnalysisDepth::Tracks};
+        if (!options.model.empty())
+            request.model = modelFor(options.model, *input.opened.frames, settings);
+        if (!options.statistic.empty()) {
+            request.statisticBegins = [&](const NormalisedFrames &frames) {
+                writer.emplace(options.statistic, shapeOf(frames));
+            };
+            request.statistic = [&](Index, std::span<const float> values) { writer->write(values); };
+        }
+        return analyse(input.opened, settings, request, context);
     }
 
     void annotate(const std::string &sigmf, const DetectOptions &options)
@@ -329,18 +285,18 @@ namespace {
     void printResult(const Analysis &analysis, const DetectInput &input, bool areFramesGiven)
     {
         printSummary(analysis);
-        if (input.recording && input.recording->nonFiniteCount() > 0)
+        if (input.opened.recording && input.opened.recording->nonFiniteCount() > 0)
             std::printf("some samples are not finite; they are read as 0\n");
         if (areFramesGiven)
-            if (const std::string warning = noiseMeanWarning(*input.frames); !warning.empty())
+            if (const std::string warning = noiseMeanWarning(*input.opened.frames); !warning.empty())
                 std::printf("%s\n", warning.c_str());
-        if (!input.truth.targets.empty())
-            printScore(analysis, input.truth);
+        if (!input.opened.pingTruth.targets.empty())
+            printScore(analysis, input.opened.pingTruth);
         if (analysis.grid().isSpectrum())
             return;
         std::printf("conventional detector: %zu track(s)\n", analysis.conventional.size());
-        if (!input.truth.targets.empty())
-            printScore(conventionally(analysis), input.truth);
+        if (!input.opened.pingTruth.targets.empty())
+            printScore(conventionally(analysis), input.opened.pingTruth);
     }
 
     void detect(DetectOptions options, const Common &common)

@@ -3,7 +3,7 @@
 #include "app/cli/printSummary.h"
 #include "app/cli/provenance.h"
 
-#include "analyse/chooseWindow.h"
+#include "analyse/analyse.h"
 #include "analyse/events.h"
 #include "base/files/AtomicFile.h"
 #include "base/files/fileName.h"
@@ -49,9 +49,8 @@ namespace {
     std::shared_ptr<const Analysis> analysed(const DopplerOptions &options, const RunContext &context)
     {
         AnalysisSettings settings = options.analysis.settings();
-        if (const NormalisedFramesPointer frames = options.analysis.frames(settings, context))
-            return analyse(frames, settings, context);
-        return analyseInChosenWindow(options.analysis.recording(), settings, context);
+        const OpenedSource opened = options.analysis.opened(settings, context);
+        return analyse(opened, settings, {}, context);
     }
 
     double centreOf(const DopplerOptions &options, const Analysis &analysis)

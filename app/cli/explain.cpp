@@ -2,7 +2,6 @@
 #include "app/cli/printSummary.h"
 
 #include "analyse/analyse.h"
-#include "analyse/chooseWindow.h"
 #include "base/json.h"
 #include "base/logmath.h"
 #include "base/oneLine.h"
@@ -203,13 +202,11 @@ namespace {
     {
         const RunContext context = common.context();
         AnalysisSettings settings = options.analysis.settings();
-        const NormalisedFramesPointer frames =
-            !options.grid.empty() ? openStack(options.analysis.file, options.grid, settings.pings, context)
-                                  : options.analysis.frames(settings, context);
-        const std::vector<double> position = options.position(frames.get());
-        const auto analysis =
-            frames ? analyse(frames, settings, context.part(0.0, 0.5))
-                   : analyseInChosenWindow(options.analysis.recording(), settings, context.part(0.0, 0.5));
+        const OpenedSource opened = options.grid.empty()
+                                        ? options.analysis.opened(settings, context)
+                                        : openStack(options.analysis.file, options.grid, settings.pings, context);
+        const std::vector<double> position = options.position(opened.frames.get());
+        const auto analysis = analyse(opened, settings, {}, context.part(0.0, 0.5));
         const Explanation explanation = explain(*analysis, options.seconds, position, context.part(0.5, 0.9));
         const std::vector<FamilyTooth> teeth = familyTeeth(*analysis, explanation, context.part(0.9, 1.0));
         if (options.json) {

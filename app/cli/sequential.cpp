@@ -1,13 +1,14 @@
 #include "app/cli/commands.h"
 
-#include "analyse/analyse.h"
 #include "analyse/preparePlan.h"
+#include "base/RunContext.h"
 #include "base/files/AtomicFile.h"
 #include "base/json.h"
 #include "detect/Sprt.h"
 #include "detect/averagedStages.h"
 #include "exchange/ModelFile.h"
 #include "noise/openFrames.h"
+#include "plan/Analysis.h"
 #include "plan/lineSequentialModel.h"
 
 #include <CLI/CLI.hpp>

@@ -3,7 +3,7 @@
 #include "app/cli/printSummary.h"
 #include "app/cli/provenance.h"
 
-#include "analyse/chooseWindow.h"
+#include "analyse/analyse.h"
 #include "analyse/events.h"
 #include "base/Field.h"
 #include "base/files/AtomicFile.h"
@@ -79,7 +79,7 @@ namespace {
         checkOutputs({options.out, options.curve, options.rest});
         const RunContext context = common.context();
         const RecordingPointer recording = options.analysis.recording();
-        const auto analysis = analyseInChosenWindow(recording, options.analysis.settings(), context.part(0.0, 0.6));
+        const auto analysis = analyse(recording, options.analysis.settings(), {}, context.part(0.0, 0.6));
         const Event event = chosenEvent(*analysis, options.event);
         StraightenChoice choice{options.smooth, options.target, {}};
         if (!options.method.empty())

@@ -48,7 +48,7 @@ namespace {
         Source source = sourceFromJson(recording, {});
         if (!source.isSimulated())
             source.path = find(recording, table);
-        return analyse(openSource(source), settingsFromJson(table.provenance.at("settings").dump(), "settings"),
+        return analyse(openSource(source), settingsFromJson(table.provenance.at("settings").dump(), "settings"), {},
                        context);
     }
 

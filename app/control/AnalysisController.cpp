@@ -206,12 +206,14 @@ void AnalysisController::startAnalysis()
                 m_runner.deliver([this, sofar] { emit m_document.picturesGrew(sofar); });
             };
         const bool isNew = showsFirstEstimates && opened.recording && !knownCalibration(settings);
-        auto analysis = analyse(
-            opened, settings, context.part(0.0, isNew ? 0.3 : 1.0), previous.get(),
-            {.pictures = pictures, .calibration = isNew ? CalibrationDepth::FirstEstimate : CalibrationDepth::Refined});
+        const auto calibration = isNew ? CalibrationDepth::FirstEstimate : CalibrationDepth::Refined;
+        auto analysis =
+            analyse(opened, settings, {.previous = previous.get(), .pictures = pictures, .calibration = calibration},
+                    context.part(0.0, isNew ? 0.3 : 1.0));
         if (analysis->calibration->isFirstEstimate) {
             m_runner.deliver([this, analysis, found = events(*analysis)] { showFirstEstimate(analysis, found); });
-            analysis = analyse(opened, settings, context.part(0.3, 1.0), analysis.get());
+            const auto estimate = std::move(analysis);
+            analysis = analyse(opened, settings, {.previous = estimate.get()}, context.part(0.3, 1.0));
         }
         std::vector<Event> found = events(*analysis);
         return [this, analysis = std::move(analysis), found = std::move(found)] {

@@ -47,7 +47,7 @@ void Comparer::computeHere()
         return;
     m_runner.start([this, opened = m_document.openedSource(), settings = m_kept->settings,
                     previous = m_document.analysis()](const RunContext &context) -> JobRunner::Delivery {
-        auto analysis = analyse(opened, settings, context, previous.get());
+        auto analysis = analyse(opened, settings, {.previous = previous.get()}, context);
         return [this, analysis = std::move(analysis), source = opened.source] {
             m_kept = analysis;
             m_keptSource = source;

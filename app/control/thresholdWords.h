@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analyse/analyse.h"
 #include "base/Error.h"
+#include "plan/Analysis.h"
 
 #include <QString>
 

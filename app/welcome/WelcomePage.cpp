@@ -145,7 +145,7 @@ void WelcomePage::startNext()
     m_runner.start(
         [this, card = *next, path = (*next)->scenario().path](const RunContext &context) -> JobRunner::Delivery {
             const OpenedSource opened = openSource(sourceAt(path));
-            const auto analysis = analyse(opened, firstSettings(opened), context);
+            const auto analysis = analyse(opened, firstSettings(opened), {}, context);
             return [this, card, opened, analysis] {
                 card->setResult(opened, analysis);
                 startNext();

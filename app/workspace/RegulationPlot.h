@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analyse/analyse.h"
+#include "plan/Analysis.h"
 #include "widgets/plot/StripPlot.h"
 
 namespace faintline {

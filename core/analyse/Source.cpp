@@ -1,10 +1,8 @@
 #include "analyse/Source.h"
 
-#include "analyse/chooseWindow.h"
 #include "base/files/fileName.h"
 #include "base/json.h"
 #include "noise/openFrames.h"
-#include "plan/slopeUnit.h"
 #include "scene/SimulatedPings.h"
 #include "scene/SimulatedRecording.h"
 #include "scene/truthBeside.h"
@@ -16,7 +14,8 @@ namespace {
     /// Without the added lines and the truth beside the file.
     OpenedSource openBase(const Source &source, const FramesOptions &normalisation = {}, const RunContext &context = {})
     {
-        OpenedSource opened{source, {}, {}};
+        OpenedSource opened;
+        opened.source = source;
         opened.normalisation = normalisation;
         opened.source.injections.clear();
         if (source.pings) {
@@ -45,15 +44,6 @@ namespace {
             opened.pingTruth = pingTruthBeside(path, opened.frames->grid());
         if (!opened.frames || opened.frames->grid().isSpectrum())
             opened.truth = truthBeside(path);
-    }
-
-    /// The frames at hand, unless the settings ask for another normalisation.
-    NormalisedFramesPointer framesFor(const OpenedSource &opened, const AnalysisSettings &settings,
-                                      const RunContext &context)
-    {
-        if (opened.isNormalisedFor(settings))
-            return opened.frames;
-        return openFrames(opened.source.path, normalisationBy(settings), context);
     }
 
     OpenedSource withInjections(OpenedSource opened, const std::vector<Source::Injection> &injections)
@@ -117,6 +107,13 @@ bool OpenedSource::isNormalisedFor(const AnalysisSettings &settings) const
     return !isRecordedPings() || wanted.pings == normalisation.pings;
 }
 
+NormalisedFramesPointer OpenedSource::framesFor(const AnalysisSettings &settings, const RunContext &context) const
+{
+    if (isNormalisedFor(settings))
+        return frames;
+    return openFrames(source.path, normalisationBy(settings), context);
+}
+
 OpenedSource openSource(const Source &source, const FramesOptions &normalisation, const RunContext &context)
 {
     OpenedSource opened = openBase(source, normalisation, context);
@@ -134,18 +131,6 @@ RecordingPointer openSamples(const Source &source)
             source.path,
             "holds frames (time and frequency), not samples; use it with 'detect', 'explain', 'compare' or 'info'");
     return withInjections(openBase(source), source.injections).recording;
-}
-
-std::shared_ptr<const Analysis> analyse(const OpenedSource &opened, const AnalysisSettings &settings,
-                                        const RunContext &context, const Analysis *previous,
-                                        const AnalysisRequest &request)
-{
-    if (!opened.frames)
-        return analyseInChosenWindow(opened.recording, withSlopesInBins(settings, opened.recording->info()), context,
-                                     previous, request);
-    const NormalisedFramesPointer frames = framesFor(opened, settings, context.part(0.0, 0.2));
-    return analyse(frames, withSlopesInBins(settings, *frames),
-                   frames == opened.frames ? context : context.part(0.2, 1.0), previous);
 }
 
 OpenedSource withInjection(const OpenedSource &opened, const Source::Injection &injection)

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "analyse/analyse.h"
 #include "base/json.h"
 #include "frames/NormalisedFrames.h"
 #include "noise/openFrames.h"
+#include "plan/AnalysisSettings.h"
 #include "scene/InjectedRecording.h"
 #include "scene/LineScene.h"
 #include "scene/PingScene.h"
@@ -12,10 +12,12 @@
 #include "signal/Recording.h"
 #include "signal/openRecording.h"
 
+#include <concepts>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace faintline {
@@ -47,7 +49,19 @@ struct Source {
 
 /// An opened source: a recording, or frames ready for the detector.
 struct OpenedSource {
-    Source source;
+    OpenedSource() = default;
+
+    template <std::convertible_to<RecordingPointer> Pointer>
+    OpenedSource(Pointer samples) : recording(std::move(samples))
+    {
+    }
+
+    template <std::convertible_to<NormalisedFramesPointer> Pointer>
+    OpenedSource(Pointer readyMade) : frames(std::move(readyMade))
+    {
+    }
+
+    Source source; ///< without a path: what was opened elsewhere, and is analysed as it is
     RecordingPointer recording;
     Truth truth; ///< of a simulated recording, or in a file beside a recording; with the lines added
     NormalisedFramesPointer frames{};
@@ -56,10 +70,15 @@ struct OpenedSource {
     bool isPower = false;          ///< frames made from the power in a file, which the settings may normalise anew
 
     /// Whether they are frames on several axes from a file, which the settings may normalise anew.
-    bool isRecordedPings() const { return frames && !frames->grid().isSpectrum() && !source.isSimulated(); }
+    bool isRecordedPings() const
+    {
+        return frames && !frames->grid().isSpectrum() && !source.isSimulated() && !source.path.empty();
+    }
 
     /// Whether these settings ask for the frames as they are.
     bool isNormalisedFor(const AnalysisSettings &settings) const;
+    /// The frames at hand, or, if the settings ask for another normalisation, those.
+    NormalisedFramesPointer framesFor(const AnalysisSettings &settings, const RunContext &context) const;
 };
 
 /// The source that a path denotes: a scene for a JSON file, otherwise a file that is not read yet. Throws Error.
@@ -77,11 +96,6 @@ OpenedSource openSource(const Source &source, const FramesOptions &normalisation
 
 /// Only the samples, with the lines added. Throws Error for frames.
 RecordingPointer openSamples(const Source &source);
-
-/// Runs the pipeline on an opened source; recorded pings and power are normalised as the settings ask.
-std::shared_ptr<const Analysis> analyse(const OpenedSource &opened, const AnalysisSettings &settings,
-                                        const RunContext &context = {}, const Analysis *previous = nullptr,
-                                        const AnalysisRequest &request = {});
 
 /// The open source with one more line. Throws Error.
 OpenedSource withInjection(const OpenedSource &opened, const Source::Injection &injection);

@@ -1,5 +1,7 @@
 #include "analyse/chooseWindow.h"
 
+#include "analyse/runAnalysis.h"
+#include "plan/Analysis.h"
 #include "plan/sureStatistic.h"
 #include "refine/secondLook.h"
 #include "refine/steadyLines.h"
@@ -67,6 +69,12 @@ namespace {
         return result;
     }
 
+    /// Tracks alone, with the parts of another run.
+    RunRequest trialRequest(CalibrationDepth calibration, const Analysis *previous = nullptr)
+    {
+        return AnalysisRequest{.previous = previous, .calibration = calibration, .depth = AnalysisDepth::Trial};
+    }
+
     class WindowSearch
     {
     public:
@@ -80,9 +88,11 @@ namespace {
         /// Result for the chosen window; without pictures if it is not T0. Sets `choice`.
         std::shared_ptr<Analysis> run(const Analysis *previous, const PictureSink &pictures)
         {
-            std::shared_ptr<Analysis> automatic = analyse(
-                m_recording, m_asked, nextPart(), previous,
-                {.pictures = pictures, .calibration = m_calibrationDepth, .depth = m_depth, .keepsFirstTracks = true});
+            RunRequest request = AnalysisRequest{.previous = previous, .pictures = pictures};
+            request.calibration = m_calibrationDepth;
+            request.depth = m_depth;
+            request.keepsFirstTracks = true;
+            std::shared_ptr<Analysis> automatic = runOnRecording(m_recording, m_asked, request, nextPart());
             m_windowSeconds = windowSecondsOf(*automatic);
             m_cells = double(automatic->grid().size()) * automatic->grid().axes.back().step * m_windowSeconds;
             m_frames = double(automatic->time().count);
@@ -171,8 +181,7 @@ namespace {
             AnalysisSettings settings = m_asked;
             settings.spectrogram.windowSeconds = step * m_windowSeconds;
             settings.model = withLaw(m_asked.model, law);
-            auto analysis = analyse(m_recording, settings, nextPart(), nullptr,
-                                    {.calibration = m_calibrationDepth, .depth = AnalysisDepth::Trial});
+            auto analysis = runOnRecording(m_recording, settings, trialRequest(m_calibrationDepth), nextPart());
             note(settings, *analysis);
             return analysis;
         }
@@ -252,14 +261,14 @@ AnalysisSettings inWindowOf(const Analysis &analysis, const AnalysisSettings &se
     return isOther ? inWindowOf(choice->trials[choice->chosen], settings) : settings;
 }
 
-std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording, const AnalysisSettings &settings,
-                                                      const RunContext &context, const Analysis *previous,
-                                                      const AnalysisRequest &request)
+std::shared_ptr<const Analysis> runInChosenWindow(const RecordingPointer &recording, const AnalysisSettings &settings,
+                                                  const AnalysisRequest &request, const RunContext &whole)
 {
+    const Analysis *previous = request.previous;
     AnalysisRequest wanted = request;
     wanted.statistic = {};
-    if (!leavesWindowToRecording(settings))
-        return analyse(recording, settings, context, previous, wanted);
+    wanted.statisticBegins = {};
+    const RunContext context = whole.part(0.0, request.statistic ? 0.7 : 1.0);
     const bool isChosen = previous && previous->recording == recording && previous->choice
                           && !previous->calibration->isFirstEstimate
                           && asksForTheSame(previous->choice->asked, settings);
@@ -285,12 +294,17 @@ std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording
     choice.asked = settings;
     const bool isTrial = !isChosen && choice.chosen != choice.automatic;
     const bool isComplete = !isChosen && !subtracts; // the search ran with these settings
-    if (isTrial || !isComplete)
-        found = analyse(recording, ofTrial(choice, choice.chosen, settings), context.part(searched, detected),
-                        isChosen ? previous : found.get(), wanted);
-    if (longer && !isComplete) // after the pictures, which the user waits for
-        longer = analyse(recording, ofTrial(choice, choice.chosen + 1, settings), context.part(detected, compared),
-                         longer.get(), {.calibration = wanted.calibration, .depth = AnalysisDepth::Trial});
+    if (isTrial || !isComplete) {
+        const std::shared_ptr<Analysis> tried = found; // until it is not needed any more
+        wanted.previous = isChosen ? previous : tried.get();
+        found = runOnRecording(recording, ofTrial(choice, choice.chosen, settings), wanted,
+                               context.part(searched, detected));
+    }
+    if (longer && !isComplete) { // after the pictures, which the user waits for
+        const std::shared_ptr<const Analysis> tried = longer;
+        longer = runOnRecording(recording, ofTrial(choice, choice.chosen + 1, settings),
+                                trialRequest(wanted.calibration, tried.get()), context.part(detected, compared));
+    }
     found->firstTracks = {};
     found->longer = std::move(longer);
     if (found->longer)
@@ -298,6 +312,12 @@ std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording
     choice.steadyLines = std::count_if(found->tracks.begin(), found->tracks.end(),
                                        [](const Track &track) { return track.windowSeconds > 0.0; });
     found->choice = std::move(choice);
+    if (request.statistic) {
+        RunRequest again = trialRequest(request.calibration, found.get());
+        again.statistic = request.statistic;
+        again.statisticBegins = request.statisticBegins;
+        runOnRecording(recording, found->settings, again, whole.part(0.7, 1.0));
+    }
     return found;
 }
 

@@ -1,7 +1,10 @@
 #pragma once
 
-#include "analyse/analyse.h"
+#include "analyse/AnalysisRequest.h"
 #include "base/Axis.h"
+#include "base/RunContext.h"
+#include "plan/Analysis.h"
+#include "signal/Recording.h"
 #include "track/Track.h"
 
 #include <span>
@@ -18,7 +21,7 @@ AnalysisSettings inWindowOf(const Analysis &analysis, const AnalysisSettings &se
 /// The settings with the window and law of motion of a trial.
 AnalysisSettings inWindowOf(const WindowTrial &trial, AnalysisSettings settings);
 
-/// `analyse`, with a window that suits the recording's signals if the settings leave it open.
+/// Analyses a recording in a window that suits its signals. Precondition: leavesWindowToRecording(settings).
 ///
 /// The automatic window T0 (Spectrogram::automaticWindowSeconds) is used first, with its pictures. Others, each four
 /// times as long or short as the previous one, are tried for their tracks alone, and judged by the fraction k of the
@@ -39,14 +42,12 @@ AnalysisSettings inWindowOf(const WindowTrial &trial, AnalysisSettings settings)
 /// If strong lines are subtracted, windows are tried on the unchanged recording, and lines are subtracted in the chosen
 /// window and in the next longer one.
 ///
-/// The statistic is not delivered: a second run with the chosen window (`inWindowOf`) gives it.
+/// The statistic is that of a second run with the chosen window.
 ///
 /// The result's tracks are those of the chosen window and the steady lines that only the next longer one detects
 /// (steadyLines.h), which may have as few as four frames.
-std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording, const AnalysisSettings &settings,
-                                                      const RunContext &context = {},
-                                                      const Analysis *previous = nullptr,
-                                                      const AnalysisRequest &request = {});
+std::shared_ptr<const Analysis> runInChosenWindow(const RecordingPointer &recording, const AnalysisSettings &settings,
+                                                  const AnalysisRequest &request, const RunContext &context);
 
 /// Smoothed tracks of one analysis, and the axes that convert their points to seconds and hertz.
 struct TracksOnAxes {

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "analyse/analyse.h"
+#include "analyse/events.h"
 #include "base/json.h"
+#include "plan/Analysis.h"
 
 #include <optional>
 #include <string>

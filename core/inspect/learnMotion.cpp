@@ -1,6 +1,7 @@
 #include "inspect/learnMotion.h"
 
 #include "base/Error.h"
+#include "calibrate/calibrate.h"
 #include "noise/NoiseNormaliser.h"
 #include "plan/sureStatistic.h"
 #include "refine/bothWays.h"

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "analyse/analyse.h"
 #include "base/Interval.h"
+#include "base/RunContext.h"
+#include "plan/Analysis.h"
 
 #include <optional>
 #include <string>

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "analyse/analyse.h"
+#include "base/RunContext.h"
+#include "plan/Analysis.h"
 
 #include <memory>
 #include <vector>

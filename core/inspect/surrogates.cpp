@@ -1,5 +1,6 @@
 #include "inspect/surrogates.h"
 
+#include "analyse/analyse.h"
 #include "base/Error.h"
 #include "base/Interval.h"
 #include "noise/NoiseNormaliser.h"
@@ -41,7 +42,7 @@ SurrogateCount countOnSurrogates(RecordingPointer recording, const AnalysisSetti
         const auto surrogate =
             std::make_shared<SurrogateRecording>(spectrogram, background, firstSeed + std::uint64_t(run));
         const auto analysis =
-            analyse(surrogate, counting, context.part(0.2 + 0.8 * run / runs, 0.2 + 0.8 * (run + 1) / runs));
+            analyse(surrogate, counting, {}, context.part(0.2 + 0.8 * run / runs, 0.2 + 0.8 * (run + 1) / runs));
         result.threshold = analysis->threshold;
         result.events += std::ssize(analysis->tracks);
     }

@@ -39,10 +39,8 @@ Result::Values Result::input(const RunOptions &options)
 void Result::streamStatistic(const StatisticSink &sink, const RunContext &context) const
 {
     const Analysis &a = *m_analysis;
-    if (a.recording)
-        analyse(a.recording, a.settings, context, &a, {.statistic = sink, .depth = AnalysisDepth::Trial});
-    else
-        analyse(a.frames, a.settings, context, &a, sink);
+    analyse(a.recording ? OpenedSource(a.recording) : OpenedSource(a.frames), a.settings,
+            {.previous = &a, .statistic = sink, .depth = AnalysisDepth::Trial}, context);
 }
 
 Result::Values Result::statistic(const RunOptions &options)

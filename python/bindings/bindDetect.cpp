@@ -1,6 +1,6 @@
 #include "bindings/bind.h"
 
-#include "analyse/chooseWindow.h"
+#include "analyse/analyse.h"
 #include "bindings/Result.h"
 #include "bindings/Source.h"
 #include "bindings/jsonFromPython.h"
@@ -8,10 +8,10 @@
 #include "noise/NormalisedPower.h"
 #include "noise/openFrames.h"
 #include "plan/firstSettings.h"
-#include "plan/slopeUnit.h"
 
 #include <pybind11/stl.h>
 
+#include <functional>
 #include <optional>
 
 namespace faintline::python {
@@ -49,30 +49,29 @@ namespace {
                                                  settings.noise, context);
     }
 
+    using Open = std::function<OpenedSource(const RunContext &context)>;
+
+    std::shared_ptr<Result> detectIn(const Open &open, const Origin &origin, const RunOptions &options)
+    {
+        std::shared_ptr<const Analysis> analysis;
+        runInterruptibly(options, [&](const RunContext &context) {
+            analysis = analyse(open(context.part(0.0, 0.1)), origin.settings, {}, context.part(0.1, 1.0));
+        });
+        return std::make_shared<Result>(analysis, origin);
+    }
+
     std::shared_ptr<Result> detectIn(const HeldFrames &held, const AskedSettings &asked, const RunOptions &options)
     {
         const AnalysisSettings settings =
             settingsFromPython(asked, held.isPings ? firstSettings(held.frames->grid()) : AnalysisSettings());
-        std::shared_ptr<const Analysis> analysis;
-        runInterruptibly(options, [&](const RunContext &context) {
-            const NormalisedFramesPointer frames = framesFor(held, settings, context.part(0.0, held.power ? 0.1 : 0.0));
-            const AnalysisSettings inBins = withSlopesInBins(settings, *frames);
-            checkSettings(inBins);
-            analysis = analyse(frames, inBins, context.part(held.power ? 0.1 : 0.0, 1.0));
-        });
-        return std::make_shared<Result>(analysis, Origin{held.arguments, settings});
+        const Open open = [&](const RunContext &context) { return framesFor(held, settings, context); };
+        return detectIn(open, Origin{held.arguments, settings}, options);
     }
 
     std::shared_ptr<Result> detectIn(const HeldRecording &held, const AskedSettings &asked, const RunOptions &options)
     {
-        const AnalysisSettings wanted = settingsFromPython(asked, held.recording->info());
-        const AnalysisSettings settings = withSlopesInBins(wanted, held.recording->info());
-        checkSettings(settings);
-        std::shared_ptr<const Analysis> analysis;
-        runInterruptibly(options, [&](const RunContext &context) {
-            analysis = analyseInChosenWindow(held.recording, settings, context);
-        });
-        return std::make_shared<Result>(analysis, Origin{held.arguments, wanted});
+        const AnalysisSettings settings = settingsFromPython(asked, held.recording->info());
+        return detectIn([&](const RunContext &) { return held.recording; }, Origin{held.arguments, settings}, options);
     }
 
     std::shared_ptr<Result> detect(const py::object &x, const std::optional<double> &rate, double centreHz,

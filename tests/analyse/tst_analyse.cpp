@@ -46,7 +46,7 @@ std::shared_ptr<const Analysis> analysed(int threads = 1, const AnalysisSettings
         sink = [statistic](Index, std::span<const float> block) {
             statistic->insert(statistic->end(), block.begin(), block.end());
         };
-    return analyse(recording(), s, context, nullptr, {.statistic = sink});
+    return analyse(recording(), s, {.statistic = sink}, context);
 }
 
 bool sameTracks(const Analysis &a, const Analysis &b)
@@ -131,12 +131,12 @@ void tst_analyse::lentPartsChangeNothing()
     const auto before = analyse(r, settings());
     AnalysisSettings changed = settings();
     changed.decide.falseAlarmsPerHour = 50.0;
-    const auto lent = analyse(r, changed, {}, before.get());
+    const auto lent = analyse(r, changed, {.previous = before.get()});
     const auto fresh = analyse(r, changed);
     QVERIFY(lent->background == before->background && lent->input == before->input); // shared, not copied
     QVERIFY(sameTracks(*lent, *fresh));
     changed.spectrogram.windowSeconds = 0.5;
-    QVERIFY(analyse(r, changed, {}, before.get())->time().step != before->time().step);
+    QVERIFY(analyse(r, changed, {.previous = before.get()})->time().step != before->time().step);
 }
 
 void tst_analyse::statisticSinkIsThePyramid()
@@ -301,7 +301,7 @@ void tst_analyse::cancels()
     stop.request_stop();
     RunContext context;
     context.stop = stop.get_token();
-    QVERIFY_EXCEPTION_THROWN(analyse(recording(), settings(), context), Cancelled);
+    QVERIFY_EXCEPTION_THROWN(analyse(recording(), settings(), {}, context), Cancelled);
 }
 
 void tst_analyse::readyMadeFrames()
@@ -314,7 +314,7 @@ void tst_analyse::readyMadeFrames()
         y[i] = float(random.exponential()) + (i / 40 >= 50 && i / 40 < 150 && i % 40 == 12 ? 8.0f : 0.0f);
     const auto frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 2.0, 200, false}, grid, std::move(y));
     AnalysisSettings s;
-    const auto analysis = analyse(frames, makeModel(s.model, grid), s);
+    const auto analysis = analyse(frames, s, {.model = makeModel(s.model, grid)});
     QCOMPARE(analysis->tracks.size(), std::size_t(1));
     const Event event = events(*analysis).front();
     QVERIFY(std::abs(event.position[0] - 220.0) <= 10.0);

@@ -45,8 +45,8 @@ void tst_causalAlarms::startsAreLikeTheRest()
         settings.noise.causal = true;
         settings.spectrogram.windowSeconds = 0.25;
         settings.decide.falseAlarmsPerHour = perHour;
-        const auto analysis = analyse(std::make_shared<SimulatedRecording>(scene), settings, {}, nullptr,
-                                      {.depth = AnalysisDepth::Tracks});
+        const auto analysis =
+            analyse(std::make_shared<SimulatedRecording>(scene), settings, {.depth = AnalysisDepth::Tracks});
         for (const Track &track : analysis->tracks) {
             const double seconds = analysis->time().value(double(track.detectFrame));
             ++minutes[std::min<std::size_t>(2, std::size_t(seconds / 60.0))];

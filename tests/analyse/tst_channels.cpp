@@ -71,7 +71,7 @@ std::vector<float> frameOf(const Analysis &analysis, Index frame)
 
 std::shared_ptr<const Analysis> quick(const RecordingPointer &recording, const AnalysisSettings &settings)
 {
-    return analyse(recording, settings, {}, nullptr,
+    return analyse(recording, settings,
                    {.calibration = CalibrationDepth::FirstEstimate, .depth = AnalysisDepth::Tracks});
 }
 

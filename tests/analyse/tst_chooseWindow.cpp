@@ -1,3 +1,4 @@
+#include "analyse/analyse.h"
 #include "analyse/chooseWindow.h"
 #include "scene/SimulatedRecording.h"
 #include "support/lines.h"
@@ -22,7 +23,7 @@ LineScene constants()
 std::shared_ptr<const Analysis> analysed(const LineScene &lines, const AnalysisSettings &settings = {},
                                          const Analysis *previous = nullptr)
 {
-    return analyseInChosenWindow(std::make_shared<SimulatedRecording>(lines), settings, {}, previous);
+    return analyse(std::make_shared<SimulatedRecording>(lines), settings, {}, previous);
 }
 
 double windowOf(const Analysis &analysis)
@@ -99,7 +100,7 @@ void tst_chooseWindow::onNoiseTheAutomaticOneStays()
     AnalysisSettings settings;
     settings.decide.falseAlarmsPerHour = 600.0; // false alarms there are, but none that is sure
     const auto recording = std::make_shared<SimulatedRecording>(scene(2000.0, 60.0, 3));
-    const auto chosen = analyseInChosenWindow(recording, settings);
+    const auto chosen = analyse(recording, settings);
     const auto plain = analyse(recording, settings);
     QCOMPARE(chosen->choice->chosen, chosen->choice->automatic);
     QVERIFY(chosen->settings == settings);
@@ -155,10 +156,10 @@ void tst_chooseWindow::noWindowSuitsNoise()
 void tst_chooseWindow::aChangeOfTheThresholdKeepsIt()
 {
     const auto recording = std::make_shared<SimulatedRecording>(sweeps());
-    const auto first = analyseInChosenWindow(recording, {});
+    const auto first = analyse(recording, {});
     AnalysisSettings settings;
     settings.decide.falseAlarmsPerHour = 10.0;
-    const auto second = analyseInChosenWindow(recording, settings, {}, first.get());
+    const auto second = analyse(recording, settings, {}, first.get());
     QCOMPARE(windowOf(*second), windowOf(*first));
     QVERIFY(second->frames == first->frames); // nothing was tried again
     QCOMPARE(second->settings.decide.falseAlarmsPerHour, 10.0);

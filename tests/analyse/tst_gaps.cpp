@@ -1,4 +1,4 @@
-#include "analyse/chooseWindow.h"
+#include "analyse/analyse.h"
 #include "analyse/events.h"
 #include "base/Random.h"
 #include "frames/observed.h"
@@ -78,7 +78,7 @@ AnalysisSettings twoSeconds()
 
 std::shared_ptr<const Analysis> analysed(const RecordingPointer &recording)
 {
-    return analyseInChosenWindow(recording, twoSeconds());
+    return analyse(recording, twoSeconds());
 }
 
 } // namespace

@@ -68,8 +68,8 @@ private slots:
             return StatisticSink(
                 [&all](Index, std::span<const float> block) { all.insert(all.end(), block.begin(), block.end()); });
         };
-        const auto masked = analyse(framesOf(values(unobservedValue)), settings(), {}, nullptr, sinkInto(shown));
-        const auto plain = analyse(framesOf(values(neutral)), settings(), {}, nullptr, sinkInto(expected));
+        const auto masked = analyse(framesOf(values(unobservedValue)), settings(), {.statistic = sinkInto(shown)});
+        const auto plain = analyse(framesOf(values(neutral)), settings(), {.statistic = sinkInto(expected)});
         QCOMPARE(shown.size(), expected.size());
         for (std::size_t i = 0; i < shown.size(); ++i)
             QVERIFY2(std::abs(shown[i] - expected[i]) < 1e-3f,

@@ -1,6 +1,7 @@
-#include "analyse/analyse.h"
+#include "analyse/events.h"
 #include "base/Random.h"
 #include "calibrate/calibrate.h"
+#include "plan/Analysis.h"
 #include "plan/chain.h"
 #include "support/test.h"
 

@@ -1,4 +1,3 @@
-#include "analyse/chooseWindow.h"
 #include "app/openWindow.h"
 #include "app/panels/PipelinePanel.h"
 #include "support/test.h"

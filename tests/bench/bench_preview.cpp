@@ -52,7 +52,7 @@ void analysisCalibratedBefore(benchmark::State &state)
 {
     calibrate(changed());
     for ([[maybe_unused]] auto turn : state)
-        benchmark::DoNotOptimize(analyse(before().recording, changed(), {}, &before())->threshold);
+        benchmark::DoNotOptimize(analyse(before().recording, changed(), {.previous = &before()})->threshold);
 }
 
 void calibrationOnly(benchmark::State &state)

@@ -51,8 +51,8 @@ void tst_firstEstimate::nothingElseDiffers()
     settings.spectrogram.windowSeconds = 0.5;
     settings.decide.by = DecideSettings::By::PfaPerCell;
     settings.decide.pfaPerCell = 1e-3;
-    const auto first = analyse(recording, settings, {}, nullptr, {.calibration = CalibrationDepth::FirstEstimate});
-    const auto refined = analyse(recording, settings, {}, first.get());
+    const auto first = analyse(recording, settings, {.calibration = CalibrationDepth::FirstEstimate});
+    const auto refined = analyse(recording, settings, {.previous = first.get()});
     const auto alone = analyse(recording, settings);
     QVERIFY(first->calibration->isFirstEstimate && !refined->calibration->isFirstEstimate);
     QCOMPARE(first->calibration->lnK, alone->calibration->lnK);

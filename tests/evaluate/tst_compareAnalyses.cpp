@@ -280,7 +280,7 @@ private slots:
         settings.spectrogram.windowSeconds = 0.25;
         const auto a = analyse(recording, settings);
         settings.detector = EnergySettings{};
-        const auto b = analyse(recording, settings, {}, a.get());
+        const auto b = analyse(recording, settings, {.previous = a.get()});
         const Comparison comparison = compareAnalyses(*a, *b);
         QVERIFY(comparison.count(In::A) >= 1);
         QCOMPARE(comparison.count(In::A), std::ssize(comparison.events));

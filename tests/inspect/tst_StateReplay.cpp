@@ -56,11 +56,12 @@ const Run &run()
         Run made;
         const auto frames = std::make_shared<SimulatedPings>(scene());
         const auto cells = std::size_t(frames->grid().size());
-        made.analysis = analyse(frames, settings(), {}, nullptr, [&](Index, std::span<const float> values) {
+        const StatisticSink keep = [&](Index, std::span<const float> values) {
             for (std::size_t i = 0; i < values.size(); i += cells)
                 made.statistic.emplace_back(values.begin() + std::ptrdiff_t(i),
                                             values.begin() + std::ptrdiff_t(i + cells));
-        });
+        };
+        made.analysis = analyse(frames, settings(), {.statistic = keep});
         return made;
     }();
     return result;

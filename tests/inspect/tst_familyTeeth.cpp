@@ -46,7 +46,7 @@ AnalysisSettings settingsOf(const FamilySettings &family)
 /// How the threshold is found does not matter here.
 std::shared_ptr<const Analysis> analysed(const RecordingPointer &recording, const FamilySettings &family)
 {
-    return analyse(recording, settingsOf(family), {}, nullptr,
+    return analyse(recording, settingsOf(family),
                    {.calibration = CalibrationDepth::FirstEstimate, .depth = AnalysisDepth::Tracks});
 }
 

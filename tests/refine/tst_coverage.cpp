@@ -57,7 +57,7 @@ std::shared_ptr<const Analysis> tracksOf(const LineScene &scene, const AnalysisS
 {
     AnalysisRequest request;
     request.depth = AnalysisDepth::Tracks;
-    return analyse(std::make_shared<SimulatedRecording>(scene), settings, {}, nullptr, request);
+    return analyse(std::make_shared<SimulatedRecording>(scene), settings, request);
 }
 
 double quantile(std::vector<double> values, double share)

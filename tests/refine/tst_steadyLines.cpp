@@ -1,7 +1,7 @@
 #include "refine/steadyLines.h"
 #include "support/test.h"
 
-#include "analyse/chooseWindow.h"
+#include "analyse/analyse.h"
 #include "analyse/events.h"
 #include "scene/SimulatedRecording.h"
 #include "support/lines.h"
@@ -28,7 +28,7 @@ LineScene sweepsBesideAFaintLine(double faintDb)
 std::shared_ptr<const Analysis> analysed(const LineScene &scene, const AnalysisSettings &settings = {},
                                          const Analysis *previous = nullptr)
 {
-    return analyseInChosenWindow(std::make_shared<SimulatedRecording>(scene), settings, {}, previous);
+    return analyse(std::make_shared<SimulatedRecording>(scene), settings, {}, previous);
 }
 
 struct Analyses {
@@ -180,10 +180,10 @@ void tst_steadyLines::aChangeOfTheThresholdAsksAgain()
 {
     const LineScene scene = sweepsBesideAFaintLine(-4.0);
     const auto recording = std::make_shared<SimulatedRecording>(scene);
-    const auto first = analyseInChosenWindow(recording, {});
+    const auto first = analyse(recording, {});
     AnalysisSettings settings;
     settings.decide.falseAlarmsPerHour = 10.0;
-    const auto second = analyseInChosenWindow(recording, settings, {}, first.get());
+    const auto second = analyse(recording, settings, {}, first.get());
     QVERIFY(second->longer->frames == first->longer->frames);
     QCOMPARE(ofLongerWindow(*second).size(), std::size_t(1));
     const Event event = ofLongerWindow(*second).front();

@@ -1,5 +1,4 @@
 #include "analyse/analyse.h"
-#include "analyse/chooseWindow.h"
 #include "analyse/events.h"
 #include "base/Error.h"
 #include "exchange/writeEvents.h"
@@ -196,9 +195,9 @@ void tst_subtractLines::offIsAsBefore()
     const auto recording =
         recordingOf({strongLine(91.3), test::line(99.3, 0.0, 0.0, 0.0, 3.0, windowSeconds)}, 1, false);
     const auto first = analyse(recording, settingsWith(false));
-    const auto on = analyse(recording, settingsWith(true), {}, first.get());
-    const auto off = analyse(recording, settingsWith(false), {}, on.get());
-    const auto again = analyse(recording, settingsWith(true), {}, off.get());
+    const auto on = analyse(recording, settingsWith(true), {.previous = first.get()});
+    const auto off = analyse(recording, settingsWith(false), {.previous = on.get()});
+    const auto again = analyse(recording, settingsWith(true), {.previous = off.get()});
     QCOMPARE(eventsCsv(*off, events(*off)), eventsCsv(*first, events(*first)));
     QVERIFY(off->statisticCounts == first->statisticCounts);
     QCOMPARE(eventsCsv(*again, events(*again)), eventsCsv(*on, events(*on)));
@@ -231,7 +230,7 @@ void tst_subtractLines::inTheChosenWindowToo()
     settings.spectrogram.windowSeconds = 0.0;
     const LineSettings strong = strongLine(91.3);
     const auto recording = recordingOf({strong}, 3, false);
-    const auto analysis = analyseInChosenWindow(recording, settings);
+    const auto analysis = analyse(recording, settings);
     QVERIFY(analysis->choice && analysis->unsubtracted);
     const auto strongest =
         std::max_element(analysis->tracks.begin(), analysis->tracks.end(),

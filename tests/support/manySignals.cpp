@@ -305,7 +305,7 @@ std::shared_ptr<const Analysis> analysisOf(const SignalScene &scene, int seed, A
     if (scene.isFast)
         settings.model = laws::glide();
     settings.spectrogram.windowSeconds = scene.windowSeconds;
-    return analyse(recordingOf(scene, seed), settings, {}, nullptr, {.depth = AnalysisDepth::Tracks});
+    return analyse(recordingOf(scene, seed), settings, {.depth = AnalysisDepth::Tracks});
 }
 
 SignalScore SceneScore::worst() const

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "analyse/analyse.h"
+#include "analyse/events.h"
 #include "frames/PeakPyramid.h"
+#include "plan/Analysis.h"
 #include "widgets/base/Viewport.h"
 
 #include <functional>

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "analyse/analyse.h"
+#include "analyse/events.h"
 #include "base/FramePlane.h"
+#include "plan/Analysis.h"
 #include "scene/PingTruth.h"
 #include "scene/Truth.h"
 #include "widgets/base/Span.h"

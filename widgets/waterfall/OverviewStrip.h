@@ -1,8 +1,9 @@
 #pragma once
 
-#include "analyse/analyse.h"
+#include "analyse/events.h"
 #include "base/Axis.h"
 #include "frames/PeakPyramid.h"
+#include "plan/Analysis.h"
 #include "widgets/base/Viewport.h"
 #include "widgets/plot/ColourMap.h"
 

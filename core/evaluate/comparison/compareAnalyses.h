@@ -1,6 +1,7 @@
 #pragma once
 
-#include "analyse/analyse.h"
+#include "analyse/events.h"
+#include "plan/Analysis.h"
 
 #include <optional>
 #include <vector>

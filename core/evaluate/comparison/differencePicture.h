@@ -1,7 +1,8 @@
 #pragma once
 
-#include "analyse/analyse.h"
+#include "base/RunContext.h"
 #include "frames/PeakPyramid.h"
+#include "plan/Analysis.h"
 
 #include <memory>
 

@@ -216,7 +216,7 @@ std::vector<RunOutcome> SweepTrials::run(const std::vector<int> &runs, const Run
             const Made made = remake(run);
             RunContext quiet;
             quiet.stop = context.stop;
-            outcome = scored(run, *analyse(made.recording, made.settings, quiet), made.truth);
+            outcome = scored(run, *analyse(made.recording, made.settings, {}, quiet), made.truth);
             if (sink) {
                 const std::lock_guard lock(guard);
                 sink(outcome);
@@ -234,7 +234,7 @@ std::vector<double> SweepTrials::costs(const RunContext &context) const
     for (std::size_t i = 0; i < m_experiment.values.size(); ++i) {
         context.checkpoint(double(i) / double(m_experiment.values.size()), "measuring the cost");
         const Made made = remake(int(i));
-        seconds.push_back(measureCost(*analyse(made.recording, made.settings, quiet), quiet));
+        seconds.push_back(measureCost(*analyse(made.recording, made.settings, {}, quiet), quiet));
     }
     return seconds;
 }

@@ -52,9 +52,9 @@ namespace {
         truth.stepSeconds = time.step;
         for (const Index bin : trial.path)
             truth.frequencyHz.push_back(frequency.value(double(bin)));
-        return {
-            analyse(trial.frames, makeModel(settings.model, trial.frames->grid()), settings, context.part(0.4, 1.0)),
-            {{truth}}};
+        return {analyse(trial.frames, settings, {.model = makeModel(settings.model, trial.frames->grid())},
+                        context.part(0.4, 1.0)),
+                {{truth}}};
     }
 
     ShownTrial showInjected(const Campaign &campaign, const InjectionTrials &trials, const CampaignPoint &point,
@@ -64,7 +64,7 @@ namespace {
         AnalysisSettings settings = settingsOf(injection, point.detector);
         setThreshold(settings, shownThreshold(campaign, point.detector));
         const InjectionTrials::Made made = trials.remake(place.run, injection.snrDb[point.snr]);
-        return {analyse(made.recording, settings, context), {{made.truth}}};
+        return {analyse(made.recording, settings, {}, context), {{made.truth}}};
     }
 
 } // namespace

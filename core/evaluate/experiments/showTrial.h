@@ -1,8 +1,9 @@
 #pragma once
 
-#include "analyse/analyse.h"
+#include "base/RunContext.h"
 #include "evaluate/experiments/Campaign.h"
 #include "evaluate/experiments/InjectionTrials.h"
+#include "plan/Analysis.h"
 #include "scene/Truth.h"
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 #include "exchange/survey/carryOutSurvey.h"
 
-#include "analyse/chooseWindow.h"
+#include "analyse/analyse.h"
 #include "base/Error.h"
 #include "base/RunContext.h"
 #include "base/files/fileName.h"
@@ -61,8 +61,8 @@ namespace {
         return {path};
     }
 
-    std::shared_ptr<const Analysis> analyseFrames(const SurveySettings &settings, SurveyRecording &described,
-                                                  const RunContext &context)
+    NormalisedFramesPointer openPowerOf(const SurveySettings &settings, SurveyRecording &described,
+                                        const RunContext &context)
     {
         const std::string &path = described.file.path;
         if (const auto power = openPower(path)) {
@@ -74,16 +74,12 @@ namespace {
             throw Error(path, "contains frames with several axes; a survey requires recordings, or frames with a "
                               "frequency axis only");
         described.durationSeconds = double(frames->time().count) * frames->time().step;
-        return analyse(frames, withSlopesInBins(settings.analysis, *frames), context);
+        return frames;
     }
 
-    std::shared_ptr<const Analysis> analyseFile(const SurveySettings &settings, SurveyRecording &described,
-                                                const RunContext &context)
+    RecordingPointer openSamplesOf(const SurveySettings &settings, SurveyRecording &described)
     {
-        const std::string &path = described.file.path;
-        if (settings.open.rawType.empty() && holdsFrames(path))
-            return analyseFrames(settings, described, context);
-        const RecordingPointer recording = openRecording(path, settings.open);
+        const RecordingPointer recording = openRecording(described.file.path, settings.open);
         const RecordingInfo &info = recording->info();
         described.container = info.container;
         described.sampleRateHz = info.sampleRateHz;
@@ -91,8 +87,20 @@ namespace {
         if (info.isCentreKnown())
             described.centreHz = info.centreHz;
         described.startUnixSeconds = info.startUnixSeconds;
-        return analyseInChosenWindow(recording, withSlopesInBins(withFittedOrder(settings.analysis, info), info),
-                                     context, nullptr, {.depth = AnalysisDepth::Tracks});
+        return recording;
+    }
+
+    std::shared_ptr<const Analysis> analyseFile(const SurveySettings &settings, SurveyRecording &described,
+                                                const RunContext &context)
+    {
+        OpenedSource opened;
+        if (settings.open.rawType.empty() && holdsFrames(described.file.path))
+            opened.frames = openPowerOf(settings, described, context);
+        else
+            opened.recording = openSamplesOf(settings, described);
+        const AnalysisSettings fitted =
+            opened.recording ? withFittedOrder(settings.analysis, opened.recording->info()) : settings.analysis;
+        return analyse(opened, fitted, {.depth = AnalysisDepth::Tracks}, context);
     }
 
     void describe(const Analysis &analysis, SurveyRecording &described)

@@ -54,7 +54,7 @@ std::shared_ptr<const Analysis> inLibrary(const std::string &path, std::vector<f
     const StatisticSink sink = [&](Index, std::span<const float> values) {
         statistic.insert(statistic.end(), values.begin(), values.end());
     };
-    return analyse(openRecording(path), own, {}, nullptr, {.statistic = sink});
+    return analyse(openRecording(path), own, {.statistic = sink});
 }
 
 /// A WAV file of float samples, its header by hand, so that it may lie.
