@@ -30,9 +30,8 @@ std::vector<Advice> advise(const Analysis &analysis, const RunContext &context)
     if (std::optional<Advice> silence = adviceOnSilence(analysis, context))
         return {*silence};
     std::vector<Advice> all;
-    for (std::optional<Advice> one :
-         {adviceOnConstantCells(analysis, context), adviceOnChannels(analysis, context), adviceOnStopBands(analysis),
-          adviceOnSlopes(analysis), adviceOnCloseLines(analysis)})
+    for (std::optional<Advice> one : {adviceOnConstantCells(analysis, context), adviceOnChannels(analysis, context),
+                                      adviceOnSlopes(analysis), adviceOnCloseLines(analysis)})
         if (one)
             all.push_back(std::move(*one));
     return all;

@@ -113,7 +113,7 @@ namespace {
         void add(std::span<const float> y, std::span<const float> statistic, const Smd &detector)
         {
             for (std::size_t cell = 0; cell < statistic.size(); ++cell)
-                if (statistic[cell] > m_loudest || std::isnan(y[cell])) // or excluded
+                if (statistic[cell] > m_loudest)
                     m_isLoud[m_columns[cell]] = true;
             m_likelihood.apply(y, m_lambda);
             const std::span<const float> scores = detector.scores();
@@ -220,7 +220,7 @@ namespace {
             for (Index frame = first; frame < end; ++frame) {
                 context.checkpoint(double(frame - first) / double(end - first), checking);
                 m_frames.read(frame, 1, m_y);
-                if (std::ranges::all_of(m_y, [](float y) { return std::isnan(y); })) // a gap
+                if (std::isnan(m_y.front())) // a gap, in which all cells are unknown
                     continue;
                 putNoiseOver(points, frame);
                 detector.update(m_y, m_statistic);

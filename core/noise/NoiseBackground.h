@@ -38,13 +38,6 @@ struct NormaliserSettings {
     bool operator==(const NormaliserSettings &) const = default;
 };
 
-/// A band at an end of the spectrum that holds what a filter left of the noise beside it, Hz (stopBands.h).
-struct StopBand {
-    double lowHz = 0.0;
-    double highHz = 0.0;
-    double depthDb = 0.0; ///< below the noise beside it
-};
-
 /// The coarse background of a recording: mean noise power per time block and resolution cell.
 ///
 /// Per block and cell, takes the median over the block's non-overlapping frames and removes its bias for exponential
@@ -73,9 +66,8 @@ struct NoiseBackground {
     std::vector<float> lnLevel; ///< levelTime.count × bandCount values, to be added to lnPower
     /// In ascending time: stretches where several alternating noises replace lnPower.
     std::vector<NoiseStretch> stretches{};
-    Axis bins{};                       ///< frames of the detector, Hz
-    std::vector<float> lnAtEdges;      ///< correction of each bin after interpolation; empty: none
-    std::vector<StopBand> stopBands{}; ///< without noise of their own: excluded, unless the background is causal
+    Axis bins{};                  ///< frames of the detector, Hz
+    std::vector<float> lnAtEdges; ///< correction of each bin after interpolation; empty: none
 
     /// ln power that denotes "nothing was recorded".
     static constexpr float silence = -200.0f;

@@ -4,7 +4,6 @@
 #include "noise/FrameNormaliser.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace faintline {
@@ -17,20 +16,6 @@ NormalisedSpectrogram::NormalisedSpectrogram(std::shared_ptr<const Spectrogram> 
 {
 }
 
-namespace {
-
-    /// Leaves the bins of a stop band out of a frame.
-    void blank(const StopBand &band, const Axis &frequency, std::span<float> values)
-    {
-        const auto binAt = [&](double hz) {
-            return std::clamp<Index>(Index(std::ceil(frequency.position(hz))), 0, frequency.count);
-        };
-        const auto begin = values.begin();
-        std::fill(begin + binAt(band.lowHz), begin + binAt(band.highHz), std::numeric_limits<float>::quiet_NaN());
-    }
-
-} // namespace
-
 void NormalisedSpectrogram::read(Index first, Index count, std::span<float> out) const
 {
     m_spectrogram->read(first, count, out);
@@ -38,13 +23,10 @@ void NormalisedSpectrogram::read(Index first, Index count, std::span<float> out)
     FrameNormaliser normaliser(*m_spectrogram, m_settings.followLevel);
     for (Index i = 0; i < count; ++i) {
         const std::span<float> values = out.subspan(std::size_t(i) * cells, cells);
-        if (isObserved(*m_spectrogram, first + i)) {
+        if (isObserved(*m_spectrogram, first + i))
             normaliser.normalise(values, *m_background, time().value(double(first + i)));
-            for (const StopBand &band : m_background->stopBands)
-                blank(band, grid().axes.front(), values);
-        } else {
+        else
             std::fill(values.begin(), values.end(), std::numeric_limits<float>::quiet_NaN());
-        }
     }
 }
 

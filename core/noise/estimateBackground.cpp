@@ -7,7 +7,6 @@
 #include "noise/blockBackground.h"
 #include "noise/coarseFrames.h"
 #include "noise/edgeCorrection.h"
-#include "noise/stopBands.h"
 #include "noise/unevenness.h"
 
 #include <algorithm>
@@ -234,7 +233,6 @@ namespace {
             if (!m_isSketch) {
                 m_background->bins = m_spectrogram.frequency();
                 m_background->lnAtEdges = edgeCorrection(m_spectrogram, *m_background);
-                m_background->stopBands = findStopBands(m_frames, *m_background);
             }
         }
 

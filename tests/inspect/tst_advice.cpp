@@ -81,23 +81,6 @@ private slots:
         QVERIFY(!adviceOnSlopes(*inWindow(noiseWith({line(50.0, 0.0, 0.0)}), 0.25)));
     }
 
-    void stopBandsAreNamed()
-    {
-        NoiseBackground background;
-        background.frequency = {"frequency", "Hz", 0.0, 2.0, 251, false};
-        background.stopBands = {{-1.0, 21.0, 41.5}, {451.0, 501.0, 30.9}};
-        Analysis analysis;
-        QVERIFY(!adviceOnStopBands(analysis));
-        analysis.background = std::make_shared<const NoiseBackground>(background);
-        const auto advice = adviceOnStopBands(analysis);
-        QVERIFY(advice && advice->remedy.empty());
-        QVERIFY2(advice->sentence.starts_with("no signal is looked for in 0 … 21 Hz and in 451 … 500 Hz: the noise "
-                                              "there is 30 dB or more below"),
-                 advice->sentence.c_str());
-        analysis.settings.noise.causal = true; // whose frames hold all of it
-        QVERIFY(!adviceOnStopBands(analysis));
-    }
-
     void linesTooClose()
     {
         // A cell is 2 Hz.
