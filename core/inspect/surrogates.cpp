@@ -3,6 +3,7 @@
 #include "analyse/analyse.h"
 #include "base/Error.h"
 #include "base/Interval.h"
+#include "calibrate/calibrate.h"
 #include "noise/NoiseNormaliser.h"
 #include "noise/SurrogateRecording.h"
 

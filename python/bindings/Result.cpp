@@ -1,4 +1,5 @@
 #include "bindings/Result.h"
+#include "analyse/analyse.h"
 
 #include <algorithm>
 

@@ -1,5 +1,6 @@
 #include "analyse/analyse.h"
 #include "base/Random.h"
+#include "calibrate/calibrate.h"
 #include "inspect/explain.h"
 #include "scene/SimulatedRecording.h"
 #include "support/recordings.h"

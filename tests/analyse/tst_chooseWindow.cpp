@@ -23,7 +23,7 @@ LineScene constants()
 std::shared_ptr<const Analysis> analysed(const LineScene &lines, const AnalysisSettings &settings = {},
                                          const Analysis *previous = nullptr)
 {
-    return analyse(std::make_shared<SimulatedRecording>(lines), settings, {}, previous);
+    return analyse(std::make_shared<SimulatedRecording>(lines), settings, {.previous = previous});
 }
 
 double windowOf(const Analysis &analysis)
@@ -159,7 +159,7 @@ void tst_chooseWindow::aChangeOfTheThresholdKeepsIt()
     const auto first = analyse(recording, {});
     AnalysisSettings settings;
     settings.decide.falseAlarmsPerHour = 10.0;
-    const auto second = analyse(recording, settings, {}, first.get());
+    const auto second = analyse(recording, settings, {.previous = first.get()});
     QCOMPARE(windowOf(*second), windowOf(*first));
     QVERIFY(second->frames == first->frames); // nothing was tried again
     QCOMPARE(second->settings.decide.falseAlarmsPerHour, 10.0);

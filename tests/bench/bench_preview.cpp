@@ -1,6 +1,8 @@
 // A changed detector: what is seen at once, beside the whole analysis that follows. 2000 cells × 1000 frames, one
 // thread.
 
+#include "analyse/analyse.h"
+#include "calibrate/calibrate.h"
 #include "inspect/previewStatistic.h"
 #include "scene/SimulatedRecording.h"
 

@@ -1,5 +1,6 @@
 #include "analyse/analyse.h"
 #include "calibrate/CalibrationRequest.h"
+#include "calibrate/calibrate.h"
 #include "scene/SimulatedRecording.h"
 #include "support/test.h"
 

@@ -1,3 +1,4 @@
+#include "analyse/analyse.h"
 #include "evaluate/comparison/compareAnalyses.h"
 #include "evaluate/comparison/differencePicture.h"
 #include "evaluate/comparison/settingDifferences.h"

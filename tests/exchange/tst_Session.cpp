@@ -1,3 +1,4 @@
+#include "analyse/analyse.h"
 #include "exchange/Session.h"
 #include "support/test.h"
 

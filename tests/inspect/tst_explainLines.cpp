@@ -1,3 +1,4 @@
+#include "analyse/analyse.h"
 #include "base/Random.h"
 #include "inspect/StateReplay.h"
 #include "inspect/explain.h"

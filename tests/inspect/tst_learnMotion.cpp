@@ -1,3 +1,4 @@
+#include "analyse/analyse.h"
 #include "base/Error.h"
 #include "inspect/learnMotion.h"
 #include "scene/SimulatedRecording.h"

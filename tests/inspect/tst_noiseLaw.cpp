@@ -1,3 +1,4 @@
+#include "analyse/analyse.h"
 #include "inspect/noiseLaw.h"
 #include "scene/SimulatedRecording.h"
 #include "support/test.h"

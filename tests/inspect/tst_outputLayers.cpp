@@ -1,3 +1,4 @@
+#include "analyse/analyse.h"
 #include "inspect/outputLayers.h"
 #include "support/test.h"
 

@@ -1,5 +1,6 @@
 // Evidence along a path somebody names: sums one can check by hand, and the detector's own path.
 
+#include "analyse/analyse.h"
 #include "base/Error.h"
 #include "inspect/explain.h"
 #include "inspect/pathEvidence.h"

@@ -1,3 +1,4 @@
+#include "analyse/analyse.h"
 #include "calibrate/fitReset.h"
 #include "detect/ModelBank.h"
 #include "inspect/previewStatistic.h"

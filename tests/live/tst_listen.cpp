@@ -2,6 +2,7 @@
 #include "support/test.h"
 
 #include "analyse/analyse.h"
+#include "calibrate/calibrate.h"
 #include "exchange/writeEvents.h"
 #include "live/eventLines.h"
 #include "scene/SimulatedRecording.h"

@@ -28,7 +28,7 @@ LineScene sweepsBesideAFaintLine(double faintDb)
 std::shared_ptr<const Analysis> analysed(const LineScene &scene, const AnalysisSettings &settings = {},
                                          const Analysis *previous = nullptr)
 {
-    return analyse(std::make_shared<SimulatedRecording>(scene), settings, {}, previous);
+    return analyse(std::make_shared<SimulatedRecording>(scene), settings, {.previous = previous});
 }
 
 struct Analyses {
@@ -183,7 +183,7 @@ void tst_steadyLines::aChangeOfTheThresholdAsksAgain()
     const auto first = analyse(recording, {});
     AnalysisSettings settings;
     settings.decide.falseAlarmsPerHour = 10.0;
-    const auto second = analyse(recording, settings, {}, first.get());
+    const auto second = analyse(recording, settings, {.previous = first.get()});
     QVERIFY(second->longer->frames == first->longer->frames);
     QCOMPARE(ofLongerWindow(*second).size(), std::size_t(1));
     const Event event = ofLongerWindow(*second).front();

@@ -1,5 +1,6 @@
 #include "evaluate/experiments/showTrial.h"
 
+#include "analyse/analyse.h"
 #include "evaluate/experiments/campaignCharts.h"
 #include "evaluate/experiments/lineRuns.h"
 

@@ -1,3 +1,4 @@
+#include "analyse/analyse.h"
 #include "app/cli/CommandLineTest.h"
 #include "support/test.h"
 
