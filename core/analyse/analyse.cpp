@@ -18,7 +18,8 @@ std::shared_ptr<const Analysis> analyse(const OpenedSource &source, const Analys
                                                : runOnRecording(source.recording, inBins, request, context);
     }
     const NormalisedFramesPointer frames = source.framesFor(settings, context.part(0.0, 0.2));
-    return runOnFrames(frames, withSlopesInBins(settings, *frames), request,
+    const bool isOverFrequency = frames->grid().isSpectrum() && frames->grid().axes.back().unit == "Hz";
+    return runOnFrames(frames, isOverFrequency ? withSlopesInBins(settings, *frames) : settings, request,
                        frames == source.frames ? context : context.part(0.2, 1.0));
 }
 

@@ -204,7 +204,7 @@ MarkovModel makeModel(const ModelSettings &settings, const Grid &grid)
         return sonarModel(grid, settings.motion == Motion::Manoeuvring ? turning(settings) : nonManoeuvring());
     if (settings.slopeUnit != SlopeUnit::BinsPerFrame)
         throw fieldError("model.slopeUnit", "hzPerSecond",
-                         "needs a recording; for frames and pings, give the slopes in binsPerFrame");
+                         "needs a recording, or frames over frequency; for pings, give the slopes in binsPerFrame");
     std::vector<KinematicAxis> axes;
     for (const Axis &axis : grid.axes)
         axes.push_back({axis.name,

@@ -41,7 +41,7 @@ private slots:
     void slopesAreTakenOutwards();
     void thereAndBackIsTheSame();
     void followsTheAutomaticWindow();
-    void framesAndPingsRefuse();
+    void onlyFramesOverFrequencyHaveThem();
     void tooSteepIsRefused();
 };
 
@@ -118,13 +118,21 @@ void tst_slopeUnit::followsTheAutomaticWindow()
     QCOMPARE(inBins.model.highestSlope, 0.5);
 }
 
-void tst_slopeUnit::framesAndPingsRefuse()
+void tst_slopeUnit::onlyFramesOverFrequencyHaveThem()
 {
     const AnalysisSettings settings = inHertz(-1.0, 1.0);
     checkSettings(settings);
     const auto frames = test::framesOf(20, std::vector<float>(40, 1.0f));
-    const std::string said = test::errorOf([&] { analyse(frames, settings); });
-    QVERIFY2(said.starts_with("model.slopeUnit = hzPerSecond: needs a recording"), said.c_str());
+    const Axis &axis = frames->grid().axes.front();
+    const double slope = axis.step / frames->time().step; // a bin a frame
+    const auto analysis = analyse(frames, inHertz(-slope, slope));
+    QCOMPARE(analysis->settings.model.lowestSlope, -1.0);
+    QCOMPARE(analysis->settings.model.highestSlope, 1.0);
+    const Grid range{{{"range", "m", 0.0, 1.0, 20, false}}};
+    const auto pings = std::make_shared<FrameArray>(frames->time(), range, std::vector<float>(40, 1.0f));
+    const std::string said = test::errorOf([&] { analyse(pings, settings); });
+    QVERIFY2(said.starts_with("model.slopeUnit = hzPerSecond: needs a recording, or frames over frequency"),
+             said.c_str());
 }
 
 void tst_slopeUnit::tooSteepIsRefused()
