@@ -69,8 +69,8 @@ struct AnalysisOptions {
     AnalysisSettings settings() const;
     RecordingPointer recording() const;
     /// The recording, or the frames of a file that is none: simulated pings, a stack (FILE.npy), power over time and
-    /// frequency. Converts slopes in the settings to bins per frame.
-    OpenedSource opened(AnalysisSettings &settings, const RunContext &context) const;
+    /// frequency, normalised as the settings ask.
+    OpenedSource opened(const AnalysisSettings &settings, const RunContext &context) const;
     std::vector<std::string> inputs() const; ///< all input files; a SigMF recording has two
 
 private:

@@ -8,7 +8,6 @@
 #include "noise/pings/NormalisedPings.h"
 #include "plan/firstSettings.h"
 #include "plan/slopeUnit.h"
-#include "scene/truthBeside.h"
 #include "signal/Timeline.h"
 #include "signal/openRecording.h"
 
@@ -223,21 +222,14 @@ RecordingPointer AnalysisOptions::recording() const
     return m_recording;
 }
 
-OpenedSource AnalysisOptions::opened(AnalysisSettings &settings, const RunContext &context) const
+OpenedSource AnalysisOptions::opened(const AnalysisSettings &settings, const RunContext &context) const
 {
     const Source from = source();
-    if (from.pings) {
-        const auto pings = pingsOf(from);
-        OpenedSource opened(pings);
-        opened.pingTruth = pings->truth();
-        return opened;
-    }
     if (from.hasSamples() || !more.empty())
         return recording();
-    OpenedSource opened(openFrames(from.path, normalisationBy(settings), context));
-    tellGuess(*opened.frames, from.path, *m_common);
-    opened.pingTruth = pingTruthBeside(from.path, opened.frames->grid());
-    settings = withSlopesInBins(settings, *opened.frames);
+    const OpenedSource opened = openSource(from, normalisationBy(settings), context);
+    if (!from.isSimulated())
+        tellGuess(*opened.frames, from.path, *m_common);
     return opened;
 }
 

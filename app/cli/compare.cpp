@@ -12,7 +12,6 @@
 #include "evaluate/comparison/settingDifferences.h"
 #include "evaluate/experiments/measureCost.h"
 #include "exchange/writeComparison.h"
-#include "plan/slopeUnit.h"
 
 #include <CLI/CLI.hpp>
 
@@ -94,14 +93,12 @@ namespace {
         if (!options.events.empty())
             checkComparisonPath(options.events);
         checkOutputs({options.events, options.difference});
-        AnalysisSettings settingsA = settingsOf(options.common, options.presetA, options.setA);
-        AnalysisSettings settingsB = settingsOf(options.common, options.presetB, options.setB);
+        const AnalysisSettings settingsA = settingsOf(options.common, options.presetA, options.setA);
+        const AnalysisSettings settingsB = settingsOf(options.common, options.presetB, options.setB);
         const RunContext context = common.context();
-        const OpenedSource openedA = options.common.opened(settingsA, context);
-        const bool areAlike = !openedA.frames || settingsA.pings == settingsB.pings;
-        const OpenedSource openedB = areAlike ? openedA : options.common.opened(settingsB, context);
-        const auto a = analyse(openedA, settingsA, {}, context.part(0.0, 0.5));
-        const auto b = analyse(openedB, settingsB, {.previous = a.get()}, context.part(0.5, 1.0));
+        const OpenedSource opened = options.common.opened(settingsA, context);
+        const auto a = analyse(opened, settingsA, {}, context.part(0.0, 0.5));
+        const auto b = analyse(opened, settingsB, {.previous = a.get()}, context.part(0.5, 1.0));
         const Comparison comparison = compareAnalyses(*a, *b, options.tolerance);
         context.checkpoint(1.0, "done");
         RunContext quiet;

@@ -222,6 +222,8 @@ namespace {
     {
         AnalysisSettings settings = input.settings;
         AnalysisRequest request{.depth = AnalysisDepth::Tracks};
+        if (!options.model.empty() && !input.opened.frames)
+            throw Error("--model", "requires ready-made frames; a recording's model is in its settings");
         if (!options.model.empty())
             request.model = modelFor(options.model, *input.opened.frames, settings);
         if (!options.statistic.empty()) {

@@ -48,7 +48,7 @@ namespace {
 
     std::shared_ptr<const Analysis> analysed(const DopplerOptions &options, const RunContext &context)
     {
-        AnalysisSettings settings = options.analysis.settings();
+        const AnalysisSettings settings = options.analysis.settings();
         const OpenedSource opened = options.analysis.opened(settings, context);
         return analyse(opened, settings, {}, context);
     }

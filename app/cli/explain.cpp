@@ -201,7 +201,7 @@ namespace {
     void explainCell(const ExplainOptions &options, const Common &common)
     {
         const RunContext context = common.context();
-        AnalysisSettings settings = options.analysis.settings();
+        const AnalysisSettings settings = options.analysis.settings();
         const OpenedSource opened = options.grid.empty()
                                         ? options.analysis.opened(settings, context)
                                         : openStack(options.analysis.file, options.grid, settings.pings, context);

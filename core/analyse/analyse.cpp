@@ -12,7 +12,7 @@ std::shared_ptr<const Analysis> analyse(const OpenedSource &source, const Analys
 {
     if (!source.frames) {
         if (request.model)
-            throw Error("the model", "requires ready-made frames; a recording's is in its settings");
+            throw Error("model", "requires ready-made frames; a recording's model is in its settings");
         const AnalysisSettings inBins = withSlopesInBins(settings, source.recording->info());
         return leavesWindowToRecording(inBins) ? runInChosenWindow(source.recording, inBins, request, context)
                                                : runOnRecording(source.recording, inBins, request, context);

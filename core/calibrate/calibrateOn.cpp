@@ -31,23 +31,6 @@ namespace {
         Blocks    ///< followed, of a detector that decides at the ends of blocks
     };
 
-    /// Thresholds at which chains are expected to find events at about the wanted rates, from a rough analysis of the
-    /// maxima of space-time blocks: P(max ≤ T) = exp(-Λ e^{-θ(T-u)}), with Λ and θ from two quantiles.
-    std::vector<double> thresholdsForEvents(std::vector<float> maxima, double cellFramesPerBlock, double cellFrames,
-                                            TailShape shape);
-
-    /// Fits ln(rate) = ln(rate at the anchor) - θ(T - anchor) to Poisson counts of events at several thresholds, by
-    /// maximum likelihood.
-    void fitEventRate(std::span<const double> thresholds, std::span<const double> events, double cellFrames,
-                      Calibration &result);
-
-    /// The tail of the chain's events: excursions, ln S(T), give the shape, the counts the height,
-    ///
-    ///   ln rate(T) = ln S(T) + δ(T)
-    ///   δ = ln(events/noise) - ln S at the thresholds, linear between them, constant beyond
-    void anchorTail(const RareRates &rare, std::span<const double> thresholds, const EventCounts &counts,
-                    Calibration &result);
-
     constexpr std::size_t tailMinimumMaxima = 40;
     /// Block maxima above the thresholds at which events are counted, per cell and frame; after clustering and
     /// inhibition a quarter of them are events. A tail from splitting is counted where events crowd each other out, in
@@ -62,6 +45,8 @@ namespace {
     constexpr double tailMinimumExpected = 300.0;
     constexpr double tailMinimumEvents = 20.0;
 
+    /// Thresholds at which chains are expected to find events at about the wanted rates, from a rough analysis of the
+    /// maxima of space-time blocks: P(max ≤ T) = exp(-Λ e^{-θ(T-u)}), with Λ and θ from two quantiles.
     std::vector<double> thresholdsForEvents(std::vector<float> maxima, double cellFramesPerBlock, double cellFrames,
                                             TailShape shape)
     {
@@ -88,6 +73,8 @@ namespace {
         return thresholds;
     }
 
+    /// Fits ln(rate) = ln(rate at the anchor) - θ(T - anchor) to Poisson counts of events at several thresholds, by
+    /// maximum likelihood.
     void fitEventRate(std::span<const double> thresholds, std::span<const double> events, double cellFrames,
                       Calibration &result)
     {
@@ -124,6 +111,10 @@ namespace {
         result.eventRate = total / sum / cellFrames;
     }
 
+    /// The tail of the chain's events: excursions, ln S(T), give the shape, the counts the height,
+    ///
+    ///   ln rate(T) = ln S(T) + δ(T)
+    ///   δ = ln(events/noise) - ln S at the thresholds, linear between them, constant beyond
     void anchorTail(const RareRates &rare, std::span<const double> thresholds, const EventCounts &counts,
                     Calibration &result)
     {

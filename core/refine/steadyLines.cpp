@@ -19,20 +19,6 @@ namespace faintline {
 
 namespace {
 
-    /// Those of `lines`, which stand still, that stand out of their surroundings.
-    ///
-    /// A band of a few cells has a path as good as a line's. So the detector's score of the strongest path within a
-    /// cell of the track, with y divided by the level on its sides (levelOfSides), has to reach
-    /// sureStatistic(analysis), and the weaker side must not have more than a quarter of the path's mean power over the
-    /// noise's (shareOfSides). Cells within a cell of `all` tracks of this analysis do not belong to the sides.
-    ///
-    /// The levels of levelBeside do not decide this: they are those of cells farther away, over fewer frames, and less
-    /// their scatter.
-    ///
-    /// Frames are read again if there are any lines, for 64 MiB of cells around them at a time. Throws Cancelled.
-    std::vector<Track> overSides(const Analysis &analysis, std::vector<Track> lines, std::span<const Track> all,
-                                 const RunContext &context);
-
     constexpr double lineCells = 1.0;                             ///< on either side: the main lobe's upper 6 dB
     constexpr double sideLimitShare = 0.25;                       ///< of a line's power, on its weaker side
     constexpr std::size_t sideStripBytes = std::size_t(64) << 20; ///< read at a time
@@ -106,6 +92,17 @@ namespace {
         std::vector<std::pair<Index, Index>> m_ranges; ///< lowest and highest cell of each track
     };
 
+    /// Those of `lines`, which stand still, that stand out of their surroundings.
+    ///
+    /// A band of a few cells has a path as good as a line's. So the detector's score of the strongest path within a
+    /// cell of the track, with y divided by the level on its sides (levelOfSides), has to reach
+    /// sureStatistic(analysis), and the weaker side must not have more than a quarter of the path's mean power over the
+    /// noise's (shareOfSides). Cells within a cell of `all` tracks of this analysis do not belong to the sides.
+    ///
+    /// The levels of levelBeside do not decide this: they are those of cells farther away, over fewer frames, and less
+    /// their scatter.
+    ///
+    /// Frames are read again if there are any lines, for 64 MiB of cells around them at a time. Throws Cancelled.
     std::vector<Track> overSides(const Analysis &analysis, std::vector<Track> lines, std::span<const Track> all,
                                  const RunContext &context)
     {

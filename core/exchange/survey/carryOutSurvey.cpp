@@ -38,16 +38,6 @@ namespace faintline {
 
 namespace {
 
-    /// Length and date of a recording's file, or of both its files; without the hash. A missing file has length 0.
-    SurveyFile fileOf(const std::string &path, const SurveySettings &settings);
-
-    /// The hash of the file; empty if it cannot be read.
-    std::string hashOf(const SurveyFile &file, const SurveySettings &settings);
-
-    /// Analyses one recording of a survey as `detect` does. If that fails, the outcome contains the reason. Throws only
-    /// Cancelled.
-    SurveyOutcome surveyRecording(const SurveyFile &file, const SurveySettings &settings, const RunContext &context);
-
     std::vector<std::string> filesOf(const std::string &path, const SurveySettings &settings)
     {
         if (settings.open.rawType.empty() && SigmfRecording::isNamedSo(path))
@@ -146,6 +136,7 @@ namespace {
         return outcome;
     }
 
+    /// Length and date of a recording's file, or of both its files; without the hash. A missing file has length 0.
     SurveyFile fileOf(const std::string &path, const SurveySettings &settings)
     {
         SurveyFile file{path, 0, 0, {}};
@@ -160,6 +151,7 @@ namespace {
         return file;
     }
 
+    /// The hash of the file; empty if it cannot be read.
     std::string hashOf(const SurveyFile &file, const SurveySettings &settings)
     {
         std::string hash;
@@ -172,6 +164,8 @@ namespace {
         return hash.substr(std::min<std::size_t>(1, hash.size()));
     }
 
+    /// Analyses one recording of a survey as `detect` does. If that fails, the outcome contains the reason. Throws only
+    /// Cancelled.
     SurveyOutcome surveyRecording(const SurveyFile &file, const SurveySettings &settings, const RunContext &context)
     {
         SurveyOutcome outcome;

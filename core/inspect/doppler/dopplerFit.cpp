@@ -19,22 +19,6 @@ namespace faintline {
 
 namespace {
 
-    /// Starting passes for a fit of these points: the `most` best, and the best of those heard before and after the
-    /// points. The best comes first.
-    ///
-    /// Searches a grid over v, R/v and the time at which the closest approach is heard; f0 is the median of measured
-    /// frequency over f/f0. Passes are ranked by Σ |measured - fitted|/deviation, which is robust against a few
-    /// outliers. v starts where the pass just spans the points (5 to 95 %). At most 60 evenly spread points are used.
-    /// Precondition: times increase, frequencies above 0.
-    std::vector<DopplerPass> dopplerStarts(const std::vector<DopplerPoint> &points, double propagation,
-                                           std::size_t most);
-
-    /// Passes long before and long after the points, at speeds up to 0.9 c, which may explain a constant frequency.
-    std::vector<DopplerPass> passesElsewhere(const std::vector<DopplerPoint> &points, double propagation);
-
-    /// Σ |measured - fitted|/deviation.
-    double absoluteMisfit(const std::vector<DopplerPoint> &points, double propagation, const DopplerPass &pass);
-
     constexpr std::size_t mostPoints = 60;
     constexpr double speedFactors[]{1.0, 1.3, 1.8, 3.0, 6.0, 15.0};
     constexpr double timeFactors[]{0.003, 0.01, 0.03, 0.1, 0.25, 0.6, 1.5, 4.0, 10.0}; ///< R/v in track lengths
@@ -89,6 +73,7 @@ namespace {
                || (when == When::After && heard > points.back().seconds);
     }
 
+    /// Σ |measured - fitted|/deviation.
     double absoluteMisfit(const std::vector<DopplerPoint> &points, double propagation, const DopplerPass &pass)
     {
         double sum = 0.0;
@@ -97,6 +82,7 @@ namespace {
         return sum;
     }
 
+    /// Passes long before and long after the points, at speeds up to 0.9 c, which may explain a constant frequency.
     std::vector<DopplerPass> passesElsewhere(const std::vector<DopplerPoint> &points, double propagation)
     {
         const std::vector<DopplerPoint> some = evenly(points);
@@ -115,6 +101,13 @@ namespace {
         return passes;
     }
 
+    /// Starting passes for a fit of these points: the `most` best, and the best of those heard before and after the
+    /// points. The best comes first.
+    ///
+    /// Searches a grid over v, R/v and the time at which the closest approach is heard; f0 is the median of measured
+    /// frequency over f/f0. Passes are ranked by Σ |measured - fitted|/deviation, which is robust against a few
+    /// outliers. v starts where the pass just spans the points (5 to 95 %). At most 60 evenly spread points are used.
+    /// Precondition: times increase, frequencies above 0.
     std::vector<DopplerPass> dopplerStarts(const std::vector<DopplerPoint> &points, double propagation,
                                            std::size_t most)
     {

@@ -243,6 +243,9 @@ void tst_cliDetect::framesInPlaceOfARecording()
              content("target.csv").data());
     QVERIFY2(std::abs(events[0][5] - 5.0) < 0.6, content("target.csv").data()); // 10 m in 2 s
     QCOMPARE(readNumPy(pathOf("T.npy")).shape, (std::vector<Index>{40, 50}));
+    const Outcome recorded = run({"detect", "line.wav", "--model", "model.json", "--events", "none.csv"});
+    QCOMPARE(recorded.code, 2);
+    QVERIFY2(recorded.err.startsWith("error: --model: requires ready-made frames"), recorded.err.data());
     const Outcome told = run({"detect", "--frames", "y.npy", "--summary", "--set", "model.slopeUnit=hzPerSecond"});
     QCOMPARE(told.code, 2);
     QVERIFY2(told.err.startsWith("error: model.slopeUnit = hzPerSecond: needs a recording"), told.err.data());
