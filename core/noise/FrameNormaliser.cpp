@@ -100,7 +100,7 @@ void FrameNormaliser::normalise(std::span<float> values, const NoiseBackground &
     const double perBin = axis.step / b.frequency.step;
     if (start == 0.0 && perBin == 1.0 && values.size() <= cells) {
         divideBinByBin(values, m_ln.data());
-    } else { // first all, then all: both loops are then vectorised
+    } else { // in two loops, each of which the compiler vectorises
         m_lnOfBins.resize(values.size());
         interpolateCells(m_ln.data(), start, perBin, double(b.frequency.count - 1), m_lnOfBins);
         divideBinByBin(values, m_lnOfBins.data());

@@ -20,7 +20,7 @@ private slots:
     void commandLineIncludesTheCoreOnly();
     void noUnitsInACircle();
     void circlesAreFound();
-    void arrowsAreFew();
+    void arrowsStayWithinTheLimit();
     void arrowsAreFound();
     void besideTheCore_data();
     void besideTheCore();
@@ -262,7 +262,7 @@ void tst_layers::circlesAreFound()
     QCOMPARE(circleIn({{"a", {"b"}}, {"b", {"c"}}, {"c", {"d", "b"}}}).join(" "), QString("b c b"));
 }
 
-void tst_layers::arrowsAreFew()
+void tst_layers::arrowsStayWithinTheLimit()
 {
     QMap<QString, QString> texts;
     for (const QString &path : filesIn("core"))

@@ -54,7 +54,7 @@ private slots:
     void oneMakesWhatManyWant();
     void whoWaitsCanBeStopped();
     void waitsWhileAnotherWorks();
-    void doesNotWaitForASilentOne();
+    void stopsWaitingForASilentProgram();
 
 private:
     fs::path folder() const { return m_folder->path().toStdString(); }
@@ -275,7 +275,7 @@ void tst_CalibrationStore::waitsWhileAnotherWorks()
 }
 
 // One that was suspended holds the lock as well.
-void tst_CalibrationStore::doesNotWaitForASilentOne()
+void tst_CalibrationStore::stopsWaitingForASilentProgram()
 {
     const CalibrationStore store(folder());
     std::optional<CalibrationLock> another;

@@ -62,8 +62,8 @@ class tst_shippedCalibrations : public QObject
 private slots:
     void initTestCase() { qputenv("FAINTLINE_CACHE", "off"); }
     void everyFileIsUsed();
-    void firstDetectionsWaitForNone_data();
-    void firstDetectionsWaitForNone();
+    void firstDetectionsMakeNoCalibration_data();
+    void firstDetectionsMakeNoCalibration();
     void agreeWithASimulationOfToday_data();
     void agreeWithASimulationOfToday();
 };
@@ -84,7 +84,7 @@ void tst_shippedCalibrations::everyFileIsUsed()
     }
 }
 
-void tst_shippedCalibrations::firstDetectionsWaitForNone_data()
+void tst_shippedCalibrations::firstDetectionsMakeNoCalibration_data()
 {
     QTest::addColumn<AnalysisSettings>("settings");
     QTest::addColumn<Index>("bins"); // of a narrow band
@@ -99,7 +99,7 @@ void tst_shippedCalibrations::firstDetectionsWaitForNone_data()
             QTest::addRow("%s, %d fast", name, int(bins)) << withLaw(preset(name).settings, laws::glide()) << bins;
 }
 
-void tst_shippedCalibrations::firstDetectionsWaitForNone()
+void tst_shippedCalibrations::firstDetectionsMakeNoCalibration()
 {
     QFETCH(AnalysisSettings, settings);
     QFETCH(Index, bins);

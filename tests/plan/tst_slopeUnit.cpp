@@ -41,7 +41,7 @@ private slots:
     void slopesAreTakenOutwards();
     void thereAndBackIsTheSame();
     void followsTheAutomaticWindow();
-    void onlyFramesOverFrequencyHaveThem();
+    void hertzPerSecondNeedsAFrequencyAxis();
     void tooSteepIsRefused();
 };
 
@@ -118,7 +118,7 @@ void tst_slopeUnit::followsTheAutomaticWindow()
     QCOMPARE(inBins.model.highestSlope, 0.5);
 }
 
-void tst_slopeUnit::onlyFramesOverFrequencyHaveThem()
+void tst_slopeUnit::hertzPerSecondNeedsAFrequencyAxis()
 {
     const AnalysisSettings settings = inHertz(-1.0, 1.0);
     checkSettings(settings);

@@ -115,9 +115,9 @@ private slots:
     void curvesKissAndPart();
     void lostBehindAnotherItIsOne();
     void bridgesAreMeasured();
-    void whatCouldNotBeSeenIsNotReported();
-    void cellsRefuteAJoin_data();
-    void cellsRefuteAJoin();
+    void hiddenFramesAreNotReported();
+    void evidenceAgainstAJoinPreventsIt_data();
+    void evidenceAgainstAJoinPreventsIt();
     void switchedOffItIsTwo();
     void aGhostTakesNothing();
     void piecesHaveTheirOwnEvidence();
@@ -203,7 +203,7 @@ void tst_relink::bridgesAreMeasured()
     }
 }
 
-void tst_relink::whatCouldNotBeSeenIsNotReported()
+void tst_relink::hiddenFramesAreNotReported()
 {
     const Way up = straight(300.0, 0.1);
     RelinkRule blind = rule();
@@ -232,7 +232,7 @@ void tst_relink::whatCouldNotBeSeenIsNotReported()
     }
 }
 
-void tst_relink::cellsRefuteAJoin_data()
+void tst_relink::evidenceAgainstAJoinPreventsIt_data()
 {
     QTest::addColumn<double>("absence"); // evidence in a stretch of frames
     QTest::addColumn<int>("seen");
@@ -245,7 +245,7 @@ void tst_relink::cellsRefuteAJoin_data()
 }
 
 // Among dense lines, the way between two pieces is nowhere far from a track; its own cells decide.
-void tst_relink::cellsRefuteAJoin()
+void tst_relink::evidenceAgainstAJoinPreventsIt()
 {
     QFETCH(double, absence);
     QFETCH(int, seen);

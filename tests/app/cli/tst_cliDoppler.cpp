@@ -25,7 +25,7 @@ private slots:
     void quadratureNeedsItsCentre();
     void aWhistleIsPassedOver();
     void aSteadyToneIsPassedOver();
-    void aSteadyToneAloneIsNoPass();
+    void aLoneSteadyToneIsNotAPass();
     void refusals_data();
     void refusals();
 
@@ -244,7 +244,7 @@ void tst_cliDoppler::aSteadyToneIsPassedOver()
     QVERIFY2(asked.out.contains("No Doppler shift"), asked.out.constData());
 }
 
-void tst_cliDoppler::aSteadyToneAloneIsNoPass()
+void tst_cliDoppler::aLoneSteadyToneIsNotAPass()
 {
     const Outcome told = run(QStringList{"doppler", "hum.wav", "--out", "hum.json"} + settings);
     QCOMPARE(told.code, 2);
