@@ -169,7 +169,7 @@ namespace {
         lines.write(startedLine(format, settingsForListening(settings.analysis, format)));
         ListenSinks sinks;
         sinks.event = [&](const EventChange &change, const AnalysisPlan &plan) {
-            const std::string line = eventLine(change, plan.grid(), plan.recording->info().startUnixSeconds);
+            const std::string line = eventLine(change, plan, plan.recording->info().startUnixSeconds);
             lines.write(line);
             if (command)
                 command->run(line);

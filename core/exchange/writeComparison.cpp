@@ -1,8 +1,8 @@
 #include "exchange/writeComparison.h"
 
+#include "analyse/columns.h"
 #include "base/Error.h"
 #include "base/files/AtomicFile.h"
-#include "exchange/positionNames.h"
 #include "signal/formats/NumPy.h"
 
 #include <functional>

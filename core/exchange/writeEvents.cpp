@@ -1,10 +1,11 @@
 #include "exchange/writeEvents.h"
 
+#include "analyse/columns.h"
+#include "base/Overloaded.h"
 #include "base/files/AtomicFile.h"
 #include "base/json.h"
-#include "base/logmath.h"
 #include "detect/statisticDecimals.h"
-#include "exchange/positionNames.h"
+#include "exchange/csvText.h"
 #include "exchange/reviewedText.h"
 #include "refine/secondLook.h"
 
@@ -16,59 +17,18 @@ namespace faintline {
 
 namespace {
 
-    std::string joined(const std::vector<std::string> &words)
+    Json cellJson(const CellValue &value)
     {
-        std::string all;
-        for (const std::string &word : words)
-            all += (all.empty() ? "" : ",") + word;
-        return all;
+        return std::visit([](const auto &held) { return Json(held); }, value);
     }
 
-    std::string joined(const std::vector<double> &numbers)
+    /// Whether it is not what isOptional of a column leaves out.
+    bool isKnown(const CellValue &value)
     {
-        std::vector<std::string> words;
-        for (double number : numbers)
-            words.push_back(formatNumber(number));
-        return joined(words);
-    }
-
-    const std::vector<std::string> smoothedColumns{"f_low", "f_high", "presence", "snr_db"};
-
-    /// 5 and 95 % quantiles of a point's position, probability that the signal is present, and its SNR in one frame.
-    std::vector<double> numbersOf(const SmoothedPoint &point, const Axis &axis)
-    {
-        return {axis.value(double(point.low)), axis.value(double(point.high)), double(point.presence),
-                dbFromRatio(double(point.level))};
-    }
-
-    /// Names of the rates along each axis of a grid of several axes.
-    std::vector<std::string> rateNames(const Grid &grid)
-    {
-        std::vector<std::string> names;
-        if (grid.isSpectrum())
-            return names;
-        for (const Axis &axis : grid.axes)
-            names.push_back(axis.name + "_per_s");
-        return names;
-    }
-
-    /// Columns of the events of a bank: the model that found it, and the others that took over, "t:name;…".
-    const std::vector<std::string> bankNames{"model", "model_changes"};
-    std::string bankTexts(const Event &e)
-    {
-        return nameOfBankModel(e.model) + "," + modelChangesText(e);
-    }
-
-    std::string modelOf(const TrackPoint &point, const Track &track)
-    {
-        return nameOfBankModel(modelAt(point.frame, track.model, track.modelChanges));
-    }
-
-    /// Columns of tracks that were smoothed from both ends.
-    const std::vector<std::string> smoothedNames{"snr_db", "band_hz", "noise_probability", "window_s"};
-    std::vector<double> smoothedOf(const Event &e)
-    {
-        return {e.snrDb, e.bandWidth, e.noiseProbability, e.windowSeconds};
+        return std::visit(Overloaded{[](const std::string &text) { return !text.empty(); },
+                                     [](double number) { return !std::isnan(number); },
+                                     [](auto number) { return number != 0; }},
+                          value);
     }
 
     /// Rounded as displayed, with its unit.
@@ -138,20 +98,11 @@ namespace {
     void writeTracksCsv(AtomicFile &file, const Analysis &analysis, const std::vector<Track> &tracks)
     {
         constexpr std::size_t blockBytes = 1 << 16; // tracks may have a row for every frame of a day
-        const bool isSeenTwice = looksTwice(analysis);
-        std::string text =
-            joined(std::vector<std::string>{"track", "t", joined(positionNames(analysis.grid())), "statistic"})
-            + (isSeenTwice ? ',' + joined(smoothedColumns) : "") + (analysis.isBank() ? ",model" : "") + "\n";
+        const auto columns = trackColumns(analysis.grid(), OptionalColumns::of(analysis));
+        std::string text = "track," + csvNames(columns) + "\n";
         for (const Track &track : tracks)
             for (const std::size_t i : track.presentPoints()) {
-                const TrackPoint &point = track.points[i];
-                text += std::to_string(track.id) + "," + formatNumber(analysis.time().value(double(point.frame))) + ","
-                        + joined(track.positionOf(i, analysis.grid())) + "," + formatNumber(point.statistic);
-                if (isSeenTwice)
-                    text += ',' + joined(numbersOf(track.smoothed[i], analysis.grid().axes.back()));
-                if (analysis.isBank())
-                    text += ',' + modelOf(point, track);
-                text += "\n";
+                text += std::to_string(track.id) + "," + csvCells(columns, {&analysis, &track, i}) + "\n";
                 if (text.size() > blockBytes) {
                     file.write(text);
                     text.clear();
@@ -163,24 +114,13 @@ namespace {
     void writeTrackJson(AtomicFile &file, const Analysis &analysis, const Track &track)
     {
         const std::vector<std::size_t> present = track.presentPoints();
-        const auto writeColumn = [&](const std::string &name, const auto &valueOf) {
+        file.write("{\"track\":" + std::to_string(track.id));
+        for (const auto &column : trackColumns(analysis.grid(), OptionalColumns::of(analysis))) {
             Json values = Json::array();
             for (const std::size_t i : present)
-                values.push_back(valueOf(i));
-            file.write("," + Json(name).dump() + ":" + values.dump());
-        };
-        file.write("{\"track\":" + std::to_string(track.id));
-        writeColumn("t", [&](std::size_t i) { return analysis.time().value(double(track.points[i].frame)); });
-        const std::vector<std::string> names = positionNames(analysis.grid());
-        for (std::size_t axis = 0; axis < names.size(); ++axis)
-            writeColumn(names[axis], [&](std::size_t i) { return track.positionOf(i, analysis.grid())[axis]; });
-        writeColumn("statistic", [&](std::size_t i) { return track.points[i].statistic; });
-        for (std::size_t column = 0; column < smoothedColumns.size() && looksTwice(analysis); ++column)
-            writeColumn(smoothedColumns[column], [&](std::size_t i) {
-                return numbersOf(track.smoothed[i], analysis.grid().axes.back())[column];
-            });
-        if (analysis.isBank())
-            writeColumn("model", [&](std::size_t i) { return modelOf(track.points[i], track); });
+                values.push_back(cellJson(column.value({&analysis, &track, i})));
+            file.write("," + Json(column.name).dump() + ":" + values.dump());
+        }
         file.write("}");
     }
 
@@ -221,68 +161,28 @@ void checkTracksPath(const std::string &path)
     checkExtension(path, {".csv", ".json"}, ".csv or .json");
 }
 
-std::string modelChangesText(const Event &event)
-{
-    std::string text;
-    for (const auto &[seconds, model] : event.modelChanges)
-        text += formatNumber(seconds) + ':' + nameOfBankModel(model) + ';';
-    return text.substr(0, text.size() - std::min<std::size_t>(1, text.size()));
-}
-
 std::string eventsCsv(const AnalysisPlan &plan, const std::vector<Event> &events)
 {
-    std::vector<std::string> names{
-        "event",          "t_onset",   "t_detect",  "t_end", joined(positionNames(plan.grid())),
-        "drift_hz_per_s", "statistic", "confirmed", "open"};
-    const std::vector<std::string> rates = rateNames(plan.grid());
-    names.insert(names.end(), rates.begin(), rates.end());
-    const bool isSeenTwice = looksTwice(plan);
-    if (isSeenTwice)
-        names.insert(names.end(), smoothedNames.begin(), smoothedNames.end());
-    const bool subtracts = plan.settings.subtract.lines;
-    if (subtracts)
-        names.push_back("subtracted");
-    if (plan.isBank())
-        names.insert(names.end(), bankNames.begin(), bankNames.end());
-    std::string text = joined(names) + "\n";
-    for (const Event &e : events) {
-        const std::vector<std::string> cells{
-            std::to_string(e.id),       formatNumber(e.onsetSeconds), formatNumber(e.detectSeconds),
-            formatNumber(e.endSeconds), joined(e.position),           formatNumber(e.driftPerSecond),
-            formatNumber(e.statistic),  e.isConfirmed ? "1" : "0",    e.isOpen ? "1" : "0"};
-        text += joined(cells) + (rates.empty() ? "" : ',' + joined(e.ratesPerSecond))
-                + (isSeenTwice ? ',' + joined(smoothedOf(e)) : "")
-                + (!subtracts       ? ""
-                   : e.isSubtracted ? ",1"
-                                    : ",0")
-                + (plan.isBank() ? ',' + bankTexts(e) : "") + "\n";
-    }
+    const auto columns = eventColumns(plan.grid(), OptionalColumns::of(plan));
+    std::string text = csvNames(columns) + "\n";
+    for (const Event &e : events)
+        text += csvCells(columns, e) + "\n";
     return text;
 }
 
-Json eventJson(const Event &e, const Grid &grid)
+Json eventJson(const Event &e, const AnalysisPlan &plan)
 {
+    auto columns = eventColumns(plan.grid(), {.secondPass = true, .subtracted = true, .bank = plan.isBank()});
+    std::ranges::stable_sort(columns, {}, &TableColumn<Event>::keyRank);
     Json json;
-    json["event"] = e.id;
-    json["t_onset"] = e.onsetSeconds;
-    json["t_detect"] = e.detectSeconds;
-    json["t_end"] = e.endSeconds;
-    const std::vector<std::string> names = positionNames(grid);
-    for (std::size_t axis = 0; axis < names.size(); ++axis)
-        json[names[axis]] = e.position[axis];
-    json["drift_hz_per_s"] = e.driftPerSecond;
-    const std::vector<std::string> rates = rateNames(grid);
-    for (std::size_t axis = 0; axis < rates.size(); ++axis)
-        json[rates[axis]] = e.ratesPerSecond[axis];
-    json["statistic"] = e.statistic;
-    json["confirmed"] = e.isConfirmed;
-    json["open"] = e.isOpen;
-    if (e.isSubtracted)
-        json["subtracted"] = true;
-    for (const auto &[seconds, model] : e.modelChanges)
-        json["model_changes"].push_back({{"t", seconds}, {"model", nameOfBankModel(model)}});
-    for (std::size_t i = 0; i < smoothedNames.size() && !std::isnan(e.snrDb); ++i)
-        json[smoothedNames[i]] = smoothedOf(e)[i];
+    for (const TableColumn<Event> &column : columns)
+        if (const CellValue value = column.value(e); !column.isOptional || isKnown(value))
+            json[column.name] = cellJson(value);
+    if (json.contains("model_changes")) {
+        json["model_changes"] = Json::array();
+        for (const auto &[seconds, model] : e.modelChanges)
+            json["model_changes"].push_back({{"t", seconds}, {"model", nameOfBankModel(model)}});
+    }
     return json;
 }
 
@@ -294,19 +194,16 @@ std::string eventsJson(const AnalysisPlan &plan, const std::vector<Event> &event
     json["lnK"] = plan.calibration->lnK;
     json["settings"] = parseJson(settingsToJson(plan.settings), "settings");
     json["events"] = Json::array();
-    for (const Event &e : events) {
-        json["events"].push_back(eventJson(e, plan.grid()));
-        if (plan.isBank())
-            json["events"].back()["model"] = nameOfBankModel(e.model);
-    }
+    for (const Event &e : events)
+        json["events"].push_back(eventJson(e, plan));
     if (looksTwice(plan))
         json["areas"] = Json::array();
-    for (const AreaEvent &area : areas)
-        json["areas"].push_back({{"t_onset", area.onsetSeconds},
-                                 {"t_end", area.endSeconds},
-                                 {"f_low", area.low},
-                                 {"f_high", area.high},
-                                 {"level_db", area.levelDb}});
+    for (const AreaEvent &area : areas) {
+        Json one;
+        for (const TableColumn<AreaEvent> &column : areaColumns())
+            one[column.name] = cellJson(column.value(area));
+        json["areas"].push_back(one);
+    }
     return json.dump(2) + "\n";
 }
 

@@ -29,10 +29,8 @@ std::string eventsJson(const AnalysisPlan &plan, const std::vector<Event> &event
                        const std::vector<AreaEvent> &areas = {});
 /// The text of such a .sigmf-meta file. Throws Error for frames.
 std::string eventsSigmf(const Analysis &analysis);
-/// "t:model;…": the times, s, from which other models of a bank followed an event.
-std::string modelChangesText(const Event &event);
 /// One event as an element of that JSON.
-Json eventJson(const Event &event, const Grid &grid);
+Json eventJson(const Event &event, const AnalysisPlan &plan);
 
 /// Throws Error if `writeEvents` or `writeTracks` does not know the extension of a name; call it before a long run.
 void checkEventsPath(const std::string &path);

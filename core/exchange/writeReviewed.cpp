@@ -3,8 +3,8 @@
 #include "base/files/AtomicFile.h"
 #include "base/oneLine.h"
 #include "exchange/csvText.h"
-#include "exchange/positionNames.h"
 #include "exchange/reviewedText.h"
+#include "exchange/writeEvents.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,25 +45,20 @@ namespace {
         return rows;
     }
 
-    std::string csv(const Grid &grid, const std::vector<ReviewedRow> &rows)
+    std::string csv(const Analysis &analysis, const std::vector<ReviewedRow> &rows)
     {
-        std::string text = "event,t_onset,t_detect,t_end";
-        const std::vector<std::string> names = positionNames(grid);
-        for (const std::string &name : names)
-            text += ',' + name;
-        text += ",drift_hz_per_s,statistic,confirmed,open";
-        if (grid.isSpectrum())
-            text += ",f_low,f_high";
-        text += ",review,signal,label,note\n";
+        const auto columns = eventColumns(analysis.grid(), OptionalColumns::of(analysis));
+        const bool hasBand = analysis.grid().isSpectrum();
+        std::string text = csvNames(columns) + (hasBand ? ",f_low,f_high" : "") + ",review,signal,label,note\n";
         for (const ReviewedRow &row : rows) {
             const Event *e = row.event;
-            text += (e ? std::to_string(e->id) : "") + "," + formatNumber(row.box.startSeconds) + ","
-                    + (e ? formatNumber(e->detectSeconds) : "") + "," + formatNumber(row.box.endSeconds);
-            for (std::size_t axis = 0; axis < names.size(); ++axis)
-                text += ',' + (e ? formatNumber(e->position[axis]) : "");
-            text += ',' + (e ? formatNumber(e->driftPerSecond) : "") + "," + (e ? formatNumber(e->statistic) : "") + ","
-                    + (e ? (e->isConfirmed ? "1" : "0") : "") + "," + (e ? (e->isOpen ? "1" : "0") : "");
-            if (grid.isSpectrum())
+            text += csvLine(columns, [&](const TableColumn<Event> &column) {
+                return e                          ? cellText(column.value(*e))
+                       : column.name == "t_onset" ? formatNumber(row.box.startSeconds)
+                       : column.name == "t_end"   ? formatNumber(row.box.endSeconds)
+                                                  : std::string();
+            });
+            if (hasBand)
                 text += ',' + numberOrEmpty(row.box.lowHz) + "," + numberOrEmpty(row.box.highHz);
             text += ',' + nameOf(row.box.verdict) + "," + (e ? std::to_string(row.signal) : "") + ","
                     + csvText(row.box.label) + "," + csvText(row.box.note) + "\n";
@@ -71,20 +66,11 @@ namespace {
         return text;
     }
 
-    Json jsonOfRow(const ReviewedRow &row, const Grid &grid)
+    Json jsonOfRow(const ReviewedRow &row, const Analysis &analysis)
     {
         Json json = Json::object();
-        if (const Event *e = row.event) {
-            json["event"] = e->id;
-            json["t_onset"] = e->onsetSeconds;
-            json["t_detect"] = e->detectSeconds;
-            json["t_end"] = e->endSeconds;
-            for (auto position = e->position.begin(); const std::string &name : positionNames(grid))
-                json[name] = *position++;
-            json["drift_hz_per_s"] = e->driftPerSecond;
-            json["statistic"] = e->statistic;
-            json["confirmed"] = e->isConfirmed;
-            json["open"] = e->isOpen;
+        if (row.event) {
+            json = eventJson(*row.event, analysis);
             json["signal"] = row.signal;
         } else {
             json["t_onset"] = row.box.startSeconds;
@@ -106,7 +92,7 @@ namespace {
                      {"settings", parseJson(settingsToJson(analysis.settings), "settings")}};
         json["events"] = Json::array();
         for (const ReviewedRow &row : rows)
-            json["events"].push_back(jsonOfRow(row, analysis.grid()));
+            json["events"].push_back(jsonOfRow(row, analysis));
         return json.dump(2) + "\n";
     }
 
@@ -139,7 +125,7 @@ void writeReviewed(const Analysis &analysis, const std::vector<Event> &events, c
     checkReviewedPath(path);
     const std::vector<ReviewedRow> rows = rowsOf(analysis, events, annotations);
     if (path.ends_with(".csv"))
-        writeTextFile(path, csv(analysis.grid(), rows));
+        writeTextFile(path, csv(analysis, rows));
     else if (path.ends_with(".json"))
         writeTextFile(path, json(analysis, rows));
     else if (path.ends_with(".selections.txt"))

@@ -17,7 +17,7 @@ namespace {
 
 } // namespace
 
-std::string eventLine(const EventChange &change, const Grid &grid, std::optional<double> startUnixSeconds)
+std::string eventLine(const EventChange &change, const AnalysisPlan &plan, std::optional<double> startUnixSeconds)
 {
     Json line;
     line["event"] = change.event.id;
@@ -28,7 +28,7 @@ std::string eventLine(const EventChange &change, const Grid &grid, std::optional
         line["withdrawn"] = true;
         return line.dump();
     }
-    Json event = eventJson(change.event, grid);
+    Json event = eventJson(change.event, plan);
     event.erase("event");
     if (change.event.isOpen && change.state != EventChange::State::Final)
         event.erase("drift_hz_per_s");

@@ -13,7 +13,7 @@ namespace faintline {
 /// confirmed, updated, final); then the members of `eventJson`, in s from the first sample and Hz. For a track in
 /// progress the drift is omitted and t_end is the present. "utc" of t_detect is given if `startUnixSeconds` is known. A
 /// final event that is not an event of its own has "part_of", the number that it continues as, or "withdrawn".
-std::string eventLine(const EventChange &change, const Grid &grid, std::optional<double> startUnixSeconds);
+std::string eventLine(const EventChange &change, const AnalysisPlan &plan, std::optional<double> startUnixSeconds);
 
 /// {"notice": "lost", "t": …, "sample": …, "samples": …, "message": "…"}.
 std::string noticeLine(const ListenNotice &notice, const StreamFormat &format);

@@ -1,10 +1,10 @@
 #include "bindings/bind.h"
 
-#include "base/logmath.h"
+#include "analyse/columns.h"
 #include "bindings/HeldTrack.h"
 #include "bindings/arrays.h"
 
-#include <limits>
+#include <algorithm>
 
 namespace faintline::python {
 
@@ -22,24 +22,16 @@ namespace {
         return arrayOf(std::move(values));
     }
 
-    /// A number of what the look from both ends knows of every point, NaN of tracks that were not looked at so.
-    template <class Take>
-    auto smoothed(const Take &take)
+    /// A column of the command line's tracks, at every reported point.
+    auto column(const char *name)
     {
-        return [take](const HeldTrack &self) {
-            const Track &track = self.track();
-            const Axis &axis = self.analysis->grid().axes.back();
+        return [name = std::string(name)](const HeldTrack &self) {
+            const auto columns = trackColumns(self.analysis->grid(), {.secondPass = true});
+            const auto named = std::ranges::find_if(columns, [&](const auto &each) { return each.name == name; });
             return ofPoints(self, [&](std::size_t i) {
-                return track.smoothed.empty() ? std::numeric_limits<double>::quiet_NaN()
-                                              : take(track.smoothed[i], axis);
+                return named->number({self.analysis.get(), &self.track(), i});
             });
         };
-    }
-
-    py::array times(const HeldTrack &self)
-    {
-        return ofPoints(
-            self, [&](std::size_t i) { return self.analysis->time().value(double(self.track().points[i].frame)); });
     }
 
     py::array lastPositions(const HeldTrack &self)
@@ -88,28 +80,17 @@ void bindTrack(py::module_ &module)
 f05, f95, p_present and snr_db come from the second pass (forward and backward). They are NaN for tracks without one:
 for frames with several axes, for the linear likelihood, and with both_ways=False.)")
         .def_property_readonly("id", member(&Track::id), "Number of the event, as in events['event'].")
-        .def_property_readonly("t", &times, "Times of the points, s.")
+        .def_property_readonly("t", column("t"), "Times of the points, s.")
         .def_property_readonly("f", &lastPositions,
                                "Positions along the last axis, to a fraction of a cell if known; Hz for recordings.")
         .def_property_readonly("position", &positions, "Positions on all axes, float64 of shape (points, axes).")
-        .def_property_readonly(
-            "statistic",
-            [](const HeldTrack &self) {
-                return ofPoints(self, [&](std::size_t i) { return self.track().points[i].statistic; });
-            },
-            "Score of the path up to each point, nat above background.")
-        .def_property_readonly(
-            "f05", smoothed([](const SmoothedPoint &p, const Axis &axis) { return axis.value(double(p.low)); }),
-            "5 % of the position's posterior.")
-        .def_property_readonly(
-            "f95", smoothed([](const SmoothedPoint &p, const Axis &axis) { return axis.value(double(p.high)); }),
-            "95 % of the position's posterior.")
-        .def_property_readonly("p_present",
-                               smoothed([](const SmoothedPoint &p, const Axis &) { return double(p.presence); }),
-                               "Probability that the signal is present.")
-        .def_property_readonly(
-            "snr_db", smoothed([](const SmoothedPoint &p, const Axis &) { return dbFromRatio(double(p.level)); }),
-            "Mean power along the path over the noise's in one frame, dB.")
+        .def_property_readonly("statistic", column("statistic"),
+                               "Score of the path up to each point, nat above background.")
+        .def_property_readonly("f05", column("f_low"), "5 % of the position's posterior.")
+        .def_property_readonly("f95", column("f_high"), "95 % of the position's posterior.")
+        .def_property_readonly("p_present", column("presence"), "Probability that the signal is present.")
+        .def_property_readonly("snr_db", column("snr_db"),
+                               "Mean power along the path over the noise's in one frame, dB.")
         .def_property_readonly("t_onset", seconds(&Track::onsetFrame), "s")
         .def_property_readonly("t_detect", seconds(&Track::detectFrame),
                                "Time at which the statistic first exceeded the threshold, s.")

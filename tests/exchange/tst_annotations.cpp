@@ -160,7 +160,8 @@ void tst_annotations::severalAxes()
     annotations.reviews = withVerdict({}, analysis, events(analysis), {1}, Verdict::Accepted);
     writeReviewed(analysis, events(analysis), annotations, path("p.csv"));
     QVERIFY(readBytes(path("p.csv"))
-                .startsWith("event,t_onset,t_detect,t_end,range,bearing,drift_hz_per_s,statistic,confirmed,open,review,"
+                .startsWith("event,t_onset,t_detect,t_end,range,bearing,drift_hz_per_s,statistic,confirmed,open,range_"
+                            "per_s,bearing_per_s,review,"
                             "signal,label,note\n"
                             "1,0,2,4,10,90,"));
     QVERIFY(readBytes(path("p.csv")).contains(",accepted,1,\"event 1\",\"\"\n"));

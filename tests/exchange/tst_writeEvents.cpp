@@ -1,7 +1,9 @@
 #include "exchange/writeEvents.h"
 #include "support/test.h"
 
+#include "analyse/columns.h"
 #include "base/json.h"
+#include "exchange/writeReviewed.h"
 #include "support/recordings.h"
 
 #include <clocale>
@@ -28,6 +30,8 @@ private slots:
     void severalAxes();
     void aBanksModels();
     void nothingFound();
+    void everyColumnIsInEveryFile_data();
+    void everyColumnIsInEveryFile();
     void refusals();
 
 private:
@@ -69,6 +73,31 @@ Analysis twoTracks()
         steady.points.push_back({frame, 1, 0, 0.1 * double(frame)});
     analysis.tracks = {rising, steady};
     return analysis;
+}
+
+/// Frames of a recording's spectrogram, whose tracks are looked at twice.
+class SpectrogramFrames : public NormalisedFrames
+{
+public:
+    explicit SpectrogramFrames(const NormalisedFrames &like) : NormalisedFrames(like.time(), like.grid()) {}
+    void read(Index, Index, std::span<float> out) const override { std::ranges::fill(out, 1.0f); }
+    const Spectrogram *spectrogram() const override { return &m_spectrogram; }
+
+private:
+    Spectrogram m_spectrogram{std::make_shared<MemoryRecording>(std::vector<float>(20000), 1000.0),
+                              SpectrogramSettings{.windowSeconds = 1.0}};
+};
+
+Event completeEvent(std::size_t axes)
+{
+    Event event;
+    event.id = 1;
+    event.position.resize(axes);
+    event.ratesPerSecond.resize(axes);
+    event.isSubtracted = true;
+    event.modelChanges = {{1.0, 1}};
+    event.snrDb = event.bandWidth = event.noiseProbability = event.windowSeconds = 0.0;
+    return event;
 }
 
 } // namespace
@@ -251,6 +280,44 @@ void tst_writeEvents::nothingFound()
     QVERIFY(parseJson(written(analysis, "none.sigmf-meta").toStdString(), "")["annotations"].is_array());
     QCOMPARE(written(analysis, "nonet.csv", true), QByteArray("track,t,f,statistic\n"));
     QVERIFY(parseJson(written(analysis, "nonet.json", true).toStdString(), "").is_array());
+}
+
+void tst_writeEvents::everyColumnIsInEveryFile_data()
+{
+    QTest::addColumn<std::shared_ptr<Analysis>>("analysis");
+    const auto lines = std::make_shared<Analysis>(twoTracks());
+    lines->frames = std::make_shared<SpectrogramFrames>(*lines->frames);
+    lines->settings.subtract.lines = true;
+    QTest::newRow("lines of a recording") << lines;
+    const auto pings = std::make_shared<Analysis>(twoTracks());
+    const Grid grid{{{"bearing", "°", 0.0, 90.0, 2, true}, {"range", "m", 100.0, 10.0, 5, false}}};
+    pings->frames = std::make_shared<FrameArray>(pings->time(), grid, std::vector<float>(80, 1.0f));
+    pings->bank.resize(2);
+    QTest::newRow("pings with a bank") << pings;
+}
+
+void tst_writeEvents::everyColumnIsInEveryFile()
+{
+    QFETCH(std::shared_ptr<Analysis>, analysis);
+    const auto namesIn = [](const QByteArray &csv) { return csv.left(csv.indexOf('\n')).split(','); };
+    const Event event = completeEvent(analysis->grid().axes.size());
+    writeReviewed(*analysis, {event}, {}, path("r.csv"));
+    writeReviewed(*analysis, {event}, {}, path("r.json"));
+    const Json reviewed = parseJson(readBytes(path("r.json")).toStdString(), "r.json")["events"][0];
+    const Json json = parseJson(eventsJson(*analysis, {event}), "e.json")["events"][0];
+    const auto columns = eventColumns(analysis->grid(), OptionalColumns::of(*analysis));
+    QVERIFY(std::ranges::any_of(columns, &TableColumn<Event>::isOptional));
+    for (const TableColumn<Event> &column : columns) {
+        const QByteArray name = QByteArray::fromStdString(column.name);
+        for (const QByteArray &csv :
+             {QByteArray::fromStdString(eventsCsv(*analysis, {event})), readBytes(path("r.csv"))})
+            QVERIFY2(namesIn(csv).contains(name), name.constData());
+        QVERIFY2(json.contains(column.name) && reviewed.contains(column.name), name.constData());
+    }
+    const QList<QByteArray> names = namesIn(written(*analysis, "t.csv", true));
+    const Json track = parseJson(written(*analysis, "t.json", true).toStdString(), "t.json")[0];
+    for (const TableColumn<TrackPlace> &column : trackColumns(analysis->grid(), OptionalColumns::of(*analysis)))
+        QVERIFY2(names.contains(column.name.c_str()) && track.contains(column.name), column.name.c_str());
 }
 
 void tst_writeEvents::refusals()

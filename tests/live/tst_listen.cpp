@@ -271,7 +271,7 @@ void tst_listen::changesOfAnEvent()
     }
     QCOMPARE(ownEvents, live.events.size());
     QVERIFY(hasJoined);
-    QVERIFY(contains(eventLine(changes.begin()->second.front(), live.plan.grid(), 0.0), R"("state":"provisional")"));
+    QVERIFY(contains(eventLine(changes.begin()->second.front(), live.plan, 0.0), R"("state":"provisional")"));
 }
 
 // A line at 6 dB, for which a stream suffices that ends two windows after the crossing.

@@ -1,10 +1,12 @@
 #include "support/test.h"
 #include "widgets/events/EventModel.h"
 
+#include "analyse/columns.h"
 #include "pictures.h"
 #include "widgets/base/Theme.h"
 
 #include <QAbstractItemModelTester>
+#include <QMap>
 #include <QSignalSpy>
 
 #include <limits>
@@ -37,6 +39,7 @@ private slots:
     void unitsFollowTheStatistic();
     void windowsAreToldWhereTheyDiffer();
     void everyCellCanBeHeard();
+    void headingsAreThoseOfTheColumnsOfFiles();
     void rowsAreFoundByNumber();
 
 private:
@@ -299,6 +302,23 @@ void tst_EventModel::everyCellCanBeHeard()
                  heading(column) + ": " + text(column));
     }
     QVERIFY(!m_model->headerData(0, Qt::Vertical).isValid());
+}
+
+void tst_EventModel::headingsAreThoseOfTheColumnsOfFiles()
+{
+    m_model->setAxes({{"frequency", "Hz", 0.0, 1.0, 100, false}});
+    QMap<QString, QString> tips;
+    for (int column = 0; column < EventModel::ColumnCount; ++column)
+        tips[heading(column)] = m_model->headerData(column, Qt::Horizontal, Qt::ToolTipRole).toString();
+    for (const TableColumn<Event> &column : eventColumns(Grid(), {.secondPass = true})) {
+        if (column.heading.empty())
+            continue;
+        const QString name = QString::fromStdString(column.heading);
+        const QString whole = QStringLiteral("%1 (%2)").arg(name, QString::fromStdString(column.unit));
+        const QString tip = tips.contains(whole) ? tips[whole] : tips.value(name);
+        QVERIFY2(tip.startsWith(QString::fromStdString(column.sentence)), column.name.c_str());
+    }
+    QVERIFY(tips.contains("f (Hz)") && tips.contains("SNR (dB)"));
 }
 
 void tst_EventModel::rowsAreFoundByNumber()

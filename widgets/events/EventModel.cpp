@@ -1,5 +1,6 @@
 #include "widgets/events/EventModel.h"
 
+#include "analyse/columns.h"
 #include "base/utc.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
@@ -8,6 +9,7 @@
 #include <QPalette>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -22,6 +24,16 @@ namespace {
                 : column == EventModel::Note ? Qt::AlignLeft
                                              : Qt::AlignRight)
                | Qt::AlignVCenter;
+    }
+
+    /// The column of files that is shown in a column of the table.
+    const TableColumn<Event> &fileColumn(int column)
+    {
+        static constexpr std::array<const char *, EventModel::ColumnCount> names{
+            "event",     "",       "",         "", "", "t_onset", "t_detect",      "",
+            "statistic", "snr_db", "window_s", "", "", "t_end",   "drift_hz_per_s"};
+        static const auto columns = eventColumns(Grid(), {.secondPass = true});
+        return *std::ranges::find(columns, names[std::size_t(column)], &TableColumn<Event>::name);
     }
 
     double toTenths(double seconds)
@@ -44,15 +56,10 @@ double EventModel::sortValue(const Event &event, int column) const
     switch (column) {
     case Id:
         return event.id;
-    case Onset:
     case Utc:
         return event.onsetSeconds;
-    case Detection:
-        return event.detectSeconds;
     case Confirmation:
         return std::isfinite(event.confirmSeconds) ? event.confirmSeconds : std::numeric_limits<double>::infinity();
-    case End:
-        return event.endSeconds;
     case Frequency:
     case Radio:
         return event.position.empty() ? 0.0 : event.position.front();
@@ -64,8 +71,6 @@ double EventModel::sortValue(const Event &event, int column) const
     }
     case Drift:
         return hasBearing() && !event.ratesPerSecond.empty() ? event.ratesPerSecond.front() : event.driftPerSecond;
-    case Statistic:
-        return event.statistic;
     case Snr:
         return std::isfinite(event.snrDb) ? event.snrDb : -std::numeric_limits<double>::infinity();
     case Window:
@@ -78,8 +83,10 @@ double EventModel::sortValue(const Event &event, int column) const
         return double(std::distance(m_labels.begin(), m_labels.find(review(event).label)));
     case Note:
         return review(event).note.empty() ? 1.0 : 0.0;
-    default:
+    case State:
         return (event.isConfirmed ? 0.0 : 2.0) + (event.isOpen ? 1.0 : 0.0);
+    default:
+        return fileColumn(column).number(event);
     }
 }
 
@@ -158,13 +165,11 @@ QString EventModel::text(const Event &event, int column) const
         return mark + QString::number(event.id);
     }
     case Onset:
-        return timeText(event.onsetSeconds, m_timeDecimals);
     case Detection:
-        return timeText(event.detectSeconds, m_timeDecimals);
+    case End:
+        return timeText(sortValue(event, column), m_timeDecimals);
     case Confirmation:
         return timeText(event.confirmSeconds, m_timeDecimals);
-    case End:
-        return timeText(event.endSeconds, m_timeDecimals);
     case Utc:
         return m_startUnixSeconds
                    ? QString::fromStdString(formatUtc(toTenths(*m_startUnixSeconds + event.onsetSeconds)))
@@ -284,51 +289,46 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
         const bool isBrief = role == Qt::DisplayRole && m_axes.size() == 2 && nameOf(0).left(1) != nameOf(1).left(1);
         return QStringLiteral("%1 (%2)").arg(isBrief ? nameOf(axis).left(1) : nameOf(axis), unit(axis));
     };
-    const QString names[] = {tr("№"),
-                             hasBearing() ? heading(Frequency) : tr("f (Hz)"),
-                             hasBearing() ? heading(Bearing) : tr("Bearing"),
-                             heading(ThirdAxis),
-                             heading(FourthAxis),
-                             tr("Onset"),
-                             tr("Det."),
-                             tr("Conf."),
-                             tr("D (%1)").arg(m_statisticUnit),
-                             tr("SNR (dB)"),
-                             tr("Window (s)"),
-                             tr("Onset (UTC)"),
-                             tr("RF (Hz)"),
-                             tr("End"),
-                             hasBearing() ? tr("Rate (%1/s)").arg(unit(0)) : tr("Drift (Hz/s)"),
-                             tr("State"),
-                             tr("Review"),
-                             tr("Class"),
-                             tr("Note")};
-    const QString tips[] = {
-        tr("Number, in order of detection"),
-        m_axes.empty() ? tr("Frequency in the middle between onset and end") : tr("%1 at detection").arg(nameOf(0)),
-        tr("%1 at detection").arg(hasBearing() ? nameOf(1) : tr("Bearing")),
-        tr("%1 at detection").arg(hasColumn(ThirdAxis) ? nameOf(2) : QString()),
-        tr("%1 at detection").arg(hasColumn(FourthAxis) ? nameOf(3) : QString()),
-        tr("Onset: time of the last reset of the detecting path, from the first sample; s, from ten "
-           "minutes on h:min:s"),
-        tr("Detected: time at which the statistic first exceeded the threshold"),
-        tr("Confirmed: time at which the track was confirmed"),
-        tr("Largest statistic"),
-        tr("Mean signal-to-noise power ratio in one window and bin"),
-        tr("Length of the window that found the event: the displayed one, or a longer one for steady lines"),
-        tr("Date and time of the onset"),
-        tr("Radio frequency in the middle between onset and end: centre frequency plus offset"),
-        tr("Last frame with evidence"),
-        tr("Straight-line slope of the track"),
-        tr("Confirmed or tentative; open if the data ended before the track"),
-        tr("Accepted (Y), rejected (X) or undecided (U), or part of another event's signal"),
-        tr("Your class of the signal; 1 to 9 set it, Shift+U clears it"),
-        tr("Your note on the event; E edits it")};
+    struct Words {
+        QString heading, tip;
+    };
+    const auto own = [this](Column column) {
+        const TableColumn<Event> &one = fileColumn(column);
+        const bool isClock = column == Onset || column == Detection || column == End; // whose unit changes
+        const QString name = QString::fromStdString(one.heading);
+        const QString ownUnit = column == Statistic ? m_statisticUnit : QString::fromStdString(one.unit);
+        return Words{isClock || ownUnit.isEmpty() ? name : QStringLiteral("%1 (%2)").arg(name, ownUnit),
+                     QString::fromStdString(one.sentence)};
+    };
+    const auto atDetection = [&](Column column) {
+        return tr("%1 at detection").arg(hasColumn(column) ? nameOf(axisOf(column)) : tr("Position"));
+    };
+    const Words words[] = {
+        own(Id),
+        hasBearing() ? Words{heading(Frequency), atDetection(Frequency)}
+                     : Words{tr("f (Hz)"), tr("Frequency in the middle between onset and end")},
+        {heading(Bearing), atDetection(Bearing)},
+        {heading(ThirdAxis), atDetection(ThirdAxis)},
+        {heading(FourthAxis), atDetection(FourthAxis)},
+        {own(Onset).heading, tr("%1; s, from ten minutes on h:min:s").arg(own(Onset).tip)},
+        own(Detection),
+        {tr("Conf."), tr("Confirmed: time at which the track was confirmed")},
+        own(Statistic),
+        own(Snr),
+        own(Window),
+        {tr("Onset (UTC)"), tr("Date and time of the onset")},
+        {tr("RF (Hz)"), tr("Radio frequency in the middle between onset and end: centre frequency plus offset")},
+        own(End),
+        hasBearing() ? Words{tr("Rate (%1/s)").arg(unit(0)), own(Drift).tip} : own(Drift),
+        {tr("State"), tr("Confirmed or tentative; open if the data ended before the track")},
+        {tr("Review"), tr("Accepted (Y), rejected (X) or undecided (U), or part of another event's signal")},
+        {tr("Class"), tr("Your class of the signal; 1 to 9 set it, Shift+U clears it")},
+        {tr("Note"), tr("Your note on the event; E edits it")}};
     if (section < 0 || section >= ColumnCount)
         return {};
     if (role == Qt::DisplayRole || role == Qt::AccessibleTextRole)
-        return names[section];
-    return role == Qt::ToolTipRole ? tips[section] : QVariant();
+        return words[section].heading;
+    return role == Qt::ToolTipRole ? words[section].tip : QVariant();
 }
 
 } // namespace faintline

@@ -39,6 +39,20 @@ namespace {
         return value;
     }
 
+    double numberOf(const SqliteStatement &row, int column, bool isOptional, const std::string &path)
+    {
+        return isOptional ? row.number(column) : number(row, column, path);
+    }
+
+    /// Binds the cells of a row after a place; returns the last one's place.
+    template <class Row>
+    int bindCells(SqliteStatement &statement, int place, const std::vector<TableColumn<Row>> &columns, const Row &row)
+    {
+        for (const TableColumn<Row> &column : columns)
+            std::visit([&](const auto &value) { statement.bind(++place, value); }, column.value(row));
+        return place;
+    }
+
     int whole(const SqliteStatement &row, int column, const std::string &path)
     {
         const std::int64_t value = row.integer(column);
@@ -166,28 +180,19 @@ std::vector<SurveyEvent> SurveyDatabase::events(std::int64_t recording)
     while (row.next()) {
         SurveyEvent one;
         Event &event = one.event;
-        event.id = whole(row, 0, path());
-        event.onsetSeconds = number(row, 1, path());
-        event.detectSeconds = number(row, 2, path());
-        event.endSeconds = number(row, 3, path());
-        event.position = {number(row, 4, path())};
+        whole(row, 0, path());
+        int column = 0;
+        for (const TableColumn<Event> &each : surveyEventColumns())
+            each.set(event, numberOf(row, column++, each.isOptional, path()));
         event.detectedPosition = event.position;
-        event.driftPerSecond = number(row, 5, path());
         event.ratesPerSecond = {event.driftPerSecond};
-        event.statistic = number(row, 6, path());
-        event.isConfirmed = row.integer(7) != 0;
-        event.isOpen = row.integer(8) != 0;
-        event.snrDb = row.number(9);
-        event.bandWidth = row.number(10);
-        event.noiseProbability = row.number(11);
-        event.windowSeconds = row.number(12);
         one.box.startSeconds = event.onsetSeconds;
         one.box.endSeconds = event.endSeconds;
-        one.box.lowHz = number(row, 13, path());
-        one.box.highHz = number(row, 14, path());
+        one.box.lowHz = number(row, column++, path());
+        one.box.highHz = number(row, column++, path());
         one.box.label = "event " + std::to_string(event.id);
-        one.box.verdict = verdictNamed(row.text(15));
-        one.box.note = row.text(16);
+        one.box.verdict = verdictNamed(row.text(column++));
+        one.box.note = row.text(column);
         result.push_back(std::move(one));
     }
     return result;
@@ -198,9 +203,11 @@ std::vector<SurveyPoint> SurveyDatabase::points(std::int64_t recording)
     SqliteStatement row = m_database.prepare(surveyTable("tracks").query());
     row.with(recording);
     std::vector<SurveyPoint> result;
-    while (row.next())
-        result.push_back({whole(row, 0, path()), number(row, 2, path()), number(row, 3, path()), number(row, 4, path()),
-                          row.number(5), row.number(6), row.number(7), row.number(8)});
+    while (row.next()) {
+        SurveyPoint &point = result.emplace_back(SurveyPoint{whole(row, 0, path()), {}});
+        for (std::size_t i = 0; i < point.values.size(); ++i)
+            point.values[i] = numberOf(row, int(i) + 2, surveyTrackColumns()[i].isOptional, path());
+    }
     return result;
 }
 
@@ -209,9 +216,11 @@ std::vector<AreaEvent> SurveyDatabase::areas(std::int64_t recording)
     SqliteStatement row = m_database.prepare(surveyTable("areas").query());
     row.with(recording);
     std::vector<AreaEvent> result;
-    while (row.next())
-        result.push_back({number(row, 1, path()), number(row, 2, path()), number(row, 3, path()),
-                          number(row, 4, path()), number(row, 5, path())});
+    while (row.next()) {
+        AreaEvent &area = result.emplace_back();
+        for (int column = 0; const TableColumn<AreaEvent> &each : areaColumns())
+            each.set(area, number(row, ++column, path()));
+    }
     return result;
 }
 
@@ -239,19 +248,24 @@ void SurveyDatabase::put(const SurveyOutcome &outcome)
     const std::int64_t id = m_database.integer("SELECT last_insert_rowid()");
 
     SqliteStatement event = m_database.prepare(surveyTable("events").insertion());
-    for (const auto &[e, box] : outcome.events)
-        event.run(id, e.id, e.onsetSeconds, e.detectSeconds, e.endSeconds, e.position.back(), e.driftPerSecond,
-                  e.statistic, int(e.isConfirmed), int(e.isOpen), e.snrDb, e.bandWidth, e.noiseProbability,
-                  e.windowSeconds, box.lowHz, box.highHz);
+    for (const auto &[e, box] : outcome.events) {
+        int place = bindCells(event.with(id), 1, surveyEventColumns(), e);
+        event.bind(++place, box.lowHz);
+        event.bind(++place, box.highHz);
+        event.next();
+    }
     SqliteStatement point = m_database.prepare(surveyTable("tracks").insertion());
     std::map<int, int> count;
-    for (const SurveyPoint &p : outcome.points)
-        point.run(id, p.track, count[p.track]++, p.seconds, p.position, p.statistic, p.low, p.high, p.presence,
-                  p.snrDb);
+    for (const SurveyPoint &p : outcome.points) {
+        point.with(id, p.track, count[p.track]++);
+        for (int place = 3; const double value : p.values)
+            point.bind(++place, value);
+        point.next();
+    }
     SqliteStatement area = m_database.prepare(surveyTable("areas").insertion());
     for (int i = 0; i < std::ssize(outcome.areas); ++i) {
-        const AreaEvent &a = outcome.areas[std::size_t(i)];
-        area.run(id, i + 1, a.onsetSeconds, a.endSeconds, a.low, a.high, a.levelDb);
+        bindCells(area.with(id, i + 1), 2, areaColumns(), outcome.areas[std::size_t(i)]);
+        area.next();
     }
 }
 

@@ -3,6 +3,7 @@
 #include "analyse/events.h"
 #include "inspect/Review.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -43,16 +44,11 @@ struct SurveyEvent {
     Annotation box;
 };
 
-/// One frame of a track, as `writeTracks` writes it; NaN where the track was not smoothed.
+/// One frame of a track: the values of `surveyTrackColumns`, that is t, f, statistic, f_low, f_high, presence, snr_db;
+/// NaN where the track was not smoothed.
 struct SurveyPoint {
     int track = 0;
-    double seconds = 0.0;
-    double position = 0.0; ///< Hz
-    double statistic = 0.0;
-    double low = 0.0;
-    double high = 0.0;
-    double presence = 0.0;
-    double snrDb = 0.0;
+    std::array<double, 7> values{};
 };
 
 /// All that a survey stores for one recording.

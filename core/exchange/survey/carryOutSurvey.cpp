@@ -4,12 +4,12 @@
 #include "base/Error.h"
 #include "base/RunContext.h"
 #include "base/files/fileName.h"
-#include "base/logmath.h"
 #include "base/oneLine.h"
 #include "detect/SumDetector.h"
 #include "exchange/reviewedText.h"
 #include "exchange/survey/SurveyOrigin.h"
 #include "exchange/survey/SurveyOutcome.h"
+#include "exchange/survey/surveySchema.h"
 #include "exchange/survey/writeSurvey.h"
 #include "noise/openFrames.h"
 #include "plan/firstSettings.h"
@@ -105,27 +105,12 @@ namespace {
 
     std::vector<SurveyPoint> pointsOf(const Analysis &analysis)
     {
-        const Axis &axis = analysis.grid().axes.back();
         std::vector<SurveyPoint> points;
         for (const Track &track : analysis.tracks)
             for (const std::size_t i : track.presentPoints()) {
-                const double none = std::nan("");
-                SurveyPoint point{track.id,
-                                  analysis.time().value(double(track.points[i].frame)),
-                                  track.positionOf(i, analysis.grid()).back(),
-                                  track.points[i].statistic,
-                                  none,
-                                  none,
-                                  none,
-                                  none};
-                if (!track.smoothed.empty()) {
-                    const SmoothedPoint &smoothed = track.smoothed[i];
-                    point.low = axis.value(double(smoothed.low));
-                    point.high = axis.value(double(smoothed.high));
-                    point.presence = double(smoothed.presence);
-                    point.snrDb = dbFromRatio(double(smoothed.level));
-                }
-                points.push_back(point);
+                SurveyPoint &point = points.emplace_back(SurveyPoint{track.id, {}});
+                for (std::size_t at = 0; at < point.values.size(); ++at)
+                    point.values[at] = surveyTrackColumns()[at].number({&analysis, &track, i});
             }
         return points;
     }

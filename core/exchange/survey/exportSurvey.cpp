@@ -9,6 +9,7 @@
 #include "base/utc.h"
 #include "exchange/csvText.h"
 #include "exchange/reviewedText.h"
+#include "exchange/survey/surveySchema.h"
 #include "signal/openRecording.h"
 
 #include <algorithm>
@@ -29,7 +30,8 @@ namespace fs = std::filesystem;
 namespace {
 
     /// Each number after a comma; unknown ones are empty.
-    std::string cells(std::initializer_list<double> numbers)
+    template <class Numbers = std::initializer_list<double>>
+    std::string cells(const Numbers &numbers)
     {
         std::string text;
         for (const double number : numbers)
@@ -41,11 +43,15 @@ namespace {
     {
         const Event &e = one.event;
         return (recording.startUnixSeconds ? formatUtc(*recording.startUnixSeconds + e.onsetSeconds) : std::string())
-               + "," + std::to_string(e.id)
-               + cells({e.onsetSeconds, e.detectSeconds, e.endSeconds, e.position.back(), e.driftPerSecond, e.statistic,
-                        e.isConfirmed ? 1.0 : 0.0, e.isOpen ? 1.0 : 0.0, e.snrDb, e.bandWidth, e.noiseProbability,
-                        e.windowSeconds, one.box.lowHz.value_or(NAN), one.box.highHz.value_or(NAN)})
-               + "," + nameOf(one.box.verdict) + "," + csvText(oneLine(one.box.note)) + "\n";
+               + ","
+               + csvLine(surveyEventColumns(),
+                         [&](const TableColumn<Event> &column) {
+                             const CellValue value = column.value(e);
+                             const double *number = std::get_if<double>(&value);
+                             return number && std::isnan(*number) ? std::string() : cellText(value);
+                         })
+               + cells({one.box.lowHz.value_or(NAN), one.box.highHz.value_or(NAN)}) + "," + nameOf(one.box.verdict)
+               + "," + csvText(oneLine(one.box.note)) + "\n";
     }
 
     /// Properties of a recording's file, if it is still there, and those that the survey keeps.
@@ -98,8 +104,7 @@ std::string pathBelow(const std::string &recording, const std::string &database)
 void exportEvents(SurveyDatabase &survey, const std::string &path)
 {
     AtomicFile file(path);
-    file.write("recording,utc_onset,event,t_onset,t_detect,t_end,f,drift_hz_per_s,statistic,confirmed,open,snr_db,"
-               "band_hz,noise_probability,window_s,f_low,f_high,review,note\n");
+    file.write("recording,utc_onset," + csvNames(surveyEventColumns()) + ",f_low,f_high,review,note\n");
     for (const SurveyRecording &recording : survey.recordings()) {
         std::string text;
         for (const SurveyEvent &event : survey.events(recording.id))
@@ -112,13 +117,12 @@ void exportEvents(SurveyDatabase &survey, const std::string &path)
 void exportTracks(SurveyDatabase &survey, const std::string &path)
 {
     AtomicFile file(path);
-    file.write("recording,track,t,f,statistic,f_low,f_high,presence,snr_db\n");
+    file.write("recording,track," + csvNames(surveyTrackColumns()) + "\n");
     for (const SurveyRecording &recording : survey.recordings()) {
         const std::string name = csvText(oneLine(storedPath(recording.file.path, survey.path())));
         std::string text;
         for (const SurveyPoint &p : survey.points(recording.id))
-            text += name + "," + std::to_string(p.track)
-                    + cells({p.seconds, p.position, p.statistic, p.low, p.high, p.presence, p.snrDb}) + "\n";
+            text += name + "," + std::to_string(p.track) + cells(p.values) + "\n";
         file.write(text);
     }
     file.commit();

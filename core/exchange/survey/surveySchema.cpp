@@ -1,10 +1,18 @@
 #include "exchange/survey/surveySchema.h"
 
+#include "exchange/csvText.h"
+
 #include <algorithm>
+#include <cstring>
 
 namespace faintline {
 
 namespace {
+
+    Grid frequencyGrid()
+    {
+        return {{{"frequency", "Hz", 0.0, 1.0, 1, false}}};
+    }
 
     constexpr const char *settingsTable = R"(CREATE TABLE settings (
     id INTEGER PRIMARY KEY CHECK (id = 1),
@@ -38,22 +46,27 @@ namespace {
     ln_k REAL
 ) STRICT)";
 
+    /// A row of CREATE TABLE for each column.
+    template <class Row>
+    std::string definitions(const std::vector<TableColumn<Row>> &columns)
+    {
+        std::string text;
+        for (const TableColumn<Row> &column : columns)
+            text += "    " + column.name + (std::holds_alternative<double>(column.kind) ? " REAL" : " INTEGER")
+                    + (column.isOptional ? ",\n" : " NOT NULL,\n");
+        return text;
+    }
+
+    /// The statement that creates a table with such rows, where `text` has "…".
+    std::string tableOf(std::string text, const std::string &rows)
+    {
+        return text.replace(text.find("    …\n"), std::strlen("    …\n"), rows);
+    }
+
     constexpr const char *eventsTable = R"(CREATE TABLE events (
     id INTEGER PRIMARY KEY,
     recording INTEGER NOT NULL REFERENCES recordings (id),
-    event INTEGER NOT NULL,
-    t_onset REAL NOT NULL,
-    t_detect REAL NOT NULL,
-    t_end REAL NOT NULL,
-    f REAL NOT NULL,
-    drift_hz_per_s REAL NOT NULL,
-    statistic REAL NOT NULL,
-    confirmed INTEGER NOT NULL,
-    open INTEGER NOT NULL,
-    snr_db REAL,
-    band_hz REAL,
-    noise_probability REAL,
-    window_s REAL,
+    …
     f_low REAL NOT NULL,
     f_high REAL NOT NULL,
     UNIQUE (recording, event)
@@ -63,24 +76,14 @@ namespace {
     recording INTEGER NOT NULL REFERENCES recordings (id),
     track INTEGER NOT NULL,
     point INTEGER NOT NULL,
-    t REAL NOT NULL,
-    f REAL NOT NULL,
-    statistic REAL NOT NULL,
-    f_low REAL,
-    f_high REAL,
-    presence REAL,
-    snr_db REAL,
+    …
     PRIMARY KEY (recording, track, point)
 ) STRICT, WITHOUT ROWID)";
 
     constexpr const char *areasTable = R"(CREATE TABLE areas (
     recording INTEGER NOT NULL REFERENCES recordings (id),
     area INTEGER NOT NULL,
-    t_onset REAL NOT NULL,
-    t_end REAL NOT NULL,
-    f_low REAL NOT NULL,
-    f_high REAL NOT NULL,
-    level_db REAL NOT NULL,
+    …
     PRIMARY KEY (recording, area)
 ) STRICT, WITHOUT ROWID)";
 
@@ -98,22 +101,36 @@ const std::string surveyRecordingColumns =
     "status, reason, bytes, modified_ns, hash, container, sample_rate_hz, duration_s, centre_hz, start_unix_s, "
     "settings, window_s, threshold, statistic_unit, ln_k";
 
+const std::vector<TableColumn<Event>> &surveyEventColumns()
+{
+    static const auto columns = eventColumns(frequencyGrid(), {.secondPass = true});
+    return columns;
+}
+
+const std::vector<TableColumn<TrackPlace>> &surveyTrackColumns()
+{
+    static const auto columns = trackColumns(frequencyGrid(), {.secondPass = true});
+    return columns;
+}
+
 const std::vector<std::string> &surveySchema()
 {
-    static const std::vector<std::string> schema{settingsTable, provenanceTable, recordingsTable, eventsTable,
-                                                 tracksTable,   areasTable,      reviewsTable};
+    static const std::vector<std::string> schema{settingsTable,
+                                                 provenanceTable,
+                                                 recordingsTable,
+                                                 tableOf(eventsTable, definitions(surveyEventColumns())),
+                                                 tableOf(tracksTable, definitions(surveyTrackColumns())),
+                                                 tableOf(areasTable, definitions(areaColumns())),
+                                                 reviewsTable};
     return schema;
 }
 
 const std::vector<SurveyTable> &surveyTables()
 {
     static const std::vector<SurveyTable> tables{
-        {"events",
-         "event, t_onset, t_detect, t_end, f, drift_hz_per_s, statistic, confirmed, open, snr_db, band_hz, "
-         "noise_probability, window_s, f_low, f_high",
-         "id"},
-        {"tracks", "track, point, t, f, statistic, f_low, f_high, presence, snr_db", "track, point"},
-        {"areas", "area, t_onset, t_end, f_low, f_high, level_db", "area"},
+        {"events", csvNames(surveyEventColumns()) + ",f_low,f_high", "id"},
+        {"tracks", "track,point," + csvNames(surveyTrackColumns()), "track, point"},
+        {"areas", "area," + csvNames(areaColumns()), "area"},
         {"reviews", "event, verdict, note", "event"}};
     return tables;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "analyse/columns.h"
+
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -9,6 +11,10 @@ namespace faintline {
 /// Header fields of the file: PRAGMA application_id and user_version.
 inline constexpr std::int64_t surveyApplicationId = 0x4674'6c6e; // "Ftln"
 inline constexpr std::int64_t surveyFormat = 1;
+
+/// The columns that a survey has of an event, before those of its track's band (f_low, f_high), and of a track's point.
+const std::vector<TableColumn<Event>> &surveyEventColumns();
+const std::vector<TableColumn<TrackPlace>> &surveyTrackColumns();
 
 /// The statements that create the tables of a survey, in order (docs/reference/survey.md).
 const std::vector<std::string> &surveySchema();
