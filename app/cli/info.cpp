@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 
 namespace faintline::cli {
@@ -227,13 +226,7 @@ void addInfo(CLI::App &app, Common &)
                 print(*pings, options->file);
             return;
         }
-        std::error_code ignored;
-        const std::string grid = gridPathOf(source.path);
-        if (const auto raw =
-                source.hasSamples()
-                    ? nullptr
-                    : openRawPings(source.path,
-                                   std::filesystem::is_regular_file(grid, ignored) ? grid : std::string())) {
+        if (const auto raw = source.hasSamples() ? nullptr : openRawPings(source.path, gridBeside(source.path))) {
             if (options->json) {
                 Json json = toJson(raw->info());
                 json["values"] = valuesOf(*raw);

@@ -9,7 +9,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -45,12 +44,9 @@ namespace {
     /// The frames, with the axes of the grid beside the file only if it says what their numbers are.
     NormalisedFramesPointer framesOf(const StatisticOptions &options, const Common &common)
     {
-        std::string grid = gridPathOf(options.frames);
-        std::error_code ignored;
-        if (!std::filesystem::is_regular_file(grid, ignored))
-            grid.clear();
         const PingNoiseSettings pings = pingsOf(options.assignments);
-        auto frames = openPings(options.frames, grid, pings, UnstatedPings::Normalised, common.context());
+        auto frames =
+            openPings(options.frames, gridBeside(options.frames), pings, UnstatedPings::Normalised, common.context());
         if (!frames)
             return readFrames(options.frames, "");
         tellGuess(*frames, options.frames, common);

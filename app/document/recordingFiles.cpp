@@ -2,8 +2,7 @@
 
 #include "app/base/filePath.h"
 #include "app/base/tr.h"
-#include "base/files/fileName.h"
-#include "exchange/survey/findRecordings.h"
+#include "signal/fileFormats.h"
 
 #include <QCoreApplication>
 #include <QDir>
@@ -15,13 +14,6 @@
 namespace faintline {
 
 namespace {
-
-    bool isNamedLikeRecording(const QString &path)
-    {
-        const std::string name = pathBytes(path);
-        return std::ranges::any_of(recordingEndings(),
-                                   [&](const std::string &ending) { return hasEnding(name, "." + ending); });
-    }
 
     /// Pads numbers with zeros: 2 sorts before 10.
     QString sortKey(const QString &path)
@@ -49,7 +41,7 @@ namespace {
         for (auto it = std::filesystem::directory_iterator(folder, failure);
              !failure && it != std::filesystem::directory_iterator(); it.increment(failure)) {
             const QString file = pathText(it->path().string());
-            if (file == path || (isNamedLikeRecording(file) && isRegularFile(file)))
+            if (file == path || (isNamedLikeRecording(pathBytes(file)) && isRegularFile(file)))
                 files << file;
         }
         std::sort(files.begin(), files.end(),

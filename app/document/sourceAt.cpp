@@ -3,8 +3,6 @@
 #include "app/base/filePath.h"
 #include "base/json.h"
 #include "plan/firstSettings.h"
-#include "signal/formats/AudioRecording.h"
-#include "signal/formats/RawRecording.h"
 
 namespace faintline {
 
@@ -41,9 +39,7 @@ AnalysisSettings firstSettings(const OpenedSource &opened)
 
 bool needsRawOptions(const QString &path, const OpenOptions &options)
 {
-    const std::string name = pathBytes(path);
-    return options.rawType.empty() && !(options.rawRateHz > 0.0) && isRegularFile(path) && rawTypeOfExtension(name)
-           && !AudioRecording::recognises(name);
+    return options.rawType.empty() && !(options.rawRateHz > 0.0) && isRegularFile(path) && isNamedRaw(pathBytes(path));
 }
 
 } // namespace faintline

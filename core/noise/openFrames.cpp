@@ -5,10 +5,7 @@
 #include "base/files/fileName.h"
 #include "noise/NormalisedPower.h"
 #include "noise/pings/openPings.h"
-#include "signal/formats/Hdf5Filterbank.h"
-#include "signal/formats/Hdf5Pings.h"
-#include "signal/formats/NumPyPower.h"
-#include "signal/formats/SigprocFile.h"
+#include "signal/formats/NumPy.h"
 #include "signal/formats/gridFile.h"
 
 #include <algorithm>
@@ -17,11 +14,6 @@
 namespace faintline {
 
 namespace {
-
-    bool isStack(const std::string &path)
-    {
-        return hasEnding(path, ".npy");
-    }
 
     template <class Real>
     void checkValues(std::span<Real> values, const std::string &where)
@@ -42,29 +34,6 @@ namespace {
     }
 
 } // namespace
-
-std::string gridPathOf(const std::string &stackPath)
-{
-    return stackPath.substr(0, stackPath.rfind('.')) + ".grid.json";
-}
-
-bool holdsFrames(const std::string &path)
-{
-    return isStack(path)
-           || (isFile(path)
-               && (SigprocFile::recognises(path) || Hdf5Filterbank::recognises(path) || Hdf5Pings::recognises(path)));
-}
-
-std::shared_ptr<const PowerFrames> openPower(const std::string &path)
-{
-    if (isStack(path) && NumPyPower::recognises(path, gridPathOf(path)))
-        return std::make_shared<NumPyPower>(path, gridPathOf(path));
-    if (isFile(path) && SigprocFile::recognises(path))
-        return std::make_shared<SigprocFile>(path);
-    if (isFile(path) && Hdf5Filterbank::recognises(path))
-        return std::make_shared<Hdf5Filterbank>(path);
-    return nullptr;
-}
 
 void checkFrameValues(std::span<const float> values, const std::string &where)
 {
@@ -88,11 +57,11 @@ NormalisedFramesPointer readFrames(const std::string &path, const std::string &g
 
 NormalisedFramesPointer openFrames(const std::string &path, const FramesOptions &options, const RunContext &context)
 {
-    const std::string grid = isFile(gridPathOf(path)) ? gridPathOf(path) : std::string();
+    const std::string grid = gridBeside(path);
     if (auto pings = openPings(path, grid, options.pings, UnstatedPings::Guess, context))
         return pings;
     const std::shared_ptr<const PowerFrames> power = openPower(path);
-    if (!power && isStack(path))
+    if (!power && hasEnding(path, ".npy"))
         return readFrames(path, grid);
     if (!power)
         return nullptr;

@@ -5,7 +5,7 @@
 #include "frames/Spectrogram.h"
 #include "noise/NoiseNormaliser.h"
 #include "noise/pings/PingNoise.h"
-#include "signal/PowerFrames.h"
+#include "signal/fileFormats.h"
 
 #include <memory>
 #include <span>
@@ -13,22 +13,6 @@
 #include <vector>
 
 namespace faintline {
-
-/// Path of the file that describes the axes of a stack of frames: NAME.grid.json for NAME.npy or NAME.h5.
-std::string gridPathOf(const std::string &stackPath);
-
-/// Whether a file holds frames (with time and frequency, or any other axes) rather than a recording: a NumPy file by
-/// its name, the others of openPower by content. False if there is no such file.
-bool holdsFrames(const std::string &path);
-
-/// Opens a file of power that is not normalised yet; null for files of another kind. Reads headers only.
-///
-///   sigproc filterbank   .fil of 1, 2, 4, 8, 16, 32 bits (SigprocFile)
-///   HDF5 filterbank      .h5 (Hdf5Filterbank)
-///   NumPy spectrogram    .npy of shape (frames, frequencies) whose NAME.grid.json says "values": "power" (NumPyPower)
-///
-/// Throws Error naming the file and the cause.
-std::shared_ptr<const PowerFrames> openPower(const std::string &path);
 
 /// Ready-made frames in double precision, cell by cell, stage by stage, checked as by readFrames.
 struct DoubleFrames {

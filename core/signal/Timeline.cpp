@@ -3,6 +3,7 @@
 #include "base/Error.h"
 #include "base/Field.h"
 #include "base/files/fileName.h"
+#include "signal/fileFormats.h"
 #include "signal/formats/SigmfRecording.h"
 #include "signal/timeInName.h"
 
@@ -20,13 +21,6 @@ namespace {
     constexpr std::size_t mostOpen = 8;
     constexpr std::size_t mostFiles = 1'000'000;
     constexpr const char *listEnding = ".timeline";
-
-    bool isSampleFile(const std::string &path)
-    {
-        const std::vector<std::string> &endings = sampleEndings();
-        return std::any_of(endings.begin(), endings.end(),
-                           [&](const std::string &ending) { return hasEnding(path, "." + ending); });
-    }
 
     /// Files that Digital RF stores beside its samples, and the one being written.
     bool isBesideSamples(const std::string &name)
@@ -46,7 +40,7 @@ namespace {
                 continue;
             if (entry->is_directory(ignored) && !entry->is_symlink(ignored))
                 addFolder(entry->path(), files);
-            else if (entry->is_regular_file(ignored) && isSampleFile(entry->path().native()))
+            else if (entry->is_regular_file(ignored) && isNamedLikeRecording(entry->path().native(), false))
                 files.insert(entry->path().string());
             if (files.size() > mostFiles)
                 throw Error(folder.string(), "holds more than a million recordings; choose a part of them");
@@ -295,13 +289,6 @@ int Timeline::scaleExponent(int channel) const
         if (const int exponent = partAt(number)->scaleExponent(channel); exponent != 0)
             return exponent;
     return 0;
-}
-
-const std::vector<std::string> &sampleEndings()
-{
-    static const std::vector<std::string> endings{"wav",  "flac", "ogg", "oga", "opus", "mp3",  "aif", "aiff",
-                                                  "aifc", "au",   "caf", "w64", "rf64", "hdf5", "h5",  "sigmf-meta"};
-    return endings;
 }
 
 std::vector<std::string> filesBehind(const std::vector<std::string> &names, bool areRaw)

@@ -67,9 +67,6 @@ private:
     mutable std::vector<std::pair<std::size_t, RecordingPointer>> m_open; ///< most recent last; guarded by m_mutex
 };
 
-/// File name extensions of recordings, without the dot.
-const std::vector<std::string> &sampleEndings();
-
 /// All files from which recordings of these names are read: two for SigMF, many for a timeline. With `areRaw` all names
 /// are read as raw samples.
 std::vector<std::string> filesBehind(const std::vector<std::string> &names, bool areRaw = false);

@@ -1,4 +1,5 @@
 #include "exchange/survey/findRecordings.h"
+#include "signal/fileFormats.h"
 #include "support/test.h"
 
 #include "support/recordings.h"

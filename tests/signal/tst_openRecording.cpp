@@ -1,6 +1,7 @@
 #include "signal/openRecording.h"
 #include "support/test.h"
 
+#include "signal/formats/Hdf5File.h"
 #include "support/recordings.h"
 
 #include <QCryptographicHash>
@@ -17,6 +18,8 @@ class tst_openRecording : public QObject
     Q_OBJECT
 
 private slots:
+    void formatsRecogniseTheirFiles_data();
+    void formatsRecogniseTheirFiles();
     void refusals();
     void rawFilesAskForWhatIsMissing();
     void namesTellWhatFilesDoNot();
@@ -45,11 +48,47 @@ private:
     QTemporaryDir m_folder;
 };
 
+void tst_openRecording::formatsRecogniseTheirFiles_data()
+{
+    QTest::addColumn<QString>("file");
+    const QHash<QString, QString> examples{
+        {"NumPy frames", "frames.npy"}, {"sigproc filterbank", "float.fil"}, {"HDF5 filterbank", "plain.h5"},
+        {"HDF5 pings", "pings.h5"},     {"SigMF", "pair.sigmf-meta"},        {"SigMF archive", "archive.sigmf"},
+        {"KiwiSDR WAV", "kiwi.wav"},    {"HDF5 strain", "strain.hdf5"},      {"Digital RF", "rf.h5"},
+        {"other HDF5", "damaged.h5"},   {"raw samples", "raw.cf32"},         {"sound", "bext.wav"}};
+    for (const FileFormat &format : fileFormats())
+        QTest::newRow(format.name) << examples.value(format.name);
+}
+
+void tst_openRecording::formatsRecogniseTheirFiles()
+{
+    QFETCH(QString, file);
+    QVERIFY2(!file.isEmpty(), "name an example of the format");
+    const QString stored = QStringLiteral(FAINTLINE_SOURCE_DIR "/tests/fuzz/files/") + file;
+    const std::string example = QFile::exists(stored) ? stored.toStdString() : path(file.toLatin1());
+    if (!QFile::exists(stored))
+        writeBytes(example, "content");
+    if (Hdf5File::recognises(example))
+        try {
+            const Hdf5File open(example);
+        } catch (const Error &error) {
+            QSKIP(error.what());
+        }
+    const auto format =
+        std::ranges::find_if(fileFormats(), [&](const FileFormat &each) { return each.recognises(example); });
+    QCOMPARE(format->name, QTest::currentDataTag());
+    QCOMPARE(holdsFrames(example), !format->openSamples);
+    for (const std::string &ending : format->endings)
+        QVERIFY(isNamedLikeRecording("a." + ending)
+                && isNamedLikeRecording("A." + ending, false) >= (format->openSamples != nullptr));
+}
+
 void tst_openRecording::refusals()
 {
     QVERIFY(contains(refusal(path("none.wav")), "no such file"));
     QVERIFY(contains(refusal(path("none.wav") + "/x"), "no such file"));
-    QVERIFY(contains(refusal(m_folder.path().toStdString()), "holds no recordings"));
+    QVERIFY(QDir(m_folder.path()).mkdir("empty"));
+    QVERIFY(contains(refusal(path("empty")), "holds no recordings"));
     QVERIFY(contains(refusal("/dev/null"), "is a device or a pipe"));
     QCOMPARE(::mkfifo(path("pipe.wav").c_str(), 0600), 0);
     QVERIFY(contains(refusal(path("pipe.wav")), "is a device or a pipe"));

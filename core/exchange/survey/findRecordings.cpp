@@ -2,8 +2,7 @@
 
 #include "base/Error.h"
 #include "base/files/fileName.h"
-#include "noise/openFrames.h"
-#include "signal/Timeline.h"
+#include "signal/fileFormats.h"
 #include "signal/formats/SampleType.h"
 #include "signal/formats/SigmfRecording.h"
 
@@ -24,9 +23,7 @@ namespace {
             return rawTypeOfExtension(path).has_value();
         if (hasEnding(path, ".npy"))
             return fs::exists(gridPathOf(path));
-        const std::vector<std::string> &endings = recordingEndings();
-        return std::any_of(endings.begin(), endings.end(),
-                           [&](const std::string &ending) { return hasEnding(path, "." + ending); });
+        return isNamedLikeRecording(path);
     }
 
     std::string absoluteName(const fs::path &path)
@@ -62,16 +59,6 @@ namespace {
     };
 
 } // namespace
-
-const std::vector<std::string> &recordingEndings()
-{
-    static const std::vector<std::string> endings = [] {
-        std::vector<std::string> all = sampleEndings();
-        all.insert(all.end(), {"fil", "npy"});
-        return all;
-    }();
-    return endings;
-}
 
 std::vector<std::string> findRecordings(const std::vector<std::string> &names, bool raw,
                                         std::vector<std::string> &unreadable)

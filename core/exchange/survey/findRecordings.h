@@ -5,10 +5,6 @@
 
 namespace faintline {
 
-/// File name extensions of recordings, without the dot. Files with other extensions are recognised by their content if
-/// they are named explicitly.
-const std::vector<std::string> &recordingEndings();
-
 /// The recordings in these files and folders, as absolute paths in order, without duplicates.
 ///
 /// Named files are always included. Folders are searched recursively for files with the extension of a recording (.wav,

@@ -4,44 +4,9 @@
 #include "base/files/fileName.h"
 #include "noise/pings/NormalisedPings.h"
 #include "noise/pings/guessPingValues.h"
-#include "signal/formats/Hdf5Pings.h"
-#include "signal/formats/NumPyPings.h"
-#include "signal/formats/gridFile.h"
-
-#include <vector>
+#include "signal/fileFormats.h"
 
 namespace faintline {
-
-namespace {
-
-    /// The shape of a NumPy file; empty if it cannot be read, of which the next reader reports why.
-    std::vector<Index> shapeOf(const std::string &path)
-    {
-        try {
-            return readNumPyHeader(path).shape;
-        } catch (const Error &) {
-            return {};
-        }
-    }
-
-    bool hasSeveralAxes(const std::string &path, const std::string &gridPath)
-    {
-        const std::vector<Index> shape = shapeOf(path);
-        constexpr std::size_t pingDimensionMinimum = 3;
-        return shape.size() >= pingDimensionMinimum
-               && (gridPath.empty() || !readGridFile(gridPath, shape).grid.isSpectrum());
-    }
-
-} // namespace
-
-std::shared_ptr<const RawPings> openRawPings(const std::string &path, const std::string &gridPath)
-{
-    if (hasEnding(path, ".npy"))
-        return hasSeveralAxes(path, gridPath) ? std::make_shared<NumPyPings>(path, gridPath) : nullptr;
-    if (isFile(path) && Hdf5Pings::recognises(path))
-        return std::make_shared<Hdf5Pings>(path, gridPath);
-    return nullptr;
-}
 
 NormalisedFramesPointer openPings(const std::string &path, const std::string &gridPath,
                                   const PingNoiseSettings &settings, UnstatedPings unstated, const RunContext &context)
