@@ -19,6 +19,8 @@
 #include <initializer_list>
 #include <limits>
 #include <map>
+#include <sstream>
+#include <string_view>
 #include <vector>
 
 #include <sys/stat.h>
@@ -171,66 +173,44 @@ namespace {
 
     const std::string standard = "https://raw.githubusercontent.com/tdwg/camtrap-dp/1.0.2/";
 
-    /// Columns of observations.csv in the order of the schema.
-    const std::vector<std::string> observationColumns{"observationID",
-                                                      "deploymentID",
-                                                      "mediaID",
-                                                      "eventID",
-                                                      "eventStart",
-                                                      "eventEnd",
-                                                      "observationLevel",
-                                                      "observationType",
-                                                      "cameraSetupType",
-                                                      "scientificName",
-                                                      "count",
-                                                      "lifeStage",
-                                                      "sex",
-                                                      "behavior",
-                                                      "individualID",
-                                                      "individualPositionRadius",
-                                                      "individualPositionAngle",
-                                                      "individualSpeed",
-                                                      "bboxX",
-                                                      "bboxY",
-                                                      "bboxWidth",
-                                                      "bboxHeight",
-                                                      "classificationMethod",
-                                                      "classifiedBy",
-                                                      "classificationTimestamp",
-                                                      "classificationProbability",
-                                                      "observationTags",
-                                                      "observationComments"};
+    // Columns of the tables, in the order of their schemas.
+    constexpr std::string_view deploymentColumns =
+        "deploymentID,locationID,locationName,latitude,longitude,coordinateUncertainty,deploymentStart,deploymentEnd,"
+        "setupBy,cameraID,cameraModel,cameraDelay,cameraHeight,cameraDepth,cameraTilt,cameraHeading,detectionDistance,"
+        "timestampIssues,baitUse,featureType,habitat,deploymentGroups,deploymentTags,deploymentComments";
+    constexpr std::string_view mediaColumns =
+        "mediaID,deploymentID,captureMethod,timestamp,filePath,filePublic,fileName,"
+        "fileMediatype,exifData,favorite,mediaComments";
+    constexpr std::string_view observationColumns =
+        "observationID,deploymentID,mediaID,eventID,eventStart,eventEnd,observationLevel,observationType,"
+        "cameraSetupType,scientificName,count,lifeStage,sex,behavior,individualID,individualPositionRadius,"
+        "individualPositionAngle,individualSpeed,bboxX,bboxY,bboxWidth,bboxHeight,classificationMethod,classifiedBy,"
+        "classificationTimestamp,classificationProbability,observationTags,observationComments";
 
     /// A table of the standard as a file; columns that are not set stay empty.
     class Table
     {
     public:
-        Table(const std::string &path, std::vector<std::string> columns) : m_columns(std::move(columns)), m_file(path)
+        /// `columns`: their names, separated by commas.
+        Table(const std::string &path, std::string_view columns) : m_columns(columns), m_file(path)
         {
-            write([](const std::string &column) { return column; });
+            m_file.write(m_columns + "\n");
         }
 
         void add(const std::map<std::string, std::string> &values)
         {
-            write([&](const std::string &column) {
-                const auto value = values.find(column);
-                return value == values.end() ? std::string() : csvText(value->second);
-            });
+            std::string row;
+            std::istringstream columns(m_columns);
+            for (std::string column; std::getline(columns, column, ',');)
+                row += (values.contains(column) ? csvText(values.at(column)) : std::string()) + ',';
+            row.back() = '\n';
+            m_file.write(row);
         }
 
         void commit() { m_file.commit(); }
 
     private:
-        template <class Cell>
-        void write(const Cell &cell)
-        {
-            std::string row;
-            for (const std::string &column : m_columns)
-                row += cell(column) + (&column == &m_columns.back() ? '\n' : ',');
-            m_file.write(row);
-        }
-
-        std::vector<std::string> m_columns;
+        std::string m_columns;
         AtomicFile m_file;
     };
 
@@ -286,14 +266,7 @@ namespace {
 
     void writeDeployments(const std::string &path, const std::vector<Medium> &media, const CamtrapPlace &place)
     {
-        Table table(path, {"deploymentID",     "locationID",        "locationName",
-                           "latitude",         "longitude",         "coordinateUncertainty",
-                           "deploymentStart",  "deploymentEnd",     "setupBy",
-                           "cameraID",         "cameraModel",       "cameraDelay",
-                           "cameraHeight",     "cameraDepth",       "cameraTilt",
-                           "cameraHeading",    "detectionDistance", "timestampIssues",
-                           "baitUse",          "featureType",       "habitat",
-                           "deploymentGroups", "deploymentTags",    "deploymentComments"});
+        Table table(path, deploymentColumns);
         std::map<std::string, Stretch> stretches;
         for (const Medium &one : media) {
             Stretch &stretch = stretches[one.deployment];
@@ -320,8 +293,7 @@ namespace {
 
     void writeMedia(const std::string &path, const std::vector<Medium> &media)
     {
-        Table table(path, {"mediaID", "deploymentID", "captureMethod", "timestamp", "filePath", "filePublic",
-                           "fileName", "fileMediatype", "exifData", "favorite", "mediaComments"});
+        Table table(path, mediaColumns);
         for (const Medium &one : media)
             table.add({{"mediaID", one.path},
                        {"deploymentID", one.deployment},
