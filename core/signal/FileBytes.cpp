@@ -55,4 +55,10 @@ std::size_t FileBytes::readAt(Index offset, std::span<std::byte> out) const
     return done;
 }
 
+bool FileBytes::hasAt(Index offset, std::string_view bytes) const
+{
+    std::string there(bytes.size(), 0);
+    return readAt(offset, std::as_writable_bytes(std::span(there))) == bytes.size() && there == bytes;
+}
+
 } // namespace faintline

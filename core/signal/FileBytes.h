@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace faintline {
 
@@ -29,6 +30,8 @@ public:
     /// Reads from `offset` on; returns the number of bytes read, fewer than requested only at the end of the file.
     /// Throws Error if the device fails.
     std::size_t readAt(Index offset, std::span<std::byte> out) const;
+    /// Whether it holds these bytes at an offset.
+    bool hasAt(Index offset, std::string_view bytes) const;
 
 private:
     std::string m_path;

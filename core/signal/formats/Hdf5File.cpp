@@ -230,10 +230,7 @@ void Hdf5File::shareLibrary()
 
 bool Hdf5File::recognises(const std::string &path)
 {
-    constexpr std::array<unsigned char, 8> magic{0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
-    const FileBytes file(path);
-    std::array<std::byte, magic.size()> bytes;
-    return file.readAt(0, bytes) == bytes.size() && std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
+    return FileBytes(path).hasAt(0, "\x89HDF\r\n\x1a\n");
 }
 
 Hdf5File::Hdf5File(const std::string &path) : m_path(path)

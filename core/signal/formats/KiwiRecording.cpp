@@ -52,9 +52,7 @@ namespace {
 
     bool isWave(const FileBytes &file)
     {
-        std::array<std::byte, headerBytes> head;
-        return file.readAt(0, head) == head.size() && std::memcmp(head.data(), "RIFF", 4) == 0
-               && std::memcmp(head.data() + 8, "WAVE", 4) == 0;
+        return file.hasAt(0, "RIFF") && file.hasAt(8, "WAVE");
     }
 
     /// The GNSS second of the week of a chunk's first sample; nothing if the receiver had no fix.

@@ -156,10 +156,7 @@ namespace {
 
 bool SigprocFile::recognises(const std::string &path)
 {
-    const FileBytes file(path);
-    std::array<std::byte, 4 + headerStart.size()> bytes;
-    return file.readAt(0, bytes) == bytes.size()
-           && std::memcmp(bytes.data() + 4, headerStart.data(), headerStart.size()) == 0;
+    return FileBytes(path).hasAt(4, headerStart);
 }
 
 SigprocFile::SigprocFile(const std::string &path) : m_file(path)
