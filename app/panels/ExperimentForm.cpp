@@ -26,6 +26,7 @@ namespace faintline {
 namespace {
 
     constexpr double mostSnrs = 60.0;
+    constexpr std::size_t currentDetectors = 2; ///< with the current settings: the detector alone, and all of `detect`
 
     /// Frames of a block and signals that fit: Billon's geometry, made longer for longer lines.
     void fitBlocks(LineExperiment &lines)
@@ -104,12 +105,16 @@ ExperimentForm::ExperimentForm(QWidget *parent)
 QLayout *ExperimentForm::buildDetectors()
 {
     m_grid->setVerticalSpacing(2);
-    addDetector(new QCheckBox(tr("current settings")));
+    addDetector(new QCheckBox(tr("current detector")));
+    addDetector(new QCheckBox(tr("all of detect")));
     for (const DetectorUnderTest &one : peers(1.0))
         addDetector(new QCheckBox(QString::fromStdString(one.name)));
-    for (const std::size_t initial : {1, 3, 5})
+    for (const std::size_t initial : {2, 4, 6})
         m_detectors[initial]->setChecked(true);
     m_detectors[0]->setToolTip(tr("The detector and model set in the pipeline"));
+    m_detectors[1]->setToolTip(
+        tr("Everything from samples to tracks with the current settings: window chosen, threshold, "
+           "refinement. Takes much longer"));
     return m_grid;
 }
 
@@ -168,9 +173,10 @@ void ExperimentForm::setDetectors(const std::vector<DetectorUnderTest> &detector
         m_detectors.pop_back();
     }
     const std::vector<DetectorUnderTest> known = peers(m_duration->value());
-    m_detectors.front()->setChecked(false);
+    for (std::size_t i = 0; i < currentDetectors; ++i)
+        m_detectors[i]->setChecked(false);
     for (std::size_t i = 0; i < known.size(); ++i)
-        m_detectors[i + 1]->setChecked(std::ranges::count(detectors, known[i]) > 0);
+        m_detectors[i + currentDetectors]->setChecked(std::ranges::count(detectors, known[i]) > 0);
     for (const DetectorUnderTest &one : detectors) {
         if (std::ranges::count(known, one) > 0)
             continue;
@@ -235,12 +241,18 @@ std::vector<DetectorUnderTest> ExperimentForm::chosen() const
         current.settings.detector = m_settings.detector;
         result.push_back(std::move(current));
     }
+    if (m_detectors[1]->isChecked()) {
+        DetectorUnderTest whole{"detect", m_settings, true};
+        if (!isInRecording())
+            whole.settings.spectrogram.windowSeconds = 0.0; // a window of simulated noise lasts a second
+        result.push_back(std::move(whole));
+    }
     const std::vector<DetectorUnderTest> all = peers(m_duration->value());
     for (std::size_t i = 0; i < all.size(); ++i)
-        if (m_detectors[i + 1]->isChecked())
+        if (m_detectors[i + currentDetectors]->isChecked())
             result.push_back(all[i]);
     for (std::size_t i = 0; i < m_others.size(); ++i)
-        if (m_detectors[1 + all.size() + i]->isChecked())
+        if (m_detectors[currentDetectors + all.size() + i]->isChecked())
             result.push_back(m_others[i]);
     return result;
 }

@@ -66,7 +66,7 @@ private:
     double m_recordingSeconds = 0.0;
     QComboBox *m_noise;
     QGridLayout *m_grid;                     ///< of the detectors, in two columns
-    std::vector<QCheckBox *> m_detectors;    ///< the current one, followed by the peers and by m_others
+    std::vector<QCheckBox *> m_detectors;    ///< two with the current settings, the peers, and m_others
     std::vector<DetectorUnderTest> m_others; ///< of the experiment that is shown
     QDoubleSpinBox *m_lowestDb;
     QDoubleSpinBox *m_highestDb;

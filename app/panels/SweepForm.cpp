@@ -58,8 +58,10 @@ namespace {
     QString titleOf(const FieldInfo &field)
     {
         const QString name = QString::fromStdString(field.name);
-        const QString stage = stageLabel(name.section(QLatin1Char('.'), 0, 0)),
-                      label = QString::fromStdString(labelOf(field));
+        const QString label = QString::fromStdString(labelOf(field));
+        if (!name.contains(QLatin1Char('.')))
+            return SweepForm::tr("Line · %1").arg(label);
+        const QString stage = stageLabel(name.section(QLatin1Char('.'), 0, 0));
         return stage == label ? label : stage + QStringLiteral(" · ") + label;
     }
 
@@ -68,8 +70,9 @@ namespace {
 SweepForm::SweepForm(QWidget *parent)
     : QWidget(parent), m_parameter(new QComboBox), m_from(new QLineEdit), m_to(new QLineEdit),
       m_steps(countInput(6, 2, 60, tr("Number of values"))), m_byFactors(new QCheckBox(tr("logarithmic"))),
-      m_noise(new QComboBox), m_snr(numberInput(0, {-40, 40, 1, 1}, tr(" dB"),
-                                                tr("SNR of a line, in a rectangular window of the current length"))),
+      m_noise(new QComboBox),
+      m_snr(numberInput(0, {-40, 40, 1, 1}, tr(" dB"),
+                        tr("SNR of a line, in a rectangular window of the length set, else of the automatic one"))),
       m_duration(numberInput(30, {0.001, 1e6, 1, 1}, tr(" s"), tr("Duration of a line"))),
       m_margin(numberInput(15, {0, 1e6, 1, 1}, tr(" s"),
                            tr("Noise before and after a line, in which false alarms are counted"))),
@@ -78,7 +81,7 @@ SweepForm::SweepForm(QWidget *parent)
       m_trials(countInput(40, 1, 100000, tr("Number of lines on which every value is tried"))),
       m_seed(countInput(1, 0, 2147483647, tr("Seed; the same seed gives identical results"))), m_meaning(plainLabel())
 {
-    m_parameter->setAccessibleName(tr("Setting to vary"));
+    m_parameter->setAccessibleName(tr("Setting or property of the line to vary"));
     m_parameter->setMaxVisibleItems(30);
     m_parameter->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     m_parameter->setMinimumContentsLength(16);
@@ -93,7 +96,7 @@ SweepForm::SweepForm(QWidget *parent)
     form->setContentsMargins(8, 6, 8, 6);
     form->setVerticalSpacing(4);
     form->setFieldGrowthPolicy(QFormLayout::ExpandingFieldsGrow);
-    form->addRow(tr("Setting"), m_parameter);
+    form->addRow(tr("Vary"), m_parameter);
     form->addRow(tr("Values"), row({m_from, new QLabel(tr("to")), m_to}));
     form->addRow(tr("Steps"), row({m_steps, m_byFactors}));
     form->addRow(tr("Lines"), m_noise);
@@ -140,17 +143,21 @@ void SweepForm::setCurrent(const AnalysisSettings &settings, const QString &reco
     emit changed();
 }
 
-/// Numeric settings of the chosen detector.
+/// Properties of the line, and numeric settings of the chosen detector.
 void SweepForm::fillParameters()
 {
     const QString before = m_parameter->currentData().toString();
     const QSignalBlocker blocker(m_parameter);
     m_parameter->clear();
+    const auto add = [this](const FieldInfo &field) {
+        m_parameter->addItem(titleOf(field), QString::fromStdString(field.name));
+        m_parameter->setItemData(m_parameter->count() - 1, QString::fromStdString(field.sentence), Qt::ToolTipRole);
+    };
+    for (const Field<SweepExperiment> &property : lineProperties())
+        add(property);
     for (const Field<AnalysisSettings> &field : AnalysisSettings::fields())
-        if (isSweepable(field) && field.get(m_settings)) {
-            m_parameter->addItem(titleOf(field), QString::fromStdString(field.name));
-            m_parameter->setItemData(m_parameter->count() - 1, QString::fromStdString(field.sentence), Qt::ToolTipRole);
-        }
+        if (isSweepable(field) && field.get(m_settings))
+            add(field);
     setParameter(before);
 }
 
@@ -197,18 +204,30 @@ void SweepForm::setExperiment(const SweepExperiment &sweep)
 
 const FieldInfo &SweepForm::field() const
 {
-    return settingField(m_parameter->currentData().toString().toStdString());
+    return parameterInfo(m_parameter->currentData().toString().toStdString());
+}
+
+double SweepForm::presentValue(const FieldInfo &info) const
+{
+    SweepExperiment line;
+    setLine(line);
+    for (const Field<SweepExperiment> &property : lineProperties())
+        if (property.name == info.name)
+            return asNumber(*property.get(line));
+    const std::optional<FieldValue> held = settingField(info.name).get(m_settings);
+    return held ? asNumber(*held) : 0.0;
 }
 
 /// A range around the present value: a factor of three either way for positive values, some steps for integers.
 void SweepForm::suggestRange()
 {
     const FieldInfo &info = field();
-    const auto held = settingField(info.name).get(m_settings);
-    const double value = held ? asNumber(*held) : 0.0;
+    const double value = presentValue(info);
     const auto within = [&](double wanted) { return std::clamp(wanted, info.minimum, info.maximum); };
     if (info.name == "decide.thresholdNats")
         setRange(6.0, 20.0, 8, false);
+    else if (info.name == "snrDb")
+        setRange(value - 5.0, value + 5.0, 6, false);
     else if (info.kind == FieldKind::Integer)
         setRange(within(value - 2.0), within(value + 2.0), 5, false);
     else if (value > 0.0)
@@ -228,24 +247,29 @@ SweepExperiment SweepForm::experiment() const
     SweepExperiment sweep;
     sweep.settings = m_settings;
     sweep.settings.selection = isInRecording() ? m_settings.selection : SelectionSettings();
-    if (sweep.settings.spectrogram.windowSeconds == 0.0)
-        sweep.settings.spectrogram.windowSeconds = m_windowSeconds > 0.0 ? m_windowSeconds : 0.5;
+    const double setSeconds = sweep.settings.spectrogram.windowSeconds;
+    const double windowSeconds = setSeconds > 0.0 ? setSeconds : m_windowSeconds > 0.0 ? m_windowSeconds : 0.5;
     sweep.parameter = field().name;
     const double from = numberOf(*m_from, "from"), to = numberOf(*m_to, "to");
     sweep.values = sweepValues(sweep.parameter, from, to, m_steps->value(), m_byFactors->isChecked());
     sweep.recording = isInRecording() ? m_recording.toStdString() : std::string();
     // Simulated noise has as many cells as a window of 400 samples, whatever the window's length.
-    sweep.sampleRateHz = 400.0 / sweep.settings.spectrogram.windowSeconds;
+    sweep.sampleRateHz = 400.0 / windowSeconds;
     sweep.seed = m_seed->value();
     sweep.trials = m_trials->value();
+    sweep.marginSeconds = m_margin->value();
+    setLine(sweep);
+    checkExperiment(sweep);
+    return sweep;
+}
+
+void SweepForm::setLine(SweepExperiment &sweep) const
+{
     sweep.snrDb = m_snr->value();
     sweep.durationSeconds = m_duration->value();
-    sweep.marginSeconds = m_margin->value();
     sweep.driftHzPerSecond = m_drift->value();
     sweep.wanderHz = m_wander->value();
     sweep.wanderSeconds = 0.5 * sweep.durationSeconds;
-    checkExperiment(sweep);
-    return sweep;
 }
 
 QString SweepForm::name() const

@@ -47,6 +47,8 @@ private:
     void suggestRange();
     void showMeaning();
     const FieldInfo &field() const;
+    double presentValue(const FieldInfo &info) const;
+    void setLine(SweepExperiment &sweep) const;
 
     AnalysisSettings m_settings;
     QString m_recording;

@@ -155,6 +155,8 @@ void SweepPanel::choose(const ChartPlot &chart, std::size_t point)
     if (!entry || !entry->campaign)
         return;
     const auto &sweep = std::get<SweepExperiment>(entry->campaign->experiment);
+    if (sweep.parameter.find('.') == std::string::npos)
+        return; // a property of the line is no setting
     if (&chart == m_latency) {
         // Values without any detection have no latency.
         emit valueChosen(QString::fromStdString(sweep.parameter), m_latency->chart().curves.front().points[point].x);

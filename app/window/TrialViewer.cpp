@@ -94,11 +94,19 @@ void TrialViewer::show(const ShownTrial &trial)
     const QString db = numberText(snrOf(campaign, m_snr), 1);
     const QString unit = statisticUnit(detector.settings);
     const bool isLine = std::holds_alternative<LineExperiment>(campaign.experiment);
-    QString sentence = outcome.isDetected
-                           ? tr("%1 at %2 dB: detected. On the line, D reaches %3 %5; the threshold is %4 %5.")
-                           : tr("%1 at %2 dB: missed. On the line, D reaches only %3 %5; the threshold is %4 %5.");
-    sentence = sentence.arg(name, db, numberText(outcome.statistic, 2),
-                            numberText(shownThreshold(campaign, m_detector), 2), unit);
+    QString sentence;
+    if (!detector.isWhole) {
+        sentence = outcome.isDetected
+                       ? tr("%1 at %2 dB: detected. On the line, D reaches %3 %5; the threshold is %4 %5.")
+                       : tr("%1 at %2 dB: missed. On the line, D reaches only %3 %5; the threshold is %4 %5.");
+        sentence = sentence.arg(name, db, numberText(outcome.statistic, 2),
+                                numberText(shownThreshold(campaign, m_detector), 2), unit);
+    } else if (outcome.isDetected) {
+        sentence = tr("%1 at %2 dB: detected. A track on the line exceeds the threshold by %3 nat.")
+                       .arg(name, db, numberText(outcome.statistic, 2));
+    } else {
+        sentence = tr("%1 at %2 dB: missed. No track has half of its points on the line.").arg(name, db);
+    }
     sentence += isLine ? tr(" Run %1, line %2. One second stands for a window T_FT, one hertz for a resolution cell.")
                              .arg(outcome.place.run)
                              .arg(outcome.place.signal)

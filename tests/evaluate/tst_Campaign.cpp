@@ -5,7 +5,9 @@
 #include "evaluate/experiments/InjectionTrials.h"
 #include "evaluate/experiments/PdCurve.h"
 #include "evaluate/experiments/campaignCurve.h"
+#include "evaluate/experiments/lineDetection.h"
 #include "evaluate/experiments/lineRuns.h"
+#include "evaluate/experiments/showTrial.h"
 #include "exchange/CampaignFile.h"
 #include "scene/SimulatedRecording.h"
 #include "signal/formats/writeRecording.h"
@@ -79,6 +81,9 @@ private slots:
     void strongLinesAreFoundAndAbsentOnesNot();
     void jsonRoundTrip();
     void injectedIntoARecording();
+    void detectItselfInSimulatedNoise();
+    void detectItselfIsOrderedOneFalseAlarmPerBlock();
+    void detectItselfInARecording();
     void allDetectorsAreTriedWhereNoSignalIs();
     void thresholdsAreOfFalseAlarmsCounted();
     void signalsAreMasked();
@@ -265,6 +270,7 @@ void tst_Campaign::jsonRoundTrip()
     injection.recording = "a.wav";
     injection.settings.spectrogram.windowSeconds = 0.5;
     injection.detectors = {detectorUnderTest("SMD", SmdSettings{})};
+    injection.detectors.push_back({"detect", {}, true});
     injection.wanderHz = 0.1;
     QVERIFY(experimentFromJson(toJson(Experiment(injection)), "test") == Experiment(injection));
 }
@@ -293,6 +299,74 @@ void tst_Campaign::injectedIntoARecording()
     Campaign again = begin(injection);
     carryOut(again, {5, 2}, onThreads(1));
     QVERIFY(again.outcomes[0] == campaign.outcomes[2] && again.outcomes[1] == campaign.outcomes[5]);
+}
+
+void tst_Campaign::detectItselfInSimulatedNoise()
+{
+    LineExperiment experiment = smallExperiment();
+    experiment.frames = 240;
+    experiment.snrDb = {-40.0, 10.0};
+    experiment.detectors = {{"detect", {}, true}};
+    Campaign campaign = begin(experiment);
+    carryOut(campaign, {0, 1}, onThreads(2));
+    const std::vector<CurvePoint> curve = pdCurve(campaign);
+    QVERIFY2(curve[0].pd < 0.1, qPrintable(QString::number(curve[0].pd)));
+    QVERIFY2(curve[1].pd > 0.9, qPrintable(QString::number(curve[1].pd)));
+    const std::vector<TrialOutcome> trials = trialsOf(campaign, {0, 1});
+    for (const TrialOutcome &trial : {trials.front(), trials.back()}) {
+        const ShownTrial shown = showTrial(campaign, nullptr, {0, 1}, trial.place);
+        const LineDetection found = lineDetection(*shown.analysis, shown.truth.lines.front());
+        QCOMPARE(float(found.margin), float(trial.statistic));
+        QCOMPARE(trial.isDetected, found.margin > 0.0);
+    }
+}
+
+// One false alarm per block is ordered: 1.0 events are expected in each.
+void tst_Campaign::detectItselfIsOrderedOneFalseAlarmPerBlock()
+{
+    LineExperiment experiment = smallExperiment();
+    experiment.frames = 1200;
+    experiment.snrDb = {-40.0};
+    experiment.detectors = {{"detect", {}, true}};
+    Campaign campaign = begin(experiment);
+    carryOut(campaign, firstRuns(6), onThreads(2));
+    double blocks = 0.0;
+    double hit = 0.0;
+    for (const RunOutcome &outcome : campaign.outcomes)
+        for (const float margin : outcome.noise[0]) {
+            blocks += 1.0;
+            hit += margin > 0.0f ? 1.0 : 0.0;
+        }
+    const double perBlock = -std::log1p(-hit / blocks);
+    QVERIFY2(perBlock > 0.3 && perBlock < 2.0, qPrintable(QString("%1 of %2 blocks").arg(hit).arg(blocks)));
+}
+
+void tst_Campaign::detectItselfInARecording()
+{
+    LineScene scene;
+    scene.sampleRateHz = 500.0;
+    scene.durationSeconds = 240.0;
+    writeRecording(SimulatedRecording(scene), path("white.wav"), WrittenType::Float32);
+    InjectionExperiment injection;
+    injection.recording = path("white.wav");
+    injection.trials = 4;
+    injection.snrDb = {-30.0, 12.0};
+    injection.durationSeconds = 20.0;
+    injection.marginSeconds = 30.0;
+    injection.detectors = {detectorUnderTest("energy", EnergySettings{}), {"detect", {}, true}};
+    Campaign campaign = begin(injection);
+    QCOMPARE(campaign.thresholds[1], 0.0);
+    carryOut(campaign, firstRuns(4), onThreads(2));
+    for (const CurvePoint &point : pdCurve(campaign))
+        QCOMPARE(point.pd, point.snrDb > 0.0 ? 1.0 : 0.0);
+    const InjectionTrials trials(injection, openRecording(injection.recording));
+    const ShownTrial shown = showTrial(campaign, &trials, {1, 1}, {2, 0});
+    QVERIFY(shown.analysis->choice);
+    const TruthLine &line = shown.truth.lines.front();
+    QCOMPARE(float(lineDetection(*shown.analysis, line).margin), campaign.outcomes[2].signal[1][1][0]);
+    const SelectionSettings selection = shown.analysis->settings.selection;
+    QCOMPARE(selection.fromSeconds, std::max(0.0, line.startSeconds - 30.0));
+    QCOMPARE(selection.toSeconds, std::min(240.0, line.endSeconds + 30.0));
 }
 
 void tst_Campaign::allDetectorsAreTriedWhereNoSignalIs()

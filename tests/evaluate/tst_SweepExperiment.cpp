@@ -1,3 +1,4 @@
+#include "analyse/analyse.h"
 #include "evaluate/experiments/Campaign.h"
 #include "evaluate/experiments/SweepTrials.h"
 #include "evaluate/experiments/campaignCurve.h"
@@ -95,6 +96,8 @@ private slots:
         QTest::newRow("another detector's") << "pOfN.n" << 4.0 << "parameter = pOfN.n: belongs to a different detector";
         QTest::newRow("out of range") << "spectrogram.windowSeconds" << -1.0
                                       << "spectrogram.windowSeconds = -1: must lie in 0";
+        QTest::newRow("not of the line") << "trials" << 4.0 << "trials: unknown setting";
+        QTest::newRow("line out of range") << "durationSeconds" << 0.0 << "durationSeconds = 0: must lie in";
         QTest::newRow("not whole") << "model.slopesPerBin" << 1.5 << "model.slopesPerBin = 1.5: must be a whole number";
     }
 
@@ -105,6 +108,35 @@ private slots:
         QFETCH(QString, why);
         const QString told = QString::fromStdString(whyNot(with(parameter.toStdString(), {value})));
         QVERIFY2(told.startsWith(why), qPrintable(told));
+    }
+
+    void propertiesOfTheLineAreVaried()
+    {
+        SweepExperiment changed = with("snrDb", {-30.0, 6.0});
+        changed.settings.decide.thresholdNats = 12.0;
+        changed.settings.decide.by = DecideSettings::By::Nats;
+        QVERIFY(experimentFromJson(toJson(Experiment(changed)), "test") == Experiment(changed));
+        QCOMPARE(experimentAt(changed, 1).snrDb, 6.0);
+        QVERIFY(experimentAt(changed, 1).settings == changed.settings);
+        const std::vector<SweepPoint> curve = sweepCurve(carriedOut(changed));
+        QCOMPARE(curve[0].detections, 0);
+        QCOMPARE(curve[1].detections, curve[1].trials);
+        QCOMPARE(sweepChart(carriedOut(changed), SweepMeasure::Latency).xLabel, std::string("snrDb (dB)"));
+    }
+
+    void eachTrialChoosesAWindowThatIsNotSet()
+    {
+        SweepExperiment open = with("snrDb", {12.0});
+        open.settings = {};
+        open.trials = 2;
+        const SweepTrials trials(open, nullptr);
+        const auto made = trials.remake(1);
+        QCOMPARE(made.settings.spectrogram.windowSeconds, 0.0);
+        const auto analysis = analyse(made.recording, made.settings);
+        QVERIFY(analysis->choice);
+        const RunOutcome outcome = trials.run({1}).front();
+        QCOMPARE(double(outcome.noise[0][1]), double(analysis->time().count) * analysis->time().step);
+        QVERIFY(outcome.signal[0][0][0] >= 0.0f);
     }
 
     void runsAreCounted()

@@ -82,7 +82,7 @@ std::vector<DetectorUnderTest> detectorsOf(const Experiment &experiment)
                                      std::vector<DetectorUnderTest> detectors;
                                      for (std::size_t i = 0; i < sweep.values.size(); ++i)
                                          detectors.push_back({sweep.parameter + " = " + formatNumber(sweep.values[i]),
-                                                              settingsAt(sweep, i)});
+                                                              experimentAt(sweep, i).settings});
                                      return detectors;
                                  },
                                  [](const auto &one) { return one.detectors; }},

@@ -18,6 +18,8 @@ const std::vector<Field<InjectionExperiment>> &InjectionExperiment::fields()
         field(&S::wanderSeconds, "wanderSeconds", "s", 1e-6, 1e7, "Correlation time of the wander."),
         field(&S::falseAlarmsPerHour, "falseAlarmsPerHour", "1/h", 1e-9, 1e9,
               "False alarms per hour of the whole selection."),
+        field(&S::marginSeconds, "marginSeconds", "s", 0.0, 1e6,
+              "Recording before and after a line that `detect` as a whole is given."),
     };
     return table;
 }

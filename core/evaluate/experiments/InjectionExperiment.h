@@ -15,7 +15,8 @@ namespace faintline {
 /// A *trial* adds one line at a random time and frequency of the selection, away from all signals, and tests for each
 /// detector whether its statistic exceeds its threshold within half a resolution cell of the line while it lasts; for a
 /// detector that decides at the end of blocks, which are placed as in the whole recording, also at the first end after
-/// the line. All trials count for all detectors.
+/// the line. All trials count for all detectors. One that is `detect` as a whole analyses the line's surroundings,
+/// `marginSeconds` before and after it, in the selected band.
 ///
 /// Everything that the chain of any detector tracks at a thousandth of the specified false-alarm rate counts as a
 /// signal and is removed for all detectors alike (y = 0). Thresholds give each detector the same number of false alarms
@@ -32,8 +33,9 @@ struct InjectionExperiment {
     double wanderHz = 0.0;
     double wanderSeconds = 10.0;
     double falseAlarmsPerHour = 1.0;
+    double marginSeconds = 60.0;              ///< before and after a line, for `detect` as a whole
     AnalysisSettings settings;                ///< selection, spectrogram and noise, the same for all detectors
-    std::vector<DetectorUnderTest> detectors; ///< their settings override these
+    std::vector<DetectorUnderTest> detectors; ///< their model and detector override these
 
     static const std::vector<Field<InjectionExperiment>> &fields();
     bool operator==(const InjectionExperiment &) const = default;

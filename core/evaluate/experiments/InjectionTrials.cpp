@@ -1,9 +1,11 @@
 #include "evaluate/experiments/InjectionTrials.h"
 
+#include "analyse/analyse.h"
 #include "base/Error.h"
 #include "base/Random.h"
 #include "base/parallel.h"
 #include "calibrate/calibrate.h"
+#include "evaluate/experiments/lineDetection.h"
 #include "plan/chain.h"
 #include "plan/slopeUnit.h"
 #include "scene/InjectedRecording.h"
@@ -184,7 +186,9 @@ InjectionTrials::InjectionTrials(const InjectionExperiment &experiment, Recordin
     const double falseAlarms =
         ordered * shared->signals->freeShare() * double(time.count) * double(frames->grid().size());
     for (std::size_t d = 0; d < plans.size(); ++d)
-        m_thresholds.push_back(measuredThreshold(maxima[d], falseAlarms, *plans[d].calibration, ordered));
+        m_thresholds.push_back(experiment.detectors[d].isWhole
+                                   ? 0.0 // of a margin
+                                   : measuredThreshold(maxima[d], falseAlarms, *plans[d].calibration, ordered));
     m_shared = std::move(shared);
 }
 
@@ -356,12 +360,35 @@ private:
     std::vector<Look> m_looks;
 };
 
+AnalysisSettings InjectionTrials::wholeSettings(std::size_t detector, const TruthLine &line) const
+{
+    AnalysisSettings settings = m_experiment.detectors[detector].settings;
+    settings.decide.by = DecideSettings::By::FalseAlarmsPerHour;
+    settings.decide.falseAlarmsPerHour = m_experiment.falseAlarmsPerHour;
+    SelectionSettings &selection = settings.selection = m_experiment.settings.selection;
+    const double recorded = m_shared->recording->info().durationSeconds();
+    const double last = selection.toSeconds > selection.fromSeconds ? selection.toSeconds : recorded;
+    selection.fromSeconds = std::max(selection.fromSeconds, line.startSeconds - m_experiment.marginSeconds);
+    selection.toSeconds = std::min(last, line.endSeconds + m_experiment.marginSeconds);
+    return settings;
+}
+
 std::vector<RunOutcome> InjectionTrials::run(const std::vector<int> &trials, const RunContext &context,
                                              const RunSink &sink) const
 {
+    RunContext quiet;
+    quiet.stop = context.stop;
     const auto largestOn = [&](int trial, double snrDb, bool hasLine) {
         const Made made = remake(trial, snrDb);
-        return LineLook(*this, made, hasLine).largest();
+        std::vector<float> largest = LineLook(*this, made, hasLine).largest();
+        for (std::size_t d = 0; d < largest.size(); ++d)
+            if (m_experiment.detectors[d].isWhole)
+                largest[d] =
+                    float(lineDetection(*analyse(hasLine ? made.recording : m_shared->recording,
+                                                 wholeSettings(d, made.truth), {.depth = AnalysisDepth::Tracks}, quiet),
+                                        made.truth)
+                              .margin);
+        return largest;
     };
     std::vector<RunOutcome> outcomes(trials.size());
     std::mutex guard;

@@ -24,7 +24,7 @@ public:
     InjectionTrials(const InjectionExperiment &experiment, RecordingPointer recording, const RunContext &context = {});
     ~InjectionTrials();
 
-    /// The thresholds, one per detector.
+    /// The thresholds, one per detector; 0 for the margin of `detect` as a whole.
     const std::vector<double> &thresholds() const { return m_thresholds; }
 
     /// Runs the given trials on context.threads threads; run = trial, noise = [detector][0] without the line, signal =
@@ -38,6 +38,9 @@ public:
         TruthLine truth;
     };
     Made remake(int trial, double snrDb) const;
+
+    /// With these, a detector that is `detect` as a whole analyses a recording with or without that line.
+    AnalysisSettings wholeSettings(std::size_t detector, const TruthLine &line) const;
 
 private:
     struct Shared;

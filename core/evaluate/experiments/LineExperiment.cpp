@@ -77,12 +77,17 @@ std::vector<DetectorUnderTest> detectorsFromJson(const Json &json, const std::st
     for (std::size_t i = 0; i < list->size(); ++i) {
         const std::string name = jsonName(where, "detectors[" + std::to_string(i) + "]");
         const Json &entry = (*list)[i];
-        checkKeys(entry, name, {"name", "settings"});
+        checkKeys(entry, name, {"name", "settings", "whole"});
         if (!entry.contains("name") || !entry["name"].is_string())
             throw Error(jsonName(name, "name"), "must be a string");
         DetectorUnderTest detectorUnderTest{entry["name"].get<std::string>(), {}};
         if (entry.contains("settings"))
             detectorUnderTest.settings = settingsFromJson(entry["settings"].dump(), jsonName(name, "settings"));
+        if (const auto whole = entry.find("whole"); whole != entry.end()) {
+            if (!whole->is_boolean())
+                throw Error(jsonName(name, "whole"), "must be true or false");
+            detectorUnderTest.isWhole = whole->get<bool>();
+        }
         detectorsUnderTest.push_back(std::move(detectorUnderTest));
     }
     return detectorsUnderTest;
@@ -91,9 +96,12 @@ std::vector<DetectorUnderTest> detectorsFromJson(const Json &json, const std::st
 Json toJson(const std::vector<DetectorUnderTest> &detectorsUnderTest)
 {
     Json list = Json::array();
-    for (const DetectorUnderTest &detectorUnderTest : detectorsUnderTest)
+    for (const DetectorUnderTest &detectorUnderTest : detectorsUnderTest) {
         list.push_back(
             {{"name", detectorUnderTest.name}, {"settings", Json::parse(settingsToJson(detectorUnderTest.settings))}});
+        if (detectorUnderTest.isWhole) // files of experiments without it stay as they were
+            list.back()["whole"] = true;
+    }
     return list;
 }
 

@@ -13,11 +13,14 @@ namespace faintline {
 struct DetectorUnderTest {
     std::string name;
     AnalysisSettings settings; ///< model and detector are used; the spectrogram is the experiment's
+    /// `detect` as a whole, from samples to tracks, with all these settings except selection and false alarms, which are
+    /// the experiment's. Its statistic is the margin of a track over the threshold (lineDetection.h).
+    bool isWhole = false;
 
     bool operator==(const DetectorUnderTest &) const = default;
 };
 
-/// The list under the key "detectors", [{"name": …, "settings": {…}}]; throws Error.
+/// The list under the key "detectors", [{"name": …, "settings": {…}, "whole": false}]; throws Error.
 std::vector<DetectorUnderTest> detectorsFromJson(const Json &json, const std::string &where);
 Json toJson(const std::vector<DetectorUnderTest> &detectorsUnderTest);
 

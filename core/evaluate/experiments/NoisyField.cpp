@@ -3,6 +3,7 @@
 #include "base/Random.h"
 #include "base/multiversion.h"
 #include "scene/Tone.h"
+#include "signal/ArrayRecording.h"
 
 #include <algorithm>
 #include <cmath>
@@ -98,9 +99,10 @@ void FieldTransform::run(std::span<const float> samples, std::vector<Complex> &o
 
 void makeNoise(const LineExperiment &experiment, int run, FieldTransform &transform, NoisyField &field)
 {
-    std::vector<float> samples(std::size_t(2 * recordingInfo(experiment).sampleCount));
-    Random(std::uint64_t(experiment.seed), std::uint64_t(run) * streamsPerRun).normals(samples, float(std::sqrt(0.5)));
-    transform.run(samples, field.noise);
+    field.noiseSamples.resize(std::size_t(2 * recordingInfo(experiment).sampleCount));
+    Random(std::uint64_t(experiment.seed), std::uint64_t(run) * streamsPerRun)
+        .normals(field.noiseSamples, float(std::sqrt(0.5)));
+    transform.run(field.noiseSamples, field.noise);
 }
 
 NoisyField makeField(const LineExperiment &experiment, int run, FieldTransform &transform)
@@ -109,12 +111,11 @@ NoisyField makeField(const LineExperiment &experiment, int run, FieldTransform &
     makeNoise(experiment, run, transform, field);
     const RecordingInfo info = recordingInfo(experiment);
     const auto seed = std::uint64_t(experiment.seed);
-    std::vector<float> samples(std::size_t(2 * info.sampleCount));
+    field.signalSamples.resize(field.noiseSamples.size());
     Random places(seed, std::uint64_t(run) * streamsPerRun + 1);
     const double amplitude = toneAmplitude(0.0, 1.0, LineExperiment::windowSamples, true);
     const double blockCells = double(experiment.blockBins) / experiment.binsPerCell;
     const double travel = experiment.driftCellsPerWindow * experiment.durationWindows;
-    std::vector<TruthLine> truths;
     for (int i = 0; i < experiment.signalsPerRun(); ++i) {
         const int blockInTime = i / experiment.blocksInFrequency();
         const int blockInFrequency = i % experiment.blocksInFrequency();
@@ -138,22 +139,34 @@ NoisyField makeField(const LineExperiment &experiment, int run, FieldTransform &
         line.fadingSeconds = experiment.fadingWindows;
         line.fluctuation = experiment.fluctuation;
         const Tone tone(line, amplitude, info, seed, Index(run) * experiment.signalsPerRun() + i);
-        tone.addTo(0, samples);
-        truths.push_back(tone.truth());
+        tone.addTo(0, field.signalSamples);
+        field.truths.push_back(tone.truth());
         field.places.push_back(std::move(place));
     }
-    transform.run(samples, field.signal);
-    for (std::size_t i = 0; i < truths.size(); ++i) {
+    transform.run(field.signalSamples, field.signal);
+    for (std::size_t i = 0; i < field.truths.size(); ++i) {
         Place &place = field.places[i];
         const Index lowest = Index(i) % experiment.blocksInFrequency() * experiment.blockBins;
         for (Index k = 0; k < experiment.signalFrames(); ++k) {
             const Index frame = place.firstFrame + k;
             const double start = double(frame) / experiment.stepsPerWindow;
             place.bins.push_back(
-                strongestBin(experiment, field.signal, frame, meanFrequency(truths[i], start), lowest));
+                strongestBin(experiment, field.signal, frame, meanFrequency(field.truths[i], start), lowest));
         }
     }
     return field;
+}
+
+RecordingPointer recordingOf(const LineExperiment &experiment, const NoisyField &field, float amplitude)
+{
+    const RecordingInfo info = recordingInfo(experiment);
+    auto samples = std::make_shared<std::vector<float>>(field.noiseSamples);
+    if (amplitude != 0.0f)
+        for (std::size_t i = 0; i < samples->size(); ++i)
+            (*samples)[i] += amplitude * field.signalSamples[i];
+    const std::shared_ptr<const float> first(samples, samples->data());
+    return std::make_shared<ArrayRecording>(
+        "field", first, ArrayLayout{info.sampleRateHz, info.sampleCount, 1, info.isComplex, info.centreHz});
 }
 
 void powerOf(const NoisyField &field, Index bins, Index frame, float amplitude, std::span<float> y)

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "evaluate/experiments/LineExperiment.h"
+#include "scene/Truth.h"
 #include "signal/Fft.h"
+#include "signal/Recording.h"
 
 #include <complex>
 #include <memory>
@@ -23,6 +25,9 @@ struct NoisyField {
     std::vector<std::complex<float>> noise;  ///< frames × bins
     std::vector<std::complex<float>> signal; ///< of SNR 1
     std::vector<Place> places;
+    /// The samples of noise and signal, interleaved, at 250 Hz: a window lasts one second.
+    std::vector<float> noiseSamples, signalSamples;
+    std::vector<TruthLine> truths; ///< one per place, in seconds and in Hz from the field's lowest frequency
 };
 
 /// Sliding transforms of interleaved complex samples, scaled to unit noise variance. Use one object per thread.
@@ -46,6 +51,9 @@ private:
 void makeNoise(const LineExperiment &experiment, int run, FieldTransform &transform, NoisyField &field);
 
 NoisyField makeField(const LineExperiment &experiment, int run, FieldTransform &transform);
+
+/// The samples noise + amplitude·signal as a recording.
+RecordingPointer recordingOf(const LineExperiment &experiment, const NoisyField &field, float amplitude);
 
 /// y = |noise + amplitude·signal|² of one frame of `bins` values.
 void powerOf(const NoisyField &field, Index bins, Index frame, float amplitude, std::span<float> y);

@@ -9,12 +9,10 @@ namespace faintline {
 
 namespace {
 
-    const Field<AnalysisSettings> &parameterField(const std::string &parameter)
+    const Field<SweepExperiment> *lineProperty(const std::string &name)
     {
-        const Field<AnalysisSettings> &field = settingField(parameter);
-        if (!isSweepable(field))
-            throw fieldError("parameter", parameter, "must be a setting that is one number, such as model.snr");
-        return field;
+        const auto found = std::ranges::find(lineProperties(), name, &FieldInfo::name);
+        return found == lineProperties().end() ? nullptr : &*found;
     }
 
     FieldValue valueOf(const FieldInfo &field, double value)
@@ -67,20 +65,46 @@ namespace {
 const std::vector<Field<SweepExperiment>> &SweepExperiment::fields()
 {
     using S = SweepExperiment;
+    static const std::vector<Field<S>> table = [] {
+        std::vector<Field<S>> all{
+            field(&S::iq, "iq", "Treat two channels as I and Q."),
+            field(&S::seed, "seed", "", 0.0, 2147483647.0, "Seed of all random numbers."),
+            field(&S::trials, "trials", "", 1.0, 1e6, "Number of lines on which every value is tried."),
+        };
+        all.insert(all.end(), lineProperties().begin(), lineProperties().end());
+        all.push_back(field(&S::marginSeconds, "marginSeconds", "s", 0.0, 1e6,
+                            "Noise before and after a line, in which false alarms are counted."));
+        all.push_back(field(&S::sampleRateHz, "sampleRateHz", "Hz", 1e-3, 1e9, "Sample rate of simulated noise."));
+        return all;
+    }();
+    return table;
+}
+
+const std::vector<Field<SweepExperiment>> &lineProperties()
+{
+    using S = SweepExperiment;
     static const std::vector<Field<S>> table{
-        field(&S::iq, "iq", "Treat two channels as I and Q."),
-        field(&S::seed, "seed", "", 0.0, 2147483647.0, "Seed of all random numbers."),
-        field(&S::trials, "trials", "", 1.0, 1e6, "Number of lines on which every value is tried."),
-        field(&S::snrDb, "snrDb", "dB", -60.0, 60.0, "Signal-to-noise ratio in a frame with a rectangular window."),
-        field(&S::durationSeconds, "durationSeconds", "s", 1e-6, 1e6, "Duration of a line."),
-        field(&S::driftHzPerSecond, "driftHzPerSecond", "Hz/s", -1e9, 1e9, "Steady drift of a line."),
-        field(&S::wanderHz, "wanderHz", "Hz", 0.0, 1e9, "Standard deviation of a line's wander."),
-        field(&S::wanderSeconds, "wanderSeconds", "s", 1e-6, 1e7, "Correlation time of the wander."),
-        field(&S::marginSeconds, "marginSeconds", "s", 0.0, 1e6,
-              "Noise before and after a line, in which false alarms are counted."),
-        field(&S::sampleRateHz, "sampleRateHz", "Hz", 1e-3, 1e9, "Sample rate of simulated noise."),
+        field(&S::snrDb, "snrDb", "dB", -60.0, 60.0, "Signal-to-noise ratio in a frame with a rectangular window.")
+            .labelled("SNR"),
+        field(&S::durationSeconds, "durationSeconds", "s", 1e-6, 1e6, "Duration of a line.").labelled("Duration"),
+        field(&S::driftHzPerSecond, "driftHzPerSecond", "Hz/s", -1e9, 1e9, "Steady drift of a line.").labelled("Drift"),
+        field(&S::wanderHz, "wanderHz", "Hz", 0.0, 1e9, "Standard deviation of a line's wander.").labelled("Wander"),
+        field(&S::wanderSeconds, "wanderSeconds", "s", 1e-6, 1e7, "Correlation time of the wander.")
+            .labelled("Time of the wander"),
     };
     return table;
+}
+
+const FieldInfo &parameterInfo(const std::string &parameter)
+{
+    if (const Field<SweepExperiment> *property = lineProperty(parameter))
+        return *property;
+    const Field<AnalysisSettings> &field = settingField(parameter);
+    if (!isSweepable(field))
+        throw fieldError("parameter", parameter,
+                         "must be a setting that is one number, such as model.snr, or a number of the line: snrDb, "
+                         "durationSeconds, driftHzPerSecond, wanderHz, wanderSeconds");
+    return field;
 }
 
 bool isSweepable(const FieldInfo &field)
@@ -92,7 +116,7 @@ bool isSweepable(const FieldInfo &field)
 
 std::vector<double> sweepValues(const std::string &parameter, double from, double to, int steps, bool isLogarithmic)
 {
-    const Field<AnalysisSettings> &field = parameterField(parameter);
+    const FieldInfo &field = parameterInfo(parameter);
     if (isLogarithmic && !(from > 0.0 && to > 0.0))
         throw Error("values.from, values.to", "must be above 0 on a logarithmic scale");
     std::vector<double> values;
@@ -110,18 +134,24 @@ std::vector<double> sweepValues(const std::string &parameter, double from, doubl
     return values;
 }
 
-AnalysisSettings settingsAt(const SweepExperiment &experiment, std::size_t value)
+SweepExperiment experimentAt(const SweepExperiment &experiment, std::size_t value)
 {
-    AnalysisSettings settings = experiment.settings;
-    const Field<AnalysisSettings> &field = parameterField(experiment.parameter);
-    const FieldValue held = valueOf(field, experiment.values[value]);
-    checkFieldValue(field, held);
-    field.set(settings, held);
-    if (!field.get(settings))
-        throw fieldError("parameter", experiment.parameter, "belongs to a different detector than the one selected");
-    checkSettings(settings);
-    checkHasOneChannel(settings, "is not possible in this experiment");
-    return settings;
+    SweepExperiment result = experiment;
+    const FieldInfo &info = parameterInfo(experiment.parameter);
+    const FieldValue held = valueOf(info, experiment.values[value]);
+    checkFieldValue(info, held);
+    if (const Field<SweepExperiment> *property = lineProperty(experiment.parameter)) {
+        property->set(result, held);
+    } else {
+        const Field<AnalysisSettings> &field = settingField(experiment.parameter);
+        field.set(result.settings, held);
+        if (!field.get(result.settings))
+            throw fieldError("parameter", experiment.parameter,
+                             "belongs to a different detector than the one selected");
+    }
+    checkSettings(result.settings);
+    checkHasOneChannel(result.settings, "is not possible in this experiment");
+    return result;
 }
 
 void checkExperiment(const SweepExperiment &experiment)
@@ -134,14 +164,15 @@ void checkExperiment(const SweepExperiment &experiment)
         throw fieldError("trials", std::to_string(experiment.trials),
                          "times " + std::to_string(experiment.values.size())
                              + " values gives more than 10 million trials");
-    for (std::size_t i = 0; i < experiment.values.size(); ++i)
-        settingsAt(experiment, i);
-    if (!experiment.recording.empty())
-        return;
-    LineScene scene;
-    scene.sampleRateHz = experiment.sampleRateHz;
-    scene.durationSeconds = experiment.trialSeconds();
-    checkScene(scene);
+    for (std::size_t i = 0; i < experiment.values.size(); ++i) {
+        const SweepExperiment one = experimentAt(experiment, i);
+        if (!experiment.recording.empty())
+            continue;
+        LineScene scene;
+        scene.sampleRateHz = one.sampleRateHz;
+        scene.durationSeconds = one.trialSeconds();
+        checkScene(scene);
+    }
 }
 
 SweepExperiment sweepExperimentFromJson(const Json &json, const std::string &where)
@@ -155,7 +186,7 @@ SweepExperiment sweepExperimentFromJson(const Json &json, const std::string &whe
         experiment.recording = json["recording"].get<std::string>();
     }
     if (!json.contains("parameter") || !json["parameter"].is_string())
-        throw Error(jsonName(where, "parameter"), "must name the setting to vary");
+        throw Error(jsonName(where, "parameter"), "must name the setting, or the number of the line, to vary");
     experiment.parameter = json["parameter"].get<std::string>();
     const Json base = json.contains("settings") ? json["settings"] : Json::object();
     experiment.settings = settingsFromJson(base.dump(), jsonName(where, "settings"));

@@ -9,13 +9,14 @@
 
 namespace faintline {
 
-/// Performance of the whole chain on known lines for different values of one numeric setting.
+/// Performance of `detect`, from samples to tracks, on known lines for different values of one number: a setting, or a
+/// property of the line.
 ///
 /// A *trial* is a stretch of noise with one line in its middle, in simulated white noise or added to a recording:
 /// `marginSeconds` before it, the line, and `marginSeconds` after it. All values use the same trials, so that
-/// differences are not due to chance. A track detects the line if half of its points while the line lasts lie on it,
-/// within 1.5 resolution cells; a track that never touches it is a false alarm. In a recording, existing signals also
-/// count as false alarms.
+/// differences are not due to chance. A window that the settings leave open is chosen in each trial. A track that
+/// detects the line (lineDetection.h) gives its latency; one that never touches it is a false alarm. In a recording,
+/// existing signals also count as false alarms.
 ///
 /// Runs cycle through the values: run = trial · values + value, so half of the runs give half of the trials of each
 /// value.
@@ -24,7 +25,7 @@ struct SweepExperiment {
     bool iq = false;       ///< two channels as I and Q
     int seed = 1;
     int trials = 40;    ///< per value
-    double snrDb = 0.0; ///< in a rectangular window of the settings' T_FT, over the noise at the line's place
+    double snrDb = 0.0; ///< in a rectangular window of T_FT or the automatic T0, over the noise at the line's place
     double durationSeconds = 20.0;
     double driftHzPerSecond = 0.0;
     double wanderHz = 0.0;
@@ -32,7 +33,7 @@ struct SweepExperiment {
     double marginSeconds = 20.0;
     double sampleRateHz = 1000.0; ///< for simulated noise
     AnalysisSettings settings;    ///< all settings except the parameter
-    std::string parameter;        ///< a numeric setting: "model.snr"
+    std::string parameter;        ///< "model.snr", or "snrDb" or another number of the line
     std::vector<double> values;
 
     static const std::vector<Field<SweepExperiment>> &fields();
@@ -51,8 +52,14 @@ std::vector<double> sweepValues(const std::string &parameter, double from, doubl
 /// Whether a setting can be swept: it holds one number.
 bool isSweepable(const FieldInfo &field);
 
-/// The settings with one of the values. Throws Error if they are invalid.
-AnalysisSettings settingsAt(const SweepExperiment &experiment, std::size_t value);
+/// The properties of the line that can be varied: snrDb, durationSeconds, driftHzPerSecond, wanderHz, wanderSeconds.
+const std::vector<Field<SweepExperiment>> &lineProperties();
+
+/// What is varied: a setting, or a property of the line. Throws Error.
+const FieldInfo &parameterInfo(const std::string &parameter);
+
+/// The experiment with one of the values, in its settings or its line. Throws Error if they are invalid.
+SweepExperiment experimentAt(const SweepExperiment &experiment, std::size_t value);
 
 /// Throws Error naming the key.
 void checkExperiment(const SweepExperiment &experiment);

@@ -21,7 +21,7 @@ public:
     /// `recording` may be null for simulated noise. Calibrates each value. Throws Error, Cancelled.
     SweepTrials(const SweepExperiment &experiment, RecordingPointer recording, const RunContext &context = {});
 
-    /// The thresholds, one per value.
+    /// The thresholds, one per value; if a window is chosen in each trial, those of the window T0.
     const std::vector<double> &thresholds() const { return m_thresholds; }
 
     /// Executes the given runs on context.threads threads. Depends only on the experiment and the recording.
@@ -41,12 +41,13 @@ public:
 
 private:
     struct Placement;
-    LineSettings lineAt(const Placement &placement) const; ///< relative to the start of its stretch
-    Made simulate(const LineSettings &line, const Placement &placement, const AnalysisSettings &settings) const;
-    Made inject(LineSettings line, const Placement &placement, const AnalysisSettings &settings) const;
+    LineSettings lineAt(const SweepExperiment &one, const Placement &placement) const; ///< from its stretch's start
+    Made simulate(const SweepExperiment &one, const LineSettings &line, const Placement &placement) const;
+    Made inject(const SweepExperiment &one, LineSettings line, const Placement &placement) const;
 
-    SweepExperiment m_experiment; ///< with known window length
+    SweepExperiment m_experiment;
     RecordingPointer m_recording;
+    double m_referenceSeconds; ///< the window to which an SNR refers
     std::vector<double> m_thresholds;
 };
 

@@ -127,7 +127,8 @@ namespace {
             return {};
         const std::vector<DetectorUnderTest> detectors = detectorsOf(campaign.experiment);
         for (std::size_t d = 0; d < detectors.size(); ++d)
-            if (detectors[d].settings.model == current.model && detectors[d].settings.detector == current.detector)
+            if (!detectors[d].isWhole && detectors[d].settings.model == current.model
+                && detectors[d].settings.detector == current.detector)
                 return d;
         return {};
     }
@@ -240,6 +241,8 @@ Chart rocChart(const Campaign &campaign, std::size_t snr)
 
 double shownThreshold(const Campaign &campaign, std::size_t detector)
 {
+    if (detectorsOf(campaign.experiment)[detector].isWhole)
+        return 0.0; // of a margin
     const double share = 1.0 - std::exp(-1.0);
     return campaign.thresholds.empty() ? blockThreshold(campaign.outcomes, detector, share)
                                        : campaign.thresholds[detector];

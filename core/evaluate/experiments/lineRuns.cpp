@@ -1,10 +1,12 @@
 #include "evaluate/experiments/lineRuns.h"
 
+#include "analyse/analyse.h"
 #include "base/logmath.h"
 #include "base/parallel.h"
 #include "calibrate/fitReset.h"
 #include "calibrate/noiseCounts.h"
 #include "evaluate/experiments/NoisyField.h"
+#include "evaluate/experiments/lineDetection.h"
 #include "plan/Calibration.h"
 
 #include <algorithm>
@@ -110,14 +112,19 @@ namespace {
                 m_waits.push_back(framesPerDecision(recipe.detector, geometryOf(experiment)) - 1);
         }
 
-        RunOutcome outcome() const
+        RunOutcome outcome(const RunContext &context) const
         {
             RunOutcome outcome;
             outcome.run = m_number;
             outcome.noise = largestInBlocks();
+            replaceByMargins(outcome.noise, 0.0f, context,
+                             [this](const Analysis &analysis) { return marginsInBlocks(analysis); });
             outcome.signal.assign(m_recipes.size(), {});
             for (const double snrDb : m_experiment.snrDb) {
-                const auto largest = largestOnLines(float(std::sqrt(ratioFromDb(snrDb))));
+                const auto amplitude = float(std::sqrt(ratioFromDb(snrDb)));
+                Largest largest = largestOnLines(amplitude);
+                replaceByMargins(largest, amplitude, context,
+                                 [this](const Analysis &analysis) { return marginsOnLines(analysis); });
                 for (std::size_t d = 0; d < m_recipes.size(); ++d)
                     outcome.signal[d].push_back(largest[d]);
             }
@@ -179,6 +186,44 @@ namespace {
             return result;
         }
 
+        /// The values of `detect` as a whole are margins(analysis) of the field.
+        template <class Margins>
+        void replaceByMargins(Largest &values, float amplitude, const RunContext &context, Margins margins) const
+        {
+            for (std::size_t d = 0; d < values.size(); ++d)
+                if (m_experiment.detectors[d].isWhole)
+                    values[d] =
+                        margins(*analyse(recordingOf(m_experiment, m_field, amplitude), wholeSettings(m_experiment, d),
+                                         {.depth = AnalysisDepth::Tracks}, context));
+        }
+
+        std::vector<float> marginsInBlocks(const Analysis &analysis) const
+        {
+            std::vector<float> result(m_signals, belowEachStatistic);
+            const double blockSeconds = double(m_experiment.blockFrames) / m_experiment.stepsPerWindow;
+            const double blockHz = double(m_experiment.blockBins) / m_experiment.binsPerCell;
+            for (const Track &track : analysis.tracks) {
+                const TrackPoint &found = track.points[std::size_t(track.detectFrame - track.points.front().frame)];
+                const double hz =
+                    analysis.recording->info().centreHz + analysis.grid().axes.front().value(double(found.cell));
+                const auto row = Index(analysis.time().value(double(found.frame)) / blockSeconds);
+                const auto column = Index(hz / blockHz);
+                if (row >= m_experiment.blocksInTime() || column < 0 || column >= m_experiment.blocksInFrequency())
+                    continue; // beside all blocks
+                float &largest = result[std::size_t(row * m_experiment.blocksInFrequency() + column)];
+                largest = std::max(largest, float(marginOf(track, analysis)));
+            }
+            return result;
+        }
+
+        std::vector<float> marginsOnLines(const Analysis &analysis) const
+        {
+            std::vector<float> result;
+            for (const TruthLine &line : m_field.truths)
+                result.push_back(float(lineDetection(analysis, line).margin));
+            return result;
+        }
+
         void readLine(const Place &place, Index frame, Index wait, const std::vector<float> &statistic,
                       float &largest) const
         {
@@ -203,6 +248,16 @@ namespace {
 
 } // namespace
 
+AnalysisSettings wholeSettings(const LineExperiment &experiment, std::size_t detector)
+{
+    AnalysisSettings settings = experiment.detectors[detector].settings;
+    settings.selection = {};
+    settings.decide.by = DecideSettings::By::FalseAlarmsPerHour;
+    settings.decide.falseAlarmsPerHour =
+        3600.0 * experiment.blocksInFrequency() * experiment.stepsPerWindow / experiment.blockFrames;
+    return settings;
+}
+
 std::vector<ResetRule> calibratedResets(const LineExperiment &experiment, const RunContext &context)
 {
     checkExperiment(experiment);
@@ -218,11 +273,13 @@ std::vector<RunOutcome> runExperiment(const LineExperiment &experiment, const st
     checkExperiment(experiment);
     const std::vector<Recipe> recipes = recipesOf(experiment, context.part(0.0, 0.1));
     std::vector<RunOutcome> outcomes(runs.size());
+    RunContext quiet;
+    quiet.stop = context.stop;
     std::mutex guard;
     parallelFor(std::ssize(runs), context.part(0.1, 1.0), "simulating", [&] {
         return [&, transform = std::make_shared<FieldTransform>(experiment)](Index i) {
             RunOutcome &outcome = outcomes[std::size_t(i)];
-            outcome = Run(experiment, runs[std::size_t(i)], recipes, *transform).outcome();
+            outcome = Run(experiment, runs[std::size_t(i)], recipes, *transform).outcome(quiet);
             if (sink) {
                 const std::lock_guard lock(guard);
                 sink(outcome);
@@ -256,6 +313,14 @@ LineTrial remakeTrial(const LineExperiment &experiment, double snrDb, int run, i
     for (const Index bin : place.bins)
         trial.path.push_back(bin - firstBin);
     return trial;
+}
+
+FieldTrial remakeField(const LineExperiment &experiment, double snrDb, int run, int signal)
+{
+    checkExperiment(experiment);
+    FieldTransform transform(experiment);
+    const NoisyField field = makeField(experiment, run, transform);
+    return {recordingOf(experiment, field, float(std::sqrt(ratioFromDb(snrDb)))), field.truths[std::size_t(signal)]};
 }
 
 } // namespace faintline

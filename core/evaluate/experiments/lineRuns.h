@@ -5,6 +5,8 @@
 #include "evaluate/experiments/LineExperiment.h"
 #include "evaluate/experiments/RunOutcome.h"
 #include "frames/NormalisedFrames.h"
+#include "scene/Truth.h"
+#include "signal/Recording.h"
 
 #include <memory>
 #include <vector>
@@ -14,6 +16,9 @@ namespace faintline {
 /// The reset rule of each detector of the experiment, with K determined on the experiment's own noise (default for
 /// detectors without one).
 std::vector<ResetRule> calibratedResets(const LineExperiment &experiment, const RunContext &context = {});
+
+/// With these, a detector that is `detect` as a whole analyses a field: one false alarm per block.
+AnalysisSettings wholeSettings(const LineExperiment &experiment, std::size_t detector);
 
 /// Executes the given runs on context.threads threads; the result is in the order of `runs` and depends only on the
 /// experiment. K of sequential Markov detectors is calibrated first. Throws Error, Cancelled.
@@ -28,5 +33,12 @@ struct LineTrial {
     std::vector<Index> path; ///< its bin in the block, one per frame of its duration
 };
 LineTrial remakeTrial(const LineExperiment &experiment, double snrDb, int run, int signal);
+
+/// The samples of one run with all its lines, and the truth of one of them.
+struct FieldTrial {
+    RecordingPointer recording;
+    TruthLine line;
+};
+FieldTrial remakeField(const LineExperiment &experiment, double snrDb, int run, int signal);
 
 } // namespace faintline

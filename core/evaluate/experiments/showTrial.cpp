@@ -58,13 +58,23 @@ namespace {
                 {{truth}}};
     }
 
+    ShownTrial showWhole(const LineExperiment &lines, const CampaignPoint &point, const TrialPlace &place,
+                         const RunContext &context)
+    {
+        const FieldTrial trial = remakeField(lines, lines.snrDb[point.snr], place.run, place.signal);
+        return {analyse(trial.recording, wholeSettings(lines, point.detector), {}, context), {{trial.line}}};
+    }
+
     ShownTrial showInjected(const Campaign &campaign, const InjectionTrials &trials, const CampaignPoint &point,
                             const TrialPlace &place, const RunContext &context)
     {
         const auto &injection = std::get<InjectionExperiment>(campaign.experiment);
-        AnalysisSettings settings = settingsOf(injection, point.detector);
-        setThreshold(settings, shownThreshold(campaign, point.detector));
         const InjectionTrials::Made made = trials.remake(place.run, injection.snrDb[point.snr]);
+        AnalysisSettings settings = settingsOf(injection, point.detector);
+        if (injection.detectors[point.detector].isWhole)
+            settings = trials.wholeSettings(point.detector, made.truth);
+        else
+            setThreshold(settings, shownThreshold(campaign, point.detector));
         return {analyse(made.recording, settings, {}, context), {{made.truth}}};
     }
 
@@ -90,7 +100,8 @@ ShownTrial showTrial(const Campaign &campaign, const InjectionTrials *trials, co
                      const TrialPlace &place, const RunContext &context)
 {
     if (const auto *lines = std::get_if<LineExperiment>(&campaign.experiment))
-        return showLine(campaign, *lines, point, place, context);
+        return lines->detectors[point.detector].isWhole ? showWhole(*lines, point, place, context)
+                                                        : showLine(campaign, *lines, point, place, context);
     if (std::holds_alternative<SweepExperiment>(campaign.experiment))
         throw Error("trial", "trials of a sweep cannot be shown; apply the value and inject a line instead");
     if (!trials)

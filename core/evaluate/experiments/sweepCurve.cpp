@@ -23,7 +23,7 @@ namespace {
 
     std::string labelOf(const SweepExperiment &experiment)
     {
-        const FieldInfo &field = settingField(experiment.parameter);
+        const FieldInfo &field = parameterInfo(experiment.parameter);
         return field.name + (field.unit.empty() ? "" : " (" + field.unit + ")");
     }
 

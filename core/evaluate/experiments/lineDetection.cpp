@@ -1,0 +1,68 @@
+#include "evaluate/experiments/lineDetection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace faintline {
+
+namespace {
+
+    constexpr double onLineCells = 1.5; ///< of a track's distance from its line
+    constexpr double missed = -std::numeric_limits<double>::infinity();
+
+    /// Relation of a track to a line.
+    enum class Bond { None, Touches, OnIt };
+
+    Bond bondOf(const Track &track, const Analysis &analysis, const TruthLine &line)
+    {
+        const Spectrogram &spectrogram = *analysis.frames->spectrogram();
+        const Axis &frequency = analysis.grid().axes.front();
+        const double nearHz = onLineCells * spectrogram.binsPerCell() * frequency.step;
+        const double window = spectrogram.windowSeconds();
+        const double centreHz = analysis.recording->info().centreHz;
+        int during = 0;
+        int on = 0;
+        bool isTouching = false;
+        for (const TrackPoint &point : track.points) {
+            const double seconds = analysis.time().value(double(point.frame));
+            const double hz = frequency.value(double(point.cell));
+            const bool isNear = std::abs(hz - (line.frequencyAt(seconds) - centreHz)) <= nearHz;
+            if (seconds >= line.startSeconds && seconds <= line.endSeconds) {
+                ++during;
+                on += isNear ? 1 : 0;
+            }
+            isTouching =
+                isTouching || (isNear && seconds >= line.startSeconds - window && seconds <= line.endSeconds + window);
+        }
+        return on > 0 && 2 * on >= during ? Bond::OnIt : isTouching ? Bond::Touches : Bond::None;
+    }
+
+} // namespace
+
+LineDetection lineDetection(const Analysis &analysis, const TruthLine &line)
+{
+    LineDetection found{missed, missed};
+    for (const Track &track : analysis.tracks) {
+        if (bondOf(track, analysis, line) != Bond::OnIt)
+            continue;
+        const double latency = std::max(0.0, analysis.time().value(double(track.detectFrame)) - line.startSeconds);
+        found.latencySeconds = found.latencySeconds < 0.0 ? latency : std::min(latency, found.latencySeconds);
+        found.margin = std::max(found.margin, marginOf(track, analysis));
+    }
+    return found;
+}
+
+std::ptrdiff_t countTracksBeside(const Analysis &analysis, const TruthLine &line)
+{
+    return std::ranges::count_if(analysis.tracks,
+                                 [&](const Track &track) { return bondOf(track, analysis, line) == Bond::None; });
+}
+
+double marginOf(const Track &track, const Analysis &analysis)
+{
+    // A track of another window has a threshold of its own.
+    return std::max(track.peakStatistic - analysis.threshold, double(std::numeric_limits<float>::min()));
+}
+
+} // namespace faintline

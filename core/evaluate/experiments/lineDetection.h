@@ -1,0 +1,26 @@
+#pragma once
+
+#include "plan/Analysis.h"
+#include "scene/Truth.h"
+
+#include <cstddef>
+
+namespace faintline {
+
+/// How an analysis found a known line. A track *detects* the line if half of its points while the line lasts lie on it,
+/// within 1.5 resolution cells.
+struct LineDetection {
+    /// Nat by which the largest statistic of the tracks that detect it exceeds the threshold, above 0; -∞ if it was
+    /// missed.
+    double margin;
+    double latencySeconds; ///< from its start to its detection; -∞ if it was missed
+};
+LineDetection lineDetection(const Analysis &analysis, const TruthLine &line);
+
+/// Number of tracks that never touch the line.
+std::ptrdiff_t countTracksBeside(const Analysis &analysis, const TruthLine &line);
+
+/// Margin of a track, as that of a LineDetection.
+double marginOf(const Track &track, const Analysis &analysis);
+
+} // namespace faintline
