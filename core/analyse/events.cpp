@@ -65,7 +65,7 @@ namespace {
         event.bandWidth = band * analysis.grid().axes.back().step;
         const double cellFrames = double(analysis.grid().size()) * double(analysis.time().count);
         event.windowSeconds =
-            track.windowSeconds > 0.0 ? track.windowSeconds : analysis.frames->spectrogram()->windowSeconds();
+            track.windowSeconds > 0.0 ? track.windowSeconds : analysis.frames->geometry().windowSeconds;
         event.noiseProbability = -std::expm1(-analysis.calibration->eventRateAt(event.statistic) * cellFrames);
     }
 

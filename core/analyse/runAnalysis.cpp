@@ -158,6 +158,13 @@ namespace {
             holdAgainstOwnNoise(analysis, context.part(0.6, 1.0));
     }
 
+    /// Spread tracks are areas, and the others end with their signals.
+    void finishTracks(Analysis &analysis)
+    {
+        moveSpreadTracks(analysis);
+        analysis.tracks = withEndsTrimmed(std::move(analysis.tracks));
+    }
+
     /// Streams the frames through the chain, and sets all of the analysis that does not need the tracks. Returns these.
     std::vector<Track> detectedTracks(Analysis &analysis, const RunContext &context, const RunRequest &request,
                                       ProgressPublisher &publisher)
@@ -313,10 +320,8 @@ std::shared_ptr<Analysis> runOnRecording(const RecordingPointer &recording, cons
     checkWindow(settings);
     std::shared_ptr<Analysis> analysis =
         analyseWithRest(recording, settings, context, lender(request.previous, recording), request);
-    if (request.depth != AnalysisDepth::Trial) {
-        moveSpreadTracks(*analysis);
-        analysis->tracks = withEndsTrimmed(std::move(analysis->tracks));
-    }
+    if (request.depth != AnalysisDepth::Trial)
+        finishTracks(*analysis);
     return analysis;
 }
 
@@ -381,7 +386,7 @@ namespace {
                 ProgressPublisher(request.pictures, analysis.time(), analysis.grid().axes.back(), analysis.settings);
         run(analysis, context.part(0.1, 1.0), request, publisher);
         if (request.depth != AnalysisDepth::Trial)
-            analysis.tracks = withEndsTrimmed(std::move(analysis.tracks));
+            finishTracks(analysis);
     }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include "detect/Integrator.h"
 #include "detect/PofN.h"
 #include "detect/Smd.h"
+#include "frames/NormalisedFrames.h"
 
 #include <array>
 #include <memory>
@@ -60,14 +61,6 @@ inline std::string_view statisticUnit(const DetectorSettings &settings)
 
 /// Default settings of the alternative with that index.
 DetectorSettings detectorOfKind(std::size_t index);
-
-/// Properties of the frames, for settings that are independent of them.
-struct FrameGeometry {
-    double framesPerWindow = 1.0; ///< k_t
-    double binsPerCell = 1.0;     ///< k_f
-    /// Frames of a block that precede the first frame, for detectors that decide in blocks.
-    Index blockPhase = 0;
-};
 
 /// Whether the statistic is the score of a path, in nats, which a tracker continues. Tracks of other detectors start
 /// from the paths of a sequential Markov detector beside them (GuidedDetector), whose scores are unrelated to the

@@ -1,8 +1,23 @@
 #include "frames/NormalisedFrames.h"
 
+#include "frames/Spectrogram.h"
+
 #include <algorithm>
 
 namespace faintline {
+
+FrameGeometry NormalisedFrames::geometry() const
+{
+    FrameGeometry geometry;
+    geometry.windowSeconds = m_time.step;
+    if (const Spectrogram *of = spectrogram()) {
+        geometry.framesPerWindow = double(of->settings().stepsPerWindow);
+        geometry.binsPerCell = of->binsPerCell();
+        geometry.window = of->settings().window;
+        geometry.windowSeconds = of->windowSeconds();
+    }
+    return geometry;
+}
 
 void FrameArray::read(Index first, Index count, std::span<float> out) const
 {

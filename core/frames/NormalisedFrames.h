@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/Grid.h"
+#include "frames/Window.h"
 
 #include <memory>
 #include <span>
@@ -10,6 +11,16 @@
 namespace faintline {
 
 class Spectrogram;
+
+/// How a line fills frames: their overlap, the bins of a resolution cell, and the leakage beyond it.
+struct FrameGeometry {
+    double framesPerWindow = 1.0; ///< k_t
+    double binsPerCell = 1.0;     ///< k_f
+    /// Frames of a block that precede the first frame, for detectors that decide in blocks.
+    Index blockPhase = 0;
+    WindowShape window = WindowShape::Hann;
+    double windowSeconds = 0.0; ///< T_FT
+};
 
 /// Frames whose noise has mean 1 in every cell: the only input of a detector.
 ///
@@ -28,6 +39,10 @@ public:
 
     /// The spectrogram from which the frames were made; null for ready-made frames.
     virtual const Spectrogram *spectrogram() const { return nullptr; }
+
+    /// The spectrogram's geometry. Ready-made frames are taken as independent, with one bin a resolution cell and the
+    /// leakage of a Hann window.
+    FrameGeometry geometry() const;
 
     /// What was assumed about the numbers of a file, in one sentence; empty if nothing was. Guessed: the file did not
     /// say it, and neither did the settings.

@@ -17,8 +17,7 @@ SequentialModel lineSequentialModel(const ModelSettings &settings, const Grid &g
 
 Index framesApart(const NormalisedFrames &frames)
 {
-    const Spectrogram *spectrogram = frames.spectrogram();
-    return spectrogram ? spectrogram->settings().stepsPerWindow : 1;
+    return Index(frames.geometry().framesPerWindow);
 }
 
 void checkLikelihoodRatio(const Likelihood &likelihood, const std::string &where)

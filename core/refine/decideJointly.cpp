@@ -31,8 +31,8 @@ namespace {
     {
     public:
         JointDecision(const Analysis &analysis, std::vector<Track> tracks, Index slopeFrames)
-            : m_analysis(analysis), m_binsPerCell(analysis.frames->spectrogram()->binsPerCell()),
-              m_slopeFrames(slopeFrames), m_tracks(std::move(tracks))
+            : m_analysis(analysis), m_binsPerCell(analysis.frames->geometry().binsPerCell), m_slopeFrames(slopeFrames),
+              m_tracks(std::move(tracks))
         {
             for (const Track &track : m_tracks)
                 m_ranges.push_back(rangeOf(track));

@@ -187,7 +187,7 @@ std::vector<Track> searchBehind(const Analysis &analysis, const Explanations &ex
     }
     chain->finish();
     std::vector<Track> found = chain->takeJoinedTracks();
-    const auto reach = Index(std::ceil(frames.spectrogram()->binsPerCell()));
+    const auto reach = Index(std::ceil(frames.geometry().binsPerCell));
     const double sure = sureStatistic(analysis);
     std::erase_if(found, [&](const Track &track) {
         return track.peakStatistic < sure || hiddenShare(track, explanations, reach) < hiddenShareLimit;

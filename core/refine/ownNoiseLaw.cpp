@@ -242,11 +242,14 @@ namespace {
     }
 
     /// Factor by which overlap increases the variance of means over many frames.
-    double overlapOf(const Spectrogram &spectrogram)
+    double overlapOf(const NormalisedFrames &frames)
     {
-        const SpectrogramSettings &settings = spectrogram.settings();
+        const Spectrogram *spectrogram = frames.spectrogram();
+        if (!spectrogram)
+            return 1.0;
+        const SpectrogramSettings &settings = spectrogram->settings();
         const double scatter =
-            overlapFactor(sampleWindow(settings.window, spectrogram.windowSamples()), settings.stepsPerWindow);
+            overlapFactor(sampleWindow(settings.window, spectrogram->windowSamples()), settings.stepsPerWindow);
         return scatter * scatter;
     }
 
@@ -274,8 +277,8 @@ void holdAgainstOwnNoise(Analysis &analysis, const RunContext &context)
 {
     if (!looksTwice(analysis) || !analysis.settings.family.isNone())
         return;
-    const Spectrogram &spectrogram = *analysis.frames->spectrogram();
-    const OwnNoiseLaw law(*analysis.frames, analysis.tracks, spectrogram.binsPerCell(), overlapOf(spectrogram),
+    const NormalisedFrames &frames = *analysis.frames;
+    const OwnNoiseLaw law(frames, analysis.tracks, frames.geometry().binsPerCell, overlapOf(frames),
                           context.part(0.0, 0.5));
     if (law.isAsAssumed())
         return;

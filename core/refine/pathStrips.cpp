@@ -86,8 +86,7 @@ BothWaysModel bothWaysModel(const Analysis &analysis)
     model.axis = &analysis.model.space.axes().front();
     model.likelihood = analysis.model.likelihood;
     model.threshold = isScoreOfPaths(analysis.settings.detector) ? analysis.threshold : analysis.settings.track.endNats;
-    const Spectrogram *spectrogram = analysis.frames->spectrogram();
-    model.binsPerCell = spectrogram ? spectrogram->binsPerCell() : 1.0;
+    model.binsPerCell = analysis.frames->geometry().binsPerCell;
     return model;
 }
 

@@ -1,7 +1,6 @@
 #include "refine/secondLook.h"
 
 #include "frames/Window.h"
-#include "noise/NoiseNormaliser.h"
 #include "refine/TrackPiece.h"
 #include "refine/bothWays.h"
 #include "refine/decideJointly.h"
@@ -78,7 +77,7 @@ namespace {
     public:
         SecondLook(const Analysis &analysis, const RunContext &context)
             : m_analysis(analysis), m_context(context), m_frames(*analysis.frames), m_cells(m_frames.grid().size()),
-              m_spectrogram(*m_frames.spectrogram()),
+              m_geometry(m_frames.geometry()),
               m_explanations(m_cells, leakageAround(leakageBound, 0.0), leakageAround(leakageAt, 0.02)),
               m_model(bothWaysModel(analysis))
         {
@@ -149,12 +148,11 @@ namespace {
         /// The window's leakage over a distance in bins that is known to `error` cells.
         std::function<double(double)> leakageAround(double (*leakage)(WindowShape, double), double error) const
         {
-            return
-                [=, shape = m_spectrogram.settings().window, binsPerCell = m_spectrogram.binsPerCell()](double bins) {
-                    const double cells = bins / binsPerCell;
-                    return std::max({leakage(shape, std::max(0.0, cells - error)), leakage(shape, cells),
-                                     leakage(shape, cells + error)});
-                };
+            return [=, shape = m_geometry.window, binsPerCell = m_geometry.binsPerCell](double bins) {
+                const double cells = bins / binsPerCell;
+                return std::max({leakage(shape, std::max(0.0, cells - error)), leakage(shape, cells),
+                                 leakage(shape, cells + error)});
+            };
         }
 
         /// Reads strips that fit into memory together, and calls take(number) for each.
@@ -183,7 +181,7 @@ namespace {
             strip.floor[std::size_t(at)] = 1.0f;
             for (Index i = 0; i < strip.width(); ++i) {
                 const double apart = std::abs(double(strip.firstCell(at) + i) - point.position) / m_model.binsPerCell;
-                strip.row(at)[i] = 1.0f + point.level * float(leakageBound(m_spectrogram.settings().window, apart));
+                strip.row(at)[i] = 1.0f + point.level * float(leakageBound(m_geometry.window, apart));
             }
         }
 
@@ -488,7 +486,7 @@ namespace {
         const RunContext &m_context;
         const NormalisedFrames &m_frames;
         Index m_cells;
-        const Spectrogram &m_spectrogram;
+        FrameGeometry m_geometry;
         Explanations m_explanations;
         BothWaysModel m_model;
         std::vector<Candidate> m_candidates; ///< for the current track
@@ -508,7 +506,7 @@ bool canLookTwice(const AnalysisSettings &settings)
 bool looksTwice(const AnalysisPlan &analysis)
 {
     return analysis.settings.track.bothWays && canLookTwice(analysis.settings) && analysis.grid().isSpectrum()
-           && !analysis.isBank() && analysis.frames->spectrogram();
+           && !analysis.isBank();
 }
 
 namespace {

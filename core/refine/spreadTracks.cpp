@@ -27,7 +27,7 @@ namespace {
             bins += double(track.smoothed[i].high - track.smoothed[i].low) / count;
         }
         const double limit = lineBandCells * std::max(1.0, 1.0 / std::sqrt(std::max(level, 1e-9)));
-        return level < strongLevelRatio && bins > limit * analysis.frames->spectrogram()->binsPerCell();
+        return level < strongLevelRatio && bins > limit * analysis.frames->geometry().binsPerCell;
     }
 
     void addAreas(const Track &track, Index cells, std::vector<Area> &areas)
