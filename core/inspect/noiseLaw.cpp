@@ -106,20 +106,26 @@ namespace {
               m_inhibitedBins(inhibitedBins(plan.settings)), m_lambda(std::size_t(plan.model.space.cellCount())),
               m_continued(std::size_t(std::max<Index>(1, plan.model.space.cellCount() / tileCells)), 0.0)
         {
-            for (std::size_t cell = 0; cell < m_lambda.size(); ++cell)
-                m_columns.push_back(cell * m_continued.size() / m_lambda.size());
+            const auto columns = std::ssize(m_continued);
+            for (Index column = 0; column <= columns; ++column)
+                m_columnCells.push_back((column * std::ssize(m_lambda) + columns - 1) / columns);
         }
 
         void add(std::span<const float> y, std::span<const float> statistic, const Smd &detector)
         {
-            for (std::size_t cell = 0; cell < statistic.size(); ++cell)
-                if (statistic[cell] > m_loudest)
-                    m_isLoud[m_columns[cell]] = true;
             m_likelihood.apply(y, m_lambda);
-            const std::span<const float> scores = detector.scores();
-            for (std::size_t plane = 0; plane < scores.size(); plane += m_lambda.size())
-                for (std::size_t cell = 0; cell < m_lambda.size(); ++cell)
-                    m_continued[m_columns[cell]] += scores[plane + cell] > m_lambda[cell] ? 1.0 : 0.0;
+            for (std::size_t column = 0; column < m_continued.size(); ++column) {
+                const auto first = std::size_t(m_columnCells[column]);
+                const std::size_t width = std::size_t(m_columnCells[column + 1]) - first;
+                const std::span<const float> own = statistic.subspan(first, width);
+                m_isLoud[column] = m_isLoud[column] || *std::ranges::max_element(own) > m_loudest;
+                int continued = 0;
+                for (const float *scores = detector.scores().data() + first, *end = scores + m_planes * std::ssize(y);
+                     scores < end; scores += y.size())
+                    for (std::size_t i = 0; i < width; ++i)
+                        continued += scores[i] > m_lambda[first + i] ? 1 : 0;
+                m_continued[column] += continued;
+            }
             m_frames += 1.0;
             if (++m_tileFrames == tileFrames)
                 close();
@@ -138,14 +144,9 @@ namespace {
         {
             if (m_tileFrames == 0 || (2 * m_tileFrames < tileFrames && !m_fractions.empty()))
                 return;
-            const auto columns = std::ssize(m_continued);
-            const auto cells = std::ssize(m_lambda);
-            for (Index column = 0; column < columns; ++column) {
-                const Index width =
-                    ((column + 1) * cells + columns - 1) / columns - (column * cells + columns - 1) / columns;
-                if (!m_isLoud[std::size_t(column)])
-                    m_fractions.push_back(m_continued[std::size_t(column)] / double(m_planes * width * m_tileFrames));
-            }
+            for (std::size_t column = 0; column < m_continued.size(); ++column)
+                if (const Index width = m_columnCells[column + 1] - m_columnCells[column]; !m_isLoud[column])
+                    m_fractions.push_back(m_continued[column] / double(m_planes * width * m_tileFrames));
             std::fill(m_continued.begin(), m_continued.end(), 0.0);
             m_isLoud.assign(m_continued.size(), false);
             m_tileFrames = 0;
@@ -174,8 +175,8 @@ namespace {
         Grid m_grid;
         Index m_inhibitedBins;
         std::vector<float> m_lambda;
-        std::vector<std::size_t> m_columns; ///< of each cell
-        std::vector<double> m_continued;    ///< states in the current tile of each column of cells
+        std::vector<Index> m_columnCells; ///< first cell of each column, and the end
+        std::vector<double> m_continued;  ///< states in the current tile of each column of cells
         std::vector<bool> m_isLoud = std::vector<bool>(m_continued.size(), false);
         std::vector<double> m_fractions; ///< of all tiles
         Index m_tileFrames = 0;
