@@ -263,12 +263,9 @@ namespace {
             for (std::size_t i = 0; i < tail.points.size(); ++i)
                 if (tail.points[i].frame > frames.to)
                     append(tail, i);
-            result.onsetFrame = result.points.front().frame;
-            result.endFrame = result.points.back().frame;
+            result.takeEndsOfPoints();
             result.isOpen = tail.isOpen;
-            result.detectFrame = std::clamp(result.detectFrame, result.onsetFrame, result.endFrame);
-            if (result.confirmFrame >= 0)
-                result.confirmFrame = std::clamp(result.confirmFrame, result.detectFrame, result.endFrame);
+            result.keepDecisionsIn(result.onsetFrame, result.endFrame);
             for (const TrackPoint &point : result.points)
                 result.peakStatistic = std::max(result.peakStatistic, point.statistic);
             return result;

@@ -443,8 +443,7 @@ namespace {
                     bridge(track, chain[i - 1], chain[i]);
                 append(track, m_tracks[piece.track], from, i + 1 == chain.size() ? endPoint(chain[i]) : piece.to);
             }
-            track.onsetFrame = track.points.front().frame;
-            track.endFrame = track.points.back().frame;
+            track.takeEndsOfPoints();
             const std::vector<double> scores = scoresOf(track);
             track.peakStatistic = *std::max_element(scores.begin(), scores.end());
             describe(track, chain);

@@ -555,14 +555,9 @@ std::vector<Track> cutToSignals(const Analysis &analysis, std::vector<Track> tra
         const PresentFrames frames = presentFrames(analysis, track, context);
         if (frames.first < 0)
             continue;
-        track.isOpen = track.isOpen && frames.last == track.points.back().frame;
-        std::erase_if(track.points,
-                      [&](const TrackPoint &point) { return point.frame < frames.first || point.frame > frames.last; });
-        track.onsetFrame = frames.first;
-        track.endFrame = frames.last;
-        track.detectFrame = std::clamp(track.detectFrame, frames.first, frames.last);
-        if (track.confirmFrame >= 0)
-            track.confirmFrame = std::clamp(track.confirmFrame, track.detectFrame, frames.last);
+        const Index first = track.points.front().frame;
+        track.keepPoints(std::size_t(frames.first - first), std::size_t(frames.last + 1 - first));
+        track.keepDecisionsIn(frames.first, frames.last);
     }
     return tracks;
 }

@@ -21,18 +21,9 @@ namespace {
             return;
         while (!track.isPresent(std::size_t(end - 1)))
             --end;
-        const auto from = std::max<Index>(0, first - edgeFrames);
-        const auto to = std::min(std::ssize(track.smoothed), end + edgeFrames);
-        track.isOpen = track.isOpen && to == std::ssize(track.smoothed);
-        track.smoothed.erase(track.smoothed.begin() + to, track.smoothed.end());
-        track.smoothed.erase(track.smoothed.begin(), track.smoothed.begin() + from);
-        track.points.erase(track.points.begin() + to, track.points.end());
-        track.points.erase(track.points.begin(), track.points.begin() + from);
-        track.onsetFrame = track.points.front().frame;
-        track.endFrame = track.points.back().frame;
-        track.detectFrame = std::clamp(track.detectFrame, start + first, start + end - 1);
-        if (track.confirmFrame >= 0)
-            track.confirmFrame = std::clamp(track.confirmFrame, track.detectFrame, track.endFrame);
+        track.keepPoints(std::size_t(std::max<Index>(0, first - edgeFrames)),
+                         std::size_t(std::min(std::ssize(track.smoothed), end + edgeFrames)));
+        track.keepDecisionsIn(start + first, start + end - 1);
     }
 
 } // namespace

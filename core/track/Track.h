@@ -103,6 +103,36 @@ struct Track {
         return result;
     }
 
+    /// Keeps the points `from` … `to` - 1, with onset and end there.
+    void keepPoints(std::size_t from, std::size_t to)
+    {
+        isOpen = isOpen && to == points.size();
+        const auto cut = [&](auto &values) {
+            if (values.empty())
+                return;
+            values.erase(values.begin() + Index(to), values.end());
+            values.erase(values.begin(), values.begin() + Index(from));
+        };
+        cut(points);
+        cut(smoothed);
+        takeEndsOfPoints();
+    }
+
+    /// Sets onset and end to the first and the last point.
+    void takeEndsOfPoints()
+    {
+        onsetFrame = points.front().frame;
+        endFrame = points.back().frame;
+    }
+
+    /// Moves detection and confirmation into the frames `first` … `last`, confirmation not before detection.
+    void keepDecisionsIn(Index first, Index last)
+    {
+        detectFrame = std::clamp(detectFrame, first, last);
+        if (confirmFrame >= 0)
+            confirmFrame = std::clamp(confirmFrame, detectFrame, std::max(last, detectFrame));
+    }
+
     /// The model that follows it at its newest point.
     std::size_t lastModel() const { return modelChanges.empty() ? model : modelChanges.back().model; }
 

@@ -84,7 +84,7 @@ private slots:
         QCOMPARE(trimmed(presence, 105).detectFrame, Index(103));
         Track confirmed = track(presence, 103);
         confirmed.confirmFrame = 105;
-        QCOMPARE(withEndsTrimmed({confirmed}).front().confirmFrame, Index(104));
+        QCOMPARE(withEndsTrimmed({confirmed}).front().confirmFrame, Index(103));
     }
 
     void numberedByDetection()
