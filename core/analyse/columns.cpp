@@ -5,6 +5,8 @@
 #include "base/numberText.h"
 #include "refine/secondLook.h"
 
+#include <type_traits>
+
 namespace faintline {
 
 namespace {
@@ -120,7 +122,8 @@ std::vector<TableColumn<TrackPlace>> trackColumns(const Grid &grid, OptionalColu
 {
     std::vector<TableColumn<TrackPlace>> columns;
     const auto add = [&columns](std::string name, const auto &take) {
-        columns.push_back({std::move(name), [take](const TrackPlace &at) -> CellValue { return take(at); }});
+        columns.push_back({std::move(name), [take](const TrackPlace &at) -> CellValue { return take(at); },
+                           std::invoke_result_t<decltype(take), const TrackPlace &>()});
     };
     const auto addSmoothed = [&](const char *name, const auto &take) {
         add(name, [take](const TrackPlace &at) {
