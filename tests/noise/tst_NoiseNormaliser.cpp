@@ -692,16 +692,32 @@ void tst_NoiseNormaliser::framesAreAFunctionOfTheirIndex()
 void tst_NoiseNormaliser::backgroundBetweenItsNodes()
 {
     // Two blocks, two cells: ln power 0, 2 and 4, 6.
-    const NoiseBackground background{
-        {"time", "s", 10.0, 20.0, 2, false}, {"frequency", "Hz", 100.0, 50.0, 2, false}, {0, 2, 4, 6}, 0.0, {}, 0, {}};
+    const NoiseBackground background{{"time", "s", 10.0, 20.0, 2, false},
+                                     {"frequency", "Hz", 100.0, 50.0, 2, false},
+                                     {0, 2, 4, 6},
+                                     0.0,
+                                     {},
+                                     0,
+                                     {},
+                                     {},
+                                     {},
+                                     {}};
     QCOMPARE(background.lnPowerAt(10.0, 100.0), 0.0);
     QCOMPARE(background.lnPowerAt(10.0, 125.0), 1.0);
     QCOMPARE(background.lnPowerAt(20.0, 100.0), 2.0);
     QCOMPARE(background.lnPowerAt(20.0, 150.0), 4.0);
     QCOMPARE(background.lnPowerAt(-99.0, 999.0), 2.0); // the ends go on for ever
     QCOMPARE(background.lnPowerAt(99.0, 999.0), 6.0);
-    const NoiseBackground single{
-        {"time", "s", 10.0, 20.0, 1, false}, {"frequency", "Hz", 100.0, 50.0, 1, false}, {3}, 0.0, {}, 0, {}};
+    const NoiseBackground single{{"time", "s", 10.0, 20.0, 1, false},
+                                 {"frequency", "Hz", 100.0, 50.0, 1, false},
+                                 {3},
+                                 0.0,
+                                 {},
+                                 0,
+                                 {},
+                                 {},
+                                 {},
+                                 {}};
     QCOMPARE(single.lnPowerAt(0.0, 0.0), 3.0);
     QCOMPARE(single.lnPowerAt(1e9, 1e9), 3.0);
 }
