@@ -153,10 +153,10 @@ void tst_cliStraighten::decodesADriftingMessage()
     const QString decoder = QStandardPaths::findExecutable("wsprd");
     if (simulator.isEmpty() || decoder.isEmpty())
         QSKIP("wsprsim and wsprd of wsjtx are not installed");
-    const auto output = [this](const QString &program, const QStringList &arguments) {
+    const auto output = [this](const QString &command, const QStringList &arguments) {
         QProcess process;
         process.setWorkingDirectory(folder());
-        process.start(program, arguments);
+        process.start(command, arguments);
         return process.waitForFinished(patience) ? process.readAllStandardOutput() : QByteArray();
     };
     const QByteArray message = "K1ABC FN42 33";
