@@ -104,7 +104,7 @@ def size():
 
 # What third-design.md, section 1, lists as stages after the chain, and as recursions written once more (presence: twice).
 STAGES = ("secondLook explanation levelBeside searchBehind relink decideJointly familyLoneTeeth familyGhosts overOwnNoise overSides spreadTracks"
-          " steadyLines trimEnds trimOnset").split()
+          " otherWindows trimEnds trimOnset").split()
 PROGRAMMES = {"ForwardBackward": 1, "presence": 2, "jointPaths": 1, "outputLayers": 1}
 
 # The rooms from frames to plan, and analyse. The chain's own model and calibrate are not among them.

@@ -78,7 +78,7 @@ namespace {
                     std::string(statisticUnit(detector)).c_str(), e.isConfirmed ? "" : ", not confirmed",
                     e.isOpen ? ", present at the end" : "",
                     analysis.isBank() ? (e.model == 0 ? ", non-manoeuvring" : ", manoeuvring") : "");
-        if (analysis.longer && trackOfId(analysis.tracks, e.id)->windowSeconds > 0.0)
+        if (trackOfId(analysis.tracks, e.id)->windowSeconds > 0.0)
             std::printf(", found with a window of %.4g s", e.windowSeconds);
         if (e.isSubtracted)
             std::printf(", subtracted");

@@ -3,8 +3,9 @@
 #include "analyse/runAnalysis.h"
 #include "plan/Analysis.h"
 #include "plan/sureStatistic.h"
+#include "refine/otherWindows.h"
+#include "refine/ownNoiseLaw.h"
 #include "refine/secondLook.h"
-#include "refine/steadyLines.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,10 +20,9 @@ namespace {
     constexpr double factor = 4.0;        ///< ratio of consecutive windows
     constexpr double tooFast = 1.0 / 3.0; ///< below it the longer window loses moving signals
     constexpr double asGood = 0.85;       ///< from there on it loses almost nothing
-    constexpr double fewestCells = 24.0;
-    constexpr double fewestFrames = 16.0;
-    constexpr double fewestOfSteadyLines = 4.0; ///< frames
-    constexpr std::size_t mostTrials = 5;
+    constexpr double fewestCellsOfBand = 24.0;
+    constexpr double fewestFramesOfTrial = 16.0;
+    constexpr std::size_t trialLimit = 5;
 
     ModelSettings withLaw(ModelSettings model, const ModelSettings &law)
     {
@@ -102,13 +102,16 @@ namespace {
             return longer(std::move(automatic));
         }
 
-        /// Result for the next longer window, without pictures; null if it is not feasible.
-        std::shared_ptr<const Analysis> nextLonger(const Analysis &chosen)
+        /// Results for the other windows, those next to T0 and to the chosen one at least, without pictures.
+        std::vector<std::shared_ptr<const Analysis>> others(const Analysis &chosen)
         {
-            const double step = factor * windowSecondsOf(chosen) / m_windowSeconds;
-            if (!m_longer && isBorne(step, fewestOfSteadyLines))
-                m_longer = tracksOnly(*tried(step, m_asked.model));
-            return m_longer;
+            const double own = windowSecondsOf(chosen) / m_windowSeconds;
+            for (const double step : {1.0 / factor, factor, own / factor, own * factor})
+                if (!isTried(step) && isFeasible(step))
+                    tried(step, step < 1.0 ? laws::glide() : m_asked.model);
+            std::vector<std::shared_ptr<const Analysis>> result = m_analyses;
+            result.erase(result.begin() + Index(numberOf(windowSecondsOf(chosen))));
+            return result;
         }
 
         WindowChoice choice(const Analysis &chosen) const
@@ -132,11 +135,11 @@ namespace {
         }
 
         /// The shortest window that still follows a sufficient share of what the next shorter one follows; null if that
-        /// is T0, or none. No more than two windows are held at a time.
+        /// is T0, or none.
         std::shared_ptr<Analysis> shorter(const Analysis &automatic)
         {
             std::shared_ptr<Analysis> best;
-            for (double step = 1.0 / factor; m_cells * step >= fewestCells && m_trials.size() < mostTrials;
+            for (double step = 1.0 / factor; m_cells * step >= fewestCellsOfBand && m_trials.size() < trialLimit;
                  step /= factor) {
                 auto trial = tried(step, laws::glide());
                 const double kept = shareKept(*trial, best ? *best : automatic);
@@ -145,11 +148,21 @@ namespace {
                     break;
                 if (kept >= tooFast)
                     return best;
-                m_longer = tracksOnly(best ? *best : automatic);
                 best = std::move(trial);
             }
-            m_longer = nullptr;
             return nullptr;
+        }
+
+        bool isTried(double step) const
+        {
+            return std::ranges::any_of(m_trials, [&](const WindowTrial &trial) {
+                return std::abs(std::log(trial.windowSeconds / (step * m_windowSeconds))) < 0.5 * std::log(factor);
+            });
+        }
+
+        bool isFeasible(double step) const
+        {
+            return m_cells * step >= fewestCellsOfBand && isBorne(step, double(OwnNoiseLaw::fewestFrames));
         }
 
         /// Whether there are enough frames and memory: an automatic window is bounded for any length of recording.
@@ -162,15 +175,13 @@ namespace {
 
         std::shared_ptr<Analysis> longer(std::shared_ptr<Analysis> best)
         {
-            for (double step = factor; isBorne(step, fewestFrames) && m_trials.size() < mostTrials && isSure(*best);
-                 step *= factor) {
+            for (double step = factor;
+                 isBorne(step, fewestFramesOfTrial) && m_trials.size() < trialLimit && isSure(*best); step *= factor) {
                 auto trial = tried(step, m_asked.model);
                 const double kept = shareKept(*best, *trial);
                 (m_trials.end() - 2)->kept = kept;
-                if (!(kept >= asGood)) {
-                    m_longer = tracksOnly(*trial);
+                if (!(kept >= asGood))
                     break;
-                }
                 best = std::move(trial);
             }
             return best;
@@ -190,7 +201,9 @@ namespace {
         {
             const WindowTrial trial{settings, windowSecondsOf(analysis), std::ssize(analysis.tracks),
                                     std::numeric_limits<double>::quiet_NaN()};
-            m_trials.insert(m_trials.begin() + Index(numberOf(trial.windowSeconds)), trial);
+            const auto at = Index(numberOf(trial.windowSeconds));
+            m_trials.insert(m_trials.begin() + at, trial);
+            m_analyses.insert(m_analyses.begin() + at, tracksOnly(analysis));
         }
 
         static bool isSure(const Analysis &analysis)
@@ -222,7 +235,7 @@ namespace {
         double m_cells = 0.0;         ///< at T0
         double m_frames = 0.0;
         std::vector<WindowTrial> m_trials;
-        std::shared_ptr<const Analysis> m_longer; ///< next longer than the best, if it was tried; without pictures
+        std::vector<std::shared_ptr<const Analysis>> m_analyses; ///< for the trials, without pictures
     };
 
     /// The settings with the window and law of one of the trials; an open window gives T0 anyway.
@@ -279,16 +292,16 @@ std::shared_ptr<const Analysis> runInChosenWindow(const RecordingPointer &record
     const double detected = isChosen ? 0.6 : subtracts ? 0.8 : 0.98;
     const double compared = 0.98;
     WindowChoice choice;
-    std::shared_ptr<const Analysis> longer;
+    std::vector<std::shared_ptr<const Analysis>> others;
     std::shared_ptr<Analysis> found;
     if (isChosen) {
         choice = *previous->choice;
-        longer = previous->longer;
+        others = previous->others;
     } else {
         WindowSearch search(recording, asked, wanted.calibration, subtracts ? AnalysisDepth::Trial : wanted.depth,
                             context.part(0.0, searched));
         found = search.run(previous, wanted.pictures);
-        longer = search.nextLonger(*found);
+        others = search.others(*found);
         choice = search.choice(*found);
     }
     choice.asked = settings;
@@ -300,17 +313,17 @@ std::shared_ptr<const Analysis> runInChosenWindow(const RecordingPointer &record
         found = runOnRecording(recording, ofTrial(choice, choice.chosen, settings), wanted,
                                context.part(searched, detected));
     }
-    if (longer && !isComplete) { // after the pictures, which the user waits for
-        const std::shared_ptr<const Analysis> tried = longer;
-        longer = runOnRecording(recording, ofTrial(choice, choice.chosen + 1, settings),
-                                trialRequest(wanted.calibration, tried.get()), context.part(detected, compared));
-    }
+    if (!isComplete) // after the pictures, which the user waits for
+        for (std::size_t i = 0; i < others.size(); ++i) {
+            const std::shared_ptr<const Analysis> tried = others[i];
+            others[i] = runOnRecording(recording, ofTrial(choice, i < choice.chosen ? i : i + 1, settings),
+                                       trialRequest(wanted.calibration, tried.get()), context.part(detected, compared));
+        }
     found->firstTracks = {};
-    found->longer = std::move(longer);
-    if (found->longer)
-        found->tracks = withSteadyLines(*found, *found->longer, context.part(compared, 1.0));
-    choice.steadyLines = std::count_if(found->tracks.begin(), found->tracks.end(),
-                                       [](const Track &track) { return track.windowSeconds > 0.0; });
+    found->others = std::move(others);
+    found->tracks = withOtherWindows(*found, found->others, context.part(compared, 1.0));
+    choice.fromOthers = std::count_if(found->tracks.begin(), found->tracks.end(),
+                                      [](const Track &track) { return track.windowSeconds > 0.0; });
     found->choice = std::move(choice);
     if (request.statistic) {
         RunRequest again = trialRequest(request.calibration, found.get());

@@ -35,17 +35,17 @@ AnalysisSettings inWindowOf(const WindowTrial &trial, AnalysisSettings settings)
 ///            noise.
 ///
 /// Windows have at least 24 cells in the band and 16 frames, and no more samples than any T0. On noise no track is sure
-/// enough, and T0 is kept; at most five windows are tried. The result's `choice` lists the trials, and its `settings`
+/// enough, and T0 is kept; at most five windows are compared. The result's `choice` lists the trials, and its `settings`
 /// have the window and law used. If only the threshold or the tracks' settings change, the choice of `previous` is
 /// kept, unless it was made with a first estimate.
 ///
 /// If strong lines are subtracted, windows are tried on the unchanged recording, and lines are subtracted in the chosen
-/// window and in the next longer one.
+/// window and in the others.
 ///
 /// The statistic is that of a second run with the chosen window.
 ///
-/// The result's tracks are those of the chosen window and the steady lines that only the next longer one detects
-/// (steadyLines.h), which may have as few as four frames.
+/// The result's tracks are those of the chosen window and what the others know better (otherWindows.h): those that were
+/// tried, T0 times ¼ and 4, and those next to the chosen one.
 std::shared_ptr<const Analysis> runInChosenWindow(const RecordingPointer &recording, const AnalysisSettings &settings,
                                                   const AnalysisRequest &request, const RunContext &context);
 

@@ -97,7 +97,7 @@ std::vector<TableColumn<Event>> eventColumns(const Grid &grid, OptionalColumns o
         add(columnOf("band_hz", &Event::bandWidth));
         add(columnOf("noise_probability", &Event::noiseProbability));
         add(columnOf("window_s", &Event::windowSeconds), "Window", "s",
-            "Length of the window that found the event: the displayed one, or a longer one for steady lines");
+            "Length of the window that found the event: the displayed one, or another one that sees it better");
     }
     keyRank = 3;
     if (optional.subtracted)

@@ -40,7 +40,7 @@ struct Event {
     /// Probability that noise alone produces an event as significant as this one in this recording: 1 -
     /// exp(-rate(statistic)·cells·frames).
     double noiseProbability = std::numeric_limits<double>::quiet_NaN();
-    /// T_FT of the window that found it: the frames' own, or a longer one (steadyLines.h).
+    /// T_FT of the window that found it: the frames' own, or another one (otherWindows.h).
     double windowSeconds = std::numeric_limits<double>::quiet_NaN();
 };
 

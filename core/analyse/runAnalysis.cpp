@@ -18,6 +18,7 @@
 #include "refine/trimEnds.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace faintline {
 
@@ -218,6 +219,8 @@ namespace {
     {
         // The chain, which may be as large as all else, is gone when others search for more.
         analysis.tracks = detectedTracks(analysis, context.part(0.0, 0.9), request, publisher);
+        if (request.depth == AnalysisDepth::Trial)
+            analysis.chainTracks = analysis.tracks;
         settleTracks(analysis, request, subtracted, context.part(0.9, 1.0));
     }
 
@@ -245,6 +248,13 @@ namespace {
                                             const RunContext &context, const Analysis *previous,
                                             const RunRequest &request)
     {
+        if (previous && previous->settings == settings && previous->chainTracks
+            && request.depth == AnalysisDepth::Tracks && !request.statistic) { // a trial that is completed
+            auto completed = std::make_shared<Analysis>(*previous);
+            completed->tracks = *std::exchange(completed->chainTracks, {});
+            settleTracks(*completed, request, {}, context);
+            return completed;
+        }
         auto analysis = std::make_shared<Analysis>();
         analysis->settings = settings;
         analysis->recording = recording;

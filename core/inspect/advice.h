@@ -21,15 +21,19 @@ struct Advice {
 /// Sets the remedy to a window of that length, to two digits.
 void setWindow(Advice &advice, double seconds);
 
+/// Whether a window of about that length was asked besides the chosen one (otherWindows.h): as short or as long.
+bool isAsked(const Analysis &analysis, double windowSeconds);
+
 /// Lines at the limit of the model's slope set, for frames on one axis: sure tracks (sureStatistic.h) with the steepest
 /// slope in more than half of their frames, if they have a twentieth of all sure tracks' frames. Faster lines are lost
-/// or cut. In a window half as long the same drift is a quarter of the slope in bins per frame.
+/// or cut. In a window half as long the same drift is a quarter of the slope in bins per frame. No advice if shorter
+/// windows were asked, which follow them.
 std::optional<Advice> adviceOnSlopes(const Analysis &analysis);
 
 /// Pairs of sure tracks of the analysis' own window that run side by side for most of the shorter one's time, less than
 /// three resolution cells apart, with a distance constant to within half a cell: lines that the window hardly resolves.
-/// No advice if the window that would separate them by four cells is longer than a sixteenth of the recording, or if
-/// the lines' drift would leave the slope set in it.
+/// No advice if the window that would separate them by four cells was asked or is longer than a sixteenth of the
+/// recording, or if the lines' drift would leave the slope set in it.
 std::optional<Advice> adviceOnCloseLines(const Analysis &analysis);
 
 /// Recordings without noise, whose cells hardly change. In noise, the variance of a frame equals its squared mean;

@@ -84,7 +84,7 @@ namespace {
     {
         std::vector<const Track *> sure;
         for (const Track &track : analysis.tracks)
-            if (track.windowSeconds == 0.0 // others were resolved by a longer window
+            if (track.windowSeconds == 0.0 // others were resolved by another window
                 && statisticOf(track, analysis) >= sureStatistic(analysis) && std::ssize(track.points) >= leastFrames)
                 sure.push_back(&track);
         std::sort(sure.begin(), sure.end(),
@@ -141,7 +141,7 @@ std::optional<Advice> adviceOnCloseLines(const Analysis &analysis)
     const double seconds = factor * spectrogram->windowSeconds();
     const double duration = double(analysis.time().count) * analysis.time().step;
     const bool isTooFast = steepestOf(tracks, axis) * factor * factor > steepestAllowed(analysis.model.space);
-    if (seconds * windowsInRecording > duration || isTooFast)
+    if (seconds * windowsInRecording > duration || isTooFast || isAsked(analysis, seconds))
         return {};
     Advice advice{"closeLines", sentenceOf(close, axis), {}, analysis.settings};
     setWindow(advice, seconds);

@@ -62,7 +62,7 @@ std::optional<Advice> adviceOnSlopes(const Analysis &analysis)
 {
     const Spectrogram *spectrogram = analysis.frames->spectrogram();
     const double steepest = steepestSlope(analysis.model.space);
-    if (!spectrogram || steepest == 0.0)
+    if (!spectrogram || steepest == 0.0 || isAsked(analysis, spectrogram->windowSeconds() / 2.0))
         return {};
     const int fast = tracksAt(steepest, analysis);
     if (fast == 0)

@@ -2,6 +2,7 @@
 
 #include "analyse/usable.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace faintline {
@@ -14,6 +15,15 @@ void setWindow(Advice &advice, double seconds)
     const double rounded = decade < 1.0 ? digits / std::round(1.0 / decade) : digits * std::round(decade);
     advice.settings.spectrogram.windowSeconds = rounded;
     advice.remedy = "use a window of " + formatNumber(rounded) + " s";
+}
+
+bool isAsked(const Analysis &analysis, double windowSeconds)
+{
+    const double own = analysis.frames->spectrogram()->windowSeconds();
+    return std::ranges::any_of(analysis.others, [&](const auto &other) {
+        const double seconds = other->frames->spectrogram()->windowSeconds();
+        return windowSeconds < own ? seconds <= windowSeconds : seconds >= windowSeconds;
+    });
 }
 
 std::optional<Advice> adviceOnSilence(const Analysis &analysis, const RunContext &context)

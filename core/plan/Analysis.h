@@ -46,6 +46,7 @@ struct Analysis : AnalysisPlan {
     /// those that the noise explains, untrimmed; kept while a window is chosen, because trials of other windows have no
     /// others.
     std::vector<Track> firstTracks;
+    std::optional<std::vector<Track>> chainTracks; ///< those of the chain itself; kept by trials (AnalysisDepth::Trial)
     std::vector<Area> areas; ///< regions of raised level without a line, ordered by time (secondLook.h)
     /// For frames on several axes: the tracks found by thresholding each frame separately.
     std::vector<Track> conventional;
@@ -59,9 +60,9 @@ struct Analysis : AnalysisPlan {
     Checkpoints<ChainState> checkpoints;
 
     std::optional<WindowChoice> choice; ///< if the recording determined the window (chooseWindow.h)
-    /// In that case: analysis with the next longer window, whose steady lines are among `tracks` (steadyLines.h).
-    /// Without pictures; null if there is no longer window.
-    std::shared_ptr<const Analysis> longer;
+    /// In that case: analyses with the other windows, the shortest first, of which `tracks` have what they know better
+    /// (otherWindows.h). Without pictures.
+    std::vector<std::shared_ptr<const Analysis>> others;
     /// If strong lines were subtracted: analysis of the unchanged recording, without pictures. The frames and all other
     /// results are then those of the remainder; `tracks` has both (subtractLines.h). Null if nothing was subtracted.
     std::shared_ptr<const Analysis> unsubtracted;

@@ -23,9 +23,9 @@ std::string windowChoiceWords(const WindowChoice &choice)
         words += " chosen; it follows " + share(chosen - 1) + "the tracks of " + seconds(chosen - 1);
     else
         words += " (automatic)";
-    if (choice.steadyLines > 0)
-        words += "; " + std::to_string(choice.steadyLines) + " steady line" + (choice.steadyLines == 1 ? "" : "s")
-                 + " found with a window of " + seconds(chosen + 1);
+    if (choice.fromOthers > 0)
+        words += "; " + std::to_string(choice.fromOthers) + " signal" + (choice.fromOthers == 1 ? "" : "s")
+                 + " from other windows";
     return words;
 }
 

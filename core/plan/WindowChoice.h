@@ -23,11 +23,11 @@ struct WindowChoice {
     std::vector<WindowTrial> trials; ///< in order of window length, the shortest first
     std::size_t automatic = 0;       ///< the window determined by the recording's length and rate alone
     std::size_t chosen = 0;
-    std::ptrdiff_t steadyLines = 0; ///< found with the following trial (steadyLines.h)
+    std::ptrdiff_t fromOthers = 0; ///< tracks that other trials know better (otherWindows.h)
 };
 
 /// Explains the choice: "window 0.005 s chosen; one of 0.02 s would follow 11 % of the energy along its tracks; 3
-/// steady lines found with a window of 0.02 s".
+/// signals from other windows".
 std::string windowChoiceWords(const WindowChoice &choice);
 
 } // namespace faintline

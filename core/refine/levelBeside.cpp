@@ -1,10 +1,9 @@
 #include "refine/levelBeside.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 #include <numeric>
+#include <utility>
 
 namespace faintline {
 
@@ -17,9 +16,7 @@ namespace {
     constexpr double besideShare = 0.35; ///< of the values, below the quantile: lines may occupy the rest
     constexpr double chanceDeviations = 1.5;
     constexpr double framesPerWindow = 2.0; ///< more frames add hardly any information
-    constexpr std::size_t sideMinimumValues = 8;
-    constexpr double sideFromCells = 1.5; ///< cells; there the main lobe is 15 dB down
-    constexpr double sideToCells = 3.5;
+    constexpr std::size_t areaMinimumValues = 8;
 
     /// Bins beside a path, nearest to farthest or the other way round.
     struct Side {
@@ -79,7 +76,7 @@ namespace {
                     if (const float y = m_strip.valueAt(frame, m_strip.centres[std::size_t(frame)] + bin);
                         !std::isnan(y))
                         m_values.push_back(y);
-            if (m_values.size() < sideMinimumValues)
+            if (m_values.size() < areaMinimumValues)
                 return {1.0, 0.0};
             const auto count = double(m_values.size());
             const auto quantile = m_values.begin() + std::ptrdiff_t(besideShare * count);
@@ -94,37 +91,89 @@ namespace {
         std::vector<float> m_values;
     };
 
-    /// Appends the observed values above 0 at bins `from` to `to` from the path.
-    void appendValues(const PathStrip &strip, Index from, Index to, std::vector<double> &values)
-    {
-        for (Index at = 0; at < strip.frameCount(); ++at)
-            for (Index bin = from; bin <= to; ++bin)
-                if (const float y = strip.valueAt(at, strip.centres[std::size_t(at)] + bin); y > 0.0f)
-                    values.push_back(double(y));
-    }
+    constexpr Index areaMinimumFrames = 6;
+    constexpr Index areaSampledFrames = 256; ///< of a piece of time
+    constexpr double mainLobeCells = 1.5;
+    constexpr double flankCells = 2.0;
 
-    std::vector<double> valuesAlong(const PathStrip &strip)
+    /// Levels of areas at a distance from a path.
+    class AreaSearch
     {
-        std::vector<double> values;
-        appendValues(strip, 0, 0, values);
-        return values;
-    }
+    public:
+        AreaSearch(const PathStrip &strip, const std::vector<double> &positions, double cellsAsOne)
+            : m_strip(strip), m_positions(positions), m_cellsAsOne(cellsAsOne)
+        {
+        }
 
-    /// Below and above.
-    std::array<std::vector<double>, 2> valuesOfSides(const PathStrip &strip, double binsPerCell)
-    {
-        const auto nearest = Index(std::ceil(sideFromCells * binsPerCell));
-        const Index farthest = levelOfSidesHalfWidth(binsPerCell);
-        std::array<std::vector<double>, 2> values;
-        appendValues(strip, -farthest, -nearest, values[0]);
-        appendValues(strip, nearest, farthest, values[1]);
-        return values;
-    }
+        /// Raises `levels` to those on the given sides, at a distance of `from` to `to` bins.
+        void raise(std::vector<double> &levels, Index from, Index to, bool isBelow, bool isAbove)
+        {
+            m_from = from;
+            m_to = to;
+            m_isBelow = isBelow;
+            m_isAbove = isAbove;
+            m_levels.assign(levels.size(), 1.0);
+            search(0, std::ssize(levels));
+            for (std::size_t i = 0; i < levels.size(); ++i)
+                levels[i] = std::max(levels[i], m_levels[i]);
+        }
 
-    double meanOf(const std::vector<double> &values)
-    {
-        return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
-    }
+    private:
+        /// Gain of the best partition of frames `first` up to, not including, `end`, whose levels it sets.
+        double search(Index first, Index end)
+        {
+            double level = 1.0;
+            double gain = gainOf(first, end, level);
+            if (end - first >= 2 * areaMinimumFrames) {
+                const Index middle = (first + end) / 2;
+                if (const double parts = search(first, middle) + search(middle, end); parts > gain)
+                    return parts;
+            }
+            std::fill(m_levels.begin() + first, m_levels.begin() + end, level);
+            return gain;
+        }
+
+        double gainOf(Index first, Index end, double &level)
+        {
+            m_values.clear();
+            const Index step = std::max<Index>(1, (end - first) / areaSampledFrames);
+            for (Index at = first; at < end; at += step) {
+                const auto centre = Index(std::lround(m_positions[std::size_t(at)]));
+                for (Index d = m_from; d <= m_to; ++d) {
+                    if (const float y = m_strip.valueAt(at, centre - d); m_isBelow && !std::isnan(y))
+                        m_values.push_back(y);
+                    if (const float y = m_strip.valueAt(at, centre + d); m_isAbove && !std::isnan(y))
+                        m_values.push_back(y);
+                }
+            }
+            if (m_values.size() < areaMinimumValues)
+                return 0.0;
+            const std::size_t lower = m_values.size() / 2;
+            const auto median = m_values.begin() + std::ptrdiff_t(lower - 1);
+            std::nth_element(m_values.begin(), median, m_values.end());
+            const double sum = std::accumulate(m_values.begin(), median + 1, 0.0);
+            const double mean = (sum + double(m_values.size() - lower) * double(*median)) / double(lower);
+            const double independent = double(lower) * double(step) / m_cellsAsOne;
+            if (mean <= 1.0)
+                return 0.0;
+            const double gain =
+                independent * (mean - 1.0 - std::log(mean)) - 0.5 * std::log(std::max(1.0, independent));
+            if (gain <= 0.0)
+                return 0.0;
+            level = mean;
+            return gain;
+        }
+
+        const PathStrip &m_strip;
+        const std::vector<double> &m_positions;
+        double m_cellsAsOne;
+        Index m_from = 0; ///< bins
+        Index m_to = 0;
+        bool m_isBelow = false;
+        bool m_isAbove = false;
+        std::vector<double> m_levels;
+        std::vector<float> m_values;
+    };
 
 } // namespace
 
@@ -151,31 +200,20 @@ std::vector<double> levelBeside(const PathStrip &strip, double binsPerCell)
     return levels;
 }
 
-Index levelOfSidesHalfWidth(double binsPerCell)
+std::vector<double> areaLevels(const PathStrip &strip, const std::vector<double> &positions, double binsPerCell,
+                               double cellLikeness)
 {
-    return Index(std::ceil(sideToCells * binsPerCell));
-}
-
-double levelOfSides(const PathStrip &strip, double binsPerCell)
-{
-    double level = 1.0;
-    for (const std::vector<double> &side : valuesOfSides(strip, binsPerCell))
-        if (side.size() >= sideMinimumValues) {
-            double sum = 0.0;
-            for (const double y : side)
-                sum += std::log(y);
-            level = std::max(level, std::exp(sum / double(side.size()) + std::numbers::egamma));
-        }
-    return level;
-}
-
-double shareOfSides(const PathStrip &line, const PathStrip &sides, double binsPerCell)
-{
-    const std::vector<double> path = valuesAlong(line);
-    const auto [below, above] = valuesOfSides(sides, binsPerCell);
-    if (std::min({path.size(), below.size(), above.size()}) < sideMinimumValues || meanOf(path) <= 1.0)
-        return 0.0;
-    return std::max(0.0, (std::min(meanOf(below), meanOf(above)) - 1.0) / (meanOf(path) - 1.0));
+    double moved = 0.0;
+    for (std::size_t i = 2; i < positions.size(); ++i)
+        moved += std::abs(positions[i] - positions[i - 2]) / double(positions.size() - 2);
+    const double near = mainLobeCells * binsPerCell + moved;
+    const auto bins = [&](double cells) { return Index(std::lround(cells * binsPerCell)); };
+    std::vector<double> levels(positions.size(), 1.0);
+    AreaSearch search(strip, positions, binsPerCell * cellLikeness);
+    for (const auto &[isBelow, isAbove] : {std::pair{true, false}, std::pair{false, true}, std::pair{true, true}})
+        search.raise(levels, bins(nearestCells), bins(besideCells), isBelow, isAbove);
+    search.raise(levels, Index(std::ceil(near)), Index(std::floor(near + flankCells * binsPerCell)), true, true);
+    return levels;
 }
 
 } // namespace faintline

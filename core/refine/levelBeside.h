@@ -21,23 +21,18 @@ std::vector<double> levelBeside(const PathStrip &strip, double binsPerCell);
 /// Half width in bins of the strip that levelBeside needs.
 Index levelBesideHalfWidth(double binsPerCell);
 
-/// Level on the sides of a line that stands still, as power over the noise's: the larger of both sides, at least 1.
+/// Raised level of the surroundings of a path, as power over the noise's: one value per frame of its strip, at least 1.
 ///
-/// The main lobe is 15 dB down at 1½ resolution cells (Hann), so from there to 3½ cells there is noise, or a wider
-/// signal that includes the path. A side's level is exp(mean of ln y + γ) over its observed cells, with Euler's
-/// constant γ. For exponential cells this is their mean, and single high cells hardly change it.
-double levelOfSides(const PathStrip &strip, double binsPerCell);
-
-/// Mean signal power on the weaker side of a line that stands still, as a share of that on its path:
-/// (ȳ_side - 1)/(ȳ_path - 1), at least 0; 0 with fewer than 8 values on a side or on the path.
+/// An area is piecewise constant on the best dyadic partition of time. The level of a piece is the maximum-likelihood
+/// one of the lower half r of its n cells (a censored exponential law), so that lines may hold the other half:
 ///
-/// The side lobes of a line give 0.03. In a wider signal whose power comes in bursts, levelOfSides is far below the
-/// mean, but the bursts raise path and sides alike. A stronger neighbour on one side does not count.
+///   a = (Σ r lowest + (n - r)·y_r)/r,   and it exists if   k (a - 1 - ln a) - ½ ln k > 0,   k = r/(bins a cell · c)
 ///
-/// `sides`: the same strip, without the cells of other signals.
-double shareOfSides(const PathStrip &line, const PathStrip &sides, double binsPerCell);
-
-/// Half width in bins of the strip that levelOfSides and shareOfSides need.
-Index levelOfSidesHalfWidth(double binsPerCell);
+/// c: cells that count as one, cellLikeness. The cells are those on the left, on the right and on both sides, at 2.5 to 7
+/// resolution cells from the path, and those on both sides at n to n + 2, n = 1.5 + what the path moves within a window
+/// (two frames); the largest level counts. On one side alone, a single line would fill these two cells. y: without the
+/// path's own leakage.
+std::vector<double> areaLevels(const PathStrip &strip, const std::vector<double> &positions, double binsPerCell,
+                               double cellLikeness);
 
 } // namespace faintline

@@ -16,7 +16,6 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index fewestFrames = 64;
     constexpr Index partLimit = 16;
     constexpr Index fewestCells = 40;         ///< of a part
     constexpr std::size_t fewestValues = 500; ///< of a part
@@ -253,33 +252,40 @@ namespace {
         return scatter * scatter;
     }
 
-    /// Fraction of a track's evidence that remains under the noise's own law.
-    double shareLeft(const PathStrip &strip, const OwnNoiseLaw &law)
-    {
-        double runs = 0.0;
-        double count = 0.0;
-        double power = 0.0;
-        double own = 0.0;
-        for (std::size_t i = 0; i < strip.centres.size(); ++i)
-            if (const float y = strip.y[i]; !std::isnan(y)) {
-                count += 1.0;
-                power += double(y);
-                own += double(law(strip.centres[i], y));
-                runs += law.runs(strip.centres[i], std::ssize(strip.centres));
-            }
-        const double all = evidence(count, power / count);
-        return all > 0.0 ? evidence(count, own / count) / all * count / runs : 1.0;
-    }
-
 } // namespace
+
+OwnNoiseLaw ownNoiseLaw(const AnalysisPlan &analysis, std::span<const Track> tracks, const RunContext &context)
+{
+    const NormalisedFrames &frames = *analysis.frames;
+    return {frames, tracks, frames.geometry().binsPerCell, overlapOf(frames), context};
+}
+
+double evidenceLeft(const PathStrip &strip, const OwnNoiseLaw &law)
+{
+    if (law.isAsAssumed())
+        return 1.0;
+    double runs = 0.0;
+    double count = 0.0;
+    double power = 0.0;
+    double own = 0.0;
+    for (Index at = 0; at < strip.frameCount(); ++at) {
+        const Index centre = strip.centres[std::size_t(at)];
+        if (const float y = strip.valueAt(at, centre); !std::isnan(y)) {
+            count += 1.0;
+            power += double(y);
+            own += double(law(centre, y));
+            runs += law.runs(centre, strip.frameCount());
+        }
+    }
+    const double all = evidence(count, power / count);
+    return all > 0.0 ? evidence(count, own / count) / all * count / runs : 1.0;
+}
 
 void holdAgainstOwnNoise(Analysis &analysis, const RunContext &context)
 {
     if (!looksTwice(analysis) || !analysis.settings.family.isNone())
         return;
-    const NormalisedFrames &frames = *analysis.frames;
-    const OwnNoiseLaw law(frames, analysis.tracks, frames.geometry().binsPerCell, overlapOf(frames),
-                          context.part(0.0, 0.5));
+    const OwnNoiseLaw law = ownNoiseLaw(analysis, analysis.tracks, context.part(0.0, 0.5));
     if (law.isAsAssumed())
         return;
     std::vector<Track> tracks = std::exchange(analysis.tracks, {});
@@ -289,7 +295,7 @@ void holdAgainstOwnNoise(Analysis &analysis, const RunContext &context)
     readStrips(analysis, strips, context.part(0.5, 1.0), "testing tracks against the noise");
     for (std::size_t i = 0; i < tracks.size(); ++i) {
         const bool isKept =
-            tracks[i].isSubtracted || tracks[i].peakStatistic * shareLeft(strips[i], law) >= analysis.threshold;
+            tracks[i].isSubtracted || tracks[i].peakStatistic * evidenceLeft(strips[i], law) >= analysis.threshold;
         (isKept ? analysis.tracks : analysis.explainedByNoise).push_back(std::move(tracks[i]));
     }
 }

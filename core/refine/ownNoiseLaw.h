@@ -3,6 +3,7 @@
 #include "base/RunContext.h"
 #include "frames/NormalisedFrames.h"
 #include "plan/Analysis.h"
+#include "recursion/PathStrip.h"
 #include "track/Track.h"
 
 #include <span>
@@ -55,10 +56,12 @@ private:
 /// Both are measured in up to 16 parts of the band. P: at the values that 1/2, 1/4, 1/8 … of the cells exceed, down to
 /// 60 cells; beyond, P continues with the slope of its last three octaves. V: from powers up to 5, over 2, 4 … 32
 /// frames. A part whose quantiles lie within 3 %, or V within 5 %, and three standard deviations of the assumption
-/// keeps g(y) = y, or V = 1. So do recordings of under 64 frames, two of the longest runs.
+/// keeps g(y) = y, or V = 1. So do recordings of under 64 frames.
 class OwnNoiseLaw
 {
 public:
+    static constexpr Index fewestFrames = 64; ///< with which the noise can be measured: two of the longest runs
+
     /// `overlap`: o, overlapFactor² of the frames' windows. Throws Cancelled.
     OwnNoiseLaw(const NormalisedFrames &frames, std::span<const Track> tracks, double binsPerCell, double overlap,
                 const RunContext &context);
@@ -88,6 +91,12 @@ private:
     Index m_cells;
     std::vector<Part> m_parts;
 };
+
+/// The law of an analysis's frames, apart from these tracks.
+OwnNoiseLaw ownNoiseLaw(const AnalysisPlan &analysis, std::span<const Track> tracks, const RunContext &context);
+
+/// Fraction of the evidence along a strip's path that remains under the noise's own law: Λ(ḡ)/Λ(ȳ)/V̄(n) below.
+double evidenceLeft(const PathStrip &strip, const OwnNoiseLaw &law);
 
 /// Moves tracks that the recording's own noise explains (OwnNoiseLaw) from `tracks` to `explainedByNoise`.
 ///

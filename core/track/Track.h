@@ -80,7 +80,7 @@ struct Track {
     std::size_t model = 0;                 ///< index of the bank's model that found it
     double detectStatistic = 0.0;          ///< the detector's statistic at the detection, in its own unit
     std::vector<SmoothedPoint> smoothed{}; ///< one per point; empty without the second pass
-    double windowSeconds = 0.0; ///< T_FT of the longer window that found it (refine/steadyLines.h); 0: the frames' own
+    double windowSeconds = 0.0; ///< T_FT of another window that found it (refine/otherWindows.h); 0: the frames' own
     bool isSubtracted = false;  ///< from the recording whose frames are displayed (refine/subtractLines.h)
     std::vector<ModelChange>
         modelChanges{}; ///< ordered by frame; the points' planes are those of the model at their frame

@@ -187,14 +187,13 @@ void tst_chooseWindow::itsWords()
              std::string("window 0.16 s chosen; it follows 90 % of the energy along the tracks of 0.04 s"));
     choice.chosen = 2;
     QCOMPARE(windowChoiceWords(choice), std::string("window 0.04 s (automatic)"));
-    choice.steadyLines = 1;
-    QCOMPARE(windowChoiceWords(choice),
-             std::string("window 0.04 s (automatic); 1 steady line found with a window of 0.16 s"));
+    choice.fromOthers = 1;
+    QCOMPARE(windowChoiceWords(choice), std::string("window 0.04 s (automatic); 1 signal from other windows"));
     choice.chosen = 1;
-    choice.steadyLines = 3;
+    choice.fromOthers = 3;
     QCOMPARE(windowChoiceWords(choice),
              std::string("window 0.01 s chosen; one of 0.04 s would follow 11 % of the energy along its tracks; "
-                         "3 steady lines found with a window of 0.04 s"));
+                         "3 signals from other windows"));
 }
 
 FAINTLINE_TEST(tst_chooseWindow)

@@ -93,6 +93,18 @@ private slots:
         QVERIFY(!adviceOnCloseLines(*analyse(recording, advice->settings)));
     }
 
+    void windowsThatWereAskedAreNotAdvised()
+    {
+        const auto analysis = analyse(noiseWith({line(100.0, 0.0, 0.0), line(105.0, 0.0, 0.0)}), {});
+        const double own = analysis->frames->spectrogram()->windowSeconds();
+        const auto &others = analysis->others;
+        QVERIFY(!others.empty());
+        for (const auto &other : others)
+            QVERIFY(isAsked(*analysis, other->frames->spectrogram()->windowSeconds()));
+        QVERIFY(!isAsked(*analysis, 1e3 * own) && !isAsked(*analysis, 1e-3 * own));
+        QVERIFY(!isAsked(*inWindow(noiseWith({}, 1), 0.25), 0.125));
+    }
+
     void distancesAreWrittenPlainly()
     {
         LineScene scene; // a cell is 50 Hz

@@ -59,7 +59,7 @@ public:
     /// Sets the recording's start time (UTC) and the frequency that corresponds to 0 Hz.
     void setOrigin(std::optional<double> startUnixSeconds, double centreHz);
     bool hasUtc() const { return m_startUnixSeconds.has_value(); }
-    /// Whether a longer window found some of the events.
+    /// Whether another window found some of the events.
     bool hasWindows() const;
     /// Whether any event has a class.
     bool hasClasses() const;

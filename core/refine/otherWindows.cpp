@@ -1,0 +1,514 @@
+#include "refine/otherWindows.h"
+
+#include "frames/Spectrogram.h"
+#include "frames/Window.h"
+#include "plan/Analysis.h"
+#include "plan/sureStatistic.h"
+#include "refine/levelBeside.h"
+#include "refine/numberByDetection.h"
+#include "refine/ownNoiseLaw.h"
+#include "refine/pathStrips.h"
+#include "refine/spreadTracks.h"
+#include "refine/trimEnds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <utility>
+
+namespace faintline {
+
+namespace {
+
+    constexpr double ownCells = 0.75; ///< on either side of a signal, where its largest power lies: ½ cell and ½ bin
+    constexpr double followedMinimumShare = 0.8; ///< of a piece's frames
+    constexpr double floorMargin = 2.0;          ///< explained power is constant, not exponential (explanation.h)
+    constexpr std::size_t windowStripsBytes = std::size_t(64) << 20; ///< read at a time
+
+    const Axis &frequencyOf(const Analysis &analysis)
+    {
+        return analysis.grid().axes.back();
+    }
+
+    double windowOf(const Analysis &analysis)
+    {
+        return analysis.frames->geometry().windowSeconds;
+    }
+
+    struct Band {
+        double low = std::numeric_limits<double>::infinity();
+        double high = -std::numeric_limits<double>::infinity();
+
+        bool isEmpty() const { return low > high; }
+    };
+
+    /// A track of the base over time and frequency.
+    class Curve
+    {
+    public:
+        Curve(const Track &track, const Analysis &analysis)
+            : m_start(analysis.time().value(double(track.onsetFrame))), m_step(analysis.time().step)
+        {
+            const Axis &axis = frequencyOf(analysis);
+            for (std::size_t i = 0; i < track.points.size(); ++i) {
+                const SmoothedPoint &point = track.smoothed[i];
+                const double hz = axis.value(point.position);
+                m_hz.push_back(hz);
+                m_bands.push_back(track.isPresent(i) ? Band{std::min(hz, axis.value(double(point.low))),
+                                                            std::max(hz, axis.value(double(point.high)))}
+                                                     : Band{});
+            }
+        }
+
+        double start() const { return m_start; }
+        double end() const { return secondsAt(m_hz.size() - 1); }
+        double duration() const { return end() - start() + m_step; }
+        std::size_t count() const { return m_hz.size(); }
+        double secondsAt(std::size_t i) const { return m_start + double(i) * m_step; }
+        double hzAt(std::size_t i) const { return m_hz[i]; }
+        bool isPresent(std::size_t i) const { return !m_bands[i].isEmpty(); }
+
+        /// Where it may be between two times, at the points nearest to these at least.
+        Band between(double from, double to) const
+        {
+            Band band;
+            const double first = std::ceil((from - m_start) / m_step - 0.5);
+            const double last = std::floor((to - m_start) / m_step + 0.5);
+            for (double i = std::max(0.0, first); i <= std::min(last, double(m_hz.size() - 1)); i += 1.0) {
+                const Band &one = m_bands[std::size_t(i)];
+                band = {std::min(band.low, one.low), std::max(band.high, one.high)};
+            }
+            return band;
+        }
+
+        /// Frequency at a time, interpolated; that of an end beyond it.
+        double at(double seconds) const
+        {
+            const double place = std::clamp((seconds - m_start) / m_step, 0.0, double(m_hz.size() - 1));
+            const auto i = std::size_t(place);
+            return std::lerp(m_hz[i], m_hz[std::min(i + 1, m_hz.size() - 1)], place - double(i));
+        }
+
+    private:
+        double m_start;
+        double m_step;
+        std::vector<double> m_hz;
+        std::vector<Band> m_bands; ///< 5-95 %; empty where absent
+    };
+
+    /// A track of another window in the frames of this one, interpolated between its points.
+    Track inFramesOf(const Analysis &own, const Analysis &other, const Track &track)
+    {
+        const double shift = own.threshold - other.threshold;
+        const Axis &axis = frequencyOf(own);
+        const auto frameOf = [&](Index frame) { return own.time().nearest(other.time().value(double(frame))); };
+        const auto here = [&](double position) { return axis.position(frequencyOf(other).value(position)); };
+        Track result = track.withoutPoints();
+        result.isSubtracted = false; // refers to the other window, but the display shows this one
+        result.windowSeconds = windowOf(other);
+        result.onsetFrame = frameOf(track.onsetFrame);
+        result.detectFrame = frameOf(track.detectFrame);
+        result.endFrame = frameOf(track.endFrame);
+        result.confirmFrame = track.confirmFrame < 0 ? -1 : frameOf(track.confirmFrame);
+        result.peakStatistic += shift;
+        result.detectStatistic += shift;
+        for (Index frame = result.onsetFrame; frame <= result.endFrame; ++frame) {
+            const double place = other.time().position(own.time().value(double(frame)));
+            const double at =
+                std::clamp(place - double(track.points.front().frame), 0.0, double(track.points.size() - 1));
+            const auto i = std::size_t(at);
+            const std::size_t next = std::min(i + 1, track.points.size() - 1);
+            const auto mix = [&](double a, double b) { return std::lerp(a, b, at - double(i)); };
+            const auto between = [&](auto value) {
+                return mix(double(track.smoothed[i].*value), double(track.smoothed[next].*value));
+            };
+            const double position = std::clamp(here(between(&SmoothedPoint::position)), 0.0, double(axis.count - 1));
+            const double statistic = mix(track.points[i].statistic, track.points[next].statistic);
+            result.points.push_back(
+                {frame, Index(std::lround(position)), own.model.space.planeCount() / 2, statistic + shift});
+            result.smoothed.push_back({position, float(here(between(&SmoothedPoint::low))),
+                                       float(here(between(&SmoothedPoint::high))),
+                                       float(between(&SmoothedPoint::presence)),
+                                       float(between(&SmoothedPoint::level) * windowOf(own) / windowOf(other))});
+        }
+        return result;
+    }
+
+    PathStrip partOf(const PathStrip &strip, std::size_t from, std::size_t to)
+    {
+        PathStrip part{strip.firstFrame + Index(from), strip.halfWidth, {}, {}, {}};
+        part.centres.assign(strip.centres.begin() + Index(from), strip.centres.begin() + Index(to));
+        part.y.assign(strip.y.begin() + Index(from) * strip.width(), strip.y.begin() + Index(to) * strip.width());
+        part.floor.assign(strip.floor.begin() + Index(from), strip.floor.begin() + Index(to));
+        return part;
+    }
+
+    /// The points `from` … `to` - 1 of a track, with evidence of their own.
+    Track partOf(const Track &track, std::size_t from, std::size_t to, double statistic)
+    {
+        Track part = track;
+        part.keepPoints(from, to);
+        part.keepDecisionsIn(part.onsetFrame, part.endFrame);
+        part.peakStatistic = statistic;
+        for (TrackPoint &point : part.points)
+            point.statistic = std::min(point.statistic, statistic);
+        return part;
+    }
+
+    /// All signals that are known, and how the tracks of other windows change them.
+    class KnownSignals
+    {
+    public:
+        explicit KnownSignals(const Analysis &base) : m_base(base), m_tracks(base.tracks)
+        {
+            for (const Track &track : m_tracks)
+                m_curves.emplace_back(track, base);
+        }
+
+        void ask(const Analysis &other, const RunContext &context)
+        {
+            m_other = &other;
+            m_model = bothWaysModel(other);
+            const std::vector<Track> tracks = tracksToAsk();
+            if (tracks.empty() || other.time().count < OwnNoiseLaw::fewestFrames)
+                return;
+            m_noise = std::make_unique<OwnNoiseLaw>(ownNoiseLaw(other, tracks, context.part(0.0, 0.5)));
+            const Index halfWidth = bothWaysHalfWidth(m_model.binsPerCell) + levelBesideHalfWidth(m_model.binsPerCell);
+            for (std::size_t first = 0; first < tracks.size();) {
+                std::vector<PathStrip> strips;
+                for (std::size_t bytes = 0; first + strips.size() < tracks.size() && bytes < windowStripsBytes;) {
+                    strips.push_back(stripAlong(tracks[first + strips.size()], halfWidth));
+                    bytes += sizeof(float) * std::size_t(strips.back().frameCount() * strips.back().width());
+                }
+                const auto share = [&](std::size_t i) { return 0.5 + 0.5 * double(i) / double(tracks.size()); };
+                readStrips(other, strips, context.part(share(first), share(first + strips.size())),
+                           "comparing windows");
+                for (const PathStrip &strip : strips) {
+                    if (tracks[first].peakStatistic * evidenceLeft(strip, *m_noise) >= other.threshold)
+                        ask(tracks[first], strip);
+                    ++first;
+                }
+            }
+        }
+
+        std::vector<Track> take()
+        {
+            std::erase_if(m_tracks, [](const Track &track) { return track.points.empty(); });
+            numberByDetection(m_tracks);
+            return std::move(m_tracks);
+        }
+
+    private:
+        /// Of the other window, the strongest first.
+        std::vector<Track> tracksToAsk() const
+        {
+            Analysis found;
+            static_cast<AnalysisPlan &>(found) = *m_other;
+            found.tracks = withEndsTrimmed(m_other->tracks);
+            moveSpreadTracks(found);
+            std::erase_if(found.tracks, [this](const Track &track) {
+                const Curve curve(track, *m_other);
+                return track.peakStatistic < sureStatistic(*m_other) || track.points.size() < 2 || isKnown(curve)
+                       || !(isSeenBetter(curve) || followersOf(curve).size() > 1);
+            });
+            std::ranges::stable_sort(found.tracks, std::greater<>(), &Track::peakStatistic);
+            return std::move(found.tracks);
+        }
+
+        /// How well a window sees it, relative: the energy in a cell of one frame, over that of the noise, times the
+        /// root of the number of frames. A signal that moves by m cells within a window has 1/m of its energy in each.
+        static double visibility(double window, double cells) { return std::sqrt(window) / std::max(1.0, cells); }
+
+        /// Mean square of the movement within a window, or mean product of those in two successive ones, in cells²; 0
+        /// if it does not last for that.
+        static double movement2(const Curve &x, double window, int windows)
+        {
+            double sum = 0.0;
+            double count = 0.0;
+            for (std::size_t i = 0; i < x.count() && x.secondsAt(i) + double(windows) * window <= x.end(); ++i) {
+                const double t = x.secondsAt(i);
+                const double one = x.at(t + window) - x.at(t);
+                sum += one * (windows == 1 ? one : x.at(t + 2.0 * window) - x.at(t + window));
+                count += 1.0;
+            }
+            return count > 0.0 ? std::max(0.0, sum / count) * window * window : 0.0;
+        }
+
+        bool isSeenBetter(const Curve &x) const
+        {
+            const double here = windowOf(*m_other);
+            const double there = windowOf(m_base);
+            return visibility(here, std::sqrt(movement2(x, here, 1)))
+                   > visibility(there, std::sqrt(movement2(x, there, 2)));
+        }
+
+        double cellHz() const { return 1.0 / std::min(windowOf(m_base), windowOf(*m_other)); } ///< of the coarser one
+        double windowHalf() const { return 0.5 * windowOf(*m_other); }
+
+        /// Whether a signal explains all of the track, without any question to the frames.
+        bool isKnown(const Curve &x) const
+        {
+            return std::ranges::any_of(m_curves, [&](const Curve &curve) {
+                bool isIn = curve.count() > 0;
+                for (std::size_t i = 0; isIn && i < x.count(); ++i) {
+                    const double t = x.secondsAt(i);
+                    const Band band = curve.between(t - windowHalf(), t + windowHalf());
+                    isIn = band.low - ownCells * cellHz() <= x.hzAt(i) && x.hzAt(i) <= band.high + ownCells * cellHz();
+                }
+                return isIn;
+            });
+        }
+
+        /// The known signals that lie where x is in four of five of their frames.
+        std::vector<std::size_t> followersOf(const Curve &x) const
+        {
+            std::vector<std::size_t> result;
+            for (std::size_t s = 0; s < m_curves.size(); ++s) {
+                const Curve &curve = m_curves[s];
+                if (curve.count() == 0 || curve.start() > x.end() + windowHalf()
+                    || curve.end() < x.start() - windowHalf())
+                    continue;
+                double near = 0.0;
+                double count = 0.0;
+                for (std::size_t i = 0; i < curve.count(); ++i) {
+                    if (!curve.isPresent(i))
+                        continue;
+                    count += 1.0;
+                    const double t = curve.secondsAt(i);
+                    if (t < x.start() - windowHalf() || t > x.end() + windowHalf())
+                        continue;
+                    const auto [low, high] =
+                        std::minmax({x.at(t), x.at(t - 0.5 * windowOf(m_base)), x.at(t + 0.5 * windowOf(m_base))});
+                    near += low - cellHz() <= curve.hzAt(i) && curve.hzAt(i) <= high + cellHz() ? 1.0 : 0.0;
+                }
+                if (count > 0.0 && near >= followedMinimumShare * count)
+                    result.push_back(s);
+            }
+            return result;
+        }
+
+        /// Whether these signals are pieces of x: each lasts less than half as long, or they follow one after the other.
+        bool areOnePath(const std::vector<std::size_t> &pieces, const Curve &x) const
+        {
+            double longest = 0.0;
+            std::vector<std::pair<double, double>> times;
+            for (const std::size_t s : pieces) {
+                longest = std::max(longest, m_curves[s].duration());
+                times.emplace_back(m_curves[s].start(), m_curves[s].end());
+            }
+            if (!pieces.empty() && 2.0 * longest < x.duration())
+                return true;
+            std::ranges::sort(times);
+            for (std::size_t i = 1; i < times.size(); ++i)
+                if (times[i].first < times[i - 1].second - windowOf(m_base))
+                    return false;
+            return times.size() > 1;
+        }
+
+        bool isBetterKnown(const Track &x, const std::vector<std::size_t> &pieces) const
+        {
+            return std::ranges::all_of(pieces, [&](std::size_t s) {
+                return m_tracks[s].peakStatistic - m_base.threshold < x.peakStatistic - m_other->threshold;
+            });
+        }
+
+        void ask(const Track &x, const PathStrip &strip)
+        {
+            const Curve curve(x, *m_other);
+            const std::vector<std::size_t> pieces = followersOf(curve);
+            const bool isBetter = isSeenBetter(curve);
+            if ((isBetter || pieces.size() > 1) && areOnePath(pieces, curve))
+                if (const std::vector<Track> parts = partsOf(x, strip, pieces); !parts.empty()) {
+                    const Index first = x.points.front().frame;
+                    const Track whole =
+                        partOf(x, std::size_t(parts.front().onsetFrame - first),
+                               std::size_t(parts.back().endFrame + 1 - first),
+                               std::ranges::max_element(parts, {}, &Track::peakStatistic)->peakStatistic);
+                    const Curve path(whole, *m_other);
+                    const std::vector<std::size_t> own = followersOf(path);
+                    if (areOnePath(own, path) && isBetterKnown(whole, own))
+                        return replace(inFramesOf(m_base, *m_other, whole), own);
+                }
+            if (!isBetter)
+                return;
+            for (const Track &part : partsOf(x, strip, {})) {
+                const Curve alone(part, *m_other);
+                const bool isInPiece = std::ranges::any_of(pieces, [&](std::size_t s) {
+                    return alone.start() >= m_curves[s].start() && alone.end() <= m_curves[s].end();
+                });
+                if (!isInPiece && isSeenBetter(alone))
+                    add(inFramesOf(m_base, *m_other, part));
+            }
+        }
+
+        /// The parts of a track in which it is present over the floor of all signals but some, and that have sufficient
+        /// evidence alone, which is their statistic.
+        std::vector<Track> partsOf(const Track &x, PathStrip strip, const std::vector<std::size_t> &leftOut)
+        {
+            divideBySignals(strip, leftOut);
+            divideBySurroundings(strip, x);
+            std::vector<Track> result;
+            if (gainOf(strip) < sureStatistic(*m_other))
+                return result;
+            m_model.ends = {.absentBefore = true, .absentAfter = true};
+            const std::vector<float> present = lookBothWays(strip, m_model).endsBy;
+            const auto isPresent = [&](std::size_t i) { return present[i] > 0.5f; };
+            for (std::size_t from = 0, to = 0; from < present.size(); from = to) {
+                while (to < present.size() && isPresent(to) == isPresent(from))
+                    ++to;
+                if (!isPresent(from) || to - from < 2)
+                    continue;
+                const PathStrip part = partOf(strip, from, to);
+                const double gain = gainOf(part);
+                if (gain * evidenceLeft(part, *m_noise) < sureStatistic(*m_other))
+                    continue;
+                result.push_back(partOf(x, from, to, gain));
+            }
+            return result;
+        }
+
+        double gainOf(const PathStrip &strip)
+        {
+            setLnK(m_model, *m_other, strip);
+            return strongestIn(strip, m_model);
+        }
+
+        WindowShape shape() const { return m_other->frames->geometry().window; }
+
+        /// Divides y by the floor of the known signals and areas.
+        void divideBySignals(PathStrip &strip, const std::vector<std::size_t> &leftOut) const
+        {
+            std::vector<float> floor(strip.y.size(), 1.0f);
+            const double first = m_other->time().value(double(strip.firstFrame));
+            const double last = m_other->time().value(double(strip.firstFrame + strip.frameCount() - 1));
+            for (std::size_t s = 0; s < m_curves.size(); ++s)
+                if (m_curves[s].count() > 0 && std::ranges::find(leftOut, s) == leftOut.end()
+                    && m_curves[s].start() - windowHalf() <= last && m_curves[s].end() + windowHalf() >= first)
+                    raise(floor, strip, m_curves[s]);
+            raiseAreas(floor, strip);
+            for (std::size_t i = 0; i < strip.y.size(); ++i)
+                strip.y[i] /= floor[i];
+            strip.floor.clear();
+            for (Index at = 0; at < strip.frameCount(); ++at)
+                strip.floor.push_back(floor[std::size_t(at * strip.width() + strip.halfWidth)]);
+        }
+
+        /// Raises the floor by a signal, whose power is the largest in its band.
+        void raise(std::vector<float> &floor, const PathStrip &strip, const Curve &signal) const
+        {
+            const Axis &axis = frequencyOf(*m_other);
+            const double coarser = std::max(1.0, windowOf(*m_other) / windowOf(m_base)) * m_model.binsPerCell; // bins
+            for (Index at = 0; at < strip.frameCount(); ++at) {
+                const double t = m_other->time().value(double(strip.firstFrame + at));
+                const Band band = signal.between(t - windowHalf(), t + windowHalf());
+                if (band.isEmpty())
+                    continue;
+                const double low = axis.position(band.low);
+                const double high = axis.position(band.high);
+                const Index from = std::max(strip.firstCell(at), Index(std::ceil(low - ownCells * coarser)));
+                const Index to =
+                    std::min(strip.firstCell(at) + strip.width() - 1, Index(std::floor(high + ownCells * coarser)));
+                float power = 1.0f;
+                for (Index cell = from; cell <= to; ++cell)
+                    power = std::fmax(power, strip.valueAt(at, cell));
+                for (Index i = 0; power > 1.0f && i < strip.width(); ++i) {
+                    const auto cell = double(strip.firstCell(at) + i);
+                    const double distance = std::max({0.0, low - cell, cell - high}) / coarser;
+                    floor[std::size_t(at * strip.width() + i)] *=
+                        float(1.0 + floorMargin * double(power - 1.0f) * leakageBound(shape(), distance));
+                }
+            }
+        }
+
+        /// Raises the floor to the base's areas.
+        void raiseAreas(std::vector<float> &floor, const PathStrip &strip) const
+        {
+            std::vector<float> levels(floor.size(), 1.0f);
+            for (const Area &area : m_base.areas) {
+                const Axis &own = frequencyOf(m_base);
+                const auto frame = [&](Index of, double shift) {
+                    return m_other->time().position(m_base.time().value(double(of)) + shift) - double(strip.firstFrame);
+                };
+                const auto cell = [&](Index of) { return frequencyOf(*m_other).position(own.value(double(of))); };
+                const auto first = std::max<Index>(0, Index(std::ceil(frame(area.firstFrame, -windowHalf()))));
+                const auto last =
+                    std::min(strip.frameCount() - 1, Index(std::floor(frame(area.lastFrame, windowHalf()))));
+                for (Index at = first; at <= last; ++at)
+                    for (Index i = 0; i < strip.width(); ++i)
+                        if (const auto here = double(strip.firstCell(at) + i);
+                            cell(area.firstCell) <= here && here <= cell(area.lastCell)) {
+                            float &level = levels[std::size_t(at * strip.width() + i)];
+                            level = std::max(level, float(area.level));
+                        }
+            }
+            for (std::size_t i = 0; i < floor.size(); ++i)
+                floor[i] *= levels[i];
+        }
+
+        /// Divides y by the raised level of the surroundings of x, measured without its own leakage.
+        void divideBySurroundings(PathStrip &strip, const Track &x) const
+        {
+            PathStrip beside = strip;
+            std::vector<double> positions;
+            for (Index at = 0; at < strip.frameCount(); ++at) {
+                const SmoothedPoint &point = x.smoothed[std::size_t(at)];
+                positions.push_back(point.position);
+                for (Index i = 0; i < strip.width(); ++i) {
+                    const double distance = std::abs(double(strip.firstCell(at) + i) - point.position);
+                    beside.row(at)[i] /= 1.0f + point.level * float(leakageAt(shape(), distance / m_model.binsPerCell));
+                }
+            }
+            const Spectrogram &spectrogram = *m_other->frames->spectrogram();
+            const std::vector<double> levels =
+                areaLevels(beside, positions, m_model.binsPerCell,
+                           cellLikeness(sampleWindow(shape(), spectrogram.windowSamples())));
+            for (Index at = 0; at < strip.frameCount(); ++at) {
+                for (float &y : std::span(strip.row(at), std::size_t(strip.width())))
+                    y /= float(levels[std::size_t(at)]);
+                strip.floor[std::size_t(at)] *= float(levels[std::size_t(at)]);
+            }
+        }
+
+        void add(Track track)
+        {
+            m_curves.emplace_back(track, m_base);
+            m_tracks.push_back(std::move(track));
+        }
+
+        void replace(Track track, const std::vector<std::size_t> &pieces)
+        {
+            for (const std::size_t s : pieces) {
+                track.isSubtracted = track.isSubtracted || m_tracks[s].isSubtracted;
+                track.detectFrame = std::clamp(m_tracks[s].detectFrame, track.onsetFrame, track.detectFrame);
+                m_tracks[s] = m_tracks[s].withoutPoints();
+                m_curves[s] = Curve(m_tracks[s], m_base);
+            }
+            add(std::move(track));
+        }
+
+        const Analysis &m_base;
+        std::vector<Track> m_tracks; ///< without points: replaced
+        std::vector<Curve> m_curves; ///< of these
+        const Analysis *m_other = nullptr;
+        BothWaysModel m_model; ///< of the other window
+        std::unique_ptr<OwnNoiseLaw> m_noise;
+    };
+
+} // namespace
+
+std::vector<Track> withOtherWindows(const Analysis &base, std::span<const std::shared_ptr<const Analysis>> others,
+                                    const RunContext &context)
+{
+    KnownSignals signals(base);
+    std::vector<std::shared_ptr<const Analysis>> byDistance(others.begin(), others.end());
+    std::ranges::stable_sort(byDistance, {},
+                             [&](const auto &other) { return std::abs(std::log(windowOf(*other) / windowOf(base))); });
+    const auto count = double(byDistance.size());
+    for (std::size_t i = 0; i < byDistance.size(); ++i)
+        signals.ask(*byDistance[i], context.part(double(i) / count, double(i + 1) / count));
+    return signals.take();
+}
+
+} // namespace faintline

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "plan/Analysis.h"
+
+#include <memory>
+#include <span>
+
+namespace faintline {
+
+/// The tracks of the recording's window, the base, and what other windows know better, each asked in its own window.
+///
+/// The base keeps all its tracks, except pieces of one path. Windows are asked in the order of their distance from the
+/// base, and the tracks X of each by their statistic. X is asked if its window sees it better than the base does,
+///
+///   √T/max(1, m) > √T0/max(1, m0),   T, T0: the windows
+///
+/// because a signal that moves by m cells within a window has 1/m of its energy in each. m is the root mean square of the
+/// movement within T; m0² the mean product of the movements in two successive windows T0, which a random walk does not
+/// have: when in doubt, the base sees it. X is kept if what remains of it suffices, as a further run of the chain
+/// (searchBehind.h):
+///
+///   gain over μ·a ≥ sureStatistic   gain: the detector's score of the strongest path around X (bothWays.h)
+///   μ(t,f) = Π_S 1 + 2·A_S·|W(d_S)|²
+///
+/// d_S: distance from the band in which the signal S may be during the window around t (its 5-95 % band), in cells of the
+/// coarser of both windows, which cannot tell what S consists of; A_S: the largest power in that band. a: the raised level
+/// beside X (areaLevels); areas of the base raise μ as well. What X keeps are its parts: stretches in which it is present
+/// over μ·a (BothWays::endsBy) and whose own gain suffices, under the law of the recording's noise in that window, too
+/// (evidenceLeft), which is measured apart from the tracks that are asked. Then
+///
+///   replacing   X, from its first part to its last, replaces the tracks that follow it, which lie in four of five of
+///               their frames within a coarser cell of where it is during T0, if they are pieces of it: each lasts less
+///               than half as long, or they follow one after the other. The pieces are not among the S. X has more
+///               evidence over its threshold than each piece, and takes their earliest detection. For several pieces the
+///               condition on windows does not apply: a spread signal is one track in the window in which it stands out
+///               as one, however slow it is.
+///   adding      otherwise, each part that its window sees better is a track, unless a follower spans it. Its statistic
+///               is its own gain.
+///
+/// Windows of fewer than OwnNoiseLaw::fewestFrames frames are not asked. Positions are interpolated between frames;
+/// statistics are shifted by the difference of the two thresholds, and powers divided by the ratio of the windows, so that
+/// both have the same meaning as in the base. The result is renumbered, by detection, then cell. All analyses must have
+/// two-sided tracks (secondLook.h). Throws Cancelled.
+std::vector<Track> withOtherWindows(const Analysis &base, std::span<const std::shared_ptr<const Analysis>> others,
+                                    const RunContext &context = {});
+
+} // namespace faintline
