@@ -3,6 +3,7 @@
 #include "app/render/readPicture.h"
 #include "base/Error.h"
 #include "base/files/AtomicFile.h"
+#include "base/files/fileName.h"
 #include "widgets/plot/ColourMap.h"
 
 #include <QBuffer>
@@ -14,7 +15,6 @@
 #include <QUrl>
 
 #include <algorithm>
-#include <cstdio>
 #include <set>
 #include <utility>
 
@@ -164,28 +164,6 @@ namespace {
         return size.isValid() ? QStringLiteral("%1 × %2").arg(size.width()).arg(size.height()) : QStringLiteral("–");
     }
 
-    QString verdictOf(const CheckedPicture &one)
-    {
-        switch (one.state) {
-        case CheckedPicture::State::Same:
-            return one.difference.toleratedPixels > 0 ? QStringLiteral("same, except for %1 tolerated raster pixel(s)")
-                                                            .arg(one.difference.toleratedPixels)
-                                                      : QStringLiteral("same");
-        case CheckedPicture::State::Missing:
-            return QStringLiteral("missing: expected but not found");
-        case CheckedPicture::State::New:
-            return QStringLiteral("new: found but not expected");
-        case CheckedPicture::State::Different:
-            break;
-        }
-        if (!one.difference.isSameSize)
-            return QStringLiteral("different size: %1 instead of %2")
-                .arg(sizeText(one.actualSize), sizeText(one.expectedSize));
-        return QStringLiteral("%1 pixel(s) changed in %2 place(s)")
-            .arg(one.difference.changedPixels)
-            .arg(one.difference.places.size());
-    }
-
     QString href(const char *folder, const QString &name)
     {
         return QString::fromLatin1(QUrl::toPercentEncoding(QLatin1String(folder) + QLatin1Char('/') + name, "/"));
@@ -229,16 +207,14 @@ namespace {
 
     QString row(const CheckedPicture &one)
     {
-        const bool isSame = one.state == CheckedPicture::State::Same;
         return QStringLiteral("<tr class=\"%1\"><td>%2</td><td>%3</td><td>%4</td><td>%5</td></tr>\n")
-            .arg(isSame ? QStringLiteral("same") : QStringLiteral("other"), one.name.toHtmlEscaped(), verdictOf(one),
-                 sizeText(one.expectedSize), sizeText(one.actualSize));
+            .arg(one.differs() ? QStringLiteral("other") : QStringLiteral("same"), one.name.toHtmlEscaped(),
+                 verdictOf(one), sizeText(one.expectedSize), sizeText(one.actualSize));
     }
 
     QString pageOf(const std::vector<CheckedPicture> &pictures)
     {
-        const auto differing = std::count_if(pictures.begin(), pictures.end(),
-                                             [](const auto &one) { return one.state != CheckedPicture::State::Same; });
+        const auto differing = std::ranges::count_if(pictures, &CheckedPicture::differs);
         QString text = QStringLiteral(
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>Pictures "
             "compared</title>\n<style>\n"
@@ -254,7 +230,7 @@ namespace {
             text += row(one);
         text += QStringLiteral("</table>\n");
         for (const CheckedPicture &one : pictures)
-            if (one.state != CheckedPicture::State::Same)
+            if (one.differs())
                 text += section(one);
         return text + QStringLiteral("</body>\n</html>\n");
     }
@@ -288,6 +264,28 @@ namespace {
     }
 
 } // namespace
+
+QString verdictOf(const CheckedPicture &one)
+{
+    switch (one.state) {
+    case CheckedPicture::State::Same:
+        return one.difference.toleratedPixels > 0
+                   ? QStringLiteral("same, except for %1 tolerated raster pixel(s)").arg(one.difference.toleratedPixels)
+                   : QStringLiteral("same");
+    case CheckedPicture::State::Missing:
+        return QStringLiteral("missing: expected but not found");
+    case CheckedPicture::State::New:
+        return QStringLiteral("new: found but not expected");
+    case CheckedPicture::State::Different:
+        break;
+    }
+    if (!one.difference.isSameSize)
+        return QStringLiteral("different size: %1 instead of %2")
+            .arg(sizeText(one.actualSize), sizeText(one.expectedSize));
+    return QStringLiteral("%1 pixel(s) changed in %2 place(s)")
+        .arg(one.difference.changedPixels)
+        .arg(one.difference.places.size());
+}
 
 PictureDifference comparePictures(const QImage &expected, const QImage &actual, bool toleratesRasters)
 {
@@ -336,7 +334,7 @@ std::vector<CheckedPicture> checkPictures(const CheckOptions &options)
         throw Error(options.out, "cannot be created", Error::Kind::Failure);
     for (const QString &name : names.keys()) {
         CheckedPicture one = check(name, wanted.value(name), made.value(name), options.toleratesRasters);
-        if (!out.isEmpty() && one.state != CheckedPicture::State::Same)
+        if (!out.isEmpty() && one.differs())
             keep(one, wanted.value(name), made.value(name), QDir(out));
         one.difference.picture = {}; // limits memory to one picture
         pictures.push_back(std::move(one));
@@ -344,24 +342,6 @@ std::vector<CheckedPicture> checkPictures(const CheckOptions &options)
     if (!out.isEmpty())
         writeTextFile(QDir(out).filePath(QStringLiteral("index.html")).toStdString(), pageOf(pictures).toStdString());
     return pictures;
-}
-
-void runCheckPictures(const CheckOptions &options)
-{
-    const std::vector<CheckedPicture> pictures = checkPictures(options);
-    std::size_t differing = 0;
-    for (const CheckedPicture &one : pictures) {
-        if (one.state == CheckedPicture::State::Same && one.difference.toleratedPixels == 0)
-            continue;
-        differing += one.state != CheckedPicture::State::Same;
-        std::printf("%s: %s\n", qPrintable(one.name), verdictOf(one).toUtf8().constData());
-    }
-    if (differing == 0)
-        return;
-    throw Error("check-pictures",
-                std::to_string(differing) + " of " + std::to_string(pictures.size()) + " picture(s) differ"
-                    + (options.out.empty() ? "; --out DIR writes a report" : "; see " + options.out + "/index.html"),
-                Error::Kind::Failure);
 }
 
 } // namespace faintline

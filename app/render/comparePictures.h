@@ -33,6 +33,8 @@ struct CheckOptions {
     std::string actual;
     std::string out; ///< folder for the report; empty: none
     bool toleratesRasters = false;
+    std::string junit{}; ///< file for the results as JUnit XML; empty: none
+    bool isJson = false; ///< prints the results as JSON
 };
 
 /// What became of one picture.
@@ -42,14 +44,16 @@ struct CheckedPicture {
     State state = State::Same;
     QSize expectedSize, actualSize;
     PictureDifference difference;
+
+    bool differs() const { return state != State::Same; }
 };
+
+/// "3 pixel(s) changed in 1 place(s)"
+QString verdictOf(const CheckedPicture &one);
 
 /// Compares two PNGs, or two folders of them with all their subfolders, and writes the report: index.html, and of each
 /// picture that is not the same expected/NAME, actual/NAME and difference/NAME. Throws Error where there is nothing to
 /// compare.
 std::vector<CheckedPicture> checkPictures(const CheckOptions &options);
-
-/// The same as a command: a line for each picture that is not the same; throws Error{Failure} if there is one.
-void runCheckPictures(const CheckOptions &options);
 
 } // namespace faintline

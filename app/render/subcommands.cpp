@@ -154,6 +154,9 @@ CLI::App *addCheckPictures(CLI::App &program, CheckOptions &options)
     command->add_flag("--tolerate-rasters", options.toleratesRasters,
                       "Tolerate 1e-5 of the pixels at the adjacent "
                       "colour of a colour map");
+    command->add_option("--junit", options.junit,
+                        "Write the results as JUnit XML, a test case for each picture (.xml)");
+    command->add_flag("--json", options.isJson, "Print the results as JSON");
     return command;
 }
 

@@ -33,4 +33,4 @@ for session in "$sessions"/*.faintline "$sessions"/*.json; do
     name=$(basename "$session")
     "$program" render "$session" --view "${VIEWS:-window,events}" --size 1280x800 --out "$actual/${name%.*}.png"
 done
-$accept || "$program" check-pictures "$expected" "$actual" --out "$out/report"
+$accept || "$program" check-pictures "$expected" "$actual" --out "$out/report" --junit "$out/report/results.xml"

@@ -1,4 +1,6 @@
 #include "app/render/comparePictures.h"
+#include "app/render/pictureResults.h"
+#include "base/json.h"
 #include "support/test.h"
 
 #include "support/errors.h"
@@ -11,6 +13,7 @@
 #include <QPixmap>
 #include <QTemporaryDir>
 #include <QTest>
+#include <QXmlStreamReader>
 
 using namespace faintline;
 
@@ -146,6 +149,47 @@ private slots:
         QVERIFY(!page.contains(m_folder.path().toUtf8())); // moves as a whole
         QVERIFY(refusal(options).find("3 of 4") != std::string::npos);
         QVERIFY(refusal({path("e"), path("e"), {}, false}).empty());
+    }
+
+    void resultsAreReadableByPrograms()
+    {
+        save(plain({20, 10}), "two/same.png");
+        save(plain({20, 10}), "now/same.png");
+        save(plain({20, 10}), "two/a & <b>.png");
+        QImage changed = plain({20, 10});
+        changed.setPixel(3, 4, qRgb(0, 0, 0));
+        save(changed, "now/a & <b>.png");
+        save(plain({20, 10}), "two/gone.png");
+
+        QVERIFY(refusal({path("two"), path("now"), {}, false, path("results.xml")}).find("2 of 3")
+                != std::string::npos);
+        QXmlStreamReader xml(bytesOf(m_folder.filePath("results.xml")));
+        QStringList cases;
+        QStringList failures;
+        while (!xml.atEnd())
+            if (xml.readNext() == QXmlStreamReader::StartElement) {
+                const QXmlStreamAttributes values = xml.attributes();
+                if (xml.name() == QLatin1String("testsuite"))
+                    QCOMPARE((QStringList{values.value("tests").toString(), values.value("failures").toString()}),
+                             (QStringList{"3", "2"}));
+                if (xml.name() == QLatin1String("testcase"))
+                    cases << values.value("name").toString();
+                if (xml.name() == QLatin1String("failure"))
+                    failures << cases.back() + ": " + values.value("message").toString();
+            }
+        QVERIFY2(!xml.hasError(), qPrintable(xml.errorString()));
+        QCOMPARE(cases, (QStringList{"a & <b>.png", "gone.png", "same.png"}));
+        QCOMPARE(failures, (QStringList{"a & <b>.png: 1 pixel(s) changed in 1 place(s)",
+                                        "gone.png: missing: expected but not found"}));
+
+        const Json json = parseJson(resultsJson(checkPictures({path("two"), path("now"), {}, false})), "results");
+        QCOMPARE(json.at("compared"), 3);
+        QCOMPARE(json.at("differing"), 2);
+        QCOMPARE(json.at("pictures")[0].at("state"), "different");
+        QCOMPARE(json.at("pictures")[0].at("places"), Json::array({{{"x", 3}, {"y", 4}, {"width", 1}, {"height", 1}}}));
+        QCOMPARE(json.at("pictures")[1].at("actual"), Json(nullptr));
+        QCOMPARE(json.at("pictures")[2].at("state"), "same");
+        QVERIFY(!refusal({path("two"), path("two"), {}, false, path("two/same.png")}).empty()); // would be replaced
     }
 
     /// As examples/screenshots/README.md says it.
