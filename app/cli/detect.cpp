@@ -51,6 +51,7 @@ namespace {
         std::string hits;
         double leastSnr = 0.0;
         bool annotate = false;
+        bool json = false;
         bool summary = false;
     };
 
@@ -138,8 +139,10 @@ namespace {
     void checkOptions(const DetectOptions &options)
     {
         options.analysis.checkMore();
-        if (!options.annotations.empty() && options.events.empty() && !options.annotate)
-            throw Error("--annotations", "requires --events or --annotate");
+        if (!options.annotations.empty() && options.events.empty() && !options.annotate && !options.json)
+            throw Error("--annotations", "requires --events, --json or --annotate");
+        if (options.json && options.summary)
+            throw Error("--json", "prints the events in place of the summary; give one of --json and --summary");
         if (!options.events.empty())
             writesReviews(options) ? checkReviewedPath(options.events) : checkEventsPath(options.events);
         if (!options.tracks.empty())
@@ -243,7 +246,20 @@ namespace {
             std::printf("%d annotation(s) added to %s\n", count, oneLine(SigmfRecording::metaPath(path)).c_str());
     }
 
-    /// With reviews, where there are any: those of the session, then those of the annotations.
+    /// The session's, then those of the annotations.
+    Annotations reviewsOf(const Analysis &analysis, const std::vector<Event> &found, const DetectInput &input,
+                          const DetectOptions &options)
+    {
+        Annotations reviewed = input.reviewed;
+        if (options.annotations.empty())
+            return reviewed;
+        const JudgedByBoxes judged = judgeByBoxes(std::move(reviewed.reviews), analysis, found, input.boxes);
+        reviewed.reviews = judged.reviews;
+        if (options.summary)
+            std::printf("%zu annotation(s), %d event(s) reviewed by them\n", input.boxes.size(), judged.judged);
+        return reviewed;
+    }
+
     void writeEventsOf(const Analysis &analysis, const DetectInput &input, const DetectOptions &options)
     {
         if (!writesReviews(options) && options.annotate)
@@ -251,16 +267,20 @@ namespace {
         if (!writesReviews(options))
             return writeEvents(analysis, options.events);
         const std::vector<Event> found = events(analysis);
-        Annotations reviewed = input.reviewed;
-        if (!options.annotations.empty()) {
-            const JudgedByBoxes judged = judgeByBoxes(std::move(reviewed.reviews), analysis, found, input.boxes);
-            reviewed.reviews = judged.reviews;
-            if (options.summary)
-                std::printf("%zu annotation(s), %d event(s) reviewed by them\n", input.boxes.size(), judged.judged);
-        }
+        const Annotations reviewed = reviewsOf(analysis, found, input, options);
         if (options.annotate)
             return annotate(reviewedSigmf(analysis, found, reviewed), options);
         writeReviewed(analysis, found, reviewed, options.events);
+    }
+
+    /// What a file .json of --events would contain.
+    void printEventsJson(const Analysis &analysis, const DetectInput &input, const DetectOptions &options)
+    {
+        const std::vector<Event> found = events(analysis);
+        const std::string text = writesReviews(options)
+                                     ? reviewedJson(analysis, found, reviewsOf(analysis, found, input, options))
+                                     : eventsJson(analysis, found, areaEvents(analysis));
+        std::fputs(text.c_str(), stdout);
     }
 
     void write(const Analysis &analysis, const DetectInput &input, const DetectOptions &options, const Common &common,
@@ -303,7 +323,7 @@ namespace {
 
     void detect(DetectOptions options, const Common &common)
     {
-        if (std::ranges::all_of(outputsOf(options), &std::string::empty) && !options.annotate)
+        if (std::ranges::all_of(outputsOf(options), &std::string::empty) && !options.annotate && !options.json)
             options.summary = true; // without another output, print a summary
         checkOptions(options);
         const RunContext context = common.context();
@@ -314,6 +334,8 @@ namespace {
         const auto analysis = run(input, options, context, writer);
         context.checkpoint(1.0, "done");
         write(*analysis, input, options, common, writer);
+        if (options.json)
+            printEventsJson(*analysis, input, options);
         if (options.summary)
             printResult(*analysis, input, !options.frames.empty());
         else if (const std::optional<Advice> silence = adviceOnSilence(*analysis, context))
@@ -352,6 +374,7 @@ void addDetect(CLI::App &app, Common &common)
               "Write a table of drifting signals in turboSETI's columns: .dat");
     command->add_option("--least-snr", options->leastSnr, "The smallest SNR of such a table")
         ->check(inRange(0.0, 1e12));
+    command->add_flag("--json", options->json, "Print the events as JSON, as --events writes them");
     command->add_flag("--summary", options->summary, "Print a summary of the result; default if no output is written");
     command->callback([options, &common] { detect(*options, common); });
 }

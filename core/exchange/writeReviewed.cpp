@@ -119,6 +119,11 @@ std::string reviewedSigmf(const Analysis &analysis, const std::vector<Event> &ev
     return sigmf(analysis, rowsOf(analysis, events, annotations));
 }
 
+std::string reviewedJson(const Analysis &analysis, const std::vector<Event> &events, const Annotations &annotations)
+{
+    return json(analysis, rowsOf(analysis, events, annotations));
+}
+
 void writeReviewed(const Analysis &analysis, const std::vector<Event> &events, const Annotations &annotations,
                    const std::string &path)
 {

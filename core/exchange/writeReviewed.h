@@ -16,6 +16,9 @@ namespace faintline {
 void writeReviewed(const Analysis &analysis, const std::vector<Event> &events, const Annotations &annotations,
                    const std::string &path);
 
+/// The text of such a .json file.
+std::string reviewedJson(const Analysis &analysis, const std::vector<Event> &events, const Annotations &annotations);
+
 /// The text of such a .sigmf-meta file. Throws Error for frames.
 std::string reviewedSigmf(const Analysis &analysis, const std::vector<Event> &events, const Annotations &annotations);
 

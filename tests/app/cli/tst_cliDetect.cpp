@@ -33,7 +33,9 @@ private slots:
     void threadsChangeNoByte();
     void saysWhatItFoundWhereNothingIsWritten();
     void theBandMayHaveOneEdge();
+    void printsTheEventsAsJson();
     void keptCalibrationsChangeNoByte();
+    void aFolderOfCalibrationsCanBeCopied();
     void isTheLibrary();
     void explainsItsTerms();
     void slopesInHertzAreTheSame();
@@ -144,6 +146,28 @@ void tst_cliDetect::threadsChangeNoByte()
     QCOMPARE(last, 1.0);
 }
 
+void tst_cliDetect::printsTheEventsAsJson()
+{
+    const Outcome printed = run(QStringList{"detect", "line.wav", "--json", "--events", "printed.json"} + lineSettings);
+    QCOMPARE(printed.err, QByteArray());
+    QCOMPARE(printed.code, 0);
+    QCOMPARE(printed.out, content("printed.json"));
+    QCOMPARE(parseJson(printed.out.toStdString(), "events").at("events").size(), std::size_t(1));
+    QCOMPARE(run(QStringList{"detect", "line.wav", "--json"} + lineSettings).out, printed.out);
+
+    // With reviews the columns are those of a table with reviews.
+    writeBytes(pathOf("box.csv"), "t_onset,t_end,f_low,f_high,label,review\n8,23,205,218,mine,accepted\n");
+    const QStringList reviewed{"detect", "line.wav", "--annotations", "box.csv", "--json"};
+    const Outcome judged = run(reviewed + QStringList{"--events", "judged.json"} + lineSettings);
+    QCOMPARE(judged.err, QByteArray());
+    QCOMPARE(judged.out, content("judged.json"));
+    QVERIFY(judged.out.contains("accepted"));
+
+    const Outcome both = run({"detect", "line.wav", "--json", "--summary"});
+    QCOMPARE(both.code, 2);
+    QVERIFY2(both.err.contains("--json"), both.err.data());
+}
+
 void tst_cliDetect::keptCalibrationsChangeNoByte()
 {
     const QByteArray usual = qgetenv("FAINTLINE_CACHE");
@@ -163,6 +187,28 @@ void tst_cliDetect::keptCalibrationsChangeNoByte()
         QVERIFY(written.front().count('\n') > 1);
         QCOMPARE(QDir(folder).entryList(QDir::Files).size(), cache == folder ? 1 : 0);
     }
+    usual.isNull() ? qunsetenv("FAINTLINE_CACHE") : qputenv("FAINTLINE_CACHE", usual);
+}
+
+/// As the manual says of FAINTLINE_CACHE: a folder that a suite of tests brings along.
+void tst_cliDetect::aFolderOfCalibrationsCanBeCopied()
+{
+    const QByteArray usual = qgetenv("FAINTLINE_CACHE");
+    const auto detect = [this](const QString &cache) {
+        qputenv("FAINTLINE_CACHE", path(cache).toLocal8Bit());
+        return run(QStringList{"detect", "line.wav", "--json", "--set", "model.snr=0.9"} + lineSettings).out;
+    };
+    const QByteArray made = detect("made");
+    const QStringList files = QDir(path("made")).entryList(QDir::Files);
+    QCOMPARE(files.size(), 1);
+    QVERIFY(QDir().mkpath(path("brought")));
+    QVERIFY(QFile::copy(path("made/" + files.front()), path("brought/" + files.front())));
+    const QByteArray before = content("brought/" + files.front());
+    const QDateTime written = QFileInfo(path("brought/" + files.front())).lastModified();
+    QCOMPARE(detect("brought"), made);
+    QCOMPARE(QDir(path("brought")).entryList(QDir::Files), files);
+    QCOMPARE(content("brought/" + files.front()), before);
+    QCOMPARE(QFileInfo(path("brought/" + files.front())).lastModified(), written);
     usual.isNull() ? qunsetenv("FAINTLINE_CACHE") : qputenv("FAINTLINE_CACHE", usual);
 }
 
