@@ -1,5 +1,6 @@
 #include "app/cli/commands.h"
 #include "app/cli/inRange.h"
+#include "app/cli/provenance.h"
 
 #include "base/Error.h"
 #include "base/files/AtomicFile.h"
@@ -83,6 +84,8 @@ namespace {
     /// The experiment's SNR at which the ROC is drawn: the given one, else the middle one.
     std::size_t rocSnr(const Experiment &experiment, const EvaluateOptions &options)
     {
+        if (std::holds_alternative<SweepExperiment>(experiment) && options.roc.ends_with(".csv"))
+            throw Error(options.roc, "must end in .svg for a sweep, whose false alarms are columns of --out");
         const std::vector<double> snrs = snrsOf(experiment);
         if (!options.rocSnrDb)
             return snrs.size() / 2;
@@ -101,28 +104,33 @@ namespace {
     {
         if (!options.chart.empty())
             writeTextFile(options.chart, chartSvg(pdChart(campaign)));
-        if (!options.roc.empty())
-            writeTextFile(options.roc, chartSvg(rocChart(campaign, rocSnr(campaign.experiment, options))));
+        if (options.roc.empty())
+            return;
+        const std::size_t snr = rocSnr(campaign.experiment, options);
+        if (options.roc.ends_with(".csv"))
+            writeRoc(campaign, snr, options.roc);
+        else
+            writeTextFile(options.roc, chartSvg(rocChart(campaign, snr)));
     }
 
-    /// The curve or, with --shard, the runs of the shard; resumes an interrupted run.
-    void carryOutToFile(const Experiment &experiment, const std::vector<int> &runs, const EvaluateOptions &options,
-                        const RunContext &context)
+    /// `inputs`: what the campaign is made from.
+    void writeOutputs(const Campaign &campaign, const std::vector<std::string> &inputs, const EvaluateOptions &options,
+                      const Common &common)
     {
-        const Campaign campaign = carryOutResumably(experiment, runs, options.out, context);
-        if (options.shard.empty())
-            writeCurve(campaign, options.out);
-        else
-            writeCampaign(campaign, options.out);
+        CommitTogether files;
+        writeProvenance(common, inputs, {options.out, options.chart, options.roc});
+        if (!options.out.empty())
+            options.shard.empty() ? writeCurve(campaign, options.out) : writeCampaign(campaign, options.out);
         draw(campaign, options);
-        removeParts(options.out);
+        files.commit();
     }
 
     void checkNames(const EvaluateOptions &options)
     {
-        for (const std::string &chart : {options.chart, options.roc})
-            if (!chart.empty())
-                checkEnding(chart, {".svg"});
+        if (!options.chart.empty())
+            checkEnding(options.chart, {".svg"});
+        if (!options.roc.empty())
+            checkEnding(options.roc, {".svg", ".csv"});
         if (options.rocSnrDb && options.roc.empty())
             throw Error("--roc-snr", "requires --roc");
         checkOutputs({options.out, options.chart, options.roc});
@@ -131,7 +139,12 @@ namespace {
     void evaluateExperiment(const EvaluateOptions &options, const Common &common)
     {
         Experiment experiment = experimentFromJson(readJsonFile(options.files.front()), options.files.front());
-        const InputFiles recording(filesReadFor(recordingOf(experiment)));
+        const std::string recording = recordingOf(experiment);
+        if (common.read && !recording.empty())
+            common.read(recording);
+        std::vector<std::string> inputs = filesReadFor(recording);
+        const InputFiles guarded(inputs);
+        inputs.push_back(options.files.front());
         checkNames(options);
         if (options.seed >= 0)
             setSeed(experiment, options.seed);
@@ -141,15 +154,16 @@ namespace {
         rocSnr(experiment, options); // fail before the runs, not after
         const Shard shard = options.shard.empty() ? Shard{} : shardFrom(options.shard);
         const std::vector<int> runs = runsOfShard(experiment, shard.index, shard.count);
-        if (!options.out.empty()) {
-            carryOutToFile(experiment, runs, options, common.context());
+        if (!options.out.empty()) { // resumes an interrupted run
+            writeOutputs(carryOutResumably(experiment, runs, options.out, common.context()), inputs, options, common);
+            removeParts(options.out);
         } else {
             if (!options.shard.empty())
                 throw Error("--shard", "requires --out for the shard's runs");
             Campaign campaign = begin(experiment, common.context());
             carryOut(campaign, runs, common.context());
             print(campaign);
-            draw(campaign, options);
+            writeOutputs(campaign, inputs, options, common);
         }
         if (options.cost)
             printCosts(*sweep, common.context());
@@ -161,9 +175,8 @@ namespace {
             if (options.files.size() < 2 || options.out.empty())
                 throw Error("evaluate merge", "requires shards and --out");
             checkNames(options);
-            const Campaign campaign = mergedFiles(std::span(options.files).subspan(1));
-            writeCurve(campaign, options.out);
-            return draw(campaign, options);
+            const std::vector<std::string> shards(options.files.begin() + 1, options.files.end());
+            return writeOutputs(mergedFiles(shards), shards, options, common);
         }
         if (options.files.size() > 1)
             throw Error("evaluate " + options.files[1], "only one experiment can be given; to merge shards, use "
@@ -186,7 +199,7 @@ void addEvaluate(CLI::App &app, Common &common)
     addOutput(*command, common, "--chart", options->chart,
               "Chart of Pd against SNR to write, .svg, with the theory if available");
     addOutput(*command, common, "--roc", options->roc,
-              "Receiver operating characteristic to write, .svg; of a sweep, Pd against false alarms");
+              "Receiver operating characteristic to write, .svg or .csv; of a sweep, Pd against false alarms, .svg");
     command->add_option("--roc-snr", options->rocSnrDb,
                         "SNR of the ROC, dB, one of the experiment's; default: the middle one");
     command->add_option("--shard", options->shard, "Compute only part I of N, for 'merge'");
@@ -206,9 +219,11 @@ void addMerge(CLI::App &app, Common &common)
                                                     "run without shards");
     addInput(*command, common, "SHARD", options->shards, "Shards, in any order")->required();
     addOutput(*command, common, "--out", options->out, "Curve to write, .csv")->required();
-    command->callback([options] {
+    command->callback([options, &common] {
         checkOutputs({options->out});
-        writeCurve(mergedFiles(options->shards), options->out);
+        EvaluateOptions outputs;
+        outputs.out = options->out;
+        writeOutputs(mergedFiles(options->shards), options->shards, outputs, common);
     });
 }
 

@@ -49,7 +49,8 @@ Provenance readProvenance(const std::string &path)
         for (const Json &input : json.at("inputs"))
             provenance.inputs.emplace_back(nameFrom(input.at("file")), input.at("hash"));
         // Other commands are rejected: they might do anything, or run replay again.
-        constexpr std::string_view commands[]{"detect", "compare", "simulate", "inject", "straighten", "doppler"};
+        constexpr std::string_view commands[]{"detect",     "compare", "simulate", "inject",
+                                              "straighten", "doppler", "evaluate", "merge"};
         provenance.arguments = fromCommandOn(provenance.arguments);
         const bool isKnown =
             !provenance.arguments.empty()
@@ -58,8 +59,9 @@ Provenance readProvenance(const std::string &path)
         if (provenance.arguments.size() > most || provenance.outputs.size() > most)
             throw Error(path, "contains a command line that is too long");
         if (provenance.outputs.empty() || !isKnown)
-            throw Error(
-                path, "is not the provenance of an output of detect, compare, simulate, inject, straighten or doppler");
+            throw Error(path,
+                        "is not the provenance of an output of detect, compare, simulate, inject, straighten, doppler, "
+                        "evaluate or merge");
         return provenance;
     } catch (const Json::exception &) {
         throw Error(path, "is not a provenance: it needs faintline, folder, arguments, inputs and outputs");

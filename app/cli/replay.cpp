@@ -302,10 +302,10 @@ void addReplay(CLI::App &app, Common &common)
     const auto allowed = std::make_shared<std::vector<std::string>>();
     CLI::App *command = app.add_subcommand("replay", "Reproduce a result from its provenance and compare");
     command
-        ->add_option("RESULT", *result,
-                     "A file written by detect, compare, simulate, inject, straighten or doppler, or a table exported "
-                     "from the window, with "
-                     "its .provenance.json beside it")
+        ->add_option(
+            "RESULT", *result,
+            "A file written by detect, compare, simulate, inject, straighten, doppler, evaluate or merge, or a "
+            "table exported from the window, with its .provenance.json beside it")
         ->required();
     command->add_option("--recording", *recording,
                         "For a table exported from the window: the recording, if it is not "

@@ -2,7 +2,7 @@
 
 #include "app/document/statisticUnit.h"
 #include "app/window/TrialWindow.h"
-#include "evaluate/experiments/campaignCharts.h"
+#include "evaluate/experiments/campaignCurve.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 

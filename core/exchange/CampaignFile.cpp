@@ -320,6 +320,25 @@ void writeCurve(const Campaign &campaign, const std::string &path)
     writeTextFile(path, csv);
 }
 
+void writeRoc(const Campaign &campaign, std::size_t snr, const std::string &path)
+{
+    const bool isInBlocks = std::holds_alternative<LineExperiment>(campaign.experiment);
+    std::string csv = "detector,snr_db,threshold,";
+    csv += isInBlocks ? "false_alarms_per_block" : "false_alarm_probability";
+    csv += ",pd,pd_low,pd_high\n";
+    const std::vector<DetectorUnderTest> detectors = detectorsOf(campaign.experiment);
+    const std::string snrDb = formatNumber(snrsOf(campaign.experiment).at(snr));
+    for (std::size_t d = 0; d < detectors.size(); ++d)
+        for (const RocPoint &point : rocPoints(campaign, d, snr)) {
+            csv += csvText(oneLine(detectors[d].name)) + "," + snrDb;
+            for (const double number :
+                 {point.threshold, point.falseAlarms, point.pd, point.interval.low, point.interval.high})
+                csv += "," + formatNumber(number);
+            csv += "\n";
+        }
+    writeTextFile(path, csv);
+}
+
 std::vector<CurvePoint> readCurve(const std::string &path)
 {
     std::ifstream file(path);

@@ -22,12 +22,18 @@ bool isCampaignFile(const std::string &path);
 /// Whether the file's first line is that of a curve of Pd (writeCurve).
 bool isCurveFile(const std::string &path);
 
-/// Writes detection probabilities as CSV: detector, snr_db, pd, pd_low, pd_high (95 %), trials, threshold. For a sweep:
+/// Writes detection probabilities as CSV: detector, snr_db, pd, pd_low, pd_high (95 %), trials, threshold
+/// (`shownThreshold`). For a sweep:
 /// parameter, value, pd, pd_low, pd_high, trials, false_alarms, hours, false_alarms_per_hour and its interval,
 /// latency_s and its interval (empty if nothing was detected), threshold.
 void writeCurve(const Campaign &campaign, const std::string &path);
 
-/// Reads the points of such a file, in order. Throws Error naming the file and line.
+/// Writes the operating characteristics of all detectors at one SNR as CSV: detector, snr_db, threshold,
+/// false_alarms_per_block (or false_alarm_probability of an injection's path), pd, pd_low, pd_high (95 %). A sweep
+/// has none: its false alarms are in its curve.
+void writeRoc(const Campaign &campaign, std::size_t snr, const std::string &path);
+
+/// Reads the points of a curve, in order. Throws Error naming the file and line.
 std::vector<CurvePoint> readCurve(const std::string &path);
 
 /// Executes the given runs of an experiment and stores each finished one in `path` + ".part", from which a later call

@@ -244,9 +244,9 @@ void tst_Campaign::thresholdsAndRoc()
     const auto roc = rocCurve(experiment, outcomes, 0, 0);
     QCOMPARE(roc.size(), std::size_t(4));
     QCOMPARE(roc[0].threshold, 4.0);
-    QCOMPARE(roc[0].falseAlarmsPerBlock, 0.0);
+    QCOMPARE(roc[0].falseAlarms, 0.0);
     QCOMPARE(roc[0].pd, 0.25);
-    QVERIFY(std::abs(roc[2].falseAlarmsPerBlock - std::log(2.0)) < 1e-15);
+    QVERIFY(std::abs(roc[2].falseAlarms - std::log(2.0)) < 1e-15);
     QCOMPARE(roc[2].pd, 0.75);
 }
 

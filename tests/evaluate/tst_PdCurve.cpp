@@ -161,7 +161,7 @@ void tst_PdCurve::rocGoesThroughEveryMaximum()
                 hits += double(signal) > threshold ? 1.0 : 0.0;
         }
         QCOMPARE(curve[i].threshold, threshold);
-        QVERIFY(std::abs(std::exp(-curve[i].falseAlarmsPerBlock) - (1.0 - alarms / 36.0)) < 1e-12);
+        QVERIFY(std::abs(std::exp(-curve[i].falseAlarms) - (1.0 - alarms / 36.0)) < 1e-12);
         QCOMPARE(curve[i].pd, hits / 36.0);
         QVERIFY(curve[i].interval.contains(curve[i].pd));
     }

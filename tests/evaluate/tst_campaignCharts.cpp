@@ -1,4 +1,5 @@
 #include "evaluate/experiments/campaignCharts.h"
+#include "evaluate/experiments/campaignCurve.h"
 #include "support/test.h"
 
 #include "evaluate/experiments/peers.h"

@@ -1,7 +1,7 @@
 #include "evaluate/experiments/showTrial.h"
 #include "support/test.h"
 
-#include "evaluate/experiments/campaignCharts.h"
+#include "evaluate/experiments/campaignCurve.h"
 #include "evaluate/experiments/peers.h"
 #include "plan/chain.h"
 

@@ -38,7 +38,7 @@ double blockThreshold(std::span<const RunOutcome> outcomes, std::size_t detector
 /// One point of a receiver operating characteristic.
 struct RocPoint {
     double threshold = 0.0;
-    double falseAlarmsPerBlock = 0.0; ///< -ln P(no block exceeds): mean number of false alarms
+    double falseAlarms = 0.0; ///< mean number per block, -ln P(no block exceeds); of an injection, P(path exceeds)
     double pd = 0.0;
     Interval interval;
 };

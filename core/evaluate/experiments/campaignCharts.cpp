@@ -70,54 +70,33 @@ namespace {
         return curve;
     }
 
-    void addLines(Chart &chart, const Campaign &campaign, const LineExperiment &lines, std::size_t snr)
+    /// Measured curves of all detectors. The lowest and the highest threshold cannot be drawn on a logarithmic axis.
+    void addMeasured(Chart &chart, const Campaign &campaign, std::size_t snr)
+    {
+        const std::vector<DetectorUnderTest> detectors = detectorsOf(campaign.experiment);
+        for (std::size_t d = 0; d < detectors.size(); ++d) {
+            Curve curve{detectors[d].name, Curve::Kind::Measured, {}};
+            for (const RocPoint &point : rocPoints(campaign, d, snr))
+                if (std::isfinite(point.falseAlarms) && point.falseAlarms > 0.0)
+                    curve.points.push_back({point.falseAlarms, point.pd, point.interval});
+            chart.curves.push_back(std::move(curve));
+        }
+    }
+
+    /// Theory over the false alarms that were measured.
+    void addTheory(Chart &chart, const LineExperiment &lines, std::size_t snr)
     {
         double low = 1.0;
         double high = 1.0;
-        for (std::size_t d = 0; d < lines.detectors.size(); ++d) {
-            Curve curve{lines.detectors[d].name, Curve::Kind::Measured, {}};
-            for (const RocPoint &point : rocCurve(lines, campaign.outcomes, d, snr)) {
-                if (!std::isfinite(point.falseAlarmsPerBlock) || point.falseAlarmsPerBlock <= 0.0)
-                    continue; // the lowest and the highest threshold cannot be drawn on a logarithmic axis
-                curve.points.push_back({point.falseAlarmsPerBlock, point.pd, point.interval});
-                low = std::min(low, point.falseAlarmsPerBlock);
-                high = std::max(high, point.falseAlarmsPerBlock);
+        for (const Curve &curve : chart.curves)
+            for (const Curve::Point &point : curve.points) {
+                low = std::min(low, point.x);
+                high = std::max(high, point.x);
             }
-            chart.curves.push_back(std::move(curve));
-        }
         for (const DetectorUnderTest &detectorUnderTest : lines.detectors)
             if (hasTheory(lines, detectorUnderTest) && low < high)
                 chart.curves.push_back(
                     theoryAgainstFalseAlarms(lines, detectorUnderTest.name, lines.snrDb[snr], low, high));
-    }
-
-    /// For recordings: rate at which the path without the line exceeds a threshold, against the rate with the line.
-    void addInjected(Chart &chart, const Campaign &campaign, const InjectionExperiment &injection, std::size_t snr)
-    {
-        for (std::size_t d = 0; d < injection.detectors.size(); ++d) {
-            Curve curve{injection.detectors[d].name, Curve::Kind::Measured, {}};
-            std::vector<float> noise;
-            std::vector<float> signal;
-            for (const RunOutcome &outcome : campaign.outcomes) {
-                noise.push_back(outcome.noise[d].front());
-                signal.push_back(outcome.signal[d][snr].front());
-            }
-            std::sort(noise.begin(), noise.end());
-            std::sort(signal.begin(), signal.end());
-            const auto above = [](const std::vector<float> &values, float threshold) {
-                return values.end() - std::upper_bound(values.begin(), values.end(), threshold);
-            };
-            const auto trials = std::ssize(noise);
-            for (auto threshold = noise.rbegin(); threshold != noise.rend(); ++threshold) {
-                const auto falseAlarms = above(noise, *threshold);
-                if (falseAlarms == 0 || (threshold != noise.rbegin() && *threshold == threshold[-1]))
-                    continue;
-                const auto detections = above(signal, *threshold);
-                curve.points.push_back({double(falseAlarms) / double(trials), double(detections) / double(trials),
-                                        wilsonInterval(detections, trials)});
-            }
-            chart.curves.push_back(std::move(curve));
-        }
     }
 
     /// The detector of the campaign that equals the current settings.
@@ -224,7 +203,7 @@ Chart rocChart(const Campaign &campaign, std::size_t snr)
     if (std::holds_alternative<SweepExperiment>(campaign.experiment))
         return tradeOffChart(campaign);
     const auto *lines = std::get_if<LineExperiment>(&campaign.experiment);
-    Chart chart{"Receiver operating characteristic",
+    Chart chart{"Receiver operating characteristic at " + formatNumber(snrsOf(campaign.experiment).at(snr)) + " dB",
                 lines ? "False alarms per block" : "P(path without the line exceeds)",
                 "Pd",
                 true,
@@ -232,20 +211,10 @@ Chart rocChart(const Campaign &campaign, std::size_t snr)
                 {}};
     if (campaign.outcomes.empty())
         return chart;
+    addMeasured(chart, campaign, snr);
     if (lines)
-        addLines(chart, campaign, *lines, snr);
-    else
-        addInjected(chart, campaign, std::get<InjectionExperiment>(campaign.experiment), snr);
+        addTheory(chart, *lines, snr);
     return chart;
-}
-
-double shownThreshold(const Campaign &campaign, std::size_t detector)
-{
-    if (detectorsOf(campaign.experiment)[detector].isWhole)
-        return 0.0; // of a margin
-    const double share = 1.0 - std::exp(-1.0);
-    return campaign.thresholds.empty() ? blockThreshold(campaign.outcomes, detector, share)
-                                       : campaign.thresholds[detector];
 }
 
 } // namespace faintline

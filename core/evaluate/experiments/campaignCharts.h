@@ -33,9 +33,4 @@ std::optional<Curve> pdAtOperatingPoint(const Campaign &campaign, const Analysis
 std::optional<Curve> operatingPoint(const Campaign &campaign, std::size_t snr, const AnalysisSettings &current,
                                     double threshold);
 
-/// The threshold with which a trial of the campaign is displayed: the calibrated one, or, if each block's maximum
-/// serves as threshold in turn, that of one false alarm per block on average (exceeded by a fraction 1 - 1/e of the
-/// blocks).
-double shownThreshold(const Campaign &campaign, std::size_t detector);
-
 } // namespace faintline

@@ -1,7 +1,7 @@
 #include "evaluate/experiments/showTrial.h"
 
 #include "analyse/analyse.h"
-#include "evaluate/experiments/campaignCharts.h"
+#include "evaluate/experiments/campaignCurve.h"
 #include "evaluate/experiments/lineRuns.h"
 
 #include <algorithm>

@@ -13,6 +13,8 @@ private slots:
     void initTestCase();
     void chartsHaveTheory();
     void theRocIsOfTheSnrThatIsAsked();
+    void theRocIsWrittenAsNumbers();
+    void resultsAreReplayed();
     void shardsAreDrawnTogether();
     void mistakes_data();
     void mistakes();
@@ -42,6 +44,7 @@ void tst_cliEvaluate::chartsHaveTheory()
         QVERIFY2(svg.contains("sum of 20, Marcum Q"), qPrintable(name));
     }
     QVERIFY(content("roc.svg").contains("False alarms per block"));
+    QVERIFY(content("roc.svg").contains("at 0 dB"));
     QVERIFY(!content("pd.svg").contains("False alarms per block"));
 }
 
@@ -56,6 +59,47 @@ void tst_cliEvaluate::theRocIsOfTheSnrThatIsAsked()
     QCOMPARE(roc("0.svg", {"--roc-snr", "0"}), usual);
     QVERIFY(roc("3.svg", {"--roc-snr", "3"}) != usual);
     QVERIFY(content("3.svg").startsWith("<svg"));
+}
+
+void tst_cliEvaluate::theRocIsWrittenAsNumbers()
+{
+    const Outcome done = run({"evaluate", "experiment.json", "--out", "both.csv", "--roc", "roc.csv"});
+    QCOMPARE(done.err, QByteArray());
+    QCOMPARE(done.code, 0);
+    const QList<QByteArray> lines = content("roc.csv").trimmed().split('\n');
+    QCOMPARE(lines.front(), QByteArray("detector,snr_db,threshold,false_alarms_per_block,pd,pd_low,pd_high"));
+    QVERIFY(lines.size() > 10);
+    double threshold = 1e9;
+    double falseAlarms = -1.0;
+    for (const QByteArray &line : lines.mid(1)) {
+        const QList<QByteArray> cells = line.split(',');
+        QCOMPARE(cells.size(), 7);
+        QCOMPARE(cells[1], QByteArray("0")); // the middle SNR
+        QVERIFY(cells[2].toDouble() < threshold && cells[3].toDouble() > falseAlarms);
+        QVERIFY(cells[5].toDouble() <= cells[4].toDouble() && cells[4].toDouble() <= cells[6].toDouble());
+        threshold = cells[2].toDouble();
+        falseAlarms = cells[3].toDouble();
+    }
+    // The curve's threshold is that of one false alarm per block.
+    for (const QByteArray &line : content("both.csv").trimmed().split('\n').mid(1)) {
+        const QByteArray own = line.split(',').back();
+        const auto there = std::ranges::find_if(lines, [&](const QByteArray &row) { return row.split(',')[2] == own; });
+        QVERIFY2(there != lines.end(), line.data());
+        QVERIFY(std::abs(there->split(',')[3].toDouble() - 1.0) < 0.2); // of 24 blocks' maxima
+    }
+}
+
+void tst_cliEvaluate::resultsAreReplayed()
+{
+    QCOMPARE(run({"evaluate", "experiment.json", "--out", "kept.csv", "--roc", "kept.svg"}).code, 0);
+    for (const QString name : {"kept.csv", "kept.svg"}) {
+        QVERIFY(QFile::exists(path(name + ".provenance.json")));
+        const Outcome same = run({"replay", name});
+        QCOMPARE(same.err, QByteArray());
+        QCOMPARE(same.code, 0);
+    }
+    writeBytes(pathOf("kept.csv"), content("kept.csv") + "\n");
+    QCOMPARE(run({"replay", "kept.csv"}).code, 1);
 }
 
 void tst_cliEvaluate::shardsAreDrawnTogether()
