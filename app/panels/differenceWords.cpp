@@ -1,9 +1,11 @@
 #include "app/panels/differenceWords.h"
 
 #include "app/base/tr.h"
+#include "base/Field.h"
 #include "widgets/base/settingWords.h"
 
 #include <QCoreApplication>
+#include <QStringList>
 
 #include <algorithm>
 
@@ -18,7 +20,14 @@ namespace {
             return choiceLabel(field, text);
         if (field.kind == FieldKind::Flag)
             return text == QLatin1String("true") ? tr("on") : tr("off");
-        return text;
+        constexpr int digits = 6; // as many as anybody reads; files have all
+        QStringList numbers = text.split(QLatin1Char(','));
+        for (QString &number : numbers)
+            if (const auto parsed = parseNumber(number.trimmed().toStdString()))
+                number = QString::number(*parsed, 'g', digits);
+            else
+                number = number.trimmed();
+        return numbers.join(QStringLiteral(", "));
     }
 
     bool isNumber(const FieldInfo &field, const std::string &value)

@@ -8,6 +8,10 @@
 #include <QCoreApplication>
 #include <QStringList>
 
+#include <algorithm>
+#include <iterator>
+#include <vector>
+
 namespace faintline {
 
 namespace {
@@ -28,16 +32,6 @@ namespace {
         return QString::fromStdString(field.name).section(QLatin1Char('.'), 0, 0);
     }
 
-    /// "false alarms 2 1/h"
-    QString wordsOf(const SettingDifference &difference)
-    {
-        const FieldInfo &field = difference.field;
-        const QString label = QString::fromStdString(labelOf(field));
-        const QString stage = stageLabel(stageOf(field));
-        const QString words = QStringLiteral("%1 %2").arg(label, valueWords(field, difference.b));
-        return stage == label ? words : QStringLiteral("%1: %2").arg(stage, words);
-    }
-
     /// The threshold in whatever way it is given, at its default as well.
     SettingDifference thresholdOf(const AnalysisSettings &settings)
     {
@@ -46,27 +40,73 @@ namespace {
         return {field, {}, formatFieldValue(field, *field.get(settings))};
     }
 
+    struct StatedSetting {
+        QString stage;
+        QString words; ///< "Window length 0.5 s"
+        bool operator==(const StatedSetting &) const = default;
+    };
+    using StatedSettings = std::vector<StatedSetting>;
+
+    StatedSetting stated(const SettingDifference &difference)
+    {
+        const FieldInfo &field = difference.field;
+        return {stageLabel(stageOf(field)),
+                QStringLiteral("%1 %2").arg(QString::fromStdString(labelOf(field)), valueWords(field, difference.b))};
+    }
+
     /// The settings that differ from the defaults.
-    QStringList settingsIn(const AnalysisSettings &settings, CaptionOf what)
+    StatedSettings settingsIn(const AnalysisSettings &settings, CaptionOf what)
     {
         static const QStringList ofInput{"selection", "spectrogram", "noise", "pings", "family"};
-        QStringList words;
+        StatedSettings all;
         for (const SettingDifference &difference : settingDifferences(AnalysisSettings(), settings)) {
             const bool matters = what == CaptionOf::Statistic || ofInput.contains(stageOf(difference.field));
-            if (matters && !difference.b.empty())
-                words << wordsOf(difference.field.name == "decide.by" ? thresholdOf(settings) : difference);
+            if (!matters || difference.b.empty())
+                continue;
+            const StatedSetting one = stated(difference.field.name == "decide.by" ? thresholdOf(settings) : difference);
+            if (std::ranges::find(all, one) == all.end())
+                all.push_back(one);
         }
-        words.removeDuplicates();
+        return all;
+    }
+
+    /// The name of each stage once: "Spectrogram: Window length 0.5 s, Overlap 50 %". A label that begins with it, such
+    /// as Threshold, stands alone.
+    QStringList wordsOf(const StatedSettings &settings)
+    {
+        QStringList words;
+        QString last;
+        for (const StatedSetting &one : settings) {
+            if (!words.isEmpty() && one.stage == last)
+                words.back() += QStringLiteral(", ") + one.words;
+            else
+                words << (one.words.startsWith(one.stage) ? one.words
+                                                          : QStringLiteral("%1: %2").arg(one.stage, one.words));
+            last = one.stage;
+        }
         return words;
     }
 
+    /// What all detectors have in common, then the name of each with its own settings.
     QStringList detectorsIn(const Experiment &experiment)
     {
-        QStringList words;
-        for (const DetectorUnderTest &one : detectorsOf(experiment)) {
-            const QStringList settings = settingsIn(one.settings, CaptionOf::Statistic);
-            const QString name = QString::fromStdString(one.name);
-            words << (settings.isEmpty() ? name : QStringLiteral("%1 (%2)").arg(name, settings.join(", ")));
+        const std::vector<DetectorUnderTest> detectors = detectorsOf(experiment);
+        std::vector<StatedSettings> each;
+        for (const DetectorUnderTest &one : detectors)
+            each.push_back(settingsIn(one.settings, CaptionOf::Statistic));
+        StatedSettings common;
+        if (!each.empty())
+            std::ranges::copy_if(each.front(), std::back_inserter(common), [&each](const StatedSetting &setting) {
+                return std::ranges::all_of(
+                    each, [&](const StatedSettings &own) { return std::ranges::find(own, setting) != own.end(); });
+            });
+        QStringList words = wordsOf(common);
+        for (std::size_t i = 0; i < detectors.size(); ++i) {
+            std::erase_if(each[i], [&common](const StatedSetting &setting) {
+                return std::ranges::find(common, setting) != common.end();
+            });
+            const QString name = QString::fromStdString(detectors[i].name);
+            words << (each[i].empty() ? name : QStringLiteral("%1 (%2)").arg(name, wordsOf(each[i]).join("; ")));
         }
         return words;
     }
@@ -77,15 +117,18 @@ QString captionOf(const Document &document, CaptionOf what)
 {
     if (document.isEmpty())
         return QString();
-    return joined(QStringList{document.sourceName()} + settingsIn(document.settings(), what));
+    return joined(QStringList{document.sourceName()} + wordsOf(settingsIn(document.settings(), what)));
 }
 
 QString captionOf(const Experiments::Entry &entry)
 {
     QStringList parts{entry.name};
-    if (entry.campaign)
-        parts << tr("%1 runs done").arg(entry.runsDone()) << experimentWords(entry.campaign->experiment)
-              << detectorsIn(entry.campaign->experiment);
+    if (entry.campaign) {
+        const Experiment &experiment = entry.campaign->experiment;
+        if (entry.runsDone() < runCount(experiment))
+            parts << tr("%1 runs done").arg(entry.runsDone());
+        parts << experimentWords(experiment) << detectorsIn(experiment);
+    }
     return joined(parts);
 }
 

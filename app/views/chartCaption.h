@@ -14,10 +14,10 @@ namespace faintline {
 enum class CaptionOf { Input, Statistic };
 
 /// The recording and the settings that differ from the defaults and change the chart: "night.wav; Spectrogram: Window
-/// length 0.5 s; …".
+/// length 0.5 s, …; …".
 QString captionOf(const Document &document, CaptionOf what);
 
-/// The experiment's name, its runs and its detectors: "Lines; 200 runs done; 200 runs, -4 … 2 dB, …".
+/// The experiment's name, its runs and its detectors: "Lines; 80 runs done; 200 runs, -4 … 2 dB, …".
 QString captionOf(const Experiments::Entry &entry);
 
 } // namespace faintline

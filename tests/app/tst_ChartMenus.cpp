@@ -83,6 +83,34 @@ private slots:
         QCOMPARE(said(CaptionOf::Input), QString("noise.json; Selection: To 30 s; Spectrogram: Window length 0.5 s"));
     }
 
+    void captionsSayThingsOnce()
+    {
+        const auto lines =
+            experimentFromJson(Json::parse(R"({"kind": "lines", "runs": 2, "snrDb": [-2, 2], "detectors": [
+            {"name": "free", "settings": {"model.slopeChange": [0.3333333333333333, 0.3333333333333333],
+                                          "model.snr": 1}},
+            {"name": "bound", "settings": {"model.slopeChange": [0.5, 0.25], "model.snr": 1}}]})"),
+                               "experiment");
+        Experiments::Entry entry;
+        entry.name = "Lines";
+        entry.campaign = Campaign{lines, {}, {}};
+        const QString words = captionOf(entry);
+        QVERIFY2(words.startsWith("Lines; 0 runs done; 2 runs, -2 … 2 dB, "), qPrintable(words));
+        QVERIFY2(
+            words.contains("; Signal model: Design SNR 1; free (Signal model: Slope change law 0.333333, 0.333333); "
+                           "bound (Signal model: Slope change law 0.5, 0.25). Faintline"),
+            qPrintable(words));
+        entry.campaign->outcomes.resize(2);
+        QVERIFY2(captionOf(entry).startsWith("Lines; 2 runs, "), qPrintable(captionOf(entry)));
+
+        AnalysisSettings settings = m_window->document().settings();
+        setSetting(settings, "spectrogram.stepsPerWindow", "4");
+        m_window->controller().setSettings(settings, "test");
+        QVERIFY(settle(*m_window));
+        QVERIFY(captionOf(m_window->document(), CaptionOf::Input)
+                    .contains("Spectrogram: Window length 0.5 s, Frames per window 4"));
+    }
+
 private:
     QByteArray saved(QWidget &chart, const char *name)
     {

@@ -39,6 +39,28 @@ private slots:
         QCOMPARE(chart.grab().toImage(), before); // what is on the screen keeps its looks
     }
 
+    void theKeyIsLegible()
+    {
+        ChartPlot chart;
+        chart.setChart({"Pd", "SNR (dB)", "Pd", false, false, {curve("sequential Markov"), curve("P out of N")}});
+        chart.show();
+        ChartFigure figure(chart, {});
+        const QImage image = figure.grab().toImage();
+        for (const QCheckBox *box : figure.findChildren<QCheckBox *>()) {
+            const QRect part(box->mapTo(&figure, QPoint()), box->size());
+            int light = 0;
+            int dark = 0;
+            for (int y = part.top(); y <= part.bottom(); ++y)
+                for (int x = part.left(); x <= part.right(); ++x) {
+                    const int lightness = image.pixelColor(x, y).lightness();
+                    light += lightness > 230;
+                    dark += lightness < 120;
+                }
+            QVERIFY2(light > part.width() * part.height() / 2, qPrintable(box->text()));
+            QVERIFY2(dark > 40, qPrintable(box->text()));
+        }
+    }
+
     void anyPlotIsRecordedLight()
     {
         ExceedancePlot plot;

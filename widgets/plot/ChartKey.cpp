@@ -63,8 +63,13 @@ void ChartKey::setShown(std::size_t entry, bool isShown)
 void ChartKey::setPrinted(bool isPrinted)
 {
     m_isPrinted = isPrinted;
-    m_content->setStyleSheet(isPrinted ? QStringLiteral("QCheckBox::indicator { width: 0px; height: 0px; }")
-                                       : QString());
+    // A style sheet does not inherit the palette of the page, so it has to name its colours.
+    const QPalette paper = Theme::palette(Theme::Kind::Light);
+    m_content->setStyleSheet(
+        isPrinted ? QStringLiteral("QWidget { background: %1; color: %2; } "
+                                   "QCheckBox::indicator { width: 0px; height: 0px; }")
+                        .arg(paper.color(QPalette::Base).name(), paper.color(QPalette::WindowText).name())
+                  : QString());
 }
 
 /// Places the key beside the plot, or below it if it would take too much width and there is height to spare.
