@@ -23,6 +23,7 @@ private slots:
     void emptyPicture();
     void rangeOfNoise();
     void rangeOfABandFullOfLines();
+    void whiteIsTheLargestValue();
     void valuesOfABox();
 
 private:
@@ -173,8 +174,20 @@ void tst_rasterise::rangeOfABandFullOfLines()
     QVERIFY(rangeWith(4, {}).low > 150.0);               // what the picture alone would say
     QVERIFY(full.low <= 7.0 && full.high <= 7.0 + 35.0); // 14 nat is no longer black
     QVERIFY(full.high >= 28.0);
-    QCOMPARE(rangeWith(0, 14.0), rangeWith(0, {})); // of noise the range is as before
+    QCOMPARE(rangeWith(0, 14.0).low, rangeWith(0, {}).low); // of noise alone, which stays dark
+    QCOMPARE(rangeWith(0, 14.0).high, 21.0);
     QCOMPARE(rangeWith(4, -1.0), rangeWith(4, {}));
+}
+
+void tst_rasterise::whiteIsTheLargestValue()
+{
+    const auto picture = test::picture(100, 300, [](Index f, Index c) { // spread noise and a line of 22 nat
+        return c == 10 ? float(f % 23) : float(2 * (f % 4));
+    });
+    const std::vector<double> counts = countPixels(*picture, 1.0, 1.0);
+    QCOMPARE(automaticRange(picture->scale(), counts, 12.0).high, 22.0);
+    QCOMPARE(automaticRange(picture->scale(), counts, 20.0).high, 30.0); // nothing there is an event
+    QVERIFY(automaticRange(picture->scale(), counts).high > 30.0);       // a threshold is not known
 }
 
 void tst_rasterise::valuesOfABox()

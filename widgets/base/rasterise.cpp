@@ -271,8 +271,10 @@ Span automaticRange(const ByteScale &scale, const std::vector<double> &counts, s
         return {middle, middle + height};
     constexpr double mostThresholds =
         5.0; // above the black level: values just above the threshold then have a fifth of the colours below them
+    constexpr double leastThresholds = 1.5; // noise alone stays dark
     const double low = std::min(middle, 0.5 * *threshold);
-    return {low, std::max(std::min(middle + height, low + mostThresholds * (*threshold - low)), low + 10.0)};
+    const double present = std::max(quantile(scale, counts, 1.0), leastThresholds * *threshold);
+    return {low, std::max(std::min({middle + height, low + mostThresholds * (*threshold - low), present}), low + 10.0)};
 }
 
 } // namespace faintline

@@ -52,7 +52,8 @@ std::vector<double> countPixels(const PeakPyramid &picture, double framesPerPixe
 
 /// Suggested black and white level for such counts: dB from slightly below the noise's median to 10 … 16 dB above it;
 /// nats from the noise's median to values reached only by detections; differences symmetric about zero. If lines fill a
-/// band, its median is no longer the noise's: with a given threshold, values just above it remain distinguishable.
+/// band, its median is no longer the noise's: with a given threshold, values just above it remain distinguishable,
+/// and the white level is not above the largest value, as far as that exceeds one and a half thresholds.
 Span automaticRange(const ByteScale &scale, const std::vector<double> &counts, std::optional<double> threshold = {});
 
 /// Peak and mean of a box of whole cells.
