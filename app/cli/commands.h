@@ -71,6 +71,8 @@ struct AnalysisOptions {
     /// The recording, or the frames of a file that is none: simulated pings, a stack (FILE.npy), power over time and
     /// frequency, normalised as the settings ask.
     OpenedSource opened(const AnalysisSettings &settings, const RunContext &context) const;
+    /// With the numbers of the session that FILE names, under which the user knows its events.
+    std::shared_ptr<const Analysis> numbered(std::shared_ptr<const Analysis> analysis) const;
     std::vector<std::string> inputs() const; ///< all input files; a SigMF recording has two
 
 private:

@@ -20,6 +20,7 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <utility>
 
 namespace faintline::cli {
 
@@ -231,6 +232,12 @@ OpenedSource AnalysisOptions::opened(const AnalysisSettings &settings, const Run
     if (!from.isSimulated())
         tellGuess(*opened.frames, from.path, *m_common);
     return opened;
+}
+
+std::shared_ptr<const Analysis> AnalysisOptions::numbered(std::shared_ptr<const Analysis> analysis) const
+{
+    std::optional<Session> named = namedSession();
+    return named ? named->numbers.number(std::move(analysis)) : analysis;
 }
 
 std::vector<std::string> AnalysisOptions::inputs() const

@@ -235,7 +235,7 @@ namespace {
             };
             request.statistic = [&](Index, std::span<const float> values) { writer->write(values); };
         }
-        return analyse(input.opened, settings, request, context);
+        return options.analysis.numbered(analyse(input.opened, settings, request, context));
     }
 
     void annotate(const std::string &sigmf, const DetectOptions &options)

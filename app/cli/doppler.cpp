@@ -50,7 +50,7 @@ namespace {
     {
         const AnalysisSettings settings = options.analysis.settings();
         const OpenedSource opened = options.analysis.opened(settings, context);
-        return analyse(opened, settings, {}, context);
+        return options.analysis.numbered(analyse(opened, settings, {}, context));
     }
 
     double centreOf(const DopplerOptions &options, const Analysis &analysis)

@@ -79,7 +79,8 @@ namespace {
         checkOutputs({options.out, options.curve, options.rest});
         const RunContext context = common.context();
         const RecordingPointer recording = options.analysis.recording();
-        const auto analysis = analyse(recording, options.analysis.settings(), {}, context.part(0.0, 0.6));
+        const auto analysis =
+            options.analysis.numbered(analyse(recording, options.analysis.settings(), {}, context.part(0.0, 0.6)));
         const Event event = chosenEvent(*analysis, options.event);
         StraightenChoice choice{options.smooth, options.target, {}};
         if (!options.method.empty())

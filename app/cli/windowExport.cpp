@@ -48,8 +48,11 @@ namespace {
         Source source = sourceFromJson(recording, {});
         if (!source.isSimulated())
             source.path = find(recording, table);
-        return analyse(openSource(source), settingsFromJson(table.provenance.at("settings").dump(), "settings"), {},
-                       context);
+        SignalNumbers numbers;
+        if (table.provenance.contains("numbers"))
+            numbers = SignalNumbers::fromJson(table.provenance["numbers"], "numbers");
+        return numbers.number(analyse(
+            openSource(source), settingsFromJson(table.provenance.at("settings").dump(), "settings"), {}, context));
     }
 
     void remakeEvents(const WindowExport &table, const std::string &out, const RunContext &context)

@@ -177,7 +177,8 @@ void AnalysisController::startAnalysis()
     m_firstEstimate.reset();
     m_runner.start([this, opened = m_document.openedSource(), settings = m_document.analysedSettings(),
                     previous = m_document.analysis(), visible = m_document.lookedAt(), kept = m_kept,
-                    showsFirstEstimates = m_showsFirstEstimates](const RunContext &context) -> JobRunner::Delivery {
+                    showsFirstEstimates = m_showsFirstEstimates,
+                    numbers = m_document.numbers()](const RunContext &context) mutable -> JobRunner::Delivery {
         if (const bool isSame =
                 previous
                 && (opened.recording ? previous->recording == opened.recording : previous->frames == opened.frames);
@@ -207,26 +208,24 @@ void AnalysisController::startAnalysis()
             };
         const bool isNew = showsFirstEstimates && opened.recording && !knownCalibration(settings);
         const auto calibration = isNew ? CalibrationDepth::FirstEstimate : CalibrationDepth::Refined;
-        auto analysis =
+        std::shared_ptr<const Analysis> analysis =
             analyse(opened, settings, {.previous = previous.get(), .pictures = pictures, .calibration = calibration},
                     context.part(0.0, isNew ? 0.3 : 1.0));
         if (analysis->calibration->isFirstEstimate) {
-            m_runner.deliver([this, analysis, found = events(*analysis)] { showFirstEstimate(analysis, found); });
+            m_runner.deliver([this, analysis, found = events(*analysis), numbers] {
+                m_firstEstimate = analysis->threshold;
+                m_document.setAnalysis(analysis, found, numbers);
+                restoreView();
+            });
             const auto estimate = std::move(analysis);
             analysis = analyse(opened, settings, {.previous = estimate.get()}, context.part(0.3, 1.0));
         }
+        analysis = numbers.number(analysis);
         std::vector<Event> found = events(*analysis);
-        return [this, analysis = std::move(analysis), found = std::move(found)] {
-            m_document.setAnalysis(analysis, found);
+        return [this, analysis = std::move(analysis), found = std::move(found), numbers = std::move(numbers)] {
+            m_document.setAnalysis(analysis, found, numbers);
         };
     });
-}
-
-void AnalysisController::showFirstEstimate(std::shared_ptr<const Analysis> analysis, std::vector<Event> found)
-{
-    m_firstEstimate = analysis->threshold;
-    m_document.setAnalysis(std::move(analysis), std::move(found));
-    restoreView();
 }
 
 void AnalysisController::showPreview(const AnalysisSettings &settings, const StatisticPreview &preview,
@@ -310,14 +309,15 @@ AnalysisController::Opening AnalysisController::openNow(const QString &path, con
             viewFromJson(session.view, name),
             path,
             QString::fromStdString(recordingMismatch(session)),
-            session.annotations};
+            session.annotations,
+            session.numbers};
 }
 
 void AnalysisController::deliver(const Opening &opening)
 {
     m_isOpening = false;
     m_pendingView = opening.view;
-    m_document.setOpened(opening.opened, opening.settings, opening.sessionPath, opening.annotations);
+    m_document.setOpened(opening.opened, opening.settings, opening.sessionPath, opening.annotations, opening.numbers);
     if (!opening.warning.isEmpty())
         emit warned(m_document.sourceName(), opening.warning);
     startAnalysis();

@@ -79,12 +79,12 @@ private:
         QString sessionPath;
         QString warning;
         Annotations annotations{};
+        SignalNumbers numbers{};
     };
     static Opening openNow(const QString &path, const OpenOptions &options, const RunContext &context);
     void open(const QString &path, const OpenOptions &options, const Adjust &adjust, const Annotations &annotations);
     void deliver(const Opening &opening);
     void startAnalysis();
-    void showFirstEstimate(std::shared_ptr<const Analysis> analysis, std::vector<Event> found);
     void restoreView();
     void showPreview(const AnalysisSettings &settings, const StatisticPreview &preview,
                      std::shared_ptr<const KeptFrames> kept);

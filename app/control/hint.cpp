@@ -22,6 +22,9 @@ QString hint(const Document &document, bool isBusy, const QString &usual)
         return tr("Reading the recording and estimating its noise.");
     if (document.provisional())
         return tr("Provisional: new statistic of the visible part, with the old threshold and events. Calibrating …");
+    if (document.isPreview())
+        return tr("Preview: the events that were found so far and exceed this threshold. The detector runs again with "
+                  "the new setting.");
     if (document.analysis()->calibration->isFirstEstimate)
         return firstEstimateSentence(*document.analysis(), isBusy);
     if (document.shownEvents().empty())

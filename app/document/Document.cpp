@@ -1,6 +1,5 @@
 #include "app/document/Document.h"
 
-#include "exchange/Session.h"
 #include "plan/slopeUnit.h"
 
 #include <QUndoCommand>
@@ -56,12 +55,13 @@ Document::Document(QObject *parent) : QObject(parent)
 }
 
 void Document::setOpened(OpenedSource opened, const AnalysisSettings &settings, const QString &sessionPath,
-                         Annotations annotations)
+                         Annotations annotations, SignalNumbers numbers)
 {
     m_opened = std::move(opened);
     m_inputFiles.emplace(filesReadFor(m_opened.source.path));
     m_settings = settings;
     m_annotations = std::move(annotations);
+    m_numbers = std::move(numbers);
     m_sessionPath = sessionPath;
     m_analysis.reset();
     m_provisional.reset();
@@ -111,7 +111,7 @@ void Document::setSaved(const QString &sessionPath)
     emit sessionChanged();
 }
 
-void Document::setAnalysis(std::shared_ptr<const Analysis> analysis, std::vector<Event> events)
+void Document::setAnalysis(std::shared_ptr<const Analysis> analysis, std::vector<Event> events, SignalNumbers numbers)
 {
     m_analysis = std::move(analysis);
     if (m_opened.frames) { // they may have been normalised anew
@@ -121,6 +121,7 @@ void Document::setAnalysis(std::shared_ptr<const Analysis> analysis, std::vector
     m_provisional.reset();
     m_events = std::move(events);
     m_shownThreshold = m_analysis->threshold;
+    m_numbers = std::move(numbers);
     emit analysisChanged();
     emit shownThresholdChanged();
     emit shownEventsChanged();
@@ -133,6 +134,11 @@ void Document::setLive(LiveView view)
     m_live = std::move(view);
     m_isLive = true;
     if (isPlanNew) {
+Session Document::session(const Json &view, const std::string &hash) const
+{
+    return {m_opened.source, hash, m_settings, view, m_annotations, m_numbers};
+}
+
         m_shownThreshold = m_live.plan->threshold;
         emit livePlanChanged();
         emit shownThresholdChanged();
@@ -216,6 +222,11 @@ void Document::setShownThreshold(double nats)
     const std::ptrdiff_t before = shownCount();
     m_shownThreshold = nats;
     emit shownThresholdChanged();
+bool Document::isPreview() const
+{
+    return m_analysis && (m_shownThreshold != m_analysis->threshold || !isCurrent());
+}
+
     if (shownCount() != before)
         emit shownEventsChanged();
 }

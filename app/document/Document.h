@@ -4,7 +4,7 @@
 #include "app/base/filePath.h"
 #include "app/document/sourceAt.h"
 #include "base/files/InputFiles.h"
-#include "inspect/Review.h"
+#include "exchange/Session.h"
 #include "live/LiveHistory.h"
 #include "widgets/base/Viewport.h"
 
@@ -31,7 +31,7 @@ public:
 
     /// Replaces the contents; discards undo history, session and analysis.
     void setOpened(OpenedSource opened, const AnalysisSettings &settings, const QString &sessionPath = {},
-                   Annotations annotations = {});
+                   Annotations annotations = {}, SignalNumbers numbers = {});
 
     bool isEmpty() const { return !m_opened.recording && !m_opened.frames; }
     const Source &source() const { return m_opened.source; }
@@ -78,6 +78,8 @@ public:
     void setSaved(const QString &sessionPath);
     bool isModified() const { return !m_undoStack.isClean(); }
 
+    /// What a session file holds. `hash`: the recording's, if it is known.
+    Session session(const Json &view = Json::object(), const std::string &hash = {}) const;
     // ---- view and results ----------------------------------------------------------------------------------------
 
     Viewport &viewport() { return m_viewport; }
@@ -86,8 +88,10 @@ public:
     /// The measured box, if boxes of time × frequency apply to the open source.
     std::optional<Viewport::Box> box() const;
 
-    /// `events`: those of the analysis.
-    void setAnalysis(std::shared_ptr<const Analysis> analysis, std::vector<Event> events);
+    /// `events`: those of the analysis, whose tracks have these numbers.
+    void setAnalysis(std::shared_ptr<const Analysis> analysis, std::vector<Event> events, SignalNumbers numbers = {});
+    /// The numbers of the signals found since the source was opened; an analysis that is not a first estimate keeps them.
+    const SignalNumbers &numbers() const { return m_numbers; }
     const std::shared_ptr<const Analysis> &analysis() const { return m_analysis; }
     /// Whether the frames form one picture of time × frequency, in which boxes apply.
     bool isOnePicture() const { return frameKind().takesBoxes; }
@@ -117,6 +121,9 @@ public:
     /// Events and tracks that exceed the shown threshold.
     std::vector<Event> shownEvents() const;
     std::vector<Track> shownTracks() const;
+    /// Whether the shown events are not those of an analysis with the settings and the shown threshold: while it is
+    /// dragged, and until the analysis that follows.
+    bool isPreview() const;
     const Track *track(int id) const;
 
 signals:
@@ -154,6 +161,7 @@ private:
     QString m_sessionPath;
     Viewport m_viewport;
     std::shared_ptr<const Analysis> m_analysis;
+    SignalNumbers m_numbers;
     std::shared_ptr<const PeakPyramid> m_provisional;
     LiveView m_live;
     bool m_isLive = false;

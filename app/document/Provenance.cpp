@@ -2,7 +2,6 @@
 
 #include "app/base/filePath.h"
 #include "base/files/AtomicFile.h"
-#include "exchange/Session.h"
 #include "signal/openRecording.h"
 
 #include <filesystem>
@@ -10,16 +9,24 @@
 
 namespace faintline {
 
-std::string provenanceOf(const Source &source, const AnalysisSettings &settings, const Annotations &annotations,
-                         std::string hash)
+std::string provenanceOf(Session session)
 {
-    if (!source.isSimulated() && hash.empty())
-        hash = recordingHash(source.path);
+    const Source &source = session.source;
+    if (!source.isSimulated() && session.recordingHash.empty())
+        session.recordingHash = recordingHash(source.path);
     const std::string folder = std::filesystem::path(source.path).parent_path().string();
-    Json json = parseJson(sessionText({source, hash, settings, Json::object(), annotations}, folder), "session");
+    Json json = parseJson(sessionText(session, folder), "session");
     json.erase("view");
     json["version"] = FAINTLINE_VERSION;
     return json.dump(2) + "\n";
+}
+
+Session shownSession(const Document &document)
+{
+    Session session = document.session();
+    if (const auto &analysis = document.analysis())
+        session.settings = analysis->settings;
+    return session;
 }
 
 Provenance::Provenance(const Document &document, QObject *parent) : QObject(parent), m_document(document)
@@ -32,9 +39,7 @@ Provenance::Provenance(const Document &document, QObject *parent) : QObject(pare
 
 void Provenance::with(std::function<void(const std::string &json)> use)
 {
-    const auto &analysis = m_document.analysis(); // the display shows the analysis, which may lag behind
-    m_requests.push_back({m_document.source(), analysis ? analysis->settings : m_document.settings(),
-                          m_document.annotations(), std::move(use)});
+    m_requests.push_back({shownSession(m_document), std::move(use)});
     if (!m_runner.isRunning())
         answer();
 }
@@ -42,7 +47,7 @@ void Provenance::with(std::function<void(const std::string &json)> use)
 void Provenance::answer()
 {
     while (!m_requests.empty()) {
-        const Source &source = m_requests.front().source;
+        const Source &source = m_requests.front().session.source;
         if (!source.isSimulated() && source.path != m_hashed) {
             m_runner.start([this, path = source.path](const RunContext &) -> JobRunner::Delivery {
                 std::string hash = recordingHash(path);
@@ -54,9 +59,10 @@ void Provenance::answer()
             });
             return;
         }
-        const Request request = std::move(m_requests.front());
+        Request request = std::move(m_requests.front());
         m_requests.erase(m_requests.begin());
-        request.use(provenanceOf(request.source, request.settings, request.annotations, m_hash));
+        request.session.recordingHash = m_hash;
+        request.use(provenanceOf(std::move(request.session)));
     }
 }
 

@@ -9,11 +9,13 @@
 
 namespace faintline {
 
-/// The open document as JSON: version, recording with its hash (a scenario is included in full), settings, annotations.
-/// It is a session file without the recording's folder, which is identified by name and hash. Reads the whole recording
-/// for the hash if none is given.
-std::string provenanceOf(const Source &source, const AnalysisSettings &settings, const Annotations &annotations,
-                         std::string hash = {});
+/// A document's session as JSON: version, recording with its hash (a scenario is included in full), settings,
+/// annotations, numbers. It is a session file without the recording's folder, which is identified by name and hash, and
+/// without a view. Reads the whole recording for the hash if it is not known.
+std::string provenanceOf(Session session);
+
+/// That of what the document shows: the settings are those of its analysis, which may lag behind.
+Session shownSession(const Document &document);
 
 /// Provides the provenance of a document. The hash takes some time, so it is computed once, on a worker.
 class Provenance : public QObject
@@ -34,9 +36,7 @@ private:
     void answer();
 
     struct Request {
-        Source source;
-        AnalysisSettings settings;
-        Annotations annotations;
+        Session session;
         std::function<void(const std::string &json)> use;
     };
 

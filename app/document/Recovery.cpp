@@ -1,7 +1,6 @@
 #include "app/document/Recovery.h"
 
 #include "app/base/filePath.h"
-#include "exchange/Session.h"
 
 #include <QDir>
 #include <QFile>
@@ -85,8 +84,7 @@ void Recovery::keep()
     const QString source = m_document.sourcePath();
     if (source != m_hashed)
         m_hash.clear();
-    const Session session{m_document.source(), m_hash, m_document.settings(), toJson(m_view()),
-                          m_document.annotations()};
+    const Session session = m_document.session(toJson(m_view()), m_hash);
     m_runner.start([this, source, session](const RunContext &) -> JobRunner::Delivery {
         const std::string path = pathBytes(m_path);
         writeSession(path, session);

@@ -1,7 +1,6 @@
 #include "app/document/SessionSaver.h"
 
 #include "app/base/filePath.h"
-#include "exchange/Session.h"
 #include "widgets/base/labelText.h"
 
 #include <QFileDialog>
@@ -38,7 +37,7 @@ void SessionSaver::saveAs()
 
 void SessionSaver::saveTo(const QString &path)
 {
-    const Session session{m_document.source(), {}, m_document.settings(), toJson(m_view()), m_document.annotations()};
+    const Session session = m_document.session(toJson(m_view()));
     m_runner.start([this, path, session](const RunContext &) -> JobRunner::Delivery {
         writeSession(pathBytes(path), session);
         return [this, path, settings = session.settings, annotations = session.annotations] {

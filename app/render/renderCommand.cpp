@@ -135,8 +135,7 @@ namespace {
         if (document.isEmpty())
             return {{"version", FAINTLINE_VERSION},
                     {"sequential", writeFields(window.sequentialTests().test(), ScanTest::fields())}};
-        return parseJson(faintline::provenanceOf(document.source(), document.settings(), document.annotations()),
-                         "provenance");
+        return parseJson(faintline::provenanceOf(document.session()), "provenance");
     }
 
     void write(QImage image, const std::string &path, const Json &provenance)

@@ -120,9 +120,9 @@ void ReportWriter::write(const QString &path)
     material.annotations = m_document.annotations();
     material.pictures = reportPictures(m_views);
     m_runner.start([this, path, material = std::move(material), analysis = m_document.analysis(),
-                    source = m_document.source()](const RunContext &context) mutable -> JobRunner::Delivery {
+                    session = shownSession(m_document)](const RunContext &context) mutable -> JobRunner::Delivery {
         context.checkpoint(0.0, "report");
-        material.provenance = provenanceOf(source, analysis->settings, material.annotations);
+        material.provenance = provenanceOf(std::move(session));
         writeReport(*analysis, std::move(material), pathBytes(path), context);
         return [this, path] { emit written(path); };
     });

@@ -112,6 +112,13 @@ void MainWindow::connectDocument()
     connect(&m_document, &Document::shownThresholdChanged, m_threshold,
             [this] { m_threshold->setThreshold(m_document.shownThreshold()); });
     connect(&m_document, &Document::shownEventsChanged, this, &MainWindow::showEvents);
+    const auto showWhetherPreview = [this] {
+        m_events->setPreview(m_document.isPreview());
+        showHint();
+    };
+    connect(&m_document, &Document::settingsChanged, this, showWhetherPreview);
+    connect(&m_document, &Document::analysisChanged, this, showWhetherPreview);
+    connect(&m_document, &Document::shownThresholdChanged, this, showWhetherPreview);
     connect(&m_document, &Document::sessionChanged, this, &MainWindow::showTitle);
     connect(&m_document, &Document::settingsChanged, m_messages, &MessageBar::dismiss);
 }

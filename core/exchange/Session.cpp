@@ -80,7 +80,7 @@ namespace {
 
     Session sessionFromJson(const Json &json, const std::string &path)
     {
-        checkKeys(json, "", {"faintline", "recording", "settings", "view", "annotations"});
+        checkKeys(json, "", {"faintline", "recording", "settings", "view", "annotations", "numbers"});
         if (json.value("faintline", Json()) != formatVersion)
             throw Error("faintline",
                         "must be " + std::to_string(formatVersion) + ", the version of the format this program reads");
@@ -95,6 +95,8 @@ namespace {
             session.view = json["view"];
         if (json.contains("annotations"))
             session.annotations = annotationsFromJson(json["annotations"], "annotations");
+        if (json.contains("numbers"))
+            session.numbers = SignalNumbers::fromJson(json["numbers"], "numbers");
         return session;
     }
 
@@ -200,6 +202,8 @@ std::string sessionText(const Session &session, const std::string &folder)
                  {"view", session.view}};
     if (!session.annotations.isEmpty())
         json["annotations"] = toJson(session.annotations);
+    if (!session.numbers.areUsual())
+        json["numbers"] = toJson(session.numbers);
     return json.dump(2) + "\n";
 }
 

@@ -3,6 +3,7 @@
 #include "analyse/Source.h"
 #include "base/json.h"
 #include "inspect/Review.h"
+#include "inspect/SignalNumbers.h"
 #include "plan/AnalysisSettings.h"
 
 #include <string>
@@ -17,6 +18,7 @@ struct Session {
     AnalysisSettings settings;
     Json view = Json::object(); ///< how the window displays it; kept, but not interpreted here
     Annotations annotations{};
+    SignalNumbers numbers{}; ///< of the events, if they differ from those of an analysis with these settings
 };
 
 /// Whether a path names a session.

@@ -31,6 +31,14 @@ namespace {
         return std::lerp(path.position[i - 1][axis], path.position[i][axis], share);
     }
 
+    std::vector<double> tolerancesOf(const Grid &grid)
+    {
+        std::vector<double> tolerances;
+        for (const Axis &axis : grid.axes)
+            tolerances.push_back(toleranceCells * axis.step);
+        return tolerances;
+    }
+
     const Event &eventOf(const std::vector<Event> &events, int id)
     {
         const auto found =
@@ -57,24 +65,6 @@ namespace {
         if (index >= 0)
             return reviews[std::size_t(index)];
         return reviews.emplace_back(Review{{pathOf(analysis, event)}, Verdict::None, {}, {}});
-    }
-
-    Json toJson(const SignalPath &path)
-    {
-        return {{"seconds", path.seconds}, {"position", path.position}, {"tolerance", path.tolerance}};
-    }
-
-    SignalPath pathFromJson(const Json &json, const std::string &where)
-    {
-        checkKeys(json, where, {"seconds", "position", "tolerance"});
-        SignalPath path{json.at("seconds"), json.at("position"), json.at("tolerance")};
-        if (path.seconds.empty() || path.seconds.size() > mostInstants || path.seconds.size() != path.position.size()
-            || !std::is_sorted(path.seconds.begin(), path.seconds.end(), std::less_equal<>()))
-            throw Error(where, "must have 1 … 17 ascending seconds and a position for each");
-        for (const std::vector<double> &position : path.position)
-            if (position.size() != path.tolerance.size() || position.empty())
-                throw Error(where + ".position", "must have a value and a tolerance for every axis");
-        return path;
     }
 
     Json toJson(const Review &review)
@@ -106,7 +96,8 @@ namespace {
         Review review{
             {}, verdictFromJson(json, where), json.value("note", std::string()), json.value("label", std::string())};
         for (const Json &path : json.at("paths"))
-            review.paths.push_back(pathFromJson(path, where + ".paths[" + std::to_string(review.paths.size()) + "]"));
+            review.paths.push_back(
+                signalPathFromJson(path, where + ".paths[" + std::to_string(review.paths.size()) + "]"));
         return review;
     }
 
@@ -153,22 +144,40 @@ Verdict verdictNamed(const std::string &name)
     return name == "accepted" ? Verdict::Accepted : name == "rejected" ? Verdict::Rejected : Verdict::None;
 }
 
+Json toJson(const SignalPath &path)
+{
+    return {{"seconds", path.seconds}, {"position", path.position}, {"tolerance", path.tolerance}};
+}
+
+SignalPath signalPathFromJson(const Json &json, const std::string &where)
+{
+    checkKeys(json, where, {"seconds", "position", "tolerance"});
+    SignalPath path{json.at("seconds"), json.at("position"), json.at("tolerance")};
+    if (path.seconds.empty() || path.seconds.size() > mostInstants || path.seconds.size() != path.position.size()
+        || !std::is_sorted(path.seconds.begin(), path.seconds.end(), std::less_equal<>()))
+        throw Error(where, "must have 1 … 17 ascending seconds and a position for each");
+    for (const std::vector<double> &position : path.position)
+        if (position.size() != path.tolerance.size() || position.empty())
+            throw Error(where + ".position", "must have a value and a tolerance for every axis");
+    return path;
+}
+
 SignalPath pathOf(const Analysis &analysis, const Event &event)
+{
+    if (const Track *track = trackOfId(analysis.tracks, event.id); track && !track->points.empty())
+        return pathOf(analysis, *track);
+    return {{event.detectSeconds}, {event.detectedPosition}, tolerancesOf(analysis.grid())};
+}
+
+SignalPath pathOf(const Analysis &analysis, const Track &track)
 {
     SignalPath path;
     const std::vector<Axis> &axes = analysis.grid().axes;
-    for (const Axis &axis : axes)
-        path.tolerance.push_back(toleranceCells * axis.step);
-    const Track *track = trackOfId(analysis.tracks, event.id);
-    if (!track || track->points.empty()) {
-        path.seconds = {event.detectSeconds};
-        path.position = {event.detectedPosition};
-        return path;
-    }
-    const std::size_t last = track->points.size() - 1;
+    path.tolerance = tolerancesOf(analysis.grid());
+    const std::size_t last = track.points.size() - 1;
     const std::size_t steps = std::min(last, mostInstants - 1);
     for (std::size_t i = 0; i <= steps; ++i) {
-        const TrackPoint &point = track->points[steps == 0 ? 0 : i * last / steps];
+        const TrackPoint &point = track.points[steps == 0 ? 0 : i * last / steps];
         path.seconds.push_back(analysis.time().value(double(point.frame)));
         path.position.push_back(analysis.grid().position(point.cell));
         if (i == 0)

@@ -69,7 +69,8 @@ struct EventReview {
     bool operator==(const EventReview &) const = default;
 };
 
-/// The path of an event's track.
+/// The path of a track, and of an event's.
+SignalPath pathOf(const Analysis &analysis, const Track &track);
 SignalPath pathOf(const Analysis &analysis, const Event &event);
 
 /// Mean distance of two paths in tolerances, or nothing if they are not of the same signal. They are if they share at
@@ -105,6 +106,9 @@ std::vector<Review> merged(std::vector<Review> reviews, const Analysis &analysis
 std::vector<Review> separated(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events,
                               const std::vector<int> &ids);
 
+Json toJson(const SignalPath &path);
+/// Throws Error naming `where`, or Json::exception for values of the wrong kind.
+SignalPath signalPathFromJson(const Json &json, const std::string &where);
 Json toJson(const Annotations &annotations);
 /// Throws Error naming `where.key`, or Json::exception for values of the wrong kind.
 Annotations annotationsFromJson(const Json &json, const std::string &where);

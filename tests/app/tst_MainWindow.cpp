@@ -205,6 +205,15 @@ private slots:
         Document &document = window->document();
         ExceedancePlot &plot = window->thresholdPlot();
         const std::vector<int> before = window->eventTable().shownIds();
+        const auto isPreview = [&window] {
+            const auto labels = window->eventTable().findChildren<QLabel *>();
+            return std::ranges::any_of(labels,
+                                       [](const QLabel *label) { return label->text().startsWith("Preview: "); });
+        };
+        std::map<int, double> places;
+        for (const Event &event : document.shownEvents())
+            places[event.id] = event.position.front();
+        QVERIFY(!isPreview());
         const double threshold = document.analysis()->threshold;
         double strongest = 0.0;
         double weakest = 1e9;
@@ -228,6 +237,7 @@ private slots:
                                 .arg(threshold)));
         QVERIFY(window->eventTable().shownIds().size() < before.size());
         QVERIFY(!window->eventTable().shownIds().empty());
+        QVERIFY(isPreview()); // what the detector finds at this threshold is not known yet
         QCOMPARE(*window->workbench().output()->threshold(), document.shownThreshold());
         QCOMPARE(document.undoStack().count(), 0);
 
@@ -235,8 +245,12 @@ private slots:
         QTest::mouseRelease(plot.canvas(), Qt::LeftButton, {}, positionOf(plot, between));
         QCOMPARE(document.undoStack().count(), 1);
         QVERIFY(window->controller().isBusy());
+        QVERIFY(isPreview());
         QVERIFY(settle(*window));
         QVERIFY(document.isCurrent());
+        QVERIFY(!isPreview());
+        for (const Event &event : document.shownEvents()) // the numbers of the same lines
+            QVERIFY(places.contains(event.id) && std::abs(places.at(event.id) - event.position.front()) < 10.0);
         QVERIFY2(std::abs(document.analysis()->threshold - between) < 0.5,
                  qPrintable(QString("%1, wanted %2").arg(document.analysis()->threshold).arg(between)));
         QVERIFY(window->eventTable().shownIds().size() < before.size());

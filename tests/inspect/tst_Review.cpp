@@ -1,6 +1,7 @@
 #include "inspect/Review.h"
 #include "support/test.h"
 
+#include "inspect/SignalNumbers.h"
 #include "inspect/judgeByBoxes.h"
 
 using namespace faintline;
@@ -21,6 +22,7 @@ private slots:
     void asJsonAndBack();
     void hostileJson();
     void boxesJudgeTheEventsInThem();
+    void numbersStayWithTheSignals();
 };
 
 namespace {
@@ -62,6 +64,35 @@ std::vector<Verdict> verdicts(const Analysis &analysis, const std::vector<Review
 }
 
 } // namespace
+
+void tst_Review::numbersStayWithTheSignals()
+{
+    using Signal = std::pair<Index, std::vector<Index>>;
+    const Signal early{5, line(300, 0, 20)};
+    const Signal climbing{10, line(100, 1, 40)};
+    const Signal late{30, line(200, 0, 20)};
+    SignalNumbers numbers;
+    const auto numbered = [&numbers](const std::vector<Signal> &found) {
+        std::vector<int> ids;
+        const auto analysis = numbers.number(std::make_shared<const Analysis>(analysisOf(found)));
+        for (const Track &track : analysis->tracks)
+            ids.push_back(track.id);
+        return ids;
+    };
+    QCOMPARE(numbered({early, climbing, late}), (std::vector{1, 2, 3}));
+    QVERIFY(numbers.areUsual());
+    QCOMPARE(numbered({{14, line(105, 1, 30)}, late}), (std::vector{2, 3})); // a higher threshold
+    QVERIFY(!numbers.areUsual());
+    QCOMPARE(numbered({{1, line(50, 0, 10)}, early, climbing, late}), (std::vector{4, 1, 2, 3})); // a lower one
+    QCOMPARE(numbered({early, early}), (std::vector{1, 5})); // a number is given once
+
+    numbers = SignalNumbers::fromJson(parseJson(toJson(numbers).dump(), "numbers"), "numbers");
+    QCOMPARE(numbered({climbing, early}), (std::vector{2, 1}));
+    for (const char *hostile : {R"([{"number": 0, "path": {"seconds": [1], "position": [[1]], "tolerance": [1]}}])",
+                                R"([{"number": 1, "path": {"seconds": [], "position": [], "tolerance": [1]}}])",
+                                R"([{"number": 1, "path": {}, "name": "x"}])"})
+        QVERIFY_EXCEPTION_THROWN(SignalNumbers::fromJson(parseJson(hostile, "numbers"), "numbers"), Error);
+}
 
 void tst_Review::boxesJudgeTheEventsInThem()
 {

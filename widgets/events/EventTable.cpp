@@ -294,17 +294,23 @@ void EventTable::applyFilter(const QString &text)
     updateCount();
 }
 
+void EventTable::setPreview(bool isPreview)
+{
+    m_isPreview = isPreview;
+    updateCount();
+}
+
 void EventTable::updateCount()
 {
     const auto all = int(m_model->events().size());
     const int shown = m_proxy->rowCount();
     const QString &unknown = m_proxy->filter().misunderstood();
-    if (!unknown.isEmpty())
-        m_count->setText(tr("“%1”?").arg(unknown));
-    else if (shown < all)
-        m_count->setText(tr("%1 of %2 events").arg(shown).arg(all));
-    else
-        m_count->setText(all == 1 ? tr("1 event") : tr("%1 events").arg(all));
+    const QString count = shown < all ? tr("%1 of %2 events").arg(shown).arg(all)
+                          : all == 1  ? tr("1 event")
+                                      : tr("%1 events").arg(all);
+    m_count->setText(!unknown.isEmpty() ? tr("“%1”?").arg(unknown)
+                     : m_isPreview      ? tr("Preview: %1").arg(count)
+                                        : count);
     static_cast<QStackedLayout *>(layout()->itemAt(1)->layout())->setCurrentIndex(all > 0 ? 1 : 0);
 }
 

@@ -38,6 +38,8 @@ public:
     /// Reviews of signals that match no event, one per line; an empty list hides them.
     void setUnmatched(const QStringList &lines);
     void setEmptySentence(const QString &sentence);
+    /// Whether the events may change once the detector has run; said beside their number.
+    void setPreview(bool isPreview);
 
     int selectedEvent() const;               ///< 0: none
     std::vector<int> selectedEvents() const; ///< all selected with Shift or Ctrl
@@ -83,6 +85,7 @@ private:
     QLabel *m_empty;
     QLabel *m_unmatchedTitle;
     QListWidget *m_unmatched;
+    bool m_isPreview = false;
 };
 
 } // namespace faintline

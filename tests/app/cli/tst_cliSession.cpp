@@ -19,6 +19,7 @@ private slots:
     void initTestCase();
     void runsWholly();
     void optionsCountAfterIt();
+    void keepsItsNumbers();
     void simulates();
     void isRefused_data();
     void isRefused();
@@ -60,6 +61,27 @@ void tst_cliSession::optionsCountAfterIt()
 {
     QCOMPARE(run({"detect", "s.faintline", "--high", "300", "--events", "low.json"}).code, 0);
     QCOMPARE(Json::parse(content("low.json").toStdString()).at("events").size(), std::size_t(2)); // with the box
+}
+
+/// The window's numbers of the events.
+void tst_cliSession::keepsItsNumbers()
+{
+    const Json session = readJsonFile(pathOf("s.faintline"));
+    Json numbered = session;
+    numbered["numbers"] =
+        Json::parse(R"([{"number": 7, "path": {"seconds": [8, 23], "position": [[210], [213]], "tolerance": [4]}}])");
+    writeBytes(pathOf("numbered.faintline"), QByteArray::fromStdString(numbered.dump()));
+    const Outcome done = run({"detect", "numbered.faintline", "--json"});
+    QCOMPARE(done.err, QByteArray());
+    std::map<int, double> places;
+    const Json told = Json::parse(done.out.toStdString());
+    for (const Json &event : told.at("events"))
+        if (event.contains("event"))
+            places[event["event"]] = event["f"];
+    QCOMPARE(places.size(), std::size_t(2));
+    QVERIFY(std::abs(places.at(7) - 211.5) < 3.0);
+    QVERIFY(std::abs(places.at(8) - 330.0) < 3.0);
+    QCOMPARE(readSession(pathOf("numbered.faintline")).numbers.areUsual(), false);
 }
 
 void tst_cliSession::simulates()
