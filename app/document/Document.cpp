@@ -87,6 +87,17 @@ void Document::endGesture()
     m_isInGesture = false;
 }
 
+void Document::startFrom(const AnalysisSettings &settings)
+{
+    if (isModified()) { // the user's own changes remain to be undone and to be saved
+        edit(settings, tr("start from other settings"), {});
+        return;
+    }
+    m_undoStack.clear();
+    if (settings != m_settings)
+        apply({m_opened, settings, m_annotations});
+}
+
 void Document::edit(const AnalysisSettings &after, const QString &text, const QString &field)
 {
     if (after != m_settings)
@@ -114,6 +125,7 @@ void Document::setSaved(const QString &sessionPath)
 void Document::setAnalysis(std::shared_ptr<const Analysis> analysis, std::vector<Event> events, SignalNumbers numbers)
 {
     m_analysis = std::move(analysis);
+    m_numbers = std::move(numbers);
     if (m_opened.frames) { // they may have been normalised anew
         m_opened.frames = m_analysis->frames;
         m_opened.normalisation = normalisationBy(m_analysis->settings);
@@ -121,10 +133,14 @@ void Document::setAnalysis(std::shared_ptr<const Analysis> analysis, std::vector
     m_provisional.reset();
     m_events = std::move(events);
     m_shownThreshold = m_analysis->threshold;
-    m_numbers = std::move(numbers);
     emit analysisChanged();
     emit shownThresholdChanged();
     emit shownEventsChanged();
+}
+
+Session Document::session(const Json &view, const std::string &hash) const
+{
+    return {m_opened.source, hash, m_settings, view, m_annotations, m_numbers};
 }
 
 void Document::setLive(LiveView view)
@@ -134,11 +150,6 @@ void Document::setLive(LiveView view)
     m_live = std::move(view);
     m_isLive = true;
     if (isPlanNew) {
-Session Document::session(const Json &view, const std::string &hash) const
-{
-    return {m_opened.source, hash, m_settings, view, m_annotations, m_numbers};
-}
-
         m_shownThreshold = m_live.plan->threshold;
         emit livePlanChanged();
         emit shownThresholdChanged();
@@ -215,6 +226,11 @@ bool Document::isCurrent() const
            && (!m_opened.frames || m_analysis->frames == m_opened.frames);
 }
 
+bool Document::isPreview() const
+{
+    return m_analysis && (m_shownThreshold != m_analysis->threshold || !isCurrent());
+}
+
 void Document::setShownThreshold(double nats)
 {
     if (!plan() || nats == m_shownThreshold)
@@ -222,11 +238,6 @@ void Document::setShownThreshold(double nats)
     const std::ptrdiff_t before = shownCount();
     m_shownThreshold = nats;
     emit shownThresholdChanged();
-bool Document::isPreview() const
-{
-    return m_analysis && (m_shownThreshold != m_analysis->threshold || !isCurrent());
-}
-
     if (shownCount() != before)
         emit shownEventsChanged();
 }

@@ -60,6 +60,10 @@ public:
     void beginGesture();
     void endGesture();
 
+    /// Settings from which the user starts, as those of a lesson's step: there is nothing to undo or to save, unless
+    /// there was before.
+    void startFrom(const AnalysisSettings &settings);
+
     /// One undoable step. Steps of one gesture on the same field are merged.
     void edit(const AnalysisSettings &after, const QString &text, const QString &field = {});
 
@@ -75,11 +79,11 @@ public:
 
     /// The session file; empty if there is none.
     const QString &sessionPath() const { return m_sessionPath; }
+    /// What a session file holds. `hash`: the recording's, if it is known.
+    Session session(const Json &view = Json::object(), const std::string &hash = {}) const;
     void setSaved(const QString &sessionPath);
     bool isModified() const { return !m_undoStack.isClean(); }
 
-    /// What a session file holds. `hash`: the recording's, if it is known.
-    Session session(const Json &view = Json::object(), const std::string &hash = {}) const;
     // ---- view and results ----------------------------------------------------------------------------------------
 
     Viewport &viewport() { return m_viewport; }
@@ -118,12 +122,12 @@ public:
 
     void setShownThreshold(double nats);
     double shownThreshold() const { return m_shownThreshold; }
-    /// Events and tracks that exceed the shown threshold.
-    std::vector<Event> shownEvents() const;
-    std::vector<Track> shownTracks() const;
     /// Whether the shown events are not those of an analysis with the settings and the shown threshold: while it is
     /// dragged, and until the analysis that follows.
     bool isPreview() const;
+    /// Events and tracks that exceed the shown threshold.
+    std::vector<Event> shownEvents() const;
+    std::vector<Track> shownTracks() const;
     const Track *track(int id) const;
 
 signals:
@@ -158,10 +162,10 @@ private:
     std::optional<InputFiles> m_inputFiles; ///< of the source, which no export replaces
     AnalysisSettings m_settings;
     Annotations m_annotations;
+    SignalNumbers m_numbers;
     QString m_sessionPath;
     Viewport m_viewport;
     std::shared_ptr<const Analysis> m_analysis;
-    SignalNumbers m_numbers;
     std::shared_ptr<const PeakPyramid> m_provisional;
     LiveView m_live;
     bool m_isLive = false;

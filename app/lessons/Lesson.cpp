@@ -111,7 +111,7 @@ namespace {
 
     void checkWidget(const QString &name, const std::string &where)
     {
-        static const QStringList others{"regulation", "profile", "pipeline", "readout"};
+        static const QStringList others{"regulation", "profile", "pipeline", "readout", "roc"};
         if (name.isEmpty() || others.contains(name) || WindowViews::names().contains(name))
             return;
         if (!name.startsWith(QLatin1String("setting ")))

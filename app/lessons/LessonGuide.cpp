@@ -8,6 +8,7 @@
 #include "app/lessons/LessonPanel.h"
 #include "app/lessons/PointerFrame.h"
 #include "app/lessons/lessonMeasures.h"
+#include "app/panels/EvaluatePanel.h"
 #include "app/panels/ExperimentsPanel.h"
 #include "app/panels/PipelinePanel.h"
 #include "app/panels/SequentialPanel.h"
@@ -19,6 +20,7 @@
 #include "exchange/Session.h"
 #include "widgets/base/ReadOut.h"
 #include "widgets/forms/SettingsForm.h"
+#include "widgets/plot/ChartPlot.h"
 #include "widgets/plot/StripPlot.h"
 
 #include <QDateTime>
@@ -160,6 +162,7 @@ void LessonGuide::recordTask()
     if (std::exchange(answer.isDone, true))
         return;
     answer.doneUnixSeconds = nowUnixSeconds();
+    m_parts.document().undoStack().setClean(); // what the lesson asks for need not be saved
     for (const LessonCondition *condition : {&now().until, &now().thenFacts})
         for (const LessonCondition::Part &part : condition->parts)
             if (const auto value = lessonMeasure(m_parts, part.measure))
@@ -195,11 +198,7 @@ void LessonGuide::set()
         if (!m_parts.controller().isBusy()) // the user keeps the open document, or the source cannot be opened
             leave();
     } else {
-        const bool wasSaved = !document.isModified();
-        document.edit(settingsAfter(stepsSinceOpening(m_lesson, m_step), settingsAtOpening()),
-                      tr("Lesson: %1").arg(now().title));
-        if (wasSaved)
-            document.undoStack().setClean(); // changes made by a lesson need not be saved
+        document.startFrom(settingsAfter(stepsSinceOpening(m_lesson, m_step), settingsAtOpening()));
     }
 }
 
@@ -235,10 +234,15 @@ bool LessonGuide::isBusy() const
 
 void LessonGuide::check()
 {
-    if (!isRunning() || isBusy())
+    if (!isRunning())
         return;
     const bool isOfScans = isScanScenario(m_opened);
-    if (!isOfScans && !isOpen(m_opened))
+    const bool isShown = isOfScans || isOpen(m_opened);
+    if (isShown && m_parts.bench().isVisible())
+        showPanel(); // its text can be read while the detector runs
+    if (isBusy())
+        return;
+    if (!isShown)
         return leave(); // another document is open now
     showPanel();
     if (m_isAtEnd)
@@ -277,6 +281,20 @@ void LessonGuide::arrange()
     QWidget *target = widgetNamed(step.point);
     pointOut(target);
     m_frame->pointAt(target);
+    if (m_isPresenting)
+        keepInSight();
+}
+
+/// Scrolls the step's subject into view again once the panels around it have their size.
+void LessonGuide::keepInSight()
+{
+    constexpr int laidOutMs = 100;
+    QTimer::singleShot(laidOutMs, this, [this] {
+        if (isRunning() && m_isReady && !m_isAtEnd) {
+            widgetNamed(now().point);
+            m_frame->follow();
+        }
+    });
 }
 
 /// Raises it among its tabs.
@@ -311,6 +329,8 @@ QWidget *LessonGuide::widgetNamed(const QString &name)
         return m_parts.workbench().regulationPlot();
     if (name == QLatin1String("profile"))
         return m_parts.workbench().statisticPlot();
+    if (name == QLatin1String("roc"))
+        return &m_parts.evaluation().roc();
     if (name == QLatin1String("pipeline"))
         return m_parts.pipeline().form();
     if (name == QLatin1String("readout"))
@@ -347,6 +367,7 @@ void LessonGuide::present(bool isPresenting)
             below && below->isVisible())
             m_window.resizeDocks({m_dock, below}, {2, 1}, Qt::Vertical);
         m_frame->follow();
+        keepInSight();
     }
 }
 
@@ -377,7 +398,7 @@ void LessonGuide::takeOneColumn()
     }
     if (!below)
         return;
-    m_window.resizeDocks({m_dock, below}, {1, 1}, Qt::Vertical);
+    m_window.resizeDocks({m_dock, below}, {2, 1}, Qt::Vertical);
     m_window.resizeDocks({m_dock}, {width * panelPercent / 100}, Qt::Horizontal);
 }
 

@@ -74,6 +74,7 @@ private:
     void setScans(const QString &path);
     void showExperiment();
     void arrange();
+    void keepInSight();
     void showPanel();
     void pointOut(QWidget *target);
     void takeOneColumn();

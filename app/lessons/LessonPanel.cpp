@@ -8,6 +8,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMouseEvent>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QRadioButton>
@@ -25,12 +26,30 @@ namespace faintline {
 namespace {
 
     constexpr int plainSize = 14;
-    constexpr int largeSize = 26; ///< readable from the last row
+    constexpr int largeSize = 26;      ///< readable from the last row
+    constexpr int smallLargeSize = 17; ///< of a long step on a small screen, whose answers are to be seen at once
 
-    /// A choice with wrapped text; QRadioButton does not wrap.
+    /// A choice with wrapped text, all of which can be clicked; QRadioButton does not wrap.
+    class ChoiceRow : public QWidget
+    {
+    public:
+        explicit ChoiceRow(QRadioButton &button) : m_button(button) {}
+
+    protected:
+        void mousePressEvent(QMouseEvent *event) override { event->accept(); }
+        void mouseReleaseEvent(QMouseEvent *event) override
+        {
+            if (event->button() == Qt::LeftButton && rect().contains(event->pos()))
+                m_button.click();
+        }
+
+    private:
+        QRadioButton &m_button;
+    };
+
     QWidget *choiceRow(QRadioButton *button, QLabel *words)
     {
-        auto *row = new QWidget;
+        auto *row = new ChoiceRow(*button);
         auto *layout = new QHBoxLayout(row);
         layout->setContentsMargins(0, 0, 0, 0);
         layout->setSpacing(8);
@@ -42,7 +61,7 @@ namespace {
 } // namespace
 
 LessonPanel::LessonPanel(QWidget *parent)
-    : QWidget(parent), m_title(plainLabel()), m_place(new QLabel), m_progress(new QProgressBar),
+    : QWidget(parent), m_textSize(plainSize), m_title(plainLabel()), m_place(new QLabel), m_progress(new QProgressBar),
       m_area(new QScrollArea), m_back(new QPushButton(tr("Bac&k"))), m_next(new QPushButton(tr("Ne&xt"))),
       m_leave(new QPushButton(tr("Leave")))
 {
@@ -54,6 +73,7 @@ LessonPanel::LessonPanel(QWidget *parent)
     m_area->setFrameShape(QFrame::NoFrame);
     m_area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     m_area->setAccessibleName(tr("The lesson's text"));
+    m_area->installEventFilter(this);
     m_leave->setFlat(true);
     connect(m_back, &QPushButton::clicked, this, &LessonPanel::backRequested);
     connect(m_next, &QPushButton::clicked, this, &LessonPanel::nextRequested);
@@ -76,8 +96,7 @@ LessonPanel::LessonPanel(QWidget *parent)
 
 QFont LessonPanel::font(bool isBold) const
 {
-    const int size = m_isLarge ? largeSize : plainSize;
-    return isBold ? Theme::boldFont(size) : Theme::font(size);
+    return isBold ? Theme::boldFont(m_textSize) : Theme::font(m_textSize);
 }
 
 QLabel *LessonPanel::paragraph(const QString &text, bool isBold)
@@ -113,6 +132,7 @@ void LessonPanel::setLarge(bool isLarge)
     constexpr int largeWidth = 500; // about thirty characters per line
     constexpr int mostPercent = 30; // of the window: on a small screen pictures and settings must fit beside it
     setMinimumWidth(isLarge ? std::min(largeWidth, window()->width() * mostPercent / 100) : 0);
+    m_textSize = isLarge ? largeSize : plainSize;
     if (std::exchange(m_isLarge, isLarge) == isLarge || m_step < 0)
         return;
     if (m_isAtEnd)
@@ -132,7 +152,7 @@ void LessonPanel::setLarge(bool isLarge)
 void LessonPanel::fillHead()
 {
     m_title->setText(m_lesson.title);
-    m_title->setFont(Theme::boldFont(m_isLarge ? largeSize : plainSize));
+    m_title->setFont(Theme::boldFont(m_textSize));
     m_place->setFont(Theme::font(m_isLarge ? 20 : 12));
     for (QPushButton *button : {m_back, m_next, m_leave})
         button->setFont(Theme::font(m_isLarge ? 20 : 13));
@@ -157,6 +177,32 @@ void LessonPanel::showPage(QVBoxLayout &column)
     column.addStretch(1);
     m_area->setWidget(column.parentWidget());
     m_area->verticalScrollBar()->setValue(0);
+    fitText();
+}
+
+/// In a presentation, the largest text with which the whole step is seen, until more is said of it.
+void LessonPanel::fitText()
+{
+    if (!m_isLarge || !m_area->widget() || !m_area->isVisible() || choice() >= 0 || m_isDone)
+        return;
+    QWidget &page = *m_area->widget();
+    const QSize room = m_area->maximumViewportSize();
+    const auto setSize = [&](int size) {
+        m_textSize = size;
+        for (QWidget *part : page.findChildren<QWidget *>())
+            if (part->testAttribute(Qt::WA_SetFont))
+                part->setFont(font(part->font().bold()));
+        page.layout()->invalidate();
+    };
+    for (int size = largeSize; size >= smallLargeSize; --size) {
+        setSize(size);
+        if (page.layout()->totalHeightForWidth(room.width()) <= room.height())
+            break;
+    }
+    if (m_choices)
+        for (QAbstractButton *button : m_choices->buttons())
+            button->setFixedHeight(QFontMetrics(font(false)).height()); // beside the first line
+    m_title->setFont(Theme::boldFont(m_textSize));
 }
 
 void LessonPanel::fill()
@@ -256,10 +302,12 @@ int LessonPanel::choice() const
 void LessonPanel::showAnswer(int chosen)
 {
     const LessonQuestion &question = *m_lesson.steps[std::size_t(m_step)].question;
-    m_why->setText(
-        (chosen == question.answer ? tr("Right. ") : tr("The answer is “%1”. ").arg(question.choices[question.answer]))
-        + question.why);
+    m_why->setText((chosen == question.answer
+                        ? tr("Right. ")
+                        : tr("Wrong. The answer is “%1”. ").arg(question.choices[question.answer]))
+                   + question.why);
     m_why->show();
+    showState();
     QTimer::singleShot(0, m_why, [this] { m_area->ensureWidgetVisible(m_why); });
 }
 
@@ -291,6 +339,12 @@ void LessonPanel::showState()
                                  colours.frame.lighter(170)); // on a dark theme the button would be invisible
             button->setPalette(palette);
         }
+    if (m_choices && choice() >= 0) {
+        QPalette palette = this->palette();
+        if (choice() != step.question->answer)
+            palette.setColor(QPalette::WindowText, colours.error);
+        m_why->setPalette(palette);
+    }
     if (m_task) {
         m_task->setText((m_isDone ? QStringLiteral("✓ ") : QStringLiteral("→ ")) + step.task);
         QPalette palette = this->palette();
@@ -311,6 +365,13 @@ QString LessonPanel::text() const
             if (!label->isHidden())
                 all << label->text();
     return all.join(QLatin1Char('\n'));
+}
+
+bool LessonPanel::eventFilter(QObject *watched, QEvent *event)
+{
+    if (watched == m_area && (event->type() == QEvent::Resize || event->type() == QEvent::Show))
+        QTimer::singleShot(0, this, &LessonPanel::fitText); // not while it is laid out
+    return QWidget::eventFilter(watched, event);
 }
 
 void LessonPanel::changeEvent(QEvent *event)

@@ -59,6 +59,7 @@ signals:
 
 protected:
     void changeEvent(QEvent *event) override;
+    bool eventFilter(QObject *watched, QEvent *event) override;
 
 private:
     void fill();
@@ -66,6 +67,7 @@ private:
     void fillEnd();
     QVBoxLayout *newPage();
     void showPage(QVBoxLayout &column);
+    void fitText();
     void fillHead();
     void showAnswer(int choice);
     void showState();
@@ -77,6 +79,7 @@ private:
     bool m_isDone = false;
     bool m_isWaiting = false;
     bool m_isLarge = false;
+    int m_textSize; ///< px
     bool m_isAtEnd = false;
     LessonAnswers m_answers;
     QString m_following;   ///< title of the next lesson

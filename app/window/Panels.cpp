@@ -279,7 +279,8 @@ void Panels::setPresenting(bool isPresenting)
     if (isPresenting)
         m_beforePresenting = m_window.saveState();
     for (QToolBar *bar : m_window.findChildren<QToolBar *>())
-        bar->setVisible(!isPresenting);
+        if (bar->objectName() != QLatin1String("readOutBar")) // what is clicked on is read there
+            bar->setVisible(!isPresenting);
     constexpr int leastPicture = 100; // pixels; below, a panel has taken the pictures' place and is what is presented
     if (!isPresenting || m_window.centralWidget()->height() >= leastPicture)
         for (const Entry &entry : m_entries)

@@ -410,7 +410,7 @@ private slots:
         QVERIFY(!sheet->isVisible());
     }
 
-    void f5LeavesNothingButThePictures()
+    void f5LeavesThePicturesAndTheReadOut()
     {
         auto window = this->window();
         QVERIFY(openAndSettle(*window, m_scene));
@@ -419,6 +419,7 @@ private slots:
         QVERIFY(!window->eventTable().isVisible());
         QVERIFY(!window->menuBar()->isVisible());
         QVERIFY(window->workbench().output()->isVisible());
+        QVERIFY(window->readOut().isVisible());
         QTest::keyClick(window->workbench().output(), Qt::Key_F5);
         QVERIFY(window->eventTable().isVisible());
         QVERIFY(window->menuBar()->isVisible());
