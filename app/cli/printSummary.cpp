@@ -117,10 +117,8 @@ void printSummary(const Analysis &analysis)
     std::printf("%zu event(s)\n", found.size());
     for (const Event &event : found)
         printEvent(analysis, event);
-    if (!analysis.explainedByNoise.empty())
-        std::printf("%zu path(s) above the threshold not reported: cells this strong, or runs of them, are common in "
-                    "this recording's noise\n",
-                    analysis.explainedByNoise.size());
+    if (const std::string words = unreportedWords(analysis); !words.empty())
+        std::printf("%s\n", words.c_str());
     printAreas(analysis);
 }
 

@@ -11,6 +11,7 @@
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 
+#include "analyse/events.h"
 #include "base/numberText.h"
 #include "calibrate/falseAlarmWords.h"
 #include "refine/subtractLines.h"
@@ -168,6 +169,8 @@ void InfoPanel::refresh()
     if (m_document.analysis()) {
         describeFrames(rows, *m_document.analysis());
         describeCalibration(rows, *m_document.analysis(), m_controller.isBusy());
+        if (const std::string words = unreportedWords(*m_document.analysis()); !words.empty())
+            rows.note(messageText(words));
     }
     m_label->setText(rows.html());
 }

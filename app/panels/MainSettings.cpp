@@ -46,7 +46,21 @@ MainSettings::MainSettings(Document &document, AnalysisController &controller, Q
             row->setError(messageText(error.why()));
     });
     connect(&document, &Document::settingsChanged, this, &MainSettings::showSettings);
+    connect(&document, &Document::analysisChanged, this, &MainSettings::showUsedSlopes);
     showSettings();
+}
+
+/// A window that the recording has chosen has a law of its own.
+void MainSettings::showUsedSlopes()
+{
+    const Analysis &analysis = *m_document.analysis();
+    const ModelSettings &used = analysis.settings.model;
+    const bool isOther = analysis.choice && used != m_document.analysedSettings().model;
+    const auto words = [isOther](double slope) {
+        return isOther ? tr("%1 in the chosen window").arg(slope) : QString();
+    };
+    m_rows["model.lowestSlope"]->setNote(words(used.lowestSlope));
+    m_rows["model.highestSlope"]->setNote(words(used.highestSlope));
 }
 
 bool MainSettings::isApplicable() const

@@ -26,6 +26,7 @@ signals:
 
 private:
     void showSettings();
+    void showUsedSlopes();
 
     Document &m_document;
     AnalysisController &m_controller;

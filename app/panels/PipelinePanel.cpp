@@ -71,7 +71,11 @@ PipelinePanel::PipelinePanel(Document &document, AnalysisController &controller,
 
     m_window->setObjectName(QStringLiteral("windowChoice"));
     m_window->setAccessibleName(tr("Window"));
-    m_window->setToolTip(tr("Windows tried on this recording, with the number of tracks found with each"));
+    m_window->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    m_window->setMinimumContentsLength(12);
+    m_window->setToolTip(
+        tr("Windows tried on this recording, with the number of tracks found with each, before the second "
+           "pass joins, splits or drops some"));
 
     m_top->setContentsMargins(10, 5, 10, 3);
     m_top->setHorizontalSpacing(10);
@@ -195,7 +199,8 @@ void PipelinePanel::showWindows()
         };
         m_window->addItem(tr("From the recording: %1 s").arg(seconds(m_choice->chosen)));
         for (std::size_t i = 0; i < m_choice->trials.size(); ++i)
-            m_window->addItem(tr("%1 s, %n track(s)", nullptr, int(m_choice->trials[i].tracks)).arg(seconds(i)));
+            m_window->addItem(
+                tr("%1 s, %n track(s) in its trial", nullptr, int(m_choice->trials[i].tracks)).arg(seconds(i)));
         const auto taken =
             std::find_if(m_choice->trials.begin(), m_choice->trials.end(), [this](const WindowTrial &trial) {
                 return inWindowOf(trial, m_document.settings()) == m_document.settings();

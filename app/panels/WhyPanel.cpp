@@ -13,6 +13,7 @@
 
 #include <QHeaderView>
 #include <QLabel>
+#include <QScrollArea>
 #include <QSplitter>
 #include <QTableWidget>
 #include <QTimer>
@@ -189,7 +190,6 @@ WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *
     m_sentence->setWordWrap(true);
     m_sentence->setTextFormat(Qt::PlainText);
     m_sentence->setContentsMargins(8, 6, 8, 4);
-    m_sentence->setText(tr("Click a cell to see why it was or was not detected."));
     m_plot->setEmptySentence(tr("The evidence along the path appears here."));
     buildTables();
     auto *splitter = new QSplitter(Qt::Vertical);
@@ -197,12 +197,22 @@ WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *
         splitter->addWidget(part);
     splitter->setSizes({180, 190, 240});
     splitter->setChildrenCollapsible(false);
-    auto *layout = new QVBoxLayout(this);
+    auto *content = new QWidget;
+    auto *layout = new QVBoxLayout(content);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
     layout->addWidget(m_sentence);
     layout->addWidget(splitter, 1);
+    auto *area = new QScrollArea; // in a low panel, the whole sentence comes first
+    area->setWidget(content);
+    area->setWidgetResizable(true);
+    area->setFrameShape(QFrame::NoFrame);
+    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    auto *whole = new QVBoxLayout(this);
+    whole->setContentsMargins(0, 0, 0, 0);
+    whole->addWidget(area);
 
+    invite();
     m_pause->setSingleShot(true);
     m_pause->setInterval(pauseMs);
     connect(m_pause, &QTimer::timeout, this, &WhyPanel::explainCursor);
@@ -210,6 +220,7 @@ WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *
     connect(&document.viewport(), &Viewport::cursorChanged, this, &WhyPanel::follow);
     connect(&viewports, &PingViewports::placeChanged, this, &WhyPanel::follow);
     connect(&document, &Document::analysisChanged, this, &WhyPanel::follow);
+    connect(&document, &Document::opened, this, &WhyPanel::invite); // the last one was of another recording
     connect(&m_runner, &JobRunner::progressed, this, [this](double fraction, const QString &what) {
         constexpr qint64 longMs = 300;
         if (m_began.elapsed() > longMs) // with millions of states, or late in a long recording
@@ -272,6 +283,11 @@ void WhyPanel::say(const QString &sentence)
     m_plot->setChart({});
     m_sentence->setText(sentence);
     emit settled();
+}
+
+void WhyPanel::invite()
+{
+    say(tr("Click a cell to see why it was or was not detected."));
 }
 
 void WhyPanel::explainCursor()

@@ -50,6 +50,7 @@ protected:
 private:
     void follow();
     void explainCursor();
+    void invite();
     void show(const Explanation &explanation, const std::vector<FamilyTooth> &teeth, const Analysis &analysis);
     void showTeeth(const std::vector<FamilyTooth> &teeth, const FamilySettings &family);
     void buildTables();

@@ -84,6 +84,15 @@ std::vector<AreaEvent> areaEvents(const Analysis &analysis)
     return result;
 }
 
+std::string unreportedWords(const Analysis &analysis)
+{
+    const std::size_t paths = analysis.explainedByNoise.size();
+    return paths == 0 ? std::string()
+                      : std::to_string(paths) + (paths == 1 ? " path" : " paths")
+                            + " above the threshold not reported: cells this strong, or runs of them, are common in "
+                              "this recording's noise";
+}
+
 double statisticOf(const Track &track, const AnalysisPlan &analysis)
 {
     return isScoreOfPaths(analysis.settings.detector) ? track.peakStatistic : track.detectStatistic;

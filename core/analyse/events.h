@@ -3,6 +3,7 @@
 #include "plan/Analysis.h"
 
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace faintline {
@@ -55,6 +56,10 @@ struct AreaEvent {
 
 /// The areas of an analysis with a level of at least 1 dB, ordered by onset, then frequency.
 std::vector<AreaEvent> areaEvents(const Analysis &analysis);
+
+/// "2 paths above the threshold not reported: …", the paths that this recording's own noise explains; empty if there are
+/// none.
+std::string unreportedWords(const Analysis &analysis);
 
 /// A track's statistic as its event gives it.
 double statisticOf(const Track &track, const AnalysisPlan &analysis);

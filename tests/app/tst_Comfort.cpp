@@ -411,7 +411,7 @@ private slots:
             dock->raise();
             window->resize(room);
             QCoreApplication::processEvents();
-            QCOMPARE(window->size(), room);
+            QVERIFY2(window->size() == room, qPrintable(dock->windowTitle()));
             const QWidget &panel = *dock->widget();
             const int needed = panel.layout() ? panel.layout()->minimumSize().width() : panel.minimumSizeHint().width();
             if (needed > panel.width())

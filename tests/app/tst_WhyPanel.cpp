@@ -24,6 +24,7 @@ private slots:
     void termsAddUp();
     void noNumberIsCutShort();
     void otherDetectorsSayThatTheyHaveNoPath();
+    void theNextRecordingHasNoPathYet();
 
 private:
     void askAt(double seconds, double hz)
@@ -101,6 +102,26 @@ void tst_WhyPanel::otherDetectorsSayThatTheyHaveNoPath()
     QVERIFY(!settled.isEmpty() || settled.wait(patience));
     QVERIFY2(m_window->why().sentence().contains("path"), qPrintable(m_window->why().sentence()));
     QCOMPARE(m_window->why().ladder()->rowCount(), 0);
+}
+
+void tst_WhyPanel::theNextRecordingHasNoPathYet()
+{
+    m_window->controller().setSettings(AnalysisSettings(), "Defaults");
+    QVERIFY(settle(*m_window));
+    askAt(40.0, 120.0);
+    WhyPanel &why = m_window->why();
+    QVERIFY(why.explanation().has_value());
+    QString sentence;
+    int rows = -1;
+    const auto connection = QObject::connect(&m_window->document(), &Document::opened, m_window.get(), [&] {
+        sentence = why.sentence();
+        rows = why.ladder()->rowCount();
+    });
+    QVERIFY(openAndSettle(*m_window, writeFile(m_folder, "noise.json",
+                                               R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20})")));
+    QObject::disconnect(connection);
+    QVERIFY2(sentence.startsWith("Click a cell"), qPrintable(sentence));
+    QCOMPARE(rows, 0);
 }
 
 FAINTLINE_WINDOW_TEST(tst_WhyPanel)

@@ -26,6 +26,7 @@ private slots:
     void textsOfAnEvent();
     void timesHaveTheDigitsTheRecordingNeeds_data();
     void timesHaveTheDigitsTheRecordingNeeds();
+    void timesOfAColumnHaveOneForm();
     void whatIsNotKnownIsADash();
     void theUnknownSortsLast();
     void everyColumnSortsByItsNumber();
@@ -112,6 +113,15 @@ void tst_EventModel::timesHaveTheDigitsTheRecordingNeeds()
     QFETCH(QString, onset);
     m_model->setEvents({test::event(1, 1.23456, 1.5, 300.0), test::event(2, 1.5, end, 300.0)});
     QCOMPARE(text(EventModel::Onset), onset);
+}
+
+void tst_EventModel::timesOfAColumnHaveOneForm()
+{
+    m_model->setEvents({test::event(1, 392.0, 395.0, 100.0), test::event(2, 600.0, 700.0, 100.0)});
+    QCOMPARE(text(EventModel::Onset), QString("0:06:32"));
+    QCOMPARE(text(EventModel::End, 1), QString("0:11:40"));
+    m_model->setEvents({test::event(1, 392.0, 395.0, 100.0)});
+    QCOMPARE(text(EventModel::Onset), QString("392.0"));
 }
 
 void tst_EventModel::whatIsNotKnownIsADash()

@@ -36,17 +36,11 @@ namespace {
         return *std::ranges::find(columns, names[std::size_t(column)], &TableColumn<Event>::name);
     }
 
+    constexpr double clockFrom = 600.0; ///< s
+
     double toTenths(double seconds)
     {
         return std::round(10.0 * seconds) / 10.0;
-    }
-
-    /// Seconds without a unit, which each row would repeat.
-    QString timeText(double seconds, int decimals)
-    {
-        constexpr double asClockFrom = 600.0;
-        return std::abs(seconds) < asClockFrom || !std::isfinite(seconds) ? numberText(seconds, decimals)
-                                                                          : clockText(seconds, 0, true);
     }
 
 } // namespace
@@ -98,6 +92,7 @@ void EventModel::setEvents(std::vector<Event> events)
     for (const Event &event : m_events)
         last = std::max(last, event.endSeconds);
     m_timeDecimals = last < 3.0 ? 4 : last < 30.0 ? 2 : 1; // whistles last milliseconds
+    m_areClockTimes = last >= clockFrom;
     endResetModel();
 }
 
@@ -154,6 +149,13 @@ int EventModel::columnCount(const QModelIndex &parent) const
     return parent.isValid() ? 0 : ColumnCount;
 }
 
+/// Seconds without a unit, which each row would repeat, or h:min:s in all rows.
+QString EventModel::timeText(double seconds) const
+{
+    return m_areClockTimes && std::isfinite(seconds) ? clockText(seconds, 0, true)
+                                                     : numberText(seconds, m_timeDecimals);
+}
+
 QString EventModel::text(const Event &event, int column) const
 {
     switch (column) {
@@ -167,9 +169,9 @@ QString EventModel::text(const Event &event, int column) const
     case Onset:
     case Detection:
     case End:
-        return timeText(sortValue(event, column), m_timeDecimals);
+        return timeText(sortValue(event, column));
     case Confirmation:
-        return timeText(event.confirmSeconds, m_timeDecimals);
+        return timeText(event.confirmSeconds);
     case Utc:
         return m_startUnixSeconds
                    ? QString::fromStdString(formatUtc(toTenths(*m_startUnixSeconds + event.onsetSeconds)))

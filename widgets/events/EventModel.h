@@ -83,6 +83,7 @@ public:
 private:
     QString text(const Event &event, int column) const;
     QString radioText(const Event &event) const;
+    QString timeText(double seconds) const;
     double sortValue(const Event &event, int column) const;
 
     std::vector<Event> m_events;
@@ -91,7 +92,8 @@ private:
     std::vector<Axis> m_axes;
     std::optional<double> m_startUnixSeconds;
     double m_centreHz = 0.0;
-    int m_timeDecimals = 1; ///< of seconds, as short as the recording allows
+    int m_timeDecimals = 1;       ///< of seconds, as short as the recording allows
+    bool m_areClockTimes = false; ///< h:min:s
     QString m_statisticUnit = QStringLiteral("nat");
 };
 
