@@ -68,7 +68,7 @@ void MessageBar::paintEvent(QPaintEvent *)
     QPainter painter(this);
     painter.fillRect(rect(), palette().color(QPalette::AlternateBase));
     painter.fillRect(QRect(0, 0, 5, height()), m_kind == Kind::Error ? colours.error : colours.accent);
-    painter.fillRect(QRect(0, height() - 1, width(), 1), colours.frame);
+    painter.fillRect(QRect(0, 0, width(), 1), colours.frame);
 }
 
 } // namespace faintline

@@ -9,7 +9,7 @@ class QToolButton;
 
 namespace faintline {
 
-/// One sentence above the pictures that stays until it is dismissed or replaced.
+/// One sentence over the lower edge of the pictures that stays until it is dismissed or replaced.
 class MessageBar : public QFrame
 {
     Q_OBJECT

@@ -44,6 +44,7 @@
 #include "widgets/waterfall/OverviewStrip.h"
 
 #include <QDockWidget>
+#include <QGridLayout>
 #include <QLabel>
 #include <QStackedWidget>
 #include <QStatusBar>
@@ -80,9 +81,12 @@ void MainWindow::buildCentre()
     layout->setSpacing(0);
     m_liveBar = new LiveBar(m_document, *m_live);
     m_liveBar->hide();
-    layout->addWidget(m_messages);
     layout->addWidget(m_liveBar);
-    layout->addWidget(m_pages, 1);
+    auto *pages = new QGridLayout; // a message lies over them, which keeps the pictures where they are
+    pages->addWidget(m_pages, 0, 0);
+    pages->addWidget(m_messages, 0, 0, Qt::AlignBottom);
+    layout->addLayout(pages, 1);
+    m_messages->raise();
     setCentralWidget(centre);
 }
 

@@ -12,10 +12,11 @@ namespace faintline {
 
 namespace {
 
-    /// A window that is larger than its screen takes all of the screen.
+    /// A window that does not fit its screen together with its frame takes all of the screen.
     void fitScreen(QWidget &window)
     {
-        const QSize room = window.screen()->availableSize();
+        constexpr QSize frame(16, 48); // of most window managers
+        const QSize room = window.screen()->availableSize() - frame;
         if (window.size().boundedTo(room) == window.size())
             return;
         window.resize(window.size().boundedTo(room));

@@ -27,6 +27,7 @@ private slots:
     void rejectedEventsAreFaint();
     void ofManyEventsTheTracksAreLeft();
     void theSelectedEventIsShownAmongAnyNumber();
+    void numbersDoNotLieOverEachOther();
     void layersAreLeftOut();
     void harmonicsStandAtTheMultiples();
     void sidebandsStandOnEitherSide();
@@ -167,6 +168,23 @@ void tst_OverlayItem::theSelectedEventIsShownAmongAnyNumber()
     const QImage image = drawn();
     QVERIFY(test::coloursOf(image).contains(m_item->colours.selectedEvent.rgb())); // with its number on a plate
     QVERIFY(std::abs(marked(image).left() - (50 + 2 * 70 - 6)) < 5);
+}
+
+/// Plates of numbers: darker than any other part of a mark.
+void tst_OverlayItem::numbersDoNotLieOverEachOther()
+{
+    const auto plates = [this](const std::vector<double> &hz) {
+        m_item->marks.clear();
+        for (const double at : hz)
+            m_item->marks.push_back({int(m_item->marks.size()) + 1, {{40.0, 60.0}, {at, at + 2.0}}, true});
+        const QImage image = drawn();
+        return test::pixelsWhere(image, canvas, [](QRgb colour) { return qBlue(colour) < 22; }).size();
+    };
+    const auto one = plates({100.0});
+    QVERIFY(one > 80);
+    QVERIFY(plates({100.0, 101.0}) > 1.8 * double(one));
+    QVERIFY(plates({100.0, 101.0, 102.0}) > 2.6 * double(one));
+    QVERIFY(plates(std::vector<double>(30, 100.0)) < 6 * one); // there is no room for more
 }
 
 void tst_OverlayItem::layersAreLeftOut()

@@ -85,12 +85,10 @@ struct OverlayItem::Canvas {
         painter.drawLines(lines);
     }
 
-    /// Draws small text of one or more lines on a dark background, kept within the canvas.
-    void label(const QPointF &corner, const QString &text, const QColor &colour,
-               const QColor &plate = QColor(0, 0, 0, 205), const QFont &font = Theme::plotFont()) const
+    /// Plate of a label of one or more lines with this corner, kept within the canvas.
+    QRectF plateOf(const QPointF &corner, const QString &text, const QFont &font = Theme::plotFont()) const
     {
-        painter.setFont(font);
-        const QFontMetricsF metrics(painter.font());
+        const QFontMetricsF metrics(font);
         const QStringList lines = text.split(QLatin1Char('\n'));
         double width = 0.0;
         for (const QString &line : lines)
@@ -98,6 +96,17 @@ struct OverlayItem::Canvas {
         QRectF box(corner, QSizeF(std::ceil(width) + 8.0, double(lines.size()) * std::ceil(metrics.height()) + 1.0));
         box.moveLeft(std::clamp(box.left(), rect.left(), std::max(rect.right() - box.width(), rect.left())));
         box.moveTop(std::clamp(box.top(), rect.top(), std::max(rect.bottom() - box.height(), rect.top())));
+        return box;
+    }
+
+    /// Draws small text on a dark background.
+    void label(const QPointF &corner, const QString &text, const QColor &colour,
+               const QColor &plate = QColor(0, 0, 0, 205), const QFont &font = Theme::plotFont()) const
+    {
+        painter.setFont(font);
+        const QFontMetricsF metrics(painter.font());
+        const QStringList lines = text.split(QLatin1Char('\n'));
+        const QRectF box = plateOf(corner, text, font);
         painter.setPen(Qt::NoPen);
         painter.setBrush(plate);
         painter.drawRoundedRect(box, 3.0, 3.0);
@@ -258,6 +267,24 @@ void OverlayItem::drawEvents(const Canvas &canvas) const
     const auto inSight = std::size_t(std::count_if(
         marks.begin(), marks.end(), [&](const OverlayMark &mark) { return rectOfMark(mark).intersects(canvas.rect); }));
     const bool areLabelled = inSight <= labelLimit;
+    std::vector<QRectF> taken;
+    // At one of the frame's corners where no other number is; nothing if there is none.
+    const auto roomFor = [&](const QRectF &frame, const QString &number) -> std::optional<QPointF> {
+        constexpr double gap = 3.0;
+        const QSizeF size = canvas.plateOf({}, number).size();
+        const double top = std::max(frame.top() - 1.0, canvas.rect.top() + 2.0);
+        const double bottom = frame.bottom() + 1.0 - size.height();
+        const double left = frame.left() - gap - size.width();
+        for (const QPointF &corner : {QPointF(frame.right() + gap, top), QPointF(left, top),
+                                      QPointF(frame.right() + gap, bottom), QPointF(left, bottom)}) {
+            const QRectF plate = canvas.plateOf(corner, number);
+            if (std::ranges::none_of(taken, [&plate](const QRectF &other) { return other.intersects(plate); })) {
+                taken.push_back(plate);
+                return corner;
+            }
+        }
+        return {};
+    };
     const auto drawOne = [&](const OverlayMark &mark) {
         const bool isSelected = mark.id == selectedEvent;
         const QRectF rect = rectOfMark(mark);
@@ -270,20 +297,18 @@ void OverlayItem::drawEvents(const Canvas &canvas) const
         canvas.stroke(corners(rect), linePen(colour, isSelected ? 2.0 : 1.4));
         if (!areLabelled && !isSelected)
             return;
-        const QPointF corner(rect.right() + 3.0, std::max(rect.top() - 1.0, canvas.rect.top() + 2.0));
         const QString number =
             mark.stage == TrackStage::Provisional ? QStringLiteral("%1?").arg(mark.id) : QString::number(mark.id);
-        if (isSelected)
-            canvas.label(corner, number, QColor(0x10141a), colours.selectedEvent);
-        else
-            canvas.label(corner, number, colour);
+        const std::optional<QPointF> corner = roomFor(rect, number);
+        if (corner && isSelected)
+            canvas.label(*corner, number, QColor(0x10141a), colours.selectedEvent);
+        else if (corner)
+            canvas.label(*corner, number, colour);
     };
-    for (const OverlayMark &mark : marks)
-        if (mark.id != selectedEvent)
-            drawOne(mark);
-    for (const OverlayMark &mark : marks)
-        if (mark.id == selectedEvent)
-            drawOne(mark);
+    for (const bool isSelected : {true, false}) // whose number comes first
+        for (const OverlayMark &mark : marks)
+            if ((mark.id == selectedEvent) == isSelected)
+                drawOne(mark);
     canvas.painter.setOpacity(1.0);
 }
 
