@@ -72,7 +72,7 @@ PipelinePanel::PipelinePanel(Document &document, AnalysisController &controller,
     m_window->setObjectName(QStringLiteral("windowChoice"));
     m_window->setAccessibleName(tr("Window"));
     m_window->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    m_window->setMinimumContentsLength(12);
+    m_window->setMinimumContentsLength(18); // "From the recording: 200 s" is seen whole
     m_window->setToolTip(
         tr("Windows tried on this recording, with the number of tracks found with each, before the second "
            "pass joins, splits or drops some"));
