@@ -102,8 +102,8 @@ void TrialViewer::show(const ShownTrial &trial)
         sentence = sentence.arg(name, db, numberText(outcome.statistic, 2),
                                 numberText(shownThreshold(campaign, m_detector), 2), unit);
     } else if (outcome.isDetected) {
-        sentence = tr("%1 at %2 dB: detected. A track on the line exceeds the threshold by %3 nat.")
-                       .arg(name, db, numberText(outcome.statistic, 2));
+        sentence = tr("%1 at %2 dB: detected. A track on the line exceeds the threshold by %3 %4.")
+                       .arg(name, db, numberText(outcome.statistic, 2), unit);
     } else {
         sentence = tr("%1 at %2 dB: missed. No track has half of its points on the line.").arg(name, db);
     }

@@ -1,3 +1,4 @@
+#include "analyse/analyse.h"
 #include "base/Error.h"
 #include "base/Random.h"
 #include "base/files/AtomicFile.h"
@@ -82,6 +83,7 @@ private slots:
     void jsonRoundTrip();
     void injectedIntoARecording();
     void detectItselfInSimulatedNoise();
+    void marginsAreInTheDetectorsUnit();
     void detectItselfIsOrderedOneFalseAlarmPerBlock();
     void detectItselfInARecording();
     void allDetectorsAreTriedWhereNoSignalIs();
@@ -94,6 +96,20 @@ private slots:
 private:
     QTemporaryDir m_folder;
     std::string path(const char *name) const { return m_folder.filePath(name).toStdString(); }
+
+    /// Lines far below and far above the noise.
+    InjectionExperiment injectionIntoNoise() const
+    {
+        LineScene scene;
+        scene.sampleRateHz = 500.0;
+        scene.durationSeconds = 240.0;
+        InjectionExperiment injection;
+        injection.recording = path("noise.wav");
+        writeRecording(SimulatedRecording(scene), injection.recording, WrittenType::Float32);
+        injection.snrDb = {-30.0, 12.0};
+        injection.durationSeconds = 20.0;
+        return injection;
+    }
 };
 
 void tst_Campaign::threadsAndOrderChangeNothing()
@@ -277,15 +293,8 @@ void tst_Campaign::jsonRoundTrip()
 
 void tst_Campaign::injectedIntoARecording()
 {
-    LineScene scene;
-    scene.sampleRateHz = 500.0;
-    scene.durationSeconds = 240.0;
-    writeRecording(SimulatedRecording(scene), path("noise.wav"), WrittenType::Float32);
-    InjectionExperiment injection;
-    injection.recording = path("noise.wav");
+    InjectionExperiment injection = injectionIntoNoise();
     injection.trials = 6;
-    injection.snrDb = {-30.0, 12.0};
-    injection.durationSeconds = 20.0;
     injection.settings.spectrogram.windowSeconds = 0.5;
     injection.detectors = {detectorUnderTest("energy", EnergySettings{}),
                            detectorUnderTest("3 of 4", PofNSettings{3, 4})};
@@ -321,7 +330,24 @@ void tst_Campaign::detectItselfInSimulatedNoise()
     }
 }
 
-// One false alarm per block is ordered: 1.0 events are expected in each.
+// P of N decides by a mean power, whose unit is not that of its tracks' paths.
+void tst_Campaign::marginsAreInTheDetectorsUnit()
+{
+    LineExperiment experiment = smallExperiment();
+    experiment.frames = 240;
+    experiment.snrDb = {10.0};
+    experiment.detectors = {detectorUnderTest("3 of 4", PofNSettings{3, 4})};
+    experiment.detectors.front().isWhole = true;
+    const FieldTrial trial = remakeField(experiment, 10.0, 0, 0);
+    const auto analysis = analyse(trial.recording, wholeSettings(experiment, 0));
+    const LineDetection found = lineDetection(*analysis, trial.line);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Event &event : events(*analysis))
+        nearest = std::min(nearest, std::abs(event.statistic - analysis->threshold - found.margin));
+    QCOMPARE(nearest, 0.0);
+}
+
+// The mean number per block, from the blocks without any.
 void tst_Campaign::detectItselfIsOrderedOneFalseAlarmPerBlock()
 {
     LineExperiment experiment = smallExperiment();
@@ -343,15 +369,8 @@ void tst_Campaign::detectItselfIsOrderedOneFalseAlarmPerBlock()
 
 void tst_Campaign::detectItselfInARecording()
 {
-    LineScene scene;
-    scene.sampleRateHz = 500.0;
-    scene.durationSeconds = 240.0;
-    writeRecording(SimulatedRecording(scene), path("white.wav"), WrittenType::Float32);
-    InjectionExperiment injection;
-    injection.recording = path("white.wav");
+    InjectionExperiment injection = injectionIntoNoise();
     injection.trials = 4;
-    injection.snrDb = {-30.0, 12.0};
-    injection.durationSeconds = 20.0;
     injection.marginSeconds = 30.0;
     injection.detectors = {detectorUnderTest("energy", EnergySettings{}), {"detect", {}, true}};
     Campaign campaign = begin(injection);

@@ -1,5 +1,7 @@
 #include "evaluate/experiments/lineDetection.h"
 
+#include "analyse/events.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -48,7 +50,7 @@ LineDetection lineDetection(const Analysis &analysis, const TruthLine &line)
             continue;
         const double latency = std::max(0.0, analysis.time().value(double(track.detectFrame)) - line.startSeconds);
         found.latencySeconds = found.latencySeconds < 0.0 ? latency : std::min(latency, found.latencySeconds);
-        found.margin = std::max(found.margin, marginOf(track, analysis));
+        found.margin = std::max(found.margin, marginOf(statisticOf(track, analysis), analysis));
     }
     return found;
 }
@@ -59,10 +61,10 @@ std::ptrdiff_t countTracksBeside(const Analysis &analysis, const TruthLine &line
                                  [&](const Track &track) { return bondOf(track, analysis, line) == Bond::None; });
 }
 
-double marginOf(const Track &track, const Analysis &analysis)
+double marginOf(double statistic, const Analysis &analysis)
 {
-    // A track of another window has a threshold of its own.
-    return std::max(track.peakStatistic - analysis.threshold, double(std::numeric_limits<float>::min()));
+    // A part of a track that was split has less than the whole had.
+    return std::max(statistic - analysis.threshold, double(std::numeric_limits<float>::min()));
 }
 
 } // namespace faintline

@@ -10,8 +10,8 @@ namespace faintline {
 /// How an analysis found a known line. A track *detects* the line if half of its points while the line lasts lie on it,
 /// within 1.5 resolution cells.
 struct LineDetection {
-    /// Nat by which the largest statistic of the tracks that detect it exceeds the threshold, above 0; -∞ if it was
-    /// missed.
+    /// By how much the largest statistic of the tracks that detect it exceeds the threshold, in the detector's unit,
+    /// above 0; -∞ if it was missed.
     double margin;
     double latencySeconds; ///< from its start to its detection; -∞ if it was missed
 };
@@ -20,7 +20,7 @@ LineDetection lineDetection(const Analysis &analysis, const TruthLine &line);
 /// Number of tracks that never touch the line.
 std::ptrdiff_t countTracksBeside(const Analysis &analysis, const TruthLine &line);
 
-/// Margin of a track, as that of a LineDetection.
-double marginOf(const Track &track, const Analysis &analysis);
+/// The margin of a statistic (statisticOf) that the analysis detected, as that of a LineDetection.
+double marginOf(double statistic, const Analysis &analysis);
 
 } // namespace faintline

@@ -202,16 +202,14 @@ namespace {
             std::vector<float> result(m_signals, belowEachStatistic);
             const double blockSeconds = double(m_experiment.blockFrames) / m_experiment.stepsPerWindow;
             const double blockHz = double(m_experiment.blockBins) / m_experiment.binsPerCell;
-            for (const Track &track : analysis.tracks) {
-                const TrackPoint &found = track.points[std::size_t(track.detectFrame - track.points.front().frame)];
-                const double hz =
-                    analysis.recording->info().centreHz + analysis.grid().axes.front().value(double(found.cell));
-                const auto row = Index(analysis.time().value(double(found.frame)) / blockSeconds);
+            for (const Event &event : events(analysis)) {
+                const double hz = analysis.recording->info().centreHz + event.detectedPosition.front();
+                const auto row = Index(event.detectSeconds / blockSeconds);
                 const auto column = Index(hz / blockHz);
                 if (row >= m_experiment.blocksInTime() || column < 0 || column >= m_experiment.blocksInFrequency())
                     continue; // beside all blocks
                 float &largest = result[std::size_t(row * m_experiment.blocksInFrequency() + column)];
-                largest = std::max(largest, float(marginOf(track, analysis)));
+                largest = std::max(largest, float(marginOf(event.statistic, analysis)));
             }
             return result;
         }
