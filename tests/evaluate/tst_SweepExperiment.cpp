@@ -96,7 +96,8 @@ private slots:
         QTest::newRow("another detector's") << "pOfN.n" << 4.0 << "parameter = pOfN.n: belongs to a different detector";
         QTest::newRow("out of range") << "spectrogram.windowSeconds" << -1.0
                                       << "spectrogram.windowSeconds = -1: must lie in 0";
-        QTest::newRow("not of the line") << "trials" << 4.0 << "trials: unknown setting";
+        QTest::newRow("not of the line") << "trials" << 4.0
+                                         << "parameter = trials: must be a setting that is one number";
         QTest::newRow("line out of range") << "durationSeconds" << 0.0 << "durationSeconds = 0: must lie in";
         QTest::newRow("not whole") << "model.slopesPerBin" << 1.5 << "model.slopesPerBin = 1.5: must be a whole number";
     }

@@ -99,12 +99,13 @@ const FieldInfo &parameterInfo(const std::string &parameter)
 {
     if (const Field<SweepExperiment> *property = lineProperty(parameter))
         return *property;
-    const Field<AnalysisSettings> &field = settingField(parameter);
-    if (!isSweepable(field))
+    const bool isSetting = parameter.find('.') != std::string::npos;
+    const Field<AnalysisSettings> *field = isSetting ? &settingField(parameter) : nullptr;
+    if (!field || !isSweepable(*field))
         throw fieldError("parameter", parameter,
                          "must be a setting that is one number, such as model.snr, or a number of the line: snrDb, "
                          "durationSeconds, driftHzPerSecond, wanderHz, wanderSeconds");
-    return field;
+    return *field;
 }
 
 bool isSweepable(const FieldInfo &field)
