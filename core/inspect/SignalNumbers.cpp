@@ -8,6 +8,8 @@ namespace faintline {
 
 namespace {
 
+    constexpr int numberLimit = 1'000'000'000; ///< in a file: others are counted on from it
+
     struct NumberedPair {
         double distance = 0.0;
         std::size_t track = 0;
@@ -70,8 +72,8 @@ SignalNumbers SignalNumbers::fromJson(const Json &json, const std::string &where
         const std::string here = where + "[" + std::to_string(numbers.m_known.size()) + "]";
         checkKeys(known, here, {"number", "path"});
         const int number = wholeNumber<int>(known.at("number"), here + ".number");
-        if (number < 1)
-            throw Error(here + ".number", "must be at least 1");
+        if (number < 1 || number > numberLimit)
+            throw Error(here + ".number", "must lie in 1 … " + std::to_string(numberLimit));
         numbers.m_known.push_back({number, signalPathFromJson(known.at("path"), here + ".path")});
     }
     numbers.m_areUsual = numbers.m_known.empty();

@@ -88,9 +88,11 @@ void tst_Review::numbersStayWithTheSignals()
 
     numbers = SignalNumbers::fromJson(parseJson(toJson(numbers).dump(), "numbers"), "numbers");
     QCOMPARE(numbered({climbing, early}), (std::vector{2, 1}));
-    for (const char *hostile : {R"([{"number": 0, "path": {"seconds": [1], "position": [[1]], "tolerance": [1]}}])",
-                                R"([{"number": 1, "path": {"seconds": [], "position": [], "tolerance": [1]}}])",
-                                R"([{"number": 1, "path": {}, "name": "x"}])"})
+    for (const char *hostile :
+         {R"([{"number": 2147483647, "path": {"seconds": [1], "position": [[1]], "tolerance": [1]}}])",
+          R"([{"number": 0, "path": {"seconds": [1], "position": [[1]], "tolerance": [1]}}])",
+          R"([{"number": 1, "path": {"seconds": [], "position": [], "tolerance": [1]}}])",
+          R"([{"number": 1, "path": {}, "name": "x"}])"})
         QVERIFY_EXCEPTION_THROWN(SignalNumbers::fromJson(parseJson(hostile, "numbers"), "numbers"), Error);
 }
 
