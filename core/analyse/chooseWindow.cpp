@@ -313,11 +313,13 @@ std::shared_ptr<const Analysis> runInChosenWindow(const RecordingPointer &record
         found = runOnRecording(recording, ofTrial(choice, choice.chosen, settings), wanted,
                                context.part(searched, detected));
     }
+    const auto count = double(others.size());
     if (!isComplete) // after the pictures, which the user waits for
         for (std::size_t i = 0; i < others.size(); ++i) {
             const std::shared_ptr<const Analysis> tried = others[i];
+            const RunContext part = context.part(detected, compared).part(double(i) / count, double(i + 1) / count);
             others[i] = runOnRecording(recording, ofTrial(choice, i < choice.chosen ? i : i + 1, settings),
-                                       trialRequest(wanted.calibration, tried.get()), context.part(detected, compared));
+                                       trialRequest(wanted.calibration, tried.get()), part);
         }
     found->firstTracks = {};
     found->others = std::move(others);
