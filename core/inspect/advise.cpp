@@ -19,9 +19,9 @@ void setWindow(Advice &advice, double seconds)
 
 bool isAsked(const Analysis &analysis, double windowSeconds)
 {
-    const double own = analysis.frames->spectrogram()->windowSeconds();
+    const double own = analysis.frames->geometry().windowSeconds;
     return std::ranges::any_of(analysis.others, [&](const auto &other) {
-        const double seconds = other->frames->spectrogram()->windowSeconds();
+        const double seconds = other->frames->geometry().windowSeconds;
         return windowSeconds < own ? seconds <= windowSeconds : seconds >= windowSeconds;
     });
 }
