@@ -3,13 +3,10 @@
 #include "base/logmath.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace faintline {
-
-namespace {
-
-} // namespace
 
 Smd::Smd(const MarkovModel &model, const ResetRule &rule)
     : m_space(model.space), m_likelihood(model.likelihood), m_rule(rule),
@@ -26,13 +23,12 @@ void Smd::update(std::span<const float> y, std::span<float> statistic)
     }
     const Continued all = advance(y, statistic);
     const Index cells = m_space.cellCount();
-    const Continued apart = inhibitedPart(y);
-    const Index counted = m_rule.law == ResetLaw::None ? cells : cells - std::ssize(m_inhibited);
-    const bool isObserved = std::any_of(y.begin(), y.end(), [](float value) { return value == value; });
-    if (counted > 0 && isObserved) { // without evidence all paths fade, which carries no information on K
+    const std::vector<Index> apart = notCounted(y);
+    if (const Index counted = cells - std::ssize(apart); counted > 0) {
+        const Continued theirs = continuedAt(apart, y);
         const auto states = double(counted * m_space.planeCount());
-        m_regulation = {m_lnK, double(all.count - apart.count) / states, m_lnK};
-        regulate(m_regulation.continuedFraction, (all.sum - apart.sum) / states);
+        m_regulation = {m_lnK, double(all.count - theirs.count) / states, m_lnK};
+        regulate(m_regulation.continuedFraction, (all.sum - theirs.sum) / states);
     }
     if (m_offset != 0.0)
         for (float &value : statistic)
@@ -88,14 +84,27 @@ Continued Smd::advance(std::span<const float> y, std::span<float> statistic)
     return continued;
 }
 
-/// Part of the inhibited cells: their scores minus the frame's own evidence.
-Continued Smd::inhibitedPart(std::span<const float> y) const
+/// The cells that say nothing on K: inhibited, or without evidence, where all paths fade.
+std::vector<Index> Smd::notCounted(std::span<const float> y) const
+{
+    if (m_rule.law == ResetLaw::None)
+        return {};
+    std::vector<Index> result = m_inhibited;
+    Index unknown = 0;
+    for (const float value : y)
+        unknown += value != value ? 1 : 0;
+    for (Index cell = 0; unknown > 0 && cell < std::ssize(y); ++cell)
+        if (std::isnan(y[std::size_t(cell)]) && !std::ranges::binary_search(m_inhibited, cell))
+            result.push_back(cell);
+    return result;
+}
+
+/// Part of some cells: their scores minus the frame's own evidence.
+Continued Smd::continuedAt(const std::vector<Index> &places, std::span<const float> y) const
 {
     Continued part;
-    if (m_rule.law == ResetLaw::None)
-        return part;
     const Index cells = m_space.cellCount();
-    for (Index cell : m_inhibited) {
+    for (Index cell : places) {
         float lambda = 0.0f;
         m_likelihood.apply(y.subspan(std::size_t(cell), 1), {&lambda, 1});
         for (Index plane = 0; plane < m_space.planeCount(); ++plane)

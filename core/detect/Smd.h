@@ -66,7 +66,8 @@ private:
 
     void start(std::span<const float> y, std::span<float> statistic);
     Continued advance(std::span<const float> y, std::span<float> statistic);
-    Continued inhibitedPart(std::span<const float> y) const;
+    std::vector<Index> notCounted(std::span<const float> y) const;
+    Continued continuedAt(const std::vector<Index> &places, std::span<const float> y) const;
     void regulate(double continuedFraction, double meanContinued);
 
     StateSpace m_space;

@@ -12,7 +12,8 @@ namespace faintline {
 /// A caveat about an analysis's numbers, and settings that would help.
 struct Advice {
     std::string
-        name; ///< "slopeLimit", "closeLines", "constantCells", "commonNoise", "silence": independent of the wording
+        name; ///< "slopeLimit", "closeLines", "constantCells", "commonNoise", "silence", "stopBand": independent of the
+              ///< wording
     std::string sentence;        ///< without a full stop
     std::string remedy;          ///< "use a window of 0.25 s"; empty if no setting helps
     AnalysisSettings settings{}; ///< settings with the remedy
@@ -46,6 +47,9 @@ std::optional<Advice> adviceOnConstantCells(const Analysis &analysis, const RunC
 /// c), with c the correlation of e^(-y), which is uniform, in two channels. Advice is given if a tenth of the channels
 /// is lost. Cost: reads some 200 frames of each. Throws Cancelled.
 std::optional<Advice> adviceOnChannels(const Analysis &analysis, const RunContext &context = {});
+
+/// Stop bands of a filter (stopBands.h), which are not searched unless they are selected.
+std::optional<Advice> adviceOnStopBands(const Analysis &analysis);
 
 /// Recordings of silence, in which there is nothing to find.
 std::optional<Advice> adviceOnSilence(const Analysis &analysis, const RunContext &context = {});

@@ -95,8 +95,13 @@ namespace {
         return Index(std::ceil(settings.decide.inhibitCells.front() * settings.spectrogram.binsPerCell));
     }
 
+    bool isUnknown(float y)
+    {
+        return std::isnan(y);
+    }
+
     /// The fraction of states whose path continues, in tiles of cells and frames. Tiles in which the statistic exceeds
-    /// what is rare on noise are left out, and its paths are forgotten there.
+    /// what is rare on noise, or cells were not observed, are left out, and loud paths are forgotten there.
     class ContinuedFractions
     {
     public:
@@ -118,7 +123,8 @@ namespace {
                 const auto first = std::size_t(m_columnCells[column]);
                 const std::size_t width = std::size_t(m_columnCells[column + 1]) - first;
                 const std::span<const float> own = statistic.subspan(first, width);
-                m_isLoud[column] = m_isLoud[column] || *std::ranges::max_element(own) > m_loudest;
+                m_isLeftOut[column] = m_isLeftOut[column] || *std::ranges::max_element(own) > m_loudest
+                    || std::ranges::any_of(y.subspan(first, width), isUnknown);
                 int continued = 0;
                 for (const float *scores = detector.scores().data() + first, *end = scores + m_planes * std::ssize(y);
                      scores < end; scores += y.size())
@@ -145,10 +151,10 @@ namespace {
             if (m_tileFrames == 0 || (2 * m_tileFrames < tileFrames && !m_fractions.empty()))
                 return;
             for (std::size_t column = 0; column < m_continued.size(); ++column)
-                if (const Index width = m_columnCells[column + 1] - m_columnCells[column]; !m_isLoud[column])
+                if (const Index width = m_columnCells[column + 1] - m_columnCells[column]; !m_isLeftOut[column])
                     m_fractions.push_back(m_continued[column] / double(m_planes * width * m_tileFrames));
             std::fill(m_continued.begin(), m_continued.end(), 0.0);
-            m_isLoud.assign(m_continued.size(), false);
+            m_isLeftOut.assign(m_continued.size(), false);
             m_tileFrames = 0;
         }
 
@@ -177,7 +183,7 @@ namespace {
         std::vector<float> m_lambda;
         std::vector<Index> m_columnCells; ///< first cell of each column, and the end
         std::vector<double> m_continued;  ///< states in the current tile of each column of cells
-        std::vector<bool> m_isLoud = std::vector<bool>(m_continued.size(), false);
+        std::vector<bool> m_isLeftOut = std::vector<bool>(m_continued.size(), false);
         std::vector<double> m_fractions; ///< of all tiles
         Index m_tileFrames = 0;
         double m_frames = 0.0;
@@ -221,7 +227,7 @@ namespace {
             for (Index frame = first; frame < end; ++frame) {
                 context.checkpoint(double(frame - first) / double(end - first), checking);
                 m_frames.read(frame, 1, m_y);
-                if (std::isnan(m_y.front())) // a gap, in which all cells are unknown
+                if (std::ranges::all_of(m_y, isUnknown)) // a gap
                     continue;
                 putNoiseOver(points, frame);
                 detector.update(m_y, m_statistic);

@@ -26,6 +26,13 @@ struct NoiseStretch {
 /// ln power of a stretch's noise in a frame with the given source levels.
 void readStretch(const NoiseStretch &stretch, std::span<const float> levels, std::span<float> ln);
 
+/// A stop band of the filter that a recording went through (stopBands.h). It is not observed.
+struct StopBand {
+    double lowHz = 0.0;
+    double highHz = 0.0;
+    double natsBelow = 0.0; ///< the band beside it
+};
+
 /// How the noise background is estimated.
 struct NormaliserSettings {
     int halfWidthCells = 20;    ///< half the frequency window, in resolution cells
@@ -68,6 +75,7 @@ struct NoiseBackground {
     std::vector<NoiseStretch> stretches{};
     Axis bins{};                  ///< frames of the detector, Hz
     std::vector<float> lnAtEdges; ///< correction of each bin after interpolation; empty: none
+    std::vector<StopBand> stopBands{}; ///< of the whole band; none in one that was selected
 
     /// ln power that denotes "nothing was recorded".
     static constexpr float silence = -200.0f;

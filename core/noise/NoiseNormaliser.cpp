@@ -20,13 +20,21 @@ void NormalisedSpectrogram::read(Index first, Index count, std::span<float> out)
 {
     m_spectrogram->read(first, count, out);
     const auto cells = std::size_t(grid().size());
+    constexpr float notObserved = std::numeric_limits<float>::quiet_NaN();
     FrameNormaliser normaliser(*m_spectrogram, m_settings.followLevel);
     for (Index i = 0; i < count; ++i) {
         const std::span<float> values = out.subspan(std::size_t(i) * cells, cells);
-        if (isObserved(*m_spectrogram, first + i))
-            normaliser.normalise(values, *m_background, time().value(double(first + i)));
-        else
-            std::fill(values.begin(), values.end(), std::numeric_limits<float>::quiet_NaN());
+        if (!isObserved(*m_spectrogram, first + i)) {
+            std::ranges::fill(values, notObserved);
+            continue;
+        }
+        normaliser.normalise(values, *m_background, time().value(double(first + i)));
+        for (const StopBand &band : m_background->stopBands) {
+            const Axis &axis = m_spectrogram->frequency();
+            const Index from = std::clamp<Index>(Index(std::ceil(axis.position(band.lowHz))), 0, axis.count);
+            const Index to = std::clamp<Index>(Index(std::floor(axis.position(band.highHz))) + 1, from, axis.count);
+            std::fill(values.begin() + from, values.begin() + to, notObserved);
+        }
     }
 }
 

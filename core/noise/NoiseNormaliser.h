@@ -11,7 +11,7 @@
 namespace faintline {
 
 /// A spectrogram over its noise background: y(t, f) = |S(t, f)|² / B(t, f), mean 1 on noise; 0 in digital silence, NaN
-/// in gaps.
+/// in gaps and stop bands.
 class NormalisedSpectrogram final : public NormalisedFrames
 {
 public:

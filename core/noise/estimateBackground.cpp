@@ -7,6 +7,7 @@
 #include "noise/blockBackground.h"
 #include "noise/coarseFrames.h"
 #include "noise/edgeCorrection.h"
+#include "noise/stopBands.h"
 #include "noise/unevenness.h"
 
 #include <algorithm>
@@ -233,6 +234,9 @@ namespace {
             if (!m_isSketch) {
                 m_background->bins = m_spectrogram.frequency();
                 m_background->lnAtEdges = edgeCorrection(m_spectrogram, *m_background);
+                if (isWholeBand(m_spectrogram.selection()))
+                    m_background->stopBands =
+                        stopBands(*m_background, m_spectrogram.recording().info().isComplex);
             }
         }
 

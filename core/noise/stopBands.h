@@ -1,0 +1,17 @@
+#pragma once
+
+#include "noise/NoiseBackground.h"
+
+#include <vector>
+
+namespace faintline {
+
+/// Stop bands of the filter that a recording went through, at the ends of its spectrum (the upper one of real samples):
+/// the noise there is what the filter leaves of the pass band, and so are its lines. A stop band
+/// - is at least 20 dB (a hundredth) below the upper quartile of the spectrum throughout, over a fiftieth of it,
+/// - begins with a fall of at least 20 dB within a twentieth of the spectrum, and
+/// - follows the level of as wide a band beside it in time: correlation of ln level above 3/4, slope above 0.4.
+/// A noise of constant level therefore has none: whether its quiet end is a filter's or the world's cannot be told.
+std::vector<StopBand> stopBands(const NoiseBackground &background, bool isComplex);
+
+} // namespace faintline

@@ -1,0 +1,133 @@
+#include "noise/NoiseNormaliser.h"
+#include "noise/stopBands.h"
+#include "signal/ArrayRecording.h"
+#include "support/test.h"
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <numeric>
+#include <random>
+
+using namespace faintline;
+
+namespace {
+
+/// Powers of a spectrum, dB, of which `of` gives one at a time (0 … 1) and a place in the spectrum (0 … 1).
+NoiseBackground background(const std::function<double(double, double)> &of)
+{
+    NoiseBackground b;
+    b.time = {"time", "s", 0.0, 1.0, 40, false};
+    b.frequency = {"frequency", "Hz", 0.0, 1.0, 500, false};
+    for (Index time = 0; time < b.time.count; ++time)
+        for (Index cell = 0; cell < b.frequency.count; ++cell)
+            b.lnPower.push_back(float(std::numbers::ln10 / 10.0 * of(double(time) / 40.0, double(cell) / 500.0)));
+    return b;
+}
+
+double swell(double time)
+{
+    return 3.0 * std::sin(20.0 * time);
+}
+
+/// Seconds of noise at 1 kHz whose level swells, and what a filter leaves of it above 300 Hz: 35 dB less.
+RecordingPointer filteredNoise(double seconds)
+{
+    constexpr int taps = 101;
+    std::vector<double> filter;
+    for (int tap = -taps / 2; tap <= taps / 2; ++tap) {
+        const double x = 0.6 * std::numbers::pi * double(tap);
+        const double hann = 0.5 + 0.5 * std::cos(2.0 * std::numbers::pi * double(tap) / double(taps));
+        filter.push_back(hann * (tap == 0 ? 0.6 : 0.6 * std::sin(x) / x));
+    }
+    filter[taps / 2] += std::pow(10.0, -35.0 / 20.0);
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal;
+    std::vector<double> noise;
+    for (int i = 0; i < int(1000.0 * seconds) + taps; ++i)
+        noise.push_back(normal(random) * std::pow(10.0, swell(double(i) / 60'000.0) / 20.0));
+    const auto samples = std::make_shared<std::vector<float>>();
+    for (std::size_t i = 0; i + taps < noise.size(); ++i)
+        samples->push_back(float(std::inner_product(filter.begin(), filter.end(), noise.begin() + std::ptrdiff_t(i), 0.0)));
+    const ArrayLayout layout{.sampleRateHz = 1000.0, .sampleCount = std::ssize(*samples)};
+    return std::make_shared<ArrayRecording>("filtered", std::shared_ptr<const float>(samples, samples->data()), layout);
+}
+
+} // namespace
+
+class tst_stopBands: public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void findsABandThatFollowsTheRest()
+    {
+        const auto spectrum = [](double time, double place) { return swell(time) - (place < 0.7 ? 0.0 : 30.0); };
+        const std::vector<StopBand> bands = stopBands(background(spectrum), false);
+        QCOMPARE(bands.size(), std::size_t(1));
+        QCOMPARE(bands[0].lowHz, 349.5);
+        QCOMPARE(bands[0].highHz, 499.5);
+        QVERIFY(std::abs(bands[0].natsBelow - 3.0 * std::numbers::ln10) < 1e-4);
+    }
+
+    void findsBothEndsOfComplexSamples()
+    {
+        const auto spectrum = [](double time, double place) {
+            return swell(time) - (std::abs(place - 0.5) < 0.3 ? 0.0 : 40.0);
+        };
+        const std::vector<StopBand> bands = stopBands(background(spectrum), true);
+        QCOMPARE(bands.size(), std::size_t(2));
+        QCOMPARE(bands[0].lowHz, -0.5);
+        QVERIFY(std::abs(bands[0].highHz - 100.0) <= 1.0 && std::abs(bands[1].lowHz - 400.0) <= 1.0);
+        QCOMPARE(stopBands(background(spectrum), false).size(), std::size_t(1));
+    }
+
+    void leavesOtherQuietBands_data()
+    {
+        using Spectrum = std::function<double(double, double)>;
+        QTest::addColumn<Spectrum>("spectrum");
+        QTest::newRow("white") << Spectrum([](double time, double) { return swell(time); });
+        QTest::newRow("constant level") << Spectrum([](double, double place) { return place < 0.7 ? 0.0 : -30.0; });
+        QTest::newRow("a level of its own") << Spectrum([](double time, double place) {
+            return place < 0.7 ? swell(time) : swell(1.0 - 0.3 * time) - 30.0;
+        });
+        QTest::newRow("rounding errors below it") << Spectrum([](double time, double place) {
+            return place < 0.7 ? swell(time) : -30.0;
+        });
+        QTest::newRow("a slope") << Spectrum([](double time, double place) { return swell(time) - 60.0 * place; });
+        QTest::newRow("shallow") << Spectrum([](double time, double place) {
+            return swell(time) - (place < 0.7 ? 0.0 : 15.0);
+        });
+        QTest::newRow("in the middle") << Spectrum([](double time, double place) {
+            return swell(time) - (std::abs(place - 0.5) < 0.1 ? 30.0 : 0.0);
+        });
+    }
+    void leavesOtherQuietBands()
+    {
+        QFETCH(const std::function<double(double, double)>, spectrum);
+        QVERIFY(stopBands(background(spectrum), true).empty());
+    }
+
+    void isNotObservedUnlessSelected()
+    {
+        SpectrogramSettings settings;
+        settings.windowSeconds = 0.5;
+        const auto read = [&](const SelectionSettings &selection) {
+            const auto spectrogram = std::make_shared<Spectrogram>(filteredNoise(60.0), settings, selection);
+            const NormalisedSpectrogram frames(spectrogram, estimateBackground(*spectrogram, {}), {});
+            std::vector<float> y(std::size_t(frames.grid().size()));
+            frames.read(20, 1, y);
+            const auto missing = std::ranges::count_if(y, [](float value) { return std::isnan(value); });
+            return double(missing) * spectrogram->frequency().step;
+        };
+        const double hz = read({});
+        QVERIFY2(hz > 150.0 && hz < 195.0, qPrintable(QString::number(hz)));
+        SelectionSettings above;
+        above.lowHz = 320.0;
+        above.highHz = 500.0;
+        QCOMPARE(read(above), 0.0);
+    }
+};
+
+FAINTLINE_TEST(tst_stopBands)
+#include "tst_stopBands.moc"
