@@ -24,9 +24,7 @@ namespace {
 
 } // namespace
 
-JobRunner::JobRunner(QObject *parent) : QObject(parent), m_thread([this](const std::stop_token &quit) { work(quit); })
-{
-}
+JobRunner::JobRunner(QObject *parent) : QObject(parent) {}
 
 JobRunner::~JobRunner()
 {
@@ -36,7 +34,8 @@ JobRunner::~JobRunner()
         m_request.job = {};
         m_request.stop.request_stop();
     }
-    m_thread.join();
+    if (m_thread.joinable())
+        m_thread.join();
 }
 
 void JobRunner::start(Job job)
@@ -45,6 +44,8 @@ void JobRunner::start(Job job)
         const std::lock_guard lock(m_mutex);
         m_request.stop.request_stop();
         m_request = {++m_newest, std::move(job), {}};
+        if (!std::exchange(m_isWorking, true))
+            m_thread = std::jthread([this](const std::stop_token &quit) { work(quit); });
     }
     m_wake.notify_one();
     m_isRunning = true;
@@ -77,16 +78,18 @@ void JobRunner::work(const std::stop_token &quit)
     // The C library keeps memory freed by a job's threads for those threads: 170 MiB for an hour of recording.
     bool owesMemory = false;
     for (;;) {
-        // Not during the delivery: freeing the replaced result would have to wait, and its memory can be returned with
-        // the rest afterwards.
-        if (owesMemory && !m_wake.wait_for(lock, quit, restAfterJob, isAsked) && !quit.stop_requested()) {
-            lock.unlock();
-            returnHoles();
-            lock.lock();
-            owesMemory = false;
-        }
-        if (!m_wake.wait(lock, quit, isAsked))
+        if (!m_wake.wait_for(lock, quit, restAfterJob, isAsked)) {
+            // Only now: freeing the replaced result would have kept its delivery waiting, and its memory is returned with
+            // the rest.
+            if (std::exchange(owesMemory, false) && !quit.stop_requested()) {
+                lock.unlock();
+                returnHoles();
+                lock.lock();
+                continue;
+            }
+            m_isWorking = false;
             return;
+        }
         const auto begin = std::chrono::steady_clock::now();
         {
             const Request request = {m_request.number, std::exchange(m_request.job, {}), m_request.stop};

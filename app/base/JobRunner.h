@@ -14,7 +14,7 @@
 
 namespace faintline {
 
-/// Runs jobs on one worker thread; a new job replaces the previous one.
+/// Runs jobs on one worker thread, which exists while there is work; a new job replaces the previous one.
 ///
 /// Starting a job asks the previous one to stop and discards its result. A job computes on the worker and returns its
 /// delivery: a function that passes the result on in this object's thread, called only if no newer job was started and
@@ -66,8 +66,9 @@ private:
 
     std::mutex m_mutex;
     std::condition_variable_any m_wake;
-    Request m_request;     ///< guarded by m_mutex: the newest; its job is empty once taken
-    std::jthread m_thread; ///< last, so that it ends first
+    Request m_request;        ///< guarded by m_mutex: the newest; its job is empty once taken
+    bool m_isWorking = false; ///< guarded by m_mutex: whether the thread will look for a request once more
+    std::jthread m_thread;    ///< last, so that it ends first
 };
 
 } // namespace faintline
