@@ -7,8 +7,6 @@
 #include "support/recordings.h"
 #include "support/test.h"
 
-#include <QTemporaryDir>
-
 #include <cmath>
 #include <limits>
 

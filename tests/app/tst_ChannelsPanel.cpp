@@ -12,7 +12,6 @@
 
 #include <QDockWidget>
 #include <QMenuBar>
-#include <QProcess>
 
 #include <cmath>
 #include <numbers>

@@ -10,7 +10,6 @@
 
 #include <QContextMenuEvent>
 #include <QMenu>
-#include <QTimer>
 
 using namespace faintline;
 using namespace faintline::test;

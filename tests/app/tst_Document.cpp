@@ -1,9 +1,6 @@
 #include "app/document/Document.h"
 #include "support/test.h"
 
-#include <QSignalSpy>
-#include <QTest>
-
 #include <random>
 
 using namespace faintline;

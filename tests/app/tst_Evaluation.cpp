@@ -18,8 +18,6 @@
 #include "widgets/plot/ChartPlot.h"
 
 #include <QCheckBox>
-#include <QFile>
-#include <QProcess>
 #include <QTableWidget>
 
 #include <algorithm>

@@ -15,14 +15,11 @@
 #include "widgets/events/EventTable.h"
 
 #include <QApplication>
-#include <QFile>
 #include <QImageReader>
 #include <QInputDialog>
 #include <QLineEdit>
 #include <QListWidget>
-#include <QProcess>
 #include <QTableView>
-#include <QTimer>
 
 using namespace faintline;
 using namespace faintline::test;

@@ -16,11 +16,9 @@
 #include "widgets/plot/ExceedancePlot.h"
 #include "widgets/waterfall/WaterfallView.h"
 
-#include <QDir>
 #include <QDropEvent>
 #include <QLineEdit>
 #include <QMenu>
-#include <QMimeData>
 #include <QToolButton>
 
 using namespace faintline;

@@ -1,7 +1,6 @@
 #include "app/base/GestureWatcher.h"
 #include "support/test.h"
 
-#include <QSignalSpy>
 #include <QSpinBox>
 #include <QWheelEvent>
 

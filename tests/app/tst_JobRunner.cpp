@@ -1,9 +1,6 @@
 #include "app/base/JobRunner.h"
 #include "support/test.h"
 
-#include <QSignalSpy>
-#include <QTest>
-
 #include <atomic>
 #include <semaphore>
 

@@ -30,10 +30,8 @@
 #include <QDockWidget>
 #include <QLabel>
 #include <QLineEdit>
-#include <QMap>
 #include <QMenuBar>
 #include <QPushButton>
-#include <QRegularExpression>
 
 #include <qwt_scale_widget.h>
 

@@ -12,10 +12,8 @@
 #include "widgets/events/EventTable.h"
 
 #include <QComboBox>
-#include <QDir>
 #include <QDoubleSpinBox>
 #include <QLineEdit>
-#include <QRegularExpression>
 
 #include <cmath>
 #include <csignal>

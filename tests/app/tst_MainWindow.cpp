@@ -17,13 +17,9 @@
 #include <qwt_scale_map.h>
 
 #include <QDropEvent>
-#include <QElapsedTimer>
 #include <QLabel>
 #include <QMenuBar>
-#include <QMimeData>
-#include <QProcess>
 #include <QStatusBar>
-#include <QTimer>
 
 #include <algorithm>
 #include <cmath>

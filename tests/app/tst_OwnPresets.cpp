@@ -5,9 +5,7 @@
 
 #include <QApplication>
 #include <QComboBox>
-#include <QDir>
 #include <QInputDialog>
-#include <QTimer>
 
 using namespace faintline;
 using namespace faintline::test;

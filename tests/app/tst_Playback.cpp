@@ -11,9 +11,7 @@
 #include "support/test.h"
 
 #include <QAction>
-#include <QElapsedTimer>
 #include <QMenuBar>
-#include <QRegularExpression>
 #include <QToolButton>
 
 #include <cstring>

@@ -8,9 +8,6 @@
 #include "support/test.h"
 
 #include <QApplication>
-#include <QFile>
-#include <QProcess>
-#include <QRandomGenerator>
 #include <QToolButton>
 
 #include <cstdio>

@@ -19,12 +19,9 @@
 
 #include <QComboBox>
 #include <QDockWidget>
-#include <QFile>
-#include <QFileInfo>
 #include <QImage>
 #include <QLineEdit>
 #include <QMenuBar>
-#include <QProcess>
 #include <QPushButton>
 #include <QSlider>
 #include <QTabWidget>

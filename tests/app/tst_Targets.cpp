@@ -11,8 +11,6 @@
 
 #include <qwt_plot_canvas.h>
 
-#include <QProcess>
-
 #include <cmath>
 
 using namespace faintline;

@@ -7,10 +7,6 @@
 #include "exchange/Session.h"
 #include "support/test.h"
 
-#include <QFile>
-#include <QTemporaryDir>
-#include <QTest>
-
 #include <random>
 
 using namespace faintline;

@@ -3,8 +3,6 @@
 
 #include "support/errors.h"
 
-#include <QTest>
-
 using namespace faintline;
 
 class tst_ViewState : public QObject

@@ -3,8 +3,6 @@
 
 #include <QDockWidget>
 #include <QMainWindow>
-#include <QSignalSpy>
-#include <QTest>
 
 using namespace faintline;
 

@@ -4,8 +4,6 @@
 #include "support/test.h"
 
 #include <QImage>
-#include <QProcess>
-#include <QRandomGenerator>
 
 #include <functional>
 

@@ -8,12 +8,7 @@
 #include "widgets/base/Theme.h"
 #include "widgets/plot/ColourMap.h"
 
-#include <QDir>
-#include <QFile>
 #include <QPixmap>
-#include <QTemporaryDir>
-#include <QTest>
-#include <QXmlStreamReader>
 
 using namespace faintline;
 

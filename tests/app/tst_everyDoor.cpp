@@ -5,8 +5,6 @@
 #include "analyse/events.h"
 #include "exchange/writeEvents.h"
 
-#include <QStandardPaths>
-
 using namespace faintline;
 using namespace faintline::test;
 

@@ -29,8 +29,6 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
-#include <QMimeData>
-#include <QUrl>
 
 #include <filesystem>
 #include <fstream>

@@ -4,9 +4,6 @@
 #include "base/json.h"
 #include "support/test.h"
 
-#include <QFile>
-#include <QRegularExpression>
-
 using namespace faintline;
 
 /// The page on lessons says what the parser takes: all keys, measures that exist, and an example that is read.

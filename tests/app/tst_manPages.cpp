@@ -3,12 +3,6 @@
 #include "support/slowdown.h"
 #include "support/test.h"
 
-#include <QFile>
-#include <QProcess>
-#include <QProcessEnvironment>
-#include <QRegularExpression>
-#include <QTest>
-
 namespace {
 
 QString helpOf(const QString &program, const QStringList &command = {})

@@ -3,10 +3,6 @@
 #include "base/Error.h"
 #include "support/test.h"
 
-#include <QBuffer>
-#include <QTemporaryDir>
-#include <QtEndian>
-
 #include <sys/resource.h>
 
 using namespace faintline;

@@ -3,14 +3,8 @@
 #include "support/slowdown.h"
 #include "support/test.h"
 
-#include <QDir>
-#include <QDirIterator>
 #include <QImage>
 #include <QImageReader>
-#include <QProcess>
-#include <QProcessEnvironment>
-#include <QTemporaryDir>
-#include <QTest>
 
 namespace {
 

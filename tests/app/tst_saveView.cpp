@@ -7,12 +7,8 @@
 #include "base/Error.h"
 #include "base/json.h"
 
-#include <QFile>
 #include <QImageReader>
 #include <QLabel>
-#include <QTemporaryDir>
-#include <QTest>
-#include <QXmlStreamReader>
 
 using namespace faintline;
 

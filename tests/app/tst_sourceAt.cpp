@@ -9,8 +9,6 @@
 
 #include <QComboBox>
 #include <QDoubleSpinBox>
-#include <QTemporaryDir>
-#include <QTest>
 
 using namespace faintline;
 

@@ -4,8 +4,6 @@
 #include "base/Error.h"
 #include "base/files/InputFiles.h"
 
-#include <QDir>
-
 #include <sys/stat.h>
 #include <unistd.h>
 

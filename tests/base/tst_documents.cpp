@@ -1,7 +1,5 @@
 #include "support/test.h"
 
-#include <QRegularExpression>
-
 /// What the documents say of the source tree is so: links lead somewhere, files that are named exist, code that is
 /// shown is code that runs.
 class tst_documents : public QObject

@@ -2,8 +2,6 @@
 #include "base/files/AtomicFile.h"
 #include "support/test.h"
 
-#include <QDir>
-
 #include <cerrno>
 #include <filesystem>
 #include <vector>

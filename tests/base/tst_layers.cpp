@@ -1,8 +1,5 @@
 #include "support/test.h"
 
-#include <QDirIterator>
-#include <QRegularExpression>
-
 /// Who may include whom: a folder includes itself and the folders to its left. The core includes nothing else of the
 /// project, the widgets the core as well, the app both. No two units (a header with its source) include each other, at
 /// no distance. The core has few arrows, that is pairs of rooms of which one includes the other.

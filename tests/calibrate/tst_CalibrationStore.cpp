@@ -4,8 +4,6 @@
 #include "base/files/AtomicFile.h"
 #include "calibrate/keptCalibration.h"
 
-#include <QTemporaryDir>
-
 #include <atomic>
 #include <thread>
 

@@ -16,8 +16,6 @@
 #include "support/errors.h"
 #include "support/test.h"
 
-#include <QTemporaryDir>
-
 #include <cmath>
 #include <limits>
 #include <numeric>

@@ -10,8 +10,6 @@
 #include "base/Error.h"
 #include "support/errors.h"
 
-#include <QTemporaryDir>
-
 #include <cmath>
 
 using namespace faintline;

@@ -9,8 +9,6 @@
 #include "base/Error.h"
 #include "scene/SimulatedRecording.h"
 
-#include <QTemporaryDir>
-
 #include <cmath>
 
 using namespace faintline;

@@ -6,11 +6,6 @@
 #include "noise/openFrames.h"
 #include "support/errors.h"
 
-#include <QDir>
-#include <QFile>
-#include <QTemporaryDir>
-#include <QTest>
-
 using namespace faintline;
 
 namespace {

@@ -3,8 +3,6 @@
 
 #include "support/recordings.h"
 
-#include <QTemporaryDir>
-
 #include <cmath>
 #include <filesystem>
 #include <fstream>

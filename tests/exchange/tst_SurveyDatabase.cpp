@@ -9,9 +9,6 @@
 #include "exchange/survey/writeSurvey.h"
 #include "support/recordings.h"
 
-#include <QDir>
-#include <QTemporaryDir>
-
 #include <cmath>
 #include <filesystem>
 #include <limits>

@@ -7,7 +7,6 @@
 #include "signal/formats/writeRecording.h"
 #include "support/recordings.h"
 #include "support/test.h"
-#include <QDir>
 using namespace faintline;
 using namespace faintline::test;
 

@@ -4,8 +4,6 @@
 
 #include "support/recordings.h"
 
-#include <QTemporaryDir>
-
 #include <unistd.h>
 
 using namespace faintline;

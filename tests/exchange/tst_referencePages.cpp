@@ -10,9 +10,6 @@
 #include "signal/formats/gridFile.h"
 #include "support/test.h"
 
-#include <QRegularExpression>
-#include <QTemporaryDir>
-
 #include <functional>
 
 using namespace faintline;

@@ -1,8 +1,6 @@
 #include "exchange/writeReport.h"
 #include "support/test.h"
 
-#include <QXmlStreamReader>
-
 using namespace faintline;
 
 /// The page is well formed whatever recordings, notes and labels are called, and tells what it was given.

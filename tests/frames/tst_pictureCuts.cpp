@@ -1,8 +1,6 @@
 #include "frames/pictureCuts.h"
 #include "support/test.h"
 
-#include <QTest>
-
 using namespace faintline;
 
 namespace {

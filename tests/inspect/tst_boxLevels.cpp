@@ -8,8 +8,6 @@
 #include "support/frames.h"
 #include "support/test.h"
 
-#include <QTest>
-
 #include <cmath>
 
 using namespace faintline;

@@ -4,8 +4,6 @@
 
 #include "scene/SimulatedRecording.h"
 
-#include <QTest>
-
 #include <algorithm>
 
 using namespace faintline;

@@ -5,8 +5,6 @@
 #include "support/frames.h"
 #include "support/test.h"
 
-#include <QTest>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -6,8 +6,6 @@
 #include "scene/SimulatedPings.h"
 #include "support/errors.h"
 
-#include <QTest>
-
 #include <cmath>
 
 using namespace faintline;

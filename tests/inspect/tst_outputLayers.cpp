@@ -7,8 +7,6 @@
 #include "scene/SimulatedPings.h"
 #include "support/frames.h"
 
-#include <QTest>
-
 #include <algorithm>
 #include <cmath>
 

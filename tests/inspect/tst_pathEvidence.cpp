@@ -8,8 +8,6 @@
 #include "support/frames.h"
 #include "support/test.h"
 
-#include <QTest>
-
 using namespace faintline;
 
 class tst_pathEvidence : public QObject

@@ -4,8 +4,6 @@
 #include "base/Random.h"
 #include "detect/Smd.h"
 
-#include <QTest>
-
 #include <cmath>
 #include <numbers>
 #include <numeric>

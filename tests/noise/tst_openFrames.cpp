@@ -4,8 +4,6 @@
 #include "signal/formats/NumPyPower.h"
 #include "support/recordings.h"
 
-#include <QTemporaryDir>
-
 #include <cmath>
 #include <cstring>
 

@@ -6,8 +6,6 @@
 #include "signal/formats/NumPy.h"
 #include "support/recordings.h"
 
-#include <QTemporaryDir>
-
 #include <cmath>
 #include <cstring>
 

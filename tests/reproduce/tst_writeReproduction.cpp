@@ -4,8 +4,6 @@
 #include "base/json.h"
 #include "support/recordings.h"
 
-#include <QTemporaryDir>
-
 using namespace faintline;
 using namespace faintline::test;
 

@@ -4,8 +4,6 @@
 #include "signal/openRecording.h"
 #include "support/recordings.h"
 
-#include <QtEndian>
-
 using namespace faintline;
 using namespace faintline::test;
 

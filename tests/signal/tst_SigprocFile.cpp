@@ -3,8 +3,6 @@
 
 #include "support/recordings.h"
 
-#include <QTemporaryDir>
-
 #include <cstring>
 
 using namespace faintline;

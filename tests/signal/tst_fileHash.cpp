@@ -4,10 +4,6 @@
 #include "signal/FileBytes.h"
 #include "support/errors.h"
 
-#include <QCryptographicHash>
-#include <QFile>
-#include <QTemporaryDir>
-
 #include <sys/stat.h>
 
 using namespace faintline;

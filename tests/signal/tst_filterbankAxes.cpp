@@ -3,9 +3,6 @@
 
 #include "support/errors.h"
 
-#include <QDateTime>
-#include <QTimeZone>
-
 #include <cmath>
 
 using namespace faintline;

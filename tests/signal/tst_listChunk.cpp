@@ -1,9 +1,6 @@
 #include "signal/formats/listChunk.h"
 #include "support/test.h"
 
-#include <QFile>
-#include <QTemporaryDir>
-
 using namespace faintline;
 
 /// Lists of a RIFF file whose lengths would lead a parser of 32 bits backwards.

@@ -4,8 +4,6 @@
 #include "signal/formats/Hdf5File.h"
 #include "support/recordings.h"
 
-#include <QCryptographicHash>
-
 #include <sys/stat.h>
 #include <unistd.h>
 

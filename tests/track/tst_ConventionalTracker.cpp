@@ -1,8 +1,6 @@
 #include "support/test.h"
 #include "track/ConventionalTracker.h"
 
-#include <QTest>
-
 using namespace faintline;
 
 namespace {

@@ -16,8 +16,6 @@
 #include <QAbstractButton>
 #include <QApplication>
 #include <QDockWidget>
-#include <QFile>
-#include <QFileInfo>
 #include <QTableView>
 
 #include <algorithm>

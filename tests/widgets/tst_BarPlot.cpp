@@ -4,8 +4,6 @@
 #include "pixels.h"
 #include "widgets/base/Theme.h"
 
-#include <QSignalSpy>
-
 #include <cmath>
 #include <limits>
 

@@ -9,8 +9,6 @@
 #include <qwt_scale_widget.h>
 #include <qwt_text.h>
 
-#include <QSignalSpy>
-
 #include <algorithm>
 #include <limits>
 

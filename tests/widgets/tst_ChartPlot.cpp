@@ -11,7 +11,6 @@
 
 #include <QCheckBox>
 #include <QPainter>
-#include <QSignalSpy>
 
 #include <memory>
 

@@ -5,10 +5,6 @@
 #include "pictures.h"
 #include "widgets/base/Theme.h"
 
-#include <QAbstractItemModelTester>
-#include <QMap>
-#include <QSignalSpy>
-
 #include <limits>
 
 using namespace faintline;

@@ -6,8 +6,6 @@
 #include "widgets/base/Theme.h"
 #include "widgets/waterfall/ColourBar.h"
 
-#include <QSignalSpy>
-
 using namespace faintline;
 using Orientation = WaterfallPicture::Orientation;
 

@@ -7,8 +7,6 @@
 #include <qwt_scale_div.h>
 #include <qwt_text.h>
 
-#include <QSignalSpy>
-
 using namespace faintline;
 
 namespace {

@@ -15,8 +15,6 @@
 #include <qwt_text.h>
 
 #include <QImage>
-#include <QSignalSpy>
-#include <QTest>
 
 #include <cmath>
 

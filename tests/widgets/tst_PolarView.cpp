@@ -9,8 +9,6 @@
 #include <qwt_text.h>
 
 #include <QMenu>
-#include <QSignalSpy>
-#include <QTimer>
 #include <QWheelEvent>
 
 #include <cmath>

@@ -9,7 +9,6 @@
 #include <QContextMenuEvent>
 #include <QLabel>
 #include <QMenu>
-#include <QTimer>
 
 using namespace faintline;
 

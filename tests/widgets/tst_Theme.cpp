@@ -15,12 +15,9 @@
 
 #include <QApplication>
 #include <QCheckBox>
-#include <QDirIterator>
 #include <QGridLayout>
 #include <QRadioButton>
 #include <QRawFont>
-#include <QRegularExpression>
-#include <QSet>
 
 #include <algorithm>
 #include <array>

@@ -6,8 +6,6 @@
 
 #include <qwt_scale_div.h>
 
-#include <QSignalSpy>
-
 #include <memory>
 
 using namespace faintline;

@@ -9,7 +9,6 @@
 #include <qwt_text.h>
 
 #include <QMenu>
-#include <QSignalSpy>
 
 #include <cmath>
 

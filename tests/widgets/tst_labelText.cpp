@@ -2,7 +2,6 @@
 #include "widgets/base/labelText.h"
 
 #include <QLabel>
-#include <QTest>
 
 #include <memory>
 

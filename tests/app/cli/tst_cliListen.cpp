@@ -1,10 +1,6 @@
 #include "app/cli/CommandLineTest.h"
 #include "support/test.h"
 
-#include <QElapsedTimer>
-#include <QJsonDocument>
-#include <QJsonObject>
-
 #include <csignal>
 
 #include <fcntl.h>

@@ -1,8 +1,6 @@
 #include "app/cli/CommandLineTest.h"
 #include "support/test.h"
 
-#include <QElapsedTimer>
-
 #include <csignal>
 
 #include <fcntl.h>

@@ -5,9 +5,6 @@
 #include "exchange/survey/SurveyDatabase.h"
 #include "exchange/survey/carryOutSurvey.h"
 
-#include <QElapsedTimer>
-#include <QRegularExpression>
-
 #include <cmath>
 #include <numbers>
 
