@@ -3,16 +3,14 @@
 #include "base/Error.h"
 #include "base/files/fileName.h"
 #include "signal/formats/AudioRecording.h"
-#include "signal/formats/DigitalRfRecording.h"
 #include "signal/formats/Hdf5Filterbank.h"
-#include "signal/formats/Hdf5Pings.h"
+#include "signal/formats/Hdf5Recordings.h"
 #include "signal/formats/KiwiRecording.h"
-#include "signal/formats/NumPyPings.h"
 #include "signal/formats/NumPyPower.h"
+#include "signal/formats/PingFiles.h"
 #include "signal/formats/RawRecording.h"
 #include "signal/formats/SigmfRecording.h"
 #include "signal/formats/SigprocFile.h"
-#include "signal/formats/StrainRecording.h"
 #include "signal/formats/gridFile.h"
 
 #include <algorithm>

@@ -22,6 +22,11 @@ public:
     bool isFloat() const { return m_isFloat; }
     bool isSigned() const { return m_isSigned; }
     int bits() const { return m_bits; } ///< of a number
+    /// Of a number: "float32", "uint8".
+    std::string typeName() const
+    {
+        return (m_isFloat ? "float" : m_isSigned ? "int" : "uint") + std::to_string(m_bits);
+    }
 
     /// A numeric or text attribute; nothing if it is missing or of another kind.
     std::optional<double> number(const std::string &attribute) const;

@@ -48,10 +48,7 @@ Hdf5Filterbank::Hdf5Filterbank(const std::string &path)
     m_descends = header.foff < 0.0;
     m_info.path = path;
     m_info.container = "HDF5 filterbank";
-    m_info.sampleType = (m_data->isFloat()    ? "float"
-                         : m_data->isSigned() ? "int"
-                                              : "uint")
-                        + std::to_string(m_data->bits());
+    m_info.sampleType = m_data->typeName();
     m_info.channelCount = int(shape[1]);
 }
 

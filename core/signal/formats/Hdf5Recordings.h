@@ -35,4 +35,34 @@ private:
     Stretches m_stretches; ///< places of the rows in time
 };
 
+/// Strain of a gravitational-wave detector as published by the Gravitational Wave Open Science Center (GWOSC, .hdf5):
+/// strain/Strain with one number per sample; its attributes give the sample interval in seconds (Xspacing) and the GPS
+/// time of the first sample (Xstart).
+///
+/// Samples are in their own unit, around 1e-21. Missing samples are NaN in the file and read as 0. If
+/// quality/simple/DQmask exists, its lowest bit tells for each second whether data was taken, and isWhole reports it.
+/// GPS time is converted to UTC with the leap seconds of 2017 on (18), of 2015 (17), 2012 (16), 2009 (15) and before.
+/// Thread-safe.
+class StrainRecording final : public Recording
+{
+public:
+    /// Throws Error if the file holds no strain or its attributes are invalid.
+    explicit StrainRecording(const std::string &path);
+
+    void read(int channel, Index first, Index count, std::span<float> out) const override;
+    bool isWhole(Index first, Index count) const override;
+    int scaleExponent(int channel) const override { return measuredScaleExponent(channel); }
+
+    /// Whether an HDF5 file holds strain/Strain.
+    static bool recognises(const std::string &path);
+
+private:
+    void readMask();
+
+    std::unique_ptr<Hdf5File> m_file;
+    std::unique_ptr<Hdf5Dataset> m_strain;
+    bool m_hasMask = false;
+    Stretches m_taken; ///< stretches that the mask marks as taken
+};
+
 } // namespace faintline

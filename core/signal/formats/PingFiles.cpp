@@ -1,4 +1,4 @@
-#include "signal/formats/NumPyPings.h"
+#include "signal/formats/PingFiles.h"
 
 #include "base/Error.h"
 #include "signal/formats/gridFile.h"
@@ -13,6 +13,8 @@
 namespace faintline {
 
 namespace {
+
+    constexpr const char *pingsName = "pings";
 
     template <class T>
     void toDoubles(std::span<const std::byte> bytes, std::span<double> out)
@@ -54,7 +56,30 @@ namespace {
                                 "little-endian");
     }
 
+    Index numbersIn(const std::vector<Index> &shape)
+    {
+        return std::accumulate(shape.begin(), shape.end(), Index(1), std::multiplies<>());
+    }
+
 } // namespace
+
+void PingFile::describe(const std::string &path, const std::string &gridPath, const std::vector<Index> &shape,
+                        bool isComplex, bool isInteger)
+{
+    if (numbersIn(shape) < 1)
+        throw Error(path, "holds no values");
+    const GridFile grid = gridPath.empty() ? plainGrid(shape) : readGridFile(gridPath, shape);
+    if (grid.isIq && isComplex)
+        throw Error(gridPath + ": values", "\"iq\" is for pairs of real numbers; these are complex already");
+    m_info.path = path;
+    m_info.time = grid.time;
+    m_info.grid = grid.grid;
+    m_info.isComplex = isComplex || grid.isIq;
+    m_info.quantum = isInteger ? grid.scale : 0.0;
+    m_info.stated = grid.values;
+    m_scale = grid.scale;
+    m_offset = grid.offset;
+}
 
 NumPyPings::NumPyPings(const std::string &path, const std::string &gridPath)
     : m_file(path), m_header(readNumPyHeader(path))
@@ -62,24 +87,12 @@ NumPyPings::NumPyPings(const std::string &path, const std::string &gridPath)
     const NumberType &type = typeOf(m_header, path);
     if (m_header.shape.size() < 2)
         throw Error(path, "must have the shape (pings, cells…)");
-    const GridFile grid = gridPath.empty() ? plainGrid(m_header.shape) : readGridFile(gridPath, m_header.shape);
-    if (grid.isIq && type.isComplex)
-        throw Error(gridPath + ": values", "\"iq\" is for pairs of real numbers; these are complex already");
-    const Index values = std::accumulate(m_header.shape.begin(), m_header.shape.end(), Index(1), std::multiplies<>());
-    if (values < 1)
-        throw Error(path, "holds no values");
+    describe(path, gridPath, m_header.shape, type.isComplex, type.isInteger);
+    const Index values = numbersIn(m_header.shape);
     if (m_file.size() - m_header.offset < values * type.bytes * (type.isComplex ? 2 : 1))
         throw Error(path, "is truncated: its shape requires " + std::to_string(values) + " values");
-    m_info.path = path;
     m_info.container = "NumPy pings";
     m_info.sampleType = type.name;
-    m_info.time = grid.time;
-    m_info.grid = grid.grid;
-    m_info.isComplex = type.isComplex || grid.isIq;
-    m_info.quantum = type.isInteger ? grid.scale : 0.0;
-    m_info.stated = grid.values;
-    m_scale = grid.scale;
-    m_offset = grid.offset;
 }
 
 void NumPyPings::read(Index first, Index count, std::span<double> out) const
@@ -93,6 +106,33 @@ void NumPyPings::read(Index first, Index count, std::span<double> out) const
     if (m_scale != 1.0 || m_offset != 0.0)
         for (double &value : out)
             value = m_scale * value + m_offset;
+}
+
+bool Hdf5Pings::recognises(const std::string &path)
+{
+    return Hdf5File::recognises(path) && Hdf5File(path).dataset(pingsName);
+}
+
+Hdf5Pings::Hdf5Pings(const std::string &path, const std::string &gridPath)
+    : m_file(std::make_unique<Hdf5File>(path)), m_data(m_file->dataset(pingsName))
+{
+    if (!m_data || m_data->shape().size() < 3)
+        throw Error(path, "holds no dataset \"pings\" of shape (pings, range cells, beams…)");
+    describe(path, gridPath, m_data->shape(), m_data->isComplex(), !m_data->isFloat());
+    m_info.container = "HDF5 pings";
+    m_info.sampleType = m_data->isComplex() ? "complex" + std::to_string(2 * m_data->bits()) : m_data->typeName();
+}
+
+void Hdf5Pings::read(Index first, Index count, std::span<double> out) const
+{
+    std::vector<Index> from(m_data->shape().size(), 0);
+    std::vector<Index> size = m_data->shape();
+    from.front() = first;
+    size.front() = count;
+    std::vector<float> values(out.size());
+    m_data->read(from, size, values);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        out[i] = m_scale * double(values[i]) + m_offset;
 }
 
 } // namespace faintline
