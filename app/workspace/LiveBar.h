@@ -25,7 +25,6 @@ public:
     /// Whether the live input is played, and the delay of the sound.
     void setHearing(bool isHearing);
     void setSoundDelay(double seconds) { m_soundDelay = seconds; }
-    double longestDelay() const { return m_longestDelay; } ///< maximum over the last seconds
     QString text() const;
 
 signals:
@@ -44,7 +43,7 @@ private:
     QToolButton *m_hold;
     QToolButton *m_stop;
     QTimer m_refresh;
-    double m_longestDelay = 0.0;
+    double m_longestDelay = 0.0; ///< maximum over the last seconds
     double m_soundDelay = 0.0;
     double m_delayBefore = 0.0; ///< of the previous second
     int m_ticks = 0;

@@ -72,7 +72,6 @@ BoxLevels boxLevels(const Analysis &analysis, const FrameBox &box, const RunCont
     std::vector<float> frame(std::size_t(frames.grid().size()));
     std::vector<float> noise;
     double sum = 0.0;
-    float peak = 0.0f;
     Index seen = 0;
     Index observed = 0;
     const auto gather = [&](Index begin, Index end) {
@@ -88,7 +87,6 @@ BoxLevels boxLevels(const Analysis &analysis, const FrameBox &box, const RunCont
             if (std::isnan(value)) // not observed
                 continue;
             sum += value;
-            peak = std::max(peak, value);
             ++observed;
         }
         gather(sides.firstBegin, sides.firstEnd);
@@ -99,7 +97,7 @@ BoxLevels boxLevels(const Analysis &analysis, const FrameBox &box, const RunCont
     const double mean = noiseOf(noise);
     const double frameCount = cells / double(box.endCell - box.beginCell);
     const double ratio = (sum / mean - cells) / (frameCount * binsPerCell);
-    BoxLevels levels{decibels(sum / cells), decibels(peak), decibels(mean), {}};
+    BoxLevels levels{decibels(sum / cells), {}};
     if (ratio > 0.0)
         levels.snrDb = decibels(ratio);
     return levels;

@@ -17,8 +17,6 @@ struct FrameBox {
 
 struct BoxLevels {
     double meanDb = 0.0;         ///< 10·lg of the mean y
-    double peakDb = 0.0;         ///< 10·lg of the largest y
-    double noiseDb = 0.0;        ///< 10·lg N, noise beside the box
     std::optional<double> snrDb; ///< nothing if the box holds no more than its noise
 };
 

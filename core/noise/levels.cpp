@@ -80,11 +80,6 @@ double medianMean(int n)
     return mean;
 }
 
-double lnMedianMean(std::ptrdiff_t n)
-{
-    return std::log(medianMean(int(n))) - 0.5 * inverseLn2 * inverseLn2 * likeness / double(n);
-}
-
 double medianScatter(double cells)
 {
     return inverseLn2 * std::sqrt(likeness / cells);

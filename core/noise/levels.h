@@ -18,9 +18,6 @@ float medianOf(std::vector<float> &values);
 /// Mean of the lower median of n independent exponentials of mean 1: Σ 1/(n-i), i = 0 … k-1, k its rank.
 double medianMean(int n);
 
-/// Mean of the logarithm of the median of n neighbouring cells of mean 1.
-double lnMedianMean(std::ptrdiff_t n);
-
 /// Standard error of the logarithm of a median of cells.
 double medianScatter(double cells);
 

@@ -56,9 +56,7 @@ private slots:
         analysis.frames = test::framesOf(4, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, 1.0, 10.0);
         const BoxLevels levels = boxLevels(analysis, {1, 3, 1, 3});
         QVERIFY(std::abs(levels.meanDb - 10.0 * std::log10((6.0 + 7.0 + 10.0 + 11.0) / 4.0)) < 1e-12);
-        QVERIFY(std::abs(levels.peakDb - 10.0 * std::log10(11.0)) < 1e-12);
         // No cell lies two beyond it: the noise is what frames are normalised to, r = Σ (y − 1) / T.
-        QCOMPARE(levels.noiseDb, 0.0);
         QVERIFY(std::abs(levels.snrDb.value() - 10.0 * std::log10((34.0 - 4.0) / 2.0)) < 1e-12);
     }
 
@@ -97,7 +95,6 @@ private slots:
         const double found = levels.snrDb ? std::pow(10.0, 0.1 * *levels.snrDb) : 0.0;
         QVERIFY2(std::abs(found - r) < 4.0 * error,
                  qPrintable(QStringLiteral("%1 for %2 ± %3").arg(found).arg(r).arg(error)));
-        QVERIFY(std::abs(levels.noiseDb) < 0.2);
     }
 
     void noiseHasNone()

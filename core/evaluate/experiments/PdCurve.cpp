@@ -73,12 +73,6 @@ PdPoint pdAgainstBlocks(const LineExperiment &experiment, std::span<const RunOut
     return point;
 }
 
-PdPoint pdAtThreshold(const LineExperiment &experiment, std::span<const RunOutcome> outcomes, std::size_t detector,
-                      std::size_t snr, double threshold)
-{
-    return pdOf(pooledSignal(outcomes, detector, snr), experiment.snrDb[snr], threshold);
-}
-
 double blockThreshold(std::span<const RunOutcome> outcomes, std::size_t detector, double probability)
 {
     const std::vector<float> maxima = pooledNoise(outcomes, detector);

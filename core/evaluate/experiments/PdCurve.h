@@ -28,10 +28,6 @@ struct PdPoint {
 PdPoint pdAgainstBlocks(const LineExperiment &experiment, std::span<const RunOutcome> outcomes, std::size_t detector,
                         std::size_t snr);
 
-/// The detection probability at a fixed threshold, with Wilson's interval.
-PdPoint pdAtThreshold(const LineExperiment &experiment, std::span<const RunOutcome> outcomes, std::size_t detector,
-                      std::size_t snr, double threshold);
-
 /// The threshold that a noise block exceeds with the given probability: a quantile of all blocks' maxima.
 double blockThreshold(std::span<const RunOutcome> outcomes, std::size_t detector, double probability);
 

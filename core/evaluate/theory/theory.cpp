@@ -1,12 +1,9 @@
 #include "evaluate/theory/theory.h"
 
 #include <boost/math/distributions/binomial.hpp>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/non_central_chi_squared.hpp>
-#include <boost/math/distributions/non_central_f.hpp>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/special_functions/gamma.hpp>
-#include <boost/math/tools/roots.hpp>
 
 #include <cmath>
 
@@ -30,29 +27,6 @@ double pdOfMeanPower(double threshold, int looks, double snr)
         return pfaOfMeanPower(threshold, looks);
     const math::non_central_chi_squared law(2.0 * looks, 2.0 * looks * snr);
     return threshold <= 0.0 ? 1.0 : math::cdf(math::complement(law, 2.0 * looks * threshold));
-}
-
-double pfaOfMeanPowerEstimated(double threshold, int looks, int references)
-{
-    return math::cdf(math::complement(math::fisher_f(2.0 * looks, 2.0 * references), threshold));
-}
-
-double pdOfMeanPowerEstimated(double threshold, int looks, int references, double snr)
-{
-    if (snr <= 0.0)
-        return pfaOfMeanPowerEstimated(threshold, looks, references);
-    return math::cdf(
-        math::complement(math::non_central_f(2.0 * looks, 2.0 * references, 2.0 * looks * snr), threshold));
-}
-
-double snrOfMeanPower(double pd, double pfa, int looks)
-{
-    const double threshold = thresholdOfMeanPower(pfa, looks);
-    const auto gap = [&](double lnSnr) { return pdOfMeanPower(threshold, looks, std::exp(lnSnr)) - pd; };
-    std::uintmax_t steps = 200;
-    const auto [low, high] =
-        math::tools::toms748_solve(gap, -12.0, 12.0, math::tools::eps_tolerance<double>(40), steps);
-    return std::exp(0.5 * (low + high));
 }
 
 double pdOfPofN(int p, int n, double event)

@@ -17,14 +17,6 @@ double thresholdOfMeanPower(double pfa, int looks);
 /// degrees of freedom. Billon 2005 section 5: "the well-known ROC curves for the Rice case".
 double pdOfMeanPower(double threshold, int looks, double snr);
 
-/// The same two for a threshold of `threshold` times the mean of `references` other noise cells (cell averaging):
-/// Fisher's F law, central and non-central.
-double pfaOfMeanPowerEstimated(double threshold, int looks, int references);
-double pdOfMeanPowerEstimated(double threshold, int looks, int references, double snr);
-
-/// The SNR at which the mean of `looks` cells is detected with probability pd at false-alarm probability pfa.
-double snrOfMeanPower(double pd, double pfa, int looks);
-
 /// P( at least p of n independent frames have an event ), each with probability `event`: a binomial tail.
 double pdOfPofN(int p, int n, double event);
 

@@ -62,7 +62,6 @@ public:
     DopplerProblem(const std::vector<DopplerPoint> &points, double propagation);
 
     std::size_t count() const { return m_points.size(); } ///< number of points in the fit
-    double spanSeconds() const { return m_spanSeconds; }
 
     DopplerPass passOf(const DopplerCoordinates &x) const;
     DopplerCoordinates coordinatesOf(const DopplerPass &pass) const;
