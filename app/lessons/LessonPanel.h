@@ -41,12 +41,10 @@ public:
     bool isDone() const { return m_isDone; }
     QString text() const; ///< all visible text, for tests and screen readers
 
-    QPushButton *back() const { return m_back; }
     QPushButton *next() const { return m_next; }
     QPushButton *leave() const { return m_leave; }
     QButtonGroup *choices() const { return m_choices; }
     QLineEdit *learner() const { return m_learner; } ///< at the end; null before
-    QPushButton *save() const { return m_save; }
 
     QSize sizeHint() const override { return {310, 420}; }
 

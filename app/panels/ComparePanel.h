@@ -27,9 +27,6 @@ public:
     QTableWidget *table() const { return m_table; }
     QString sentence() const;    ///< describes the result, or why there is none
     QString differences() const; ///< of the settings
-    QPushButton *swapButton() const { return m_swap; }
-    QPushButton *goToButton() const { return m_goTo; }
-    QPushButton *computeButton() const { return m_compute; }
 
     QSize sizeHint() const override { return {900, 300}; }
 

@@ -40,7 +40,6 @@ public:
     QTableWidget *table() const { return m_table; }
     ChartPlot &frequencies() { return *m_frequencies; }
     ChartPlot &residuals() { return *m_residuals; }
-    QComboBox *medium() const { return m_medium; }
     QDoubleSpinBox *propagation() const { return m_propagation; }
     QDoubleSpinBox *centre() const { return m_centre; }
 

@@ -46,10 +46,6 @@ public:
     HandLinePanel(Document &document, const Pictures &pictures, QWidget *parent = nullptr);
 
     HandLine &line() { return *m_line; }
-    QPushButton *drawButton() const { return m_draw; }
-    QPushButton *coverButton() const { return m_cover; }
-    QPushButton *addButton() const { return m_add; }
-    QPushButton *clearButton() const { return m_clear; }
     bool isCovered() const { return m_covers[0] != nullptr; }
     bool isBusy() const { return m_runner.isRunning(); }
     const std::optional<Comparison> &comparison() const { return m_comparison; }

@@ -24,7 +24,6 @@ public:
     explicit ReproductionPanel(QWidget *parent = nullptr);
 
     void show(std::shared_ptr<const Reproduction> reproduction);
-    QTableWidget *table() const { return m_table; }
     ChartPlot &plot() { return *m_plot; }
 
     QSize sizeHint() const override { return {900, 320}; }

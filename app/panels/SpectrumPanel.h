@@ -27,7 +27,6 @@ public:
 
     bool isBusy() const { return m_runner.isRunning(); }
     ChartPlot &plot() { return *m_plot; }
-    QComboBox *level() const { return m_level; }
     QDoubleSpinBox *calibration() const { return m_calibration; }
 
     QSize sizeHint() const override { return {360, 300}; }

@@ -33,7 +33,6 @@ public:
     ~StateSlicePanel() override;
 
     WaterfallView *view() const { return m_view; }
-    QTabBar *tabs() const { return m_tabs; }
     LawPanel &law() const { return *m_law; }
     const SliceMarks &marks() const { return *m_marks; }
     QString sentence() const;

@@ -31,11 +31,6 @@ public:
 
     SceneEditor &editor() { return *m_editor; }
     QTableView *table() const { return m_table; }
-    QPushButton *placeButton() const { return m_place; }
-    QPushButton *addTargetButton() const { return m_addTarget; }
-    QPushButton *addLegButton() const { return m_addLeg; }
-    QPushButton *removeButton() const { return m_remove; }
-    QComboBox *unitBox() const { return m_unit; }
     QString sentence() const;
 
     /// Writes the scene as JSON, as `faintline-cli simulate` reads it. Throws Error.

@@ -73,7 +73,7 @@ protected:
         QTest::mouseMove(on, to);
         QTest::mouseRelease(on, Qt::LeftButton, {}, to);
     }
-    void startPlacing() const { QTest::mouseClick(panel().placeButton(), Qt::LeftButton); }
+    void startPlacing() const { QTest::mouseClick(buttonOf(panel(), "Place on the map"), Qt::LeftButton); }
     /// Where the simulated target is in a ping.
     ScenePlace placeIn(int target, int ping) const
     {

@@ -3,6 +3,7 @@
 #include "app/window/MainWindow.h"
 #include "support/slowdown.h"
 
+#include <QAbstractButton>
 #include <QFile>
 #include <QSettings>
 #include <QSignalSpy>
@@ -35,6 +36,15 @@ inline std::unique_ptr<MainWindow> newWindow(QSize size = {1400, 900}, std::uniq
     window->resize(size);
     window->show();
     return window;
+}
+
+/// The button of a widget with that text.
+inline QAbstractButton *buttonOf(const QWidget &widget, const QString &text)
+{
+    for (QAbstractButton *button : widget.findChildren<QAbstractButton *>())
+        if (button->text().remove(QLatin1Char('&')) == text)
+            return button;
+    qFatal("no button %s", qPrintable(text));
 }
 
 /// Waits until a part of the window that is busy now has settled.

@@ -10,7 +10,6 @@
 
 #include <qwt_text.h>
 
-#include <QDockWidget>
 #include <QMenuBar>
 
 #include <cmath>

@@ -2,7 +2,6 @@
 #include "app/openWindow.h"
 #include "app/workspace/Workbench.h"
 #include "support/test.h"
-#include "widgets/plot/StripPlot.h"
 
 using namespace faintline;
 using namespace faintline::test;

@@ -17,7 +17,6 @@
 #include "widgets/pings/PingMap.h"
 #include "widgets/waterfall/WaterfallView.h"
 
-#include <QAbstractButton>
 #include <QAccessible>
 #include <QAction>
 #include <QApplication>
@@ -27,7 +26,6 @@
 #include <QLayout>
 #include <QLineEdit>
 #include <QListWidget>
-#include <QMenu>
 #include <QMenuBar>
 #include <QStyleOptionComboBox>
 #include <QTabBar>

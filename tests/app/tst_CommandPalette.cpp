@@ -3,7 +3,6 @@
 #include "app/window/CommandPalette.h"
 #include "support/test.h"
 
-#include <QAction>
 #include <QLineEdit>
 #include <QListWidget>
 #include <QMenu>

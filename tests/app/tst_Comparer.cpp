@@ -4,10 +4,8 @@
 #include "support/test.h"
 #include "widgets/waterfall/WaterfallView.h"
 
-#include <QLabel>
 #include <QPushButton>
 #include <QTableWidget>
-#include <QToolButton>
 
 using namespace faintline;
 using namespace faintline::test;
@@ -48,7 +46,7 @@ private slots:
         settle(window, settled);
         const AnalysisSettings first = window.document().settings();
         ComparePanel &panel = window.comparePanel();
-        QVERIFY(!panel.swapButton()->isEnabled());
+        QVERIFY(!buttonOf(panel, "Swap")->isEnabled());
 
         QTest::keyClick(&window, Qt::Key_B, Qt::ControlModifier);
         QVERIFY(panel.isVisible());
@@ -78,14 +76,14 @@ private slots:
         QVERIFY2(std::abs(window.document().viewport().cursor()->hz - 90.0) < 4.0,
                  qPrintable(QString::number(window.document().viewport().cursor()->hz)));
 
-        panel.swapButton()->click();
+        buttonOf(panel, "Swap")->click();
         settle(window, settled);
         QCOMPARE(window.document().settings(), first);
         QVERIFY(std::holds_alternative<EnergySettings>(window.comparer().kept()->settings.detector));
         QTRY_COMPARE(window.comparer().result()->b, window.document().analysis());
         QCOMPARE(window.comparer().result()->comparison.count(ComparedEvent::In::B), std::ptrdiff_t(1));
 
-        panel.goToButton()->click();
+        buttonOf(panel, "Go to A")->click();
         settle(window, settled);
         QVERIFY(std::holds_alternative<EnergySettings>(window.document().settings().detector));
         window.document().undoStack().undo();
@@ -99,11 +97,11 @@ private slots:
         QCOMPARE(window.comparer().kept(), kept);
         QVERIFY(!window.comparer().isOfWhatIsOpen());
         QVERIFY(!window.comparer().result().has_value());
-        QVERIFY(panel.computeButton()->isVisible());
+        QVERIFY(buttonOf(panel, "Compute A here")->isVisible());
         QVERIFY(panel.sentence().contains("another source"));
-        panel.computeButton()->click();
+        buttonOf(panel, "Compute A here")->click();
         QTRY_VERIFY_WITH_TIMEOUT(window.comparer().result().has_value(), patience);
-        QVERIFY(!panel.computeButton()->isVisible());
+        QVERIFY(!buttonOf(panel, "Compute A here")->isVisible());
         QCOMPARE(window.comparer().kept()->settings, kept->settings);
     }
 };

@@ -8,11 +8,9 @@
 #include "widgets/events/EventTable.h"
 #include "widgets/plot/ChartPlot.h"
 
-#include <QAction>
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QLabel>
-#include <QTableView>
 #include <QTableWidget>
 
 #include <cmath>
@@ -123,16 +121,16 @@ void tst_DopplerPanel::theChartsShowTrackAndResiduals()
 void tst_DopplerPanel::theMediumScalesSpeedAndRange()
 {
     const DopplerPass inAir = panel().report()->fit.pass;
-    panel().medium()->setFocus();
-    QTest::keyClick(panel().medium(), Qt::Key_Down); // Water
+    panel().findChild<QComboBox *>()->setFocus();
+    QTest::keyClick(panel().findChild<QComboBox *>(), Qt::Key_Down); // Water
     QCOMPARE(panel().propagation()->value(), 1500.0);
     QVERIFY(settle(panel()));
     const DopplerPass inWater = panel().report()->fit.pass;
     QVERIFY(std::abs(inWater.metresPerSecond / inAir.metresPerSecond - 1500.0 / 343.0) < 0.01);
     panel().propagation()->setValue(340.0);
-    QCOMPARE(panel().medium()->currentText(), QString("Other"));
+    QCOMPARE(panel().findChild<QComboBox *>()->currentText(), QString("Other"));
     panel().propagation()->setValue(343.0);
-    QCOMPARE(panel().medium()->currentText(), QString("Air"));
+    QCOMPARE(panel().findChild<QComboBox *>()->currentText(), QString("Air"));
     QVERIFY(settle(panel()));
     QCOMPARE(panel().report()->fit.pass.metresPerSecond, inAir.metresPerSecond);
 }

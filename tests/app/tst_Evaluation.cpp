@@ -298,7 +298,7 @@ void tst_Evaluation::aReproductionShowsItsTable()
     QVERIFY(idle());
     QVERIFY2(m_window->experiments().entry(id)->reproduction != nullptr,
              qPrintable(m_window->experiments().entry(id)->failure));
-    QCOMPARE(m_window->reproduction().table()->rowCount(), 2);
+    QCOMPARE(m_window->reproduction().findChild<QTableWidget *>()->rowCount(), 2);
     QVERIFY(m_window->reproduction().isVisible());
     QCOMPARE(m_window->reproduction().plot().chart().curves.size(), std::size_t(2));
     m_window->experimentList().exportTo(id, m_folder.filePath("out"));

@@ -15,9 +15,7 @@
 #include "widgets/events/EventTable.h"
 
 #include <QApplication>
-#include <QImageReader>
 #include <QInputDialog>
-#include <QLineEdit>
 #include <QListWidget>
 #include <QTableView>
 

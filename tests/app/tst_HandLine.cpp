@@ -57,7 +57,7 @@ void tst_HandLine::initTestCase()
 void tst_HandLine::init()
 {
     panel().line().clear();
-    panel().drawButton()->setChecked(true);
+    buttonOf(panel(), "Draw")->setChecked(true);
 }
 
 void tst_HandLine::pointsAreMadeMovedAndTakenAway()
@@ -85,18 +85,18 @@ void tst_HandLine::pointsAreMadeMovedAndTakenAway()
 
     // The keyboard's way.
     m_window->document().viewport().setCursor({20.0, 150.0});
-    panel().addButton()->setFocus();
-    QTest::keyClick(panel().addButton(), Qt::Key_Space);
+    buttonOf(panel(), "Point at cursor")->setFocus();
+    QTest::keyClick(buttonOf(panel(), "Point at cursor"), Qt::Key_Space);
     QCOMPARE(line.points().size(), std::size_t(2));
     QCOMPARE(line.points()[0], (Viewport::Point{20.0, 150.0}));
-    panel().clearButton()->setFocus();
-    QTest::keyClick(panel().clearButton(), Qt::Key_Space);
+    buttonOf(panel(), "Clear")->setFocus();
+    QTest::keyClick(buttonOf(panel(), "Clear"), Qt::Key_Space);
     QVERIFY(line.points().empty() && !panel().comparison());
 }
 
 void tst_HandLine::withoutDrawingTheCursorIsPlaced()
 {
-    panel().drawButton()->setChecked(false);
+    buttonOf(panel(), "Draw")->setChecked(false);
     QTest::mouseClick(input().canvas(), Qt::LeftButton, {}, at(30.0, 400.0));
     QVERIFY(panel().line().points().empty());
     QVERIFY(std::abs(m_window->document().viewport().cursor()->hz - 400.0) < 5.0);
@@ -137,7 +137,7 @@ void tst_HandLine::besideTheLineThereIsNothing()
 
 void tst_HandLine::coveredNothingIsGivenAway()
 {
-    QTest::mouseClick(panel().coverButton(), Qt::LeftButton);
+    QTest::mouseClick(buttonOf(panel(), "Cover the statistic"), Qt::LeftButton);
     QVERIFY(panel().isCovered());
     for (const auto layer : {WaterfallView::EventLayer, WaterfallView::TrackLayer, WaterfallView::TruthLayer})
         QVERIFY(!input().layers().testFlag(layer));
@@ -147,7 +147,7 @@ void tst_HandLine::coveredNothingIsGivenAway()
     QTRY_VERIFY_WITH_TIMEOUT(isSettled(), patience);
     QVERIFY(!panel().sentence().contains("track"));
 
-    QTest::mouseClick(panel().coverButton(), Qt::LeftButton);
+    QTest::mouseClick(buttonOf(panel(), "Reveal the statistic"), Qt::LeftButton);
     QVERIFY(!panel().isCovered());
     QVERIFY(input().layers().testFlag(WaterfallView::TruthLayer));
     QVERIFY(panel().sentence().contains("track"));

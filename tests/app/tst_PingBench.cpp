@@ -258,7 +258,7 @@ private slots:
         const auto w = window();
         QVERIFY(openWithNineRates(*w, path("pings.json")));
         w->showStates();
-        w->states().tabs()->setCurrentIndex(1);
+        w->states().findChild<QTabBar *>()->setCurrentIndex(1);
         QCoreApplication::processEvents();          // the bars find their places
         QCOMPARE(w->states().law().plotCount(), 1); // a slope set has one law for both axes
         LawPlot &plot = *w->states().law().plot(0);

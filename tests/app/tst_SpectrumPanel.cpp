@@ -52,8 +52,9 @@ private slots:
             QVERIFY(point.x >= 100.0 && point.x <= 140.0);
 
         const double overNoise = peakOf(panel, 1).y;
-        panel.level()->setCurrentIndex(1);
-        emit panel.level()->activated(1);
+        auto *level = panel.findChild<QComboBox *>();
+        level->setCurrentIndex(1);
+        emit level->activated(1);
         QVERIFY(settle(panel));
         QVERIFY(std::abs(peakOf(panel, 1).y - overNoise - 10.0 * std::log10(2.0 * 0.01 / 500.0)) < 1.0);
         const double uncalibrated = peakOf(panel, 1).y;

@@ -181,7 +181,7 @@ private slots:
     void aBarIsDraggedAndUndone()
     {
         m_window->showStates();
-        m_window->states().tabs()->setCurrentIndex(1);
+        m_window->states().findChild<QTabBar *>()->setCurrentIndex(1);
         QVERIFY(settle(m_window->states()));
         QVERIFY(law().isVisible());
         const std::vector<double> before = setting();
@@ -214,7 +214,7 @@ private slots:
     void escapeLetsItBe()
     {
         m_window->showStates();
-        m_window->states().tabs()->setCurrentIndex(1);
+        m_window->states().findChild<QTabBar *>()->setCurrentIndex(1);
         const std::vector<double> before = setting();
         dragBar(law(), 0, 0.3, false);
         QVERIFY(law().law() != before); // seen while it is dragged
@@ -228,7 +228,7 @@ private slots:
     void barsMoveByKey()
     {
         m_window->showStates();
-        m_window->states().tabs()->setCurrentIndex(1);
+        m_window->states().findChild<QTabBar *>()->setCurrentIndex(1);
         law().setFocus();
         QCOMPARE(law().selected(), 0);
         QTest::keyClick(&law(), Qt::Key_Right);

@@ -39,8 +39,9 @@ void tst_TargetTable::theTableAndTheMapShowTheSame()
         return panel().table()->model()->headerData(int(column), Qt::Horizontal).toString();
     };
     QCOMPARE(title(TargetColumn::RangeRate), QString("Range rate (cells/ping)"));
-    panel().unitBox()->setCurrentIndex(0);
-    emit panel().unitBox()->activated(0);
+    auto *unit = panel().findChild<QComboBox *>();
+    unit->setCurrentIndex(0);
+    emit unit->activated(0);
     QCOMPARE(title(TargetColumn::RangeRate), QString("Range rate (m/s)"));
     QCOMPARE(cell(0, TargetColumn::RangeRate), QString("0.125")); // 5 m in 40 s
     // The table follows a drag before the mouse is released.
@@ -129,14 +130,14 @@ void tst_TargetTable::everythingIsReachedByKeyboard()
     cursor.position[0] = 3500.0;
     cursor.position[1] = 180.0;
     bench().viewports().setPlace(cursor);
-    panel().addTargetButton()->setFocus();
-    QTest::keyClick(panel().addTargetButton(), Qt::Key_Space);
+    buttonOf(panel(), "Target at cursor")->setFocus();
+    QTest::keyClick(buttonOf(panel(), "Target at cursor"), Qt::Key_Space);
     QCOMPARE(scene().targets.size(), std::size_t(2));
     QCOMPARE(last().rangeMetres, 3500.0);
     cursor.position[0] = 3600.0;
     bench().viewports().setPlace(cursor);
-    panel().addLegButton()->setFocus();
-    QTest::keyClick(panel().addLegButton(), Qt::Key_Space);
+    buttonOf(panel(), "Leg to cursor")->setFocus();
+    QTest::keyClick(buttonOf(panel(), "Leg to cursor"), Qt::Key_Space);
     QCOMPARE(last().legs.size(), std::size_t(1));
     QCOMPARE(last().legs[0].rangeCellsPerPing, 0.5); // 10 cells in 20 pings
     // Digits typed on the table begin to edit; they are not the window's keys for classes.

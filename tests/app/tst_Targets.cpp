@@ -127,14 +127,14 @@ void tst_Targets::escapeAbandonsTheDragThenEndsPlacing()
     QCOMPARE(panel().editor().scene()->targets.size(), std::size_t(1));
     QTest::mouseRelease(canvas(), Qt::LeftButton, {}, at(3600.0, 100.0));
     QCOMPARE(m_window->document().undoStack().count(), 0);
-    QVERIFY(panel().placeButton()->isChecked());
+    QVERIFY(buttonOf(panel(), "Place on the map")->isChecked());
     QTest::keyClick(&plane(), Qt::Key_Escape);
-    QVERIFY(!panel().placeButton()->isChecked());
+    QVERIFY(!buttonOf(panel(), "Place on the map")->isChecked());
     QTest::mouseClick(canvas(), Qt::LeftButton, {}, at(3300.0, 45.0));
     QCOMPARE(scene().targets.size(), std::size_t(1));
     QVERIFY(std::abs(bench().viewports().along() - 3300.0) < 10.0); // a click places the cursor again
     startPlacing();
-    QTest::keyClick(panel().placeButton(), Qt::Key_Escape);
+    QTest::keyClick(buttonOf(panel(), "Place on the map"), Qt::Key_Escape);
     QVERIFY(!panel().editor().isPlacing());
 }
 
@@ -284,7 +284,7 @@ void tst_Targets::otherPingsAreNotEdited()
                                     R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": []})");
     QVERIFY(openAndSettle(*m_window, lines));
     QVERIFY(!panel().editor().scene());
-    QVERIFY(!panel().placeButton()->isEnabled());
+    QVERIFY(!buttonOf(panel(), "Place on the map")->isEnabled());
     QVERIFY(panel().sentence().contains("simulated scenes"));
     QCOMPARE(panel().table()->model()->rowCount(), 0);
 }
