@@ -2,10 +2,8 @@
 
 #include "base/Field.h"
 #include "base/Random.h"
-#include "base/logmath.h"
 #include "base/parallel.h"
 #include "detect/Smd.h"
-#include "evaluate/theory/theory.h"
 #include "model/sonarModels.h"
 #include "scene/SimulatedPings.h"
 

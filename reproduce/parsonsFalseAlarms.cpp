@@ -1,7 +1,6 @@
 #include "reproduce/parsonsParts.h"
 
 #include "base/Field.h"
-#include "base/logmath.h"
 #include "detect/Smd.h"
 #include "evaluate/theory/theory.h"
 #include "model/sonarModels.h"

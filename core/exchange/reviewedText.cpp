@@ -5,7 +5,6 @@
 #include "base/utc.h"
 #include "exchange/annotationText.h"
 #include "signal/formats/AudioDecoder.h"
-#include "signal/formats/RawRecording.h"
 #include "signal/formats/SigmfRecording.h"
 
 #include <algorithm>

@@ -6,9 +6,6 @@
 #include "exchange/reviewedText.h"
 #include "exchange/writeEvents.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace faintline {
 
 namespace {

@@ -4,7 +4,6 @@
 #include "inspect/StateReplay.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace faintline {
 

@@ -2,7 +2,6 @@
 
 #include "base/Error.h"
 
-#include <algorithm>
 #include <csignal>
 #include <cstring>
 

@@ -2,7 +2,6 @@
 
 #include "base/memoryShares.h"
 #include "noise/CausalSpectrogram.h"
-#include "plan/chain.h"
 
 #include <algorithm>
 

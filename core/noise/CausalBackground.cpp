@@ -5,7 +5,6 @@
 #include "noise/levels.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace faintline {
 

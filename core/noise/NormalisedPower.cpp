@@ -6,7 +6,6 @@
 #include "noise/blockBackground.h"
 #include "noise/dither.h"
 #include "noise/levels.h"
-#include "noise/medians.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,6 @@
 #include "recursion/Recursion.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <memory>
 #include <span>
 

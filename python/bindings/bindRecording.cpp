@@ -1,7 +1,6 @@
 #include "bindings/bind.h"
 
 #include "base/files/InputFiles.h"
-#include "base/files/fileName.h"
 #include "bindings/Source.h"
 #include "bindings/arrays.h"
 #include "bindings/interruptible.h"

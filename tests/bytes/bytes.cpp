@@ -2,7 +2,6 @@
 // with one that has no loops for newer processors: what both print must be the same.
 
 #include "base/Random.h"
-#include "detect/ModelBank.h"
 #include "frames/PeakPyramid.h"
 #include "noise/NoiseNormaliser.h"
 #include "plan/AnalysisSettings.h"

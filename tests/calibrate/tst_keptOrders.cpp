@@ -9,7 +9,6 @@
 #include "support/test.h"
 
 #include <algorithm>
-#include <cmath>
 #include <ctime>
 
 using namespace faintline;

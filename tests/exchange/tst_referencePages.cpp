@@ -2,7 +2,6 @@
 #include "evaluate/experiments/InjectionExperiment.h"
 #include "evaluate/experiments/LineExperiment.h"
 #include "evaluate/experiments/SweepExperiment.h"
-#include "exchange/ModelFile.h"
 #include "exchange/survey/surveySchema.h"
 #include "scene/LineScene.h"
 #include "scene/PingScene.h"

@@ -31,7 +31,6 @@
 #include "scene/Truth.h"
 #include "signal/Timeline.h"
 #include "signal/formats/KiwiRecording.h"
-#include "signal/formats/NumPy.h"
 #include "signal/formats/bitshuffle.h"
 #include "signal/formats/gridFile.h"
 #include "signal/openRecording.h"

@@ -5,7 +5,6 @@
 #include "support/recordings.h"
 
 #include <cmath>
-#include <cstring>
 
 using namespace faintline;
 using namespace faintline::test;

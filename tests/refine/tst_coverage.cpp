@@ -6,7 +6,6 @@
 #include "support/lines.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 

@@ -3,7 +3,6 @@
 
 #include "support/recordings.h"
 
-#include <cstring>
 #include <limits>
 
 using namespace faintline;

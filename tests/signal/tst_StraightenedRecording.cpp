@@ -5,7 +5,6 @@
 #include "support/test.h"
 
 #include <cmath>
-#include <complex>
 #include <numbers>
 
 using namespace faintline;

@@ -6,9 +6,6 @@
 #include "support/test.h"
 #include "walks/Walk.h"
 #include "widgets/pings/PingMap.h"
-#include "widgets/waterfall/WaterfallView.h"
-
-#include <QScreen>
 
 using namespace faintline;
 using namespace faintline::test;

@@ -1,7 +1,6 @@
 // An engineer of sonar and radar: pings one after the other, the tracks in them, and tests on radar scans.
 
 #include "app/panels/SequentialPanel.h"
-#include "app/panels/StateSlicePanel.h"
 #include "app/panels/TrajectoryPage.h"
 #include "app/panels/WhyPanel.h"
 #include "app/welcome/WelcomePage.h"

@@ -13,7 +13,6 @@
 #include "scene/SimulatedRecording.h"
 
 #include <algorithm>
-#include <cmath>
 #include <mutex>
 
 namespace faintline {

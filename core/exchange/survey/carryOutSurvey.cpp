@@ -5,7 +5,6 @@
 #include "base/RunContext.h"
 #include "base/files/fileName.h"
 #include "base/oneLine.h"
-#include "detect/SumDetector.h"
 #include "exchange/reviewedText.h"
 #include "exchange/survey/SurveyOrigin.h"
 #include "exchange/survey/SurveyOutcome.h"
@@ -20,7 +19,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <condition_variable>
 #include <filesystem>
 #include <latch>

@@ -4,7 +4,6 @@
 #include "live/sources/sockets.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <utility>

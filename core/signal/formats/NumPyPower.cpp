@@ -3,7 +3,6 @@
 #include "base/Error.h"
 #include "signal/formats/gridFile.h"
 
-#include <cmath>
 #include <filesystem>
 
 namespace faintline {

@@ -13,7 +13,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <utility>
 
