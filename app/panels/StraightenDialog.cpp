@@ -222,7 +222,7 @@ void StraightenDialog::show(const Spectra &spectra)
     showTarget(spectra.straightened.targetHz);
     const std::vector<double> &hz = spectra.straightened.curve.hz();
     const auto [least, most] = std::minmax_element(hz.begin(), hz.end());
-    const Stretch &stretch = spectra.straightened.before;
+    const TimeBand &stretch = spectra.straightened.before;
     const double was = highestOf(spectra.before), is = highestOf(spectra.after);
     const double resolution = std::min(0.01, 0.1 * m_analysis->grid().axes.back().step);
     QString words = tr("Event %1: %2 … %3, %4 … %5, straightened at %6. ")

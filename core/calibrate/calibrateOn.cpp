@@ -217,15 +217,15 @@ namespace {
 
 NoiseSegments rememberedSegments(NoiseSegments noise)
 {
-    struct Made {
+    struct MadeSegment {
         std::once_flag once;
         NormalisedFramesPointer frames;
     };
-    const auto made = std::make_shared<std::vector<Made>>(std::size_t(roughCountOf(noise.count)));
+    const auto made = std::make_shared<std::vector<MadeSegment>>(std::size_t(roughCountOf(noise.count)));
     const auto remembered = [segment = std::move(noise.segment), made](int number) {
         if (number >= std::ssize(*made))
             return segment(number);
-        Made &own = (*made)[std::size_t(number)];
+        MadeSegment &own = (*made)[std::size_t(number)];
         std::call_once(own.once, [&] { own.frames = segment(number); });
         return own.frames;
     };

@@ -16,22 +16,22 @@ namespace {
     using Clock = std::chrono::steady_clock;
 
     /// This program's cache entry of one key.
-    struct Entry {
+    struct CacheEntry {
         std::mutex making; ///< held by the thread that makes it
         std::mutex guard;
         Made made;
     };
 
-    Entry &entryOf(const std::string &key)
+    CacheEntry &entryOf(const std::string &key)
     {
         static std::mutex guard;
-        static std::map<std::string, Entry> entries;
+        static std::map<std::string, CacheEntry> entries;
         const std::scoped_lock lock(guard);
         return entries[key];
     }
 
     /// From memory or from disk; null if it must be made.
-    Made known(Entry &entry, const std::string &key, const CalibrationStore &store)
+    Made known(CacheEntry &entry, const std::string &key, const CalibrationStore &store)
     {
         const std::scoped_lock lock(entry.guard);
         if (!entry.made)
@@ -95,7 +95,7 @@ std::shared_ptr<const Calibration> keptCalibration(const std::string &key,
                                                    const RunContext &context, std::chrono::milliseconds silence)
 {
     const CalibrationStore store(CalibrationStore::usualFolder());
-    Entry &entry = entryOf(key);
+    CacheEntry &entry = entryOf(key);
     if (Made made = known(entry, key, store))
         return made;
     std::unique_lock making(entry.making, std::defer_lock);
@@ -123,7 +123,7 @@ std::shared_ptr<const Calibration> cachedCalibration(const std::string &key)
 
 void rememberCalibration(const std::string &key, std::shared_ptr<const Calibration> calibration)
 {
-    Entry &entry = entryOf(key);
+    CacheEntry &entry = entryOf(key);
     const std::scoped_lock lock(entry.guard);
     entry.made = std::move(calibration);
 }

@@ -51,7 +51,7 @@ void ModelBank::useThreads(int threads)
         detector.useThreads(threads);
 }
 
-struct ModelBank::State final : DetectorState {
+struct ModelBank::BankState final : DetectorState {
     std::vector<std::shared_ptr<const DetectorState>> members;
     std::vector<unsigned char> winners;
 
@@ -66,7 +66,7 @@ struct ModelBank::State final : DetectorState {
 
 std::shared_ptr<const DetectorState> ModelBank::state() const
 {
-    auto result = std::make_shared<State>();
+    auto result = std::make_shared<BankState>();
     for (const Smd &detector : m_detectors)
         result->members.push_back(detector.state());
     result->winners = m_winners;
@@ -75,7 +75,7 @@ std::shared_ptr<const DetectorState> ModelBank::state() const
 
 void ModelBank::setState(const DetectorState &state)
 {
-    const auto &saved = static_cast<const State &>(state);
+    const auto &saved = static_cast<const BankState &>(state);
     for (std::size_t i = 0; i < m_detectors.size(); ++i)
         m_detectors[i].setState(*saved.members[i]);
     m_winners = saved.winners;

@@ -42,7 +42,7 @@ public:
     std::size_t winnerAt(Index cell) const override { return m_winners[std::size_t(cell)]; }
 
 private:
-    struct State;
+    struct BankState;
 
     std::vector<Smd> m_detectors;
     std::vector<float> m_offsets;

@@ -145,7 +145,7 @@ void Smd::forget(const Grid &grid, const CellBox &box)
 }
 
 /// Everything on which the next frame depends, and what a chain needs before it.
-struct Smd::State final : DetectorState {
+struct Smd::SmdState final : DetectorState {
     std::vector<float> scores;
     double lnK = 0.0;
     double offset = 0.0;
@@ -161,7 +161,7 @@ struct Smd::State final : DetectorState {
 
 std::shared_ptr<const DetectorState> Smd::state() const
 {
-    auto result = std::make_shared<State>();
+    auto result = std::make_shared<SmdState>();
     result->scores.assign(m_scores.begin(), m_scores.end());
     result->lnK = m_lnK;
     result->offset = m_offset;
@@ -173,7 +173,7 @@ std::shared_ptr<const DetectorState> Smd::state() const
 
 void Smd::setState(const DetectorState &state)
 {
-    const auto &saved = static_cast<const State &>(state);
+    const auto &saved = static_cast<const SmdState &>(state);
     m_scores.assign(saved.scores.begin(), saved.scores.end());
     m_lnK = saved.lnK;
     m_offset = saved.offset;

@@ -62,7 +62,7 @@ public:
     void setState(const DetectorState &state) override;
 
 private:
-    struct State;
+    struct SmdState;
 
     void start(std::span<const float> y, std::span<float> statistic);
     Continued advance(std::span<const float> y, std::span<float> statistic);

@@ -35,12 +35,12 @@ namespace {
     }
 
     /// The straight line through a track.
-    struct Line {
+    struct TrackLine {
         double startHz;
         double slope;
     };
 
-    Line lineThrough(const Track &track, const Axis &time, const Axis &frequency)
+    TrackLine lineThrough(const Track &track, const Axis &time, const Axis &frequency)
     {
         const std::vector<std::size_t> present = track.presentPoints();
         const auto n = double(present.size());
@@ -155,7 +155,7 @@ TopHits topHits(const Analysis &analysis, const Observation &observation, double
     table.channelHz = frequency.step;
     table.durationSeconds = time.step * double(time.count);
     for (const Track &track : analysis.tracks) {
-        const Line line = lineThrough(track, time, frequency);
+        const TrackLine line = lineThrough(track, time, frequency);
         TopHit hit{line.slope,
                    snrAlong(analysis, track),
                    line.startHz + observation.centreHz,

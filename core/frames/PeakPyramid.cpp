@@ -194,7 +194,7 @@ void PeakPyramid::coarsen()
     m_pending[0] = std::move(first);
 }
 
-void PeakPyramid::add(Level &level, std::span<const std::uint8_t> row) const
+void PeakPyramid::add(PyramidLevel &level, std::span<const std::uint8_t> row) const
 {
     const Index place = level.rows++ % m_chunkRows;
     if (place == 0)
@@ -205,7 +205,7 @@ void PeakPyramid::add(Level &level, std::span<const std::uint8_t> row) const
 Index PeakPyramid::bytes() const
 {
     Index rows = 0;
-    for (const Level &level : m_levels)
+    for (const PyramidLevel &level : m_levels)
         rows += level.rows;
     return rows * m_cells;
 }
@@ -213,7 +213,7 @@ Index PeakPyramid::bytes() const
 PeakPyramid PeakPyramid::soFar() const
 {
     PeakPyramid copy = *this;
-    for (Level &level : copy.m_levels) {
+    for (PyramidLevel &level : copy.m_levels) {
         const Index shared = level.rows % m_chunkRows;
         if (shared == 0)
             continue; // the next row goes to its own chunk

@@ -78,11 +78,11 @@ private:
     Index bytes() const;
 
     /// Rows in chunks that never move, so that existing rows can be shared and read while more are added.
-    struct Level {
+    struct PyramidLevel {
         std::vector<std::shared_ptr<std::uint8_t[]>> chunks;
         Index rows = 0;
     };
-    void add(Level &level, std::span<const std::uint8_t> row) const;
+    void add(PyramidLevel &level, std::span<const std::uint8_t> row) const;
 
     Axis m_time;
     Index m_cells;
@@ -91,7 +91,7 @@ private:
     Index m_chunkRows;
     Index m_baseFrames = 1; ///< frames per row of level 0
     Index m_frameCount = 0;
-    std::vector<Level> m_levels;
+    std::vector<PyramidLevel> m_levels;
     struct Pending {
         std::vector<std::uint8_t> row;
         Index count = 0;

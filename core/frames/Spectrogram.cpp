@@ -252,7 +252,7 @@ Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &
                          const SelectionSettings &selection)
     : m_recording(std::move(recording)), m_settings(settings), m_selection(selection)
 {
-    const Samples samples = selectedSamples();
+    const SelectedSamples samples = selectedSamples();
     m_firstSample = samples.first;
     chooseWindow(samples.count());
     m_window = sampleWindow(settings.window, m_windowSamples);
@@ -271,7 +271,7 @@ Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &
     selectBand();
 }
 
-Spectrogram::Samples Spectrogram::selectedSamples() const
+Spectrogram::SelectedSamples Spectrogram::selectedSamples() const
 {
     const RecordingInfo &info = m_recording->info();
     checkChannel(m_selection, "the recording", info.channelCount);

@@ -106,12 +106,12 @@ public:
 
 private:
     /// Samples first … end-1 of the recording.
-    struct Samples {
+    struct SelectedSamples {
         Index first;
         Index end;
         Index count() const { return end - first; }
     };
-    Samples selectedSamples() const;
+    SelectedSamples selectedSamples() const;
     void chooseWindow(Index sampleCount);
     void selectBand();
 

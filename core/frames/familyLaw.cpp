@@ -24,12 +24,12 @@ namespace {
 
 const LooksLaw &lawOfSum(std::size_t members)
 {
-    struct Law {
+    struct SumLawTable {
         std::once_flag isMade;
         std::optional<LooksLaw> law; // a table, computed on first use
     };
-    static std::array<Law, mostSummed> laws;
-    Law &law = laws[members - 1];
+    static std::array<SumLawTable, mostSummed> laws;
+    SumLawTable &law = laws[members - 1];
     std::call_once(law.isMade, [&] { law.law = sumLaw(members); });
     return *law.law;
 }

@@ -36,7 +36,7 @@ namespace {
                                     ///< ones
 
     /// Part of a track that lies in a stretch, with the power around it.
-    struct Piece {
+    struct TrackInStretch {
         std::vector<TrackPoint> points;
         std::vector<double> below; ///< Σ y at 0, 1, 2 … bins below the track
         std::vector<double> above;
@@ -44,11 +44,11 @@ namespace {
         Index highest = 0;
     };
 
-    std::vector<Piece> piecesOf(const std::vector<Track> &tracks, Index first, Index end)
+    std::vector<TrackInStretch> piecesOf(const std::vector<Track> &tracks, Index first, Index end)
     {
-        std::vector<Piece> pieces;
+        std::vector<TrackInStretch> pieces;
         for (const Track &track : tracks) {
-            Piece piece;
+            TrackInStretch piece;
             std::copy_if(track.points.begin(), track.points.end(), std::back_inserter(piece.points),
                          [&](const TrackPoint &point) { return point.frame >= first && point.frame < end; });
             if (!piece.points.empty())
@@ -58,10 +58,10 @@ namespace {
     }
 
     /// The points of all pieces, by frame.
-    std::multimap<Index, std::pair<Piece *, Index>> byFrame(std::vector<Piece> &pieces)
+    std::multimap<Index, std::pair<TrackInStretch *, Index>> byFrame(std::vector<TrackInStretch> &pieces)
     {
-        std::multimap<Index, std::pair<Piece *, Index>> points;
-        for (Piece &piece : pieces)
+        std::multimap<Index, std::pair<TrackInStretch *, Index>> points;
+        for (TrackInStretch &piece : pieces)
             for (const TrackPoint &point : piece.points)
                 points.emplace(point.frame, std::pair(&piece, point.cell));
         return points;
@@ -215,11 +215,11 @@ namespace {
         }
 
     private:
-        using PointsByFrame = std::multimap<Index, std::pair<Piece *, Index>>;
+        using PointsByFrame = std::multimap<Index, std::pair<TrackInStretch *, Index>>;
 
         void lookAt(Index first, Index end, const RunContext &context)
         {
-            std::vector<Piece> pieces = piecesOf(m_analysis.tracks, first, end);
+            std::vector<TrackInStretch> pieces = piecesOf(m_analysis.tracks, first, end);
             const PointsByFrame points = byFrame(pieces);
             findSkirts(pieces, points);
             Smd detector(m_analysis.model, m_rule);
@@ -239,13 +239,13 @@ namespace {
         }
 
         /// Determines how far the tracks' power reaches on either side.
-        void findSkirts(std::vector<Piece> &pieces, const PointsByFrame &points)
+        void findSkirts(std::vector<TrackInStretch> &pieces, const PointsByFrame &points)
         {
             const int binsPerCell = m_analysis.settings.spectrogram.binsPerCell;
             const Index least = inhibitedBins(m_analysis.settings);
             const auto widest = std::max(least + 1, skirtLimitCells * binsPerCell);
             const Index cells = std::ssize(m_y);
-            for (Piece &piece : pieces) {
+            for (TrackInStretch &piece : pieces) {
                 piece.below.resize(std::size_t(widest));
                 piece.above.resize(std::size_t(widest));
             }
@@ -264,7 +264,7 @@ namespace {
                     }
                 }
             }
-            for (Piece &piece : pieces) {
+            for (TrackInStretch &piece : pieces) {
                 piece.lowest = -endOfSkirt(piece.below, least, std::ssize(piece.points));
                 piece.highest = endOfSkirt(piece.above, least, std::ssize(piece.points));
             }

@@ -21,13 +21,13 @@ namespace faintline {
 namespace {
 
     /// Time and band in which an event's line, `multiple` times the curve, is examined.
-    Stretch stretchOf(const Analysis &analysis, const Event &event, const FrequencyCurve &curve, double multiple)
+    TimeBand stretchOf(const Analysis &analysis, const Event &event, const FrequencyCurve &curve, double multiple)
     {
         constexpr double leastCells = 40.0;
         const auto [least, most] = std::minmax_element(curve.hz().begin(), curve.hz().end());
         const double half = 0.5 * analysis.time().step;
-        Stretch stretch{analysis.settings.selection.channel, event.onsetSeconds - half, event.endSeconds + half,
-                        0.5 * multiple * (*least + *most), 0.0};
+        TimeBand stretch{analysis.settings.selection.channel, event.onsetSeconds - half, event.endSeconds + half,
+                         0.5 * multiple * (*least + *most), 0.0};
         stretch.halfBandHz =
             std::max(2.0 * multiple * (*most - *least), leastCells / (stretch.toSeconds - stretch.fromSeconds));
         return stretch;
@@ -62,8 +62,8 @@ Straightened straightened(const Analysis &analysis, const Event &event, const St
     const bool isResampled = kind == Straightening::Resample;
     const double multiple =
         isResampled && family.relation == FamilySettings::Relation::Harmonics ? family.members.front() : 1.0;
-    const Stretch before = stretchOf(analysis, event, curve, multiple);
-    Stretch after = before;
+    const TimeBand before = stretchOf(analysis, event, curve, multiple);
+    TimeBand after = before;
     after.channel = 0;
     after.hz = multiple * target;
     if (!isResampled)
@@ -162,7 +162,7 @@ namespace {
     }
 
     /// The middle of a stretch that is too long.
-    Stretch shortened(Stretch stretch, double longest)
+    TimeBand shortened(TimeBand stretch, double longest)
     {
         if (const double spare = stretch.toSeconds - stretch.fromSeconds - longest; spare > 0.0) {
             stretch.fromSeconds += 0.5 * spare;
@@ -171,7 +171,7 @@ namespace {
         return stretch;
     }
 
-    struct Band {
+    struct PowerBand {
         std::vector<float> powers;
         double hz = 0.0;   ///< of the middle
         double step = 0.0; ///< Hz
@@ -185,7 +185,7 @@ namespace {
         }
     };
 
-    Band bandOf(const Recording &recording, const Stretch &whole, const RunContext &context)
+    PowerBand bandOf(const Recording &recording, const TimeBand &whole, const RunContext &context)
     {
         const double rate = recording.info().sampleRateHz;
         const auto refuse = [&whole] {
@@ -195,14 +195,14 @@ namespace {
         if (!(whole.halfBandHz * (whole.toSeconds - whole.fromSeconds) > 1.0)) // a band of less than two cells
             refuse();
         const auto averaged = std::max<Index>(1, Index(rate / (2.0 * oversampling * whole.halfBandHz)));
-        const Stretch stretch = shortened(whole, double(pathFrames * averaged) / rate);
+        const TimeBand stretch = shortened(whole, double(pathFrames * averaged) / rate);
         const auto first = Index(std::llround(stretch.fromSeconds * rate));
         const auto count = Index(std::llround(stretch.toSeconds * rate)) - first;
         if (count / averaged < averageMinimumSamples)
             refuse();
         const std::vector<float> all = powerSpectrum(
             mixedDown(recording, {stretch.channel, first, count}, {stretch.hz / rate, averaged}, context));
-        Band band{{}, stretch.hz, rate / double(averaged * std::ssize(all)), 0};
+        PowerBand band{{}, stretch.hz, rate / double(averaged * std::ssize(all)), 0};
         const Index middle = std::ssize(all) / 2; // of 0 Hz
         band.reach = std::min(middle, Index(stretch.halfBandHz / band.step));
         band.powers.assign(all.begin() + middle - band.reach,
@@ -212,9 +212,9 @@ namespace {
 
 } // namespace
 
-LineSpectrum lineSpectrum(const Recording &recording, const Stretch &stretch, const RunContext &context)
+LineSpectrum lineSpectrum(const Recording &recording, const TimeBand &stretch, const RunContext &context)
 {
-    const Band band = bandOf(recording, stretch, context);
+    const PowerBand band = bandOf(recording, stretch, context);
     const double median = band.median();
     LineSpectrum spectrum;
     for (std::ptrdiff_t i = 0; i < std::ssize(band.powers); ++i) {
@@ -224,9 +224,9 @@ LineSpectrum lineSpectrum(const Recording &recording, const Stretch &stretch, co
     return spectrum;
 }
 
-LineHeight lineHeight(const Recording &recording, const Stretch &stretch, const RunContext &context)
+LineHeight lineHeight(const Recording &recording, const TimeBand &stretch, const RunContext &context)
 {
-    const Band band = bandOf(recording, stretch, context);
+    const PowerBand band = bandOf(recording, stretch, context);
     const auto highest = std::max_element(band.powers.begin(), band.powers.end());
     return {band.hzAt(highest - band.powers.begin()), dbFromRatio(double(*highest) / band.median())};
 }

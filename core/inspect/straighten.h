@@ -14,7 +14,7 @@
 namespace faintline {
 
 /// A time interval of one channel, and a band around a frequency.
-struct Stretch {
+struct TimeBand {
     int channel = 0;
     double fromSeconds = 0.0;
     double toSeconds = 0.0;
@@ -35,13 +35,13 @@ struct LineSpectrum {
 };
 
 /// The band in one Hann-windowed transform of the whole stretch; lineHeight gives its highest line.
-LineSpectrum lineSpectrum(const Recording &recording, const Stretch &stretch, const RunContext &context = {});
+LineSpectrum lineSpectrum(const Recording &recording, const TimeBand &stretch, const RunContext &context = {});
 
 /// The highest line in the band, in one Hann-windowed transform of the whole stretch; resolution 1.5 over its duration.
 ///
 /// The band is mixed down and decimated to as few samples as can represent it, at most 2²², so that hours are possible;
 /// of a longer stretch its middle is used. Throws Error if it holds less than 16 samples, Cancelled.
-LineHeight lineHeight(const Recording &recording, const Stretch &stretch, const RunContext &context = {});
+LineHeight lineHeight(const Recording &recording, const TimeBand &stretch, const RunContext &context = {});
 
 /// Method that makes a line's frequency constant.
 enum class Straightening {
@@ -70,8 +70,8 @@ struct Straightened {
     FrequencyCurve curve;       ///< the smoothed track
     double targetHz;            ///< its frequency after straightening
     Straightening kind;
-    Stretch before; ///< in the analysis's recording
-    Stretch after;  ///< in `recording`, around the target
+    TimeBand before; ///< in the analysis's recording
+    TimeBand after;  ///< in `recording`, around the target
 };
 
 /// Makes the line of an event constant. Throws Error if the analysis is of ready-made frames, and as smoothFrequency,

@@ -33,14 +33,14 @@ bool WrittenSamples::isWhole(Index first, Index count) const
 
 void WrittenSamples::read(int channel, Index first, std::span<float> out) const
 {
-    std::vector<Piece> pieces;
+    std::vector<StoredPart> pieces;
     { // the recorder does not wait for the disk
         const std::lock_guard lock(m_mutex);
         m_stretches.read(first, m_format.type.isComplex ? 2 : 1, out, [&](Index stored, std::span<float> part) {
             pieces.push_back({stored, part});
         });
     }
-    for (const Piece &piece : pieces)
+    for (const StoredPart &piece : pieces)
         readStored(channel, piece);
 }
 
@@ -59,7 +59,7 @@ std::pair<std::shared_ptr<const FileBytes>, WrittenSamples::File> WrittenSamples
     return {m_open, file};
 }
 
-void WrittenSamples::readStored(int channel, const Piece &piece) const
+void WrittenSamples::readStored(int channel, const StoredPart &piece) const
 {
     const Index floats = m_format.type.isComplex ? 2 : 1;
     const Index whole = std::ssize(piece.out) / floats;

@@ -41,12 +41,12 @@ private:
         std::string path;
         Index firstStored; ///< counted over all files
     };
-    struct Piece {
+    struct StoredPart {
         Index stored;
         std::span<float> out;
     };
 
-    void readStored(int channel, const Piece &piece) const;
+    void readStored(int channel, const StoredPart &piece) const;
     std::pair<std::shared_ptr<const FileBytes>, File> fileOf(Index stored, Index &count) const;
 
     StreamFormat m_format;

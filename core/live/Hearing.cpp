@@ -202,14 +202,14 @@ std::optional<SourceClock::Departure> SourceClock::note(Index counted, double se
     }
     if (seconds - m_current->begin < intervalSeconds)
         return {};
-    const Interval complete = *std::exchange(m_current, std::nullopt);
+    const ClockInterval complete = *std::exchange(m_current, std::nullopt);
     if (m_first)
         return departureIn(complete);
     m_first = complete;
     return {};
 }
 
-std::optional<SourceClock::Departure> SourceClock::departureIn(const Interval &interval)
+std::optional<SourceClock::Departure> SourceClock::departureIn(const ClockInterval &interval)
 {
     const double behind = interval.leastLate - m_first->leastLate;
     if (std::abs(behind) < m_worthTelling)

@@ -39,17 +39,17 @@ public:
     void restart();
 
 private:
-    struct Interval {
+    struct ClockInterval {
         double begin = 0.0;
         double leastLate = 0.0; ///< s
         double at = 0.0;        ///< time of the least late delivery
     };
 
-    std::optional<Departure> departureIn(const Interval &interval);
+    std::optional<Departure> departureIn(const ClockInterval &interval);
 
     double m_rate;
-    std::optional<Interval> m_first; ///< once complete
-    std::optional<Interval> m_current;
+    std::optional<ClockInterval> m_first; ///< once complete
+    std::optional<ClockInterval> m_current;
     double m_worthTelling; ///< next departure to report, s
 };
 

@@ -48,7 +48,7 @@ namespace {
 
 } // namespace
 
-LiveHistory::Picture::Picture(const Axis &axis, Index cells, ByteScale::Kind kind)
+LiveHistory::GrowingPicture::GrowingPicture(const Axis &axis, Index cells, ByteScale::Kind kind)
     : time(axis), fullFrames(singleFrames(cells)), all(time, cells, ByteScale(kind), memoryShares::picture),
       older(time, cells, ByteScale(kind)), younger(from(axis, fullFrames), cells, ByteScale(kind)),
       bytes(std::size_t(cells))
@@ -61,7 +61,7 @@ Index LiveHistory::singleFrames(Index cells)
     return std::max<Index>(1, Index(memoryShares::picture) / (bytesACell * cells));
 }
 
-void LiveHistory::Picture::append(std::span<const float> frame)
+void LiveHistory::GrowingPicture::append(std::span<const float> frame)
 {
     all.scale().encode(frame, bytes);
     all.appendBytes(bytes);
@@ -83,8 +83,8 @@ void LiveHistory::take(const AnalysisPlan &plan)
     beginStates(plan, isSamePicture ? m_input->all.frameCount() : 0);
     if (isSamePicture)
         return;
-    m_input = std::make_unique<Picture>(plan.time(), plan.grid().size(), ByteScale::Kind::PowerDb);
-    m_statistic = std::make_unique<Picture>(plan.time(), plan.grid().size(), ByteScale::Kind::ScoreNats);
+    m_input = std::make_unique<GrowingPicture>(plan.time(), plan.grid().size(), ByteScale::Kind::PowerDb);
+    m_statistic = std::make_unique<GrowingPicture>(plan.time(), plan.grid().size(), ByteScale::Kind::ScoreNats);
     m_tracks.clear(); // their points refer to other frames
 }
 

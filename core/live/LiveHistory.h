@@ -61,8 +61,8 @@ public:
 private:
     /// A picture of all frames, and two of the newest. When `younger` is full it replaces `older`, which by then holds
     /// twice as many frames.
-    struct Picture {
-        Picture(const Axis &time, Index cells, ByteScale::Kind kind);
+    struct GrowingPicture {
+        GrowingPicture(const Axis &time, Index cells, ByteScale::Kind kind);
         void append(std::span<const float> frame);
 
         Axis time;
@@ -80,8 +80,8 @@ private:
     void follow(const HmmTracker &tracker, const ListenFrame &frame);
 
     std::shared_ptr<const AnalysisPlan> m_plan;
-    std::unique_ptr<Picture> m_input;
-    std::unique_ptr<Picture> m_statistic;
+    std::unique_ptr<GrowingPicture> m_input;
+    std::unique_ptr<GrowingPicture> m_statistic;
     std::map<int, Event> m_events;
     mutable std::shared_ptr<const std::vector<Event>> m_told; ///< snapshot of m_events; null: out of date
     std::map<int, std::shared_ptr<Track>> m_tracks;

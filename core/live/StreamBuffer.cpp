@@ -32,7 +32,7 @@ void StreamBuffer::push(std::vector<std::byte> bytes)
         const bool goesOn = !m_pieces.empty() && m_pieces.back().first + m_pieces.back().count == m_length
                             && m_pieces.back().count + count <= pieceSamples;
         if (goesOn) { // many small pieces would cost more than they hold
-            Piece &last = m_pieces.back();
+            Delivery &last = m_pieces.back();
             last.bytes.insert(last.bytes.end(), bytes.begin(), bytes.end());
             last.count += count;
             last.heardAt = now;
@@ -94,7 +94,7 @@ std::chrono::steady_clock::time_point StreamBuffer::heardAt(Index position) cons
 {
     const std::lock_guard lock(m_mutex);
     const auto piece = std::partition_point(m_pieces.begin(), m_pieces.end(),
-                                            [=](const Piece &each) { return each.first + each.count < position; });
+                                            [=](const Delivery &each) { return each.first + each.count < position; });
     if (piece == m_pieces.end())
         return std::chrono::steady_clock::now();
     // The samples of a piece arrived at the sample rate.
@@ -121,7 +121,7 @@ void StreamBuffer::read(int channel, Index first, Index count, std::span<float> 
     std::fill_n(out.begin(), count * floats, 0.0f);
     const std::lock_guard lock(m_mutex);
     auto piece = std::partition_point(m_pieces.begin(), m_pieces.end(),
-                                      [first](const Piece &each) { return each.first + each.count <= first; });
+                                      [first](const Delivery &each) { return each.first + each.count <= first; });
     for (; piece != m_pieces.end() && piece->first < first + count; ++piece) {
         const Index from = std::max(first, piece->first);
         const Index run = std::min(first + count, piece->first + piece->count) - from;
@@ -136,7 +136,7 @@ bool StreamBuffer::isWhole(Index first, Index count) const
 {
     const std::lock_guard lock(m_mutex);
     auto piece = std::partition_point(m_pieces.begin(), m_pieces.end(),
-                                      [first](const Piece &each) { return each.first + each.count <= first; });
+                                      [first](const Delivery &each) { return each.first + each.count <= first; });
     Index known = first;
     for (; piece != m_pieces.end() && piece->first <= known && known < first + count; ++piece)
         known = piece->first + piece->count;

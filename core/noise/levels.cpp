@@ -113,11 +113,11 @@ std::vector<float> beyondScatter(const std::vector<float> &series, double scatte
 {
     // Neighbours on either side, in steps of the scale, and the E/σ² that white noise hardly ever reaches with that
     // many: few neighbours detect short changes, many detect faint ones.
-    struct Neighbourhood {
+    struct NeighboursBeside {
         std::ptrdiff_t half;
         double chance;
     };
-    constexpr std::array<Neighbourhood, 2> neighbourhoods{{{1, 8.0}, {12, 1.8}}};
+    constexpr std::array<NeighboursBeside, 2> neighbourhoods{{{1, 8.0}, {12, 1.8}}};
     const std::ptrdiff_t n = std::ssize(series);
     std::vector<double> rest(series.begin(), series.end());
     std::vector<double> kept(series.size(), 0.0);
@@ -130,7 +130,7 @@ std::vector<float> beyondScatter(const std::vector<float> &series, double scatte
         const double deviation = scatter * detailDeviations()[std::size_t(scale)];
         for (std::ptrdiff_t i = 0; i < n; ++i) {
             double factor = 0.0;
-            for (const Neighbourhood &near : neighbourhoods) {
+            for (const NeighboursBeside &near : neighbourhoods) {
                 const std::ptrdiff_t from = std::max<std::ptrdiff_t>(0, i - near.half * lag);
                 const std::ptrdiff_t to = std::min(n, i + near.half * lag + 1);
                 const double mean = (energy[std::size_t(to)] - energy[std::size_t(from)]) / double(to - from);
@@ -150,11 +150,11 @@ std::vector<float> beyondScatter(const std::vector<float> &series, double scatte
 float latestBeyondScatter(std::span<const float> series, double scatter)
 {
     // As in beyondScatter, with all neighbours on one side; short changes are detected by the newest detail itself.
-    struct Neighbourhood {
+    struct NeighboursBefore {
         std::ptrdiff_t before;
         double chance;
     };
-    constexpr std::array<Neighbourhood, 2> neighbourhoods{{{0, 8.0}, {24, 1.8}}};
+    constexpr std::array<NeighboursBefore, 2> neighbourhoods{{{0, 8.0}, {24, 1.8}}};
     const std::ptrdiff_t n = std::ssize(series);
     std::vector<double> rest(series.begin(), series.end());
     std::vector<double> detail(rest.size());
@@ -169,7 +169,7 @@ float latestBeyondScatter(std::span<const float> series, double scatter)
         }
         const double variance = scatter * scatter / double(2 * lag);
         double factor = 0.0;
-        for (const Neighbourhood &near : neighbourhoods) {
+        for (const NeighboursBefore &near : neighbourhoods) {
             const std::ptrdiff_t from = std::max(first, n - 1 - near.before * lag);
             double mean = 0.0;
             for (std::ptrdiff_t i = from; i < n; ++i)

@@ -60,21 +60,21 @@ namespace {
     }
 
     /// Scratch memory for one frame's updates.
-    struct Scratch {
+    struct UpdateScratch {
         std::vector<float> sum, pull, inverse;
 
-        explicit Scratch(std::size_t cells) : sum(cells), pull(cells), inverse(cells) {}
+        explicit UpdateScratch(std::size_t cells) : sum(cells), pull(cells), inverse(cells) {}
     };
 
     void weigh(const NoiseSources &sources, std::span<const float> frame, std::span<const float> levels,
-               Scratch &scratch)
+               UpdateScratch &scratch)
     {
         sources.addUp(levels, scratch.sum);
         weigh(frame.data(), scratch.sum.data(), frame.size(), scratch.pull.data(), scratch.inverse.data());
     }
 
     void updateLevels(const NoiseSources &sources, std::span<const float> frame, std::vector<float> &levels,
-                      Scratch &scratch)
+                      UpdateScratch &scratch)
     {
         weigh(sources, frame, levels, scratch);
         for (std::size_t k = 0; k < levels.size(); ++k) {
@@ -223,7 +223,7 @@ std::vector<float> NoiseSources::levelsIn(std::span<const float> frame) const
     if (std::none_of(frame.begin(), frame.end(), [](float y) { return y > 0.0f; }))
         return levels;
     levels = firstLevels(*this, frame);
-    Scratch scratch(frame.size());
+    UpdateScratch scratch(frame.size());
     for (int i = 0; i < levelUpdates; ++i)
         updateLevels(*this, frame, levels, scratch);
     return levels;
@@ -244,7 +244,7 @@ NoiseSources fitSources(std::span<const float> frames, Index cells, Index count,
     std::vector<std::vector<float>> levels;
     for (std::size_t frame = 0; frame < frameCount; ++frame)
         levels.push_back(firstLevels(sources, std::span(loud).subspan(frame * size, size)));
-    Scratch scratch(size);
+    UpdateScratch scratch(size);
     std::vector<float> pull(sources.colours.size());
     std::vector<float> inverse(sources.colours.size());
     for (int sweep = 0; sweep < sweeps; ++sweep) {

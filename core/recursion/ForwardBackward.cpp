@@ -11,12 +11,12 @@ namespace {
 
     /// All moves of one phase, by target state.
     struct Moves {
-        struct Move {
+        struct StateMove {
             Index from;
             Index to;
             double lnProbability;
         };
-        std::vector<Move> moves;
+        std::vector<StateMove> moves;
     };
 
     Moves movesOf(const StateSpace &space, Index phase)
@@ -37,12 +37,12 @@ namespace {
     void gather(const Moves &moves, std::span<double> into, const Place &place, const Term &term)
     {
         std::vector<double> largest(into.size(), minusInfinity);
-        for (const Moves::Move &move : moves.moves) {
+        for (const Moves::StateMove &move : moves.moves) {
             double &most = largest[std::size_t(place(move))];
             most = std::max(most, term(move));
         }
         std::fill(into.begin(), into.end(), 0.0);
-        for (const Moves::Move &move : moves.moves)
+        for (const Moves::StateMove &move : moves.moves)
             if (const double most = largest[std::size_t(place(move))]; most > minusInfinity)
                 into[std::size_t(place(move))] += std::exp(term(move) - most);
         for (std::size_t n = 0; n < into.size(); ++n)

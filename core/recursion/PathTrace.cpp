@@ -286,9 +286,9 @@ namespace {
                        PathEnd at)
         {
             while (!(begin.isCheckpoint && at.frame == begin.frame)) { // the previous corridor gives the rest
-                const Origin origin = at.frame == begin.frame
-                                          ? Origin{}
-                                          : originOf(corridor, history.at(at.frame - 1), at.frame, at.state);
+                const StepOrigin origin = at.frame == begin.frame
+                                              ? StepOrigin{}
+                                              : originOf(corridor, history.at(at.frame - 1), at.frame, at.state);
                 m_path.push_back(stepInto(corridor.toGlobal(m_model.space, at.state), at.frame, origin));
                 m_isReset = origin.state < 0;
                 if (m_isReset)
@@ -303,14 +303,15 @@ namespace {
         }
 
         /// Origin of a step's maximum.
-        struct Origin {
+        struct StepOrigin {
             Index state = -1; ///< -1 if the path was reset there
             double lnTransition = 0.0;
         };
 
-        Origin originOf(const TracedCorridor &corridor, std::span<const float> before, Index frame, Index state) const
+        StepOrigin originOf(const TracedCorridor &corridor, std::span<const float> before, Index frame,
+                            Index state) const
         {
-            Origin best;
+            StepOrigin best;
             float bestScore = unreached;
             for (const StateSpace::Predecessor &p : corridor.space.predecessors(state, frame)) {
                 const double ln = p.lnProbability * m_model.transitionScale;
@@ -320,10 +321,10 @@ namespace {
                     best = {p.state, ln};
                 }
             }
-            return bestScore + float(m_record.lnK(frame)) > 0.0f ? best : Origin{};
+            return bestScore + float(m_record.lnK(frame)) > 0.0f ? best : StepOrigin{};
         }
 
-        PathStep stepInto(Index state, Index frame, const Origin &origin) const
+        PathStep stepInto(Index state, Index frame, const StepOrigin &origin) const
         {
             PathStep step;
             step.frame = frame;

@@ -116,7 +116,7 @@ void Recursion<Semiring>::prepareSlantedTiles() requires std::same_as<Semiring, 
         for (const PhaseSteps<Real> &phase : m_phases) {
             SlantedTiles::Targets &targets = phases.emplace_back(std::size_t(m_groups));
             for (Index rate = 0; rate < m_groups; ++rate) {
-                std::vector<SlantedTiles::Source> &sources = targets[std::size_t(rate)];
+                std::vector<SlantedTiles::RateSource> &sources = targets[std::size_t(rate)];
                 if (phase.first.shifts.empty())
                     sources.push_back({rate, 0, 0.0f});
                 else

@@ -27,7 +27,7 @@ struct SlantedTiles::Work : Passage {
 };
 
 /// Cells from … end-1 assigned to one thread; its input begins at low and ends at high.
-struct SlantedTiles::Stretch {
+struct SlantedTiles::ThreadShare {
     Index from;
     Index end;
     Index low;
@@ -36,7 +36,7 @@ struct SlantedTiles::Stretch {
 };
 
 /// One frame's part of a tile: its cells begin at `begin`; those within the stretch are from … end-1.
-struct SlantedTiles::Part {
+struct SlantedTiles::TileFrame {
     Index frame;
     Index begin;
     Index from;
@@ -52,8 +52,8 @@ SlantedTiles::SlantedTiles(Index cells, std::vector<Targets> phases)
     : m_cells(cells), m_phases(std::move(phases)), m_rates(std::ssize(m_phases.front()))
 {
     for (const Targets &targets : m_phases)
-        for (const std::vector<Source> &sources : targets)
-            for (const Source &source : sources)
+        for (const std::vector<RateSource> &sources : targets)
+            for (const RateSource &source : sources)
                 m_reach = std::max(m_reach, std::abs(source.displacement));
     const Index fitting = cacheBytes / (2 * m_rates * Index(sizeof(float))) - 2 * m_reach;
     m_tileCells = std::min(tileLimitCells, fitting / tileVectorCells * tileVectorCells);
@@ -71,7 +71,7 @@ Continued SlantedTiles::advance(const Passage &passage, const RunContext &contex
 {
     const Work work{passage, std::ssize(passage.frames.y) / m_cells};
     const Index overlap = (work.frameCount - 1) * m_reach;
-    std::vector<Stretch> stretches;
+    std::vector<ThreadShare> stretches;
     for (Index i = 0; i < context.threads; ++i) {
         const Index from = i * m_cells / context.threads;
         const Index end = (i + 1) * m_cells / context.threads;
@@ -82,7 +82,7 @@ Continued SlantedTiles::advance(const Passage &passage, const RunContext &contex
         return [&](Index i) { goThrough(work, stretches[std::size_t(i)], m_scratch[std::size_t(i)]); };
     });
     Continued all;
-    for (const Stretch &stretch : stretches)
+    for (const ThreadShare &stretch : stretches)
         all.count += stretch.continued.count;
     return all;
 }
@@ -92,8 +92,8 @@ SlantedTiles::TargetList SlantedTiles::listTargets(const Targets &targets, const
                                                    Index toStride) const
 {
     TargetList list;
-    for (const std::vector<Source> &ofTarget : targets)
-        for (const Source &source : ofTarget)
+    for (const std::vector<RateSource> &ofTarget : targets)
+        for (const RateSource &source : ofTarget)
             list.sources.push_back({from + source.rate * m_stride - m_reach - source.displacement, source.weight});
     std::size_t begin = 0;
     for (Index rate = 0; rate < m_rates; ++rate) {
@@ -152,7 +152,7 @@ float *SlantedTiles::prepareWindows(Scratch &own, Index frames) const
     return own.windows.data() + (cacheLineFloats - address % cacheLineFloats) % cacheLineFloats + m_margin;
 }
 
-void SlantedTiles::goThrough(const Work &work, Stretch &s, Scratch &own) const
+void SlantedTiles::goThrough(const Work &work, ThreadShare &s, Scratch &own) const
 {
     const Index haloSize = m_rates * 2 * m_reach;
     float *const windows = prepareWindows(own, work.frameCount);
@@ -173,7 +173,7 @@ void SlantedTiles::goThrough(const Work &work, Stretch &s, Scratch &own) const
         for (Index frame = 0; frame < work.frameCount; ++frame) {
             const Index begin = tile - frame * m_reach;
             const Index from = std::clamp(s.low, begin, begin + m_tileCells);
-            const Part part{frame, begin, from, std::clamp(s.high, from, begin + m_tileCells)};
+            const TileFrame part{frame, begin, from, std::clamp(s.high, from, begin + m_tileCells)};
             float *const window = windowOf(frame);
             float *const halo = own.halo.data() + frame * haloSize;
             if (!work.isLast(frame))
@@ -188,7 +188,7 @@ void SlantedTiles::goThrough(const Work &work, Stretch &s, Scratch &own) const
 }
 
 /// Fills the part of a frame's window that is not joined: the end of the previous tile, and cells outside the stretch.
-void SlantedTiles::fillOutside(const Part &part, const float *halo, float *window) const
+void SlantedTiles::fillOutside(const TileFrame &part, const float *halo, float *window) const
 {
     for (Index rate = 0; rate < m_rates; ++rate) {
         float *const to = window + rate * m_stride;
@@ -198,7 +198,8 @@ void SlantedTiles::fillOutside(const Part &part, const float *halo, float *windo
     }
 }
 
-void SlantedTiles::joinFrame(const Work &work, const TargetList &list, const Part &part, Stretch &s, Scratch &own) const
+void SlantedTiles::joinFrame(const Work &work, const TargetList &list, const TileFrame &part, ThreadShare &s,
+                             Scratch &own) const
 {
     const auto [frame, begin, from, end] = part;
     const bool isLast = work.isLast(frame);

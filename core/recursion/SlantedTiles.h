@@ -41,14 +41,14 @@ struct Passage {
 class SlantedTiles
 {
 public:
-    struct Source {
+    struct RateSource {
         Index rate;
         Index displacement; ///< cells
         float weight;       ///< ln P
     };
 
     /// The sources of each target rate in the steps of one phase.
-    using Targets = std::vector<std::vector<Source>>;
+    using Targets = std::vector<std::vector<RateSource>>;
     SlantedTiles(Index cells, std::vector<Targets> phases);
 
     /// Whether two frames of a tile fit into the cache.
@@ -68,17 +68,17 @@ private:
     };
 
     struct Work;
-    struct Stretch;
-    struct Part;
+    struct ThreadShare;
+    struct TileFrame;
     struct TargetList;
 
     TargetList listTargets(const Targets &targets, const float *from, float *to, Index toStride) const;
     void listAhead(const Work &work, Index frame, Index first, Index n, std::vector<const float *> &rows) const;
     void readScores(const Work &work, Index begin, float *window) const;
     float *prepareWindows(Scratch &scratch, Index frames) const;
-    void goThrough(const Work &work, Stretch &stretch, Scratch &scratch) const;
-    void fillOutside(const Part &part, const float *halo, float *window) const;
-    void joinFrame(const Work &work, const TargetList &list, const Part &part, Stretch &stretch,
+    void goThrough(const Work &work, ThreadShare &stretch, Scratch &scratch) const;
+    void fillOutside(const TileFrame &part, const float *halo, float *window) const;
+    void joinFrame(const Work &work, const TargetList &list, const TileFrame &part, ThreadShare &stretch,
                    Scratch &scratch) const;
 
     Index m_cells;

@@ -44,7 +44,7 @@ ResidualRecording::ResidualRecording(RecordingPointer base, int channel, std::ve
             for (const LineFit *line : near)
                 line->subtractFrom(first, out);
         };
-        m_lines.emplace_back(LineFit::Samples{m_info, read}, std::move(path));
+        m_lines.emplace_back(LineFit::FitSamples{m_info, read}, std::move(path));
     }
     m_info.notes.push_back(std::to_string(m_lines.size()) + " line(s) were subtracted from channel "
                            + std::to_string(channel) + ".");
@@ -132,7 +132,7 @@ namespace {
 
     /// Calls `each(first, samples)` for each run between two samples that is not silent; runs begin at multiples.
     template <class Each>
-    void forRuns(const LineFit::Samples &samples, Index begin, Index end, Each each)
+    void forRuns(const LineFit::FitSamples &samples, Index begin, Index end, Each each)
     {
         const Index floats = samples.info.floatsPerSample();
         std::vector<float> block;
@@ -162,7 +162,7 @@ namespace {
 
 } // namespace
 
-double LineFit::Piece::intervals() const
+double LineFit::AmplitudePiece::intervals() const
 {
     return double(coefficients.size() / 2 - (order - 1));
 }
@@ -219,24 +219,25 @@ private:
     Eigen::VectorXd m_right;
 };
 
-LineFit::LineFit(const Samples &samples, LinePath path)
+LineFit::LineFit(const FitSamples &samples, LinePath path)
     : m_path(std::move(path)), m_rate(samples.info.sampleRateHz), m_isComplex(samples.info.isComplex)
 {
     const auto sampleAt = [&](double seconds) {
         return std::clamp<Index>(Index(std::llround(seconds * m_rate)), 0, samples.info.sampleCount);
     };
     const double window = m_path.windowSeconds;
-    const Piece sure{
+    const AmplitudePiece sure{
         sampleAt(m_path.fromSeconds + insideWindows * window), sampleAt(m_path.toSeconds - insideWindows * window), {}};
     if (double(sure.end - sure.begin) < 2.0 * window * m_rate) { // too short to extrapolate
-        const Piece all{sampleAt(m_path.fromSeconds - 0.5 * window), sampleAt(m_path.toSeconds + 0.5 * window), {}};
+        const AmplitudePiece all{
+            sampleAt(m_path.fromSeconds - 0.5 * window), sampleAt(m_path.toSeconds + 0.5 * window), {}};
         add(fitted(samples, all));
         return;
     }
     const Index first = sampleAt(m_path.fromSeconds - beyondWindows * window);
     const Index last = sampleAt(m_path.toSeconds + beyondWindows * window);
     follow(fitted(samples, sure), true, true);
-    const Piece line{goOn(samples, sure, first), goOn(samples, sure, last), {}};
+    const AmplitudePiece line{goOn(samples, sure, first), goOn(samples, sure, last), {}};
     follow(fitted(samples, line), true, true);
     add(fitted(samples, {first, line.begin, {}}));
     add(fitted(samples, line));
@@ -244,14 +245,14 @@ LineFit::LineFit(const Samples &samples, LinePath path)
 }
 
 /// Extends the line outward step by step, because its phase is only known over a short distance.
-Index LineFit::goOn(const Samples &samples, const Piece &sure, Index farthest)
+Index LineFit::goOn(const FitSamples &samples, const AmplitudePiece &sure, Index farthest)
 {
     const bool isBegin = farthest < sure.begin;
     const auto reach = Index(stepWindows * m_path.windowSeconds * m_rate);
     Index known = isBegin ? sure.begin : sure.end;
     for (int step = 0; step < mostSteps; ++step) {
-        const Piece end = isBegin ? Piece{known, std::min(sure.end, known + reach), {}}
-                                  : Piece{std::max(sure.begin, known - reach), known, {}};
+        const AmplitudePiece end = isBegin ? AmplitudePiece{known, std::min(sure.end, known + reach), {}}
+                                           : AmplitudePiece{std::max(sure.begin, known - reach), known, {}};
         if (step > 0)
             follow(fitted(samples, end), isBegin, !isBegin);
         const Index next = brink(samples, fitted(samples, end), isBegin, farthest);
@@ -263,7 +264,7 @@ Index LineFit::goOn(const Samples &samples, const Piece &sure, Index farthest)
 }
 
 /// Corrects the path's curve by the amplitude's phase, and extends it straight beyond a piece at its beginning or end.
-void LineFit::follow(const Piece &piece, bool isBegin, bool isEnd)
+void LineFit::follow(const AmplitudePiece &piece, bool isBegin, bool isEnd)
 {
     const Axis &time = m_path.curve.time();
     const double intervals = piece.intervals();
@@ -294,13 +295,13 @@ void LineFit::follow(const Piece &piece, bool isBegin, bool isEnd)
     m_path.curve = FrequencyCurve(time, std::move(hz));
 }
 
-void LineFit::add(Piece piece)
+void LineFit::add(AmplitudePiece piece)
 {
     if (!piece.coefficients.empty())
         m_pieces.push_back(std::move(piece));
 }
 
-LineFit::Piece LineFit::fitted(const Samples &samples, Piece piece) const
+LineFit::AmplitudePiece LineFit::fitted(const FitSamples &samples, AmplitudePiece piece) const
 {
     const double length = double(piece.end - piece.begin) / (m_path.windowSeconds * m_rate);
     if (length < shortestPiece)
@@ -324,7 +325,7 @@ LineFit::Piece LineFit::fitted(const Samples &samples, Piece piece) const
 
 /// Extrapolates the line beyond an end of the known part and finds where the energy that it explains, Σ 2·x·s - s², is
 /// largest.
-Index LineFit::brink(const Samples &samples, const Piece &inner, bool isBegin, Index farthest) const
+Index LineFit::brink(const FitSamples &samples, const AmplitudePiece &inner, bool isBegin, Index farthest) const
 {
     const double intervals = inner.intervals();
     const double perSample = intervals / double(inner.end - inner.begin);
@@ -378,7 +379,7 @@ void LineFit::subtractFrom(Index first, std::span<float> samples) const
 {
     const Index floats = m_isComplex ? 2 : 1;
     const Index end = first + std::ssize(samples) / floats;
-    for (const Piece &piece : m_pieces) {
+    for (const AmplitudePiece &piece : m_pieces) {
         const double intervals = piece.intervals();
         const double perSample = intervals / double(piece.end - piece.begin);
         for (Index at = std::max(first, runBefore(piece.begin)); at < std::min(end, piece.end); at += fitRun) {

@@ -37,12 +37,12 @@ public:
     static constexpr Index silentSamples = 32; ///< from multiples of it on
 
     /// The samples to fit: `read(first, out)` fills whole runs of silentSamples, interleaved if complex.
-    struct Samples {
+    struct FitSamples {
         const RecordingInfo &info;
         std::function<void(Index first, std::span<float> out)> read;
     };
 
-    LineFit(const Samples &samples, LinePath path);
+    LineFit(const FitSamples &samples, LinePath path);
 
     /// The path with its curve corrected by the phase of the amplitude.
     const LinePath &path() const { return m_path; }
@@ -57,7 +57,7 @@ public:
 
 private:
     /// One stretch of the amplitude without a break.
-    struct Piece {
+    struct AmplitudePiece {
         Index begin = 0;
         Index end = 0;
         std::vector<double> coefficients; ///< real and imaginary parts alternate
@@ -66,16 +66,16 @@ private:
     };
     class Equations;
 
-    Piece fitted(const Samples &samples, Piece piece) const;
-    void add(Piece piece);
-    Index goOn(const Samples &samples, const Piece &sure, Index farthest);
-    void follow(const Piece &piece, bool isBegin, bool isEnd);
-    Index brink(const Samples &samples, const Piece &inner, bool isBegin, Index farthest) const;
+    AmplitudePiece fitted(const FitSamples &samples, AmplitudePiece piece) const;
+    void add(AmplitudePiece piece);
+    Index goOn(const FitSamples &samples, const AmplitudePiece &sure, Index farthest);
+    void follow(const AmplitudePiece &piece, bool isBegin, bool isEnd);
+    Index brink(const FitSamples &samples, const AmplitudePiece &inner, bool isBegin, Index farthest) const;
 
     LinePath m_path;
     double m_rate;
     bool m_isComplex;
-    std::vector<Piece> m_pieces;
+    std::vector<AmplitudePiece> m_pieces;
 };
 
 /// A recording minus strong lines of one of its channels. Each line is fitted in amplitude and phase (LineFit) and

@@ -9,7 +9,7 @@ void Stretches::add(Index inTime, Index stored, Index count)
     if (count <= 0)
         return;
     if (!m_stretches.empty()) {
-        Stretch &last = m_stretches.back();
+        StoredRun &last = m_stretches.back();
         if (last.end() == inTime && last.stored + last.count == stored) {
             last.count += count;
             return;
@@ -29,7 +29,7 @@ Index Stretches::missing() const
 Index Stretches::samples() const
 {
     Index samples = 0;
-    for (const Stretch &each : m_stretches)
+    for (const StoredRun &each : m_stretches)
         samples += each.count;
     return samples;
 }
@@ -40,10 +40,10 @@ Index Stretches::end() const
 }
 
 /// The first stretch that ends after a sample.
-std::vector<Stretches::Stretch>::const_iterator Stretches::stretchOf(Index sample) const
+std::vector<Stretches::StoredRun>::const_iterator Stretches::stretchOf(Index sample) const
 {
     return std::upper_bound(m_stretches.begin(), m_stretches.end(), sample,
-                            [](Index wanted, const Stretch &each) { return wanted < each.end(); });
+                            [](Index wanted, const StoredRun &each) { return wanted < each.end(); });
 }
 
 Index Stretches::storedAt(Index inTime) const
@@ -51,21 +51,21 @@ Index Stretches::storedAt(Index inTime) const
     if (m_stretches.empty() || inTime < m_stretches.front().inTime)
         return inTime;
     const auto stretch = stretchOf(inTime);
-    const Stretch &own = stretch == m_stretches.end() ? m_stretches.back() : *stretch;
+    const StoredRun &own = stretch == m_stretches.end() ? m_stretches.back() : *stretch;
     return own.stored + std::max<Index>(0, inTime - own.inTime);
 }
 
 Index Stretches::nextStretch(Index inTime) const
 {
     const auto next = std::upper_bound(m_stretches.begin(), m_stretches.end(), inTime,
-                                       [](Index wanted, const Stretch &each) { return wanted < each.inTime; });
+                                       [](Index wanted, const StoredRun &each) { return wanted < each.inTime; });
     return next == m_stretches.end() ? std::max(end(), inTime + 1) : next->inTime;
 }
 
 Index Stretches::inTimeOf(Index stored) const
 {
     const auto behind = std::upper_bound(m_stretches.begin(), m_stretches.end(), stored,
-                                         [](Index wanted, const Stretch &each) { return wanted < each.stored; });
+                                         [](Index wanted, const StoredRun &each) { return wanted < each.stored; });
     return behind == m_stretches.begin() ? stored : (behind - 1)->inTime + stored - (behind - 1)->stored;
 }
 

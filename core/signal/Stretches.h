@@ -44,15 +44,15 @@ public:
               const std::function<void(Index stored, std::span<float> part)> &fetch) const;
 
 private:
-    struct Stretch {
+    struct StoredRun {
         Index inTime;
         Index stored;
         Index count;
         Index end() const { return inTime + count; }
     };
-    std::vector<Stretch>::const_iterator stretchOf(Index sample) const;
+    std::vector<StoredRun>::const_iterator stretchOf(Index sample) const;
 
-    std::vector<Stretch> m_stretches;
+    std::vector<StoredRun> m_stretches;
 };
 
 } // namespace faintline

@@ -119,10 +119,10 @@ Timeline::Timeline(const std::vector<std::string> &names, OpenFile open) : m_ope
     if (timed.empty())
         throw broken.front();
     const Alignment aligned = alignFiles(timed);
-    std::vector<Part> ordered;
+    std::vector<TimelinePart> ordered;
     Index stored = 0;
     for (const PlacedFile &place : aligned.places) {
-        Part part = m_parts[place.file];
+        TimelinePart part = m_parts[place.file];
         part.place = place;
         part.firstStored = stored;
         m_stretches.add(place.inTime, stored, place.count);
@@ -204,7 +204,7 @@ RecordingPointer Timeline::partAt(std::size_t number) const
         std::rotate(known, known + 1, m_open.end());
         return m_open.back().second;
     }
-    const Part &part = m_parts[number];
+    const TimelinePart &part = m_parts[number];
     RecordingPointer opened = m_openFile(part.path);
     if (opened->info().sampleCount != part.fileSamples || opened->info().isComplex != m_info.isComplex
         || opened->info().channelCount != m_info.channelCount)
@@ -218,8 +218,9 @@ RecordingPointer Timeline::partAt(std::size_t number) const
 /// The part that contains a sample.
 std::size_t Timeline::partOf(Index stored) const
 {
-    const auto behind = std::upper_bound(m_parts.begin(), m_parts.end(), stored,
-                                         [](Index wanted, const Part &part) { return wanted < part.firstStored; });
+    const auto behind =
+        std::upper_bound(m_parts.begin(), m_parts.end(), stored,
+                         [](Index wanted, const TimelinePart &part) { return wanted < part.firstStored; });
     return std::size_t(behind - m_parts.begin()) - 1;
 }
 
@@ -235,7 +236,7 @@ void Timeline::readStored(int channel, Index stored, std::span<float> out) const
 {
     const Index floats = m_info.floatsPerSample();
     for (std::size_t number = partOf(stored); !out.empty(); ++number) {
-        const Part &part = m_parts[number];
+        const TimelinePart &part = m_parts[number];
         const Index within = stored - part.firstStored;
         const Index count = std::min(part.place.count - within, std::ssize(out) / floats);
         partAt(number)->read(channel, part.place.skipped + within, count, out.first(std::size_t(count * floats)));
@@ -252,7 +253,7 @@ bool Timeline::isWhole(Index first, Index count) const
     const Index to = std::min(first + count, m_info.sampleCount);
     for (auto part = std::upper_bound(
              m_parts.begin(), m_parts.end(), std::max<Index>(0, first),
-             [](Index wanted, const Part &each) { return wanted < each.place.inTime + each.place.count; });
+             [](Index wanted, const TimelinePart &each) { return wanted < each.place.inTime + each.place.count; });
          m_hasGapsWithin && isWhole && part != m_parts.end() && part->place.inTime < to; ++part) {
         const Index from = std::max(first, part->place.inTime) - part->place.inTime;
         const Index end = std::min(to - part->place.inTime, part->place.count);
@@ -267,7 +268,7 @@ bool Timeline::isFinite(int channel, Index first, Index count) const
     const Index to = std::min(first + count, m_info.sampleCount);
     for (auto part = std::upper_bound(
              m_parts.begin(), m_parts.end(), std::max<Index>(0, first),
-             [](Index wanted, const Part &each) { return wanted < each.place.inTime + each.place.count; });
+             [](Index wanted, const TimelinePart &each) { return wanted < each.place.inTime + each.place.count; });
          part != m_parts.end() && part->place.inTime < to; ++part) {
         const Index from = std::max(first, part->place.inTime) - part->place.inTime;
         const Index end = std::min(to - part->place.inTime, part->place.count);

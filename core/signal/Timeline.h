@@ -43,7 +43,7 @@ public:
     static std::vector<std::string> filesOf(const std::vector<std::string> &names);
 
 private:
-    struct Part {
+    struct TimelinePart {
         std::string path;
         PlacedFile place;
         Index firstStored = 0; ///< index among all parts' used samples
@@ -60,8 +60,8 @@ private:
     void readStored(int channel, Index stored, std::span<float> out) const;
 
     OpenFile m_openFile;
-    std::vector<Part> m_parts; ///< in the order of time
-    Stretches m_stretches;     ///< places of the used samples in time
+    std::vector<TimelinePart> m_parts; ///< in the order of time
+    Stretches m_stretches;             ///< places of the used samples in time
     bool m_hasGapsWithin = false;
     mutable std::mutex m_mutex;
     mutable std::vector<std::pair<std::size_t, RecordingPointer>> m_open; ///< most recent last; guarded by m_mutex

@@ -20,7 +20,7 @@ namespace {
     constexpr double leastScatter = 1e-3; ///< of stamps set by a program
 
     /// Files that follow one another without a gap.
-    struct Run {
+    struct FileRun {
         std::vector<std::size_t> files;
         std::vector<double> before; ///< samples of the run before each
         double startUnixSeconds = 0.0;
@@ -104,7 +104,7 @@ namespace {
             findRuns();
             fitClock();
             m_result.startUnixSeconds = m_runs.front().startUnixSeconds;
-            for (const Run &run : m_runs)
+            for (const FileRun &run : m_runs)
                 place(run);
             tell();
             return std::move(m_result);
@@ -207,7 +207,7 @@ namespace {
         void divide(const Chain &chain)
         {
             const std::size_t size = chain.files.size();
-            std::vector<Run> runs;
+            std::vector<FileRun> runs;
             for (std::size_t first = 0; first < size;) {
                 const std::size_t count = longestRun(chain, first);
                 runs.push_back(runOf(chain, first, count));
@@ -238,9 +238,9 @@ namespace {
             return whole;
         }
 
-        Run runOf(const Chain &chain, std::size_t first, std::size_t count) const
+        FileRun runOf(const Chain &chain, std::size_t first, std::size_t count) const
         {
-            Run run;
+            FileRun run;
             double samples = 0.0;
             for (std::size_t i = first; i < first + count; ++i) {
                 run.files.push_back(chain.files[i]);
@@ -277,12 +277,12 @@ namespace {
         }
 
         /// Stamp of a run's file minus the duration of the samples before it.
-        double startBy(const Run &run, std::size_t i, double rateHz) const
+        double startBy(const FileRun &run, std::size_t i, double rateHz) const
         {
             return m_stamps[run.files[i]] - run.before[i] / rateHz;
         }
 
-        double meanStart(const Run &run, double rateHz) const
+        double meanStart(const FileRun &run, double rateHz) const
         {
             double sum = 0.0;
             for (std::size_t i = 0; i < run.files.size(); ++i)
@@ -295,7 +295,7 @@ namespace {
         {
             double squares = 0.0;
             double products = 0.0;
-            for (const Run &run : m_runs) {
+            for (const FileRun &run : m_runs) {
                 const double mean = meanStart(run, m_nominalHz);
                 const double meanBefore =
                     std::accumulate(run.before.begin(), run.before.end(), 0.0) / double(run.before.size());
@@ -310,14 +310,14 @@ namespace {
             constexpr double certain = 5.0;
             const bool isClock = !m_isPaused && std::abs(longer) * m_nominalHz <= clockError;
             m_result.rateHz = isClock && std::abs(longer) > certain * error ? corrected : m_nominalHz;
-            for (Run &run : m_runs)
+            for (FileRun &run : m_runs)
                 run.startUnixSeconds = m_epoch + meanStart(run, m_result.rateHz);
         }
 
         double scatter(double rateHz) const
         {
             double squares = 0.0;
-            for (const Run &run : m_runs) {
+            for (const FileRun &run : m_runs) {
                 const double mean = meanStart(run, rateHz);
                 for (std::size_t i = 0; i < run.files.size(); ++i)
                     squares += std::pow(startBy(run, i, rateHz) - mean, 2.0);
@@ -337,7 +337,7 @@ namespace {
             return m_result.places.empty() ? 0 : m_result.places.back().inTime + m_result.places.back().count;
         }
 
-        void place(const Run &run)
+        void place(const FileRun &run)
         {
             const Index start = std::llround((run.startUnixSeconds - m_result.startUnixSeconds) * m_result.rateHz);
             const bool isFirst = m_result.places.empty();
@@ -363,7 +363,7 @@ namespace {
         double farthest() const
         {
             double farthest = 0.0;
-            for (const Run &run : m_runs) {
+            for (const FileRun &run : m_runs) {
                 const double mean = meanStart(run, m_result.rateHz);
                 for (std::size_t i = 0; i < run.files.size(); ++i)
                     farthest = std::max(farthest, std::abs(startBy(run, i, m_result.rateHz) - mean));
@@ -397,7 +397,7 @@ namespace {
 
         const std::vector<TimedFile> &m_files;
         std::vector<std::size_t> m_order;
-        std::vector<Run> m_runs;
+        std::vector<FileRun> m_runs;
         std::vector<double> m_stamps; ///< of each file, s after m_epoch
         double m_epoch = 0.0;
         double m_nominalHz = 0.0;

@@ -49,7 +49,7 @@ void tst_lineHeight::theSpectrumIsThatOfAPlainTransform()
     scene.lines = {LineSettings{.snrDb = 20.0, .referenceSeconds = 1.0, .frequencyHz = 80.125},
                    LineSettings{.snrDb = 14.0, .referenceSeconds = 1.0, .frequencyHz = 78.4}};
     const SimulatedRecording recording(scene);
-    const Stretch stretch{0, 0.0, 20.0, 80.0, 5.0};
+    const TimeBand stretch{0, 0.0, 20.0, 80.0, 5.0};
     const LineSpectrum spectrum = lineSpectrum(recording, stretch);
     QCOMPARE(spectrum.hz.size(), spectrum.db.size());
     QVERIFY(spectrum.hz.front() < 75.1 && spectrum.hz.front() >= 75.0 && spectrum.hz.back() > 84.9);
@@ -101,9 +101,9 @@ void tst_lineHeight::refusesWhatIsTooShort()
     scene.sampleRateHz = 500.0;
     scene.durationSeconds = 2.0;
     const SimulatedRecording recording(scene);
-    for (const Stretch &stretch :
-         {Stretch{0, 0.0, 0.01, 80.0, 5.0}, Stretch{0, 1.0, 1.0, 80.0, 5.0}, Stretch{0, 1.5, 1.0, 80.0, 5.0},
-          Stretch{0, 0.0, 2.0, 80.0, 0.0}, Stretch{0, 0.0, 2.0, 80.0, std::numeric_limits<double>::quiet_NaN()}})
+    for (const TimeBand &stretch :
+         {TimeBand{0, 0.0, 0.01, 80.0, 5.0}, TimeBand{0, 1.0, 1.0, 80.0, 5.0}, TimeBand{0, 1.5, 1.0, 80.0, 5.0},
+          TimeBand{0, 0.0, 2.0, 80.0, 0.0}, TimeBand{0, 0.0, 2.0, 80.0, std::numeric_limits<double>::quiet_NaN()}})
         QVERIFY_EXCEPTION_THROWN(lineHeight(recording, stretch), Error);
 }
 

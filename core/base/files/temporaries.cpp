@@ -8,15 +8,15 @@ namespace faintline {
 
 namespace {
 
-    struct Known {
+    struct KnownPaths {
         std::mutex guard;
         std::set<std::string> paths;
     };
 
     /// Never destroyed: threads may end after main.
-    Known &known()
+    KnownPaths &known()
     {
-        static auto *all = new Known;
+        static auto *all = new KnownPaths;
         return *all;
     }
 

@@ -125,26 +125,26 @@ namespace {
         std::vector<double> m_turn; ///< of a cyclic axis, else 0
     };
 
-    struct Pair {
+    struct EventPair {
         std::size_t a = 0;
         std::size_t b = 0;
         double sharedSeconds = 0.0;
     };
 
-    std::vector<Pair> pairsOf(const Analysis &a, const Analysis &b, const Gate &gate)
+    std::vector<EventPair> pairsOf(const Analysis &a, const Analysis &b, const Gate &gate)
     {
         const std::vector<Path> ofA = pathsOf(a);
         const std::vector<Path> ofB = pathsOf(b);
-        std::vector<Pair> pairs;
+        std::vector<EventPair> pairs;
         for (std::size_t i = 0; i < ofA.size(); ++i)
             for (std::size_t j = 0; j < ofB.size(); ++j)
                 if (!ofA[i].isEmpty() && !ofB[j].isEmpty())
                     if (const std::optional<double> shared = gate.sharedSeconds(ofA[i], ofB[j]))
                         pairs.push_back({i, j, *shared});
         std::stable_sort(pairs.begin(), pairs.end(),
-                         [](const Pair &x, const Pair &y) { return x.sharedSeconds > y.sharedSeconds; });
+                         [](const EventPair &x, const EventPair &y) { return x.sharedSeconds > y.sharedSeconds; });
         std::vector<bool> isTakenA(ofA.size()), isTakenB(ofB.size());
-        std::erase_if(pairs, [&](const Pair &pair) {
+        std::erase_if(pairs, [&](const EventPair &pair) {
             if (isTakenA[pair.a] || isTakenB[pair.b])
                 return true;
             isTakenA[pair.a] = isTakenB[pair.b] = true;
@@ -176,7 +176,7 @@ Comparison compareAnalyses(const Analysis &a, const Analysis &b, const CompareTo
     checkAxes(a, b);
     std::map<int, std::pair<int, double>> partnerOfA; // track id → that of B, shared seconds
     std::map<int, int> partnerOfB;
-    for (const Pair &pair : pairsOf(a, b, Gate(a, b, tolerance))) {
+    for (const EventPair &pair : pairsOf(a, b, Gate(a, b, tolerance))) {
         partnerOfA[a.tracks[pair.a].id] = {b.tracks[pair.b].id, pair.sharedSeconds};
         partnerOfB[b.tracks[pair.b].id] = a.tracks[pair.a].id;
     }

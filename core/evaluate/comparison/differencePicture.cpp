@@ -32,19 +32,19 @@ namespace {
         return result;
     }
 
-    struct Range {
+    struct CellRange {
         Index begin = 0;
         Index end = 0;
     };
 
     /// For each cell of `to`, the cells of `from` whose centres lie in it, or the nearest one.
-    std::vector<Range> cellsWithin(const Axis &from, const Axis &to)
+    std::vector<CellRange> cellsWithin(const Axis &from, const Axis &to)
     {
-        std::vector<Range> ranges;
+        std::vector<CellRange> ranges;
         for (Index i = 0; i < to.count; ++i) {
             const double low = from.position(to.value(double(i) - 0.5));
             const double high = from.position(to.value(double(i) + 0.5));
-            Range range{Index(std::ceil(low - 1e-9)), Index(std::ceil(high - 1e-9))};
+            CellRange range{Index(std::ceil(low - 1e-9)), Index(std::ceil(high - 1e-9))};
             range = {std::clamp<Index>(range.begin, 0, from.count), std::clamp<Index>(range.end, 0, from.count)};
             if (range.begin >= range.end) {
                 const Index nearest = std::clamp<Index>(std::llround(0.5 * (low + high)), 0, from.count - 1);
@@ -95,14 +95,14 @@ std::shared_ptr<const PeakPyramid> differencePicture(const Analysis &a, const An
     for (Index row = 0; row < rowsB.count; ++row) {
         if (row % 256 == 0)
             context.checkpoint(double(row) / double(rowsB.count), "comparing");
-        const Range range = rows[std::size_t(row)];
+        const CellRange range = rows[std::size_t(row)];
         const auto first = a.statistic->row(0, range.begin);
         highest.assign(first.begin(), first.end());
         for (Index other = range.begin + 1; other < range.end; ++other)
             raise(highest, a.statistic->row(0, other));
         const auto own = b.statistic->row(0, row);
         for (std::size_t cell = 0; cell < difference.size(); ++cell) {
-            const Range within = cells[cell];
+            const CellRange within = cells[cell];
             const std::uint8_t best = *std::max_element(highest.begin() + within.begin, highest.begin() + within.end);
             difference[cell] = marginsB[own[cell]] - marginsA[best];
         }

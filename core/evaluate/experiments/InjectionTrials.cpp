@@ -194,7 +194,7 @@ InjectionTrials::InjectionTrials(const InjectionExperiment &experiment, Recordin
 
 InjectionTrials::~InjectionTrials() = default;
 
-InjectionTrials::Made InjectionTrials::remake(int trial, double snrDb) const
+InjectionTrials::InjectedTrial InjectionTrials::remake(int trial, double snrDb) const
 {
     const Spectrogram &spectrogram = *m_shared->spectrogram;
     const RecordingInfo &info = m_shared->recording->info();
@@ -256,7 +256,7 @@ InjectionTrials::Made InjectionTrials::remake(int trial, double snrDb) const
 class InjectionTrials::LineLook
 {
 public:
-    LineLook(const InjectionTrials &trials, const Made &made, bool hasLine)
+    LineLook(const InjectionTrials &trials, const InjectedTrial &made, bool hasLine)
         : m_experiment(trials.m_experiment), m_shared(*trials.m_shared), m_truth(made.truth),
           m_frames(framesAround(hasLine ? made.recording : m_shared.recording))
     {
@@ -379,7 +379,7 @@ std::vector<RunOutcome> InjectionTrials::run(const std::vector<int> &trials, con
     RunContext quiet;
     quiet.stop = context.stop;
     const auto largestOn = [&](int trial, double snrDb, bool hasLine) {
-        const Made made = remake(trial, snrDb);
+        const InjectedTrial made = remake(trial, snrDb);
         std::vector<float> largest = LineLook(*this, made, hasLine).largest();
         for (std::size_t d = 0; d < largest.size(); ++d)
             if (m_experiment.detectors[d].isWhole)

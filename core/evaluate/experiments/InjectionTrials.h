@@ -33,11 +33,11 @@ public:
                                 const RunSink &sink = {}) const;
 
     /// The recording with one trial's line, and the line's truth.
-    struct Made {
+    struct InjectedTrial {
         RecordingPointer recording;
         TruthLine truth;
     };
-    Made remake(int trial, double snrDb) const;
+    InjectedTrial remake(int trial, double snrDb) const;
 
     /// With these, a detector that is `detect` as a whole analyses a recording with or without that line.
     AnalysisSettings wholeSettings(std::size_t detector, const TruthLine &line) const;

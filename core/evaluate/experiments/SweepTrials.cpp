@@ -53,7 +53,7 @@ SweepTrials::SweepTrials(const SweepExperiment &experiment, RecordingPointer rec
     const auto count = double(experiment.values.size());
     for (std::size_t i = 0; i < experiment.values.size(); ++i) {
         const RunContext part = context.part(double(i) / count, double(i + 1) / count);
-        const Made made = remake(int(i));
+        const SweptTrial made = remake(int(i));
         AnalysisSettings settings = made.settings;
         if (settings.spectrogram.windowSeconds == 0.0)
             settings.spectrogram.windowSeconds = m_referenceSeconds;
@@ -72,7 +72,7 @@ struct SweepTrials::Placement {
     std::uint64_t seed; ///< of the trial: noise, phase and wander
 };
 
-SweepTrials::Made SweepTrials::remake(int run) const
+SweepTrials::SweptTrial SweepTrials::remake(int run) const
 {
     const int trial = m_experiment.trialOf(run);
     Random places(std::uint64_t(m_experiment.seed), std::uint64_t(trial));
@@ -113,8 +113,8 @@ LineSettings SweepTrials::lineAt(const SweepExperiment &one, const Placement &pl
     return line;
 }
 
-SweepTrials::Made SweepTrials::simulate(const SweepExperiment &one, const LineSettings &line,
-                                        const Placement &placement) const
+SweepTrials::SweptTrial SweepTrials::simulate(const SweepExperiment &one, const LineSettings &line,
+                                              const Placement &placement) const
 {
     LineScene scene;
     scene.sampleRateHz = one.sampleRateHz;
@@ -122,13 +122,14 @@ SweepTrials::Made SweepTrials::simulate(const SweepExperiment &one, const LineSe
     scene.seed = int(placement.seed % 2147483647);
     scene.lines = {line};
     const auto simulated = std::make_shared<SimulatedRecording>(scene);
-    Made made{simulated, simulated->truth().lines.front(), one.settings};
+    SweptTrial made{simulated, simulated->truth().lines.front(), one.settings};
     made.settings.selection.fromSeconds = made.settings.selection.toSeconds = 0.0;
     made.settings.selection.channel = 0;
     return made;
 }
 
-SweepTrials::Made SweepTrials::inject(const SweepExperiment &one, LineSettings line, const Placement &placement) const
+SweepTrials::SweptTrial SweepTrials::inject(const SweepExperiment &one, LineSettings line,
+                                            const Placement &placement) const
 {
     const SelectionSettings &selection = one.settings.selection;
     const double recorded = m_recording->info().durationSeconds();
@@ -141,7 +142,7 @@ SweepTrials::Made SweepTrials::inject(const SweepExperiment &one, LineSettings l
                                                           + formatNumber(to - from) + " s");
     const double begin = from + placement.inTime * (to - from - whole);
     line.startSeconds += begin;
-    Made made{nullptr, {}, one.settings};
+    SweptTrial made{nullptr, {}, one.settings};
     made.settings.selection.fromSeconds = begin;
     made.settings.selection.toSeconds = begin + whole;
     AnalysisSettings placing = m_experiment.settings; // the noise under the line is the same for every value
@@ -163,7 +164,7 @@ std::vector<RunOutcome> SweepTrials::run(const std::vector<int> &runs, const Run
         return [&](Index i) {
             RunOutcome &outcome = outcomes[std::size_t(i)];
             const int run = runs[std::size_t(i)];
-            const Made made = remake(run);
+            const SweptTrial made = remake(run);
             RunContext quiet;
             quiet.stop = context.stop;
             outcome = scored(run, *analyse(made.recording, made.settings, {.depth = AnalysisDepth::Tracks}, quiet),
@@ -184,7 +185,7 @@ std::vector<double> SweepTrials::costs(const RunContext &context) const
     quiet.stop = context.stop;
     for (std::size_t i = 0; i < m_experiment.values.size(); ++i) {
         context.checkpoint(double(i) / double(m_experiment.values.size()), "measuring the cost");
-        const Made made = remake(int(i));
+        const SweptTrial made = remake(int(i));
         seconds.push_back(measureCost(*analyse(made.recording, made.settings, {}, quiet), quiet));
     }
     return seconds;

@@ -29,12 +29,12 @@ public:
                                 const RunSink &sink = {}) const;
 
     /// One trial regenerated: the recording with its line, and the line's truth. The settings select the stretch.
-    struct Made {
+    struct SweptTrial {
         RecordingPointer recording;
         TruthLine truth;
         AnalysisSettings settings; ///< with the run's value
     };
-    Made remake(int run) const;
+    SweptTrial remake(int run) const;
 
     /// Processor seconds per hour of recording, value by value (measureCost); varies between calls.
     std::vector<double> costs(const RunContext &context = {}) const;
@@ -42,8 +42,8 @@ public:
 private:
     struct Placement;
     LineSettings lineAt(const SweepExperiment &one, const Placement &placement) const; ///< from its stretch's start
-    Made simulate(const SweepExperiment &one, const LineSettings &line, const Placement &placement) const;
-    Made inject(const SweepExperiment &one, LineSettings line, const Placement &placement) const;
+    SweptTrial simulate(const SweepExperiment &one, const LineSettings &line, const Placement &placement) const;
+    SweptTrial inject(const SweepExperiment &one, LineSettings line, const Placement &placement) const;
 
     SweepExperiment m_experiment;
     RecordingPointer m_recording;

@@ -69,7 +69,7 @@ namespace {
                             const TrialPlace &place, const RunContext &context)
     {
         const auto &injection = std::get<InjectionExperiment>(campaign.experiment);
-        const InjectionTrials::Made made = trials.remake(place.run, injection.snrDb[point.snr]);
+        const InjectionTrials::InjectedTrial made = trials.remake(place.run, injection.snrDb[point.snr]);
         AnalysisSettings settings = settingsOf(injection, point.detector);
         if (injection.detectors[point.detector].isWhole)
             settings = trials.wholeSettings(point.detector, made.truth);

@@ -156,14 +156,16 @@ void TrajectorySampler::move(std::size_t axis, Index step, int &rate, Index &cel
         return;
     }
     rate = a.rateGoingOn(cell, rate, step);
-    const std::vector<Move> &moves = law.moves[std::size_t(step % a.phaseCount())][std::size_t(rate)];
-    const auto exists = [&](const Move &m) { return a.cyclic || (cell + m.cells >= 0 && cell + m.cells < a.cells); };
+    const std::vector<RateMove> &moves = law.moves[std::size_t(step % a.phaseCount())][std::size_t(rate)];
+    const auto exists = [&](const RateMove &m) {
+        return a.cyclic || (cell + m.cells >= 0 && cell + m.cells < a.cells);
+    };
     double left = 0.0;
-    for (const Move &m : moves)
+    for (const RateMove &m : moves)
         left += exists(m) ? m.probability : 0.0;
     left *= uniform;
-    const Move *chosen = nullptr;
-    for (const Move &m : moves) {
+    const RateMove *chosen = nullptr;
+    for (const RateMove &m : moves) {
         if (!exists(m))
             continue;
         chosen = &m;

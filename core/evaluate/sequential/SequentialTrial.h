@@ -25,14 +25,14 @@ public:
     Index next(Index state, Random &random, Index step = 0) const;
 
 private:
-    struct Move {
+    struct RateMove {
         int toRate;
         Index cells;
         double probability;
     };
     struct AxisLaw {
-        std::vector<std::vector<std::vector<Move>>> moves; ///< for each phase and source rate
-        std::vector<double> matrix;                        ///< replaces moves if the axis has one
+        std::vector<std::vector<std::vector<RateMove>>> moves; ///< for each phase and source rate
+        std::vector<double> matrix;                            ///< replaces moves if the axis has one
     };
     void move(std::size_t axis, Index step, int &rate, Index &cell, double uniform) const;
 

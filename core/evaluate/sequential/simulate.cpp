@@ -17,7 +17,7 @@ namespace {
     constexpr Index stageLimit = 1000000;
     constexpr Index trialsOfAnItem = 1000;
 
-    struct TrialOutcome {
+    struct SimulatedTrial {
         Index stages = 0;
         SprtDecision decision = SprtDecision::Undecided;
         double lambda = 1.0;
@@ -112,7 +112,7 @@ namespace {
         {
         }
 
-        void run(Index first, Index count, TrialOutcome *outcomes, const RunContext &context)
+        void run(Index first, Index count, SimulatedTrial *outcomes, const RunContext &context)
         {
             Index next = 0;
             Index running = 0;
@@ -173,14 +173,14 @@ namespace {
         }
 
         /// Whether the lane's trial is over; its outcome is written and its lane cleared then.
-        bool settle(std::size_t lane, TrialOutcome *outcomes)
+        bool settle(std::size_t lane, SimulatedTrial *outcomes)
         {
             Slot &slot = m_slot[lane];
             const double lambda = m_total[lane];
             const SprtDecision decision = decide(m_study.sprt, std::log(lambda), slot.stages);
             if (decision == SprtDecision::Undecided && slot.stages < stageLimit)
                 return false;
-            TrialOutcome &outcome = outcomes[slot.number];
+            SimulatedTrial &outcome = outcomes[slot.number];
             outcome.stages = slot.stages;
             outcome.decision = decision;
             outcome.lambda = lambda;
@@ -214,16 +214,16 @@ namespace {
     }
 
     /// Mean, deviation, and coefficient of variation with its standard error by the delta method.
-    void summariseStages(const std::vector<TrialOutcome> &outcomes, SequentialOutcome &result)
+    void summariseStages(const std::vector<SimulatedTrial> &outcomes, SequentialOutcome &result)
     {
         const auto n = double(outcomes.size());
         double mean = 0.0;
-        for (const TrialOutcome &o : outcomes)
+        for (const SimulatedTrial &o : outcomes)
             mean += double(o.stages) / n;
         double m2 = 0.0;
         double m3 = 0.0;
         double m4 = 0.0;
-        for (const TrialOutcome &o : outcomes) {
+        for (const SimulatedTrial &o : outcomes) {
             const double d = double(o.stages) - mean;
             m2 += d * d / n;
             m3 += d * d * d / n;
@@ -237,13 +237,13 @@ namespace {
         result.variation = {variation, variation * std::sqrt(std::max(0.0, relative) / n)};
     }
 
-    SequentialOutcome summarise(const SequentialStudy &study, const std::vector<TrialOutcome> &outcomes)
+    SequentialOutcome summarise(const SequentialStudy &study, const std::vector<SimulatedTrial> &outcomes)
     {
         SequentialOutcome result;
         result.trials = study.trials;
         double sum = 0.0;
         double sumOfSquares = 0.0;
-        for (const TrialOutcome &o : outcomes) {
+        for (const SimulatedTrial &o : outcomes) {
             result.acceptedH1 += o.decision == SprtDecision::H1 ? 1 : 0;
             result.undecided += o.decision == SprtDecision::Undecided ? 1 : 0;
             result.correctLast += o.isLastCorrect ? 1 : 0;
@@ -267,7 +267,7 @@ SequentialOutcome simulate(const SequentialStudy &study, const RunContext &conte
 {
     check(study);
     const TrajectorySampler sampler(study.model);
-    std::vector<TrialOutcome> outcomes(std::size_t(study.trials));
+    std::vector<SimulatedTrial> outcomes(std::size_t(study.trials));
     const Index items = (study.trials + trialsOfAnItem - 1) / trialsOfAnItem;
     parallelFor(items, context, "sequential tests", [&]() -> std::function<void(Index)> {
         const auto runner = std::make_shared<Runner>(study, sampler);
@@ -276,7 +276,7 @@ SequentialOutcome simulate(const SequentialStudy &study, const RunContext &conte
         return [&, runner, judge](Index item) {
             const Index first = item * trialsOfAnItem;
             const Index count = std::min(trialsOfAnItem, study.trials - first);
-            TrialOutcome *own = outcomes.data() + first;
+            SimulatedTrial *own = outcomes.data() + first;
             runner->run(first, count, own, context);
             for (Index i = 0; judge && i < count; ++i)
                 if (own[i].decision == SprtDecision::H1) {

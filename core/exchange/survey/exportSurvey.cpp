@@ -223,7 +223,7 @@ namespace {
         double end = 0.0;
     };
 
-    struct Stretch {
+    struct DeploymentTime {
         double start = std::numeric_limits<double>::infinity();
         double end = -std::numeric_limits<double>::infinity();
     };
@@ -267,9 +267,9 @@ namespace {
     void writeDeployments(const std::string &path, const std::vector<Medium> &media, const CamtrapPlace &place)
     {
         Table table(path, deploymentColumns);
-        std::map<std::string, Stretch> stretches;
+        std::map<std::string, DeploymentTime> stretches;
         for (const Medium &one : media) {
-            Stretch &stretch = stretches[one.deployment];
+            DeploymentTime &stretch = stretches[one.deployment];
             stretch.start = std::min(stretch.start, one.start);
             stretch.end = std::max(stretch.end, one.end);
         }
@@ -342,7 +342,7 @@ namespace {
 
     std::string package(const SurveyDatabase &survey, const std::vector<Medium> &media, const CamtrapPlace &place)
     {
-        Stretch whole;
+        DeploymentTime whole;
         for (const Medium &one : media) {
             whole.start = std::min(whole.start, one.start);
             whole.end = std::max(whole.end, one.end);

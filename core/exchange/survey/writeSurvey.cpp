@@ -75,17 +75,17 @@ namespace {
     };
 
     /// Position of a recording in one of several databases.
-    struct Place {
+    struct DatabasePlace {
         SurveyDatabase *part;
         std::int64_t id;
     };
 
-    std::map<std::string, Place> placesIn(const std::vector<SurveyDatabase *> &parts)
+    std::map<std::string, DatabasePlace> placesIn(const std::vector<SurveyDatabase *> &parts)
     {
-        std::map<std::string, Place> places;
+        std::map<std::string, DatabasePlace> places;
         for (SurveyDatabase *part : parts)
             for (const SurveyRecording &one : part->recordings())
-                if (const auto [there, isNew] = places.emplace(one.file.path, Place{part, one.id}); !isNew)
+                if (const auto [there, isNew] = places.emplace(one.file.path, DatabasePlace{part, one.id}); !isNew)
                     throw Error(part->path(), "contains " + one.file.path + ", which is also in "
                                                   + there->second.part->path()
                                                   + "; a recording may be in one shard only");
@@ -120,7 +120,7 @@ namespace {
 
 void writeSurvey(const std::vector<SurveyDatabase *> &parts, const SurveyOrigin &origin, const std::string &path)
 {
-    const std::map<std::string, Place> places = placesIn(parts);
+    const std::map<std::string, DatabasePlace> places = placesIn(parts);
     AtomicFile file(path);
     try {
         Filling filling(file.temporaryPath(), origin);

@@ -60,10 +60,10 @@ namespace {
     }
 
     /// Position of the closest approach as heard, over its whole interval, relative to the track's time.
-    struct Heard {
+    struct HeardApproach {
         bool mayBeBefore, mayBeIn, mayBeAfter;
 
-        Heard(const DopplerFit &fit, const std::vector<DopplerPoint> &points)
+        HeardApproach(const DopplerFit &fit, const std::vector<DopplerPoint> &points)
         {
             const double delay = fit.heardSeconds() - fit.pass.closestSeconds;
             const double first = points.front().seconds - delay;
@@ -76,7 +76,7 @@ namespace {
         bool isSurelyIn() const { return !mayBeBefore && !mayBeAfter; }
     };
 
-    std::string whereNotSeen(const Heard &heard, const DopplerFit &fit)
+    std::string whereNotSeen(const HeardApproach &heard, const DopplerFit &fit)
     {
         const double beta = fit.pass.metresPerSecond / fit.propagation;
         if (!heard.mayBeIn && heard.mayBeAfter)
@@ -111,7 +111,7 @@ namespace {
         if (!fit.isBent)
             sentences.emplace_back("A straight line fits the track nearly as well as a pass; the intervals are widened "
                                    "accordingly, and the estimates are of little use.");
-        const Heard heard(fit, points);
+        const HeardApproach heard(fit, points);
         if (!heard.isSurelyIn())
             sentences.emplace_back(
                 "The closest approach may lie outside the track, so rest frequency, speed and range cannot be "

@@ -205,7 +205,7 @@ namespace {
 
 /// Input of libsndfile: a shared file and its own offset. The header of a WAV file may be replaced by a repaired one.
 /// While the library reads the file's own header, lists that would make it loop get an unknown name.
-struct AudioDecoder::Source {
+struct AudioDecoder::SharedInput {
     std::shared_ptr<const FileBytes> file;
     std::vector<std::byte> header; ///< shown in place of what precedes the samples; empty: the file's own
     Index dataOffset = 0;          ///< of the samples in the file, if there is a header
@@ -215,7 +215,7 @@ struct AudioDecoder::Source {
     Index offset = 0;
     bool isOpening = true;
 
-    static Source &of(void *user) { return *static_cast<Source *>(user); }
+    static SharedInput &of(void *user) { return *static_cast<SharedInput *>(user); }
 
     Index size() const { return header.empty() ? file->size() : std::ssize(header) + dataBytes; }
 
@@ -225,7 +225,7 @@ struct AudioDecoder::Source {
 
     static sf_count_t seek(sf_count_t offset, int whence, void *user)
     {
-        Source &source = of(user);
+        SharedInput &source = of(user);
         const Index base = whence == SEEK_CUR ? source.offset : whence == SEEK_END ? source.size() : 0;
         constexpr Index offsetLimitBytes = Index(1)
                                            << 60; // beyond the end of any file; a chunk's length may point there
@@ -236,7 +236,7 @@ struct AudioDecoder::Source {
 
     static sf_count_t read(void *out, sf_count_t count, void *user)
     {
-        Source &source = of(user);
+        SharedInput &source = of(user);
         const std::span<std::byte> bytes(static_cast<std::byte *>(out), std::size_t(std::max<sf_count_t>(0, count)));
         Index got = 0;
         try {
@@ -277,7 +277,7 @@ struct AudioDecoder::Source {
     }
 };
 
-AudioDecoder::AudioDecoder(std::unique_ptr<Source> source, SNDFILE *handle, const SF_INFO &format)
+AudioDecoder::AudioDecoder(std::unique_ptr<SharedInput> source, SNDFILE *handle, const SF_INFO &format)
     : m_source(std::move(source)), m_handle(handle), m_format(format)
 {
 }
@@ -287,9 +287,10 @@ AudioDecoder::~AudioDecoder()
     sf_close(m_handle);
 }
 
-std::unique_ptr<AudioDecoder> AudioDecoder::openAs(std::unique_ptr<Source> source, std::string &why)
+std::unique_ptr<AudioDecoder> AudioDecoder::openAs(std::unique_ptr<SharedInput> source, std::string &why)
 {
-    SF_VIRTUAL_IO access = {Source::length, Source::seek, Source::read, Source::write, Source::tell};
+    SF_VIRTUAL_IO access = {SharedInput::length, SharedInput::seek, SharedInput::read, SharedInput::write,
+                            SharedInput::tell};
     SF_INFO format = {};
     SNDFILE *handle = sf_open_virtual(&access, SFM_READ, &format, source.get());
     if (!handle) {
@@ -309,7 +310,7 @@ std::unique_ptr<AudioDecoder> AudioDecoder::open(std::shared_ptr<const FileBytes
     const WavChunks chunks(*file);
     const auto openWith = [&](std::size_t names,
                               std::string &message) { // names: how many of the useful; 0: the file's own
-        auto source = std::make_unique<Source>();
+        auto source = std::make_unique<SharedInput>();
         source->file = file;
         source->notes = chunks.notes();
         if (names > 0) {

@@ -51,12 +51,12 @@ public:
     std::string text(int which) const; ///< SF_STR_DATE …; empty if absent
 
 private:
-    struct Source;
+    struct SharedInput;
 
-    static std::unique_ptr<AudioDecoder> openAs(std::unique_ptr<Source> source, std::string &why);
-    AudioDecoder(std::unique_ptr<Source> source, SNDFILE *handle, const SF_INFO &format);
+    static std::unique_ptr<AudioDecoder> openAs(std::unique_ptr<SharedInput> source, std::string &why);
+    AudioDecoder(std::unique_ptr<SharedInput> source, SNDFILE *handle, const SF_INFO &format);
 
-    std::unique_ptr<Source> m_source;
+    std::unique_ptr<SharedInput> m_source;
     SNDFILE *m_handle;
     SF_INFO m_format;
     Index m_position = 0;

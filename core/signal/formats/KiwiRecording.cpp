@@ -257,7 +257,7 @@ void KiwiRecording::add(Index offset, Index samples)
     if (samples <= 0)
         return;
     if (!m_runs.empty()) {
-        Run &run = m_runs.back();
+        ChunkRun &run = m_runs.back();
         const Index last = run.offset + (run.count - 1) * run.stride;
         if (run.samples == samples && (run.count == 1 || offset - last == run.stride)) {
             run.stride = offset - last;
@@ -272,7 +272,7 @@ void KiwiRecording::add(Index offset, Index samples)
 }
 
 /// Reads samples of one run, from one of its samples on.
-void KiwiRecording::readWithin(const Run &run, Index sample, std::span<float> out) const
+void KiwiRecording::readWithin(const ChunkRun &run, Index sample, std::span<float> out) const
 {
     constexpr float fullScale = 32768.0f;
     const Index floats = m_info.floatsPerSample();
@@ -294,7 +294,7 @@ void KiwiRecording::readWithin(const Run &run, Index sample, std::span<float> ou
 void KiwiRecording::readStored(Index sample, std::span<float> out) const
 {
     auto run = std::upper_bound(m_runs.begin(), m_runs.end(), sample,
-                                [](Index wanted, const Run &r) { return wanted < r.firstSample; })
+                                [](Index wanted, const ChunkRun &r) { return wanted < r.firstSample; })
                - 1;
     const Index floats = m_info.floatsPerSample();
     for (; !out.empty(); ++run) {

@@ -35,7 +35,7 @@ public:
 
 private:
     /// Data chunks of one size, evenly spaced in the file.
-    struct Run {
+    struct ChunkRun {
         Index firstSample;
         Index offset;  ///< position in the file of the first chunk's samples
         Index samples; ///< of each chunk
@@ -46,11 +46,11 @@ private:
     void add(Index offset, Index samples);
     Index stored() const; ///< samples in all chunks
     void readStored(Index sample, std::span<float> out) const;
-    void readWithin(const Run &run, Index sample, std::span<float> out) const;
+    void readWithin(const ChunkRun &run, Index sample, std::span<float> out) const;
 
     FileBytes m_file;
     Index m_bytesPerSample = 4; ///< of all channels
-    std::vector<Run> m_runs;
+    std::vector<ChunkRun> m_runs;
     Stretches m_stretches; ///< places of the stored samples in time
 };
 
