@@ -6,7 +6,6 @@
 #include "base/json.h"
 #include "exchange/writeEvents.h"
 #include "live/EventCommand.h"
-#include "live/eventLines.h"
 #include "live/listen.h"
 #include "live/sources/IqSource.h"
 #include "live/sources/PipeSource.h"

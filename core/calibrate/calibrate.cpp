@@ -4,7 +4,7 @@
 #include "calibrate/calibrateOn.h"
 #include "calibrate/keptCalibration.h"
 #include "frames/channelCount.h"
-#include "noise/normalise.h"
+#include "noise/CausalSpectrogram.h"
 #include "scene/SimulatedRecording.h"
 #include "signal/ArrayRecording.h"
 

@@ -1,4 +1,4 @@
-#include "live/eventLines.h"
+#include "live/listen.h"
 
 #include "base/json.h"
 #include "base/utc.h"

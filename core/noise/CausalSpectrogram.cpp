@@ -3,6 +3,7 @@
 #include "base/memoryShares.h"
 #include "frames/observed.h"
 #include "noise/FrameNormaliser.h"
+#include "noise/NoiseNormaliser.h"
 #include "noise/coarseFrames.h"
 #include "signal/endless.h"
 
@@ -126,6 +127,15 @@ void CausalSpectrogram::read(Index first, Index count, std::span<float> out) con
         if (!isObserved(*m_spectrogram, first + i))
             std::fill(values.begin(), values.end(), std::numeric_limits<float>::quiet_NaN());
     }
+}
+
+NormalisedFramesPointer normalise(std::shared_ptr<const Spectrogram> spectrogram, const NormaliserSettings &settings,
+                                  const RunContext &context)
+{
+    if (settings.causal)
+        return std::make_shared<CausalSpectrogram>(std::move(spectrogram), settings);
+    const auto background = estimateBackground(*spectrogram, settings, context);
+    return std::make_shared<NormalisedSpectrogram>(std::move(spectrogram), background, settings);
 }
 
 } // namespace faintline

@@ -65,4 +65,8 @@ private:
     mutable std::vector<float> m_power;
 };
 
+/// Normalises a spectrogram by its noise: NormalisedSpectrogram, or CausalSpectrogram with `noise.causal`.
+NormalisedFramesPointer normalise(std::shared_ptr<const Spectrogram> spectrogram, const NormaliserSettings &settings,
+                                  const RunContext &context = {});
+
 } // namespace faintline

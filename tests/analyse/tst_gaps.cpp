@@ -3,7 +3,7 @@
 #include "base/Random.h"
 #include "frames/observed.h"
 #include "inspect/noiseLaw.h"
-#include "noise/normalise.h"
+#include "noise/CausalSpectrogram.h"
 #include "scene/InjectedRecording.h"
 #include "signal/ArrayRecording.h"
 #include "support/test.h"

@@ -4,7 +4,6 @@
 #include "analyse/analyse.h"
 #include "calibrate/calibrate.h"
 #include "exchange/writeEvents.h"
-#include "live/eventLines.h"
 #include "scene/SimulatedRecording.h"
 #include "signal/formats/SigmfRecording.h"
 #include "support/recordings.h"

@@ -2,7 +2,7 @@
 
 #include "base/Error.h"
 #include "inspect/doppler/DopplerPass.h"
-#include "inspect/doppler/dopplerLimits.h"
+#include "inspect/doppler/DopplerProblem.h"
 
 #include <Eigen/Dense>
 #include <boost/math/distributions/fisher_f.hpp>

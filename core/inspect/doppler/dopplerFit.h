@@ -21,7 +21,7 @@ constexpr std::size_t leastDopplerPoints = 8;
 ///                are modelled as an autoregressive process, estimated from the residuals (DopplerProblem.h), and
 ///                whitened.
 ///   scale        A common factor of all σ_i is estimated from the whitened residuals; only their ratios matter.
-///   intervals    By profile likelihood (dopplerLimits.h): speed and range vary together along a curved ridge, which a
+///   intervals    By profile likelihood (dopplerLimits): speed and range vary together along a curved ridge, which a
 ///                linearisation misses. The critical value is the 95 % quantile of Student's t distribution with
 ///                n_eff - 4 degrees of freedom, n_eff = 1ᵀP⁻¹1 for the correlation matrix P.
 ///                If a straight line fits within 25 of the pass's χ², small passes fit the errors and the usual law

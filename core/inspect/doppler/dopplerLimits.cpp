@@ -1,4 +1,4 @@
-#include "inspect/doppler/dopplerLimits.h"
+#include "inspect/doppler/DopplerProblem.h"
 
 #include <Eigen/Dense>
 #include <boost/math/tools/toms748_solve.hpp>
