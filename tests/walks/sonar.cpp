@@ -1,6 +1,7 @@
 // An engineer of sonar and radar: pings one after the other, the tracks in them, and tests on radar scans.
 
 #include "app/panels/SequentialPanel.h"
+#include "app/panels/StateSlicePanel.h"
 #include "app/panels/TrajectoryPage.h"
 #include "app/panels/WhyPanel.h"
 #include "app/welcome/WelcomePage.h"
@@ -10,7 +11,6 @@
 #include "widgets/events/EventTable.h"
 #include "widgets/pings/PingMap.h"
 
-#include <QTabWidget>
 #include <QTableWidget>
 
 using namespace faintline;

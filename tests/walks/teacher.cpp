@@ -10,7 +10,6 @@
 #include "support/test.h"
 #include "walks/Walk.h"
 #include "widgets/plot/LawPlot.h"
-#include "widgets/waterfall/WaterfallView.h"
 
 #include <qwt_plot_canvas.h>
 

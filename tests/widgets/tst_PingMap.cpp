@@ -6,7 +6,6 @@
 #include "frames/pictureCuts.h"
 #include "pixels.h"
 #include "widgets/base/Theme.h"
-#include "widgets/pings/PingOverlayItem.h"
 #include "widgets/pings/PingViewports.h"
 #include "widgets/pings/PolarItem.h"
 #include "widgets/pings/PolarView.h"

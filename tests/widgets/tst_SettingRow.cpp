@@ -3,7 +3,6 @@
 
 #include "widgets/base/Theme.h"
 
-#include <QCheckBox>
 #include <QComboBox>
 #include <QKeyEvent>
 #include <QLabel>

@@ -1,7 +1,6 @@
 #include "widgets/base/deviceRect.h"
 
 #include <QImage>
-#include <QPaintDevice>
 #include <QPainter>
 #include <QTransform>
 

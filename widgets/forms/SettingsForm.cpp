@@ -10,7 +10,6 @@
 
 #include <QCoreApplication>
 #include <QEvent>
-#include <QFontMetrics>
 #include <QLabel>
 #include <QPushButton>
 #include <QScrollArea>

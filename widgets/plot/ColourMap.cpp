@@ -1,7 +1,5 @@
 #include "widgets/plot/ColourMap.h"
 
-#include <QColor>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
