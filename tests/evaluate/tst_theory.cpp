@@ -2,7 +2,6 @@
 #include "base/Random.h"
 #include "detect/Integrator.h"
 #include "detect/PofN.h"
-#include "detect/Smd.h"
 #include "evaluate/theory/theory.h"
 #include "support/test.h"
 
@@ -97,36 +96,15 @@ void tst_theory::pOfNAgainstBinomial()
     }
 }
 
+// That the detector keeps to it is seen in tst_Smd::lindley.
 void tst_theory::lindley()
 {
-    // K = -2 ln 2 resets half.
-    QVERIFY(std::abs(lindleySigma(-2.0 * std::log(2.0)) - 0.5) < 1e-12);
-    QVERIFY(std::abs(1.0 - lindleySigma(-1.3) - 0.42297) < 1e-5);
-    constexpr double lnK = -1.386;
-    constexpr Index cells = 2000;
-    KinematicAxis axis;
-    axis.name = "cell";
-    axis.cells = cells;
-    Smd detector({StateSpace({axis}), Likelihood(LikelihoodKind::Linear), 1.0}, {ResetLaw::Fixed, lnK});
-    Random random(14, 0);
-    std::vector<float> y(cells);
-    std::vector<float> statistic(cells);
-    int frames = 0;
-    double above = 0.0;
-    for (int frame = 0; frame < 1100; ++frame) {
-        for (float &value : y)
-            value = float(random.exponential());
-        detector.update(y, statistic);
-        if (frame < 100 || frame % 20 != 0) // frames twenty apart are nearly independent
-            continue;
-        ++frames;
-        // Before this frame's y is added the score is L of Lindley's recursion; with it, D = max(L, 0) + y.
-        above += double(std::count_if(statistic.begin(), statistic.end(), [](float d) { return d > 6.0f; }));
-    }
-    // P(L⁺ + y > T) in closed form: L⁺ + y + ln K is the next L, so P = P(L > T + ln K).
-    const double expected = lindleyExceedance(6.0 + lnK, lnK);
-    const double n = double(cells) * frames;
-    QVERIFY(std::abs(above / n - expected) < 5.0 * std::sqrt(2.0 * expected / n));
+    QVERIFY(std::abs(lindleySigma(-2.0 * std::log(2.0)) - 0.5) < 1e-12); // resets half
+    constexpr double lnK = -1.3;
+    const double sigma = lindleySigma(lnK);
+    QVERIFY(std::abs(1.0 - sigma - 0.42297) < 1e-5);
+    for (const double threshold : {0.0, 2.0, 8.0})
+        QVERIFY(std::abs(lindleyExceedance(threshold, lnK) - sigma * std::exp(-(1.0 - sigma) * threshold)) < 1e-12);
 }
 
 void tst_theory::intervals()

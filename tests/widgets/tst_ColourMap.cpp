@@ -47,6 +47,8 @@ void tst_ColourMap::namesLeadToTheirMaps()
         QCOMPARE(ColourMap::named(name).name(), name);
     QCOMPARE(QSet<QString>(ColourMap::names().begin(), ColourMap::names().end()).size(), ColourMap::names().size());
     QVERIFY(ColourMap::names().contains(ColourMap::defaultName()));
+    QCOMPARE(ColourMap::named("viridis").entries().front(), QRgb(0xff440154));
+    QCOMPARE(ColourMap::named("viridis").entries().back(), QRgb(0xfffde725));
 }
 
 void tst_ColourMap::anUnknownNameIsTheDefault()

@@ -6,7 +6,6 @@
 #include "widgets/forms/SettingRow.h"
 #include "widgets/forms/fractionText.h"
 
-#include <QCheckBox>
 #include <QComboBox>
 #include <QLabel>
 #include <QLineEdit>
@@ -26,16 +25,13 @@ private slots:
 
     void everySettingHasAnEditor();
     void editsAreEmittedOnce();
-    void mistakesAreAnsweredAndNotEmitted();
     void showingValuesEmitsNothing();
-    void backToTheDefault();
     void errorsFromOutside();
     void foldedFieldsAreScrolledTo();
     void theWheelChangesNothingInPassing();
     void slopesStepAlongTheirSet();
     void slopesInEitherUnit();
     void labelsAreWords();
-    void flagsAreCheckBoxes();
     void thirdsAreFractions();
     void onlyWhatAppliesIsShown();
 
@@ -108,20 +104,6 @@ void tst_SettingsForm::editsAreEmittedOnce()
     QCOMPARE(m_edits[4], (std::pair<QString, FieldValue>("model.slopeChange", std::vector<double>{0.5, 0.25})));
 }
 
-void tst_SettingsForm::mistakesAreAnsweredAndNotEmitted()
-{
-    type(editor<QLineEdit>("model.snr"), "loud");
-    QCOMPARE(m_edits.size(), std::size_t(0));
-    QCOMPARE(errors().size(), 1);
-    type(editor<QLineEdit>("model.snr"), "-3");
-    QCOMPARE(m_edits.size(), std::size_t(0));
-    QCOMPARE(errors().size(), 1);
-    type(editor<QLineEdit>("model.snr"), "0,25"); // as a German types it
-    QCOMPARE(m_edits.size(), std::size_t(1));
-    QCOMPARE(m_edits[0].second, FieldValue(0.25));
-    QVERIFY(errors().isEmpty());
-}
-
 void tst_SettingsForm::showingValuesEmitsNothing()
 {
     AnalysisSettings settings;
@@ -135,21 +117,6 @@ void tst_SettingsForm::showingValuesEmitsNothing()
     QCOMPARE(editor<QAbstractSpinBox>("model.highestSlope")->text(), QString("0.625"));
     QCOMPARE(editor<QSpinBox>("model.slopesPerBin")->value(), 16);
     QCOMPARE(editor<QComboBox>("spectrogram.window")->currentText(), QString("Blackman–Harris"));
-}
-
-void tst_SettingsForm::backToTheDefault()
-{
-    AnalysisSettings settings;
-    settings.model.snr = 0.125;
-    m_form->setSettings(settings);
-    const auto *row = qobject_cast<SettingRow *>(m_form->editor("model.snr")->parentWidget());
-    QVERIFY(row);
-    auto *reset = row->findChild<QToolButton *>();
-    QVERIFY(reset->isVisible());
-    reset->click();
-    QCOMPARE(m_edits.size(), std::size_t(1));
-    QCOMPARE(m_edits[0].second, FieldValue(AnalysisSettings().model.snr));
-    QVERIFY(!reset->isVisible());
 }
 
 void tst_SettingsForm::errorsFromOutside()
@@ -266,24 +233,6 @@ void tst_SettingsForm::labelsAreWords()
              QString("1, 2, 3 or -50, 50"));
     QCOMPARE(stageLabel("smd"), QString("Sequential Markov"));
     QCOMPARE(stageLabel("someStage"), QString("Some stage"));
-}
-
-void tst_SettingsForm::flagsAreCheckBoxes()
-{
-    FieldInfo info;
-    info.name = "stage.isOn";
-    info.sentence = "Whether it is on.";
-    info.kind = FieldKind::Flag;
-    SettingRow row(info, true);
-    QSignalSpy edited(&row, &SettingRow::edited);
-    auto *box = qobject_cast<QCheckBox *>(row.editor());
-    QVERIFY(box && box->isChecked());
-    QCOMPARE(row.label()->text(), QString("Is on"));
-    box->click();
-    QCOMPARE(edited.count(), 1);
-    QCOMPARE(edited[0][0].value<FieldValue>(), FieldValue(false));
-    row.setValue(true);
-    QCOMPARE(edited.count(), 1);
 }
 
 /// Rows that the other settings make meaningless are not there, nor is "More" if it has no other row.

@@ -44,7 +44,6 @@ private slots:
     void curvesAreToldApart();
     void kindIsFoundInThePalette();
     void mapsAreEven();
-    void mapsByName();
     void aChangeOfThemeLeavesNothingBehind();
     void iconsFollowTheTheme();
 
@@ -227,20 +226,6 @@ void tst_Theme::mapsAreEven()
         }
         QVERIFY(std::abs(whole) > 60.0);
     }
-}
-
-void tst_Theme::mapsByName()
-{
-    QCOMPARE(ColourMap::named("no such map").name(), ColourMap::defaultName());
-    QString name = ColourMap::defaultName();
-    for (int i = 0; i < ColourMap::names().size(); ++i)
-        name = ColourMap::next(name);
-    QCOMPARE(name, ColourMap::defaultName());
-    const ColourMap &viridis = ColourMap::named("viridis");
-    QCOMPARE(viridis.entries().front(), QRgb(0xff440154));
-    QCOMPARE(viridis.entries().back(), QRgb(0xfffde725));
-    QCOMPARE(viridis.at(-3.0), viridis.at(0.0));
-    QCOMPARE(viridis.at(7.0), viridis.at(1.0));
 }
 
 /// One of each widget, filled, in one window.
