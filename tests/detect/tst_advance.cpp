@@ -1,25 +1,13 @@
 #include "app/cli/speed/plainForms.h"
 #include "base/Random.h"
 #include "detect/Smd.h"
+#include "support/paths.h"
 #include "support/test.h"
 
 using namespace faintline;
+using namespace faintline::test;
 
 namespace {
-
-KinematicAxis rated(Index cells, bool cyclic, int firstRate, int rateCount, std::vector<double> h,
-                    Rounding rounding = Rounding::HalfDown)
-{
-    return {"a", cells, cyclic, firstRate, rateCount, std::move(h), {}, rounding};
-}
-
-KinematicAxis fractional(Index cells, bool cyclic, int ratesPerCell, int firstRate, int rateCount,
-                         std::vector<double> h)
-{
-    KinematicAxis axis = rated(cells, cyclic, firstRate, rateCount, std::move(h));
-    axis.ratesPerCell = ratesPerCell;
-    return axis;
-}
 
 struct Case {
     const char *name;

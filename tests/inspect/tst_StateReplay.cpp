@@ -6,6 +6,7 @@
 #include "plan/chain.h"
 #include "scene/SimulatedPings.h"
 #include "support/frames.h"
+#include "support/pings.h"
 
 #include <algorithm>
 #include <limits>
@@ -30,17 +31,7 @@ AnalysisSettings settings(Motion motion = Motion::Slopes)
 
 PingScene scene()
 {
-    PingScene scene;
-    scene.pings = 16;
-    scene.rangeCells = 60;
-    scene.beams = 6;
-    scene.targets.push_back({});
-    scene.targets[0].snrDb = 12.0;
-    scene.targets[0].rangeMetres = 3200.0;
-    scene.targets[0].bearingDegrees = 300.0;
-    scene.targets[0].legs.push_back({});
-    scene.targets[0].legs[0].rangeCellsPerPing = 1.0;
-    return scene;
+    return test::recedingTarget(16, 60, 3200.0);
 }
 
 struct Run {

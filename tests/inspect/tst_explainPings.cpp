@@ -5,6 +5,7 @@
 
 #include "scene/SimulatedPings.h"
 #include "support/errors.h"
+#include "support/pings.h"
 
 #include <cmath>
 
@@ -14,18 +15,7 @@ namespace {
 
 PingScene scene()
 {
-    PingScene made;
-    made.pings = 18;
-    made.rangeCells = 60;
-    made.beams = 6;
-    made.targets.push_back({});
-    made.targets[0].snrDb = 12.0;
-    made.targets[0].rangeMetres = 3200.0;
-    made.targets[0].bearingDegrees = 300.0;
-    made.targets[0].appearPing = 3;
-    made.targets[0].legs.push_back({});
-    made.targets[0].legs[0].rangeCellsPerPing = 1.0;
-    return made;
+    return test::recedingTarget(18, 60, 3200.0, 3);
 }
 
 /// All that a chain is made from; no calibration is needed, since K is Parsons' and the threshold given.

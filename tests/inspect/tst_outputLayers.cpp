@@ -6,6 +6,7 @@
 #include "inspect/explain.h"
 #include "scene/SimulatedPings.h"
 #include "support/frames.h"
+#include "support/pings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,24 +44,13 @@ const std::shared_ptr<const Analysis> &analysed()
 /// A target that recedes by a cell a ping and turns, on 40 × 6 cells, bearings all round.
 std::shared_ptr<const Analysis> targetInPings(Motion motion)
 {
-    PingScene scene;
-    scene.pings = 18;
-    scene.rangeCells = 40;
-    scene.beams = 6;
-    scene.targets.push_back({});
-    scene.targets[0].snrDb = 12.0;
-    scene.targets[0].rangeMetres = 3100.0;
-    scene.targets[0].bearingDegrees = 300.0;
-    scene.targets[0].appearPing = 3;
-    scene.targets[0].legs.push_back({});
-    scene.targets[0].legs[0].rangeCellsPerPing = 1.0;
     // No calibration is needed: K is Parsons' and the threshold given.
     auto analysis = std::make_shared<Analysis>();
     analysis->settings = preset("sonar").settings;
     analysis->settings.model.motion = motion;
     analysis->settings.model.lowestSlope = -1;
     analysis->settings.model.highestSlope = 1;
-    analysis->frames = std::make_shared<SimulatedPings>(scene);
+    analysis->frames = std::make_shared<SimulatedPings>(test::recedingTarget(18, 40, 3100.0, 3));
     analysis->calibration = std::make_shared<Calibration>();
     analysis->threshold = 22.0;
     const std::vector<MarkovModel> models = makeModels(analysis->settings.model, analysis->grid());

@@ -17,20 +17,6 @@ struct Lattice {
     std::vector<KinematicAxis> axes;
 };
 
-KinematicAxis rated(Index cells, bool cyclic, int firstRate, int rateCount, std::vector<double> h,
-                    Rounding rounding = Rounding::HalfDown)
-{
-    return {"a", cells, cyclic, firstRate, rateCount, std::move(h), {}, rounding};
-}
-
-KinematicAxis fractional(Index cells, bool cyclic, int ratesPerCell, int firstRate, int rateCount,
-                         std::vector<double> h)
-{
-    KinematicAxis axis = rated(cells, cyclic, firstRate, rateCount, std::move(h));
-    axis.ratesPerCell = ratesPerCell;
-    return axis;
-}
-
 KinematicAxis walk(Index cells, bool cyclic, std::vector<double> q)
 {
     return {"w", cells, cyclic, 0, 1, {1.0}, std::move(q), Rounding::HalfDown};

@@ -6,9 +6,26 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace faintline::test {
+
+/// An axis of cells with rates of whole cells a step.
+inline KinematicAxis rated(Index cells, bool cyclic, int firstRate, int rateCount, std::vector<double> h,
+                           Rounding rounding = Rounding::HalfDown)
+{
+    return {"a", cells, cyclic, firstRate, rateCount, std::move(h), {}, rounding};
+}
+
+/// The same with rates of 1/ratesPerCell.
+inline KinematicAxis fractional(Index cells, bool cyclic, int ratesPerCell, int firstRate, int rateCount,
+                                std::vector<double> h)
+{
+    KinematicAxis axis = rated(cells, cyclic, firstRate, rateCount, std::move(h));
+    axis.ratesPerCell = ratesPerCell;
+    return axis;
+}
 
 /// The transition law straight from its definition, for one axis: P(p', r' | p, r) in step number `step`. Shares no
 /// code with the recursion.
