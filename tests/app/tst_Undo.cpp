@@ -5,19 +5,15 @@
 #include "app/document/Document.h"
 #include "app/document/ViewState.h"
 #include "exchange/Session.h"
+#include "support/files.h"
 #include "support/test.h"
 
 #include <random>
 
 using namespace faintline;
+using namespace faintline::test;
 
 namespace {
-
-QByteArray bytesOf(const QString &path)
-{
-    QFile file(path);
-    return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
-}
 
 /// What a session keeps of a document.
 struct Kept {
@@ -192,8 +188,8 @@ private slots:
             const Session back = readSession(pathBytes(first));
             QVERIFY(back.settings == document.settings() && back.annotations == document.annotations());
             writeSession(pathBytes(second), back);
-            QVERIFY(!bytesOf(first).isEmpty());
-            QCOMPARE(bytesOf(second), bytesOf(first));
+            QVERIFY(!readBytes(first).isEmpty());
+            QCOMPARE(readBytes(second), readBytes(first));
         }
     }
 };

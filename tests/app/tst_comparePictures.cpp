@@ -1,6 +1,7 @@
 #include "app/render/comparePictures.h"
 #include "app/render/pictureResults.h"
 #include "base/json.h"
+#include "support/files.h"
 #include "support/test.h"
 
 #include "support/errors.h"
@@ -11,6 +12,7 @@
 #include <QPixmap>
 
 using namespace faintline;
+using namespace faintline::test;
 
 namespace {
 
@@ -28,12 +30,6 @@ QImage readOutAt(double levelDb)
     readOut.resize(1200, 30);
     readOut.setReading({12.5, 1000.0, levelDb, 20.0, 0.1});
     return readOut.grab().toImage().convertToFormat(QImage::Format_RGB32);
-}
-
-QByteArray bytesOf(const QString &path)
-{
-    QFile file(path);
-    return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
 }
 
 } // namespace
@@ -133,11 +129,11 @@ private slots:
         QCOMPARE(states, (std::vector<State>{State::New, State::Missing, State::Same, State::Different}));
 
         const QDir out(m_folder.filePath("out"));
-        QCOMPARE(bytesOf(out.filePath("expected/sub/a & b.png")), bytesOf(m_folder.filePath("e/sub/a & b.png")));
-        QCOMPARE(bytesOf(out.filePath("actual/fresh.png")), bytesOf(m_folder.filePath("a/fresh.png")));
+        QCOMPARE(readBytes(out.filePath("expected/sub/a & b.png")), readBytes(m_folder.filePath("e/sub/a & b.png")));
+        QCOMPARE(readBytes(out.filePath("actual/fresh.png")), readBytes(m_folder.filePath("a/fresh.png")));
         QVERIFY(out.exists("difference/sub/a & b.png"));
         QVERIFY(!out.exists("expected/same.png"));
-        const QByteArray page = bytesOf(out.filePath("index.html"));
+        const QByteArray page = readBytes(out.filePath("index.html"));
         QVERIFY(page.contains("3 of 4 picture(s) differ"));
         QVERIFY(page.contains("src=\"difference/sub/a%20%26%20b.png\""));
         QVERIFY(page.contains("a &amp; b.png"));
@@ -158,7 +154,7 @@ private slots:
 
         QVERIFY(refusal({path("two"), path("now"), {}, false, path("results.xml")}).find("2 of 3")
                 != std::string::npos);
-        QXmlStreamReader xml(bytesOf(m_folder.filePath("results.xml")));
+        QXmlStreamReader xml(readBytes(m_folder.filePath("results.xml")));
         QStringList cases;
         QStringList failures;
         while (!xml.atEnd())

@@ -1,10 +1,13 @@
 // Runs the program as a person would: `faintline render …`.
 
+#include "support/files.h"
 #include "support/slowdown.h"
 #include "support/test.h"
 
 #include <QImage>
 #include <QImageReader>
+
+using faintline::test::readBytes;
 
 namespace {
 
@@ -36,12 +39,6 @@ QImage pixelsOf(const QString &path)
     return QImage(path).convertToFormat(QImage::Format_RGB32);
 }
 
-QByteArray bytesOf(const QString &path)
-{
-    QFile file(path);
-    return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
-}
-
 /// Every file and folder below one, with its content.
 QMap<QString, QByteArray> contentBelow(const QString &folder)
 {
@@ -50,7 +47,7 @@ QMap<QString, QByteArray> contentBelow(const QString &folder)
                             QDirIterator::Subdirectories);
          entry.hasNext();) {
         const QString path = entry.next();
-        all[path] = entry.fileInfo().isDir() ? "folder" : bytesOf(path);
+        all[path] = entry.fileInfo().isDir() ? "folder" : readBytes(path);
     }
     return all;
 }
@@ -109,7 +106,7 @@ private slots:
             QCOMPARE(outcome.exitCode, 0);
         }
         QCOMPARE(QImage(path("a.png")).size(), QSize(1200, 800));
-        QVERIFY(bytesOf(path("a.png")) == bytesOf(path("b.png")));
+        QVERIFY(readBytes(path("a.png")) == readBytes(path("b.png")));
     }
 
     void aFinerScreenHasMorePixelsNotLargerOnes()
@@ -125,7 +122,7 @@ private slots:
         QVERIFY(picture("two.png", {"--scale", "2"}));
         QVERIFY(picture("quarter.png", {"--scale", "1.25"}));
         for (const QString &view : {QString("-output.png"), QString("-threshold.png")}) {
-            QVERIFY(bytesOf(path("plain" + view)) == bytesOf(path("one" + view)));
+            QVERIFY(readBytes(path("plain" + view)) == readBytes(path("one" + view)));
             const QImage one(path("one" + view)), two(path("two" + view));
             QCOMPARE(two.size(), QSize(800, 600));
             QCOMPARE(QImage(path("quarter" + view)).size(), QSize(500, 375));
@@ -271,7 +268,8 @@ private slots:
         }
         for (const QString &view : views) {
             QCOMPARE(QImage(path("s1-" + view + ".png")).size(), QSize(700, 420));
-            QVERIFY2(bytesOf(path("s1-" + view + ".png")) == bytesOf(path("s2-" + view + ".png")), qPrintable(view));
+            QVERIFY2(readBytes(path("s1-" + view + ".png")) == readBytes(path("s2-" + view + ".png")),
+                     qPrintable(view));
         }
         const QStringList again{"render", path("scans.json"), "--out", path("s4.png"), "--view",
                                 "walk",   "--time",           "1e300"};
@@ -332,7 +330,7 @@ private slots:
         }
         for (const QString &view : views) {
             QCOMPARE(QImage(path("p-" + view + ".png")).size(), QSize(1280, 800));
-            QVERIFY2(bytesOf(path("p-" + view + ".png")) == bytesOf(path("q-" + view + ".png")), qPrintable(view));
+            QVERIFY2(readBytes(path("p-" + view + ".png")) == readBytes(path("q-" + view + ".png")), qPrintable(view));
         }
         QVERIFY(pixelsOf(path("p-map.png")) != pixelsOf(path("p-polar.png")));
     }
@@ -345,7 +343,7 @@ private slots:
                      QByteArray());
         QCOMPARE(run({"render", lesson, "--step", "2", "--size", "1280x800", "--out", path("u.png")}).error,
                  QByteArray());
-        QVERIFY(bytesOf(path("s.png")) == bytesOf(path("t.png")));
+        QVERIFY(readBytes(path("s.png")) == readBytes(path("t.png")));
         QVERIFY(pixelsOf(path("s.png")) != pixelsOf(path("u.png")));
     }
 
@@ -355,7 +353,7 @@ private slots:
         for (const QString &name : {QString("p1.png"), QString("p2.png")})
             QCOMPARE(run(QStringList{"render", path("experiment.json")} + asPd + QStringList{path(name)}).error,
                      QByteArray());
-        QVERIFY(bytesOf(path("p1.png")) == bytesOf(path("p2.png")));
+        QVERIFY(readBytes(path("p1.png")) == readBytes(path("p2.png")));
         QFile curve(path("curve.csv"));
         QVERIFY(curve.open(QIODevice::WriteOnly));
         curve.write(

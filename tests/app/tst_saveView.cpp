@@ -1,6 +1,7 @@
 // What a saved view tells of its making, read back from the file as another program would.
 
 #include "app/document/saveView.h"
+#include "support/files.h"
 #include "support/test.h"
 
 #include "app/document/Provenance.h"
@@ -11,16 +12,11 @@
 #include <QLabel>
 
 using namespace faintline;
+using namespace faintline::test;
 
 namespace {
 
 const std::string provenance = "{\n  \"recording\": {\"name\": \"Wal   & Möwe <1>.wav\"},\n  \"version\": \"0\"\n}\n";
-
-QByteArray bytesOf(const QString &path)
-{
-    QFile file(path);
-    return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
-}
 
 /// The contents of the file attached to a PDF, inflated.
 QByteArray attachmentOf(const QByteArray &pdf)
@@ -72,7 +68,7 @@ private slots:
 
     void svgDescription()
     {
-        QXmlStreamReader xml(bytesOf(save("v.svg")));
+        QXmlStreamReader xml(readBytes(save("v.svg")));
         QString description;
         while (!xml.atEnd())
             if (xml.readNext() == QXmlStreamReader::StartElement && xml.name() == QLatin1String("desc")
@@ -84,17 +80,17 @@ private slots:
 
     void pdfAttachment()
     {
-        const QByteArray pdf = bytesOf(save("v.pdf"));
+        const QByteArray pdf = readBytes(save("v.pdf"));
         QVERIFY(pdf.startsWith("%PDF"));
         QVERIFY(pdf.contains("/Title"));
         QCOMPARE(attachmentOf(pdf).trimmed(), QByteArray::fromStdString(provenance).trimmed());
-        QVERIFY(attachmentOf(bytesOf(save("plain.pdf", {}))).isEmpty());
+        QVERIFY(attachmentOf(readBytes(save("plain.pdf", {}))).isEmpty());
     }
 
     void csvHasItBeside()
     {
-        QCOMPARE(bytesOf(save("v.csv")), QByteArray("a,b\n1,2\n"));
-        QCOMPARE(bytesOf(m_folder.filePath("v.csv.provenance.json")), QByteArray::fromStdString(provenance));
+        QCOMPARE(readBytes(save("v.csv")), QByteArray("a,b\n1,2\n"));
+        QCOMPARE(readBytes(m_folder.filePath("v.csv.provenance.json")), QByteArray::fromStdString(provenance));
         QVERIFY_EXCEPTION_THROWN(save("v.bmp"), Error);
     }
 };

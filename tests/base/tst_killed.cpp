@@ -1,4 +1,5 @@
 #include "base/files/AtomicFile.h"
+#include "support/files.h"
 #include "support/test.h"
 
 #include <csignal>
@@ -7,6 +8,7 @@
 #include <unistd.h>
 
 using namespace faintline;
+using namespace faintline::test;
 
 /// What a program leaves that is killed while it writes, at any moment: sessions, recovery, results with what tells of
 /// them.
@@ -40,12 +42,6 @@ std::string textOf(int version)
     }
 }
 
-QByteArray contentOf(const std::string &path)
-{
-    QFile file(QString::fromStdString(path));
-    return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
-}
-
 } // namespace
 
 void tst_killed::filesAreWholeAndNewest()
@@ -74,12 +70,12 @@ void tst_killed::filesAreWholeAndNewest()
             version = told;
         ::close(ends[0]);
 
-        const int kept = contentOf(session).mid(letters).toInt();
+        const int kept = readBytes(session).mid(letters).toInt();
         QVERIFY(kept >= version && kept <= version + 1);
-        QVERIFY(contentOf(session).toStdString() == textOf(kept));
-        const int made = contentOf(result).mid(letters).toInt();
-        const int provenance = contentOf(result + ".provenance.json").toInt();
-        QVERIFY(contentOf(result).toStdString() == textOf(made));
+        QVERIFY(readBytes(session).toStdString() == textOf(kept));
+        const int made = readBytes(result).mid(letters).toInt();
+        const int provenance = readBytes(result + ".provenance.json").toInt();
+        QVERIFY(readBytes(result).toStdString() == textOf(made));
         QVERIFY(made >= version && provenance >= made && provenance <= made + 1); // never later than what tells of it
     }
     writeTextFile(session, "");

@@ -5,6 +5,7 @@
 #include "evaluate/experiments/sweepCurve.h"
 #include "exchange/CampaignFile.h"
 #include "scene/SimulatedRecording.h"
+#include "support/files.h"
 #include "support/test.h"
 
 #include "base/Error.h"
@@ -13,6 +14,7 @@
 #include <cmath>
 
 using namespace faintline;
+using namespace faintline::test;
 
 namespace {
 
@@ -53,12 +55,6 @@ SweepExperiment with(const std::string &parameter, const std::vector<double> &va
     changed.parameter = parameter;
     changed.values = values;
     return changed;
-}
-
-QByteArray bytesOf(const std::string &path)
-{
-    QFile file(QString::fromStdString(path));
-    return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
 }
 
 } // namespace
@@ -237,9 +233,9 @@ private slots:
         QVERIFY(merged.outcomes == whole.outcomes);
         writeCurve(whole, path("whole.csv"));
         writeCurve(merged, path("merged.csv"));
-        QVERIFY(bytesOf(path("whole.csv")) == bytesOf(path("merged.csv")));
-        QVERIFY(bytesOf(path("whole.csv")).startsWith("parameter,value,pd,"));
-        QCOMPARE(bytesOf(path("whole.csv")).count('\n'), 4);
+        QVERIFY(readBytes(path("whole.csv")) == readBytes(path("merged.csv")));
+        QVERIFY(readBytes(path("whole.csv")).startsWith("parameter,value,pd,"));
+        QCOMPARE(readBytes(path("whole.csv")).count('\n'), 4);
     }
 
     void goesOnAfterAnInterruption()

@@ -1,4 +1,5 @@
 #include "live/sources/PipeSource.h"
+#include "support/files.h"
 #include "support/test.h"
 
 #include "support/errors.h"
@@ -27,30 +28,24 @@ private slots:
 
 namespace {
 
-QByteArray number(std::uint32_t value, int bytes)
-{
-    QByteArray text;
-    for (int i = 0; i < bytes; ++i)
-        text.append(char(value >> (8 * i) & 0xff));
-    return text;
-}
-
 QByteArray chunk(const char *name, const QByteArray &content)
 {
-    QByteArray text = QByteArray(name) + number(std::uint32_t(content.size()), 4) + content;
+    QByteArray text = QByteArray(name) + littleEndian(std::uint32_t(content.size()), 4) + content;
     return content.size() % 2 ? text + '\0' : text;
 }
 
 QByteArray format(int tag, int channels, int rate, int bits)
 {
     const int frame = channels * bits / 8;
-    return number(std::uint32_t(tag), 2) + number(std::uint32_t(channels), 2) + number(std::uint32_t(rate), 4)
-           + number(std::uint32_t(rate * frame), 4) + number(std::uint32_t(frame), 2) + number(std::uint32_t(bits), 2);
+    return littleEndian(std::uint32_t(tag), 2) + littleEndian(std::uint32_t(channels), 2)
+           + littleEndian(std::uint32_t(rate), 4) + littleEndian(std::uint32_t(rate * frame), 4)
+           + littleEndian(std::uint32_t(frame), 2) + littleEndian(std::uint32_t(bits), 2);
 }
 
 QByteArray wav(const QByteArray &chunks, const char *kind = "RIFF")
 {
-    return QByteArray(kind) + number(0xffffffff, 4) + "WAVE" + chunks + "data" + number(0xffffffff, 4); // of a pipe
+    return QByteArray(kind) + littleEndian(0xffffffff, 4) + "WAVE" + chunks + "data"
+           + littleEndian(0xffffffff, 4); // of a pipe
 }
 
 /// Parses the bytes; `left`: how many follow the header.
@@ -102,8 +97,9 @@ void tst_wavHeader::formats()
 
 void tst_wavHeader::theExtensibleFormNamesItsFormatLater()
 {
-    const QByteArray guid = number(3, 2) + QByteArray(14, '\0'); // its first number is the format
-    const QByteArray extensible = format(0xfffe, 1, 8000, 32) + number(22, 2) + number(32, 2) + number(4, 4) + guid;
+    const QByteArray guid = littleEndian(3, 2) + QByteArray(14, '\0'); // its first number is the format
+    const QByteArray extensible =
+        format(0xfffe, 1, 8000, 32) + littleEndian(22, 2) + littleEndian(32, 2) + littleEndian(4, 4) + guid;
     QCOMPARE(parse(wav(chunk("fmt ", extensible), "RF64")).format.type.name(), std::string("rf32_le"));
 }
 
@@ -189,7 +185,7 @@ void tst_wavHeader::samplesEndAtTheirLength()
 void tst_wavHeader::integersOf24BitsKeepTheirValue()
 {
     for (const int value : {0, 1, -1, 8388607, -8388608, 123456, -123456}) {
-        const QByteArray packed = number(std::uint32_t(value), 3);
+        const QByteArray packed = littleEndian(std::uint32_t(value), 3);
         const auto wide = expand24(std::as_bytes(std::span(packed.constData(), 3)));
         QCOMPARE(wide.size(), std::size_t(4));
         std::int32_t read = 0;

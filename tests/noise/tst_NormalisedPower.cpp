@@ -1,4 +1,5 @@
 #include "noise/NormalisedPower.h"
+#include "support/frames.h"
 #include "support/test.h"
 
 #include "support/recordings.h"
@@ -72,13 +73,6 @@ std::shared_ptr<MemoryPower> memory(std::vector<float> values)
 NormalisedPower normalised(const std::shared_ptr<const PowerFrames> &power)
 {
     return {power, partOf(power->info(), {}), settings()};
-}
-
-std::vector<float> allOf(const NormalisedFrames &frames)
-{
-    std::vector<float> values(std::size_t(frames.time().count * frames.grid().size()));
-    frames.read(0, frames.time().count, values);
-    return values;
 }
 
 /// -ln Q(K, Kx) of a whole K: the logarithm of a Poisson sum.

@@ -1,4 +1,5 @@
 #include "noise/pings/PingPower.h"
+#include "support/frames.h"
 #include "support/test.h"
 
 #include "base/Random.h"
@@ -8,6 +9,7 @@
 #include <limits>
 
 using namespace faintline;
+using namespace faintline::test;
 
 /// Recorded pings as power, against the formulas and a sorted list for the unit.
 class tst_PingPower : public QObject
@@ -57,13 +59,6 @@ std::vector<double> numbers(std::size_t count, std::uint64_t seed)
     return made;
 }
 
-std::vector<float> all(const PingPower &power)
-{
-    std::vector<float> out(std::size_t(power.time().count * power.grid().size()));
-    power.read(0, power.time().count, out);
-    return out;
-}
-
 double medianOf(std::vector<double> values)
 {
     std::erase_if(values, [](double value) { return !(value > 0.0); });
@@ -96,7 +91,7 @@ void tst_PingPower::everyKindOfValue()
                                                             : std::max(x, 0.0));
     expected[5] = raw[4];
     const double unit = medianOf(expected); // of six pings, which are among the first eight
-    const std::vector<float> y = all(PingPower(std::make_shared<Held>(raw), values));
+    const std::vector<float> y = allOf(PingPower(std::make_shared<Held>(raw), values));
     for (std::size_t i = 0; i < y.size(); ++i) {
         if (i == 5 || (i == 4 && values != PingValues::Power))
             QVERIFY(std::isnan(y[i])); // not observed
@@ -113,7 +108,7 @@ void tst_PingPower::complexPingsAreIAndQ()
     for (std::size_t i = 0; i < 12; ++i)
         expected.push_back(raw[2 * i] * raw[2 * i] + raw[2 * i + 1] * raw[2 * i + 1]);
     const double unit = medianOf(expected);
-    const std::vector<float> y = all(PingPower(std::make_shared<Held>(raw, true), PingValues::Decibels));
+    const std::vector<float> y = allOf(PingPower(std::make_shared<Held>(raw, true), PingValues::Decibels));
     QCOMPARE(y.size(), std::size_t(12)); // the kind of values does not matter
     for (std::size_t i = 0; i < 12; ++i)
         QVERIFY(std::abs(double(y[i]) - expected[i] / unit) < 1e-5);
@@ -123,7 +118,7 @@ void tst_PingPower::theUnitIsTheMedianOfTheFirstPings()
 {
     std::vector<double> raw(48, 4.0);   // eight pings of 4 …
     raw.insert(raw.end(), 600, 1000.0); // … before a hundred of 1000
-    const std::vector<float> y = all(PingPower(std::make_shared<Held>(raw), PingValues::Power));
+    const std::vector<float> y = allOf(PingPower(std::make_shared<Held>(raw), PingValues::Power));
     QCOMPARE(y.front(), 1.0f);
     QCOMPARE(y.back(), 250.0f);
 }
@@ -132,7 +127,7 @@ void tst_PingPower::integersAreSpreadOverTheirStep()
 {
     constexpr double level = 100.0, step = 2.0;
     const std::vector<double> raw(6000, level);
-    const std::vector<float> y = all(PingPower(std::make_shared<Held>(raw, false, step), PingValues::Power));
+    const std::vector<float> y = allOf(PingPower(std::make_shared<Held>(raw, false, step), PingValues::Power));
     // The unit is near the level, so that y times it lies within half a step, evenly.
     const double unit =
         level / (double(*std::max_element(y.begin(), y.end()) + *std::min_element(y.begin(), y.end())) / 2.0);
@@ -150,7 +145,7 @@ void tst_PingPower::partsAreThoseOfTheWhole()
 {
     for (const bool isComplex : {false, true}) {
         const PingPower power(std::make_shared<Held>(numbers(240, 9), isComplex, 1.0), PingValues::Power);
-        const std::vector<float> whole = all(power);
+        const std::vector<float> whole = allOf(power);
         for (Index first = 0; first < power.time().count; first += 3) {
             const Index count = std::min<Index>(3, power.time().count - first);
             std::vector<float> part(std::size_t(6 * count));
@@ -163,7 +158,7 @@ void tst_PingPower::partsAreThoseOfTheWhole()
 void tst_PingPower::silentPingsKeepTheirUnit()
 {
     const std::vector<float> y =
-        all(PingPower(std::make_shared<Held>(std::vector<double>(12, 0.0)), PingValues::Power));
+        allOf(PingPower(std::make_shared<Held>(std::vector<double>(12, 0.0)), PingValues::Power));
     QCOMPARE(y, std::vector<float>(12, 0.0f));
 }
 

@@ -1,4 +1,5 @@
 #include "noise/pings/openPings.h"
+#include "support/frames.h"
 #include "support/test.h"
 
 #include "noise/openFrames.h"
@@ -51,13 +52,6 @@ std::vector<std::int16_t> magnitudes()
         result.push_back(std::int16_t(std::lround(std::sqrt(mean * double(y[i])))));
     }
     return result;
-}
-
-std::vector<float> framesIn(const NormalisedFrames &frames)
-{
-    std::vector<float> y(std::size_t(frames.time().count * frames.grid().size()));
-    frames.read(0, frames.time().count, y);
-    return y;
 }
 
 } // namespace
@@ -155,7 +149,7 @@ void tst_openPings::pairsAreComplex()
     QCOMPARE(pingAssumption(*frames), std::string("int16, I/Q; divided by its noise over range and bearing"));
     QCOMPARE(pingGuess(*frames), std::string());
     double sum = 0.0;
-    for (const float y : framesIn(*frames))
+    for (const float y : allOf(*frames))
         sum += double(y);
     QVERIFY(std::abs(sum / double(values) - 1.0) < 0.03);
 }
@@ -181,9 +175,9 @@ void tst_openPings::normalisedStacksStayAsTheyAre()
     for (const QByteArray &more : {QByteArray("}"), QByteArray(R"(, "values": "normalised"})")}) {
         const std::string stack = write("'<f4'", bytesOf(y), QByteArray("{") + axes + more);
         QVERIFY(!openPings(stack, path("a.grid.json")));
-        QVERIFY(framesIn(*openFrames(stack)) == y);
+        QVERIFY(allOf(*openFrames(stack)) == y);
     }
-    QVERIFY(framesIn(*openFrames(write("'<f4'", bytesOf(y)))) == y);
+    QVERIFY(allOf(*openFrames(write("'<f4'", bytesOf(y)))) == y);
     // Spectrograms and other files are none of its business.
     QVERIFY(!openPings(write("'<f4'", bytesOf(y), {}, "(40, 480)"), {}));
     writeBytes(path("a.wav"), "RIFF");
@@ -199,11 +193,11 @@ void tst_openPings::whatIsStatedIsTaken()
     QCOMPARE(stated->time().step, 20.0);
     FramesOptions options;
     options.pings.values = PingValues::Magnitude;
-    QVERIFY(framesIn(*openFrames(write("'<i2'", bytes), options)) == framesIn(*stated));
+    QVERIFY(allOf(*openFrames(write("'<i2'", bytes), options)) == allOf(*stated));
     options.pings.values = PingValues::Power; // the setting comes first
     const auto other =
         openFrames(write("'<i2'", bytes, QByteArray("{") + axes + R"(, "values": "magnitude"})"), options);
-    QVERIFY(framesIn(*other) != framesIn(*stated));
+    QVERIFY(allOf(*other) != allOf(*stated));
 }
 
 void tst_openPings::whatIsGuessedIsTold()
@@ -220,8 +214,8 @@ void tst_openPings::aGivenStackIsNotGuessed()
     for (std::size_t i = 0; i < steep.size(); ++i)
         steep[i] *= std::pow(10.0f, -2.0f * float(i / beams % ranges) / float(ranges));
     const std::string stack = write("'<f4'", bytesOf(steep));
-    QVERIFY(framesIn(*openStack(stack, {})) == steep);
-    QVERIFY(framesIn(*openFrames(stack)) != steep);
+    QVERIFY(allOf(*openStack(stack, {})) == steep);
+    QVERIFY(allOf(*openFrames(stack)) != steep);
     const auto given = openStack(write("'<f4'", bytesOf(steep), QByteArray("{") + axes + R"(, "values": "power"})"),
                                  path("a.grid.json"));
     QCOMPARE(pingAssumption(*given), std::string("float32, power; divided by its noise over range and bearing"));

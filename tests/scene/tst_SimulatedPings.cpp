@@ -1,9 +1,11 @@
 #include "scene/SimulatedPings.h"
+#include "support/frames.h"
 #include "support/test.h"
 
 #include <cmath>
 
 using namespace faintline;
+using namespace faintline::test;
 
 namespace {
 
@@ -16,13 +18,6 @@ PingScene scene(int pings = 20, int looks = 1)
     made.looks = looks;
     made.seed = 3;
     return made;
-}
-
-std::vector<float> allOf(const SimulatedPings &pings)
-{
-    std::vector<float> y(std::size_t(pings.time().count * pings.grid().size()));
-    pings.read(0, pings.time().count, y);
-    return y;
 }
 
 struct Moments {

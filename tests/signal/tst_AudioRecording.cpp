@@ -51,14 +51,6 @@ private:
 
 namespace {
 
-QByteArray littleEndian(std::uint64_t value, int bytes)
-{
-    QByteArray text;
-    for (int i = 0; i < bytes; ++i)
-        text.append(static_cast<char>(value >> (8 * i)));
-    return text;
-}
-
 /// A canonical WAV file: 16-bit, with the length fields as given.
 QByteArray wave(int channels, int rate, const std::vector<int> &samples, std::uint32_t dataLength,
                 const QByteArray &chunkBeforeData = {})

@@ -186,18 +186,13 @@ void tst_openRecording::firstStampOfAReceiver()
     QFETCH(QList<double>, stamps);
     QFETCH(int, missing);
     QFETCH(double, first);
-    const auto word = [](std::uint32_t value, int bytes) {
-        QByteArray text;
-        for (int i = 0; i < bytes; ++i)
-            text.append(static_cast<char>(value >> (8 * i) & 0xff));
-        return text;
-    };
-    QByteArray file = "RIFF" + word(0, 4) + "WAVEfmt " + word(16, 4) + word(1, 2) + word(1, 2) + word(1000, 4)
-                      + word(2000, 4) + word(2, 2) + word(16, 2);
+    QByteArray file = "RIFF" + littleEndian(0, 4) + "WAVEfmt " + littleEndian(16, 4) + littleEndian(1, 2)
+                      + littleEndian(1, 2) + littleEndian(1000, 4) + littleEndian(2000, 4) + littleEndian(2, 2)
+                      + littleEndian(16, 2);
     for (const double stamp : stamps)
-        file += "kiwi" + word(10, 4) + word(0, 2) + word(std::uint32_t(stamp), 4)
-                + word(std::uint32_t(std::lround(1e9 * (stamp - std::floor(stamp)))), 4) + "data" + word(200, 4)
-                + QByteArray(200, '\1');
+        file += "kiwi" + littleEndian(10, 4) + littleEndian(0, 2) + littleEndian(std::uint32_t(stamp), 4)
+                + littleEndian(std::uint32_t(std::lround(1e9 * (stamp - std::floor(stamp)))), 4) + "data"
+                + littleEndian(200, 4) + QByteArray(200, '\1');
     const std::string name = path("20260101T000820Z_kiwi.wav"); // a Thursday: the week began on Sunday
     writeBytes(name, file);
     const RecordingInfo info = openRecording(name)->info();

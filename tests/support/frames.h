@@ -17,4 +17,13 @@ inline std::shared_ptr<const FrameArray> framesOf(Index cells, std::vector<float
                                         Grid{{{"frequency", "Hz", 100.0, stepHz, cells, false}}}, std::move(y));
 }
 
+/// All values of frames or pings, in order.
+template <class Frames>
+std::vector<float> allOf(const Frames &frames)
+{
+    std::vector<float> values(std::size_t(frames.time().count * frames.grid().size()));
+    frames.read(0, frames.time().count, values);
+    return values;
+}
+
 } // namespace faintline::test

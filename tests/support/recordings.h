@@ -3,11 +3,9 @@
 #include "base/Random.h"
 #include "signal/Recording.h"
 #include "support/errors.h"
+#include "support/files.h"
 
 #include <sndfile.h>
-
-#include <QByteArray>
-#include <QFile>
 
 #include <algorithm>
 #include <cmath>
@@ -23,20 +21,6 @@ inline std::string sharedRecording(const char *name)
 {
     const QString path = QStringLiteral(FAINTLINE_SOURCE_DIR "/../shared/recordings/") + QString::fromUtf8(name);
     return QFile::exists(path) ? path.toStdString() : std::string();
-}
-
-inline void writeBytes(const std::string &path, const QByteArray &bytes)
-{
-    QFile file(QString::fromStdString(path));
-    file.remove(); // some file systems write at once what replaces a file, which takes milliseconds
-    if (!file.open(QIODevice::WriteOnly) || file.write(bytes) != bytes.size())
-        qFatal("cannot write a test file");
-}
-
-inline QByteArray readBytes(const std::string &path)
-{
-    QFile file(QString::fromStdString(path));
-    return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
 }
 
 /// Normals of deviation 0.2: in ±1 but for one in a million.

@@ -1,4 +1,5 @@
 #include "app/cli/CommandLineTest.h"
+#include "support/files.h"
 #include "support/test.h"
 
 #include <csignal>
@@ -40,23 +41,16 @@ namespace {
 const QStringList settings{"--set", "spectrogram.windowSeconds=0.25", "--set", "decide.falseAlarmsPerHour=10"};
 const QStringList causal{"--set", "noise.causal=true"};
 
-QByteArray little(quint32 value, int bytes)
-{
-    QByteArray result;
-    for (int i = 0; i < bytes; ++i)
-        result.append(static_cast<char>(value >> (8 * i)));
-    return result;
-}
-
 } // namespace
 
 /// A header as programs write it that do not know how much will follow.
 QByteArray tst_cliListen::wav(const QByteArray &samples, int bits, quint32 length, quint16 channels)
 {
     const auto sampleBytes = quint32(channels * bits / 8);
-    return "RIFF" + little(length, 4) + "WAVEfmt " + little(16, 4) + little(1, 2) + little(channels, 2)
-           + little(1000, 4) + little(1000 * sampleBytes, 4) + little(sampleBytes, 2) + little(quint32(bits), 2)
-           + "LIST" + little(5, 4) + "INFO0" + QByteArray(1, '\0') + "data" + little(length, 4) + samples;
+    return "RIFF" + littleEndian(length, 4) + "WAVEfmt " + littleEndian(16, 4) + littleEndian(1, 2)
+           + littleEndian(channels, 2) + littleEndian(1000, 4) + littleEndian(1000 * sampleBytes, 4)
+           + littleEndian(sampleBytes, 2) + littleEndian(quint32(bits), 2) + "LIST" + littleEndian(5, 4) + "INFO0"
+           + QByteArray(1, '\0') + "data" + littleEndian(length, 4) + samples;
 }
 
 tst_cliListen::Outcome tst_cliListen::listen(const QStringList &arguments, const QByteArray &input) const
@@ -321,7 +315,7 @@ void tst_cliListen::memoryStaysFlat()
     random.normals(noise, 3000.0f);
     QByteArray block;
     for (const float value : noise)
-        block += little(quint32(static_cast<qint32>(value)), 2);
+        block += littleEndian(quint32(static_cast<qint32>(value)), 2);
     const auto most = [&] {
         QFile status(QString("/proc/%1/status").arg(process.processId()));
         (void)status.open(QIODevice::ReadOnly);
