@@ -5,13 +5,14 @@
 #include "inspect/noiseLaw.h"
 #include "noise/CausalSpectrogram.h"
 #include "scene/InjectedRecording.h"
-#include "signal/ArrayRecording.h"
+#include "support/recordings.h"
 #include "support/test.h"
 
 #include <cmath>
 #include <numbers>
 
 using namespace faintline;
+using namespace faintline::test;
 
 /// What was not heard is not taken for silence: frames that reach into a gap are not observed, and a line goes on
 /// behind.
@@ -34,40 +35,18 @@ constexpr Index gapBegin = 100'250;
 constexpr Index gapEnd = 140'600;
 
 /// Noise with a faint drifting line; its gap reads as 0, and tells so unless it is hidden.
-class Holed final : public Recording
+RecordingPointer holed(double amplitude, bool isHidden = false)
 {
-public:
-    explicit Holed(double amplitude, bool tells = true) : m_tells(tells), m_samples(240'000)
-    {
-        Random random(5, 0);
-        random.normals(m_samples, 1.0f);
-        for (std::size_t n = 0; n < m_samples.size(); ++n) {
-            const double t = double(n) / rate;
-            m_samples[n] += float(amplitude * std::cos(2.0 * std::numbers::pi * (180.0 * t + 0.5 * 0.1 * t * t)));
-            if (Index(n) >= gapBegin && Index(n) < gapEnd)
-                m_samples[n] = 0.0f;
-        }
-        m_info.path = "holed";
-        m_info.sampleRateHz = rate;
-        m_info.sampleCount = std::ssize(m_samples);
-        m_info.channelCount = 1;
+    std::vector<float> samples(240'000);
+    Random(5, 0).normals(samples, 1.0f);
+    for (std::size_t n = 0; n < samples.size(); ++n) {
+        const double t = double(n) / rate;
+        samples[n] += float(amplitude * std::cos(2.0 * std::numbers::pi * (180.0 * t + 0.5 * 0.1 * t * t)));
     }
-
-    void read(int, Index first, Index count, std::span<float> out) const override
-    {
-        fill(first, count, out, [&](Index from, std::span<float> inside) {
-            std::copy_n(m_samples.begin() + from, inside.size(), inside.begin());
-        });
-    }
-    bool isWhole(Index first, Index count) const override
-    {
-        return !m_tells || first >= gapEnd || first + count <= gapBegin;
-    }
-
-private:
-    bool m_tells;
-    std::vector<float> m_samples;
-};
+    const auto recording = std::make_shared<MemoryRecording>(std::move(samples), rate);
+    recording->leaveOut(gapBegin, gapEnd - gapBegin, isHidden);
+    return recording;
+}
 
 AnalysisSettings twoSeconds()
 {
@@ -85,8 +64,7 @@ std::shared_ptr<const Analysis> analysed(const RecordingPointer &recording)
 
 void tst_gaps::framesAreNotObserved()
 {
-    const auto spectrogram =
-        std::make_shared<const Spectrogram>(std::make_shared<Holed>(0.0), twoSeconds().spectrogram);
+    const auto spectrogram = std::make_shared<const Spectrogram>(holed(0.0), twoSeconds().spectrogram);
     const NormalisedFramesPointer frames = normalise(spectrogram, {});
     const auto cells = std::size_t(frames->grid().size());
     std::vector<float> power(cells);
@@ -105,8 +83,7 @@ void tst_gaps::framesAreNotObserved()
 // The noise up to the gap and behind it has a mean of 1: the gap is no part of the background.
 void tst_gaps::noiseBesideAGap()
 {
-    const auto spectrogram =
-        std::make_shared<const Spectrogram>(std::make_shared<Holed>(0.0), twoSeconds().spectrogram);
+    const auto spectrogram = std::make_shared<const Spectrogram>(holed(0.0), twoSeconds().spectrogram);
     const NormalisedFramesPointer frames = normalise(spectrogram, {});
     std::vector<float> y(std::size_t(frames->grid().size()));
     for (const Index from : {Index(80), Index(141)}) {
@@ -124,16 +101,16 @@ void tst_gaps::noiseBesideAGap()
 // One event from end to end; where the gap is hidden the same line breaks in two.
 void tst_gaps::linesGoOn()
 {
-    const std::vector<Event> found = events(*analysed(std::make_shared<Holed>(0.15)));
+    const std::vector<Event> found = events(*analysed(holed(0.15)));
     QCOMPARE(found.size(), std::size_t(1));
     QVERIFY(found[0].onsetSeconds < 10.0 && found[0].endSeconds > 230.0);
     QVERIFY(std::abs(found[0].driftPerSecond - 0.1) < 0.005);
-    QVERIFY(events(*analysed(std::make_shared<Holed>(0.15, false))).size() >= 2);
+    QVERIFY(events(*analysed(holed(0.15, true))).size() >= 2);
 }
 
 void tst_gaps::noiseLawLooksBeside()
 {
-    const auto law = checkNoiseLaw(*analysed(std::make_shared<Holed>(0.0)));
+    const auto law = checkNoiseLaw(*analysed(holed(0.0)));
     QVERIFY(law.has_value());
     QVERIFY2(law->isFollowed(), law->warning().c_str());
 }
@@ -143,7 +120,7 @@ void tst_gaps::injectedLinesStayOutside()
     InjectedLine line;
     line.line.frequencyHz = 300.0;
     line.amplitude = 1.0;
-    const InjectedRecording injected(std::make_shared<Holed>(0.0), {line}, 0, 1);
+    const InjectedRecording injected(holed(0.0), {line}, 0, 1);
     QVERIFY(injected.isWhole(0, gapBegin) && !injected.isWhole(gapBegin, 1) && injected.isWhole(gapEnd, 100));
 }
 

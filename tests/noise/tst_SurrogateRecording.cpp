@@ -2,39 +2,16 @@
 #include "noise/NoiseNormaliser.h"
 #include "noise/SurrogateRecording.h"
 #include "scene/SimulatedRecording.h"
+#include "support/recordings.h"
 #include "support/test.h"
 
 using namespace faintline;
+using namespace faintline::test;
 
 namespace {
 
-/// A recording of given samples.
-class Samples final : public Recording
-{
-public:
-    Samples(std::vector<float> values, bool isComplex, const char *sampleType) : m_values(std::move(values))
-    {
-        m_info.path = "samples";
-        m_info.sampleType = sampleType;
-        m_info.sampleRateHz = 100.0;
-        m_info.channelCount = 1;
-        m_info.isComplex = isComplex;
-        m_info.sampleCount = std::ssize(m_values) / m_info.floatsPerSample();
-    }
-
-    void read(int, Index first, Index count, std::span<float> out) const override
-    {
-        fill(first, count, out, [&](Index from, std::span<float> inside) {
-            std::copy_n(m_values.begin() + from * m_info.floatsPerSample(), inside.size(), inside.begin());
-        });
-    }
-
-private:
-    std::vector<float> m_values;
-};
-
 /// Noise that falls toward high frequencies and doubles its amplitude half way; silent between seconds 40 and 60.
-std::shared_ptr<const Samples> colouredNoise(bool isComplex)
+RecordingPointer colouredNoise(bool isComplex)
 {
     constexpr Index count = 40000;
     const std::size_t floats = isComplex ? 2 : 1;
@@ -45,7 +22,7 @@ std::shared_ptr<const Samples> colouredNoise(bool isComplex)
     for (std::size_t i = values.size() / 2; i < values.size(); ++i)
         values[i] *= 2.0f;
     std::fill(values.begin() + std::ptrdiff_t(4000 * floats), values.begin() + std::ptrdiff_t(6000 * floats), 0.0f);
-    return std::make_shared<Samples>(std::move(values), isComplex, isComplex ? "cf32" : "float32");
+    return std::make_shared<MemoryRecording>(std::move(values), 100.0, isComplex);
 }
 
 } // namespace
@@ -129,7 +106,9 @@ void tst_SurrogateRecording::keepsTheQuantisationStep()
         value = float(std::round(1.5 * random.normal()) / 32768.0);
     SpectrogramSettings settings;
     settings.windowSeconds = 2.0;
-    const Spectrogram original(std::make_shared<Samples>(std::move(values), false, "int16"), settings);
+    const auto recording = std::make_shared<MemoryRecording>(std::move(values), 100.0);
+    recording->mutableInfo().sampleType = "int16";
+    const Spectrogram original(recording, settings);
     const SurrogateRecording surrogate(original, estimateBackground(original, {}), 1);
     std::vector<float> read(2000);
     surrogate.read(0, 100, 2000, read);

@@ -2,6 +2,7 @@
 #include "evaluate/sequential/SequentialTrial.h"
 #include "plan/lineSequentialModel.h"
 #include "scene/SimulatedRecording.h"
+#include "support/recordings.h"
 #include "support/test.h"
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
@@ -10,6 +11,7 @@
 #include <numbers>
 
 using namespace faintline;
+using namespace faintline::test;
 
 namespace {
 
@@ -44,45 +46,27 @@ constexpr Index band = 10;
 /// White noise of variance 1 with a target in it that moves as the model says from one window to the next that does not
 /// overlap it. Its amplitude is complex normal and anew in each: of SNR ρ behind the Hann window, which leaves ⅔ of a
 /// rectangle's.
-class TargetInNoise final : public Recording
+RecordingPointer targetInNoise(const SequentialModel &model, int windows, std::uint64_t stream)
 {
-public:
-    TargetInNoise(const SequentialModel &model, int windows, std::uint64_t stream)
-        : m_samples(std::size_t(2 * windows * windowSamples))
-    {
-        m_info.sampleRateHz = 1.0;
-        m_info.sampleCount = windows * windowSamples;
-        m_info.channelCount = 1;
-        m_info.isComplex = true;
-        Random random(77, stream);
-        random.normals(m_samples, float(std::sqrt(0.5)));
-        const TrajectorySampler sampler(model);
-        Index state = sampler.first(random);
-        const double deviation = std::sqrt(0.5 * model.markov.likelihood.snr() * 1.5 / windowSamples);
-        for (Index window = 0, stage = 0; window < windows; ++window) {
-            const double turns = double(state % model.markov.space.cellCount()) / (2.0 * windowSamples);
-            const std::complex<double> amplitude(deviation * random.normal(), deviation * random.normal());
-            for (Index n = window * windowSamples; n < (window + 1) * windowSamples; ++n) {
-                const std::complex<double> value =
-                    amplitude * std::polar(1.0, 2.0 * std::numbers::pi * turns * double(n));
-                m_samples[std::size_t(2 * n)] += float(value.real());
-                m_samples[std::size_t(2 * n + 1)] += float(value.imag());
-            }
-            for (Index i = 0; i < model.observedEvery; ++i)
-                state = sampler.next(state, random, ++stage);
+    std::vector<float> samples(std::size_t(2 * windows * windowSamples));
+    Random random(77, stream);
+    random.normals(samples, float(std::sqrt(0.5)));
+    const TrajectorySampler sampler(model);
+    Index state = sampler.first(random);
+    const double deviation = std::sqrt(0.5 * model.markov.likelihood.snr() * 1.5 / windowSamples);
+    for (Index window = 0, stage = 0; window < windows; ++window) {
+        const double turns = double(state % model.markov.space.cellCount()) / (2.0 * windowSamples);
+        const std::complex<double> amplitude(deviation * random.normal(), deviation * random.normal());
+        for (Index n = window * windowSamples; n < (window + 1) * windowSamples; ++n) {
+            const std::complex<double> value = amplitude * std::polar(1.0, 2.0 * std::numbers::pi * turns * double(n));
+            samples[std::size_t(2 * n)] += float(value.real());
+            samples[std::size_t(2 * n + 1)] += float(value.imag());
         }
+        for (Index i = 0; i < model.observedEvery; ++i)
+            state = sampler.next(state, random, ++stage);
     }
-
-    void read(int, Index first, Index count, std::span<float> out) const override
-    {
-        fill(first, count, out, [this](Index from, std::span<float> part) {
-            std::copy_n(m_samples.begin() + 2 * from, part.size(), part.begin());
-        });
-    }
-
-private:
-    std::vector<float> m_samples;
-};
+    return std::make_shared<MemoryRecording>(std::move(samples), 1.0, true);
+}
 
 /// Tests one after the other along the frames of noise, each from where the one before stopped: those decided, those
 /// that went wrong.
@@ -285,7 +269,7 @@ void tst_lineSequentialModel::targetsAreFound()
                                    .space.axes()[0];
         SequentialModel model = makeSequentialModel({slopes}, {false}, Likelihood(LikelihoodKind::Exponential, 1.0));
         model.observedEvery = stepsPerWindow;
-        const Spectrogram spectrogram(std::make_shared<TargetInNoise>(model, 300, std::uint64_t(run)), windows);
+        const Spectrogram spectrogram(targetInNoise(model, 300, std::uint64_t(run)), windows);
         const Index firstCell = spectrogram.frequency().nearest(0.0);
         std::vector<float> row(std::size_t(spectrogram.frequency().count));
         const SprtResult result =

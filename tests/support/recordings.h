@@ -12,6 +12,7 @@
 #include <complex>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace faintline::test {
@@ -149,7 +150,17 @@ public:
     }
 
     RecordingInfo &mutableInfo() { return m_info; }
+    /// These samples were not heard: they read as 0, and tell so unless they are hidden.
+    void leaveOut(Index first, Index count, bool isHidden = false)
+    {
+        std::fill_n(m_samples.begin() + first, count, 0.0f);
+        m_gap = isHidden ? std::pair<Index, Index>() : std::pair(first, first + count);
+    }
 
+    bool isWhole(Index first, Index count) const override
+    {
+        return m_gap.first == m_gap.second || first >= m_gap.second || first + count <= m_gap.first;
+    }
     void read(int, Index first, Index count, std::span<float> out) const override
     {
         fill(first, count, out, [&](Index from, std::span<float> inside) {
@@ -159,6 +170,7 @@ public:
 
 private:
     std::vector<float> m_samples;
+    std::pair<Index, Index> m_gap{}; ///< begin and end
 };
 
 } // namespace faintline::test
