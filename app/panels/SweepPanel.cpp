@@ -12,6 +12,16 @@
 
 namespace faintline {
 
+namespace {
+
+    /// Whether a setting varies, and not a property of the line.
+    bool isOfSetting(const SweepExperiment &sweep)
+    {
+        return sweep.parameter.find('.') != std::string::npos;
+    }
+
+} // namespace
+
 SweepPanel::SweepPanel(const Document &document, Experiments &experiments, QWidget *parent)
     : QWidget(parent), m_document(document), m_experiments(experiments), m_form(new SweepForm),
       m_column(new StartColumn(m_form, tr("Progress of the sweep"), tr("Try all values in the background"))),
@@ -51,7 +61,6 @@ void SweepPanel::buildCharts()
         chart->setEmptySentence(chart == m_cost ? tr("The cost of each value is measured last.")
                                                 : tr("Choose a setting and its values, then press Start to plot the "
                                                      "results."));
-        chart->setInvitation(tr("click it to apply this value"));
         connect(chart, &ChartPlot::pointActivated, this,
                 [this, chart = chart](std::size_t, std::size_t point) { choose(*chart, point); });
     }
@@ -131,6 +140,9 @@ void SweepPanel::follow(int id)
 
 void SweepPanel::showCharts(const Experiments::Entry &entry)
 {
+    const bool isSetting = isOfSetting(std::get<SweepExperiment>(entry.campaign->experiment));
+    for (ChartPlot *chart : {m_tradeOff, m_pd, m_falseAlarms, m_latency, m_cost})
+        chart->setInvitation(isSetting ? tr("click it to apply this value") : QString());
     m_tradeOff->setChart(tradeOffChart(*entry.campaign));
     m_pd->setChart(sweepChart(*entry.campaign, SweepMeasure::Pd));
     m_falseAlarms->setChart(sweepChart(*entry.campaign, SweepMeasure::FalseAlarms));
@@ -155,8 +167,8 @@ void SweepPanel::choose(const ChartPlot &chart, std::size_t point)
     if (!entry || !entry->campaign)
         return;
     const auto &sweep = std::get<SweepExperiment>(entry->campaign->experiment);
-    if (sweep.parameter.find('.') == std::string::npos)
-        return; // a property of the line is no setting
+    if (!isOfSetting(sweep))
+        return;
     if (&chart == m_latency) {
         // Values without any detection have no latency.
         emit valueChosen(QString::fromStdString(sweep.parameter), m_latency->chart().curves.front().points[point].x);

@@ -184,7 +184,7 @@ void MainWindow::showAnalysis()
 void MainWindow::showPlan(const AnalysisPlan &analysis)
 {
     const Axis &frequency = analysis.grid().axes.front(); // for pings: the range
-    m_readOut->setResolution(analysis.time().step, frequency.step);
+    m_readOut->setResolution(analysis.time().step, frequency.step, analysis.time().last());
     m_readOut->setFrequencyName(frequencyName(analysis.settings.family));
     const QString unit = statisticUnit(analysis.settings);
     m_threshold->setStatisticUnit(unit);

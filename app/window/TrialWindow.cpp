@@ -57,7 +57,7 @@ void TrialWindow::show(const ShownTrial &trial, const QString &title, const QStr
     opened.truth = trial.truth;
     m_document.setOpened(std::move(opened), analysis.settings);
     m_readOut->setStatisticUnit(statisticUnit(analysis.settings));
-    m_readOut->setResolution(analysis.time().step, analysis.grid().axes.back().step);
+    m_readOut->setResolution(analysis.time().step, analysis.grid().axes.back().step, analysis.time().last());
     m_document.setAnalysis(trial.analysis, events(analysis));
     if (analysis.recording) { // the line's neighbourhood in a whole recording
         const TruthLine &line = trial.truth.lines.front();

@@ -22,6 +22,7 @@ private slots:
     void init();
 
     void theLineIsItsFigures();
+    void timesInALongRecordingAreThoseOfItsAxis();
     void whatIsUnknownIsADash();
     void neighbouringCellsDiffer_data();
     void neighbouringCellsDiffer();
@@ -88,6 +89,13 @@ void tst_ReadOut::theLineIsItsFigures()
     QCOMPARE(m_line->text(), QString("83.5 s · 2024-07-26 00:01:23.5 · 1065.5 Hz · −1.5 dB · 14.0 nat"));
     m_line->clear();
     QCOMPARE(m_line->text(), QString());
+}
+
+void tst_ReadOut::timesInALongRecordingAreThoseOfItsAxis()
+{
+    m_line->setResolution(0.5, 0.5, 3600.0);
+    m_line->setReading({83.5, {}, {}, {}, {}});
+    QCOMPARE(m_line->text(), QString("0:01:23.5"));
 }
 
 void tst_ReadOut::whatIsUnknownIsADash()

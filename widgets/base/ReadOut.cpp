@@ -98,8 +98,9 @@ void ReadOut::setFrequencyName(const QString &name)
     fit();
 }
 
-void ReadOut::setResolution(double frameSeconds, double binHz)
+void ReadOut::setResolution(double frameSeconds, double binHz, double lengthSeconds)
 {
+    m_isClock = lengthSeconds > clockFromSeconds;
     m_frameSeconds = frameSeconds;
     m_binHz = binHz;
     setReading(m_reading);
@@ -117,7 +118,9 @@ void ReadOut::setReading(const Reading &reading)
     const auto show = [](const Item &item, const std::optional<double> &value, auto words) {
         item.value->setText(value ? words(*value) : dash);
     };
-    show(m_time, reading.seconds, [this](double v) { return secondsText(v, m_frameSeconds); });
+    show(m_time, reading.seconds, [this](double v) {
+        return m_isClock ? clockText(v, decimalsFor(m_frameSeconds), true) : secondsText(v, m_frameSeconds);
+    });
     show(m_utc, reading.seconds,
          [this](double v) { return utcText(m_startUnixSeconds.value_or(0.0) + v, decimalsFor(m_frameSeconds)); });
     show(m_frequency, reading.hz, [this](double v) { return hertzText(v, m_binHz); });

@@ -37,8 +37,9 @@ public:
     void setStartUnixSeconds(std::optional<double> unixSeconds);
     /// Radio frequency of 0 Hz; 0: unknown, only offsets are shown.
     void setCentreHz(double hz);
-    /// Sets the resolution, which determines the number of digits: neighbouring cells must differ.
-    void setResolution(double frameSeconds, double binHz);
+    /// Sets the resolution, which determines the number of digits: neighbouring cells must differ; and whether times are
+    /// given as h:min:s, as on the axes of a long recording.
+    void setResolution(double frameSeconds, double binHz, double lengthSeconds = 0.0);
     void setReading(const Reading &reading);
     void clear() { setReading({}); }
 
@@ -68,6 +69,7 @@ private:
     double m_centreHz = 0.0;
     double m_frameSeconds = 0.01;
     double m_binHz = 0.1;
+    bool m_isClock = false;
     Reading m_reading;
     QString m_statisticUnit = QStringLiteral("nat");
 };

@@ -55,7 +55,7 @@ QString clockText(double seconds, int decimals, bool withHours)
 QString secondsText(double seconds, double resolution)
 {
     const int decimals = decimalsFor(resolution);
-    if (std::abs(seconds) < 600.0)
+    if (std::abs(seconds) < clockFromSeconds)
         return numberText(seconds, decimals) + QStringLiteral(" s");
     return clockText(seconds, decimals, true);
 }

@@ -12,6 +12,9 @@ int decimalsFor(double resolution);
 /// Fixed decimals, with − as minus sign, never "−0".
 QString numberText(double value, int decimals);
 
+/// Times in a recording of that length or more, s, are given as h:min:s.
+inline constexpr double clockFromSeconds = 600.0;
+
 /// "83.25 s", or for ten minutes and more "1:02:30.5" (h:min:s).
 QString secondsText(double seconds, double resolution);
 

@@ -36,7 +36,6 @@ namespace {
         return *std::ranges::find(columns, names[std::size_t(column)], &TableColumn<Event>::name);
     }
 
-    constexpr double clockFrom = 600.0; ///< s
 
     double toTenths(double seconds)
     {
@@ -92,7 +91,7 @@ void EventModel::setEvents(std::vector<Event> events)
     for (const Event &event : m_events)
         last = std::max(last, event.endSeconds);
     m_timeDecimals = last < 3.0 ? 4 : last < 30.0 ? 2 : 1; // whistles last milliseconds
-    m_areClockTimes = last >= clockFrom;
+    m_areClockTimes = last >= clockFromSeconds;
     endResetModel();
 }
 

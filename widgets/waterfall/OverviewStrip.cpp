@@ -158,7 +158,7 @@ void OverviewStrip::paintTicks(QPainter &painter) const
 {
     const QRectF rect = pictureRect();
     const Theme::Colours &colours = Theme::colours(*this);
-    const bool isClock = m_viewport->full().time.high > 600.0;
+    const bool isClock = m_viewport->full().time.high > clockFromSeconds;
     painter.setFont(Theme::plotFont());
     const QFontMetricsF metrics(painter.font());
     const QwtScaleDiv div = timeScaleDiv(m_viewport->full().time, std::max(int(rect.width() / 110.0), 1));

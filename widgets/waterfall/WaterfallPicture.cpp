@@ -4,6 +4,7 @@
 #include "widgets/base/Theme.h"
 #include "widgets/base/axisWords.h"
 #include "widgets/base/fittingTitle.h"
+#include "widgets/base/quantities.h"
 #include "widgets/base/scaleTicks.h"
 #include "widgets/base/steadyAxes.h"
 #include "widgets/plot/NumberScaleDraw.h"
@@ -23,7 +24,6 @@ namespace faintline {
 
 namespace {
 
-    constexpr double longSeconds = 600.0; ///< longer recordings are labelled h:min:s
     constexpr double peakReach = 12.0;    ///< pixels
 
     bool measuresTime(const Axis &axis)
@@ -272,7 +272,7 @@ void WaterfallPicture::updateContent()
 void WaterfallPicture::restyle()
 {
     const bool isEmpty = !m_picture;
-    const bool isLong = full().time.high > longSeconds;
+    const bool isLong = full().time.high > clockFromSeconds;
     m_timeDraw = nullptr;
     m_numberDraw = nullptr;
     if (hasTime()) {
