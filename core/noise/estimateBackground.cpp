@@ -234,9 +234,7 @@ namespace {
             if (!m_isSketch) {
                 m_background->bins = m_spectrogram.frequency();
                 m_background->lnAtEdges = edgeCorrection(m_spectrogram, *m_background);
-                if (isWholeBand(m_spectrogram.selection()))
-                    m_background->stopBands =
-                        stopBands(*m_background, m_spectrogram.recording().info().isComplex);
+                m_background->stopBands = stopBands(m_spectrogram);
             }
         }
 

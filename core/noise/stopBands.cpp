@@ -6,16 +6,16 @@
 #include <numeric>
 #include <optional>
 #include <span>
+#include <utility>
 
 namespace faintline {
 
 namespace {
 
-    constexpr Index fewestCells = 100; ///< in fewer, no end of a spectrum can be told from a line beside it
-    constexpr Index mostColumns = 1024;
+    constexpr Index windowSamples = 1024;
     constexpr Index fewestTimes = 16;
     constexpr Index mostTimes = 64;
-    constexpr Index readsPerTime = 4;
+    constexpr Index framesPerTime = 8;
     constexpr double fall = 2.0 * std::numbers::ln10; ///< 20 dB
     constexpr double leastChange = 0.1;               ///< nat, standard deviation; nothing can follow a steady level
     constexpr double leastCorrelation = 0.75;
@@ -26,37 +26,14 @@ namespace {
         return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
     }
 
-    /// ln power of a background in up to 64 times and 1024 columns of equal width.
+    /// ln power, times × cells, in which ends of the spectrum are compared with the rest.
     class Levels
     {
     public:
-        explicit Levels(const NoiseBackground &background)
-            : m_columns(std::min(background.frequency.count, mostColumns))
+        explicit Levels(std::vector<std::vector<double>> rows)
+            : m_columns(std::ssize(rows.front())), m_rows(std::move(rows))
         {
-            const Axis &axis = background.bandCount > 0 ? background.levelTime : background.time;
-            const Index times = std::min(axis.count, mostTimes);
-            const Index reads = std::min(readsPerTime, axis.count / std::max<Index>(times, 1));
-            const auto cells = std::size_t(background.frequency.count);
-            std::vector<float> ln(cells);
-            for (Index time = 0; time < times; ++time) {
-                std::vector<double> row(std::size_t(m_columns), 0.0);
-                bool isSilent = false;
-                for (Index read = 0; read < reads; ++read) {
-                    background.readLnPower(axis.value(double((time * reads + read) * axis.count / (times * reads))), ln);
-                    isSilent = isSilent || *std::ranges::min_element(ln) <= 0.5f * NoiseBackground::silence;
-                    for (std::size_t column = 0; column < row.size(); ++column) {
-                        const std::size_t from = column * cells / row.size();
-                        const std::size_t to = (column + 1) * cells / row.size();
-                        row[column] += std::accumulate(ln.begin() + std::ptrdiff_t(from), ln.begin() + std::ptrdiff_t(to), 0.0)
-                            / double((to - from) * std::size_t(reads));
-                    }
-                }
-                if (!isSilent)
-                    m_rows.push_back(std::move(row));
-            }
         }
-
-        Index times() const { return std::ssize(m_rows); }
 
         /// Exchanges the ends of the spectrum.
         void mirror()
@@ -121,24 +98,51 @@ namespace {
 
 } // namespace
 
-std::vector<StopBand> stopBands(const NoiseBackground &background, bool isComplex)
+std::vector<StopBand> stopBands(const Axis &frequency, std::vector<std::vector<double>> lnPower, bool isComplex)
 {
-    if (background.frequency.count < fewestCells)
+    if (std::ssize(lnPower) < fewestTimes)
         return {};
-    Levels levels(background);
-    if (levels.times() < fewestTimes)
-        return {};
-    const Axis &axis = background.frequency;
-    const double columns = double(std::min(axis.count, mostColumns));
-    const double span = axis.step * double(axis.count);
-    const double first = axis.first - 0.5 * axis.step;
+    Levels levels(std::move(lnPower));
+    const double first = frequency.value(-0.5);
+    const double end = frequency.value(double(frequency.count) - 0.5);
     std::vector<StopBand> bands;
     if (const auto upper = levels.stop())
-        bands.push_back({first + span * (1.0 - double(upper->columns) / columns), first + span, upper->depth});
+        bands.push_back({end - frequency.step * double(upper->columns), end, upper->depth});
     levels.mirror();
     if (const auto lower = isComplex ? levels.stop() : std::nullopt)
-        bands.insert(bands.begin(), {first, first + span * double(lower->columns) / columns, lower->depth});
+        bands.insert(bands.begin(), {first, first + frequency.step * double(lower->columns), lower->depth});
     return bands;
+}
+
+std::vector<StopBand> stopBands(const Spectrogram &spectrogram)
+{
+    const RecordingInfo &info = spectrogram.recording().info();
+    if (!isWholeBand(spectrogram.selection()) || info.sampleCount < windowSamples * fewestTimes * framesPerTime)
+        return {};
+    const SpectrogramSettings settings{double(windowSamples) / info.sampleRateHz, 1, 1, spectrogram.settings().window};
+    const Spectrogram spectra(spectrogram.recordingPointer(), settings, spectrogram.selection());
+    const Index frames = spectra.time().count;
+    const Index times = std::min(mostTimes, frames / framesPerTime);
+    const auto cells = std::size_t(spectra.frequency().count);
+    std::vector<std::vector<double>> rows;
+    std::vector<float> y(cells * std::size_t(framesPerTime));
+    for (Index time = 0; time < times; ++time) {
+        for (Index i = 0; i < framesPerTime; ++i)
+            spectra.read((time * framesPerTime + i) * frames / (times * framesPerTime), 1,
+                         std::span(y).subspan(std::size_t(i) * cells, cells));
+        std::vector<double> row;
+        std::vector<float> cell(std::size_t(framesPerTime), 0.0f);
+        for (std::size_t column = 0; column < cells; ++column) {
+            for (std::size_t i = 0; i < cell.size(); ++i)
+                cell[i] = y[i * cells + column];
+            const auto middle = cell.begin() + framesPerTime / 2;
+            std::nth_element(cell.begin(), middle, cell.end());
+            row.push_back(std::log(double(*middle)));
+        }
+        if (std::ranges::all_of(row, [](double ln) { return std::isfinite(ln); })) // neither silent nor a gap
+            rows.push_back(std::move(row));
+    }
+    return stopBands(spectra.frequency(), std::move(rows), info.isComplex);
 }
 
 } // namespace faintline

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "frames/Spectrogram.h"
 #include "noise/NoiseBackground.h"
 
 #include <vector>
@@ -12,6 +13,11 @@ namespace faintline {
 /// - begins with a fall of at least 20 dB within a twentieth of the spectrum, and
 /// - follows the level of as wide a band beside it in time: correlation of ln level above 3/4, slope above 0.4.
 /// A noise of constant level therefore has none: whether its quiet end is a filter's or the world's cannot be told.
-std::vector<StopBand> stopBands(const NoiseBackground &background, bool isComplex);
+/// `lnPower`: times × cells, finite; none in fewer than 16 times.
+std::vector<StopBand> stopBands(const Axis &frequency, std::vector<std::vector<double>> lnPower, bool isComplex);
+
+/// Of a spectrogram's recording, whatever its window, from medians of 8 spectra of 1024 samples at up to 64 times; none
+/// if a band is selected, or the recording has fewer than 131 072 samples.
+std::vector<StopBand> stopBands(const Spectrogram &spectrogram);
 
 } // namespace faintline
