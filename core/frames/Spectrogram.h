@@ -27,8 +27,8 @@ struct SpectrogramSettings {
 
 /// The part of a recording to analyse.
 struct SelectionSettings {
-    int channel = 0;              ///< the only channel, or the first of `channels`
-    std::vector<double> channels; ///< channels whose evidence is added; -1 alone: all; empty: `channel` only
+    int channel = 0;                ///< the only channel, or the first of `channels`
+    std::vector<double> channels{}; ///< channels whose evidence is added; -1 alone: all; empty: `channel` only
     double fromSeconds = 0.0;
     double toSeconds = 0.0; ///< 0: to the end
     double lowHz = 0.0;     ///< band, relative to the centre frequency for I/Q

@@ -47,13 +47,13 @@ inline constexpr std::array<std::string_view, 2> roundingNames{"halfDown", "trun
 /// target none of whose moves stays on it first takes the nearest rate that has one, the lower of two equally near
 /// ones. For small cases a full matrix may replace the law: P(p'|p) = transition[p·cells + p'].
 struct KinematicAxis {
-    std::string name;
+    std::string name{};
     Index cells = 0;
     bool cyclic = false;
     int firstRate = 0; ///< in 1/ratesPerCell cell per step
     int rateCount = 1;
     std::vector<double> rateChange{1.0}; ///< h(0), h(1), …
-    std::vector<double> step;            ///< q(0), q(1), … of a random walk; empty: no walk
+    std::vector<double> step{};          ///< q(0), q(1), … of a random walk; empty: no walk
     Rounding rounding = Rounding::HalfDown;
     bool renormalised = false; ///< existing moves share the probability of non-existing ones
     int ratesPerCell = 1;      ///< q: neighbouring rates differ by 1/q cell per step

@@ -62,8 +62,8 @@ struct LineScene {
     bool isComplex = false; ///< "complex" in JSON
     double centreHz = 0.0;  ///< frequency that corresponds to 0 Hz of the samples
     int seed = 1;
-    NoiseSettings noise;
-    std::vector<LineSettings> lines;
+    NoiseSettings noise{};
+    std::vector<LineSettings> lines{};
 
     /// The scene's own members, without noise and lines.
     static const std::vector<Field<LineScene>> &fields();

@@ -53,7 +53,7 @@ struct PingTarget {
     int vanishPing = 0;             ///< first ping without it; 0: never
     double weaveCellsPerPing = 0.0; ///< amplitude of a sinusoid added to the range rate
     double weavePings = 20.0;       ///< its period
-    std::vector<PingLeg> legs;      ///< in order; without legs the target is stationary
+    std::vector<PingLeg> legs{};    ///< in order; without legs the target is stationary
     double elevationDegrees = 0.0;  ///< at which it appears; has no effect without elevations
 
     /// The target's own members, without legs.
@@ -99,8 +99,8 @@ struct PingScene {
     double dopplerStepMetresPerSecond = 10.0;
     int looks = 1; ///< M: powers averaged in a cell; y is χ² with 2M degrees of freedom and mean 1
     int seed = 1;
-    std::optional<Reverberation> reverberation;
-    std::vector<PingTarget> targets;
+    std::optional<Reverberation> reverberation{};
+    std::vector<PingTarget> targets{};
 
     /// The scene's own members.
     static const std::vector<Field<PingScene>> &fields();

@@ -15,9 +15,7 @@ namespace {
 const Analysis &before()
 {
     static const std::shared_ptr<const Analysis> analysis = [] {
-        LineScene scene;
-        scene.sampleRateHz = 4000.0;
-        scene.durationSeconds = 250.5;
+        LineScene scene{.sampleRateHz = 4000.0, .durationSeconds = 250.5};
         AnalysisSettings settings;
         settings.spectrogram.windowSeconds = 0.5;
         return analyse(std::make_shared<SimulatedRecording>(scene), settings);

@@ -22,9 +22,7 @@ private slots:
 // hour 0.26.
 void tst_bandCalibration::aNarrowBandKeepsItsOrder()
 {
-    LineScene scene;
-    scene.sampleRateHz = 1000.0;
-    scene.durationSeconds = 5.0 * 3600.0;
+    LineScene scene{.sampleRateHz = 1000.0, .durationSeconds = 5.0 * 3600.0};
     scene.noise.deviation = 1.0;
     scene.seed = 14;
     AnalysisSettings settings;

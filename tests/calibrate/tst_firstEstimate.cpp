@@ -43,9 +43,7 @@ void tst_firstEstimate::withinAFactor()
 
 void tst_firstEstimate::nothingElseDiffers()
 {
-    LineScene scene;
-    scene.sampleRateHz = 400.0;
-    scene.durationSeconds = 60.0;
+    LineScene scene{.sampleRateHz = 400.0, .durationSeconds = 60.0};
     scene.noise.deviation = 1.0;
     const auto recording = std::make_shared<SimulatedRecording>(scene);
     AnalysisSettings settings;

@@ -16,10 +16,7 @@ const Likelihood twoToOne(LikelihoodKind::Exponential, 2.0);
 
 KinematicAxis axis(Index cells, bool cyclic = false)
 {
-    KinematicAxis a;
-    a.cells = cells;
-    a.cyclic = cyclic;
-    return a;
+    return {.cells = cells, .cyclic = cyclic};
 }
 
 KinematicAxis admissible(Index cells)

@@ -59,12 +59,8 @@ float pOfNByDefinition(const Frames &y, Index t, Index f, const PofNSettings &se
 
 MarkovModel threeSlopes(Index cells)
 {
-    KinematicAxis axis;
-    axis.name = "frequency";
-    axis.cells = cells;
-    axis.firstRate = -1;
-    axis.rateCount = 3;
-    axis.rateChange = {1.0 / 3.0, 1.0 / 3.0};
+    KinematicAxis axis{
+        .name = "frequency", .cells = cells, .firstRate = -1, .rateCount = 3, .rateChange = {1.0 / 3.0, 1.0 / 3.0}};
     return {StateSpace({axis}), Likelihood(LikelihoodKind::Rice, 0.5), 1.0};
 }
 

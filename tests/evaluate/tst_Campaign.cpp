@@ -34,13 +34,8 @@ DetectorUnderTest detectorUnderTest(const char *name, const DetectorSettings &de
 
 LineExperiment smallExperiment()
 {
-    LineExperiment experiment;
-    experiment.frames = 120;
-    experiment.blockFrames = 60;
-    experiment.runs = 6;
-    experiment.durationWindows = 20.0;
-    experiment.snrDb = {-3.0, 3.0};
-    experiment.wanderCells = 0.5;
+    LineExperiment experiment{
+        .runs = 6, .frames = 120, .blockFrames = 60, .snrDb = {-3.0, 3.0}, .durationWindows = 20.0, .wanderCells = 0.5};
     experiment.detectors = {
         detectorUnderTest("SMD", SmdSettings{SmdSettings::Reset::Fixed, 0.69}),
         detectorUnderTest("3 of 4", PofNSettings{3, 4}),
@@ -98,9 +93,7 @@ private:
     /// Lines far below and far above the noise.
     InjectionExperiment injectionIntoNoise() const
     {
-        LineScene scene;
-        scene.sampleRateHz = 500.0;
-        scene.durationSeconds = 240.0;
+        LineScene scene{.sampleRateHz = 500.0, .durationSeconds = 240.0};
         InjectionExperiment injection;
         injection.recording = path("noise.wav");
         writeRecording(SimulatedRecording(scene), injection.recording, WrittenType::Float32);
@@ -388,20 +381,12 @@ void tst_Campaign::detectItselfInARecording()
 void tst_Campaign::allDetectorsAreTriedWhereNoSignalIs()
 {
     // A strong steady tone in half of the band's middle: it must neither count as a detection nor hide one.
-    LineScene scene;
-    scene.sampleRateHz = 200.0;
-    scene.durationSeconds = 200.0;
-    LineSettings tone;
-    tone.snrDb = 25.0;
-    tone.referenceSeconds = 0.5;
-    tone.frequencyHz = 50.0;
+    LineScene scene{.sampleRateHz = 200.0, .durationSeconds = 200.0};
+    LineSettings tone{.snrDb = 25.0, .referenceSeconds = 0.5, .frequencyHz = 50.0};
     scene.lines = {tone};
     writeRecording(SimulatedRecording(scene), path("tone.wav"), WrittenType::Float32);
-    InjectionExperiment injection;
-    injection.recording = path("tone.wav");
-    injection.trials = 12;
-    injection.snrDb = {-30.0, 15.0};
-    injection.durationSeconds = 20.0;
+    InjectionExperiment injection{
+        .recording = path("tone.wav"), .trials = 12, .snrDb = {-30.0, 15.0}, .durationSeconds = 20.0};
     injection.settings.spectrogram.windowSeconds = 0.5;
     injection.detectors = {detectorUnderTest("energy", EnergySettings{}),
                            detectorUnderTest("3 of 4", PofNSettings{3, 4}), detectorUnderTest("SMD", SmdSettings{})};
@@ -465,12 +450,11 @@ void tst_Campaign::signalsAreMasked()
 void tst_Campaign::aBlockThatEndsAfterItsLineCounts()
 {
     // A line as long as a block has half of itself at least in one of two, and the second one ends after it.
-    LineExperiment experiment;
-    experiment.frames = 600;
-    experiment.runs = 3;
-    experiment.durationWindows = 40.0;
-    experiment.snrDb = {6.0};
-    experiment.detectors = {detectorUnderTest("block Viterbi", BlockViterbiSettings{40.0})};
+    LineExperiment experiment{.runs = 3,
+                              .frames = 600,
+                              .snrDb = {6.0},
+                              .durationWindows = 40.0,
+                              .detectors = {detectorUnderTest("block Viterbi", BlockViterbiSettings{40.0})}};
     Campaign campaign{experiment, {}, {}};
     carryOut(campaign, firstRuns(3), onThreads(2));
     for (const RunOutcome &outcome : campaign.outcomes)

@@ -15,13 +15,7 @@ constexpr int samplesPerWindow = LineExperiment::windowSamples;
 /// Two blocks in time, each as wide as the band, so that no line leaks into another's.
 LineExperiment experiment()
 {
-    LineExperiment made;
-    made.frames = 120;
-    made.blockFrames = 60;
-    made.blockBins = samplesPerWindow * 4;
-    made.durationWindows = 20.0;
-    made.seed = 3;
-    return made;
+    return {.seed = 3, .frames = 120, .blockFrames = 60, .blockBins = samplesPerWindow * 4, .durationWindows = 20.0};
 }
 
 double powerAt(const std::vector<std::complex<float>> &field, Index frame, Index bin)
@@ -63,11 +57,8 @@ void tst_NoisyField::transformIsTheSumThatDefinesIt()
     QFETCH(int, stepsPerWindow);
     QFETCH(int, binsPerCell);
     QFETCH(int, window);
-    LineExperiment made;
-    made.frames = 3;
-    made.stepsPerWindow = stepsPerWindow;
-    made.binsPerCell = binsPerCell;
-    made.window = WindowShape(window);
+    LineExperiment made{
+        .frames = 3, .stepsPerWindow = stepsPerWindow, .binsPerCell = binsPerCell, .window = WindowShape(window)};
     const int hop = samplesPerWindow / stepsPerWindow;
     std::vector<float> samples(std::size_t(2 * (2 * hop + samplesPerWindow)));
     Random(5, 0).normals(samples, 1.0f);

@@ -15,12 +15,11 @@ PingExperiment experiment()
     made.scene.pings = 40;
     made.scene.rangeCells = 150;
     made.scene.beams = 12;
-    PingTarget target;
-    target.snrDb = 14.0;
-    target.rangeMetres = 3400.0;
-    target.bearingDegrees = 60.0;
-    target.appearPing = 5;
-    target.legs = {{0, 0.0, 0.0, 1.0, 0.0, 1}};
+    PingTarget target{.snrDb = 14.0,
+                      .rangeMetres = 3400.0,
+                      .bearingDegrees = 60.0,
+                      .appearPing = 5,
+                      .legs = {{0, 0.0, 0.0, 1.0, 0.0, 1}}};
     made.scene.targets = {target};
     made.settings = preset("sonarSteady").settings;
     made.runs = 4;

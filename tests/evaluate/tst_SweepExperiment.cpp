@@ -21,12 +21,8 @@ namespace {
 /// A line that is there to be found, three thresholds.
 SweepExperiment sweep()
 {
-    SweepExperiment sweep;
-    sweep.trials = 6;
-    sweep.snrDb = 4.0;
-    sweep.durationSeconds = 15.0;
-    sweep.marginSeconds = 8.0;
-    sweep.sampleRateHz = 200.0;
+    SweepExperiment sweep{
+        .trials = 6, .snrDb = 4.0, .durationSeconds = 15.0, .marginSeconds = 8.0, .sampleRateHz = 200.0};
     sweep.settings.spectrogram.windowSeconds = 0.5;
     sweep.settings.model.lowestSlope = sweep.settings.model.highestSlope = 0;
     sweep.settings.model.slopeChange = {1.0};
@@ -260,9 +256,7 @@ private slots:
 
     void inARecordingsNoise()
     {
-        LineScene scene;
-        scene.sampleRateHz = 200.0;
-        scene.durationSeconds = 200.0;
+        LineScene scene{.sampleRateHz = 200.0, .durationSeconds = 200.0};
         const auto recording = std::make_shared<SimulatedRecording>(scene);
         SweepExperiment experiment = sweep();
         experiment.recording = "anything";

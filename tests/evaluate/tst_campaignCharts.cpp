@@ -27,9 +27,7 @@ private:
     /// Two detectors, two SNRs, one run of six blocks: noise maxima 1 … 6, signals 3.5 throughout at 0 dB, 9 at 3 dB.
     static Campaign campaign()
     {
-        LineExperiment lines;
-        lines.runs = 1;
-        lines.snrDb = {0.0, 3.0};
+        LineExperiment lines{.runs = 1, .snrDb = {0.0, 3.0}};
         lines.detectors = {peer("integrator", lines.durationWindows), peer("3 of 4", lines.durationWindows)};
         RunOutcome outcome;
         outcome.noise.assign(2, {1, 2, 3, 4, 5, 6});

@@ -264,15 +264,8 @@ private slots:
     void realOnes()
     {
         // A faint line: the detector finds it, thresholding one frame does not but for some seeds' chance.
-        LineScene scene;
-        scene.seed = 4;
-        scene.sampleRateHz = 400.0;
-        scene.durationSeconds = 60.0;
-        LineSettings line;
-        line.snrDb = 1.5;
-        line.startSeconds = 10.0;
-        line.durationSeconds = 45.0;
-        line.frequencyHz = 90.0;
+        LineScene scene{.sampleRateHz = 400.0, .durationSeconds = 60.0, .seed = 4};
+        LineSettings line{.snrDb = 1.5, .startSeconds = 10.0, .durationSeconds = 45.0, .frequencyHz = 90.0};
         scene.lines.push_back(line);
         const auto recording = std::make_shared<SimulatedRecording>(scene);
         AnalysisSettings settings = preset("billon").settings;

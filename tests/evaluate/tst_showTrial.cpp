@@ -28,12 +28,11 @@ private:
 
 void tst_showTrial::initTestCase()
 {
-    LineExperiment lines;
-    lines.runs = 1;
-    lines.frames = 300;
-    lines.durationWindows = 40.0;
-    lines.snrDb = {6.0};
-    lines.detectors = {peer("SMD stable", 40.0), peer("integrator", 40.0), peer("3 of 4", 40.0)};
+    LineExperiment lines{.runs = 1,
+                         .frames = 300,
+                         .snrDb = {6.0},
+                         .durationWindows = 40.0,
+                         .detectors = {peer("SMD stable", 40.0), peer("integrator", 40.0), peer("3 of 4", 40.0)}};
     m_campaign.experiment = lines;
     carryOut(m_campaign, {0});
 }

@@ -227,15 +227,13 @@ namespace {
 /// Lines of twenty windows in frames that do not overlap, twenty in a run.
 LineExperiment lineExperiment(Fluctuation fluctuation)
 {
-    LineExperiment made;
-    made.seed = 5;
-    made.frames = 60;
-    made.blockFrames = 30;
-    made.blockBins = 100;
-    made.stepsPerWindow = 1;
-    made.durationWindows = 20.0;
-    made.fluctuation = fluctuation;
-    return made;
+    return {.seed = 5,
+            .frames = 60,
+            .blockFrames = 30,
+            .blockBins = 100,
+            .stepsPerWindow = 1,
+            .durationWindows = 20.0,
+            .fluctuation = fluctuation};
 }
 
 /// Mean power of a line's own cells over its frames.

@@ -233,9 +233,7 @@ void tst_annotations::severalFiles()
 void tst_annotations::placesInAFolderOfFiles()
 {
     QVERIFY(QDir(m_folder.path()).mkpath("night"));
-    LineScene scene;
-    scene.sampleRateHz = 100.0;
-    scene.durationSeconds = 30.0;
+    LineScene scene{.sampleRateHz = 100.0, .durationSeconds = 30.0};
     for (const char *name : {"night/20260301_000000.wav", "night/20260301_000100.wav"})
         writeRecording(SimulatedRecording(scene), path(name));
     RecordingInfo night = m_info;

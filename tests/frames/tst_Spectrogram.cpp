@@ -186,9 +186,7 @@ void tst_Spectrogram::bandIsAPartOfTheWhole()
     QFETCH(int, count);
     const auto recording = noise(300, isComplex);
     const Spectrogram whole(recording, settingsOf({isComplex, 50, 2, 2}));
-    SelectionSettings selection;
-    selection.lowHz = low;
-    selection.highHz = high;
+    SelectionSettings selection{.lowHz = low, .highHz = high};
     const Spectrogram band(recording, settingsOf({isComplex, 50, 2, 2}), selection);
     QCOMPARE(band.frequency().count, Index(count));
     QVERIFY(std::abs(band.frequency().first - whole.frequency().value(firstBin)) < 1e-9);
@@ -203,9 +201,7 @@ void tst_Spectrogram::partOfTheTime()
 {
     const auto recording = noise(1000, true);
     const Spectrogram whole(recording, settingsOf({true, 100, 2, 1}));
-    SelectionSettings selection;
-    selection.fromSeconds = 0.2;
-    selection.toSeconds = 0.7;
+    SelectionSettings selection{.fromSeconds = 0.2, .toSeconds = 0.7};
     const Spectrogram part(recording, settingsOf({true, 100, 2, 1}), selection);
     QCOMPARE(part.time().count, Index(9));
     QVERIFY(std::abs(part.time().first - whole.time().value(4.0)) < 1e-12);
@@ -235,9 +231,7 @@ void tst_Spectrogram::chunkedEqualsWhole()
 void tst_Spectrogram::longRequestsAreCutInside()
 {
     // More samples than one inner run takes (2²⁰): the frames on both sides of the cut are the same as alone.
-    SelectionSettings band;
-    band.lowHz = 100.0;
-    band.highHz = 103.0;
+    SelectionSettings band{.lowHz = 100.0, .highHz = 103.0};
     const Spectrogram spectrogram(noise(2'500'000, false), settingsOf({false, 4000, 1, 1}), band);
     const std::vector<float> whole = allOf(spectrogram);
     const auto bins = std::size_t(spectrogram.frequency().count);

@@ -12,19 +12,12 @@ namespace {
 
 LineSettings line(double hz, double hzPerSecond, double seconds)
 {
-    LineSettings settings;
-    settings.snrDb = 14.0;
-    settings.frequencyHz = hz;
-    settings.driftHzPerSecond = hzPerSecond;
-    settings.durationSeconds = seconds;
-    return settings;
+    return {.snrDb = 14.0, .durationSeconds = seconds, .frequencyHz = hz, .driftHzPerSecond = hzPerSecond};
 }
 
 RecordingPointer noiseWith(std::vector<LineSettings> lines, int seed = 1)
 {
-    LineScene scene;
-    scene.sampleRateHz = 400.0;
-    scene.durationSeconds = 60.0;
+    LineScene scene{.sampleRateHz = 400.0, .durationSeconds = 60.0};
     scene.noise.deviation = 1.0;
     scene.seed = seed;
     scene.lines = std::move(lines);
@@ -112,11 +105,7 @@ private slots:
         scene.durationSeconds = 20.0;
         scene.noise.deviation = 1.0;
         for (const double hz : {600.0, 720.0}) {
-            LineSettings settings;
-            settings.snrDb = 14.0;
-            settings.referenceSeconds = 0.02;
-            settings.frequencyHz = hz;
-            settings.durationSeconds = 20.0;
+            LineSettings settings{.snrDb = 14.0, .referenceSeconds = 0.02, .durationSeconds = 20.0, .frequencyHz = hz};
             scene.lines.push_back(settings);
         }
         const auto advice = adviceOnCloseLines(*inWindow(std::make_shared<SimulatedRecording>(scene), 0.02));

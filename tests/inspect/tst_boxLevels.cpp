@@ -20,14 +20,9 @@ class tst_boxLevels : public QObject
 
     static std::shared_ptr<const Analysis> sceneOf(std::optional<double> snrDb, WindowShape window)
     {
-        LineScene scene;
-        scene.sampleRateHz = 1000.0;
-        scene.durationSeconds = seconds;
+        LineScene scene{.sampleRateHz = 1000.0, .durationSeconds = seconds};
         if (snrDb) {
-            LineSettings line;
-            line.snrDb = *snrDb;
-            line.referenceSeconds = 0.5;
-            line.frequencyHz = 150.0;
+            LineSettings line{.snrDb = *snrDb, .referenceSeconds = 0.5, .frequencyHz = 150.0};
             scene.lines.push_back(line);
         }
         auto analysis = std::make_shared<Analysis>();

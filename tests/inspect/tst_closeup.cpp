@@ -15,16 +15,9 @@ constexpr std::size_t plenty = std::size_t(64) << 20;
 /// Half a minute with a line that is found and followed.
 std::shared_ptr<const Analysis> analysed(const DetectorSettings &detector = SmdSettings{})
 {
-    LineScene scene;
-    scene.sampleRateHz = 400.0;
-    scene.durationSeconds = 120.0;
-    scene.seed = 3;
-    LineSettings line;
-    line.snrDb = 8.0;
-    line.startSeconds = 20.0;
-    line.durationSeconds = 70.0;
-    line.frequencyHz = 90.0;
-    line.driftHzPerSecond = 0.2;
+    LineScene scene{.sampleRateHz = 400.0, .durationSeconds = 120.0, .seed = 3};
+    LineSettings line{
+        .snrDb = 8.0, .startSeconds = 20.0, .durationSeconds = 70.0, .frequencyHz = 90.0, .driftHzPerSecond = 0.2};
     scene.lines = {line};
     AnalysisSettings settings;
     settings.spectrogram.windowSeconds = 0.5;

@@ -27,10 +27,7 @@ namespace {
 
 RecordingPointer lines(const std::vector<double> &hz, double snrDb)
 {
-    LineScene scene;
-    scene.sampleRateHz = 1000.0;
-    scene.durationSeconds = 30.0;
-    scene.seed = 31;
+    LineScene scene{.sampleRateHz = 1000.0, .durationSeconds = 30.0, .seed = 31};
     for (const double frequency : hz)
         scene.lines.push_back({.snrDb = snrDb, .referenceSeconds = 1.0, .frequencyHz = frequency});
     return std::make_shared<SimulatedRecording>(scene);

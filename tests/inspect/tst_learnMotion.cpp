@@ -13,18 +13,14 @@ namespace {
 std::shared_ptr<const Analysis> analysisOf(double wanderHz, double wanderSeconds, double drift,
                                            const ModelSettings &law = {})
 {
-    LineScene scene;
-    scene.sampleRateHz = 400.0;
-    scene.durationSeconds = 300.0;
-    scene.seed = 11;
+    LineScene scene{.sampleRateHz = 400.0, .durationSeconds = 300.0, .seed = 11};
     for (int i = 0; i < 3; ++i) {
-        LineSettings line;
-        line.frequencyHz = 50.0 + 50.0 * i;
-        line.driftHzPerSecond = drift;
-        line.wanderHz = wanderHz;
-        line.wanderSeconds = wanderSeconds;
-        line.snrDb = 10.0;
-        line.referenceSeconds = 0.25;
+        LineSettings line{.snrDb = 10.0,
+                          .referenceSeconds = 0.25,
+                          .frequencyHz = 50.0 + 50.0 * i,
+                          .driftHzPerSecond = drift,
+                          .wanderHz = wanderHz,
+                          .wanderSeconds = wanderSeconds};
         scene.lines.push_back(line);
     }
     AnalysisSettings settings;
@@ -102,9 +98,7 @@ void tst_learnMotion::appliedItIsUsed()
 
 void tst_learnMotion::nothingToLearnFrom()
 {
-    LineScene noise;
-    noise.sampleRateHz = 400.0;
-    noise.durationSeconds = 60.0;
+    LineScene noise{.sampleRateHz = 400.0, .durationSeconds = 60.0};
     AnalysisSettings settings;
     settings.spectrogram.windowSeconds = 0.25;
     const auto analysis = analyse(std::make_shared<SimulatedRecording>(noise), settings);

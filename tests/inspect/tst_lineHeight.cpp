@@ -27,9 +27,7 @@ private slots:
 
 void tst_lineHeight::findsTheLineOfOneTransform()
 {
-    LineScene scene;
-    scene.sampleRateHz = 500.0;
-    scene.durationSeconds = 100.0;
+    LineScene scene{.sampleRateHz = 500.0, .durationSeconds = 100.0};
     scene.noise.deviation = 0.1;
     scene.lines = {LineSettings{.snrDb = 0.0, .referenceSeconds = 1.0, .frequencyHz = 80.125}};
     const SimulatedRecording recording(scene);
@@ -42,9 +40,7 @@ void tst_lineHeight::findsTheLineOfOneTransform()
 /// |Σ Hann(n) x(n) e^(-2πi f n)|² of the samples themselves.
 void tst_lineHeight::theSpectrumIsThatOfAPlainTransform()
 {
-    LineScene scene;
-    scene.sampleRateHz = 500.0;
-    scene.durationSeconds = 20.0;
+    LineScene scene{.sampleRateHz = 500.0, .durationSeconds = 20.0};
     scene.noise.deviation = 0.1;
     scene.lines = {LineSettings{.snrDb = 20.0, .referenceSeconds = 1.0, .frequencyHz = 80.125},
                    LineSettings{.snrDb = 14.0, .referenceSeconds = 1.0, .frequencyHz = 78.4}};
@@ -79,9 +75,7 @@ void tst_lineHeight::theSpectrumIsThatOfAPlainTransform()
 /// Nothing is read beyond what there is: the band ends at half the rate.
 void tst_lineHeight::takesABandWiderThanTheRecordings()
 {
-    LineScene scene;
-    scene.sampleRateHz = 500.0;
-    scene.durationSeconds = 2.0;
+    LineScene scene{.sampleRateHz = 500.0, .durationSeconds = 2.0};
     scene.noise.deviation = 0.1;
     const LineHeight height = lineHeight(SimulatedRecording(scene), {0, 0.0, 2.0, 80.0, 1e6});
     QVERIFY(std::isfinite(height.db) && std::abs(height.hz - 80.0) <= 250.0);
@@ -97,9 +91,7 @@ void tst_lineHeight::isInfiniteOverSilence()
 
 void tst_lineHeight::refusesWhatIsTooShort()
 {
-    LineScene scene;
-    scene.sampleRateHz = 500.0;
-    scene.durationSeconds = 2.0;
+    LineScene scene{.sampleRateHz = 500.0, .durationSeconds = 2.0};
     const SimulatedRecording recording(scene);
     for (const TimeBand &stretch :
          {TimeBand{0, 0.0, 0.01, 80.0, 5.0}, TimeBand{0, 1.0, 1.0, 80.0, 5.0}, TimeBand{0, 1.5, 1.0, 80.0, 5.0},

@@ -9,9 +9,7 @@ namespace {
 
 RecordingPointer noiseOf(int seed, double seconds, std::vector<LineSettings> lines = {})
 {
-    LineScene scene;
-    scene.sampleRateHz = 400.0;
-    scene.durationSeconds = seconds;
+    LineScene scene{.sampleRateHz = 400.0, .durationSeconds = seconds};
     scene.noise.deviation = 1.0;
     scene.seed = seed;
     scene.lines = std::move(lines);
@@ -72,9 +70,7 @@ void tst_noiseLaw::whiteNoiseNeverWarns()
 
 void tst_noiseLaw::aStrongLineIsNoNoise()
 {
-    LineSettings line;
-    line.frequencyHz = 80.0;
-    line.snrDb = 30.0;
+    LineSettings line{.snrDb = 30.0, .frequencyHz = 80.0};
     const auto analysis = analyse(noiseOf(7, 120.0, {line}), shortWindows());
     QVERIFY(!analysis->tracks.empty());
     const auto law = checkNoiseLaw(*analysis);
@@ -91,12 +87,11 @@ void tst_noiseLaw::missedLinesDoNotWarn()
     settings.decide.thresholdNats = 60.0;
     std::vector<LineSettings> lines;
     for (int i = 0; i < 8; ++i) {
-        LineSettings line;
-        line.frequencyHz = 30.0 + 20.0 * i;
-        line.snrDb = 3.0;
-        line.referenceSeconds = 0.5;
-        line.startSeconds = 10.0 + 35.0 * i;
-        line.durationSeconds = 30.0;
+        LineSettings line{.snrDb = 3.0,
+                          .referenceSeconds = 0.5,
+                          .startSeconds = 10.0 + 35.0 * i,
+                          .durationSeconds = 30.0,
+                          .frequencyHz = 30.0 + 20.0 * i};
         lines.push_back(line);
     }
     const auto analysis = analyse(noiseOf(11, 300.0, lines), settings);

@@ -57,13 +57,8 @@ private slots:
 
     void theDetectorsOwnPathHasItsEvidence()
     {
-        LineScene scene;
-        scene.sampleRateHz = 1000.0;
-        scene.durationSeconds = 30.0;
-        LineSettings line;
-        line.snrDb = 6.0;
-        line.frequencyHz = 150.0;
-        line.driftHzPerSecond = 1.0;
+        LineScene scene{.sampleRateHz = 1000.0, .durationSeconds = 30.0};
+        LineSettings line{.snrDb = 6.0, .frequencyHz = 150.0, .driftHzPerSecond = 1.0};
         scene.lines.push_back(line);
         AnalysisSettings settings;
         settings.decide.by = DecideSettings::By::Nats;

@@ -16,10 +16,7 @@ namespace {
 /// Four minutes of noise at 400 Hz in a band of its own, which has no blind edges.
 NormalisedFramesPointer noise(int seed)
 {
-    LineScene scene;
-    scene.sampleRateHz = 400.0;
-    scene.durationSeconds = 240.0;
-    scene.seed = seed;
+    LineScene scene{.sampleRateHz = 400.0, .durationSeconds = 240.0, .seed = seed};
     SpectrogramSettings cut;
     cut.windowSeconds = 0.5;
     const SelectionSettings band{0, {}, 0.0, 0.0, 20.0, 180.0};
@@ -30,9 +27,7 @@ NormalisedFramesPointer noise(int seed)
 
 std::shared_ptr<const Analysis> analysed()
 {
-    LineScene scene;
-    scene.sampleRateHz = 400.0;
-    scene.durationSeconds = 120.0;
+    LineScene scene{.sampleRateHz = 400.0, .durationSeconds = 120.0};
     const auto recording = std::make_shared<SimulatedRecording>(scene);
     AnalysisSettings settings;
     settings.spectrogram.windowSeconds = 0.5;
@@ -134,10 +129,7 @@ private slots:
 
     void pingsAreTheRecursionFromSixteenBefore()
     {
-        PingScene scene;
-        scene.pings = 24;
-        scene.rangeCells = 40;
-        scene.beams = 6;
+        PingScene scene{.pings = 24, .rangeCells = 40, .beams = 6};
         Analysis before;
         before.settings = preset("sonar").settings;
         before.settings.model.motion = Motion::Bank;

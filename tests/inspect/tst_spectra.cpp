@@ -12,10 +12,7 @@ namespace {
 
 std::shared_ptr<const Analysis> noise(double deviation, bool isComplex)
 {
-    LineScene scene;
-    scene.sampleRateHz = 500.0;
-    scene.durationSeconds = 60.0;
-    scene.isComplex = isComplex;
+    LineScene scene{.sampleRateHz = 500.0, .durationSeconds = 60.0, .isComplex = isComplex};
     scene.noise.deviation = deviation;
     AnalysisSettings settings;
     settings.spectrogram.windowSeconds = 0.5;
@@ -38,9 +35,7 @@ private slots:
     /// The spectra are those of the recording: on its own axis, not on the fundamental's.
     void aFamilyHasTheRecordingsSpectra()
     {
-        LineScene scene;
-        scene.sampleRateHz = 500.0;
-        scene.durationSeconds = 30.0;
+        LineScene scene{.sampleRateHz = 500.0, .durationSeconds = 30.0};
         AnalysisSettings settings;
         settings.spectrogram.windowSeconds = 0.5;
         settings.family = {FamilySettings::Relation::Harmonics, {1.0, 2.0, 3.0}, FamilySettings::Present::Together};

@@ -77,15 +77,10 @@ private:
 /// Two lines that stay: one strong, one that stands little above the threshold.
 std::vector<float> scene(double seconds)
 {
-    LineScene lines;
-    lines.sampleRateHz = rate;
-    lines.durationSeconds = seconds;
+    LineScene lines{.sampleRateHz = rate, .durationSeconds = seconds};
     lines.noise.deviation = 0.1;
     for (const auto &[hz, snrDb] : {std::pair(120.0, 8.0), std::pair(310.0, 3.0)}) {
-        LineSettings line;
-        line.frequencyHz = hz;
-        line.snrDb = snrDb;
-        line.startSeconds = 20.0;
+        LineSettings line{.snrDb = snrDb, .startSeconds = 20.0, .frequencyHz = hz};
         lines.lines.push_back(line);
     }
     return readAll(SimulatedRecording(lines));

@@ -141,9 +141,7 @@ std::vector<Gap> randomGaps(int count, Index samples, Index longest, std::uint64
 /// Ten minutes with lines that come and go, one of them interrupted.
 std::vector<float> scene(double seconds = 600.0)
 {
-    LineScene lines;
-    lines.sampleRateHz = rate;
-    lines.durationSeconds = seconds;
+    LineScene lines{.sampleRateHz = rate, .durationSeconds = seconds};
     lines.noise.deviation = 0.1;
     lines.seed = 4;
     const auto add = [&](LineSettings line) {
@@ -152,13 +150,12 @@ std::vector<float> scene(double seconds = 600.0)
             lines.lines.push_back(line);
     };
     for (int i = 0; i < 8; ++i) {
-        LineSettings line;
-        line.snrDb = 6.0 + i;
-        line.referenceSeconds = 0.25;
-        line.startSeconds = 20.0 + 60.0 * i;
-        line.durationSeconds = 25.0 + 15.0 * i;
-        line.frequencyHz = 60.0 + 50.0 * i;
-        line.driftHzPerSecond = 0.05 * i;
+        LineSettings line{.snrDb = 6.0 + i,
+                          .referenceSeconds = 0.25,
+                          .startSeconds = 20.0 + 60.0 * i,
+                          .durationSeconds = 25.0 + 15.0 * i,
+                          .frequencyHz = 60.0 + 50.0 * i,
+                          .driftHzPerSecond = 0.05 * i};
         add(line);
         line.startSeconds += line.durationSeconds + 2.0;
         add(line);
@@ -276,9 +273,7 @@ void tst_listen::changesOfAnEvent()
 // A line at 6 dB, for which a stream suffices that ends two windows after the crossing.
 void tst_listen::isToldSoonAfterTheCrossing()
 {
-    LineScene lines;
-    lines.sampleRateHz = rate;
-    lines.durationSeconds = 60.0;
+    LineScene lines{.sampleRateHz = rate, .durationSeconds = 60.0};
     lines.noise.deviation = 0.1;
     lines.seed = 5;
     lines.lines = {

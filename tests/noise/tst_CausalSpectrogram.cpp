@@ -44,9 +44,7 @@ std::vector<float> gaussian(Index count, std::uint64_t stream, float deviation =
 
 CausalSpectrogram causal(RecordingPointer recording, int steps = 2)
 {
-    SpectrogramSettings spectral;
-    spectral.windowSeconds = windowSeconds;
-    spectral.stepsPerWindow = steps;
+    SpectrogramSettings spectral{.windowSeconds = windowSeconds, .stepsPerWindow = steps};
     NormaliserSettings noise;
     noise.causal = true;
     return {std::make_shared<Spectrogram>(std::move(recording), spectral), noise};

@@ -643,9 +643,7 @@ void tst_NoiseNormaliser::narrowBand()
     QFETCH(double, low);
     QFETCH(double, high);
     // A narrow band has no noise of its own to speak of: the background comes from its neighbourhood.
-    SelectionSettings band;
-    band.lowHz = low;
-    band.highHz = high;
+    SelectionSettings band{.lowHz = low, .highHz = high};
     std::vector<float> samples = gaussian(400000, 13);
     const Normalised quiet = normalised(samples, {0.5, 2, 2}, false, band);
     QVERIFY2(std::abs(quiet.mean() - 1.0) < 0.2, said("mean", quiet.mean()));

@@ -59,9 +59,7 @@ std::vector<float> looks(int k, std::uint64_t stream)
 
 NormaliserSettings settings()
 {
-    NormaliserSettings made;
-    made.blockWindows = 100.0;
-    made.halfWidthCells = 12;
+    NormaliserSettings made{.halfWidthCells = 12, .blockWindows = 100.0};
     return made;
 }
 
@@ -276,11 +274,7 @@ void tst_NormalisedPower::partsOfAFile()
 {
     const auto power = memory(looks(1, 47));
     const auto part = [&](double from, double to, double low, double high) {
-        SelectionSettings selection;
-        selection.fromSeconds = from;
-        selection.toSeconds = to;
-        selection.lowHz = low;
-        selection.highHz = high;
+        SelectionSettings selection{.fromSeconds = from, .toSeconds = to, .lowHz = low, .highHz = high};
         const PowerPart found = partOf(power->info(), selection);
         return std::array<Index, 4>{found.firstFrame, found.frames, found.firstCell, found.cells};
     };

@@ -19,14 +19,9 @@ constexpr int windowSamples = 64;
 
 NormalisedFramesPointer frames(int stepsPerWindow, double windows)
 {
-    LineScene scene;
-    scene.sampleRateHz = 1.0;
-    scene.durationSeconds = windows * windowSamples;
-    scene.isComplex = true;
+    LineScene scene{.sampleRateHz = 1.0, .durationSeconds = windows * windowSamples, .isComplex = true};
     scene.noise.deviation = 1.0;
-    SpectrogramSettings settings;
-    settings.windowSeconds = windowSamples;
-    settings.stepsPerWindow = stepsPerWindow;
+    SpectrogramSettings settings{.windowSeconds = windowSamples, .stepsPerWindow = stepsPerWindow};
     const auto spectrogram = std::make_shared<Spectrogram>(std::make_shared<SimulatedRecording>(scene), settings);
     return std::make_shared<NormalisedSpectrogram>(spectrogram, estimateBackground(*spectrogram, {}),
                                                    NormaliserSettings{});
@@ -259,9 +254,7 @@ void tst_lineSequentialModel::targetsAreFound()
     // Targets of the model's law and its SNR in samples, their main lobes over several bins; the noise's level is
     // known.
     QFETCH(int, stepsPerWindow);
-    SpectrogramSettings windows;
-    windows.windowSeconds = windowSamples;
-    windows.stepsPerWindow = stepsPerWindow;
+    SpectrogramSettings windows{.windowSeconds = windowSamples, .stepsPerWindow = stepsPerWindow};
     Counted counted;
     for (int run = 0; run < 300; ++run) {
         KinematicAxis slopes = makeModel(exponential(stepsPerWindow == 2 ? ModelSettings() : laws::billon()),

@@ -12,9 +12,7 @@ namespace {
 
 RecordingPointer recordingOf(double rateHz, double seconds)
 {
-    LineScene scene;
-    scene.sampleRateHz = rateHz;
-    scene.durationSeconds = seconds;
+    LineScene scene{.sampleRateHz = rateHz, .durationSeconds = seconds};
     scene.noise.deviation = 1.0;
     return std::make_shared<SimulatedRecording>(scene);
 }

@@ -16,13 +16,11 @@ constexpr double nothingHere = -std::numeric_limits<double>::infinity();
 
 KinematicAxis rated(Index cells, int firstRate, int rateCount, std::vector<double> change, int ratesPerCell = 1)
 {
-    KinematicAxis axis;
-    axis.cells = cells;
-    axis.firstRate = firstRate;
-    axis.rateCount = rateCount;
-    axis.rateChange = std::move(change);
-    axis.ratesPerCell = ratesPerCell;
-    return axis;
+    return {.cells = cells,
+            .firstRate = firstRate,
+            .rateCount = rateCount,
+            .rateChange = std::move(change),
+            .ratesPerCell = ratesPerCell};
 }
 
 std::vector<double> someScores(Index count)

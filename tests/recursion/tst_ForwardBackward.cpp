@@ -59,15 +59,13 @@ struct Enumeration {
 KinematicAxis axis(Index cells, bool cyclic, int firstRate, int rates, std::vector<double> change,
                    std::vector<double> step, int perCell)
 {
-    KinematicAxis result;
-    result.cells = cells;
-    result.cyclic = cyclic;
-    result.firstRate = firstRate;
-    result.rateCount = rates;
-    result.rateChange = std::move(change);
-    result.step = std::move(step);
-    result.ratesPerCell = perCell;
-    return result;
+    return {.cells = cells,
+            .cyclic = cyclic,
+            .firstRate = firstRate,
+            .rateCount = rates,
+            .rateChange = std::move(change),
+            .step = std::move(step),
+            .ratesPerCell = perCell};
 }
 
 } // namespace

@@ -11,14 +11,7 @@ namespace {
 /// Three slopes of half a bin with inertia, whose moves repeat after two frames.
 KinematicAxis halfBins(Index cells)
 {
-    KinematicAxis axis;
-    axis.name = "f";
-    axis.cells = cells;
-    axis.firstRate = -1;
-    axis.rateCount = 3;
-    axis.ratesPerCell = 2;
-    axis.rateChange = {0.8, 0.1};
-    return axis;
+    return {.name = "f", .cells = cells, .firstRate = -1, .rateCount = 3, .rateChange = {0.8, 0.1}, .ratesPerCell = 2};
 }
 
 Corridor smallCorridor(std::uint64_t seed)

@@ -54,9 +54,7 @@ void tst_LineScene::readsTheDocumentedExample()
 void tst_LineScene::defaults()
 {
     const LineScene scene = lineSceneFromJson(parseJson(R"({"sampleRateHz": 100, "durationSeconds": 1})", "scene"));
-    LineScene expected;
-    expected.sampleRateHz = 100.0;
-    expected.durationSeconds = 1.0;
+    LineScene expected{.sampleRateHz = 100.0, .durationSeconds = 1.0};
     QVERIFY(scene == expected);
 }
 

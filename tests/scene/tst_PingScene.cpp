@@ -8,20 +8,12 @@ namespace {
 
 PingScene smallScene()
 {
-    PingScene scene;
-    scene.pings = 10;
-    scene.rangeCells = 100;
-    scene.beams = 12;
-    return scene;
+    return {.pings = 10, .rangeCells = 100, .beams = 12};
 }
 
 PingTarget targetAt(double rangeCell, double beam, std::vector<PingLeg> legs)
 {
-    PingTarget target;
-    target.rangeMetres = 3000.0 + 10.0 * rangeCell;
-    target.bearingDegrees = 30.0 * beam;
-    target.legs = std::move(legs);
-    return target;
+    return {.rangeMetres = 3000.0 + 10.0 * rangeCell, .bearingDegrees = 30.0 * beam, .legs = std::move(legs)};
 }
 
 PingLeg leg(int pings, double rangeCells, double beams, int turn = 1)

@@ -83,11 +83,7 @@ void tst_ScanScene::targetMovesAsAllowed_data()
 void tst_ScanScene::targetMovesAsAllowed()
 {
     QFETCH(int, moves);
-    ScanScene scene;
-    scene.moves = static_cast<ScanMoves>(moves);
-    scene.moveCells = 0.8;
-    scene.stages = 20000;
-    scene.rangeCells = 4;
+    ScanScene scene{.rangeCells = 4, .stages = 20000, .moves = static_cast<ScanMoves>(moves), .moveCells = 0.8};
     const std::vector<ScanCell> path = scanTrajectory(scene);
     double fromEdge = 0.0;
     double stays = 0.0;
@@ -137,11 +133,7 @@ void tst_ScanScene::withoutATarget()
 
 void tst_ScanScene::jsonThereAndBack()
 {
-    ScanScene scene;
-    scene.rangeCells = 77;
-    scene.moves = ScanMoves::Gaussian;
-    scene.moveCells = 1.25;
-    scene.hasTarget = false;
+    ScanScene scene{.rangeCells = 77, .hasTarget = false, .moves = ScanMoves::Gaussian, .moveCells = 1.25};
     QVERIFY(scanSceneFromJson(toJson(scene)) == scene);
     QVERIFY(scanSceneFromJson(Json::parse(R"({"kind": "scans"})")) == ScanScene());
 }

@@ -11,13 +11,7 @@ namespace {
 
 PingScene scene(int pings = 20, int looks = 1)
 {
-    PingScene made;
-    made.pings = pings;
-    made.rangeCells = 200;
-    made.beams = 10;
-    made.looks = looks;
-    made.seed = 3;
-    return made;
+    return {.pings = pings, .rangeCells = 200, .beams = 10, .looks = looks, .seed = 3};
 }
 
 struct Moments {
@@ -42,11 +36,7 @@ std::vector<float> targetCell(Echo echo, double snrDb, int pings, int looks = 1,
     PingScene made = scene(pings, looks);
     made.rangeCells = 20;
     made.seed = seed;
-    PingTarget target;
-    target.snrDb = snrDb;
-    target.echo = echo;
-    target.fluctuation = fluctuation;
-    target.rangeMetres = 3050.0;
+    PingTarget target{.snrDb = snrDb, .echo = echo, .fluctuation = fluctuation, .rangeMetres = 3050.0};
     made.targets = {target};
     const SimulatedPings simulated(made);
     const std::vector<float> y = allOf(simulated);
@@ -109,9 +99,7 @@ void tst_SimulatedPings::looksAverage()
 void tst_SimulatedPings::anyPingAlone()
 {
     PingScene made = scene();
-    PingTarget target;
-    target.rangeMetres = 4000.0;
-    target.legs = {{0, 0.0, 0.0, 2.0, 1.0, 1}};
+    PingTarget target{.rangeMetres = 4000.0, .legs = {{0, 0.0, 0.0, 2.0, 1.0, 1}}};
     made.targets = {target};
     made.reverberation = Reverberation{20.0, 3.0, PingNormalisation::Estimated};
     const SimulatedPings pings(made);
@@ -169,9 +157,7 @@ void tst_SimulatedPings::constantPowerIsAdded()
 void tst_SimulatedPings::twoTargetsInACell()
 {
     PingScene made = scene(1);
-    PingTarget target;
-    target.snrDb = 10.0;
-    target.rangeMetres = 4000.0;
+    PingTarget target{.snrDb = 10.0, .rangeMetres = 4000.0};
     const SimulatedPings none(made);
     made.targets = {target, target};
     const SimulatedPings two(made);

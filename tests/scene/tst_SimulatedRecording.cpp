@@ -46,11 +46,7 @@ namespace {
 
 LineScene scene(bool isComplex, double rate = 8000.0, double duration = 20.0)
 {
-    LineScene result;
-    result.sampleRateHz = rate;
-    result.durationSeconds = duration;
-    result.isComplex = isComplex;
-    return result;
+    return {.sampleRateHz = rate, .durationSeconds = duration, .isComplex = isComplex};
 }
 
 /// Everything at once.
@@ -58,17 +54,9 @@ LineScene busyScene(bool isComplex, double slope)
 {
     LineScene result = scene(isComplex);
     result.noise = {0.2, slope, 2.0, 3.0};
-    LineSettings wandering;
-    wandering.startSeconds = 2.3;
-    wandering.durationSeconds = 12.1;
-    wandering.wanderHz = 12.0;
-    LineSettings fading;
-    fading.fading = Fading::Rayleigh;
-    fading.fadingSeconds = 0.7;
-    fading.driftHzPerSecond = 20.0;
-    LineSettings fluctuating;
-    fluctuating.startSeconds = 1.1;
-    fluctuating.fluctuation = Fluctuation::Swerling2;
+    LineSettings wandering{.startSeconds = 2.3, .durationSeconds = 12.1, .wanderHz = 12.0};
+    LineSettings fading{.driftHzPerSecond = 20.0, .fading = Fading::Rayleigh, .fadingSeconds = 0.7};
+    LineSettings fluctuating{.startSeconds = 1.1, .fluctuation = Fluctuation::Swerling2};
     result.lines = {wandering, fading, fluctuating, LineSettings{}};
     return result;
 }
@@ -198,12 +186,11 @@ void tst_SimulatedRecording::snrIsAsDefined()
     both.centreHz = centreHz;
     both.noise.slopeDbPerOctave = slope;
     LineScene onlyNoise = both;
-    LineSettings line;
-    line.snrDb = 7.0;
-    line.referenceSeconds = 0.125;
-    line.frequencyHz = frequencyHz;
-    line.fading = fades ? Fading::Rayleigh : Fading::None;
-    line.fadingSeconds = 1.0;
+    LineSettings line{.snrDb = 7.0,
+                      .referenceSeconds = 0.125,
+                      .frequencyHz = frequencyHz,
+                      .fading = fades ? Fading::Rayleigh : Fading::None,
+                      .fadingSeconds = 1.0};
     both.lines = {line};
 
     // The seed being the same, the line is the difference.
@@ -246,10 +233,7 @@ void tst_SimulatedRecording::wanderHasItsDeviationExactly()
     for (const int seed : {1, 2, 3}) {
         LineScene wandering = scene(false, 8000.0, 100.0);
         wandering.seed = seed;
-        LineSettings line;
-        line.startSeconds = 10.0;
-        line.durationSeconds = 50.0;
-        line.wanderHz = 12.0;
+        LineSettings line{.startSeconds = 10.0, .durationSeconds = 50.0, .wanderHz = 12.0};
         wandering.lines = {line};
         const TruthLine truth = SimulatedRecording(wandering).truth().lines.at(0);
         QCOMPARE(truth.startSeconds, 10.0);
@@ -281,13 +265,12 @@ void tst_SimulatedRecording::truthIsTheFrequencyMeasured()
     QFETCH(double, centreHz);
     LineScene loud = scene(isComplex, 8000.0, 30.0);
     loud.centreHz = centreHz;
-    LineSettings line;
-    line.snrDb = 80.0;
-    line.frequencyHz = centreHz + 1000.0;
-    line.driftHzPerSecond = 7.0;
-    line.wanderHz = 12.0;
-    line.startSeconds = 1.0;
-    line.durationSeconds = 25.0;
+    LineSettings line{.snrDb = 80.0,
+                      .startSeconds = 1.0,
+                      .durationSeconds = 25.0,
+                      .frequencyHz = centreHz + 1000.0,
+                      .driftHzPerSecond = 7.0,
+                      .wanderHz = 12.0};
     loud.lines = {line};
     const SimulatedRecording recording(loud);
     const TruthLine truth = recording.truth().lines.at(0);
@@ -314,10 +297,7 @@ void tst_SimulatedRecording::phaseIsContinuous()
 {
     LineScene loud = scene(true, 8000.0, 30.0);
     loud.noise.deviation = 1e-9;
-    LineSettings line;
-    line.snrDb = 120.0;
-    line.wanderHz = 100.0;
-    line.wanderSeconds = 1.0;
+    LineSettings line{.snrDb = 120.0, .wanderHz = 100.0, .wanderSeconds = 1.0};
     loud.lines = {line};
     const std::vector<float> samples = readAll(SimulatedRecording(loud));
     for (std::size_t i = 1; i + 1 < samples.size() / 2; ++i) {
@@ -332,12 +312,8 @@ void tst_SimulatedRecording::toneBeginsAndEndsWhereItShould()
 {
     LineScene quiet = scene(false, 1000.0, 10.0);
     quiet.noise.deviation = 1e-9;
-    LineSettings line;
-    line.frequencyHz = 123.0;
-    line.startSeconds = 2.0;
-    line.durationSeconds = 3.0;
-    line.snrDb = 60.0;
-    line.referenceSeconds = 1.0;
+    LineSettings line{
+        .snrDb = 60.0, .referenceSeconds = 1.0, .startSeconds = 2.0, .durationSeconds = 3.0, .frequencyHz = 123.0};
     quiet.lines = {line};
     const SimulatedRecording recording(quiet);
     const std::vector<float> samples = readAll(recording);
@@ -359,12 +335,8 @@ void tst_SimulatedRecording::rayleighFading()
 {
     LineScene fading = scene(true, 100.0, 20000.0);
     fading.noise.deviation = 1e-9;
-    LineSettings line;
-    line.frequencyHz = 0.0;
-    line.referenceSeconds = 1.0;
-    line.snrDb = 120.0;
-    line.fading = Fading::Rayleigh;
-    line.fadingSeconds = 2.0;
+    LineSettings line{
+        .snrDb = 120.0, .referenceSeconds = 1.0, .frequencyHz = 0.0, .fading = Fading::Rayleigh, .fadingSeconds = 2.0};
     fading.lines = {line};
     const SimulatedRecording recording(fading);
     const std::vector<float> samples = readAll(recording);
@@ -516,9 +488,7 @@ void tst_SimulatedRecording::levelDrift()
 void tst_SimulatedRecording::hoursInConstantMemory()
 {
     LineScene week = scene(false, 192000.0, 7.0 * 86400.0);
-    LineSettings line;
-    line.startSeconds = 6.9 * 86400.0;
-    line.driftHzPerSecond = 0.01;
+    LineSettings line{.startSeconds = 6.9 * 86400.0, .driftHzPerSecond = 0.01};
     week.lines = {line};
     const SimulatedRecording recording(week);
     QCOMPARE(recording.info().sampleCount, Index(116121600000));
@@ -534,9 +504,7 @@ void tst_SimulatedRecording::injectedLinesAddUp()
 {
     const LineScene quiet = scene(true, 8000.0, 20.0);
     const auto base = std::make_shared<SimulatedRecording>(quiet);
-    LineSettings line;
-    line.wanderHz = 5.0;
-    line.snrDb = 3.0;
+    LineSettings line{.snrDb = 3.0, .wanderHz = 5.0};
     LineScene withLine = quiet;
     withLine.lines = {line};
     const SimulatedRecording expected(withLine);

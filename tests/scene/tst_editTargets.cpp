@@ -12,22 +12,13 @@ namespace {
 /// 200 cells of 10 m from 1000 m, 20 beams of 18°, a ping every 10 s: 1 cell/ping = 1 m/s, 1 beam/ping = 1.8 °/s.
 PingScene smallSea()
 {
-    PingScene scene;
-    scene.pings = 50;
-    scene.priSeconds = 10.0;
-    scene.rangeCells = 200;
-    scene.firstRangeMetres = 1000.0;
-    scene.rangeStepMetres = 10.0;
-    return scene;
+    return {.pings = 50, .priSeconds = 10.0, .rangeCells = 200, .firstRangeMetres = 1000.0, .rangeStepMetres = 10.0};
 }
 
 /// Three legs, the second of which is turned into over four pings.
 PingTarget turningTarget()
 {
-    PingTarget target;
-    target.rangeMetres = 2000.0;
-    target.bearingDegrees = 90.0;
-    target.appearPing = 3;
+    PingTarget target{.rangeMetres = 2000.0, .bearingDegrees = 90.0, .appearPing = 3};
     target.legs = {{.pings = 10, .rangeCellsPerPing = 2.0},
                    {.pings = 12, .rangeCellsPerPing = -1.0, .beamsPerPing = 0.1, .turnPings = 4},
                    {.pings = 8, .rangeCellsPerPing = 3.0}};
@@ -151,9 +142,7 @@ void tst_editTargets::theStartMovesTheWholeTarget()
 void tst_editTargets::aLegTakesTheShorterWayRound()
 {
     const PingScene scene = smallSea();
-    PingTarget target;
-    target.rangeMetres = 2000.0;
-    target.bearingDegrees = 10.0;
+    PingTarget target{.rangeMetres = 2000.0, .bearingDegrees = 10.0};
     const PingTarget after = withLegTo(scene, target, {2000.0, 340.0}, RateUnit::PerSecond);
     QCOMPARE(after.legs[0].bearingRateDegreesPerSecond, -0.15); // -30° in 20 pings of 10 s
 }
@@ -174,10 +163,7 @@ void tst_editTargets::placesAreClampedToTheMap()
 void tst_editTargets::legsAreAddedAtTheEnd()
 {
     const PingScene scene = smallSea();
-    PingTarget target;
-    target.rangeMetres = 2000.0;
-    target.bearingDegrees = 90.0;
-    target.appearPing = 20;
+    PingTarget target{.rangeMetres = 2000.0, .bearingDegrees = 90.0, .appearPing = 20};
     target = withLegTo(scene, target, {2100.0, 90.0}, RateUnit::PerPing);
     QCOMPARE(target.legs.size(), std::size_t(1));
     QCOMPARE(target.legs[0], (PingLeg{.pings = usualLegPings, .rangeCellsPerPing = 0.5}));
@@ -192,9 +178,7 @@ void tst_editTargets::legsAreAddedAtTheEnd()
 void tst_editTargets::legsWithoutAPingAreRefused()
 {
     const PingScene scene = smallSea();
-    PingTarget target;
-    target.rangeMetres = 2000.0;
-    target.appearPing = 49;
+    PingTarget target{.rangeMetres = 2000.0, .appearPing = 49};
     const auto why = [&] {
         try {
             withLegTo(scene, target, {2100.0, 0.0}, RateUnit::PerPing);

@@ -7,25 +7,19 @@ namespace faintline::test {
 /// White noise without lines.
 inline LineScene scene(double rateHz, double seconds, int seed)
 {
-    LineScene result;
-    result.sampleRateHz = rateHz;
-    result.durationSeconds = seconds;
-    result.seed = seed;
-    return result;
+    return {.sampleRateHz = rateHz, .durationSeconds = seconds, .seed = seed};
 }
 
 /// A line of constant power. `snrDb` is its SNR in a rectangular window of `referenceSeconds`.
 inline LineSettings line(double hz, double driftHzPerSecond, double from, double seconds, double snrDb,
                          double referenceSeconds)
 {
-    LineSettings result;
-    result.frequencyHz = hz;
-    result.driftHzPerSecond = driftHzPerSecond;
-    result.startSeconds = from;
-    result.durationSeconds = seconds;
-    result.snrDb = snrDb;
-    result.referenceSeconds = referenceSeconds;
-    return result;
+    return {.snrDb = snrDb,
+            .referenceSeconds = referenceSeconds,
+            .startSeconds = from,
+            .durationSeconds = seconds,
+            .frequencyHz = hz,
+            .driftHzPerSecond = driftHzPerSecond};
 }
 
 /// Sweeps of 4 kHz/s for 0.4 s, of which a window of 16 ms sees most. The automatic one is 0.1 s.

@@ -11,11 +11,7 @@ namespace faintline::test {
 /// An axis of one rate; `step` holds the probabilities of moving by 0, ±1, … cells, none where nothing moves.
 inline KinematicAxis axis(Index cells, std::vector<double> step = {}, bool isCyclic = false)
 {
-    KinematicAxis made;
-    made.cells = cells;
-    made.step = std::move(step);
-    made.cyclic = isCyclic;
-    return made;
+    return {.cells = cells, .cyclic = isCyclic, .step = std::move(step)};
 }
 
 /// A test designed for `snr` (a power ratio), in a world of `actualSnr` or of noise.

@@ -23,8 +23,8 @@ namespace faintline {
 /// in the rest of this recording (measuredThreshold), counted in blocks as long as a line and 12 resolution cells wide,
 /// with the statistic used in the trials.
 struct InjectionExperiment {
-    std::string recording; ///< path, as text (base/files/fileName.h)
-    bool iq = false;       ///< two channels as I and Q
+    std::string recording{}; ///< path, as text (base/files/fileName.h)
+    bool iq = false;         ///< two channels as I and Q
     int seed = 1;
     int trials = 200;
     std::vector<double> snrDb{-3.0, 0.0, 3.0}; ///< in a rectangular window of T_FT, over the noise at the line's place
@@ -33,9 +33,9 @@ struct InjectionExperiment {
     double wanderHz = 0.0;
     double wanderSeconds = 10.0;
     double falseAlarmsPerHour = 1.0;
-    double marginSeconds = 60.0;              ///< before and after a line, for `detect` as a whole
-    AnalysisSettings settings;                ///< selection, spectrogram and noise, the same for all detectors
-    std::vector<DetectorUnderTest> detectors; ///< their model and detector override these
+    double marginSeconds = 60.0;                ///< before and after a line, for `detect` as a whole
+    AnalysisSettings settings{};                ///< selection, spectrogram and noise, the same for all detectors
+    std::vector<DetectorUnderTest> detectors{}; ///< their model and detector override these
 
     static const std::vector<Field<InjectionExperiment>> &fields();
     bool operator==(const InjectionExperiment &) const = default;

@@ -46,7 +46,7 @@ struct LineExperiment {
     Fading fading = Fading::None;
     double fadingWindows = 20.0;
     Fluctuation fluctuation = Fluctuation::None; ///< Swerling 2 and 4: from window to window
-    std::vector<DetectorUnderTest> detectors;
+    std::vector<DetectorUnderTest> detectors{};
 
     static const std::vector<Field<LineExperiment>> &fields();
     bool operator==(const LineExperiment &) const = default;

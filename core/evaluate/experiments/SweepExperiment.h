@@ -21,8 +21,8 @@ namespace faintline {
 /// Runs cycle through the values: run = trial · values + value, so half of the runs give half of the trials of each
 /// value.
 struct SweepExperiment {
-    std::string recording; ///< path; empty: simulated white noise
-    bool iq = false;       ///< two channels as I and Q
+    std::string recording{}; ///< path; empty: simulated white noise
+    bool iq = false;         ///< two channels as I and Q
     int seed = 1;
     int trials = 40;    ///< per value
     double snrDb = 0.0; ///< in a rectangular window of T_FT or the automatic T0, over the noise at the line's place
@@ -32,9 +32,9 @@ struct SweepExperiment {
     double wanderSeconds = 10.0;
     double marginSeconds = 20.0;
     double sampleRateHz = 1000.0; ///< for simulated noise
-    AnalysisSettings settings;    ///< all settings except the parameter
-    std::string parameter;        ///< "model.snr", or "snrDb" or another number of the line
-    std::vector<double> values;
+    AnalysisSettings settings{};  ///< all settings except the parameter
+    std::string parameter{};      ///< "model.snr", or "snrDb" or another number of the line
+    std::vector<double> values{};
 
     static const std::vector<Field<SweepExperiment>> &fields();
     bool operator==(const SweepExperiment &) const = default;
