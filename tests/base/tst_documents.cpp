@@ -1,23 +1,5 @@
 #include "support/test.h"
 
-/// What the documents say of the source tree is so: links lead somewhere, files that are named exist, code that is
-/// shown is code that runs.
-class tst_documents : public QObject
-{
-    Q_OBJECT
-
-private slots:
-    void linksLeadSomewhere_data() { documents(); }
-    void linksLeadSomewhere();
-    void namedFilesExist_data() { documents(); }
-    void namedFilesExist();
-    void readmeShowsAnExampleThatRuns();
-    void examplesAreShort();
-
-private:
-    static void documents();
-};
-
 namespace {
 
 QString root()
@@ -42,54 +24,67 @@ QStringList found(const QString &text, const char *pattern)
 
 } // namespace
 
-void tst_documents::documents()
+/// What the documents say of the source tree is so: links lead somewhere, files that are named exist, code that is
+/// shown is code that runs.
+class tst_documents : public QObject
 {
-    QTest::addColumn<QString>("path");
-    for (const char *path :
-         {"README.md", "CONTRIBUTING.md", "CHANGELOG.md", "core/README.md", "docs/design.md", "docs/theory.md",
-          "docs/performance.md", "docs/reference/scenes.md", "docs/reference/grids.md", "docs/reference/experiments.md",
-          "docs/reference/lessons.md", "docs/reference/survey.md"})
-        QTest::newRow(path) << QString::fromLatin1(path);
-}
+    Q_OBJECT
 
-void tst_documents::linksLeadSomewhere()
-{
-    QFETCH(QString, path);
-    const QString text = contentOf(path);
-    QVERIFY(!text.isEmpty());
-    const QDir folder = QFileInfo(root() + path).dir();
-    for (const QString &link : found(text, R"(\]\(([^)#]+)\))"))
-        QVERIFY2(link.contains("://") || QFile::exists(folder.filePath(link)), qPrintable(link));
-}
+private slots:
+    void linksLeadSomewhere_data() { documents(); }
 
-void tst_documents::namedFilesExist()
-{
-    QFETCH(QString, path);
-    // A folder of the source tree and what is in it, with or without the extension, as `core/detect` or
-    // `tests/detect/tst_Sprt`.
-    for (const QString &name :
-         found(contentOf(path), R"(`((?:core|widgets|app|tests|docs|examples|resources)/[\w./-]+))")) {
-        const QFileInfo file(root() + name);
-        const bool isUnit = !file.dir().entryList({file.fileName() + ".*"}).isEmpty();
-        QVERIFY2(file.exists() || isUnit, qPrintable(name));
+    void linksLeadSomewhere()
+    {
+        QFETCH(QString, path);
+        const QString text = contentOf(path);
+        QVERIFY(!text.isEmpty());
+        const QDir folder = QFileInfo(root() + path).dir();
+        for (const QString &link : found(text, R"(\]\(([^)#]+)\))"))
+            QVERIFY2(link.contains("://") || QFile::exists(folder.filePath(link)), qPrintable(link));
     }
-}
 
-void tst_documents::readmeShowsAnExampleThatRuns()
-{
-    const QStringList shown = found(contentOf("README.md"), R"((?s)```cpp\n(.*?)```)");
-    QCOMPARE(shown.size(), 1);
-    QCOMPARE(shown.front(), contentOf("examples/01-samples.cpp"));
-}
+    void namedFilesExist_data() { documents(); }
 
-void tst_documents::examplesAreShort()
-{
-    constexpr int longest = 40;
-    const QStringList names = QDir(root() + "examples").entryList({"0[1-5]-*.cpp"}, QDir::Files);
-    QCOMPARE(names.size(), 5);
-    for (const QString &name : names)
-        QVERIFY2(contentOf("examples/" + name).count('\n') <= longest, qPrintable(name));
-}
+    void namedFilesExist()
+    {
+        QFETCH(QString, path);
+        // A folder of the source tree and what is in it, with or without the extension, as `core/detect` or
+        // `tests/detect/tst_Sprt`.
+        for (const QString &name :
+             found(contentOf(path), R"(`((?:core|widgets|app|tests|docs|examples|resources)/[\w./-]+))")) {
+            const QFileInfo file(root() + name);
+            const bool isUnit = !file.dir().entryList({file.fileName() + ".*"}).isEmpty();
+            QVERIFY2(file.exists() || isUnit, qPrintable(name));
+        }
+    }
+
+    void readmeShowsAnExampleThatRuns()
+    {
+        const QStringList shown = found(contentOf("README.md"), R"((?s)```cpp\n(.*?)```)");
+        QCOMPARE(shown.size(), 1);
+        QCOMPARE(shown.front(), contentOf("examples/01-samples.cpp"));
+    }
+
+    void examplesAreShort()
+    {
+        constexpr int longest = 40;
+        const QStringList names = QDir(root() + "examples").entryList({"0[1-5]-*.cpp"}, QDir::Files);
+        QCOMPARE(names.size(), 5);
+        for (const QString &name : names)
+            QVERIFY2(contentOf("examples/" + name).count('\n') <= longest, qPrintable(name));
+    }
+
+private:
+    static void documents()
+    {
+        QTest::addColumn<QString>("path");
+        for (const char *path :
+             {"README.md", "CONTRIBUTING.md", "CHANGELOG.md", "core/README.md", "docs/design.md", "docs/theory.md",
+              "docs/performance.md", "docs/reference/scenes.md", "docs/reference/grids.md",
+              "docs/reference/experiments.md", "docs/reference/lessons.md", "docs/reference/survey.md"})
+            QTest::newRow(path) << QString::fromLatin1(path);
+    }
+};
 
 FAINTLINE_TEST(tst_documents)
 #include "tst_documents.moc"

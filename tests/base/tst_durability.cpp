@@ -65,12 +65,86 @@ private slots:
         failing = -1;
     }
 
-    void syncedBeforeAndAfterTheName();
-    void whatMayBeLostIsNotSynced();
-    void aDiskThatFails();
-    void togetherOrNotAtAll();
-    void abandonedFilesGo();
-    void longNames();
+    void syncedBeforeAndAfterTheName()
+    {
+        writeTextFile(path("a"), "text");
+        QCOMPARE(calls, (std::vector<std::string>{"sync temporary", "rename to a", "sync folder"}));
+    }
+
+    void whatMayBeLostIsNotSynced()
+    {
+        writeTextFile(path("a"), "text", Durability::Program);
+        QCOMPARE(calls, std::vector<std::string>{"rename to a"});
+    }
+
+    void aDiskThatFails()
+    {
+        writeTextFile(path("a"), "before");
+        failing = 0;
+        QVERIFY_THROWS_EXCEPTION(Error, writeTextFile(path("a"), "after"));
+        QCOMPARE(files(), QStringList{"a"});
+        QCOMPARE(std::filesystem::file_size(path("a")), 6u);
+    }
+
+    void togetherOrNotAtAll()
+    {
+        {
+            CommitTogether files;
+            AtomicFile large(path("large"));
+            writeTextFile(path("told"), "first");
+            large.write("text");
+            large.commit();
+            QVERIFY(!std::filesystem::exists(path("told")) && !std::filesystem::exists(path("large")));
+            QCOMPARE(large.path(), path("large"));
+            files.commit();
+        }
+        QCOMPARE(calls, (std::vector<std::string>{"sync temporary", "sync temporary", "rename to told", "sync folder",
+                                                  "rename to large", "sync folder"}));
+        QCOMPARE(files(), (QStringList{"large", "told"}));
+
+        calls.clear();
+        {
+            CommitTogether files;
+            writeTextFile(path("told"), "second");
+            failing = 0;
+            QVERIFY_THROWS_EXCEPTION(Error, writeTextFile(path("large"), "text"));
+        }
+        QCOMPARE(std::filesystem::file_size(path("told")), 5u); // as before
+        QCOMPARE(files(), (QStringList{"large", "told"}));
+        writeTextFile(path("alone"), "again by itself");
+        QVERIFY(std::filesystem::exists(path("alone")));
+    }
+
+    void abandonedFilesGo()
+    {
+        // As a killed program leaves them; none of the others is one of this file's.
+        for (const char *name :
+             {"a.4711-0.part", "a.4711-12.part", "a.part", "a.x-0.part", "ab.4711-0.part", "a.4711-0.part.old"})
+            QVERIFY(QFile(m_folder->filePath("folder/") + name).open(QIODevice::WriteOnly));
+        AtomicFile held(path("a")); // a file that is being written stays
+        writeTextFile(path("a"), "text");
+        QStringList expected{
+            "a",
+            QString::fromStdString(std::filesystem::path("a." + std::to_string(getpid()) + "-0.part").string()),
+            "a.4711-0.part.old",
+            "a.part",
+            "a.x-0.part",
+            "ab.4711-0.part"};
+        QStringList found = files();
+        expected.sort(); // a process may have any number
+        found.sort();
+        QCOMPARE(found, expected);
+        held.write("later");
+        held.commit();
+        QCOMPARE(std::filesystem::file_size(path("a")), 5u);
+    }
+
+    void longNames()
+    {
+        const std::string name(250, 'n'); // a folder takes 255 letters
+        writeTextFile(path(name), "text");
+        QCOMPARE(files(), QStringList{QString::fromStdString(name)});
+    }
 
 private:
     std::string path(const std::string &name) const { return m_folder->path().toStdString() + "/folder/" + name; }
@@ -81,87 +155,6 @@ private:
 
     std::unique_ptr<QTemporaryDir> m_folder;
 };
-
-void tst_durability::syncedBeforeAndAfterTheName()
-{
-    writeTextFile(path("a"), "text");
-    QCOMPARE(calls, (std::vector<std::string>{"sync temporary", "rename to a", "sync folder"}));
-}
-
-void tst_durability::whatMayBeLostIsNotSynced()
-{
-    writeTextFile(path("a"), "text", Durability::Program);
-    QCOMPARE(calls, std::vector<std::string>{"rename to a"});
-}
-
-void tst_durability::aDiskThatFails()
-{
-    writeTextFile(path("a"), "before");
-    failing = 0;
-    QVERIFY_THROWS_EXCEPTION(Error, writeTextFile(path("a"), "after"));
-    QCOMPARE(files(), QStringList{"a"});
-    QCOMPARE(std::filesystem::file_size(path("a")), 6u);
-}
-
-void tst_durability::togetherOrNotAtAll()
-{
-    {
-        CommitTogether files;
-        AtomicFile large(path("large"));
-        writeTextFile(path("told"), "first");
-        large.write("text");
-        large.commit();
-        QVERIFY(!std::filesystem::exists(path("told")) && !std::filesystem::exists(path("large")));
-        QCOMPARE(large.path(), path("large"));
-        files.commit();
-    }
-    QCOMPARE(calls, (std::vector<std::string>{"sync temporary", "sync temporary", "rename to told", "sync folder",
-                                              "rename to large", "sync folder"}));
-    QCOMPARE(files(), (QStringList{"large", "told"}));
-
-    calls.clear();
-    {
-        CommitTogether files;
-        writeTextFile(path("told"), "second");
-        failing = 0;
-        QVERIFY_THROWS_EXCEPTION(Error, writeTextFile(path("large"), "text"));
-    }
-    QCOMPARE(std::filesystem::file_size(path("told")), 5u); // as before
-    QCOMPARE(files(), (QStringList{"large", "told"}));
-    writeTextFile(path("alone"), "again by itself");
-    QVERIFY(std::filesystem::exists(path("alone")));
-}
-
-void tst_durability::abandonedFilesGo()
-{
-    // As a killed program leaves them; none of the others is one of this file's.
-    for (const char *name :
-         {"a.4711-0.part", "a.4711-12.part", "a.part", "a.x-0.part", "ab.4711-0.part", "a.4711-0.part.old"})
-        QVERIFY(QFile(m_folder->filePath("folder/") + name).open(QIODevice::WriteOnly));
-    AtomicFile held(path("a")); // a file that is being written stays
-    writeTextFile(path("a"), "text");
-    QStringList expected{
-        "a",
-        QString::fromStdString(std::filesystem::path("a." + std::to_string(getpid()) + "-0.part").string()),
-        "a.4711-0.part.old",
-        "a.part",
-        "a.x-0.part",
-        "ab.4711-0.part"};
-    QStringList found = files();
-    expected.sort(); // a process may have any number
-    found.sort();
-    QCOMPARE(found, expected);
-    held.write("later");
-    held.commit();
-    QCOMPARE(std::filesystem::file_size(path("a")), 5u);
-}
-
-void tst_durability::longNames()
-{
-    const std::string name(250, 'n'); // a folder takes 255 letters
-    writeTextFile(path(name), "text");
-    QCOMPARE(files(), QStringList{QString::fromStdString(name)});
-}
 
 FAINTLINE_TEST(tst_durability)
 #include "tst_durability.moc"

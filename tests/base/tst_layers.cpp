@@ -1,33 +1,5 @@
 #include "support/test.h"
 
-/// Who may include whom: a folder includes itself and the folders to its left. The core includes nothing else of the
-/// project, the widgets the core as well, the app both. No two units (a header with its source) include each other, at
-/// no distance. The core has few arrows, that is pairs of rooms of which one includes the other.
-class tst_layers : public QObject
-{
-    Q_OBJECT
-
-private slots:
-    void initTestCase();
-    void foldersAreKnown();
-    void core_data();
-    void core();
-    void widgetsAndApp_data();
-    void widgetsAndApp();
-    void commandLineIncludesTheCoreOnly();
-    void noUnitsInACircle();
-    void circlesAreFound();
-    void arrowsStayWithinTheLimit();
-    void arrowsAreFound();
-    void besideTheCore_data();
-    void besideTheCore();
-    void wrongIncludesAreFound_data();
-    void wrongIncludesAreFound();
-
-private:
-    QStringList filesIn(const QString &folder) const;
-};
-
 namespace {
 
 const QStringList order{"base", "signal", "frames",    "noise",   "scene",   "model",    "recursion", "detect", "track",
@@ -166,186 +138,196 @@ Units arrowsOf(const QMap<QString, QString> &texts)
 
 } // namespace
 
-QStringList tst_layers::filesIn(const QString &folder) const
+/// Who may include whom: a folder includes itself and the folders to its left. The core includes nothing else of the
+/// project, the widgets the core as well, the app both. No two units (a header with its source) include each other, at
+/// no distance. The core has few arrows, that is pairs of rooms of which one includes the other.
+class tst_layers : public QObject
 {
-    QStringList files;
-    for (QDirIterator i(root() + folder, {"*.h", "*.cpp"}, QDir::Files, QDirIterator::Subdirectories); i.hasNext();)
-        files.append(QDir(root() + folder).relativeFilePath(i.next()));
-    files.sort();
-    return files;
-}
+    Q_OBJECT
 
-void tst_layers::initTestCase()
-{
-    QVERIFY2(QFile::exists(root() + "core/base/Axis.h"), "the source tree is not where it was built");
-}
-
-void tst_layers::foldersAreKnown()
-{
-    for (const auto &[part, folders] : {std::pair("widgets", widgetOrder), std::pair("app", appOrder)})
-        for (const QString &folder : QDir(root() + part).entryList(QDir::Dirs | QDir::NoDotAndDotDot))
-            QVERIFY2(folders.contains(folder), qPrintable(folder));
-    for (const QString &folder : QDir(root() + "core").entryList(QDir::Dirs | QDir::NoDotAndDotDot))
-        QVERIFY2(order.contains(folder), qPrintable(folder));
-    QVERIFY(filesIn("core").size() > 40);
-}
-
-void tst_layers::core_data()
-{
-    QTest::addColumn<QString>("path");
-    for (const QString &path : filesIn("core"))
-        QTest::newRow(qPrintable(path)) << path;
-}
-
-void tst_layers::core()
-{
-    QFETCH(QString, path);
-    const QString wrong = wrongInCore(path, contentOf("core/" + path));
-    QVERIFY2(wrong.isEmpty(), qPrintable(wrong));
-}
-
-void tst_layers::widgetsAndApp_data()
-{
-    QTest::addColumn<QString>("path");
-    for (const QString part : {"widgets", "app"})
-        for (const QString &path : filesIn(part))
-            QTest::newRow(qPrintable(part + "/" + path)) << part + "/" + path;
-}
-
-void tst_layers::widgetsAndApp()
-{
-    QFETCH(QString, path);
-    const QString wrong = wrongAbove(path, contentOf(path));
-    QVERIFY2(wrong.isEmpty(), qPrintable(wrong));
-}
-
-void tst_layers::commandLineIncludesTheCoreOnly()
-{
-    int seen = 0;
-    for (const QString &path : filesIn("app")) {
-        if (!path.startsWith("cli/"))
-            continue;
-        ++seen;
-        for (const Include &include : includesOf(contentOf("app/" + path))) {
-            const bool isKnown = !include.isQuoted || include.name.startsWith("app/cli/")
-                                 || include.name.startsWith("reproduce/")
-                                 || order.contains(include.name.section('/', 0, 0));
-            QVERIFY2(isKnown && !isQt(include.name), qPrintable(path + " includes " + include.name));
-        }
+private slots:
+    void initTestCase()
+    {
+        QVERIFY2(QFile::exists(root() + "core/base/Axis.h"), "the source tree is not where it was built");
     }
-    QVERIFY(seen > 1);
-}
 
-void tst_layers::noUnitsInACircle()
-{
-    Units units;
-    for (const QString part : {"core", "reproduce", "widgets", "app"})
-        for (const QString &path : filesIn(part)) {
-            const QString unit = unitOf(part + "/" + path);
-            for (const Include &include : includesOf(contentOf(part + "/" + path))) {
-                const QString other =
-                    QFile::exists(root() + "core/" + include.name) ? "core/" + include.name : include.name;
-                if (include.isQuoted && unitOf(other) != unit)
-                    units[unit].insert(unitOf(other));
+    void foldersAreKnown()
+    {
+        for (const auto &[part, folders] : {std::pair("widgets", widgetOrder), std::pair("app", appOrder)})
+            for (const QString &folder : QDir(root() + part).entryList(QDir::Dirs | QDir::NoDotAndDotDot))
+                QVERIFY2(folders.contains(folder), qPrintable(folder));
+        for (const QString &folder : QDir(root() + "core").entryList(QDir::Dirs | QDir::NoDotAndDotDot))
+            QVERIFY2(order.contains(folder), qPrintable(folder));
+        QVERIFY(filesIn("core").size() > 40);
+    }
+
+    void core_data()
+    {
+        QTest::addColumn<QString>("path");
+        for (const QString &path : filesIn("core"))
+            QTest::newRow(qPrintable(path)) << path;
+    }
+
+    void core()
+    {
+        QFETCH(QString, path);
+        const QString wrong = wrongInCore(path, contentOf("core/" + path));
+        QVERIFY2(wrong.isEmpty(), qPrintable(wrong));
+    }
+
+    void widgetsAndApp_data()
+    {
+        QTest::addColumn<QString>("path");
+        for (const QString part : {"widgets", "app"})
+            for (const QString &path : filesIn(part))
+                QTest::newRow(qPrintable(part + "/" + path)) << part + "/" + path;
+    }
+
+    void widgetsAndApp()
+    {
+        QFETCH(QString, path);
+        const QString wrong = wrongAbove(path, contentOf(path));
+        QVERIFY2(wrong.isEmpty(), qPrintable(wrong));
+    }
+
+    void commandLineIncludesTheCoreOnly()
+    {
+        int seen = 0;
+        for (const QString &path : filesIn("app")) {
+            if (!path.startsWith("cli/"))
+                continue;
+            ++seen;
+            for (const Include &include : includesOf(contentOf("app/" + path))) {
+                const bool isKnown = !include.isQuoted || include.name.startsWith("app/cli/")
+                                     || include.name.startsWith("reproduce/")
+                                     || order.contains(include.name.section('/', 0, 0));
+                QVERIFY2(isKnown && !isQt(include.name), qPrintable(path + " includes " + include.name));
             }
         }
-    QVERIFY(units.size() > 300);
-    QCOMPARE(circleIn(units).join(" -> "), QString());
-}
-
-void tst_layers::circlesAreFound()
-{
-    QCOMPARE(circleIn({{"a", {"b", "c"}}, {"b", {"c"}}, {"c", {"d"}}}), QStringList());
-    QCOMPARE(circleIn({{"a", {"b"}}, {"b", {"c"}}, {"c", {"d", "b"}}}).join(" "), QString("b c b"));
-}
-
-void tst_layers::arrowsStayWithinTheLimit()
-{
-    QMap<QString, QString> texts;
-    for (const QString &path : filesIn("core"))
-        texts[path] = contentOf("core/" + path);
-    const Units arrows = arrowsOf(texts);
-    qsizetype count = 0;
-    for (const QString &room : order) {
-        QStringList others = arrows[room].values();
-        std::sort(others.begin(), others.end(),
-                  [](const QString &a, const QString &b) { return order.indexOf(a) < order.indexOf(b); });
-        qInfo().noquote() << room << "->" << others.join(' ');
-        count += others.size();
+        QVERIFY(seen > 1);
     }
-    QVERIFY2(count <= mostArrows, qPrintable(QString("%1 arrows").arg(count)));
-}
 
-void tst_layers::arrowsAreFound()
-{
-    const Units arrows =
-        arrowsOf({{"track/A.h", "#include \"detect/Smd.h\"\n#include \"track/B.h\"\n#include <vector>"},
-                  {"track/B.h", "#include \"detect/Detector.h\"\n#include \"base/Axis.h\""}});
-    QCOMPARE(arrows, (Units{{"track", {"detect", "base"}}}));
-}
+    void noUnitsInACircle()
+    {
+        Units units;
+        for (const QString part : {"core", "reproduce", "widgets", "app"})
+            for (const QString &path : filesIn(part)) {
+                const QString unit = unitOf(part + "/" + path);
+                for (const Include &include : includesOf(contentOf(part + "/" + path))) {
+                    const QString other =
+                        QFile::exists(root() + "core/" + include.name) ? "core/" + include.name : include.name;
+                    if (include.isQuoted && unitOf(other) != unit)
+                        units[unit].insert(unitOf(other));
+                }
+            }
+        QVERIFY(units.size() > 300);
+        QCOMPARE(circleIn(units).join(" -> "), QString());
+    }
 
-void tst_layers::besideTheCore_data()
-{
-    QTest::addColumn<QString>("folder");
-    QTest::addColumn<QString>("own");
-    QTest::newRow("python") << "python"
-                            << "bindings/";
-    QTest::newRow("reproduce") << "reproduce"
-                               << "reproduce/";
-}
+    void circlesAreFound()
+    {
+        QCOMPARE(circleIn({{"a", {"b", "c"}}, {"b", {"c"}}, {"c", {"d"}}}), QStringList());
+        QCOMPARE(circleIn({{"a", {"b"}}, {"b", {"c"}}, {"c", {"d", "b"}}}).join(" "), QString("b c b"));
+    }
 
-void tst_layers::besideTheCore()
-{
-    QFETCH(QString, folder);
-    QFETCH(QString, own);
-    int seen = 0;
-    for (const QString &path : filesIn(folder)) {
-        ++seen;
-        for (const Include &include : includesOf(contentOf(folder + "/" + path))) {
-            const bool isKnown =
-                !include.isQuoted || include.name.startsWith(own) || order.contains(include.name.section('/', 0, 0));
-            QVERIFY2(isKnown && !isQt(include.name), qPrintable(path + " includes " + include.name));
+    void arrowsStayWithinTheLimit()
+    {
+        QMap<QString, QString> texts;
+        for (const QString &path : filesIn("core"))
+            texts[path] = contentOf("core/" + path);
+        const Units arrows = arrowsOf(texts);
+        qsizetype count = 0;
+        for (const QString &room : order) {
+            QStringList others = arrows[room].values();
+            std::sort(others.begin(), others.end(),
+                      [](const QString &a, const QString &b) { return order.indexOf(a) < order.indexOf(b); });
+            qInfo().noquote() << room << "->" << others.join(' ');
+            count += others.size();
         }
+        QVERIFY2(count <= mostArrows, qPrintable(QString("%1 arrows").arg(count)));
     }
-    QVERIFY(seen > 1);
-}
 
-void tst_layers::wrongIncludesAreFound_data()
-{
-    QTest::addColumn<QString>("path");
-    QTest::addColumn<QString>("text");
-    QTest::addColumn<bool>("isWrong");
-    QTest::newRow("itself") << "model/X.h"
-                            << "#include \"model/StateSpace.h\"" << false;
-    QTest::newRow("leftward") << "model/X.h"
-                              << "#include \"base/Axis.h\"\n#include <vector>" << false;
-    QTest::newRow("rightward") << "model/X.h"
-                               << "#include <vector>\n#include \"detect/Smd.h\"" << true;
-    QTest::newRow("indented") << "model/X.h"
-                              << "  #  include \"detect/Smd.h\"" << true;
-    QTest::newRow("neighbour without its folder") << "model/X.h"
-                                                  << "#include \"StateSpace.h\"" << true;
-    QTest::newRow("gone") << "model/X.h"
-                          << "#include \"model/Gone.h\"" << true;
-    QTest::newRow("another part") << "model/X.h"
-                                  << "#include \"widgets/base/Viewport.h\"" << true;
-    QTest::newRow("Qt class") << "model/X.h"
-                              << "#include <QString>" << true;
-    QTest::newRow("Qt module") << "model/X.h"
-                               << "#include <QtCore/QString>" << true;
-    QTest::newRow("FFTW") << "frames/Spectrogram.cpp"
-                          << "#include <fftw3.h>" << true;
-    QTest::newRow("FFTW in its place") << "signal/Fft.cpp"
-                                       << "#include <fftw3.h>" << false;
-}
+    void arrowsAreFound()
+    {
+        const Units arrows =
+            arrowsOf({{"track/A.h", "#include \"detect/Smd.h\"\n#include \"track/B.h\"\n#include <vector>"},
+                      {"track/B.h", "#include \"detect/Detector.h\"\n#include \"base/Axis.h\""}});
+        QCOMPARE(arrows, (Units{{"track", {"detect", "base"}}}));
+    }
 
-void tst_layers::wrongIncludesAreFound()
-{
-    QFETCH(QString, path);
-    QFETCH(QString, text);
-    QFETCH(bool, isWrong);
-    QCOMPARE(!wrongInCore(path, text).isEmpty(), isWrong);
-}
+    void besideTheCore_data()
+    {
+        QTest::addColumn<QString>("folder");
+        QTest::addColumn<QString>("own");
+        QTest::newRow("python") << "python"
+                                << "bindings/";
+        QTest::newRow("reproduce") << "reproduce"
+                                   << "reproduce/";
+    }
+
+    void besideTheCore()
+    {
+        QFETCH(QString, folder);
+        QFETCH(QString, own);
+        int seen = 0;
+        for (const QString &path : filesIn(folder)) {
+            ++seen;
+            for (const Include &include : includesOf(contentOf(folder + "/" + path))) {
+                const bool isKnown = !include.isQuoted || include.name.startsWith(own)
+                                     || order.contains(include.name.section('/', 0, 0));
+                QVERIFY2(isKnown && !isQt(include.name), qPrintable(path + " includes " + include.name));
+            }
+        }
+        QVERIFY(seen > 1);
+    }
+
+    void wrongIncludesAreFound_data()
+    {
+        QTest::addColumn<QString>("path");
+        QTest::addColumn<QString>("text");
+        QTest::addColumn<bool>("isWrong");
+        QTest::newRow("itself") << "model/X.h"
+                                << "#include \"model/StateSpace.h\"" << false;
+        QTest::newRow("leftward") << "model/X.h"
+                                  << "#include \"base/Axis.h\"\n#include <vector>" << false;
+        QTest::newRow("rightward") << "model/X.h"
+                                   << "#include <vector>\n#include \"detect/Smd.h\"" << true;
+        QTest::newRow("indented") << "model/X.h"
+                                  << "  #  include \"detect/Smd.h\"" << true;
+        QTest::newRow("neighbour without its folder") << "model/X.h"
+                                                      << "#include \"StateSpace.h\"" << true;
+        QTest::newRow("gone") << "model/X.h"
+                              << "#include \"model/Gone.h\"" << true;
+        QTest::newRow("another part") << "model/X.h"
+                                      << "#include \"widgets/base/Viewport.h\"" << true;
+        QTest::newRow("Qt class") << "model/X.h"
+                                  << "#include <QString>" << true;
+        QTest::newRow("Qt module") << "model/X.h"
+                                   << "#include <QtCore/QString>" << true;
+        QTest::newRow("FFTW") << "frames/Spectrogram.cpp"
+                              << "#include <fftw3.h>" << true;
+        QTest::newRow("FFTW in its place") << "signal/Fft.cpp"
+                                           << "#include <fftw3.h>" << false;
+    }
+
+    void wrongIncludesAreFound()
+    {
+        QFETCH(QString, path);
+        QFETCH(QString, text);
+        QFETCH(bool, isWrong);
+        QCOMPARE(!wrongInCore(path, text).isEmpty(), isWrong);
+    }
+
+private:
+    QStringList filesIn(const QString &folder) const
+    {
+        QStringList files;
+        for (QDirIterator i(root() + folder, {"*.h", "*.cpp"}, QDir::Files, QDirIterator::Subdirectories); i.hasNext();)
+            files.append(QDir(root() + folder).relativeFilePath(i.next()));
+        files.sort();
+        return files;
+    }
+};
 
 FAINTLINE_TEST(tst_layers)
 #include "tst_layers.moc"
