@@ -8,18 +8,6 @@
 using namespace faintline;
 using namespace faintline::test;
 
-/// Samples in memory as a recording.
-class tst_ArrayRecording : public QObject
-{
-    Q_OBJECT
-
-private slots:
-    void channelsLieSideBySide();
-    void complexSamplesArePairs();
-    void outsideAndNotFiniteAreZero();
-    void refusals();
-};
-
 namespace {
 
 std::shared_ptr<const float> shared(std::vector<float> values)
@@ -30,43 +18,51 @@ std::shared_ptr<const float> shared(std::vector<float> values)
 
 } // namespace
 
-void tst_ArrayRecording::channelsLieSideBySide()
+/// Samples in memory as a recording.
+class tst_ArrayRecording : public QObject
 {
-    const ArrayRecording recording("x", shared({1, 10, 2, 20, 3, 30}),
-                                   {.sampleRateHz = 100.0, .sampleCount = 3, .channelCount = 2});
-    std::vector<float> out(2);
-    recording.read(1, 1, 2, out);
-    QCOMPARE(out, (std::vector<float>{20, 30}));
-    QCOMPARE(recording.info().durationSeconds(), 0.03);
-}
+    Q_OBJECT
 
-void tst_ArrayRecording::complexSamplesArePairs()
-{
-    const ArrayRecording recording(
-        "x", shared({1, -1, 2, -2, 3, -3, 4, -4}),
-        {.sampleRateHz = 100.0, .sampleCount = 2, .channelCount = 2, .isComplex = true, .centreHz = 1e6});
-    std::vector<float> out(4);
-    recording.read(1, 0, 2, out);
-    QCOMPARE(out, (std::vector<float>{2, -2, 4, -4}));
-    QCOMPARE(recording.info().centreHz, 1e6);
-}
+private slots:
+    void channelsLieSideBySide()
+    {
+        const ArrayRecording recording("x", shared({1, 10, 2, 20, 3, 30}),
+                                       {.sampleRateHz = 100.0, .sampleCount = 3, .channelCount = 2});
+        std::vector<float> out(2);
+        recording.read(1, 1, 2, out);
+        QCOMPARE(out, (std::vector<float>{20, 30}));
+        QCOMPARE(recording.info().durationSeconds(), 0.03);
+    }
 
-void tst_ArrayRecording::outsideAndNotFiniteAreZero()
-{
-    const ArrayRecording recording("x", shared({1, std::numeric_limits<float>::quiet_NaN(), 3}),
-                                   {.sampleRateHz = 1.0, .sampleCount = 3});
-    std::vector<float> out(5);
-    recording.read(0, -1, 5, out);
-    QCOMPARE(out, (std::vector<float>{0, 1, 0, 3, 0}));
-    QCOMPARE(recording.nonFiniteCount(), 1);
-}
+    void complexSamplesArePairs()
+    {
+        const ArrayRecording recording(
+            "x", shared({1, -1, 2, -2, 3, -3, 4, -4}),
+            {.sampleRateHz = 100.0, .sampleCount = 2, .channelCount = 2, .isComplex = true, .centreHz = 1e6});
+        std::vector<float> out(4);
+        recording.read(1, 0, 2, out);
+        QCOMPARE(out, (std::vector<float>{2, -2, 4, -4}));
+        QCOMPARE(recording.info().centreHz, 1e6);
+    }
 
-void tst_ArrayRecording::refusals()
-{
-    QVERIFY(contains(errorOf([] { ArrayRecording("x", shared({1}), {.sampleRateHz = 0.0, .sampleCount = 1}); }),
-                     "x: rate = 0: must be"));
-    QVERIFY(contains(errorOf([] { ArrayRecording("x", shared({}), {.sampleRateHz = 1.0}); }), "x: holds no samples"));
-}
+    void outsideAndNotFiniteAreZero()
+    {
+        const ArrayRecording recording("x", shared({1, std::numeric_limits<float>::quiet_NaN(), 3}),
+                                       {.sampleRateHz = 1.0, .sampleCount = 3});
+        std::vector<float> out(5);
+        recording.read(0, -1, 5, out);
+        QCOMPARE(out, (std::vector<float>{0, 1, 0, 3, 0}));
+        QCOMPARE(recording.nonFiniteCount(), 1);
+    }
+
+    void refusals()
+    {
+        QVERIFY(contains(errorOf([] { ArrayRecording("x", shared({1}), {.sampleRateHz = 0.0, .sampleCount = 1}); }),
+                         "x: rate = 0: must be"));
+        QVERIFY(
+            contains(errorOf([] { ArrayRecording("x", shared({}), {.sampleRateHz = 1.0}); }), "x: holds no samples"));
+    }
+};
 
 FAINTLINE_TEST(tst_ArrayRecording)
 #include "tst_ArrayRecording.moc"
