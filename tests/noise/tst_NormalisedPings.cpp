@@ -148,238 +148,227 @@ class tst_NormalisedPings : public QObject
     Q_OBJECT
 
 private slots:
-    void noiseIsExponentialOfMeanOne_data();
-    void noiseIsExponentialOfMeanOne();
-    void echoesAreKept_data();
-    void echoesAreKept();
-    void fewPings();
-    void levelsOfPings();
-    void slowChanges();
-    void unobservedCells();
-    void pastAlone();
-    void piecesAreTheWhole();
-    void guesses_data();
-    void guesses();
-    void refusals();
-};
-
-void tst_NormalisedPings::noiseIsExponentialOfMeanOne_data()
-{
-    QTest::addColumn<int>("as");
-    QTest::addColumn<double>("slopeDb");
-    QTest::addColumn<double>("gainDb");
-    QTest::newRow("level") << int(Stored::Power) << 0.0 << 0.0;
-    QTest::newRow("reverberation") << int(Stored::Power) << 60.0 << 10.0;
-    QTest::newRow("int16 magnitude") << int(Stored::Int16Magnitude) << 60.0 << 10.0;
-    QTest::newRow("int16 I/Q") << int(Stored::Int16Iq) << 60.0 << 10.0;
-    QTest::newRow("decibels") << int(Stored::Decibels) << 60.0 << 10.0;
-    QTest::newRow("uint8 decibels") << int(Stored::Uint8Decibels) << 60.0 << 10.0;
-}
-
-void tst_NormalisedPings::noiseIsExponentialOfMeanOne()
-{
-    QFETCH(int, as);
-    QFETCH(double, slopeDb);
-    QFETCH(double, gainDb);
-    const auto kind = static_cast<Stored>(as);
-    const std::vector<float> y = normalised(stored(kind, noiseIq(slopeDb, gainDb)), kindOf(kind));
-    const double mean = meanOf(y, [](Index) { return true; });
-    QVERIFY2(std::abs(mean - 1.0) < 0.01, qPrintable(QString::number(mean)));
-    for (Index beam = 0; beam < beams; ++beam) {
-        const double own = meanOf(y, [&](Index cell) { return cell % beams == beam; });
-        QVERIFY2(std::abs(own - 1.0) < 0.03, qPrintable(QString("beam %1: %2").arg(beam).arg(own)));
+    void noiseIsExponentialOfMeanOne_data()
+    {
+        QTest::addColumn<int>("as");
+        QTest::addColumn<double>("slopeDb");
+        QTest::addColumn<double>("gainDb");
+        QTest::newRow("level") << int(Stored::Power) << 0.0 << 0.0;
+        QTest::newRow("reverberation") << int(Stored::Power) << 60.0 << 10.0;
+        QTest::newRow("int16 magnitude") << int(Stored::Int16Magnitude) << 60.0 << 10.0;
+        QTest::newRow("int16 I/Q") << int(Stored::Int16Iq) << 60.0 << 10.0;
+        QTest::newRow("decibels") << int(Stored::Decibels) << 60.0 << 10.0;
+        QTest::newRow("uint8 decibels") << int(Stored::Uint8Decibels) << 60.0 << 10.0;
     }
-    for (Index part = 0; part < 40; ++part) { // ten range cells in all beams
-        const double own = meanOf(y, [&](Index cell) { return cell / beams / 10 == part; });
-        QVERIFY2(std::abs(own - 1.0) < 0.05, qPrintable(QString("ranges %1: %2").arg(part * 10).arg(own)));
+
+    void noiseIsExponentialOfMeanOne()
+    {
+        QFETCH(int, as);
+        QFETCH(double, slopeDb);
+        QFETCH(double, gainDb);
+        const auto kind = static_cast<Stored>(as);
+        const std::vector<float> y = normalised(stored(kind, noiseIq(slopeDb, gainDb)), kindOf(kind));
+        const double mean = meanOf(y, [](Index) { return true; });
+        QVERIFY2(std::abs(mean - 1.0) < 0.01, qPrintable(QString::number(mean)));
+        for (Index beam = 0; beam < beams; ++beam) {
+            const double own = meanOf(y, [&](Index cell) { return cell % beams == beam; });
+            QVERIFY2(std::abs(own - 1.0) < 0.03, qPrintable(QString("beam %1: %2").arg(beam).arg(own)));
+        }
+        for (Index part = 0; part < 40; ++part) { // ten range cells in all beams
+            const double own = meanOf(y, [&](Index cell) { return cell / beams / 10 == part; });
+            QVERIFY2(std::abs(own - 1.0) < 0.05, qPrintable(QString("ranges %1: %2").arg(part * 10).arg(own)));
+        }
+        // P(y > t) = e^-t, within 5 % and four deviations, and 15 % in the far tail.
+        for (const double t : {0.1, 1.0, 3.0, 6.0, 9.0}) {
+            const auto above =
+                double(std::count_if(y.begin(), y.end(), [&](float value) { return double(value) > t; }));
+            const double expected = double(y.size()) * std::exp(-t);
+            const double allowed = (t < 7.0 ? 0.05 : 0.15) * expected + 4.0 * std::sqrt(expected);
+            QVERIFY2(std::abs(above - expected) < allowed,
+                     qPrintable(QString("above %1: %2, expected %3").arg(t).arg(above).arg(expected)));
+        }
     }
-    // P(y > t) = e^-t, within 5 % and four deviations, and 15 % in the far tail.
-    for (const double t : {0.1, 1.0, 3.0, 6.0, 9.0}) {
-        const auto above = double(std::count_if(y.begin(), y.end(), [&](float value) { return double(value) > t; }));
-        const double expected = double(y.size()) * std::exp(-t);
-        const double allowed = (t < 7.0 ? 0.05 : 0.15) * expected + 4.0 * std::sqrt(expected);
-        QVERIFY2(std::abs(above - expected) < allowed,
-                 qPrintable(QString("above %1: %2, expected %3").arg(t).arg(above).arg(expected)));
+
+    void echoesAreKept_data()
+    {
+        QTest::addColumn<int>("cellsPerPing");
+        QTest::addColumn<int>("extent");
+        QTest::newRow("a point that stays for all pings") << 0 << 1;
+        QTest::newRow("a point that moves") << 2 << 1;
+        QTest::newRow("three cells that stay") << 0 << 3;
     }
-}
 
-void tst_NormalisedPings::echoesAreKept_data()
-{
-    QTest::addColumn<int>("cellsPerPing");
-    QTest::addColumn<int>("extent");
-    QTest::newRow("a point that stays for all pings") << 0 << 1;
-    QTest::newRow("a point that moves") << 2 << 1;
-    QTest::newRow("three cells that stay") << 0 << 3;
-}
-
-/// An echo's mean, 12 dB over the noise of its own cell, is reduced by less than 0.1 dB.
-void tst_NormalisedPings::echoesAreKept()
-{
-    QFETCH(int, cellsPerPing);
-    QFETCH(int, extent);
-    const double snr = ratioFromDb(12.0);
-    std::vector<double> power = powersOf(noiseIq(60.0, 10.0));
-    constexpr Index echoes = 13; // each in another beam and range
-    const auto places = [&](Index ping) {
-        std::vector<std::size_t> result;
-        for (Index echo = 0; echo < echoes; ++echo)
-            for (Index i = 0; i < extent; ++i) {
-                const Index range = (10 + 30 * echo + ping * cellsPerPing + i) % ranges;
-                result.push_back(std::size_t(ping * cells + range * beams + echo));
-            }
-        return result;
-    };
-    for (Index ping = 0; ping < pings; ++ping)
-        for (const std::size_t at : places(ping))
-            power[at] += snr * meanPower(Index(at) % cells, 60.0, 10.0);
-    const std::vector<float> y =
-        normalised(std::make_shared<ArrayPings>(pings, sea(), std::move(power)), PingValues::Power);
-    double sum = 0.0;
-    for (Index ping = 0; ping < pings; ++ping)
-        for (const std::size_t at : places(ping))
-            sum += double(y[at]);
-    const double mean = sum / double(pings * extent * echoes) - 1.0;
-    const double lossDb = dbFromRatio(snr) - dbFromRatio(mean);
-    QVERIFY2(std::abs(lossDb) < 0.1, qPrintable(QString::number(lossDb)));
-}
-
-/// Six pings: 240 values for each cell's noise, whose error of 6 % lengthens the tail.
-void tst_NormalisedPings::fewPings()
-{
-    std::vector<double> power = powersOf(noiseIq(60.0, 10.0));
-    power.resize(std::size_t(6 * cells));
-    const std::vector<float> y =
-        normalised(std::make_shared<ArrayPings>(6, sea(), std::move(power)), PingValues::Power);
-    const double mean = meanOf(y, [](Index) { return true; });
-    QVERIFY2(std::abs(mean - 1.0) < 0.03, qPrintable(QString::number(mean)));
-}
-
-void tst_NormalisedPings::levelsOfPings()
-{
-    std::vector<double> power = powersOf(noiseIq(60.0, 10.0));
-    const auto factor = [](Index ping) { return ping % 3 == 1 ? 4.0 : ping == 50 ? 0.1 : 1.0; };
-    for (std::size_t i = 0; i < power.size(); ++i)
-        power[i] *= factor(Index(i) / cells);
-    const auto raw = std::make_shared<ArrayPings>(pings, sea(), std::move(power));
-    const auto meanOfPing = [](const std::vector<float> &y, Index ping) {
-        return std::accumulate(y.begin() + ping * cells, y.begin() + (ping + 1) * cells, 0.0) / double(cells);
-    };
-    const std::vector<float> followed = normalised(raw, PingValues::Power);
-    for (const Index ping : {0, 1, 31, 50, 95}) {
-        const double mean = meanOfPing(followed, ping);
-        QVERIFY2(std::abs(mean - 1.0) < 0.06, qPrintable(QString("ping %1: %2").arg(ping).arg(mean)));
-    }
-    PingNoiseSettings settings;
-    settings.followPing = false;
-    const std::vector<float> asTheyAre = normalised(raw, PingValues::Power, settings);
-    QVERIFY(meanOfPing(asTheyAre, 50) < 0.2);
-    QVERIFY(meanOfPing(asTheyAre, 31) > 1.5);
-}
-
-/// A gain of one beam that rises by 6 dB over the recording.
-void tst_NormalisedPings::slowChanges()
-{
-    std::vector<double> power = powersOf(noiseIq(60.0, 10.0));
-    for (std::size_t i = 0; i < power.size(); ++i)
-        if (Index(i) % beams == 3)
-            power[i] *= ratioFromDb(6.0 * double(Index(i) / cells) / double(pings));
-    PingNoiseSettings settings;
-    settings.blockPings = 16;
-    const std::vector<float> y =
-        normalised(std::make_shared<ArrayPings>(pings, sea(), std::move(power)), PingValues::Power, settings);
-    for (const Index first : {8, 40, 80}) {
+    /// An echo's mean, 12 dB over the noise of its own cell, is reduced by less than 0.1 dB.
+    void echoesAreKept()
+    {
+        QFETCH(int, cellsPerPing);
+        QFETCH(int, extent);
+        const double snr = ratioFromDb(12.0);
+        std::vector<double> power = powersOf(noiseIq(60.0, 10.0));
+        constexpr Index echoes = 13; // each in another beam and range
+        const auto places = [&](Index ping) {
+            std::vector<std::size_t> result;
+            for (Index echo = 0; echo < echoes; ++echo)
+                for (Index i = 0; i < extent; ++i) {
+                    const Index range = (10 + 30 * echo + ping * cellsPerPing + i) % ranges;
+                    result.push_back(std::size_t(ping * cells + range * beams + echo));
+                }
+            return result;
+        };
+        for (Index ping = 0; ping < pings; ++ping)
+            for (const std::size_t at : places(ping))
+                power[at] += snr * meanPower(Index(at) % cells, 60.0, 10.0);
+        const std::vector<float> y =
+            normalised(std::make_shared<ArrayPings>(pings, sea(), std::move(power)), PingValues::Power);
         double sum = 0.0;
-        for (Index ping = first; ping < first + 8; ++ping)
-            for (Index range = 0; range < ranges; ++range)
-                sum += double(y[std::size_t(ping * cells + range * beams + 3)]);
-        QVERIFY2(std::abs(sum / (8.0 * ranges) - 1.0) < 0.08, qPrintable(QString::number(sum / (8.0 * ranges))));
+        for (Index ping = 0; ping < pings; ++ping)
+            for (const std::size_t at : places(ping))
+                sum += double(y[at]);
+        const double mean = sum / double(pings * extent * echoes) - 1.0;
+        const double lossDb = dbFromRatio(snr) - dbFromRatio(mean);
+        QVERIFY2(std::abs(lossDb) < 0.1, qPrintable(QString::number(lossDb)));
     }
-}
 
-/// NaN, a beam without power and pings that are missing: not observed, and without influence on the rest.
-void tst_NormalisedPings::unobservedCells()
-{
-    std::vector<double> power = powersOf(noiseIq(60.0, 10.0));
-    for (std::size_t i = 0; i < power.size(); ++i) {
-        const Index ping = Index(i) / cells;
-        if (Index(i) % beams == 2)
-            power[i] = 0.0;
-        if (ping % 4 == 1 || (Index(i) % cells) / beams == 77)
-            power[i] = std::numeric_limits<double>::quiet_NaN();
+    /// Six pings: 240 values for each cell's noise, whose error of 6 % lengthens the tail.
+    void fewPings()
+    {
+        std::vector<double> power = powersOf(noiseIq(60.0, 10.0));
+        power.resize(std::size_t(6 * cells));
+        const std::vector<float> y =
+            normalised(std::make_shared<ArrayPings>(6, sea(), std::move(power)), PingValues::Power);
+        const double mean = meanOf(y, [](Index) { return true; });
+        QVERIFY2(std::abs(mean - 1.0) < 0.03, qPrintable(QString::number(mean)));
     }
-    const std::vector<float> y =
-        normalised(std::make_shared<ArrayPings>(pings, sea(), std::move(power)), PingValues::Power);
-    for (std::size_t i = 0; i < y.size(); ++i) {
-        const bool isMissing = Index(i) % beams == 2 || (Index(i) / cells) % 4 == 1 || (Index(i) % cells) / beams == 77;
-        QCOMPARE(std::isnan(y[i]), isMissing);
+
+    void levelsOfPings()
+    {
+        std::vector<double> power = powersOf(noiseIq(60.0, 10.0));
+        const auto factor = [](Index ping) { return ping % 3 == 1 ? 4.0 : ping == 50 ? 0.1 : 1.0; };
+        for (std::size_t i = 0; i < power.size(); ++i)
+            power[i] *= factor(Index(i) / cells);
+        const auto raw = std::make_shared<ArrayPings>(pings, sea(), std::move(power));
+        const auto meanOfPing = [](const std::vector<float> &y, Index ping) {
+            return std::accumulate(y.begin() + ping * cells, y.begin() + (ping + 1) * cells, 0.0) / double(cells);
+        };
+        const std::vector<float> followed = normalised(raw, PingValues::Power);
+        for (const Index ping : {0, 1, 31, 50, 95}) {
+            const double mean = meanOfPing(followed, ping);
+            QVERIFY2(std::abs(mean - 1.0) < 0.06, qPrintable(QString("ping %1: %2").arg(ping).arg(mean)));
+        }
+        PingNoiseSettings settings;
+        settings.followPing = false;
+        const std::vector<float> asTheyAre = normalised(raw, PingValues::Power, settings);
+        QVERIFY(meanOfPing(asTheyAre, 50) < 0.2);
+        QVERIFY(meanOfPing(asTheyAre, 31) > 1.5);
     }
-    const double mean = meanOf(y, [](Index) { return true; });
-    QVERIFY2(std::abs(mean - 1.0) < 0.01, qPrintable(QString::number(mean)));
-}
 
-void tst_NormalisedPings::pastAlone()
-{
-    PingNoiseSettings settings;
-    settings.pastOnly = true;
-    settings.blockPings = 24;
-    std::vector<double> power = powersOf(noiseIq(60.0, 10.0));
-    const std::vector<float> before =
-        normalised(std::make_shared<ArrayPings>(pings, sea(), power), PingValues::Power, settings);
-    for (std::size_t i = std::size_t(48 * cells); i < power.size(); ++i)
-        power[i] *= 1.0 + double(i % 5);
-    const std::vector<float> after =
-        normalised(std::make_shared<ArrayPings>(pings, sea(), std::move(power)), PingValues::Power, settings);
-    QVERIFY(std::equal(before.begin(), before.begin() + 48 * cells, after.begin()));
-    QVERIFY(!std::equal(before.begin() + 48 * cells, before.end(), after.begin() + 48 * cells));
-}
-
-void tst_NormalisedPings::piecesAreTheWhole()
-{
-    const auto raw = stored(Stored::Int16Iq, noiseIq(60.0, 10.0));
-    const NormalisedPings made(raw, PingValues::Power, false, {});
-    std::vector<float> whole(std::size_t(pings * cells));
-    made.read(0, pings, whole);
-    for (const Index first : {0, 17, 90}) {
-        std::vector<float> piece(std::size_t(6 * cells));
-        made.read(first, 6, piece);
-        QVERIFY(std::equal(piece.begin(), piece.end(), whole.begin() + first * cells));
+    /// A gain of one beam that rises by 6 dB over the recording.
+    void slowChanges()
+    {
+        std::vector<double> power = powersOf(noiseIq(60.0, 10.0));
+        for (std::size_t i = 0; i < power.size(); ++i)
+            if (Index(i) % beams == 3)
+                power[i] *= ratioFromDb(6.0 * double(Index(i) / cells) / double(pings));
+        PingNoiseSettings settings;
+        settings.blockPings = 16;
+        const std::vector<float> y =
+            normalised(std::make_shared<ArrayPings>(pings, sea(), std::move(power)), PingValues::Power, settings);
+        for (const Index first : {8, 40, 80}) {
+            double sum = 0.0;
+            for (Index ping = first; ping < first + 8; ++ping)
+                for (Index range = 0; range < ranges; ++range)
+                    sum += double(y[std::size_t(ping * cells + range * beams + 3)]);
+            QVERIFY2(std::abs(sum / (8.0 * ranges) - 1.0) < 0.08, qPrintable(QString::number(sum / (8.0 * ranges))));
+        }
     }
-}
 
-void tst_NormalisedPings::guesses_data()
-{
-    QTest::addColumn<int>("as");
-    QTest::addColumn<double>("slopeDb");
-    QTest::addColumn<int>("expected");
-    QTest::newRow("normalised") << int(Stored::Power) << 0.0 << int(PingValues::Normalised);
-    QTest::newRow("power") << int(Stored::Power) << 60.0 << int(PingValues::Power);
-    QTest::newRow("int16 magnitude") << int(Stored::Int16Magnitude) << 60.0 << int(PingValues::Magnitude);
-    QTest::newRow("decibels") << int(Stored::Decibels) << 60.0 << int(PingValues::Decibels);
-    QTest::newRow("uint8 decibels") << int(Stored::Uint8Decibels) << 60.0 << int(PingValues::Decibels);
-}
+    /// NaN, a beam without power and pings that are missing: not observed, and without influence on the rest.
+    void unobservedCells()
+    {
+        std::vector<double> power = powersOf(noiseIq(60.0, 10.0));
+        for (std::size_t i = 0; i < power.size(); ++i) {
+            const Index ping = Index(i) / cells;
+            if (Index(i) % beams == 2)
+                power[i] = 0.0;
+            if (ping % 4 == 1 || (Index(i) % cells) / beams == 77)
+                power[i] = std::numeric_limits<double>::quiet_NaN();
+        }
+        const std::vector<float> y =
+            normalised(std::make_shared<ArrayPings>(pings, sea(), std::move(power)), PingValues::Power);
+        for (std::size_t i = 0; i < y.size(); ++i) {
+            const bool isMissing =
+                Index(i) % beams == 2 || (Index(i) / cells) % 4 == 1 || (Index(i) % cells) / beams == 77;
+            QCOMPARE(std::isnan(y[i]), isMissing);
+        }
+        const double mean = meanOf(y, [](Index) { return true; });
+        QVERIFY2(std::abs(mean - 1.0) < 0.01, qPrintable(QString::number(mean)));
+    }
 
-void tst_NormalisedPings::guesses()
-{
-    QFETCH(int, as);
-    QFETCH(double, slopeDb);
-    QFETCH(int, expected);
-    std::vector<double> iq = noiseIq(slopeDb, slopeDb > 0.0 ? 10.0 : 0.0);
-    if (slopeDb == 0.0)
-        for (double &value : iq)
-            value /= std::numbers::sqrt2; // reverberation and sea noise together are 2
-    QCOMPARE(int(guessPingValues(*stored(static_cast<Stored>(as), iq))), expected);
-}
+    void pastAlone()
+    {
+        PingNoiseSettings settings;
+        settings.pastOnly = true;
+        settings.blockPings = 24;
+        std::vector<double> power = powersOf(noiseIq(60.0, 10.0));
+        const std::vector<float> before =
+            normalised(std::make_shared<ArrayPings>(pings, sea(), power), PingValues::Power, settings);
+        for (std::size_t i = std::size_t(48 * cells); i < power.size(); ++i)
+            power[i] *= 1.0 + double(i % 5);
+        const std::vector<float> after =
+            normalised(std::make_shared<ArrayPings>(pings, sea(), std::move(power)), PingValues::Power, settings);
+        QVERIFY(std::equal(before.begin(), before.begin() + 48 * cells, after.begin()));
+        QVERIFY(!std::equal(before.begin() + 48 * cells, before.end(), after.begin() + 48 * cells));
+    }
 
-void tst_NormalisedPings::refusals()
-{
-    const auto nothing = std::make_shared<ArrayPings>(4, sea(), std::vector<double>(std::size_t(4 * cells), 0.0));
-    QCOMPARE(errorOf([&] { NormalisedPings(nothing, PingValues::Power, false, {}); }),
-             std::string("memory: holds no power in most of its cells: their values are 0, negative or not finite"));
-    const Grid huge{{{"range", "m", 0.0, 1.0, 4096, false}, {"bearing", "°", 0.0, 1.0, 512, false}}};
-    const auto many = std::make_shared<ArrayPings>(1, huge, std::vector<double>(4096 * 512, 1.0));
-    QVERIFY(contains(errorOf([&] { NormalisedPings(many, PingValues::Power, false, {}); }),
-                     "has 2097152 cells in each ping; at most 1048576 can be normalised"));
-}
+    void piecesAreTheWhole()
+    {
+        const auto raw = stored(Stored::Int16Iq, noiseIq(60.0, 10.0));
+        const NormalisedPings made(raw, PingValues::Power, false, {});
+        std::vector<float> whole(std::size_t(pings * cells));
+        made.read(0, pings, whole);
+        for (const Index first : {0, 17, 90}) {
+            std::vector<float> piece(std::size_t(6 * cells));
+            made.read(first, 6, piece);
+            QVERIFY(std::equal(piece.begin(), piece.end(), whole.begin() + first * cells));
+        }
+    }
+
+    void guesses_data()
+    {
+        QTest::addColumn<int>("as");
+        QTest::addColumn<double>("slopeDb");
+        QTest::addColumn<int>("expected");
+        QTest::newRow("normalised") << int(Stored::Power) << 0.0 << int(PingValues::Normalised);
+        QTest::newRow("power") << int(Stored::Power) << 60.0 << int(PingValues::Power);
+        QTest::newRow("int16 magnitude") << int(Stored::Int16Magnitude) << 60.0 << int(PingValues::Magnitude);
+        QTest::newRow("decibels") << int(Stored::Decibels) << 60.0 << int(PingValues::Decibels);
+        QTest::newRow("uint8 decibels") << int(Stored::Uint8Decibels) << 60.0 << int(PingValues::Decibels);
+    }
+
+    void guesses()
+    {
+        QFETCH(int, as);
+        QFETCH(double, slopeDb);
+        QFETCH(int, expected);
+        std::vector<double> iq = noiseIq(slopeDb, slopeDb > 0.0 ? 10.0 : 0.0);
+        if (slopeDb == 0.0)
+            for (double &value : iq)
+                value /= std::numbers::sqrt2; // reverberation and sea noise together are 2
+        QCOMPARE(int(guessPingValues(*stored(static_cast<Stored>(as), iq))), expected);
+    }
+
+    void refusals()
+    {
+        const auto nothing = std::make_shared<ArrayPings>(4, sea(), std::vector<double>(std::size_t(4 * cells), 0.0));
+        QCOMPARE(
+            errorOf([&] { NormalisedPings(nothing, PingValues::Power, false, {}); }),
+            std::string("memory: holds no power in most of its cells: their values are 0, negative or not finite"));
+        const Grid huge{{{"range", "m", 0.0, 1.0, 4096, false}, {"bearing", "°", 0.0, 1.0, 512, false}}};
+        const auto many = std::make_shared<ArrayPings>(1, huge, std::vector<double>(4096 * 512, 1.0));
+        QVERIFY(contains(errorOf([&] { NormalisedPings(many, PingValues::Power, false, {}); }),
+                         "has 2097152 cells in each ping; at most 1048576 can be normalised"));
+    }
+};
 
 FAINTLINE_TEST(tst_NormalisedPings)
 #include "tst_NormalisedPings.moc"

@@ -33,89 +33,83 @@ class tst_SurrogateRecording : public QObject
     Q_OBJECT
 
 private slots:
-    void hasTheBackgroundOfTheRecording_data();
-    void hasTheBackgroundOfTheRecording();
-    void isSilentWhereTheRecordingIs();
-    void doesNotDependOnHowItIsRead();
-    void keepsTheQuantisationStep();
+    void hasTheBackgroundOfTheRecording_data()
+    {
+        QTest::addColumn<bool>("isComplex");
+        QTest::newRow("real") << false;
+        QTest::newRow("I/Q") << true;
+    }
+
+    void hasTheBackgroundOfTheRecording()
+    {
+        QFETCH(bool, isComplex);
+        SpectrogramSettings settings;
+        settings.windowSeconds = 2.0;
+        const auto original = std::make_shared<Spectrogram>(colouredNoise(isComplex), settings);
+        const auto background = estimateBackground(*original, {});
+        const auto surrogate =
+            std::make_shared<Spectrogram>(std::make_shared<SurrogateRecording>(*original, background, 1), settings);
+        const auto again = estimateBackground(*surrogate, {});
+        QCOMPARE(surrogate->time().count, original->time().count);
+        for (const double seconds : {20.0, 100.0, 150.0, 250.0, 350.0})
+            for (const double hz : {3.0, 12.0, 25.0, 40.0}) {
+                const double difference = again->lnPowerAt(seconds, hz) - background->lnPowerAt(seconds, hz);
+                QVERIFY2(std::abs(difference) < 0.25,
+                         qPrintable(QString("%1 at %2 s, %3 Hz").arg(difference).arg(seconds).arg(hz)));
+            }
+        // Another seed is other noise.
+        std::vector<float> a(200);
+        std::vector<float> b(200);
+        const Index samples = isComplex ? 100 : 200;
+        SurrogateRecording(*original, background, 1).read(0, 1000, samples, a);
+        SurrogateRecording(*original, background, 2).read(0, 1000, samples, b);
+        QVERIFY(a != b);
+    }
+
+    void isSilentWhereTheRecordingIs()
+    {
+        SpectrogramSettings settings;
+        settings.windowSeconds = 2.0;
+        const Spectrogram original(colouredNoise(false), settings);
+        const SurrogateRecording surrogate(original, estimateBackground(original, {}), 1);
+        std::vector<float> values(4000);
+        surrogate.read(0, 3000, 4000, values);
+        for (std::size_t i = 0; i < values.size(); ++i)
+            QCOMPARE(values[i] == 0.0f, i >= 1000 && i < 3000);
+    }
+
+    void doesNotDependOnHowItIsRead()
+    {
+        SpectrogramSettings settings;
+        settings.windowSeconds = 2.0;
+        const Spectrogram original(colouredNoise(true), settings);
+        const SurrogateRecording surrogate(original, estimateBackground(original, {}), 1);
+        std::vector<float> whole(2 * 5000);
+        surrogate.read(0, 1000, 5000, whole);
+        std::vector<float> part(2 * 77);
+        surrogate.read(0, 3123, 77, part);
+        QVERIFY(std::equal(part.begin(), part.end(), whole.begin() + 2 * (3123 - 1000)));
+    }
+
+    void keepsTheQuantisationStep()
+    {
+        std::vector<float> values(20000);
+        Random random(9, 0);
+        for (float &value : values)
+            value = float(std::round(1.5 * random.normal()) / 32768.0);
+        SpectrogramSettings settings;
+        settings.windowSeconds = 2.0;
+        const auto recording = std::make_shared<MemoryRecording>(std::move(values), 100.0);
+        recording->mutableInfo().sampleType = "int16";
+        const Spectrogram original(recording, settings);
+        const SurrogateRecording surrogate(original, estimateBackground(original, {}), 1);
+        std::vector<float> read(2000);
+        surrogate.read(0, 100, 2000, read);
+        for (const float value : read)
+            QCOMPARE(double(value) * 32768.0, std::round(double(value) * 32768.0));
+        QVERIFY(std::any_of(read.begin(), read.end(), [](float value) { return value != 0.0f; }));
+    }
 };
-
-void tst_SurrogateRecording::hasTheBackgroundOfTheRecording_data()
-{
-    QTest::addColumn<bool>("isComplex");
-    QTest::newRow("real") << false;
-    QTest::newRow("I/Q") << true;
-}
-
-void tst_SurrogateRecording::hasTheBackgroundOfTheRecording()
-{
-    QFETCH(bool, isComplex);
-    SpectrogramSettings settings;
-    settings.windowSeconds = 2.0;
-    const auto original = std::make_shared<Spectrogram>(colouredNoise(isComplex), settings);
-    const auto background = estimateBackground(*original, {});
-    const auto surrogate =
-        std::make_shared<Spectrogram>(std::make_shared<SurrogateRecording>(*original, background, 1), settings);
-    const auto again = estimateBackground(*surrogate, {});
-    QCOMPARE(surrogate->time().count, original->time().count);
-    for (const double seconds : {20.0, 100.0, 150.0, 250.0, 350.0})
-        for (const double hz : {3.0, 12.0, 25.0, 40.0}) {
-            const double difference = again->lnPowerAt(seconds, hz) - background->lnPowerAt(seconds, hz);
-            QVERIFY2(std::abs(difference) < 0.25,
-                     qPrintable(QString("%1 at %2 s, %3 Hz").arg(difference).arg(seconds).arg(hz)));
-        }
-    // Another seed is other noise.
-    std::vector<float> a(200);
-    std::vector<float> b(200);
-    const Index samples = isComplex ? 100 : 200;
-    SurrogateRecording(*original, background, 1).read(0, 1000, samples, a);
-    SurrogateRecording(*original, background, 2).read(0, 1000, samples, b);
-    QVERIFY(a != b);
-}
-
-void tst_SurrogateRecording::isSilentWhereTheRecordingIs()
-{
-    SpectrogramSettings settings;
-    settings.windowSeconds = 2.0;
-    const Spectrogram original(colouredNoise(false), settings);
-    const SurrogateRecording surrogate(original, estimateBackground(original, {}), 1);
-    std::vector<float> values(4000);
-    surrogate.read(0, 3000, 4000, values);
-    for (std::size_t i = 0; i < values.size(); ++i)
-        QCOMPARE(values[i] == 0.0f, i >= 1000 && i < 3000);
-}
-
-void tst_SurrogateRecording::doesNotDependOnHowItIsRead()
-{
-    SpectrogramSettings settings;
-    settings.windowSeconds = 2.0;
-    const Spectrogram original(colouredNoise(true), settings);
-    const SurrogateRecording surrogate(original, estimateBackground(original, {}), 1);
-    std::vector<float> whole(2 * 5000);
-    surrogate.read(0, 1000, 5000, whole);
-    std::vector<float> part(2 * 77);
-    surrogate.read(0, 3123, 77, part);
-    QVERIFY(std::equal(part.begin(), part.end(), whole.begin() + 2 * (3123 - 1000)));
-}
-
-void tst_SurrogateRecording::keepsTheQuantisationStep()
-{
-    std::vector<float> values(20000);
-    Random random(9, 0);
-    for (float &value : values)
-        value = float(std::round(1.5 * random.normal()) / 32768.0);
-    SpectrogramSettings settings;
-    settings.windowSeconds = 2.0;
-    const auto recording = std::make_shared<MemoryRecording>(std::move(values), 100.0);
-    recording->mutableInfo().sampleType = "int16";
-    const Spectrogram original(recording, settings);
-    const SurrogateRecording surrogate(original, estimateBackground(original, {}), 1);
-    std::vector<float> read(2000);
-    surrogate.read(0, 100, 2000, read);
-    for (const float value : read)
-        QCOMPARE(double(value) * 32768.0, std::round(double(value) * 32768.0));
-    QVERIFY(std::any_of(read.begin(), read.end(), [](float value) { return value != 0.0f; }));
-}
 
 FAINTLINE_TEST(tst_SurrogateRecording)
 #include "tst_SurrogateRecording.moc"

@@ -45,16 +45,129 @@ class tst_openFrames : public QObject
     Q_OBJECT
 
 private slots:
-    void init();
-    void kindsOfFiles();
-    void gridsLieBesideTheirStack();
-    void axesOfASpectrogram();
-    void partsAreTheFilesValues_data();
-    void partsAreTheFilesValues();
-    void aStackWithoutPowerIsNormalisedAlready();
-    void powerIsNormalisedInItsSelection();
-    void refusals();
-    void aFileThatShrinks();
+    void init() { m_folder = std::make_unique<QTemporaryDir>(); }
+
+    void kindsOfFiles()
+    {
+        writeBytes(path("a.fil"), QByteArray("\x0c\x00\x00\x00HEADER_START", 16));
+        writeBytes(path("named.wav"), QByteArray("\x0c\x00\x00\x00HEADER_START", 16));
+        writeBytes(path("b.fil"), "RIFF");
+        QVERIFY(holdsFrames(path("a.fil")) && holdsFrames(path("named.wav"))); // by content
+        QVERIFY(!holdsFrames(path("b.fil")) && !holdsFrames(path("nowhere.fil")) && !holdsFrames(path(".")));
+        QVERIFY(holdsFrames(path("nowhere.npy")) && holdsFrames(path("nowhere.NPY"))); // by name
+        QVERIFY(!holdsFrames("npy") && !holdsFrames(""));
+        QVERIFY(!openPower(path("b.fil")) && !openPower(path("nowhere.fil")) && !openFrames(path("b.fil")));
+    }
+
+    void gridsLieBesideTheirStack()
+    {
+        QCOMPARE(gridPathOf("folder/a.npy"), std::string("folder/a.grid.json"));
+        QCOMPARE(gridPathOf("a.b.NPY"), std::string("a.b.grid.json"));
+    }
+
+    void axesOfASpectrogram()
+    {
+        const auto power = openPower(makeStack(powerGrid));
+        QVERIFY(power);
+        const PowerInfo &info = power->info();
+        QCOMPARE(info.container, std::string("NumPy spectrogram"));
+        QCOMPARE(info.sampleType, std::string("float32"));
+        QCOMPARE(info.time.first, 1.0);
+        QCOMPARE(info.time.step, 0.5);
+        QCOMPARE(info.time.count, frames);
+        QCOMPARE(info.frequency.first, 100.0);
+        QCOMPARE(info.frequency.step, 2.0);
+        QCOMPARE(info.frequency.count, cells);
+        QCOMPARE(info.channelCount, 1);
+        QCOMPARE(openPower(makeStack(powerGrid, true))->info().sampleType, std::string("float64"));
+    }
+
+    void partsAreTheFilesValues_data()
+    {
+        QTest::addColumn<bool>("isDouble");
+        QTest::newRow("float32") << false;
+        QTest::newRow("float64") << true;
+    }
+
+    void partsAreTheFilesValues()
+    {
+        QFETCH(bool, isDouble);
+        const auto power = openPower(makeStack(powerGrid, isDouble));
+        const std::vector<float> whole = someValues();
+        for (const PowerPart &part :
+             {PowerPart{0, 0, frames, 0, cells}, PowerPart{0, 7, 1, 39, 1}, PowerPart{0, 59, 1, 0, cells},
+              PowerPart{0, 3, 20, 5, 11}, PowerPart{0, 3, 0, 5, 0}}) {
+            std::vector<float> found(std::size_t(part.frames * part.cells));
+            power->read(part, found);
+            for (Index frame = 0; frame < part.frames; ++frame)
+                for (Index cell = 0; cell < part.cells; ++cell)
+                    QCOMPARE(found[std::size_t(frame * part.cells + cell)],
+                             whole[std::size_t((part.firstFrame + frame) * cells + part.firstCell + cell)]);
+        }
+    }
+
+    void aStackWithoutPowerIsNormalisedAlready()
+    {
+        const std::string stack = makeStack({});
+        QVERIFY(!openPower(stack));
+        const auto made = openFrames(stack);
+        QVERIFY(made);
+        std::vector<float> y(std::size_t(frames * cells));
+        made->read(0, frames, y);
+        QVERIFY(y == someValues());
+    }
+
+    void powerIsNormalisedInItsSelection()
+    {
+        FramesOptions options;
+        options.selection.fromSeconds = 5.0;
+        options.selection.toSeconds = 20.0;
+        options.selection.lowHz = 110.0;
+        options.selection.highHz = 150.0;
+        options.noise.halfWidthCells = 4;
+        const auto made = openFrames(makeStack(powerGrid), options);
+        QVERIFY(made);
+        QCOMPARE(made->time().first, 5.0);
+        QCOMPARE(made->time().count, Index(31));
+        QCOMPARE(made->grid().axes.front().first, 110.0);
+        QCOMPARE(made->grid().axes.front().count, Index(21));
+        std::vector<float> y(std::size_t(31 * 21));
+        made->read(0, 31, y);
+        QVERIFY(std::all_of(y.begin(), y.end(), [](float value) { return std::isfinite(value) && value >= 0.0f; }));
+    }
+
+    void refusals()
+    {
+        QVERIFY(contains(errorOf([&] { openFrames(path("nowhere.npy")); }), path("nowhere.npy")));
+        // A grid that is damaged is no power, and told of when the stack is read.
+        const std::string stack = makeStack("{");
+        QVERIFY(!NumPyPower::recognises(stack, path("a.grid.json")));
+        QVERIFY(contains(errorOf([&] { openFrames(stack); }), "a.grid.json"));
+        writeBytes(path("a.grid.json"), R"({"values": "power", "axes": []})");
+        QVERIFY(contains(errorOf([&] { openFrames(stack); }), "a.grid.json"));
+        NumPyWriter writer(path("cube.npy"), {2, 3, 4});
+        writer.write(std::vector<float>(24, 1.0f));
+        writer.finish();
+        writeBytes(path("cube.grid.json"),
+                   R"({"values": "power", "time": {"first": 0, "step": 1},
+                       "axes": [{"name": "range", "unit": "m", "first": 0, "step": 1},
+                                {"name": "bearing", "unit": "°", "first": 0, "step": 1}]})");
+        QVERIFY(!openPower(path("cube.npy"))); // pings, with axes of their own
+        QCOMPARE(openFrames(path("cube.npy"))->grid().axes.size(), std::size_t(2));
+    }
+
+    void aFileThatShrinks()
+    {
+        const std::string stack = makeStack(powerGrid);
+        const auto power = openPower(stack);
+        QVERIFY(QFile::resize(QString::fromStdString(stack), QFile(QString::fromStdString(stack)).size() - 4));
+        std::vector<float> row(std::size_t(cells), 0.0f);
+        power->read({0, frames - 2, 1, 0, cells}, row);
+        QCOMPARE(errorOf([&] {
+                     power->read({0, frames - 1, 1, 0, cells}, row);
+                 }),
+                 stack + ": was truncated while open");
+    }
 
 private:
     std::string path(const char *name) const { return m_folder->filePath(name).toStdString(); }
@@ -76,130 +189,6 @@ private:
 
     std::unique_ptr<QTemporaryDir> m_folder;
 };
-
-void tst_openFrames::init()
-{
-    m_folder = std::make_unique<QTemporaryDir>();
-}
-
-void tst_openFrames::kindsOfFiles()
-{
-    writeBytes(path("a.fil"), QByteArray("\x0c\x00\x00\x00HEADER_START", 16));
-    writeBytes(path("named.wav"), QByteArray("\x0c\x00\x00\x00HEADER_START", 16));
-    writeBytes(path("b.fil"), "RIFF");
-    QVERIFY(holdsFrames(path("a.fil")) && holdsFrames(path("named.wav"))); // by content
-    QVERIFY(!holdsFrames(path("b.fil")) && !holdsFrames(path("nowhere.fil")) && !holdsFrames(path(".")));
-    QVERIFY(holdsFrames(path("nowhere.npy")) && holdsFrames(path("nowhere.NPY"))); // by name
-    QVERIFY(!holdsFrames("npy") && !holdsFrames(""));
-    QVERIFY(!openPower(path("b.fil")) && !openPower(path("nowhere.fil")) && !openFrames(path("b.fil")));
-}
-
-void tst_openFrames::gridsLieBesideTheirStack()
-{
-    QCOMPARE(gridPathOf("folder/a.npy"), std::string("folder/a.grid.json"));
-    QCOMPARE(gridPathOf("a.b.NPY"), std::string("a.b.grid.json"));
-}
-
-void tst_openFrames::axesOfASpectrogram()
-{
-    const auto power = openPower(makeStack(powerGrid));
-    QVERIFY(power);
-    const PowerInfo &info = power->info();
-    QCOMPARE(info.container, std::string("NumPy spectrogram"));
-    QCOMPARE(info.sampleType, std::string("float32"));
-    QCOMPARE(info.time.first, 1.0);
-    QCOMPARE(info.time.step, 0.5);
-    QCOMPARE(info.time.count, frames);
-    QCOMPARE(info.frequency.first, 100.0);
-    QCOMPARE(info.frequency.step, 2.0);
-    QCOMPARE(info.frequency.count, cells);
-    QCOMPARE(info.channelCount, 1);
-    QCOMPARE(openPower(makeStack(powerGrid, true))->info().sampleType, std::string("float64"));
-}
-
-void tst_openFrames::partsAreTheFilesValues_data()
-{
-    QTest::addColumn<bool>("isDouble");
-    QTest::newRow("float32") << false;
-    QTest::newRow("float64") << true;
-}
-
-void tst_openFrames::partsAreTheFilesValues()
-{
-    QFETCH(bool, isDouble);
-    const auto power = openPower(makeStack(powerGrid, isDouble));
-    const std::vector<float> whole = someValues();
-    for (const PowerPart &part :
-         {PowerPart{0, 0, frames, 0, cells}, PowerPart{0, 7, 1, 39, 1}, PowerPart{0, 59, 1, 0, cells},
-          PowerPart{0, 3, 20, 5, 11}, PowerPart{0, 3, 0, 5, 0}}) {
-        std::vector<float> found(std::size_t(part.frames * part.cells));
-        power->read(part, found);
-        for (Index frame = 0; frame < part.frames; ++frame)
-            for (Index cell = 0; cell < part.cells; ++cell)
-                QCOMPARE(found[std::size_t(frame * part.cells + cell)],
-                         whole[std::size_t((part.firstFrame + frame) * cells + part.firstCell + cell)]);
-    }
-}
-
-void tst_openFrames::aStackWithoutPowerIsNormalisedAlready()
-{
-    const std::string stack = makeStack({});
-    QVERIFY(!openPower(stack));
-    const auto made = openFrames(stack);
-    QVERIFY(made);
-    std::vector<float> y(std::size_t(frames * cells));
-    made->read(0, frames, y);
-    QVERIFY(y == someValues());
-}
-
-void tst_openFrames::powerIsNormalisedInItsSelection()
-{
-    FramesOptions options;
-    options.selection.fromSeconds = 5.0;
-    options.selection.toSeconds = 20.0;
-    options.selection.lowHz = 110.0;
-    options.selection.highHz = 150.0;
-    options.noise.halfWidthCells = 4;
-    const auto made = openFrames(makeStack(powerGrid), options);
-    QVERIFY(made);
-    QCOMPARE(made->time().first, 5.0);
-    QCOMPARE(made->time().count, Index(31));
-    QCOMPARE(made->grid().axes.front().first, 110.0);
-    QCOMPARE(made->grid().axes.front().count, Index(21));
-    std::vector<float> y(std::size_t(31 * 21));
-    made->read(0, 31, y);
-    QVERIFY(std::all_of(y.begin(), y.end(), [](float value) { return std::isfinite(value) && value >= 0.0f; }));
-}
-
-void tst_openFrames::refusals()
-{
-    QVERIFY(contains(errorOf([&] { openFrames(path("nowhere.npy")); }), path("nowhere.npy")));
-    // A grid that is damaged is no power, and told of when the stack is read.
-    const std::string stack = makeStack("{");
-    QVERIFY(!NumPyPower::recognises(stack, path("a.grid.json")));
-    QVERIFY(contains(errorOf([&] { openFrames(stack); }), "a.grid.json"));
-    writeBytes(path("a.grid.json"), R"({"values": "power", "axes": []})");
-    QVERIFY(contains(errorOf([&] { openFrames(stack); }), "a.grid.json"));
-    NumPyWriter writer(path("cube.npy"), {2, 3, 4});
-    writer.write(std::vector<float>(24, 1.0f));
-    writer.finish();
-    writeBytes(path("cube.grid.json"),
-               R"({"values": "power", "time": {"first": 0, "step": 1},
-                   "axes": [{"name": "range", "unit": "m", "first": 0, "step": 1},
-                            {"name": "bearing", "unit": "°", "first": 0, "step": 1}]})");
-    QVERIFY(!openPower(path("cube.npy"))); // pings, with axes of their own
-    QCOMPARE(openFrames(path("cube.npy"))->grid().axes.size(), std::size_t(2));
-}
-
-void tst_openFrames::aFileThatShrinks()
-{
-    const std::string stack = makeStack(powerGrid);
-    const auto power = openPower(stack);
-    QVERIFY(QFile::resize(QString::fromStdString(stack), QFile(QString::fromStdString(stack)).size() - 4));
-    std::vector<float> row(std::size_t(cells), 0.0f);
-    power->read({0, frames - 2, 1, 0, cells}, row);
-    QCOMPARE(errorOf([&] { power->read({0, frames - 1, 1, 0, cells}, row); }), stack + ": was truncated while open");
-}
 
 FAINTLINE_TEST(tst_openFrames)
 #include "tst_openFrames.moc"
