@@ -96,64 +96,61 @@ class tst_finishMax : public QObject
     Q_OBJECT
 
 private slots:
-    void isTheDefinition_data();
-    void isTheDefinition();
-};
+    void isTheDefinition_data()
+    {
+        QTest::addColumn<QString>("law");
+        QTest::addColumn<Index>("count");
+        for (const char *law :
+             {"uniform", "outer less", "inner less", "chained uniform", "chained outer less", "anything", "singles"})
+            for (const Index count : {1, 2, 3, 21, 64, 65, 100})
+                QTest::newRow(qPrintable(QString("%1, %2 targets").arg(law).arg(count))) << QString(law) << count;
+    }
 
-void tst_finishMax::isTheDefinition_data()
-{
-    QTest::addColumn<QString>("law");
-    QTest::addColumn<Index>("count");
-    for (const char *law :
-         {"uniform", "outer less", "inner less", "chained uniform", "chained outer less", "anything", "singles"})
-        for (const Index count : {1, 2, 3, 21, 64, 65, 100})
-            QTest::newRow(qPrintable(QString("%1, %2 targets").arg(law).arg(count))) << QString(law) << count;
-}
-
-void tst_finishMax::isTheDefinition()
-{
-    QFETCH(const QString, law);
-    QFETCH(const Index, count);
-    Planes planes(count + 1);
-    const List list = law == "uniform"              ? slopes(planes, count, -1.0f, -1.0f)
-                      : law == "outer less"         ? slopes(planes, count, -1.5f, -0.5f)
-                      : law == "inner less"         ? slopes(planes, count, -0.5f, -1.5f)
-                      : law == "chained uniform"    ? chained(planes, count, -1.0f, -1.0f)
-                      : law == "chained outer less" ? chained(planes, count, -1.5f, -0.5f)
-                      : law == "anything"           ? anything(planes, count)
-                                                    : singles(planes, count);
-    std::vector<float> lambda(rowCells);
-    Random(4, 0).exponentials(lambda);
-    FrameJoin join;
-    join.lnK = 0.3f;
-    join.counting = Counting::StatesAndSum;
-    for (const bool isFresh : {true, false})
-        for (const Index n : {1, 15, 16, 33, 100}) {
-            join.isFresh = isFresh;
-            std::vector<float> statistic(rowCells, 2.0f);
-            const Continued found = finishMax(list.targets(planes), {n}, lambda.data(), join, statistic.data());
-            Index went = 0;
-            double sum = 0.0;
-            for (Index i = 0; i < n; ++i) {
-                float best = isFresh ? -std::numeric_limits<float>::infinity() : 2.0f;
-                for (Index k = 0; k < count; ++k) {
-                    float m = -std::numeric_limits<float>::infinity();
-                    for (const ShiftedPlane<float> &source : list.sources[std::size_t(k)])
-                        m = std::max(m, source.from[i] + (source.weight + join.lnK));
-                    const float kept = std::max(m, 0.0f);
-                    const float score = kept + lambda[std::size_t(i)];
-                    QVERIFY(planes.to[std::size_t(k * rowCells + i)] == score);
-                    went += score > lambda[std::size_t(i)] ? 1 : 0;
-                    sum += double(kept);
-                    best = std::max(best, score);
+    void isTheDefinition()
+    {
+        QFETCH(const QString, law);
+        QFETCH(const Index, count);
+        Planes planes(count + 1);
+        const List list = law == "uniform"              ? slopes(planes, count, -1.0f, -1.0f)
+                          : law == "outer less"         ? slopes(planes, count, -1.5f, -0.5f)
+                          : law == "inner less"         ? slopes(planes, count, -0.5f, -1.5f)
+                          : law == "chained uniform"    ? chained(planes, count, -1.0f, -1.0f)
+                          : law == "chained outer less" ? chained(planes, count, -1.5f, -0.5f)
+                          : law == "anything"           ? anything(planes, count)
+                                                        : singles(planes, count);
+        std::vector<float> lambda(rowCells);
+        Random(4, 0).exponentials(lambda);
+        FrameJoin join;
+        join.lnK = 0.3f;
+        join.counting = Counting::StatesAndSum;
+        for (const bool isFresh : {true, false})
+            for (const Index n : {1, 15, 16, 33, 100}) {
+                join.isFresh = isFresh;
+                std::vector<float> statistic(rowCells, 2.0f);
+                const Continued found = finishMax(list.targets(planes), {n}, lambda.data(), join, statistic.data());
+                Index went = 0;
+                double sum = 0.0;
+                for (Index i = 0; i < n; ++i) {
+                    float best = isFresh ? -std::numeric_limits<float>::infinity() : 2.0f;
+                    for (Index k = 0; k < count; ++k) {
+                        float m = -std::numeric_limits<float>::infinity();
+                        for (const ShiftedPlane<float> &source : list.sources[std::size_t(k)])
+                            m = std::max(m, source.from[i] + (source.weight + join.lnK));
+                        const float kept = std::max(m, 0.0f);
+                        const float score = kept + lambda[std::size_t(i)];
+                        QVERIFY(planes.to[std::size_t(k * rowCells + i)] == score);
+                        went += score > lambda[std::size_t(i)] ? 1 : 0;
+                        sum += double(kept);
+                        best = std::max(best, score);
+                    }
+                    QVERIFY(statistic[std::size_t(i)] == best);
                 }
-                QVERIFY(statistic[std::size_t(i)] == best);
+                QVERIFY(statistic[std::size_t(n)] == 2.0f); // values beyond the tile stay as they were
+                QCOMPARE(found.count, went);
+                QVERIFY(std::abs(found.sum - sum) <= 1e-5 * (1.0 + sum));
             }
-            QVERIFY(statistic[std::size_t(n)] == 2.0f); // values beyond the tile stay as they were
-            QCOMPARE(found.count, went);
-            QVERIFY(std::abs(found.sum - sum) <= 1e-5 * (1.0 + sum));
-        }
-}
+    }
+};
 
 FAINTLINE_TEST(tst_finishMax)
 #include "tst_finishMax.moc"

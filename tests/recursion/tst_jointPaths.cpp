@@ -86,75 +86,70 @@ class tst_jointPaths : public QObject
     Q_OBJECT
 
 private slots:
-    void equalsKeepTheirPlaces();
-    void aChangeOfPlaceIsFollowed();
-    void noPairIsBetter();
-    void whatWasNotObservedIsNoEvidence();
-};
+    void equalsKeepTheirPlaces()
+    {
+        constexpr Index frames = 1500; // three blocks
+        for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+            auto paths = jointPaths(strip(frames, 6, {[](Index) { return 98; }, [](Index) { return 102; }}, 6.0, seed),
+                                    likelihood, 3);
+            if (paths[0].front() > paths[1].front())
+                std::swap(paths[0], paths[1]);
+            Index off = 0;
+            for (std::size_t at = 0; at < std::size_t(frames); ++at) {
+                QVERIFY(paths[0][at] < paths[1][at]);
+                off += std::abs(paths[0][at] - 98) > 1 || std::abs(paths[1][at] - 102) > 1 ? 1 : 0;
+            }
+            QVERIFY2(off <= frames / 50, qPrintable(QString::number(off)));
+        }
+    }
 
-void tst_jointPaths::equalsKeepTheirPlaces()
-{
-    constexpr Index frames = 1500; // three blocks
-    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-        auto paths = jointPaths(strip(frames, 6, {[](Index) { return 98; }, [](Index) { return 102; }}, 6.0, seed),
-                                likelihood, 3);
+    void aChangeOfPlaceIsFollowed()
+    {
+        // One of them drifts by 3 cells around the middle.
+        const auto drifting = [](Index at) {
+            return at < 180 ? Index(102) : at < 220 ? 102 + (at - 180) / 14 : Index(105);
+        };
+        auto paths = jointPaths(strip(400, 6, {[](Index) { return 97; }, drifting}, 8.0, 4), likelihood, 3);
         if (paths[0].front() > paths[1].front())
             std::swap(paths[0], paths[1]);
-        Index off = 0;
-        for (std::size_t at = 0; at < std::size_t(frames); ++at) {
-            QVERIFY(paths[0][at] < paths[1][at]);
-            off += std::abs(paths[0][at] - 98) > 1 || std::abs(paths[1][at] - 102) > 1 ? 1 : 0;
-        }
-        QVERIFY2(off <= frames / 50, qPrintable(QString::number(off)));
+        QVERIFY(std::abs(paths[1][100] - 102) <= 1 && std::abs(paths[1][300] - 105) <= 1);
+        QVERIFY(std::abs(paths[0][100] - 97) <= 1 && std::abs(paths[0][300] - 97) <= 1);
     }
-}
 
-void tst_jointPaths::aChangeOfPlaceIsFollowed()
-{
-    // One of them drifts by 3 cells around the middle.
-    const auto drifting = [](Index at) {
-        return at < 180 ? Index(102) : at < 220 ? 102 + (at - 180) / 14 : Index(105);
-    };
-    auto paths = jointPaths(strip(400, 6, {[](Index) { return 97; }, drifting}, 8.0, 4), likelihood, 3);
-    if (paths[0].front() > paths[1].front())
-        std::swap(paths[0], paths[1]);
-    QVERIFY(std::abs(paths[1][100] - 102) <= 1 && std::abs(paths[1][300] - 105) <= 1);
-    QVERIFY(std::abs(paths[0][100] - 97) <= 1 && std::abs(paths[0][300] - 97) <= 1);
-}
-
-void tst_jointPaths::noPairIsBetter()
-{
-    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-        PathStrip small = strip(4, 1, {[](Index) { return 100; }}, 3.0, seed);
-        const double best = bestByEnumeration(small, 2);
-        const auto paths = jointPaths(small, likelihood, 2);
-        double evidence = 0.0;
-        for (Index at = 0; at < small.frameCount(); ++at) {
-            const double one = likelihood.at(double(small.valueAt(at, paths[0][std::size_t(at)])));
-            const double other = likelihood.at(double(small.valueAt(at, paths[1][std::size_t(at)])));
-            const bool areApart = std::abs(paths[0][std::size_t(at)] - paths[1][std::size_t(at)]) >= 2;
-            evidence += areApart ? one + other : std::max(one, other);
+    void noPairIsBetter()
+    {
+        for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+            PathStrip small = strip(4, 1, {[](Index) { return 100; }}, 3.0, seed);
+            const double best = bestByEnumeration(small, 2);
+            const auto paths = jointPaths(small, likelihood, 2);
+            double evidence = 0.0;
+            for (Index at = 0; at < small.frameCount(); ++at) {
+                const double one = likelihood.at(double(small.valueAt(at, paths[0][std::size_t(at)])));
+                const double other = likelihood.at(double(small.valueAt(at, paths[1][std::size_t(at)])));
+                const bool areApart = std::abs(paths[0][std::size_t(at)] - paths[1][std::size_t(at)]) >= 2;
+                evidence += areApart ? one + other : std::max(one, other);
+            }
+            // The enumeration's best is the evidence of these paths and the price of their changes of rate, at most six.
+            double closest = 1e9;
+            for (int changes = 0; changes <= 6; ++changes)
+                closest = std::min(
+                    closest, std::abs(evidence + changes * std::log(0.05) + (6 - changes) * std::log(0.9) - best));
+            QVERIFY2(closest < 1e-3, qPrintable(QString::number(closest)));
         }
-        // The enumeration's best is the evidence of these paths and the price of their changes of rate, at most six.
-        double closest = 1e9;
-        for (int changes = 0; changes <= 6; ++changes)
-            closest =
-                std::min(closest, std::abs(evidence + changes * std::log(0.05) + (6 - changes) * std::log(0.9) - best));
-        QVERIFY2(closest < 1e-3, qPrintable(QString::number(closest)));
     }
-}
 
-void tst_jointPaths::whatWasNotObservedIsNoEvidence()
-{
-    PathStrip gap = strip(300, 6, {[](Index) { return 98; }, [](Index) { return 102; }}, 8.0, 5);
-    for (Index at = 100; at < 140; ++at)
-        std::fill_n(gap.row(at), gap.width(), std::numeric_limits<float>::quiet_NaN());
-    auto paths = jointPaths(gap, likelihood, 3);
-    if (paths[0].front() > paths[1].front())
-        std::swap(paths[0], paths[1]);
-    for (const std::size_t at : {50u, 200u, 290u})
-        QVERIFY(std::abs(paths[0][at] - 98) <= 1 && std::abs(paths[1][at] - 102) <= 1);
-}
+    void whatWasNotObservedIsNoEvidence()
+    {
+        PathStrip gap = strip(300, 6, {[](Index) { return 98; }, [](Index) { return 102; }}, 8.0, 5);
+        for (Index at = 100; at < 140; ++at)
+            std::fill_n(gap.row(at), gap.width(), std::numeric_limits<float>::quiet_NaN());
+        auto paths = jointPaths(gap, likelihood, 3);
+        if (paths[0].front() > paths[1].front())
+            std::swap(paths[0], paths[1]);
+        for (const std::size_t at : {50u, 200u, 290u})
+            QVERIFY(std::abs(paths[0][at] - 98) <= 1 && std::abs(paths[1][at] - 102) <= 1);
+    }
+};
 
 FAINTLINE_TEST(tst_jointPaths)
 #include "tst_jointPaths.moc"

@@ -93,178 +93,170 @@ class tst_presence : public QObject
     Q_OBJECT
 
 private slots:
-    void isTheSumOverAllSequences_data();
-    void isTheSumOverAllSequences();
-    void slopeChangesAreTheSumOverAllSequences_data();
-    void slopeChangesAreTheSumOverAllSequences();
-    void strongestPathIsTheBestOfAll();
-    void chunksChangeNothing();
-    void aLineIsThereWhileItIs();
-    void evidenceAloneDecidesWhereItBegins();
-};
-
-void tst_presence::isTheSumOverAllSequences_data()
-{
-    QTest::addColumn<int>("firstStep");
-    QTest::addColumn<CorridorEnds>("ends");
-    QTest::newRow("even") << 0 << CorridorEnds();
-    QTest::newRow("odd") << 7 << CorridorEnds();
-    QTest::newRow("absent before") << 0 << CorridorEnds{true, false};
-    QTest::newRow("absent before and after") << 7 << CorridorEnds{true, true};
-}
-
-void tst_presence::isTheSumOverAllSequences()
-{
-    QFETCH(int, firstStep);
-    QFETCH(CorridorEnds, ends);
-    const KinematicAxis axis = halfBins(12);
-    const Corridor corridor = smallCorridor(3);
-    const double lnChange = std::log(0.07);
-    const Presence found = presenceIn(corridor, axis, lnChange, firstStep, ends);
-    for (Index frame = 0; frame < corridor.frameCount(); ++frame) {
-        std::vector<double> cells(std::size_t(corridor.width));
-        double off = 0.0;
-        enumerate(
-            axis, corridor, std::exp(lnChange), firstStep,
-            [&](const std::vector<State> &sequence, double weight) {
-                const State &state = sequence[std::size_t(frame)];
-                (state.rate < 0 ? off : cells[std::size_t(state.cell)]) += weight;
-            },
-            ends);
-        const double on = cells[0] + cells[1] + cells[2];
-        const auto at = std::size_t(frame);
-        const auto first = double(corridor.firstCells[at]);
-        QVERIFY(std::abs(double(found.present[at]) - on / (on + off)) < 1e-6); // stored as float
-        QVERIFY(std::abs(found.mean[at] - (first + (cells[1] + 2.0 * cells[2]) / on)) < 1e-9);
-        // 5 % of the whole, linear inside a cell: in the first one here, or not at all.
-        if (cells[0] > 0.05 * on)
-            QVERIFY(std::abs(double(found.low[at]) - (first - 0.5 + 0.05 * on / cells[0])) < 1e-5);
-        if (cells[2] > 0.05 * on)
-            QVERIFY(std::abs(double(found.high[at]) - (first + 2.5 - 0.05 * on / cells[2])) < 1e-5);
+    void isTheSumOverAllSequences_data()
+    {
+        QTest::addColumn<int>("firstStep");
+        QTest::addColumn<CorridorEnds>("ends");
+        QTest::newRow("even") << 0 << CorridorEnds();
+        QTest::newRow("odd") << 7 << CorridorEnds();
+        QTest::newRow("absent before") << 0 << CorridorEnds{true, false};
+        QTest::newRow("absent before and after") << 7 << CorridorEnds{true, true};
     }
-}
 
-void tst_presence::slopeChangesAreTheSumOverAllSequences_data()
-{
-    QTest::addColumn<int>("firstStep");
-    QTest::newRow("even") << 0;
-    QTest::newRow("odd") << 7;
-}
-
-void tst_presence::slopeChangesAreTheSumOverAllSequences()
-{
-    QFETCH(int, firstStep);
-    const KinematicAxis axis = halfBins(12);
-    const Corridor corridor = smallCorridor(5);
-    const double lnChange = std::log(0.07);
-    std::vector<double> expected(2);
-    double all = 0.0;
-    enumerate(axis, corridor, std::exp(lnChange), firstStep, [&](const std::vector<State> &sequence, double weight) {
-        all += weight;
-        for (std::size_t frame = 1; frame < sequence.size(); ++frame)
-            if (sequence[frame - 1].rate >= 0 && sequence[frame].rate >= 0)
-                expected[std::size_t(std::abs(sequence[frame].rate - sequence[frame - 1].rate))] += weight;
-    });
-    const std::vector<double> found = expectedSlopeChanges(corridor, axis, lnChange, firstStep);
-    QCOMPARE(found.size(), expected.size());
-    for (std::size_t i = 0; i < found.size(); ++i)
-        QVERIFY(std::abs(found[i] - expected[i] / all) < 1e-9);
-}
-
-void tst_presence::strongestPathIsTheBestOfAll()
-{
-    const KinematicAxis axis = halfBins(12);
-    for (std::uint64_t seed = 1; seed < 20; ++seed) {
-        const Corridor corridor = smallCorridor(seed);
-        const std::vector<double> lnK{0.1, -0.2, 0.3, -0.4};
-        // All paths that begin anywhere, end anywhere and are never off in between.
-        double best = -std::numeric_limits<double>::infinity();
-        const auto descend = [&](auto &&self, Index frame, const State &state, double score) -> void {
-            best = std::max(best, score);
-            if (frame + 1 == corridor.frameCount())
-                return;
-            for (int rate = 0; rate < axis.rateCount; ++rate)
-                for (Index cell = 0; cell < corridor.width; ++cell) {
-                    const State next{rate, cell};
-                    if (const double p = transition(axis, corridor, frame + 1, state, next, 0.1, 5); p > 0.0)
-                        self(self, frame + 1, next,
-                             score + std::log(p) + lnK[std::size_t(frame + 1)]
-                                 + double(corridor.lambda[std::size_t((frame + 1) * corridor.width + cell)]));
-                }
-        };
-        for (Index frame = 0; frame < corridor.frameCount(); ++frame)
-            for (int rate = 0; rate < axis.rateCount; ++rate)
-                for (Index cell = 0; cell < corridor.width; ++cell)
-                    descend(descend, frame, {rate, cell},
-                            double(corridor.lambda[std::size_t(frame * corridor.width + cell)]));
-        QVERIFY(std::abs(strongestPath(corridor, axis, lnK, 5) - best) < 1e-6);
-    }
-}
-
-// The first frames do not know how many follow by the chunks they are computed in: with nothing but noise's evidence
-// behind them, a longer corridor tells the same of them.
-void tst_presence::chunksChangeNothing()
-{
-    const KinematicAxis axis = halfBins(400);
-    Random random(5, 0);
-    Corridor shorter;
-    shorter.width = 13;
-    for (Index frame = 0; frame < 300; ++frame)
-        shorter.firstCells.push_back(100 + frame / 4);
-    for (Index i = 0; i < 300 * 13; ++i)
-        shorter.lambda.push_back(float(random.uniform() - 0.7));
-    Corridor longer = shorter;
-    for (Index frame = 300; frame < 1000; ++frame)
-        longer.firstCells.push_back(175);
-    longer.lambda.resize(std::size_t(1000 * 13), -3.0f);
-    const Presence a = presenceIn(shorter, axis, -5.0, 0);
-    const Presence b = presenceIn(longer, axis, -5.0, 0);
-    for (std::size_t frame = 0; frame < 200; ++frame) {
-        QVERIFY(std::abs(a.present[frame] - b.present[frame]) < 1e-4f);
-        QVERIFY(std::abs(a.mean[frame] - b.mean[frame]) < 1e-3);
-    }
-}
-
-void tst_presence::aLineIsThereWhileItIs()
-{
-    const KinematicAxis axis = halfBins(400);
-    Corridor corridor;
-    corridor.width = 13;
-    for (Index frame = 0; frame < 200; ++frame) {
-        corridor.firstCells.push_back(50);
-        for (Index cell = 0; cell < 13; ++cell)
-            corridor.lambda.push_back(frame >= 60 && frame < 140 && cell == 7 ? 1.0f : -0.5f);
-    }
-    const Presence found = presenceIn(corridor, axis, -5.0, 0);
-    for (std::size_t frame = 0; frame < 200; ++frame)
-        if (frame < 50 || frame >= 150)
-            QVERIFY(found.present[frame] < 0.1f);
-        else if (frame >= 65 && frame < 135) {
-            QVERIFY(found.present[frame] > 0.99f);
-            QVERIFY(std::abs(found.mean[frame] - 57.0) < 0.1);
+    void isTheSumOverAllSequences()
+    {
+        QFETCH(int, firstStep);
+        QFETCH(CorridorEnds, ends);
+        const KinematicAxis axis = halfBins(12);
+        const Corridor corridor = smallCorridor(3);
+        const double lnChange = std::log(0.07);
+        const Presence found = presenceIn(corridor, axis, lnChange, firstStep, ends);
+        for (Index frame = 0; frame < corridor.frameCount(); ++frame) {
+            std::vector<double> cells(std::size_t(corridor.width));
+            double off = 0.0;
+            enumerate(
+                axis, corridor, std::exp(lnChange), firstStep,
+                [&](const std::vector<State> &sequence, double weight) {
+                    const State &state = sequence[std::size_t(frame)];
+                    (state.rate < 0 ? off : cells[std::size_t(state.cell)]) += weight;
+                },
+                ends);
+            const double on = cells[0] + cells[1] + cells[2];
+            const auto at = std::size_t(frame);
+            const auto first = double(corridor.firstCells[at]);
+            QVERIFY(std::abs(double(found.present[at]) - on / (on + off)) < 1e-6); // stored as float
+            QVERIFY(std::abs(found.mean[at] - (first + (cells[1] + 2.0 * cells[2]) / on)) < 1e-9);
+            // 5 % of the whole, linear inside a cell: in the first one here, or not at all.
+            if (cells[0] > 0.05 * on)
+                QVERIFY(std::abs(double(found.low[at]) - (first - 0.5 + 0.05 * on / cells[0])) < 1e-5);
+            if (cells[2] > 0.05 * on)
+                QVERIFY(std::abs(double(found.high[at]) - (first + 2.5 - 0.05 * on / cells[2])) < 1e-5);
         }
-}
-
-// 20 frames before a line say nothing of it. It may have begun in any of them; only if the onset costs nothing before
-// the first frame, it seems to have been there all the time.
-void tst_presence::evidenceAloneDecidesWhereItBegins()
-{
-    const KinematicAxis axis = halfBins(400);
-    Corridor corridor;
-    corridor.width = 13;
-    for (Index frame = 0; frame < 100; ++frame) {
-        corridor.firstCells.push_back(50);
-        for (Index cell = 0; cell < 13; ++cell)
-            corridor.lambda.push_back(cell != 7 ? -2.0f : frame < 20 ? 0.22f : 1.0f); // 0.22: -ln P(stay)
     }
-    const std::vector<float> free = presenceIn(corridor, axis, -7.0, 0).present;
-    const std::vector<float> known = presenceIn(corridor, axis, -7.0, 0, {.absentBefore = true}).present;
-    QVERIFY(free[3] > 0.9f);
-    QVERIFY(known[3] < 0.3f);
-    QVERIFY(known[10] < 0.6f);
-    QVERIFY(known[25] > 0.99f);
-    QVERIFY(known[99] > 0.99f);
-}
+
+    void slopeChangesAreTheSumOverAllSequences_data()
+    {
+        QTest::addColumn<int>("firstStep");
+        QTest::newRow("even") << 0;
+        QTest::newRow("odd") << 7;
+    }
+
+    void slopeChangesAreTheSumOverAllSequences()
+    {
+        QFETCH(int, firstStep);
+        const KinematicAxis axis = halfBins(12);
+        const Corridor corridor = smallCorridor(5);
+        const double lnChange = std::log(0.07);
+        std::vector<double> expected(2);
+        double all = 0.0;
+        enumerate(
+            axis, corridor, std::exp(lnChange), firstStep, [&](const std::vector<State> &sequence, double weight) {
+                all += weight;
+                for (std::size_t frame = 1; frame < sequence.size(); ++frame)
+                    if (sequence[frame - 1].rate >= 0 && sequence[frame].rate >= 0)
+                        expected[std::size_t(std::abs(sequence[frame].rate - sequence[frame - 1].rate))] += weight;
+            });
+        const std::vector<double> found = expectedSlopeChanges(corridor, axis, lnChange, firstStep);
+        QCOMPARE(found.size(), expected.size());
+        for (std::size_t i = 0; i < found.size(); ++i)
+            QVERIFY(std::abs(found[i] - expected[i] / all) < 1e-9);
+    }
+
+    void strongestPathIsTheBestOfAll()
+    {
+        const KinematicAxis axis = halfBins(12);
+        for (std::uint64_t seed = 1; seed < 20; ++seed) {
+            const Corridor corridor = smallCorridor(seed);
+            const std::vector<double> lnK{0.1, -0.2, 0.3, -0.4};
+            // All paths that begin anywhere, end anywhere and are never off in between.
+            double best = -std::numeric_limits<double>::infinity();
+            const auto descend = [&](auto &&self, Index frame, const State &state, double score) -> void {
+                best = std::max(best, score);
+                if (frame + 1 == corridor.frameCount())
+                    return;
+                for (int rate = 0; rate < axis.rateCount; ++rate)
+                    for (Index cell = 0; cell < corridor.width; ++cell) {
+                        const State next{rate, cell};
+                        if (const double p = transition(axis, corridor, frame + 1, state, next, 0.1, 5); p > 0.0)
+                            self(self, frame + 1, next,
+                                 score + std::log(p) + lnK[std::size_t(frame + 1)]
+                                     + double(corridor.lambda[std::size_t((frame + 1) * corridor.width + cell)]));
+                    }
+            };
+            for (Index frame = 0; frame < corridor.frameCount(); ++frame)
+                for (int rate = 0; rate < axis.rateCount; ++rate)
+                    for (Index cell = 0; cell < corridor.width; ++cell)
+                        descend(descend, frame, {rate, cell},
+                                double(corridor.lambda[std::size_t(frame * corridor.width + cell)]));
+            QVERIFY(std::abs(strongestPath(corridor, axis, lnK, 5) - best) < 1e-6);
+        }
+    }
+
+    // The first frames do not know how many follow by the chunks they are computed in: with nothing but noise's evidence
+    // behind them, a longer corridor tells the same of them.
+    void chunksChangeNothing()
+    {
+        const KinematicAxis axis = halfBins(400);
+        Random random(5, 0);
+        Corridor shorter;
+        shorter.width = 13;
+        for (Index frame = 0; frame < 300; ++frame)
+            shorter.firstCells.push_back(100 + frame / 4);
+        for (Index i = 0; i < 300 * 13; ++i)
+            shorter.lambda.push_back(float(random.uniform() - 0.7));
+        Corridor longer = shorter;
+        for (Index frame = 300; frame < 1000; ++frame)
+            longer.firstCells.push_back(175);
+        longer.lambda.resize(std::size_t(1000 * 13), -3.0f);
+        const Presence a = presenceIn(shorter, axis, -5.0, 0);
+        const Presence b = presenceIn(longer, axis, -5.0, 0);
+        for (std::size_t frame = 0; frame < 200; ++frame) {
+            QVERIFY(std::abs(a.present[frame] - b.present[frame]) < 1e-4f);
+            QVERIFY(std::abs(a.mean[frame] - b.mean[frame]) < 1e-3);
+        }
+    }
+
+    void aLineIsThereWhileItIs()
+    {
+        const KinematicAxis axis = halfBins(400);
+        Corridor corridor;
+        corridor.width = 13;
+        for (Index frame = 0; frame < 200; ++frame) {
+            corridor.firstCells.push_back(50);
+            for (Index cell = 0; cell < 13; ++cell)
+                corridor.lambda.push_back(frame >= 60 && frame < 140 && cell == 7 ? 1.0f : -0.5f);
+        }
+        const Presence found = presenceIn(corridor, axis, -5.0, 0);
+        for (std::size_t frame = 0; frame < 200; ++frame)
+            if (frame < 50 || frame >= 150)
+                QVERIFY(found.present[frame] < 0.1f);
+            else if (frame >= 65 && frame < 135) {
+                QVERIFY(found.present[frame] > 0.99f);
+                QVERIFY(std::abs(found.mean[frame] - 57.0) < 0.1);
+            }
+    }
+
+    // 20 frames before a line say nothing of it. It may have begun in any of them; only if the onset costs nothing before
+    // the first frame, it seems to have been there all the time.
+    void evidenceAloneDecidesWhereItBegins()
+    {
+        const KinematicAxis axis = halfBins(400);
+        Corridor corridor;
+        corridor.width = 13;
+        for (Index frame = 0; frame < 100; ++frame) {
+            corridor.firstCells.push_back(50);
+            for (Index cell = 0; cell < 13; ++cell)
+                corridor.lambda.push_back(cell != 7 ? -2.0f : frame < 20 ? 0.22f : 1.0f); // 0.22: -ln P(stay)
+        }
+        const std::vector<float> free = presenceIn(corridor, axis, -7.0, 0).present;
+        const std::vector<float> known = presenceIn(corridor, axis, -7.0, 0, {.absentBefore = true}).present;
+        QVERIFY(free[3] > 0.9f);
+        QVERIFY(known[3] < 0.3f);
+        QVERIFY(known[10] < 0.6f);
+        QVERIFY(known[25] > 0.99f);
+        QVERIFY(known[99] > 0.99f);
+    }
+};
 
 FAINTLINE_TEST(tst_presence)
 #include "tst_presence.moc"
