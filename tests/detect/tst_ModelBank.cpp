@@ -37,87 +37,81 @@ class tst_ModelBank : public QObject
     Q_OBJECT
 
 private slots:
-    void isTheBestOfItsMembers();
-    void offsetsDecideWhoWins();
-    void forgetsInEveryMember();
-    void oneMemberIsItself();
-    void refusesOtherCells();
-};
-
-void tst_ModelBank::isTheBestOfItsMembers()
-{
-    const auto list = members(-0.5);
-    ModelBank bank(list);
-    Smd first(list[0].model, list[0].reset);
-    Smd second(list[1].model, list[1].reset);
-    std::vector<float> d(240);
-    std::vector<float> a(240);
-    std::vector<float> b(240);
-    std::vector<int> wins(2, 0);
-    for (std::uint64_t t = 0; t < 30; ++t) {
-        const std::vector<float> y = noise(t);
-        bank.update(y, d);
-        first.update(y, a);
-        second.update(y, b);
-        for (std::size_t cell = 0; cell < d.size(); ++cell) {
-            QCOMPARE(d[cell], std::max(a[cell], b[cell] + 0.5f));
-            const std::size_t winner = b[cell] + 0.5f > a[cell] ? 1 : 0;
-            QCOMPARE(bank.winnerAt(Index(cell)), winner);
-            ++wins[winner];
+    void isTheBestOfItsMembers()
+    {
+        const auto list = members(-0.5);
+        ModelBank bank(list);
+        Smd first(list[0].model, list[0].reset);
+        Smd second(list[1].model, list[1].reset);
+        std::vector<float> d(240);
+        std::vector<float> a(240);
+        std::vector<float> b(240);
+        std::vector<int> wins(2, 0);
+        for (std::uint64_t t = 0; t < 30; ++t) {
+            const std::vector<float> y = noise(t);
+            bank.update(y, d);
+            first.update(y, a);
+            second.update(y, b);
+            for (std::size_t cell = 0; cell < d.size(); ++cell) {
+                QCOMPARE(d[cell], std::max(a[cell], b[cell] + 0.5f));
+                const std::size_t winner = b[cell] + 0.5f > a[cell] ? 1 : 0;
+                QCOMPARE(bank.winnerAt(Index(cell)), winner);
+                ++wins[winner];
+            }
         }
+        QVERIFY(wins[0] > 100 && wins[1] > 100); // both do
+        QCOMPARE(bank.modelCount(), std::size_t(2));
+        QVERIFY(std::equal(second.scores().begin(), second.scores().end(), bank.scores(1).begin()));
     }
-    QVERIFY(wins[0] > 100 && wins[1] > 100); // both do
-    QCOMPARE(bank.modelCount(), std::size_t(2));
-    QVERIFY(std::equal(second.scores().begin(), second.scores().end(), bank.scores(1).begin()));
-}
 
-void tst_ModelBank::offsetsDecideWhoWins()
-{
-    ModelBank bank(members(1000.0));
-    std::vector<float> d(240);
-    for (std::uint64_t t = 0; t < 5; ++t)
-        bank.update(noise(t), d);
-    for (Index cell = 0; cell < 240; ++cell)
-        QCOMPARE(bank.winnerAt(cell), std::size_t(0));
-}
-
-void tst_ModelBank::forgetsInEveryMember()
-{
-    ModelBank bank(members(0.0));
-    std::vector<float> y(240, 0.5f);
-    std::vector<float> d(240);
-    y[20 * 6 + 3] = 100.0f;
-    bank.update(y, d);
-    bank.forget(grid, {{20, 3}, {1, 1}});
-    bank.update(std::vector<float>(240, 0.5f), d);
-    QVERIFY(*std::max_element(d.begin(), d.end()) < 2.0f);
-}
-
-void tst_ModelBank::oneMemberIsItself()
-{
-    auto list = members(0.0);
-    list.pop_back();
-    ModelBank bank(list);
-    Smd alone(list[0].model, list[0].reset);
-    std::vector<float> a(240);
-    std::vector<float> b(240);
-    for (std::uint64_t t = 0; t < 10; ++t) {
-        bank.update(noise(t), a);
-        alone.update(noise(t), b);
-        QCOMPARE(a, b);
+    void offsetsDecideWhoWins()
+    {
+        ModelBank bank(members(1000.0));
+        std::vector<float> d(240);
+        for (std::uint64_t t = 0; t < 5; ++t)
+            bank.update(noise(t), d);
+        for (Index cell = 0; cell < 240; ++cell)
+            QCOMPARE(bank.winnerAt(cell), std::size_t(0));
     }
-    QCOMPARE(bank.regulation().lnK, alone.regulation().lnK);
-}
 
-void tst_ModelBank::refusesOtherCells()
-{
-    auto list = members(0.0);
-    Grid other = grid;
-    other.axes[0].count = 50;
-    list[1].model = sonarModel(other, nonManoeuvring());
-    QVERIFY_THROWS_EXCEPTION(Error, static_cast<void>(ModelBank(list)));
-    QVERIFY_THROWS_EXCEPTION(Error, static_cast<void>(ModelBank(std::vector<ModelBank::Member>())));
-}
+    void forgetsInEveryMember()
+    {
+        ModelBank bank(members(0.0));
+        std::vector<float> y(240, 0.5f);
+        std::vector<float> d(240);
+        y[20 * 6 + 3] = 100.0f;
+        bank.update(y, d);
+        bank.forget(grid, {{20, 3}, {1, 1}});
+        bank.update(std::vector<float>(240, 0.5f), d);
+        QVERIFY(*std::max_element(d.begin(), d.end()) < 2.0f);
+    }
+
+    void oneMemberIsItself()
+    {
+        auto list = members(0.0);
+        list.pop_back();
+        ModelBank bank(list);
+        Smd alone(list[0].model, list[0].reset);
+        std::vector<float> a(240);
+        std::vector<float> b(240);
+        for (std::uint64_t t = 0; t < 10; ++t) {
+            bank.update(noise(t), a);
+            alone.update(noise(t), b);
+            QCOMPARE(a, b);
+        }
+        QCOMPARE(bank.regulation().lnK, alone.regulation().lnK);
+    }
+
+    void refusesOtherCells()
+    {
+        auto list = members(0.0);
+        Grid other = grid;
+        other.axes[0].count = 50;
+        list[1].model = sonarModel(other, nonManoeuvring());
+        QVERIFY_THROWS_EXCEPTION(Error, static_cast<void>(ModelBank(list)));
+        QVERIFY_THROWS_EXCEPTION(Error, static_cast<void>(ModelBank(std::vector<ModelBank::Member>())));
+    }
+};
 
 FAINTLINE_TEST(tst_ModelBank)
 #include "tst_ModelBank.moc"

@@ -112,149 +112,140 @@ class tst_regulation : public QObject
     Q_OBJECT
 
 private slots:
-    void meanLawIsParsons_data();
-    void meanLawIsParsons();
-    void dampedHalfLawIsSteady();
-    void undampedHalfLawSwings();
-    void noiseBandHoldsItsNoise();
-    void signalsDragK();
-    void inhibitedCellsDoNotCount();
-    void allCellsInhibitedKeepK();
-};
-
-void tst_regulation::meanLawIsParsons_data()
-{
-    QTest::addColumn<QList<double>>("hRange");
-    QTest::addColumn<QList<double>>("hBearing");
-    QTest::newRow("non-manoeuvring") << QList<double>{1.0} << QList<double>{1.0};
-    QTest::newRow("manoeuvring") << QList<double>{1.0 / 3.0, 1.0 / 3.0} << QList<double>{0.5, 0.25};
-    QTest::newRow("two cells a ping") << QList<double>{0.2, 0.2, 0.2} << QList<double>{1.0};
-}
-
-void tst_regulation::meanLawIsParsons()
-{
-    QFETCH(QList<double>, hRange);
-    QFETCH(QList<double>, hBearing);
-    PlainParsons plain;
-    plain.hRange.assign(hRange.begin(), hRange.end());
-    plain.hBearing.assign(hBearing.begin(), hBearing.end());
-    const MarkovModel model = sonarModel(smallGrid, smallMotion(plain.hRange, plain.hBearing));
-    Smd detector(model, {ResetLaw::Mean});
-    std::vector<float> d(144);
-    for (int ping = 0; ping < 8; ++ping) {
-        std::vector<float> y = noise(144, 7, std::uint64_t(ping));
-        // A target of power 5 from range 4 and beam 4 on, two cells and a beam a ping: over the wrap and to the range's
-        // end.
-        if (const int range = 4 + 2 * ping; range < PlainParsons::ranges)
-            y[std::size_t(range * PlainParsons::beams + (4 + ping) % PlainParsons::beams)] += 5.0f;
-        plain.update(y);
-        detector.update(y, d);
-        QVERIFY(std::abs(detector.regulation().lnK - plain.lnK) < 1e-5);
-        QVERIFY(std::abs(1.0 - detector.regulation().continuedFraction - plain.resetFraction) < 1e-12);
-        double worst = 0.0;
-        for (std::size_t n = 0; n < plain.lnL.size(); ++n)
-            worst = std::max(worst, std::abs(double(detector.scores()[n]) + detector.offset() - plain.lnL[n]));
-        QVERIFY2(worst < 1e-4, qPrintable(QString("ping %1: %2 nat").arg(ping).arg(worst)));
+    void meanLawIsParsons_data()
+    {
+        QTest::addColumn<QList<double>>("hRange");
+        QTest::addColumn<QList<double>>("hBearing");
+        QTest::newRow("non-manoeuvring") << QList<double>{1.0} << QList<double>{1.0};
+        QTest::newRow("manoeuvring") << QList<double>{1.0 / 3.0, 1.0 / 3.0} << QList<double>{0.5, 0.25};
+        QTest::newRow("two cells a ping") << QList<double>{0.2, 0.2, 0.2} << QList<double>{1.0};
     }
-}
 
-void tst_regulation::dampedHalfLawIsSteady()
-{
-    // One-to-one transitions: half of the states reset at K = -2 ln 2 (Lindley). Paths that run off the range's ends
-    // shift it slightly.
-    const NoiseBand band = noiseBand(regulated({ResetLaw::Half, -1.0, 0.0, 0.1}, 300, 600));
-    QVERIFY2(std::abs(band.mean + 2.0 * std::log(2.0)) < 0.08, qPrintable(QString::number(band.mean)));
-    QVERIFY2(band.deviation < 0.03, qPrintable(QString::number(band.deviation)));
-}
-
-void tst_regulation::undampedHalfLawSwings()
-{
-    const NoiseBand damped = noiseBand(regulated({ResetLaw::Half, -1.386, 0.0, 0.1}, 300, 300));
-    const NoiseBand hard = noiseBand(regulated({ResetLaw::Half, -1.386, 0.0, 8.0}, 300, 300));
-    QVERIFY2(hard.deviation > 10.0 * damped.deviation,
-             qPrintable(QString("%1, %2").arg(hard.deviation).arg(damped.deviation)));
-}
-
-void tst_regulation::noiseBandHoldsItsNoise()
-{
-    const std::vector<double> values{1.0, 2.0, 3.0, 4.0};
-    const NoiseBand band = noiseBand(values);
-    QCOMPARE(band.mean, 2.5);
-    QVERIFY(std::abs(band.deviation - std::sqrt(5.0 / 3.0)) < 1e-12);
-    QVERIFY(band.contains(2.5 + 3.9 * band.deviation) && !band.contains(2.5 + 4.1 * band.deviation));
-    const std::vector<double> lnK = regulated({ResetLaw::Mean}, 100, 400);
-    const NoiseBand own = noiseBand(std::span(lnK).first(200));
-    for (double value : std::span(lnK).last(200))
-        QVERIFY(own.contains(value));
-}
-
-void tst_regulation::signalsDragK()
-{
-    // Signals that no track takes over: K leaves its band downward. Taken out and their cells inhibited, as the chain
-    // does, it stays.
-    const MarkovModel model = sonarModel(smallGrid, smallMotion({1.0}, {1.0}));
-    const auto lastK = [&](float power, bool inhibited) {
+    void meanLawIsParsons()
+    {
+        QFETCH(QList<double>, hRange);
+        QFETCH(QList<double>, hBearing);
+        PlainParsons plain;
+        plain.hRange.assign(hRange.begin(), hRange.end());
+        plain.hBearing.assign(hBearing.begin(), hBearing.end());
+        const MarkovModel model = sonarModel(smallGrid, smallMotion(plain.hRange, plain.hBearing));
         Smd detector(model, {ResetLaw::Mean});
         std::vector<float> d(144);
-        const std::vector<Index> sources{2, 20, 38, 56, 74, 92, 110, 128}; // every third range, third beam
-        if (inhibited)
-            detector.inhibit(sources);
-        for (int t = 0; t < 60; ++t) {
-            std::vector<float> y = noise(144, 9, std::uint64_t(t));
-            for (Index cell : sources) {
-                float &value = y[std::size_t(cell)];
-                value = inhibited ? 0.0f : value + power;
-            }
+        for (int ping = 0; ping < 8; ++ping) {
+            std::vector<float> y = noise(144, 7, std::uint64_t(ping));
+            // A target of power 5 from range 4 and beam 4 on, two cells and a beam a ping: over the wrap and to the range's
+            // end.
+            if (const int range = 4 + 2 * ping; range < PlainParsons::ranges)
+                y[std::size_t(range * PlainParsons::beams + (4 + ping) % PlainParsons::beams)] += 5.0f;
+            plain.update(y);
             detector.update(y, d);
+            QVERIFY(std::abs(detector.regulation().lnK - plain.lnK) < 1e-5);
+            QVERIFY(std::abs(1.0 - detector.regulation().continuedFraction - plain.resetFraction) < 1e-12);
+            double worst = 0.0;
+            for (std::size_t n = 0; n < plain.lnL.size(); ++n)
+                worst = std::max(worst, std::abs(double(detector.scores()[n]) + detector.offset() - plain.lnL[n]));
+            QVERIFY2(worst < 1e-4, qPrintable(QString("ping %1: %2 nat").arg(ping).arg(worst)));
         }
-        return detector.regulation().lnK;
-    };
-    const double quiet = lastK(0.0f, false);
-    QVERIFY2(lastK(5.0f, false) < quiet - 0.5, qPrintable(QString("%1, %2").arg(lastK(5.0f, false)).arg(quiet)));
-    QVERIFY2(std::abs(lastK(5.0f, true) - quiet) < 0.3,
-             qPrintable(QString("%1, %2").arg(lastK(5.0f, true)).arg(quiet)));
-}
-
-void tst_regulation::inhibitedCellsDoNotCount()
-{
-    // By hand: the mean over the cells that are left, from the scores themselves.
-    const MarkovModel model = sonarModel(smallGrid, smallMotion({1.0}, {1.0}));
-    const std::vector<Index> inhibited{10, 11, 70, 143};
-    Smd detector(model, {ResetLaw::Mean});
-    std::vector<float> d(144);
-    detector.inhibit(inhibited);
-    for (std::uint64_t t = 0; t < 12; ++t) {
-        const std::vector<float> y = noise(144, 13, t);
-        detector.update(y, d);
-        double sum = 0.0;
-        int continued = 0;
-        for (std::size_t n = 0; n < detector.scores().size(); ++n) {
-            if (std::binary_search(inhibited.begin(), inhibited.end(), Index(n % 144)))
-                continue;
-            const double going = double(detector.scores()[n]) - double(y[n % 144]);
-            sum += going;
-            continued += going > 1e-5 ? 1 : 0;
-        }
-        QVERIFY(std::abs(detector.regulation().lnK + sum / (140.0 * 15.0)) < 1e-5);
-        QVERIFY(std::abs(detector.regulation().continuedFraction - continued / (140.0 * 15.0)) < 2e-3);
     }
-}
 
-void tst_regulation::allCellsInhibitedKeepK()
-{
-    const MarkovModel model = sonarModel(smallGrid, smallMotion({1.0}, {1.0}));
-    Smd detector(model, {ResetLaw::Mean});
-    std::vector<float> d(144);
-    for (std::uint64_t t = 0; t < 10; ++t)
-        detector.update(noise(144, 15, t), d);
-    const double before = detector.regulation().lnK;
-    std::vector<Index> all(144);
-    for (Index i = 0; i < 144; ++i)
-        all[std::size_t(i)] = i;
-    detector.inhibit(all);
-    detector.update(std::vector<float>(144, 0.0f), d);
-    QCOMPARE(detector.regulation().lnK, before);
-}
+    void dampedHalfLawIsSteady()
+    {
+        // One-to-one transitions: half of the states reset at K = -2 ln 2 (Lindley). Paths that run off the range's ends
+        // shift it slightly.
+        const NoiseBand band = noiseBand(regulated({ResetLaw::Half, -1.0, 0.0, 0.1}, 300, 600));
+        QVERIFY2(std::abs(band.mean + 2.0 * std::log(2.0)) < 0.08, qPrintable(QString::number(band.mean)));
+        QVERIFY2(band.deviation < 0.03, qPrintable(QString::number(band.deviation)));
+    }
+
+    void undampedHalfLawSwings()
+    {
+        const NoiseBand damped = noiseBand(regulated({ResetLaw::Half, -1.386, 0.0, 0.1}, 300, 300));
+        const NoiseBand hard = noiseBand(regulated({ResetLaw::Half, -1.386, 0.0, 8.0}, 300, 300));
+        QVERIFY2(hard.deviation > 10.0 * damped.deviation,
+                 qPrintable(QString("%1, %2").arg(hard.deviation).arg(damped.deviation)));
+    }
+
+    void noiseBandHoldsItsNoise()
+    {
+        const std::vector<double> values{1.0, 2.0, 3.0, 4.0};
+        const NoiseBand band = noiseBand(values);
+        QCOMPARE(band.mean, 2.5);
+        QVERIFY(std::abs(band.deviation - std::sqrt(5.0 / 3.0)) < 1e-12);
+        QVERIFY(band.contains(2.5 + 3.9 * band.deviation) && !band.contains(2.5 + 4.1 * band.deviation));
+        const std::vector<double> lnK = regulated({ResetLaw::Mean}, 100, 400);
+        const NoiseBand own = noiseBand(std::span(lnK).first(200));
+        for (double value : std::span(lnK).last(200))
+            QVERIFY(own.contains(value));
+    }
+
+    void signalsDragK()
+    {
+        // Signals that no track takes over: K leaves its band downward. Taken out and their cells inhibited, as the chain
+        // does, it stays.
+        const MarkovModel model = sonarModel(smallGrid, smallMotion({1.0}, {1.0}));
+        const auto lastK = [&](float power, bool inhibited) {
+            Smd detector(model, {ResetLaw::Mean});
+            std::vector<float> d(144);
+            const std::vector<Index> sources{2, 20, 38, 56, 74, 92, 110, 128}; // every third range, third beam
+            if (inhibited)
+                detector.inhibit(sources);
+            for (int t = 0; t < 60; ++t) {
+                std::vector<float> y = noise(144, 9, std::uint64_t(t));
+                for (Index cell : sources) {
+                    float &value = y[std::size_t(cell)];
+                    value = inhibited ? 0.0f : value + power;
+                }
+                detector.update(y, d);
+            }
+            return detector.regulation().lnK;
+        };
+        const double quiet = lastK(0.0f, false);
+        QVERIFY2(lastK(5.0f, false) < quiet - 0.5, qPrintable(QString("%1, %2").arg(lastK(5.0f, false)).arg(quiet)));
+        QVERIFY2(std::abs(lastK(5.0f, true) - quiet) < 0.3,
+                 qPrintable(QString("%1, %2").arg(lastK(5.0f, true)).arg(quiet)));
+    }
+
+    void inhibitedCellsDoNotCount()
+    {
+        // By hand: the mean over the cells that are left, from the scores themselves.
+        const MarkovModel model = sonarModel(smallGrid, smallMotion({1.0}, {1.0}));
+        const std::vector<Index> inhibited{10, 11, 70, 143};
+        Smd detector(model, {ResetLaw::Mean});
+        std::vector<float> d(144);
+        detector.inhibit(inhibited);
+        for (std::uint64_t t = 0; t < 12; ++t) {
+            const std::vector<float> y = noise(144, 13, t);
+            detector.update(y, d);
+            double sum = 0.0;
+            int continued = 0;
+            for (std::size_t n = 0; n < detector.scores().size(); ++n) {
+                if (std::binary_search(inhibited.begin(), inhibited.end(), Index(n % 144)))
+                    continue;
+                const double going = double(detector.scores()[n]) - double(y[n % 144]);
+                sum += going;
+                continued += going > 1e-5 ? 1 : 0;
+            }
+            QVERIFY(std::abs(detector.regulation().lnK + sum / (140.0 * 15.0)) < 1e-5);
+            QVERIFY(std::abs(detector.regulation().continuedFraction - continued / (140.0 * 15.0)) < 2e-3);
+        }
+    }
+
+    void allCellsInhibitedKeepK()
+    {
+        const MarkovModel model = sonarModel(smallGrid, smallMotion({1.0}, {1.0}));
+        Smd detector(model, {ResetLaw::Mean});
+        std::vector<float> d(144);
+        for (std::uint64_t t = 0; t < 10; ++t)
+            detector.update(noise(144, 15, t), d);
+        const double before = detector.regulation().lnK;
+        std::vector<Index> all(144);
+        for (Index i = 0; i < 144; ++i)
+            all[std::size_t(i)] = i;
+        detector.inhibit(all);
+        detector.update(std::vector<float>(144, 0.0f), d);
+        QCOMPARE(detector.regulation().lnK, before);
+    }
+};
 
 FAINTLINE_TEST(tst_regulation)
 #include "tst_regulation.moc"
