@@ -88,123 +88,6 @@ Counted along(const NormalisedFramesPointer &noise, Index observedEvery, const M
     return counted;
 }
 
-} // namespace
-
-/// The sequential test of a line in a recording: no model of the settings loses probability, no frame counts twice.
-class tst_lineSequentialModel : public QObject
-{
-    Q_OBJECT
-
-private slots:
-    void noModelLosesProbability_data();
-    void noModelLosesProbability();
-    void likelihoodRatiosHaveMeanOne_data();
-    void likelihoodRatiosHaveMeanOne();
-    void linearIsRefused();
-    void framesThatShareNoSample();
-    void noiseIsNoTarget_data();
-    void noiseIsNoTarget();
-    void targetsAreFound_data();
-    void targetsAreFound();
-};
-
-void tst_lineSequentialModel::noModelLosesProbability_data()
-{
-    QTest::addColumn<int>("lowest");
-    QTest::addColumn<int>("highest");
-    QTest::addColumn<std::vector<double>>("law");
-    QTest::addColumn<int>("rounding");
-    QTest::addColumn<int>("slopesPerBin");
-    const std::vector<std::pair<const char *, std::vector<double>>> laws{{"third", {1.0 / 3.0, 1.0 / 3.0}},
-                                                                         {"inert", {0.9, 0.05}},
-                                                                         {"held", {1.0}},
-                                                                         {"wide", {0.2, 0.2, 0.1, 0.1}},
-                                                                         {"rounded", {0.3333334, 0.3333333}},
-                                                                         {"always changed", {0.0, 0.5}}};
-    for (const auto &[name, law] : laws)
-        for (const auto &[lowest, highest] : {std::pair{-2, 2}, {0, 0}, {-4, 4}, {-1, 3}, {0, 2}, {-10, 10}})
-            for (const Rounding rounding : {Rounding::HalfDown, Rounding::Trunc})
-                if (highest > lowest || law[0] > 0.5)
-                    for (const int slopesPerBin : {1, 2, 8})
-                        QTest::addRow("%s, %d … %d of 1/%d, %s", name, lowest, highest, slopesPerBin,
-                                      roundingNames[std::size_t(rounding)].data())
-                            << lowest << highest << law << int(rounding) << slopesPerBin;
-}
-
-void tst_lineSequentialModel::noModelLosesProbability()
-{
-    // E0 e^λ = 1 in each cell, so E0[Λ_k] is Λ_k of no evidence at all: what is left of the target's probability.
-    QFETCH(int, lowest);
-    QFETCH(int, highest);
-    QFETCH(std::vector<double>, law);
-    QFETCH(int, rounding);
-    QFETCH(int, slopesPerBin);
-    ModelSettings settings;
-    settings.lowestSlope = double(lowest) / slopesPerBin;
-    settings.highestSlope = double(highest) / slopesPerBin;
-    settings.slopesPerBin = slopesPerBin;
-    settings.slopeChange = law;
-    settings.rounding = static_cast<Rounding>(rounding);
-    for (const Index cells : {1, 2, 5, 21, 41})
-        for (const bool isCyclic : {false, true}) {
-            if (isCyclic && (std::max(-lowest, highest) + slopesPerBin - 1) / slopesPerBin >= cells)
-                continue; // refused: a step goes round
-            const Grid grid{{{"frequency", "Hz", 0.0, 1.0, cells, isCyclic}}};
-            const FrameArray none({"time", "s", 0.0, 1.0, 1, false}, grid, std::vector<float>(std::size_t(cells)));
-            LikelihoodRatio ratio(lineSequentialModel(settings, grid, none));
-            const std::vector<double> lambda(std::size_t(cells), 0.0);
-            for (int stage = 0; stage < 40; ++stage)
-                QVERIFY2(std::abs(ratio.update(lambda)) < 1e-12,
-                         qPrintable(QString("%1 cells, stage %2: %3").arg(cells).arg(stage).arg(ratio.lnLambda())));
-        }
-}
-
-void tst_lineSequentialModel::likelihoodRatiosHaveMeanOne_data()
-{
-    QTest::addColumn<int>("kind");
-    QTest::addColumn<double>("snr");
-    for (const double snr : {0.1, 0.5, 1.0, 4.0}) {
-        QTest::addRow("rice, %g", snr) << int(LikelihoodKind::Rice) << snr;
-        QTest::addRow("exponential, %g", snr) << int(LikelihoodKind::Exponential) << snr;
-        QTest::addRow("swerling4, %g", snr) << int(LikelihoodKind::Swerling4) << snr;
-    }
-}
-
-void tst_lineSequentialModel::likelihoodRatiosHaveMeanOne()
-{
-    QFETCH(int, kind);
-    QFETCH(double, snr);
-    const Likelihood likelihood(static_cast<LikelihoodKind>(kind), snr);
-    const double mean = boost::math::quadrature::gauss_kronrod<double, 61>::integrate(
-        [&](double y) { return std::exp(likelihood.at(y) - y); }, 0.0, 400.0, 12, 1e-12);
-    QVERIFY2(std::abs(mean - 1.0) < 1e-9, qPrintable(QString::number(mean - 1.0)));
-}
-
-void tst_lineSequentialModel::linearIsRefused()
-{
-    ModelSettings settings;
-    settings.likelihood = LikelihoodKind::Linear;
-    const NormalisedFramesPointer noise = frames(1, 20);
-    QVERIFY_THROWS_EXCEPTION(Error, lineSequentialModel(settings, noise->grid(), *noise));
-    settings = {};
-    settings.motion = Motion::Manoeuvring;
-    QVERIFY_THROWS_EXCEPTION(Error, lineSequentialModel(settings, noise->grid(), *noise));
-}
-
-void tst_lineSequentialModel::framesThatShareNoSample()
-{
-    for (const int steps : {1, 2, 4}) {
-        const NormalisedFramesPointer made = frames(steps, 20);
-        QCOMPARE(framesApart(*made), Index(steps));
-        QCOMPARE(lineSequentialModel({}, made->grid(), *made).observedEvery, Index(steps));
-    }
-    const FrameArray ready({"time", "s", 0.0, 1.0, 2, false}, {{{"cell", "", 0.0, 1.0, 3, false}}},
-                           std::vector<float>(6));
-    QCOMPARE(framesApart(ready), Index(1));
-}
-
-namespace {
-
 /// α = β = 0.02: four standard deviations of what is counted are allowed.
 void verify(const Counted &counted)
 {
@@ -223,58 +106,158 @@ ModelSettings exponential(ModelSettings settings)
 
 } // namespace
 
-void tst_lineSequentialModel::noiseIsNoTarget_data()
+/// The sequential test of a line in a recording: no model of the settings loses probability, no frame counts twice.
+class tst_lineSequentialModel : public QObject
 {
-    QTest::addColumn<int>("stepsPerWindow");
-    for (const int steps : {1, 2, 4})
-        QTest::addRow("%d frames a window", steps) << steps;
-}
+    Q_OBJECT
 
-void tst_lineSequentialModel::noiseIsNoTarget()
-{
-    // White noise through the whole front end.
-    QFETCH(int, stepsPerWindow);
-    const ModelSettings settings = exponential(stepsPerWindow == 2 ? ModelSettings() : laws::billon());
-    const NormalisedFramesPointer noise = frames(stepsPerWindow, 4000);
-    verify(along(noise, stepsPerWindow, settings));
-    if (stepsPerWindow < 4)
-        return;
-    // Evidence that counts more than once: this is why the frames between are left out.
-    const Counted all = along(noise, 1, settings);
-    QVERIFY2(all.wrong > 0.1 * all.tests, qPrintable(QString("%1 of %2").arg(all.wrong).arg(all.tests)));
-}
-
-void tst_lineSequentialModel::targetsAreFound_data()
-{
-    noiseIsNoTarget_data();
-}
-
-void tst_lineSequentialModel::targetsAreFound()
-{
-    // Targets of the model's law and its SNR in samples, their main lobes over several bins; the noise's level is
-    // known.
-    QFETCH(int, stepsPerWindow);
-    SpectrogramSettings windows{.windowSeconds = windowSamples, .stepsPerWindow = stepsPerWindow};
-    Counted counted;
-    for (int run = 0; run < 300; ++run) {
-        KinematicAxis slopes = makeModel(exponential(stepsPerWindow == 2 ? ModelSettings() : laws::billon()),
-                                         {{{"frequency", "Hz", 0.0, 0.5 / windowSamples, band, false}}})
-                                   .space.axes()[0];
-        SequentialModel model = makeSequentialModel({slopes}, {false}, Likelihood(LikelihoodKind::Exponential, 1.0));
-        model.observedEvery = stepsPerWindow;
-        const Spectrogram spectrogram(targetInNoise(model, 300, std::uint64_t(run)), windows);
-        const Index firstCell = spectrogram.frequency().nearest(0.0);
-        std::vector<float> row(std::size_t(spectrogram.frequency().count));
-        const SprtResult result =
-            runSprt(model, {0.02, 0.02, 0}, spectrogram.time().count, [&](Index stage, std::span<double> y) {
-                spectrogram.read(stage, 1, row);
-                std::copy_n(row.begin() + firstCell, band, y.begin());
-            });
-        counted.tests += result.decision == SprtDecision::Undecided ? 0 : 1;
-        counted.wrong += result.decision == SprtDecision::H0 ? 1 : 0;
+private slots:
+    void noModelLosesProbability_data()
+    {
+        QTest::addColumn<int>("lowest");
+        QTest::addColumn<int>("highest");
+        QTest::addColumn<std::vector<double>>("law");
+        QTest::addColumn<int>("rounding");
+        QTest::addColumn<int>("slopesPerBin");
+        const std::vector<std::pair<const char *, std::vector<double>>> laws{{"third", {1.0 / 3.0, 1.0 / 3.0}},
+                                                                             {"inert", {0.9, 0.05}},
+                                                                             {"held", {1.0}},
+                                                                             {"wide", {0.2, 0.2, 0.1, 0.1}},
+                                                                             {"rounded", {0.3333334, 0.3333333}},
+                                                                             {"always changed", {0.0, 0.5}}};
+        for (const auto &[name, law] : laws)
+            for (const auto &[lowest, highest] : {std::pair{-2, 2}, {0, 0}, {-4, 4}, {-1, 3}, {0, 2}, {-10, 10}})
+                for (const Rounding rounding : {Rounding::HalfDown, Rounding::Trunc})
+                    if (highest > lowest || law[0] > 0.5)
+                        for (const int slopesPerBin : {1, 2, 8})
+                            QTest::addRow("%s, %d … %d of 1/%d, %s", name, lowest, highest, slopesPerBin,
+                                          roundingNames[std::size_t(rounding)].data())
+                                << lowest << highest << law << int(rounding) << slopesPerBin;
     }
-    verify(counted);
-}
+
+    void noModelLosesProbability()
+    {
+        // E0 e^λ = 1 in each cell, so E0[Λ_k] is Λ_k of no evidence at all: what is left of the target's probability.
+        QFETCH(int, lowest);
+        QFETCH(int, highest);
+        QFETCH(std::vector<double>, law);
+        QFETCH(int, rounding);
+        QFETCH(int, slopesPerBin);
+        ModelSettings settings;
+        settings.lowestSlope = double(lowest) / slopesPerBin;
+        settings.highestSlope = double(highest) / slopesPerBin;
+        settings.slopesPerBin = slopesPerBin;
+        settings.slopeChange = law;
+        settings.rounding = static_cast<Rounding>(rounding);
+        for (const Index cells : {1, 2, 5, 21, 41})
+            for (const bool isCyclic : {false, true}) {
+                if (isCyclic && (std::max(-lowest, highest) + slopesPerBin - 1) / slopesPerBin >= cells)
+                    continue; // refused: a step goes round
+                const Grid grid{{{"frequency", "Hz", 0.0, 1.0, cells, isCyclic}}};
+                const FrameArray none({"time", "s", 0.0, 1.0, 1, false}, grid, std::vector<float>(std::size_t(cells)));
+                LikelihoodRatio ratio(lineSequentialModel(settings, grid, none));
+                const std::vector<double> lambda(std::size_t(cells), 0.0);
+                for (int stage = 0; stage < 40; ++stage)
+                    QVERIFY2(std::abs(ratio.update(lambda)) < 1e-12,
+                             qPrintable(QString("%1 cells, stage %2: %3").arg(cells).arg(stage).arg(ratio.lnLambda())));
+            }
+    }
+
+    void likelihoodRatiosHaveMeanOne_data()
+    {
+        QTest::addColumn<int>("kind");
+        QTest::addColumn<double>("snr");
+        for (const double snr : {0.1, 0.5, 1.0, 4.0}) {
+            QTest::addRow("rice, %g", snr) << int(LikelihoodKind::Rice) << snr;
+            QTest::addRow("exponential, %g", snr) << int(LikelihoodKind::Exponential) << snr;
+            QTest::addRow("swerling4, %g", snr) << int(LikelihoodKind::Swerling4) << snr;
+        }
+    }
+
+    void likelihoodRatiosHaveMeanOne()
+    {
+        QFETCH(int, kind);
+        QFETCH(double, snr);
+        const Likelihood likelihood(static_cast<LikelihoodKind>(kind), snr);
+        const double mean = boost::math::quadrature::gauss_kronrod<double, 61>::integrate(
+            [&](double y) { return std::exp(likelihood.at(y) - y); }, 0.0, 400.0, 12, 1e-12);
+        QVERIFY2(std::abs(mean - 1.0) < 1e-9, qPrintable(QString::number(mean - 1.0)));
+    }
+
+    void linearIsRefused()
+    {
+        ModelSettings settings;
+        settings.likelihood = LikelihoodKind::Linear;
+        const NormalisedFramesPointer noise = frames(1, 20);
+        QVERIFY_THROWS_EXCEPTION(Error, lineSequentialModel(settings, noise->grid(), *noise));
+        settings = {};
+        settings.motion = Motion::Manoeuvring;
+        QVERIFY_THROWS_EXCEPTION(Error, lineSequentialModel(settings, noise->grid(), *noise));
+    }
+
+    void framesThatShareNoSample()
+    {
+        for (const int steps : {1, 2, 4}) {
+            const NormalisedFramesPointer made = frames(steps, 20);
+            QCOMPARE(framesApart(*made), Index(steps));
+            QCOMPARE(lineSequentialModel({}, made->grid(), *made).observedEvery, Index(steps));
+        }
+        const FrameArray ready({"time", "s", 0.0, 1.0, 2, false}, {{{"cell", "", 0.0, 1.0, 3, false}}},
+                               std::vector<float>(6));
+        QCOMPARE(framesApart(ready), Index(1));
+    }
+
+    void noiseIsNoTarget_data()
+    {
+        QTest::addColumn<int>("stepsPerWindow");
+        for (const int steps : {1, 2, 4})
+            QTest::addRow("%d frames a window", steps) << steps;
+    }
+
+    void noiseIsNoTarget()
+    {
+        // White noise through the whole front end.
+        QFETCH(int, stepsPerWindow);
+        const ModelSettings settings = exponential(stepsPerWindow == 2 ? ModelSettings() : laws::billon());
+        const NormalisedFramesPointer noise = frames(stepsPerWindow, 4000);
+        verify(along(noise, stepsPerWindow, settings));
+        if (stepsPerWindow < 4)
+            return;
+        // Evidence that counts more than once: this is why the frames between are left out.
+        const Counted all = along(noise, 1, settings);
+        QVERIFY2(all.wrong > 0.1 * all.tests, qPrintable(QString("%1 of %2").arg(all.wrong).arg(all.tests)));
+    }
+
+    void targetsAreFound_data() { noiseIsNoTarget_data(); }
+
+    void targetsAreFound()
+    {
+        // Targets of the model's law and its SNR in samples, their main lobes over several bins; the noise's level is
+        // known.
+        QFETCH(int, stepsPerWindow);
+        SpectrogramSettings windows{.windowSeconds = windowSamples, .stepsPerWindow = stepsPerWindow};
+        Counted counted;
+        for (int run = 0; run < 300; ++run) {
+            KinematicAxis slopes = makeModel(exponential(stepsPerWindow == 2 ? ModelSettings() : laws::billon()),
+                                             {{{"frequency", "Hz", 0.0, 0.5 / windowSamples, band, false}}})
+                                       .space.axes()[0];
+            SequentialModel model =
+                makeSequentialModel({slopes}, {false}, Likelihood(LikelihoodKind::Exponential, 1.0));
+            model.observedEvery = stepsPerWindow;
+            const Spectrogram spectrogram(targetInNoise(model, 300, std::uint64_t(run)), windows);
+            const Index firstCell = spectrogram.frequency().nearest(0.0);
+            std::vector<float> row(std::size_t(spectrogram.frequency().count));
+            const SprtResult result =
+                runSprt(model, {0.02, 0.02, 0}, spectrogram.time().count, [&](Index stage, std::span<double> y) {
+                    spectrogram.read(stage, 1, row);
+                    std::copy_n(row.begin() + firstCell, band, y.begin());
+                });
+            counted.tests += result.decision == SprtDecision::Undecided ? 0 : 1;
+            counted.wrong += result.decision == SprtDecision::H0 ? 1 : 0;
+        }
+        verify(counted);
+    }
+};
 
 FAINTLINE_TEST(tst_lineSequentialModel)
 #include "tst_lineSequentialModel.moc"
