@@ -51,78 +51,72 @@ class tst_noiseLaw : public QObject
     Q_OBJECT
 
 private slots:
-    void whiteNoiseNeverWarns();
-    void aStrongLineIsNoNoise();
-    void missedLinesDoNotWarn();
-    void wrongLevelsWarn();
-    void whatHasNoLaw();
-};
+    void whiteNoiseNeverWarns()
+    {
+        for (int seed = 1; seed <= 100; ++seed) {
+            const auto law = checkNoiseLaw(*analyse(noiseOf(seed, 30.0), shortWindows()));
+            QVERIFY(law);
+            QVERIFY2(law->isFollowed(),
+                     qPrintable(QString("seed %1: %2").arg(seed).arg(QString::fromStdString(law->warning()))));
+        }
+    }
 
-void tst_noiseLaw::whiteNoiseNeverWarns()
-{
-    for (int seed = 1; seed <= 100; ++seed) {
-        const auto law = checkNoiseLaw(*analyse(noiseOf(seed, 30.0), shortWindows()));
+    void aStrongLineIsNoNoise()
+    {
+        LineSettings line{.snrDb = 30.0, .frequencyHz = 80.0};
+        const auto analysis = analyse(noiseOf(7, 120.0, {line}), shortWindows());
+        QVERIFY(!analysis->tracks.empty());
+        const auto law = checkNoiseLaw(*analysis);
         QVERIFY(law);
-        QVERIFY2(law->isFollowed(),
-                 qPrintable(QString("seed %1: %2").arg(seed).arg(QString::fromStdString(law->warning()))));
+        QVERIFY2(law->isFollowed(), law->warning().c_str());
     }
-}
 
-void tst_noiseLaw::aStrongLineIsNoNoise()
-{
-    LineSettings line{.snrDb = 30.0, .frequencyHz = 80.0};
-    const auto analysis = analyse(noiseOf(7, 120.0, {line}), shortWindows());
-    QVERIFY(!analysis->tracks.empty());
-    const auto law = checkNoiseLaw(*analysis);
-    QVERIFY(law);
-    QVERIFY2(law->isFollowed(), law->warning().c_str());
-}
-
-// As in a lesson: of eight lines of 3 dB, a threshold of 60 nat misses some.
-void tst_noiseLaw::missedLinesDoNotWarn()
-{
-    AnalysisSettings settings = preset("billon").settings;
-    settings.spectrogram.windowSeconds = 0.5;
-    settings.decide.by = DecideSettings::By::Nats;
-    settings.decide.thresholdNats = 60.0;
-    std::vector<LineSettings> lines;
-    for (int i = 0; i < 8; ++i) {
-        LineSettings line{.snrDb = 3.0,
-                          .referenceSeconds = 0.5,
-                          .startSeconds = 10.0 + 35.0 * i,
-                          .durationSeconds = 30.0,
-                          .frequencyHz = 30.0 + 20.0 * i};
-        lines.push_back(line);
+    // As in a lesson: of eight lines of 3 dB, a threshold of 60 nat misses some.
+    void missedLinesDoNotWarn()
+    {
+        AnalysisSettings settings = preset("billon").settings;
+        settings.spectrogram.windowSeconds = 0.5;
+        settings.decide.by = DecideSettings::By::Nats;
+        settings.decide.thresholdNats = 60.0;
+        std::vector<LineSettings> lines;
+        for (int i = 0; i < 8; ++i) {
+            LineSettings line{.snrDb = 3.0,
+                              .referenceSeconds = 0.5,
+                              .startSeconds = 10.0 + 35.0 * i,
+                              .durationSeconds = 30.0,
+                              .frequencyHz = 30.0 + 20.0 * i};
+            lines.push_back(line);
+        }
+        const auto analysis = analyse(noiseOf(11, 300.0, lines), settings);
+        QVERIFY(analysis->tracks.size() < lines.size());
+        const auto law = checkNoiseLaw(*analysis);
+        QVERIFY(law);
+        QVERIFY2(law->isFollowed(), law->warning().c_str());
     }
-    const auto analysis = analyse(noiseOf(11, 300.0, lines), settings);
-    QVERIFY(analysis->tracks.size() < lines.size());
-    const auto law = checkNoiseLaw(*analysis);
-    QVERIFY(law);
-    QVERIFY2(law->isFollowed(), law->warning().c_str());
-}
 
-// A twentieth more power than the background says: three times as many false alarms and more.
-void tst_noiseLaw::wrongLevelsWarn()
-{
-    auto analysis = *analyse(noiseOf(8, 300.0), shortWindows());
-    for (const float factor : {1.06f, 0.94f}) {
-        Analysis other = analysis;
-        other.frames = std::make_shared<Louder>(analysis.frames, factor);
-        const auto law = checkNoiseLaw(other);
-        QVERIFY(law && !law->isFollowed());
-        QVERIFY2(QString::fromStdString(law->warning())
-                     .contains(factor > 1.0f ? "expect more false alarms" : "expect fewer"),
-                 law->warning().c_str());
+    // A twentieth more power than the background says: three times as many false alarms and more.
+    void wrongLevelsWarn()
+    {
+        auto analysis = *analyse(noiseOf(8, 300.0), shortWindows());
+        for (const float factor : {1.06f, 0.94f}) {
+            Analysis other = analysis;
+            other.frames = std::make_shared<Louder>(analysis.frames, factor);
+            const auto law = checkNoiseLaw(other);
+            QVERIFY(law && !law->isFollowed());
+            QVERIFY2(QString::fromStdString(law->warning())
+                         .contains(factor > 1.0f ? "expect more false alarms" : "expect fewer"),
+                     law->warning().c_str());
+        }
     }
-}
 
-void tst_noiseLaw::whatHasNoLaw()
-{
-    AnalysisSettings settings;
-    setSetting(settings, "detector.kind", "energy");
-    QVERIFY(!checkNoiseLaw(*analyse(noiseOf(9, 40.0), settings)));
-    QVERIFY(!checkNoiseLaw(*analyse(noiseOf(9, 2.0), {})));
-}
+    void whatHasNoLaw()
+    {
+        AnalysisSettings settings;
+        setSetting(settings, "detector.kind", "energy");
+        QVERIFY(!checkNoiseLaw(*analyse(noiseOf(9, 40.0), settings)));
+        QVERIFY(!checkNoiseLaw(*analyse(noiseOf(9, 2.0), {})));
+    }
+};
 
 FAINTLINE_TEST(tst_noiseLaw)
 #include "tst_noiseLaw.moc"
