@@ -25,82 +25,6 @@ LineExperiment experiment(std::vector<DetectorUnderTest> detectors)
     return made;
 }
 
-} // namespace
-
-/// An experiment's runs against plain loops over their fields, and what cannot be an experiment.
-class tst_LineExperiment : public QObject
-{
-    Q_OBJECT
-
-private slots:
-    void outcomesAreTheLargestOfTheirCells();
-    void everyOtherFrameAlone();
-    void linesFluctuateFromWindowToWindow();
-    void linesFluctuateAsAWhole();
-    void sinksSeeEveryRunOnce();
-    void noRunsNoOutcomes();
-    void resetsAreFoundForMarkovDetectorsAlone();
-    void resetsOfShortRunsAreThoseOfLongOnes();
-    void cancels();
-    void countsOfBlocks();
-    void refusals_data();
-    void refusals();
-};
-
-// One frame's energy is its own statistic: D is y.
-void tst_LineExperiment::outcomesAreTheLargestOfTheirCells()
-{
-    const LineExperiment made = experiment({peer("energy", 10.0)});
-    const std::vector<RunOutcome> outcomes = runExperiment(made, {7, 2});
-    QCOMPARE(outcomes.size(), std::size_t(2));
-    FieldTransform transform(made);
-    for (const RunOutcome &outcome : outcomes) {
-        const NoisyField field = makeField(made, outcome.run, transform);
-        std::vector<float> noise(10, 0.0f);
-        for (std::size_t i = 0; i < 120 * 1000; ++i) {
-            float &largest = noise[i / 1000 / 60 * 5 + i % 1000 / 200];
-            largest = std::max(largest, std::norm(field.noise[i]));
-        }
-        for (std::size_t s = 0; s < 2; ++s)
-            for (std::size_t i = 0; i < 10; ++i) {
-                const auto amplitude = float(std::pow(10.0, made.snrDb[s] / 20.0));
-                float largest = 0.0f;
-                for (std::size_t k = 0; k < 20; ++k) {
-                    const auto at =
-                        std::size_t((field.places[i].firstFrame + Index(k)) * 1000 + field.places[i].bins[k]);
-                    largest = std::max(largest, std::norm(field.noise[at] + amplitude * field.signal[at]));
-                }
-                QVERIFY(std::abs(outcome.signal[0][s][i] - largest) < 1e-4f * (1.0f + largest));
-                QVERIFY(std::abs(outcome.noise[0][i] - noise[i]) < 1e-4f * (1.0f + noise[i]));
-            }
-    }
-    QCOMPARE(outcomes[0].run, 7);
-    QCOMPARE(outcomes[1].run, 2);
-}
-
-// A mean over one window of half a window's steps: two frames of the same bin.
-void tst_LineExperiment::everyOtherFrameAlone()
-{
-    LineExperiment made = experiment({peer("integrator", 1.0)});
-    made.snrDb = {0.0};
-    const RunOutcome outcome = runExperiment(made, {3}).front();
-    FieldTransform transform(made);
-    const NoisyField field = makeField(made, 3, transform);
-    std::vector<float> expected(10, 0.0f);
-    for (std::size_t frame = 1; frame < 120; ++frame)
-        for (std::size_t bin = 0; bin < 1000; ++bin) {
-            const float mean =
-                0.5f * (std::norm(field.noise[frame * 1000 + bin]) + std::norm(field.noise[(frame - 1) * 1000 + bin]));
-            float &largest = expected[frame / 60 * 5 + bin / 200];
-            largest = std::max(largest, mean);
-        }
-    for (std::size_t i = 0; i < 10; ++i)
-        QVERIFY2(std::abs(outcome.noise[0][i] - expected[i]) < 1e-4f * expected[i],
-                 qPrintable(QString("%1, not %2").arg(double(outcome.noise[0][i])).arg(double(expected[i]))));
-}
-
-namespace {
-
 /// Power of each line in each of its frames, where it is strongest, over that of a constant line.
 std::vector<std::vector<double>> relativePowers(LineExperiment made, Fluctuation fluctuation)
 {
@@ -126,146 +50,6 @@ LineExperiment separateFrames()
     return made;
 }
 
-} // namespace
-
-// Lines begin with a window, so each window has the line's power of a moment of its own.
-void tst_LineExperiment::linesFluctuateFromWindowToWindow()
-{
-    double mean = 0.0;
-    double square = 0.0;
-    int windows = 0;
-    for (const std::vector<double> &line : relativePowers(separateFrames(), Fluctuation::Swerling2))
-        for (const double power : line) {
-            mean += power;
-            square += power * power;
-            ++windows;
-        }
-    QCOMPARE(windows, 100);
-    QVERIFY2(std::abs(mean / windows - 1.0) < 0.45, qPrintable(QString::number(mean / windows)));
-    QVERIFY2(square / windows > 1.2, qPrintable(QString::number(square / windows))); // 2 is expected
-}
-
-void tst_LineExperiment::linesFluctuateAsAWhole()
-{
-    std::vector<double> powers;
-    for (const std::vector<double> &line : relativePowers(separateFrames(), Fluctuation::Swerling1)) {
-        for (const double power : line)
-            QVERIFY2(std::abs(power - line.front()) < 0.2 * std::sqrt(line.front()) + 0.02, // neighbours leak into it
-                     qPrintable(QString("%1, not %2").arg(power).arg(line.front())));
-        powers.push_back(line.front());
-    }
-    std::sort(powers.begin(), powers.end());
-    QVERIFY(powers.back() > 2.0 * powers.front()); // ten lines have ten powers
-}
-
-void tst_LineExperiment::sinksSeeEveryRunOnce()
-{
-    const LineExperiment made = experiment({peer("energy", 10.0)});
-    RunContext context;
-    context.threads = 3;
-    std::vector<RunOutcome> seen;
-    const auto outcomes =
-        runExperiment(made, {4, 0, 9, 1}, context, [&](const RunOutcome &outcome) { seen.push_back(outcome); });
-    QCOMPARE(seen.size(), std::size_t(4));
-    for (const RunOutcome &outcome : outcomes)
-        QCOMPARE(std::count(seen.begin(), seen.end(), outcome), std::ptrdiff_t(1));
-}
-
-void tst_LineExperiment::noRunsNoOutcomes()
-{
-    int seen = 0;
-    QVERIFY(runExperiment(experiment({peer("energy", 10.0)}), {}, {}, [&](const RunOutcome &) { ++seen; }).empty());
-    QCOMPARE(seen, 0);
-}
-
-void tst_LineExperiment::resetsAreFoundForMarkovDetectorsAlone()
-{
-    LineExperiment made = experiment({peer("SMD stable", 10.0), peer("energy", 10.0), peer("SMD 5 slopes", 10.0)});
-    made.frames = 600;
-    made.binsPerCell = 1;
-    const std::vector<ResetRule> rules = calibratedResets(made);
-    QCOMPARE(rules.size(), std::size_t(3));
-    QCOMPARE(rules[1].lnK, 0.0);
-    // Of three equal chances each step costs ln 3 nat, which K gives back where there is a choice of slopes.
-    QVERIFY(rules[0].lnK < 0.0 && rules[2].lnK > 0.0);
-    LineExperiment other = made;
-    other.detectors = {peer("SMD stable", 10.0)};
-    QCOMPARE(calibratedResets(other).front().lnK, rules[0].lnK); // whatever else is tried
-    other.seed = 2;
-    const double again = calibratedResets(other).front().lnK;
-    QVERIFY(again != rules[0].lnK && std::abs(again - rules[0].lnK) < 0.05);
-}
-
-// K is of the detector on noise: how long an experiment's runs are does not matter to it.
-void tst_LineExperiment::resetsOfShortRunsAreThoseOfLongOnes()
-{
-    LineExperiment made = experiment({peer("SMD stable", 10.0), peer("SMD 5 slopes", 10.0)});
-    made.frames = 1000;
-    made.binsPerCell = 1;
-    const std::vector<ResetRule> expected = calibratedResets(made);
-    for (const int frames : {60, 130, 300, 301}) {
-        made.frames = frames;
-        const std::vector<ResetRule> rules = calibratedResets(made);
-        for (std::size_t i = 0; i < 2; ++i)
-            QVERIFY2(std::abs(rules[i].lnK - expected[i].lnK) < 0.1,
-                     qPrintable(QString("%1 frames: %2, not %3").arg(frames).arg(rules[i].lnK).arg(expected[i].lnK)));
-    }
-}
-
-void tst_LineExperiment::cancels()
-{
-    std::stop_source source;
-    RunContext context;
-    context.stop = source.get_token();
-    int seen = 0;
-    const auto stopAtTheFirst = [&](const RunOutcome &) {
-        ++seen;
-        source.request_stop();
-    };
-    QVERIFY_THROWS_EXCEPTION(Cancelled,
-                             runExperiment(experiment({peer("energy", 10.0)}), {0, 1, 2, 3}, context, stopAtTheFirst));
-    QCOMPARE(seen, 1);
-}
-
-void tst_LineExperiment::countsOfBlocks()
-{
-    LineExperiment made;
-    QCOMPARE(made.bins(), 1000);
-    QCOMPARE(made.blocksInTime(), 6); // 2000 of 300 frames, the rest is left over
-    QCOMPARE(made.blocksInFrequency(), 5);
-    QCOMPARE(made.signalsPerRun(), 30);
-    QCOMPARE(made.signalFrames(), 200);
-    made.durationWindows = 0.75;
-    QCOMPARE(made.signalFrames(), 2); // one and a half
-    made.durationWindows = 0.7;
-    QCOMPARE(made.signalFrames(), 1);
-}
-
-void tst_LineExperiment::refusals_data()
-{
-    QTest::addColumn<QString>("member");
-    QTest::addColumn<QString>("words");
-    QTest::newRow("detectors") << "detectors"
-                               << "detectors: must name at least one detector";
-    QTest::newRow("snrDb") << "snrDb"
-                           << "snrDb: must hold at least one value";
-    QTest::newRow("stepsPerWindow") << "stepsPerWindow"
-                                    << "stepsPerWindow = 3: must divide 250, the samples of a window";
-    QTest::newRow("blockBins") << "blockBins"
-                               << "blockFrames, blockBins: a block must fit into the field of 130 × 1000 cells";
-    QTest::newRow("blockFrames") << "blockFrames"
-                                 << "blockFrames, blockBins: a block must fit into the field of 130 × 1000 cells";
-    QTest::newRow("durationWindows") << "durationWindows"
-                                     << "durationWindows = 30.5: a line must last 1 … blockFrames = 60 frames";
-    QTest::newRow("fluctuation") << "fluctuation"
-                                 << "fluctuation = swerling1: is not possible with fading; use one of the two";
-    QTest::newRow("drift") << "drift"
-                           << "driftCellsPerWindow, wanderCells: a line must stay within its block of blockBins = 200 "
-                              "bins";
-}
-
-namespace {
-
 LineExperiment fadingAndFluctuating(LineExperiment made)
 {
     made.fading = Fading::Rayleigh;
@@ -275,30 +59,229 @@ LineExperiment fadingAndFluctuating(LineExperiment made)
 
 } // namespace
 
-void tst_LineExperiment::refusals()
+/// An experiment's runs against plain loops over their fields, and what cannot be an experiment.
+class tst_LineExperiment : public QObject
 {
-    QFETCH(QString, member);
-    QFETCH(QString, words);
-    LineExperiment made = experiment({peer("energy", 10.0)});
-    QCOMPARE(errorOf([&] { checkExperiment(made); }), std::string());
-    if (member == "detectors")
-        made.detectors.clear();
-    else if (member == "snrDb")
-        made.snrDb.clear();
-    else if (member == "stepsPerWindow")
-        made.stepsPerWindow = 3;
-    else if (member == "blockBins")
-        made.blockBins = 1001;
-    else if (member == "blockFrames")
-        made.blockFrames = 131;
-    else if (member == "durationWindows")
-        made.durationWindows = 30.5;
-    else if (member == "fluctuation")
-        made = fadingAndFluctuating(made);
-    else
-        made.driftCellsPerWindow = 4.7; // 47 cells in ten windows, where 46 have room
-    QCOMPARE(QString::fromStdString(errorOf([&] { checkExperiment(made); })), words);
-}
+    Q_OBJECT
+
+private slots:
+    // One frame's energy is its own statistic: D is y.
+    void outcomesAreTheLargestOfTheirCells()
+    {
+        const LineExperiment made = experiment({peer("energy", 10.0)});
+        const std::vector<RunOutcome> outcomes = runExperiment(made, {7, 2});
+        QCOMPARE(outcomes.size(), std::size_t(2));
+        FieldTransform transform(made);
+        for (const RunOutcome &outcome : outcomes) {
+            const NoisyField field = makeField(made, outcome.run, transform);
+            std::vector<float> noise(10, 0.0f);
+            for (std::size_t i = 0; i < 120 * 1000; ++i) {
+                float &largest = noise[i / 1000 / 60 * 5 + i % 1000 / 200];
+                largest = std::max(largest, std::norm(field.noise[i]));
+            }
+            for (std::size_t s = 0; s < 2; ++s)
+                for (std::size_t i = 0; i < 10; ++i) {
+                    const auto amplitude = float(std::pow(10.0, made.snrDb[s] / 20.0));
+                    float largest = 0.0f;
+                    for (std::size_t k = 0; k < 20; ++k) {
+                        const auto at =
+                            std::size_t((field.places[i].firstFrame + Index(k)) * 1000 + field.places[i].bins[k]);
+                        largest = std::max(largest, std::norm(field.noise[at] + amplitude * field.signal[at]));
+                    }
+                    QVERIFY(std::abs(outcome.signal[0][s][i] - largest) < 1e-4f * (1.0f + largest));
+                    QVERIFY(std::abs(outcome.noise[0][i] - noise[i]) < 1e-4f * (1.0f + noise[i]));
+                }
+        }
+        QCOMPARE(outcomes[0].run, 7);
+        QCOMPARE(outcomes[1].run, 2);
+    }
+
+    // A mean over one window of half a window's steps: two frames of the same bin.
+    void everyOtherFrameAlone()
+    {
+        LineExperiment made = experiment({peer("integrator", 1.0)});
+        made.snrDb = {0.0};
+        const RunOutcome outcome = runExperiment(made, {3}).front();
+        FieldTransform transform(made);
+        const NoisyField field = makeField(made, 3, transform);
+        std::vector<float> expected(10, 0.0f);
+        for (std::size_t frame = 1; frame < 120; ++frame)
+            for (std::size_t bin = 0; bin < 1000; ++bin) {
+                const float mean =
+                    0.5f
+                    * (std::norm(field.noise[frame * 1000 + bin]) + std::norm(field.noise[(frame - 1) * 1000 + bin]));
+                float &largest = expected[frame / 60 * 5 + bin / 200];
+                largest = std::max(largest, mean);
+            }
+        for (std::size_t i = 0; i < 10; ++i)
+            QVERIFY2(std::abs(outcome.noise[0][i] - expected[i]) < 1e-4f * expected[i],
+                     qPrintable(QString("%1, not %2").arg(double(outcome.noise[0][i])).arg(double(expected[i]))));
+    }
+
+    // Lines begin with a window, so each window has the line's power of a moment of its own.
+    void linesFluctuateFromWindowToWindow()
+    {
+        double mean = 0.0;
+        double square = 0.0;
+        int windows = 0;
+        for (const std::vector<double> &line : relativePowers(separateFrames(), Fluctuation::Swerling2))
+            for (const double power : line) {
+                mean += power;
+                square += power * power;
+                ++windows;
+            }
+        QCOMPARE(windows, 100);
+        QVERIFY2(std::abs(mean / windows - 1.0) < 0.45, qPrintable(QString::number(mean / windows)));
+        QVERIFY2(square / windows > 1.2, qPrintable(QString::number(square / windows))); // 2 is expected
+    }
+
+    void linesFluctuateAsAWhole()
+    {
+        std::vector<double> powers;
+        for (const std::vector<double> &line : relativePowers(separateFrames(), Fluctuation::Swerling1)) {
+            for (const double power : line)
+                QVERIFY2(std::abs(power - line.front())
+                             < 0.2 * std::sqrt(line.front()) + 0.02, // neighbours leak into it
+                         qPrintable(QString("%1, not %2").arg(power).arg(line.front())));
+            powers.push_back(line.front());
+        }
+        std::sort(powers.begin(), powers.end());
+        QVERIFY(powers.back() > 2.0 * powers.front()); // ten lines have ten powers
+    }
+
+    void sinksSeeEveryRunOnce()
+    {
+        const LineExperiment made = experiment({peer("energy", 10.0)});
+        RunContext context;
+        context.threads = 3;
+        std::vector<RunOutcome> seen;
+        const auto outcomes =
+            runExperiment(made, {4, 0, 9, 1}, context, [&](const RunOutcome &outcome) { seen.push_back(outcome); });
+        QCOMPARE(seen.size(), std::size_t(4));
+        for (const RunOutcome &outcome : outcomes)
+            QCOMPARE(std::count(seen.begin(), seen.end(), outcome), std::ptrdiff_t(1));
+    }
+
+    void noRunsNoOutcomes()
+    {
+        int seen = 0;
+        QVERIFY(runExperiment(experiment({peer("energy", 10.0)}), {}, {}, [&](const RunOutcome &) { ++seen; }).empty());
+        QCOMPARE(seen, 0);
+    }
+
+    void resetsAreFoundForMarkovDetectorsAlone()
+    {
+        LineExperiment made = experiment({peer("SMD stable", 10.0), peer("energy", 10.0), peer("SMD 5 slopes", 10.0)});
+        made.frames = 600;
+        made.binsPerCell = 1;
+        const std::vector<ResetRule> rules = calibratedResets(made);
+        QCOMPARE(rules.size(), std::size_t(3));
+        QCOMPARE(rules[1].lnK, 0.0);
+        // Of three equal chances each step costs ln 3 nat, which K gives back where there is a choice of slopes.
+        QVERIFY(rules[0].lnK < 0.0 && rules[2].lnK > 0.0);
+        LineExperiment other = made;
+        other.detectors = {peer("SMD stable", 10.0)};
+        QCOMPARE(calibratedResets(other).front().lnK, rules[0].lnK); // whatever else is tried
+        other.seed = 2;
+        const double again = calibratedResets(other).front().lnK;
+        QVERIFY(again != rules[0].lnK && std::abs(again - rules[0].lnK) < 0.05);
+    }
+
+    // K is of the detector on noise: how long an experiment's runs are does not matter to it.
+    void resetsOfShortRunsAreThoseOfLongOnes()
+    {
+        LineExperiment made = experiment({peer("SMD stable", 10.0), peer("SMD 5 slopes", 10.0)});
+        made.frames = 1000;
+        made.binsPerCell = 1;
+        const std::vector<ResetRule> expected = calibratedResets(made);
+        for (const int frames : {60, 130, 300, 301}) {
+            made.frames = frames;
+            const std::vector<ResetRule> rules = calibratedResets(made);
+            for (std::size_t i = 0; i < 2; ++i)
+                QVERIFY2(
+                    std::abs(rules[i].lnK - expected[i].lnK) < 0.1,
+                    qPrintable(QString("%1 frames: %2, not %3").arg(frames).arg(rules[i].lnK).arg(expected[i].lnK)));
+        }
+    }
+
+    void cancels()
+    {
+        std::stop_source source;
+        RunContext context;
+        context.stop = source.get_token();
+        int seen = 0;
+        const auto stopAtTheFirst = [&](const RunOutcome &) {
+            ++seen;
+            source.request_stop();
+        };
+        QVERIFY_THROWS_EXCEPTION(
+            Cancelled, runExperiment(experiment({peer("energy", 10.0)}), {0, 1, 2, 3}, context, stopAtTheFirst));
+        QCOMPARE(seen, 1);
+    }
+
+    void countsOfBlocks()
+    {
+        LineExperiment made;
+        QCOMPARE(made.bins(), 1000);
+        QCOMPARE(made.blocksInTime(), 6); // 2000 of 300 frames, the rest is left over
+        QCOMPARE(made.blocksInFrequency(), 5);
+        QCOMPARE(made.signalsPerRun(), 30);
+        QCOMPARE(made.signalFrames(), 200);
+        made.durationWindows = 0.75;
+        QCOMPARE(made.signalFrames(), 2); // one and a half
+        made.durationWindows = 0.7;
+        QCOMPARE(made.signalFrames(), 1);
+    }
+
+    void refusals_data()
+    {
+        QTest::addColumn<QString>("member");
+        QTest::addColumn<QString>("words");
+        QTest::newRow("detectors") << "detectors"
+                                   << "detectors: must name at least one detector";
+        QTest::newRow("snrDb") << "snrDb"
+                               << "snrDb: must hold at least one value";
+        QTest::newRow("stepsPerWindow") << "stepsPerWindow"
+                                        << "stepsPerWindow = 3: must divide 250, the samples of a window";
+        QTest::newRow("blockBins") << "blockBins"
+                                   << "blockFrames, blockBins: a block must fit into the field of 130 × 1000 cells";
+        QTest::newRow("blockFrames") << "blockFrames"
+                                     << "blockFrames, blockBins: a block must fit into the field of 130 × 1000 cells";
+        QTest::newRow("durationWindows") << "durationWindows"
+                                         << "durationWindows = 30.5: a line must last 1 … blockFrames = 60 frames";
+        QTest::newRow("fluctuation") << "fluctuation"
+                                     << "fluctuation = swerling1: is not possible with fading; use one of the two";
+        QTest::newRow("drift")
+            << "drift"
+            << "driftCellsPerWindow, wanderCells: a line must stay within its block of blockBins = 200 "
+               "bins";
+    }
+
+    void refusals()
+    {
+        QFETCH(QString, member);
+        QFETCH(QString, words);
+        LineExperiment made = experiment({peer("energy", 10.0)});
+        QCOMPARE(errorOf([&] { checkExperiment(made); }), std::string());
+        if (member == "detectors")
+            made.detectors.clear();
+        else if (member == "snrDb")
+            made.snrDb.clear();
+        else if (member == "stepsPerWindow")
+            made.stepsPerWindow = 3;
+        else if (member == "blockBins")
+            made.blockBins = 1001;
+        else if (member == "blockFrames")
+            made.blockFrames = 131;
+        else if (member == "durationWindows")
+            made.durationWindows = 30.5;
+        else if (member == "fluctuation")
+            made = fadingAndFluctuating(made);
+        else
+            made.driftCellsPerWindow = 4.7; // 47 cells in ten windows, where 46 have room
+        QCOMPARE(QString::fromStdString(errorOf([&] { checkExperiment(made); })), words);
+    }
+};
 
 FAINTLINE_TEST(tst_LineExperiment)
 #include "tst_LineExperiment.moc"

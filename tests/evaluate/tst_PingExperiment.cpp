@@ -51,101 +51,93 @@ class tst_PingExperiment : public QObject
     Q_OBJECT
 
 private slots:
-    void aStrongTargetIsFoundInEveryRun();
-    void withoutATargetThereIsNone();
-    void aRunDependsOnItsNumberAlone();
-    void seedsMatter();
-    void noRunsNoScores();
-    void otherDetectorsAreRefused();
-    void cancels();
+    void aStrongTargetIsFoundInEveryRun()
+    {
+        const std::vector<TrackScore> scores = runPings(experiment());
+        QCOMPARE(scores.size(), std::size_t(4));
+        for (const TrackScore &score : scores) {
+            QCOMPARE(score.targets.size(), std::size_t(1));
+            const TargetScore &target = score.targets.front();
+            QCOMPARE(target.presentPings, Index(35));
+            QVERIFY(target.isDetected() && target.detectLatency <= 5);
+            QVERIFY(target.isConfirmed() && target.confirmLatency >= target.detectLatency);
+            QVERIFY(target.matchedPoints >= 25);
+            QVERIFY(target.rmsCells[0] < 1.5 && target.rmsCells[1] < 1.0);
+        }
+    }
+
+    void withoutATargetThereIsNone()
+    {
+        PingExperiment made = experiment();
+        made.scene.targets.clear();
+        for (const TrackScore &score : runPings(made)) {
+            QVERIFY(score.targets.empty());
+            QCOMPARE(score.falseConfirmed, 0);
+            QCOMPARE(score.falseTracks, int(score.targetOfTrack.size()));
+        }
+    }
+
+    void aRunDependsOnItsNumberAlone()
+    {
+        PingExperiment made = experiment();
+        made.scene.targets.front().snrDb = 4.0; // so that latencies differ
+        const std::vector<TrackScore> scores = runPings(made);
+        RunContext three;
+        three.threads = 3;
+        QVERIFY(areSame(runPings(made, three), scores));
+        made.runs = 2;
+        const std::vector<TrackScore> two = runPings(made);
+        QVERIFY(areSame(two, {scores[0], scores[1]}));
+        QVERIFY(!areSame({scores[0]}, {scores[1]}));
+    }
+
+    void seedsMatter()
+    {
+        PingExperiment made = experiment();
+        made.scene.targets.front().snrDb = 4.0;
+        const std::vector<TrackScore> scores = runPings(made);
+        made.scene.seed = 77; // the scene's own is not looked at
+        QVERIFY(areSame(runPings(made), scores));
+        made.seed = 10;
+        QVERIFY(!areSame(runPings(made), scores));
+    }
+
+    void noRunsNoScores()
+    {
+        PingExperiment made = experiment();
+        made.runs = 0;
+        QVERIFY(runPings(made).empty());
+    }
+
+    void otherDetectorsAreRefused()
+    {
+        const std::string words =
+            "experiment: requires the sequential Markov detector with one model; choose detector.kind = smd";
+        PingExperiment made = experiment();
+        made.settings.detector = EnergySettings{};
+        QCOMPARE(errorOf([&] { runPings(made); }), words);
+        made = experiment();
+        made.settings.model.motion = Motion::Bank;
+        QCOMPARE(errorOf([&] { runPings(made); }), words);
+    }
+
+    void cancels()
+    {
+        std::stop_source source;
+        RunContext context;
+        context.stop = source.get_token();
+        double latest = 0.0;
+        context.progress = [&](double fraction, std::string_view what) {
+            QVERIFY(fraction >= latest && fraction <= 1.0);
+            latest = fraction;
+            if (what == "following targets")
+                source.request_stop();
+        };
+        QVERIFY_THROWS_EXCEPTION(Cancelled, runPings(experiment(), context));
+        QVERIFY(latest >= 0.2); // settled first
+        QVERIFY_THROWS_EXCEPTION(Cancelled, runPings(experiment(), context));
+    }
 };
-
-void tst_PingExperiment::aStrongTargetIsFoundInEveryRun()
-{
-    const std::vector<TrackScore> scores = runPings(experiment());
-    QCOMPARE(scores.size(), std::size_t(4));
-    for (const TrackScore &score : scores) {
-        QCOMPARE(score.targets.size(), std::size_t(1));
-        const TargetScore &target = score.targets.front();
-        QCOMPARE(target.presentPings, Index(35));
-        QVERIFY(target.isDetected() && target.detectLatency <= 5);
-        QVERIFY(target.isConfirmed() && target.confirmLatency >= target.detectLatency);
-        QVERIFY(target.matchedPoints >= 25);
-        QVERIFY(target.rmsCells[0] < 1.5 && target.rmsCells[1] < 1.0);
-    }
-}
-
-void tst_PingExperiment::withoutATargetThereIsNone()
-{
-    PingExperiment made = experiment();
-    made.scene.targets.clear();
-    for (const TrackScore &score : runPings(made)) {
-        QVERIFY(score.targets.empty());
-        QCOMPARE(score.falseConfirmed, 0);
-        QCOMPARE(score.falseTracks, int(score.targetOfTrack.size()));
-    }
-}
-
-void tst_PingExperiment::aRunDependsOnItsNumberAlone()
-{
-    PingExperiment made = experiment();
-    made.scene.targets.front().snrDb = 4.0; // so that latencies differ
-    const std::vector<TrackScore> scores = runPings(made);
-    RunContext three;
-    three.threads = 3;
-    QVERIFY(areSame(runPings(made, three), scores));
-    made.runs = 2;
-    const std::vector<TrackScore> two = runPings(made);
-    QVERIFY(areSame(two, {scores[0], scores[1]}));
-    QVERIFY(!areSame({scores[0]}, {scores[1]}));
-}
-
-void tst_PingExperiment::seedsMatter()
-{
-    PingExperiment made = experiment();
-    made.scene.targets.front().snrDb = 4.0;
-    const std::vector<TrackScore> scores = runPings(made);
-    made.scene.seed = 77; // the scene's own is not looked at
-    QVERIFY(areSame(runPings(made), scores));
-    made.seed = 10;
-    QVERIFY(!areSame(runPings(made), scores));
-}
-
-void tst_PingExperiment::noRunsNoScores()
-{
-    PingExperiment made = experiment();
-    made.runs = 0;
-    QVERIFY(runPings(made).empty());
-}
-
-void tst_PingExperiment::otherDetectorsAreRefused()
-{
-    const std::string words =
-        "experiment: requires the sequential Markov detector with one model; choose detector.kind = smd";
-    PingExperiment made = experiment();
-    made.settings.detector = EnergySettings{};
-    QCOMPARE(errorOf([&] { runPings(made); }), words);
-    made = experiment();
-    made.settings.model.motion = Motion::Bank;
-    QCOMPARE(errorOf([&] { runPings(made); }), words);
-}
-
-void tst_PingExperiment::cancels()
-{
-    std::stop_source source;
-    RunContext context;
-    context.stop = source.get_token();
-    double latest = 0.0;
-    context.progress = [&](double fraction, std::string_view what) {
-        QVERIFY(fraction >= latest && fraction <= 1.0);
-        latest = fraction;
-        if (what == "following targets")
-            source.request_stop();
-    };
-    QVERIFY_THROWS_EXCEPTION(Cancelled, runPings(experiment(), context));
-    QVERIFY(latest >= 0.2); // settled first
-    QVERIFY_THROWS_EXCEPTION(Cancelled, runPings(experiment(), context));
-}
 
 FAINTLINE_TEST(tst_PingExperiment)
 #include "tst_PingExperiment.moc"

@@ -58,108 +58,99 @@ class tst_walkOnLine : public QObject
     Q_OBJECT
 
 private slots:
-    void movesAreTheMatrix();
-    void theFirstStepIsTakenFromTheMiddle();
-    void withoutADeviationThePathIsKnown();
-    void anInfiniteDeviationNeedsNoState();
-    void entropyOfTheStationaryLaw_data();
-    void entropyOfTheStationaryLaw();
-    void entropyRisesWithTheDeviation();
-    void oneCellKnowsItsPath();
-};
-
-void tst_walkOnLine::movesAreTheMatrix()
-{
-    constexpr Index cells = 9;
-    const SequentialModel model = walkOnLine(cells, 1.3, 2.0);
-    const StateSpace &space = model.markov.space;
-    QCOMPARE(space.stateCount(), cells);
-    QCOMPARE(model.markov.likelihood.snr(), 2.0);
-    QVERIFY(model.markov.likelihood.kind() == LikelihoodKind::Exponential);
-    const auto rows = walkMatrix(cells, 1.3);
-    const KinematicAxis &axis = space.axes().front();
-    for (Index to = 0; to < cells; ++to) {
-        std::vector<double> found(std::size_t(cells), 0.0);
-        for (const StateSpace::Predecessor &before : space.predecessors(to))
-            found[std::size_t(before.state)] += std::exp(before.lnProbability);
-        for (Index from = 0; from < cells; ++from)
-            QVERIFY(std::abs(found[std::size_t(from)] - rows[std::size_t(from)][std::size_t(to)]) < 1e-12);
-    }
-    QVERIFY(axis.largestLoss() < 1e-12);
-}
-
-void tst_walkOnLine::theFirstStepIsTakenFromTheMiddle()
-{
-    for (const Index cells : {Index(9), Index(10)}) {
-        const std::vector<double> law = walkOnLine(cells, 1.3, 2.0).initialLaw();
+    void movesAreTheMatrix()
+    {
+        constexpr Index cells = 9;
+        const SequentialModel model = walkOnLine(cells, 1.3, 2.0);
+        const StateSpace &space = model.markov.space;
+        QCOMPARE(space.stateCount(), cells);
+        QCOMPARE(model.markov.likelihood.snr(), 2.0);
+        QVERIFY(model.markov.likelihood.kind() == LikelihoodKind::Exponential);
         const auto rows = walkMatrix(cells, 1.3);
-        QCOMPARE(std::ssize(law), cells);
-        for (Index cell = 0; cell < cells; ++cell)
-            QVERIFY(std::abs(law[std::size_t(cell)] - rows[std::size_t(cells / 2)][std::size_t(cell)]) < 1e-12);
+        const KinematicAxis &axis = space.axes().front();
+        for (Index to = 0; to < cells; ++to) {
+            std::vector<double> found(std::size_t(cells), 0.0);
+            for (const StateSpace::Predecessor &before : space.predecessors(to))
+                found[std::size_t(before.state)] += std::exp(before.lnProbability);
+            for (Index from = 0; from < cells; ++from)
+                QVERIFY(std::abs(found[std::size_t(from)] - rows[std::size_t(from)][std::size_t(to)]) < 1e-12);
+        }
+        QVERIFY(axis.largestLoss() < 1e-12);
     }
-}
 
-void tst_walkOnLine::withoutADeviationThePathIsKnown()
-{
-    const SequentialModel model = walkOnLine(7, 0.0, 1.0);
-    std::vector<double> middle(7, 0.0);
-    middle[3] = 1.0;
-    QCOMPARE(model.initialLaw(), middle);
-    for (Index state = 0; state < 7; ++state) {
-        const auto before = model.markov.space.predecessors(state);
-        QCOMPARE(before.size(), std::size_t(1));
-        QCOMPARE(before.front().state, state);
-        QCOMPARE(before.front().lnProbability, 0.0);
+    void theFirstStepIsTakenFromTheMiddle()
+    {
+        for (const Index cells : {Index(9), Index(10)}) {
+            const std::vector<double> law = walkOnLine(cells, 1.3, 2.0).initialLaw();
+            const auto rows = walkMatrix(cells, 1.3);
+            QCOMPARE(std::ssize(law), cells);
+            for (Index cell = 0; cell < cells; ++cell)
+                QVERIFY(std::abs(law[std::size_t(cell)] - rows[std::size_t(cells / 2)][std::size_t(cell)]) < 1e-12);
+        }
     }
-}
 
-void tst_walkOnLine::anInfiniteDeviationNeedsNoState()
-{
-    const SequentialModel model = walkOnLine(7, INFINITY, 1.0);
-    QCOMPARE(model.markov.space.stateCount(), Index(1));
-    QCOMPARE(model.reduction.frameCells(), Index(7));
-    QCOMPARE(model.reduction.foldedCells(), Index(7));
-}
-
-void tst_walkOnLine::entropyOfTheStationaryLaw_data()
-{
-    QTest::addColumn<int>("cells");
-    QTest::addColumn<double>("deviation");
-    QTest::newRow("two cells") << 2 << 0.6;
-    QTest::newRow("narrow steps") << 12 << 0.4;
-    QTest::newRow("wide steps") << 12 << 3.0;
-    QTest::newRow("as wide as the line") << 5 << 5.0;
-}
-
-void tst_walkOnLine::entropyOfTheStationaryLaw()
-{
-    QFETCH(int, cells);
-    QFETCH(double, deviation);
-    const double expected = entropyRate(walkMatrix(cells, deviation)) / std::log(double(cells));
-    const double found = relativeEntropyRate(cells, deviation);
-    QVERIFY2(std::abs(found - expected) < 1e-9, qPrintable(QString("%1, not %2").arg(found).arg(expected)));
-}
-
-void tst_walkOnLine::entropyRisesWithTheDeviation()
-{
-    double before = relativeEntropyRate(50, 0.0);
-    QCOMPARE(before, 0.0);
-    for (const double deviation : {0.3, 0.5, 1.0, 2.0, 5.0, 100.0, double(INFINITY)}) {
-        const double rate = relativeEntropyRate(50, deviation);
-        QVERIFY(rate > before && rate <= 1.0);
-        before = rate;
+    void withoutADeviationThePathIsKnown()
+    {
+        const SequentialModel model = walkOnLine(7, 0.0, 1.0);
+        std::vector<double> middle(7, 0.0);
+        middle[3] = 1.0;
+        QCOMPARE(model.initialLaw(), middle);
+        for (Index state = 0; state < 7; ++state) {
+            const auto before = model.markov.space.predecessors(state);
+            QCOMPARE(before.size(), std::size_t(1));
+            QCOMPARE(before.front().state, state);
+            QCOMPARE(before.front().lnProbability, 0.0);
+        }
     }
-    QCOMPARE(before, 1.0);
-}
 
-void tst_walkOnLine::oneCellKnowsItsPath()
-{
-    for (const double deviation : {0.0, 1.0, double(INFINITY)}) {
-        QCOMPARE(relativeEntropyRate(1, deviation), 0.0);
-        QCOMPARE(walkOnLine(1, deviation, 1.0).markov.space.stateCount(), Index(1));
-        QVERIFY(std::abs(walkOnLine(1, deviation, 1.0).initialLaw().front() - 1.0) < 1e-12);
+    void anInfiniteDeviationNeedsNoState()
+    {
+        const SequentialModel model = walkOnLine(7, INFINITY, 1.0);
+        QCOMPARE(model.markov.space.stateCount(), Index(1));
+        QCOMPARE(model.reduction.frameCells(), Index(7));
+        QCOMPARE(model.reduction.foldedCells(), Index(7));
     }
-}
+
+    void entropyOfTheStationaryLaw_data()
+    {
+        QTest::addColumn<int>("cells");
+        QTest::addColumn<double>("deviation");
+        QTest::newRow("two cells") << 2 << 0.6;
+        QTest::newRow("narrow steps") << 12 << 0.4;
+        QTest::newRow("wide steps") << 12 << 3.0;
+        QTest::newRow("as wide as the line") << 5 << 5.0;
+    }
+
+    void entropyOfTheStationaryLaw()
+    {
+        QFETCH(int, cells);
+        QFETCH(double, deviation);
+        const double expected = entropyRate(walkMatrix(cells, deviation)) / std::log(double(cells));
+        const double found = relativeEntropyRate(cells, deviation);
+        QVERIFY2(std::abs(found - expected) < 1e-9, qPrintable(QString("%1, not %2").arg(found).arg(expected)));
+    }
+
+    void entropyRisesWithTheDeviation()
+    {
+        double before = relativeEntropyRate(50, 0.0);
+        QCOMPARE(before, 0.0);
+        for (const double deviation : {0.3, 0.5, 1.0, 2.0, 5.0, 100.0, double(INFINITY)}) {
+            const double rate = relativeEntropyRate(50, deviation);
+            QVERIFY(rate > before && rate <= 1.0);
+            before = rate;
+        }
+        QCOMPARE(before, 1.0);
+    }
+
+    void oneCellKnowsItsPath()
+    {
+        for (const double deviation : {0.0, 1.0, double(INFINITY)}) {
+            QCOMPARE(relativeEntropyRate(1, deviation), 0.0);
+            QCOMPARE(walkOnLine(1, deviation, 1.0).markov.space.stateCount(), Index(1));
+            QVERIFY(std::abs(walkOnLine(1, deviation, 1.0).initialLaw().front() - 1.0) < 1e-12);
+        }
+    }
+};
 
 FAINTLINE_TEST(tst_walkOnLine)
 #include "tst_walkOnLine.moc"
