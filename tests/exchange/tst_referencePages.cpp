@@ -91,119 +91,113 @@ class tst_referencePages : public QObject
     Q_OBJECT
 
 private slots:
-    void keysWithTheirRanges_data();
-    void keysWithTheirRanges();
-    void noKeyIsLeftOut_data();
-    void noKeyIsLeftOut();
-    void examplesAreRead_data();
-    void examplesAreRead();
-    void tablesOfASurvey();
-};
-
-void tst_referencePages::keysWithTheirRanges_data()
-{
-    QTest::addColumn<QString>("page");
-    QTest::addColumn<QStringList>("rows");
-    QTest::newRow("LineScene") << "scenes.md" << rowsOf(LineScene::fields());
-    QTest::newRow("NoiseSettings") << "scenes.md" << rowsOf(NoiseSettings::fields());
-    QTest::newRow("LineSettings") << "scenes.md" << rowsOf(LineSettings::fields());
-    QTest::newRow("PingScene") << "scenes.md" << rowsOf(PingScene::fields());
-    QTest::newRow("PingTarget") << "scenes.md" << rowsOf(PingTarget::fields());
-    QTest::newRow("PingLeg") << "scenes.md" << rowsOf(PingLeg::fields());
-    QTest::newRow("Reverberation") << "scenes.md" << rowsOf(Reverberation::fields());
-    QTest::newRow("ScanScene") << "scenes.md" << rowsOf(ScanScene::fields());
-    QTest::newRow("LineExperiment") << "experiments.md" << rowsOf(LineExperiment::fields());
-    QTest::newRow("InjectionExperiment") << "experiments.md" << rowsOf(InjectionExperiment::fields());
-    QTest::newRow("SweepExperiment") << "experiments.md" << rowsOf(SweepExperiment::fields());
-}
-
-void tst_referencePages::keysWithTheirRanges()
-{
-    QFETCH(QString, page);
-    QFETCH(QStringList, rows);
-    const QStringList written = rowsOf(page, QString::fromLatin1(QTest::currentDataTag()));
-    for (const QString &row : rows)
-        QVERIFY2(written.contains(row), qPrintable(rows.join(QLatin1Char('\n'))));
-    QCOMPARE(written.size(), rows.size());
-}
-
-void tst_referencePages::noKeyIsLeftOut_data()
-{
-    QTest::addColumn<QString>("page");
-    QTest::addColumn<QStringList>("known");
-    QTest::newRow("grid") << "grids.md"
-                          << knownTo(
-                                 [](const Json &json) {
-                                     readGrid(json, {2, 3});
-                                 },
-                                 Json{{"axes", Json::array()}});
-    const auto withEntries = [](const char *kind) { return Json{{"kind", kind}}; };
-    QTest::newRow("injection") << "experiments.md"
-                               << knownTo([](const Json &json) { injectionExperimentFromJson(json, {}); },
-                                          withEntries("injection"));
-    QTest::newRow("sweep") << "experiments.md"
-                           << knownTo([](const Json &json) { sweepExperimentFromJson(json, {}); },
-                                      withEntries("sweep"));
-    QTest::newRow("lines") << "experiments.md"
-                           << knownTo([](const Json &json) { lineExperimentFromJson(json, {}); }, withEntries("lines"));
-    QTest::newRow("lineScene") << "scenes.md"
-                               << knownTo([](const Json &json) { lineSceneFromJson(json); }, withEntries("lines"));
-    QTest::newRow("pingScene") << "scenes.md"
-                               << knownTo([](const Json &json) { pingSceneFromJson(json); }, withEntries("pings"));
-}
-
-void tst_referencePages::noKeyIsLeftOut()
-{
-    QFETCH(QString, page);
-    QFETCH(QStringList, known);
-    QVERIFY(known.size() > 1);
-    const QString text = contentOf(page);
-    for (const QString &key : known)
-        QVERIFY2(text.contains(QLatin1Char('`') + key + QLatin1Char('`')), qPrintable(key));
-}
-
-void tst_referencePages::examplesAreRead_data()
-{
-    QTest::addColumn<QString>("example");
-    for (const char *page : {"scenes.md", "grids.md", "experiments.md"}) {
-        const QString text = contentOf(QString::fromLatin1(page));
-        const QRegularExpression blocks(QStringLiteral("```json\n(.*?)```"),
-                                        QRegularExpression::DotMatchesEverythingOption);
-        int number = 0;
-        for (auto i = blocks.globalMatch(text); i.hasNext();)
-            QTest::addRow("%s %d", page, ++number) << i.next().captured(1);
+    void keysWithTheirRanges_data()
+    {
+        QTest::addColumn<QString>("page");
+        QTest::addColumn<QStringList>("rows");
+        QTest::newRow("LineScene") << "scenes.md" << rowsOf(LineScene::fields());
+        QTest::newRow("NoiseSettings") << "scenes.md" << rowsOf(NoiseSettings::fields());
+        QTest::newRow("LineSettings") << "scenes.md" << rowsOf(LineSettings::fields());
+        QTest::newRow("PingScene") << "scenes.md" << rowsOf(PingScene::fields());
+        QTest::newRow("PingTarget") << "scenes.md" << rowsOf(PingTarget::fields());
+        QTest::newRow("PingLeg") << "scenes.md" << rowsOf(PingLeg::fields());
+        QTest::newRow("Reverberation") << "scenes.md" << rowsOf(Reverberation::fields());
+        QTest::newRow("ScanScene") << "scenes.md" << rowsOf(ScanScene::fields());
+        QTest::newRow("LineExperiment") << "experiments.md" << rowsOf(LineExperiment::fields());
+        QTest::newRow("InjectionExperiment") << "experiments.md" << rowsOf(InjectionExperiment::fields());
+        QTest::newRow("SweepExperiment") << "experiments.md" << rowsOf(SweepExperiment::fields());
     }
-}
 
-void tst_referencePages::examplesAreRead()
-{
-    QFETCH(QString, example);
-    const Json json = parseJson(example.toStdString(), "example");
-    const QString page = QString::fromLatin1(QTest::currentDataTag()).section(QLatin1Char(' '), 0, 0);
-    if (page == QLatin1String("experiments.md"))
-        experimentFromJson(json, {});
-    else if (page == QLatin1String("grids.md"))
-        readGrid(json, json.at("axes").size() == 1 ? std::vector<Index>{60, 1000} : std::vector<Index>{60, 200, 20});
-    else if (isPingScene(json))
-        pingSceneFromJson(json);
-    else if (json.value("kind", std::string()) == "scans")
-        scanSceneFromJson(json);
-    else
-        lineSceneFromJson(json);
-}
+    void keysWithTheirRanges()
+    {
+        QFETCH(QString, page);
+        QFETCH(QStringList, rows);
+        const QStringList written = rowsOf(page, QString::fromLatin1(QTest::currentDataTag()));
+        for (const QString &row : rows)
+            QVERIFY2(written.contains(row), qPrintable(rows.join(QLatin1Char('\n'))));
+        QCOMPARE(written.size(), rows.size());
+    }
 
-void tst_referencePages::tablesOfASurvey()
-{
-    const QString text = contentOf(QStringLiteral("survey.md"));
-    QString schema;
-    for (const std::string &statement : surveySchema())
-        schema += QString::fromStdString(statement) + QStringLiteral(";\n");
-    QCOMPARE(text.section(QStringLiteral("```sql\n"), 1).section(QStringLiteral("```"), 0, 0), schema);
-    QVERIFY(text.contains(QStringLiteral("0x%1").arg(surveyApplicationId, 0, 16)));
-    QVERIFY(text.contains(QStringLiteral("`user_version` %1").arg(surveyFormat)));
-    for (const SurveyTable &table : surveyTables())
-        QVERIFY(text.contains(QStringLiteral("\n| `%1` |").arg(QString::fromStdString(table.name))));
-}
+    void noKeyIsLeftOut_data()
+    {
+        QTest::addColumn<QString>("page");
+        QTest::addColumn<QStringList>("known");
+        QTest::newRow("grid") << "grids.md"
+                              << knownTo(
+                                     [](const Json &json) {
+                                         readGrid(json, {2, 3});
+                                     },
+                                     Json{{"axes", Json::array()}});
+        const auto withEntries = [](const char *kind) { return Json{{"kind", kind}}; };
+        QTest::newRow("injection") << "experiments.md"
+                                   << knownTo([](const Json &json) { injectionExperimentFromJson(json, {}); },
+                                              withEntries("injection"));
+        QTest::newRow("sweep") << "experiments.md"
+                               << knownTo([](const Json &json) { sweepExperimentFromJson(json, {}); },
+                                          withEntries("sweep"));
+        QTest::newRow("lines") << "experiments.md"
+                               << knownTo([](const Json &json) { lineExperimentFromJson(json, {}); },
+                                          withEntries("lines"));
+        QTest::newRow("lineScene") << "scenes.md"
+                                   << knownTo([](const Json &json) { lineSceneFromJson(json); }, withEntries("lines"));
+        QTest::newRow("pingScene") << "scenes.md"
+                                   << knownTo([](const Json &json) { pingSceneFromJson(json); }, withEntries("pings"));
+    }
+
+    void noKeyIsLeftOut()
+    {
+        QFETCH(QString, page);
+        QFETCH(QStringList, known);
+        QVERIFY(known.size() > 1);
+        const QString text = contentOf(page);
+        for (const QString &key : known)
+            QVERIFY2(text.contains(QLatin1Char('`') + key + QLatin1Char('`')), qPrintable(key));
+    }
+
+    void examplesAreRead_data()
+    {
+        QTest::addColumn<QString>("example");
+        for (const char *page : {"scenes.md", "grids.md", "experiments.md"}) {
+            const QString text = contentOf(QString::fromLatin1(page));
+            const QRegularExpression blocks(QStringLiteral("```json\n(.*?)```"),
+                                            QRegularExpression::DotMatchesEverythingOption);
+            int number = 0;
+            for (auto i = blocks.globalMatch(text); i.hasNext();)
+                QTest::addRow("%s %d", page, ++number) << i.next().captured(1);
+        }
+    }
+
+    void examplesAreRead()
+    {
+        QFETCH(QString, example);
+        const Json json = parseJson(example.toStdString(), "example");
+        const QString page = QString::fromLatin1(QTest::currentDataTag()).section(QLatin1Char(' '), 0, 0);
+        if (page == QLatin1String("experiments.md"))
+            experimentFromJson(json, {});
+        else if (page == QLatin1String("grids.md"))
+            readGrid(json,
+                     json.at("axes").size() == 1 ? std::vector<Index>{60, 1000} : std::vector<Index>{60, 200, 20});
+        else if (isPingScene(json))
+            pingSceneFromJson(json);
+        else if (json.value("kind", std::string()) == "scans")
+            scanSceneFromJson(json);
+        else
+            lineSceneFromJson(json);
+    }
+
+    void tablesOfASurvey()
+    {
+        const QString text = contentOf(QStringLiteral("survey.md"));
+        QString schema;
+        for (const std::string &statement : surveySchema())
+            schema += QString::fromStdString(statement) + QStringLiteral(";\n");
+        QCOMPARE(text.section(QStringLiteral("```sql\n"), 1).section(QStringLiteral("```"), 0, 0), schema);
+        QVERIFY(text.contains(QStringLiteral("0x%1").arg(surveyApplicationId, 0, 16)));
+        QVERIFY(text.contains(QStringLiteral("`user_version` %1").arg(surveyFormat)));
+        for (const SurveyTable &table : surveyTables())
+            QVERIFY(text.contains(QStringLiteral("\n| `%1` |").arg(QString::fromStdString(table.name))));
+    }
+};
 
 FAINTLINE_TEST(tst_referencePages)
 #include "tst_referencePages.moc"
