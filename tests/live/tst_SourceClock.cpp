@@ -10,18 +10,6 @@
 using namespace faintline;
 using namespace faintline::test;
 
-/// A source whose clock goes wrong is told of, with how wrong; one whose deliveries are late is not.
-class tst_SourceClock : public QObject
-{
-    Q_OBJECT
-
-private slots:
-    void departs_data();
-    void departs();
-    void lateDeliveries();
-    void beginsAnew();
-};
-
 namespace {
 
 constexpr double rate = 48'000.0;
@@ -44,49 +32,56 @@ std::vector<SourceClock::Departure> told(SourceClock &clock, double ppmSlow, dou
 
 } // namespace
 
-void tst_SourceClock::departs_data()
+/// A source whose clock goes wrong is told of, with how wrong; one whose deliveries are late is not.
+class tst_SourceClock : public QObject
 {
-    QTest::addColumn<double>("ppm");
-    QTest::newRow("slow") << 80.0;
-    QTest::newRow("fast") << -80.0;
-    QTest::newRow("very slow") << 5000.0;
-    QTest::newRow("a little fast") << -15.0;
-}
+    Q_OBJECT
 
-// At 0.1 s, 0.2 s, 0.4 s …
-void tst_SourceClock::departs()
-{
-    QFETCH(double, ppm);
-    SourceClock clock(rate);
-    const std::vector<SourceClock::Departure> all = told(clock, ppm, 3.0);
-    QCOMPARE(std::ssize(all), Index(1 + std::floor(std::log2(10'800.0 * std::abs(ppm) * 1e-6 / 0.1))));
-    double expected = 0.1;
-    for (const SourceClock::Departure &departure : all) {
-        const double seconds = double(departure.samples) / rate;
-        QVERIFY2(std::abs(seconds) >= expected && std::abs(seconds) < expected + 0.02 + 11e-6 * std::abs(ppm),
-                 qPrintable(QString::number(seconds)));
-        // The least late of a hundred deliveries is half a millisecond late in the mean, and few are later than 4 ms.
-        QVERIFY2(std::abs(departure.ppm / ppm - 1.0) < 0.008 / std::abs(seconds) + 0.001,
-                 qPrintable(QString::number(departure.ppm)));
-        expected *= 2.0;
+private slots:
+    void departs_data()
+    {
+        QTest::addColumn<double>("ppm");
+        QTest::newRow("slow") << 80.0;
+        QTest::newRow("fast") << -80.0;
+        QTest::newRow("very slow") << 5000.0;
+        QTest::newRow("a little fast") << -15.0;
     }
-    QVERIFY(contains(all.front().words, ppm > 0.0 ? " ppm slow: in " : " ppm fast: in "));
-    QVERIFY(contains(all.front().words, ppm > 0.0 ? "behind this machine's" : "ahead of this machine's"));
-}
 
-void tst_SourceClock::lateDeliveries()
-{
-    SourceClock clock(rate);
-    QVERIFY(told(clock, 0.0, 24.0).empty());
-}
+    // At 0.1 s, 0.2 s, 0.4 s …
+    void departs()
+    {
+        QFETCH(double, ppm);
+        SourceClock clock(rate);
+        const std::vector<SourceClock::Departure> all = told(clock, ppm, 3.0);
+        QCOMPARE(std::ssize(all), Index(1 + std::floor(std::log2(10'800.0 * std::abs(ppm) * 1e-6 / 0.1))));
+        double expected = 0.1;
+        for (const SourceClock::Departure &departure : all) {
+            const double seconds = double(departure.samples) / rate;
+            QVERIFY2(std::abs(seconds) >= expected && std::abs(seconds) < expected + 0.02 + 11e-6 * std::abs(ppm),
+                     qPrintable(QString::number(seconds)));
+            // The least late of a hundred deliveries is half a millisecond late in the mean, and few are later than 4 ms.
+            QVERIFY2(std::abs(departure.ppm / ppm - 1.0) < 0.008 / std::abs(seconds) + 0.001,
+                     qPrintable(QString::number(departure.ppm)));
+            expected *= 2.0;
+        }
+        QVERIFY(contains(all.front().words, ppm > 0.0 ? " ppm slow: in " : " ppm fast: in "));
+        QVERIFY(contains(all.front().words, ppm > 0.0 ? "behind this machine's" : "ahead of this machine's"));
+    }
 
-void tst_SourceClock::beginsAnew()
-{
-    SourceClock clock(rate);
-    QVERIFY(!told(clock, 500.0, 0.1).empty());
-    clock.restart();
-    QVERIFY(told(clock, 0.0, 0.1).empty());
-}
+    void lateDeliveries()
+    {
+        SourceClock clock(rate);
+        QVERIFY(told(clock, 0.0, 24.0).empty());
+    }
+
+    void beginsAnew()
+    {
+        SourceClock clock(rate);
+        QVERIFY(!told(clock, 500.0, 0.1).empty());
+        clock.restart();
+        QVERIFY(told(clock, 0.0, 0.1).empty());
+    }
+};
 
 FAINTLINE_TEST(tst_SourceClock)
 #include "tst_SourceClock.moc"

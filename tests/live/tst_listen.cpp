@@ -14,28 +14,6 @@
 using namespace faintline;
 using namespace faintline::test;
 
-/// What is heard live gives the events of its recording, gaps and all, to the byte.
-class tst_listen : public QObject
-{
-    Q_OBJECT
-
-private slots:
-    void isTheSameAsItsRecording_data();
-    void isTheSameAsItsRecording();
-    void changesOfAnEvent();
-    void isToldSoonAfterTheCrossing();
-    void gapsArePlacedToTheSample();
-    void overflowIsAGap();
-    void doesNotOverwrite();
-    void rotates();
-    void shorterThanAWindow();
-    void stopsWhenAsked();
-
-private:
-    std::string path(const char *name) const { return m_folder.filePath(name).toStdString(); }
-    QTemporaryDir m_folder;
-};
-
 namespace {
 
 constexpr double rate = 1000.0;
@@ -183,237 +161,256 @@ ListenSettings settings(const std::string &record)
 
 } // namespace
 
-void tst_listen::isTheSameAsItsRecording_data()
+/// What is heard live gives the events of its recording, gaps and all, to the byte.
+class tst_listen : public QObject
 {
-    QTest::addColumn<int>("gaps");
-    QTest::addColumn<int>("longest");
-    QTest::addColumn<QString>("setting");
-    QTest::newRow("without gaps") << 0 << 0 << "";
-    QTest::newRow("short gaps") << 100 << 40 << "";
-    QTest::newRow("long gaps") << 7 << 40000 << "";
-    QTest::newRow("windows that overlap more") << 3 << 500 << "spectrogram.stepsPerWindow=4";
-    QTest::newRow("a band") << 3 << 500 << "selection.lowHz=100,selection.highHz=300";
-    QTest::newRow("from and to") << 3 << 500 << "selection.fromSeconds=30,selection.toSeconds=400";
-    QTest::newRow("tracks that are confirmed later") << 0 << 0 << "track.confirmFrames=5";
-    QTest::newRow("another detector") << 0 << 0 << "detector.kind=pOfN";
-}
+    Q_OBJECT
 
-void tst_listen::isTheSameAsItsRecording()
-{
-    QFETCH(int, gaps);
-    QFETCH(int, longest);
-    QFETCH(QString, setting);
-    const std::string record = path((QTest::currentDataTag() + std::string(".sigmf-meta")).c_str());
-    const std::vector<float> samples = scene();
-    GivenSource source(
-        format(),
-        piecesOf(samples, gaps > 0 ? randomGaps(gaps, std::ssize(samples), longest, 5) : std::vector<Gap>(), 6));
-    ListenSettings used = settings(record);
-    for (const QString &each : setting.split(',', Qt::SkipEmptyParts))
-        setSetting(used.analysis, each.section('=', 0, 0).toStdString(), each.section('=', 1).toStdString());
-    const ListenResult live = listen(source, used, {});
-    QVERIFY(live.isAnalysedToTheEnd && live.isRecordedWhole);
-    const SigmfRecording kept(record);
-    if (used.analysis.selection.toSeconds == 0.0)
-        QCOMPARE(kept.info().sampleCount, std::ssize(samples));
-    const auto file = analyse(std::make_shared<SigmfRecording>(record), settingsForListening(used.analysis, format()));
-    QVERIFY(live.events.size() >= 8);
-    QCOMPARE(QByteArray::fromStdString(eventsCsv(live.plan, live.events)),
-             QByteArray::fromStdString(eventsCsv(*file, events(*file))));
-}
-
-// Each number is provisional first, final last, once each, and says in between what a track says.
-void tst_listen::changesOfAnEvent()
-{
-    const std::vector<float> samples = scene();
-    GivenSource source(format(), piecesOf(samples, {}, 7));
-    ListenSettings used = settings({});
-    setSetting(used.analysis, "track.confirmFrames", "5");
-    used.updateSeconds = 5.0;
-    std::map<int, std::vector<EventChange>> changes;
-    ListenSinks sinks;
-    sinks.event = [&](const EventChange &change, const AnalysisPlan &) { changes[change.event.id].push_back(change); };
-    const ListenResult live = listen(source, used, sinks);
-    using State = EventChange::State;
-    std::size_t ownEvents = 0;
-    bool hasJoined = false;
-    for (const auto &each : changes) {
-        const auto id = each.first; // clang 14 captures no structured binding
-        const auto &own = each.second;
-        QVERIFY(own.size() >= 2);
-        QCOMPARE(own.front().state, State::Provisional);
-        QCOMPARE(own.back().state, State::Final);
-        const auto count = [&](State state) {
-            return std::count_if(own.begin(), own.end(), [state](const EventChange &c) { return c.state == state; });
-        };
-        QCOMPARE(count(State::Provisional), 1);
-        QCOMPARE(count(State::Final), 1);
-        QVERIFY(count(State::Confirmed) <= 1);
-        hasJoined = hasJoined || own.back().partOf.has_value();
-        if (own.back().partOf || own.back().isWithdrawn)
-            continue;
-        ++ownEvents;
-        const auto found =
-            std::find_if(live.events.begin(), live.events.end(), [id](const Event &e) { return e.id == id; });
-        QVERIFY(found != live.events.end());
-        QCOMPARE(found->detectSeconds, own.front().event.detectSeconds);
-        QCOMPARE(found->endSeconds, own.back().event.endSeconds);
-        QCOMPARE(own.front().event.endSeconds, own.front().event.detectSeconds); // told in the frame of the crossing
-        // What was lost and found again is told of under its own number until it is joined.
-        const bool hasParts = std::any_of(changes.begin(), changes.end(),
-                                          [id](const auto &other) { return other.second.back().partOf == id; });
-        const double lasted = found->endSeconds - found->detectSeconds;
-        QVERIFY(hasParts || double(count(State::Updated)) >= std::floor(lasted / 5.0) - 1.0);
+private slots:
+    void isTheSameAsItsRecording_data()
+    {
+        QTest::addColumn<int>("gaps");
+        QTest::addColumn<int>("longest");
+        QTest::addColumn<QString>("setting");
+        QTest::newRow("without gaps") << 0 << 0 << "";
+        QTest::newRow("short gaps") << 100 << 40 << "";
+        QTest::newRow("long gaps") << 7 << 40000 << "";
+        QTest::newRow("windows that overlap more") << 3 << 500 << "spectrogram.stepsPerWindow=4";
+        QTest::newRow("a band") << 3 << 500 << "selection.lowHz=100,selection.highHz=300";
+        QTest::newRow("from and to") << 3 << 500 << "selection.fromSeconds=30,selection.toSeconds=400";
+        QTest::newRow("tracks that are confirmed later") << 0 << 0 << "track.confirmFrames=5";
+        QTest::newRow("another detector") << 0 << 0 << "detector.kind=pOfN";
     }
-    QCOMPARE(ownEvents, live.events.size());
-    QVERIFY(hasJoined);
-    QVERIFY(contains(eventLine(changes.begin()->second.front(), live.plan, 0.0), R"("state":"provisional")"));
-}
 
-// A line at 6 dB, for which a stream suffices that ends two windows after the crossing.
-void tst_listen::isToldSoonAfterTheCrossing()
-{
-    LineScene lines{.sampleRateHz = rate, .durationSeconds = 60.0};
-    lines.noise.deviation = 0.1;
-    lines.seed = 5;
-    lines.lines = {
-        {.snrDb = 6.0, .referenceSeconds = 0.25, .startSeconds = 30.0, .durationSeconds = 25.0, .frequencyHz = 210.0}};
-    const std::vector<float> samples = readAll(SimulatedRecording(lines));
-    const auto told = [&](double seconds) {
-        const auto count = std::size_t(seconds * rate);
-        GivenSource source(format(), piecesOf({samples.begin(), samples.begin() + std::ptrdiff_t(count)}, {}, 8));
-        std::vector<double> crossings;
+    void isTheSameAsItsRecording()
+    {
+        QFETCH(int, gaps);
+        QFETCH(int, longest);
+        QFETCH(QString, setting);
+        const std::string record = path((QTest::currentDataTag() + std::string(".sigmf-meta")).c_str());
+        const std::vector<float> samples = scene();
+        GivenSource source(
+            format(),
+            piecesOf(samples, gaps > 0 ? randomGaps(gaps, std::ssize(samples), longest, 5) : std::vector<Gap>(), 6));
+        ListenSettings used = settings(record);
+        for (const QString &each : setting.split(',', Qt::SkipEmptyParts))
+            setSetting(used.analysis, each.section('=', 0, 0).toStdString(), each.section('=', 1).toStdString());
+        const ListenResult live = listen(source, used, {});
+        QVERIFY(live.isAnalysedToTheEnd && live.isRecordedWhole);
+        const SigmfRecording kept(record);
+        if (used.analysis.selection.toSeconds == 0.0)
+            QCOMPARE(kept.info().sampleCount, std::ssize(samples));
+        const auto file =
+            analyse(std::make_shared<SigmfRecording>(record), settingsForListening(used.analysis, format()));
+        QVERIFY(live.events.size() >= 8);
+        QCOMPARE(QByteArray::fromStdString(eventsCsv(live.plan, live.events)),
+                 QByteArray::fromStdString(eventsCsv(*file, events(*file))));
+    }
+
+    // Each number is provisional first, final last, once each, and says in between what a track says.
+    void changesOfAnEvent()
+    {
+        const std::vector<float> samples = scene();
+        GivenSource source(format(), piecesOf(samples, {}, 7));
+        ListenSettings used = settings({});
+        setSetting(used.analysis, "track.confirmFrames", "5");
+        used.updateSeconds = 5.0;
+        std::map<int, std::vector<EventChange>> changes;
         ListenSinks sinks;
         sinks.event = [&](const EventChange &change, const AnalysisPlan &) {
-            if (change.state == EventChange::State::Provisional
-                && std::abs(change.event.position.front() - 210.0) < 10.0)
-                crossings.push_back(change.event.detectSeconds);
+            changes[change.event.id].push_back(change);
         };
-        listen(source, settings({}), sinks);
-        return crossings;
-    };
-    const std::vector<double> crossings = told(60.0);
-    QVERIFY(!crossings.empty() && crossings.front() > 30.0 && crossings.front() < 35.0);
-    QCOMPARE(told(crossings.front() + 2.0 * 0.25), std::vector{crossings.front()});
-    QVERIFY(told(crossings.front() - 0.25).empty()); // the line itself, not the stream's end
-}
-
-// A thousand, each of which has to be where it was: the oracle are the samples themselves.
-void tst_listen::gapsArePlacedToTheSample()
-{
-    const std::vector<float> samples = someNoise(600'000, 9);
-    const std::vector<Gap> gaps = randomGaps(1000, std::ssize(samples), 300, 10);
-    GivenSource source(format(), piecesOf(samples, gaps, 11));
-    Index told = 0;
-    Index lost = 0;
-    ListenSinks sinks;
-    sinks.notice = [&](const ListenNotice &notice, const StreamFormat &) {
-        if (notice.kind != ListenNotice::Kind::Lost)
-            return;
-        QCOMPARE(notice.sample, gaps[std::size_t(told)].at);
-        QCOMPARE(notice.sampleCount, gaps[std::size_t(told)].length);
-        lost += notice.sampleCount;
-        ++told;
-    };
-    const ListenResult live = listen(source, settings(path("gaps.sigmf-meta")), sinks);
-    QCOMPARE(told, Index(1000));
-    QCOMPARE(live.lostCount, lost);
-    const SigmfRecording kept(path("gaps.sigmf-meta"));
-    std::vector<float> expected = samples;
-    for (const Gap &gap : gaps)
-        std::fill_n(expected.begin() + gap.at, gap.length, 0.0f);
-    QCOMPARE(kept.info().sampleCount, std::ssize(samples));
-    QVERIFY(readAll(kept) == expected);
-    QVERIFY(readInPieces(kept, 5000) == expected);
-    for (const Gap &gap : gaps) {
-        QVERIFY(!kept.isWhole(gap.at, 1) && !kept.isWhole(gap.at + gap.length - 1, 1));
-        QVERIFY(!kept.isWhole(gap.at - 1, 2) && !kept.isWhole(gap.at - 100, gap.length + 200));
-        QVERIFY(kept.isWhole(gap.at - 1, 1) && kept.isWhole(gap.at + gap.length, 1));
+        const ListenResult live = listen(source, used, sinks);
+        using State = EventChange::State;
+        std::size_t ownEvents = 0;
+        bool hasJoined = false;
+        for (const auto &each : changes) {
+            const auto id = each.first; // clang 14 captures no structured binding
+            const auto &own = each.second;
+            QVERIFY(own.size() >= 2);
+            QCOMPARE(own.front().state, State::Provisional);
+            QCOMPARE(own.back().state, State::Final);
+            const auto count = [&](State state) {
+                return std::count_if(own.begin(), own.end(),
+                                     [state](const EventChange &c) { return c.state == state; });
+            };
+            QCOMPARE(count(State::Provisional), 1);
+            QCOMPARE(count(State::Final), 1);
+            QVERIFY(count(State::Confirmed) <= 1);
+            hasJoined = hasJoined || own.back().partOf.has_value();
+            if (own.back().partOf || own.back().isWithdrawn)
+                continue;
+            ++ownEvents;
+            const auto found =
+                std::find_if(live.events.begin(), live.events.end(), [id](const Event &e) { return e.id == id; });
+            QVERIFY(found != live.events.end());
+            QCOMPARE(found->detectSeconds, own.front().event.detectSeconds);
+            QCOMPARE(found->endSeconds, own.back().event.endSeconds);
+            QCOMPARE(own.front().event.endSeconds,
+                     own.front().event.detectSeconds); // told in the frame of the crossing
+            // What was lost and found again is told of under its own number until it is joined.
+            const bool hasParts = std::any_of(changes.begin(), changes.end(),
+                                              [id](const auto &other) { return other.second.back().partOf == id; });
+            const double lasted = found->endSeconds - found->detectSeconds;
+            QVERIFY(hasParts || double(count(State::Updated)) >= std::floor(lasted / 5.0) - 1.0);
+        }
+        QCOMPARE(ownEvents, live.events.size());
+        QVERIFY(hasJoined);
+        QVERIFY(contains(eventLine(changes.begin()->second.front(), live.plan, 0.0), R"("state":"provisional")"));
     }
-}
 
-// A source that does not wait, and a buffer that cannot hold what it says at once.
-void tst_listen::overflowIsAGap()
-{
-    const std::vector<float> samples = scene();
-    GivenSource source(format(), piecesOf(samples, {}, 12), false);
-    ListenSettings used = settings(path("overflow.sigmf-meta"));
-    used.bufferBytes = 300'000;
-    Index overflown = 0;
-    ListenSinks sinks;
-    sinks.notice = [&](const ListenNotice &notice, const StreamFormat &) {
-        if (notice.kind == ListenNotice::Kind::Overflow)
-            overflown += notice.sampleCount;
-    };
-    const ListenResult live = listen(source, used, sinks);
-    QVERIFY(overflown > 0);
-    QCOMPARE(live.lostCount, overflown);
-    const auto file =
-        analyse(std::make_shared<SigmfRecording>(used.recordPath), settingsForListening(used.analysis, format()));
-    QCOMPARE(eventsCsv(live.plan, live.events), eventsCsv(*file, events(*file)));
-}
-
-void tst_listen::doesNotOverwrite()
-{
-    const std::string name = path("there.sigmf-meta");
-    writeBytes(name, "mine");
-    GivenSource source(format(), piecesOf(scene(20.0), {}, 1));
-    QVERIFY(contains(errorOf([&] { listen(source, settings(name), {}); }), "exists already"));
-    QCOMPARE(readBytes(name), QByteArray("mine"));
-}
-
-void tst_listen::rotates()
-{
-    const std::vector<float> samples = someNoise(60'000, 3);
-    GivenSource source(format(), piecesOf(samples, {{30'123, 456}}, 4));
-    ListenSettings used = settings(path("turn.sigmf-meta"));
-    used.rotation.longestSeconds = 20.0;
-    const ListenResult live = listen(source, used, {});
-    QCOMPARE(live.files.size(), std::size_t(3));
-    QCOMPARE(QString::fromStdString(live.recording), m_folder.filePath("turn.timeline"));
-    QCOMPARE(readBytes(live.recording), QByteArray("turn.sigmf-meta\nturn-2.sigmf-meta\nturn-3.sigmf-meta\n"));
-    std::vector<float> all;
-    double start = 0.0;
-    for (const std::string &file : live.files) {
-        const SigmfRecording part(file);
-        if (!all.empty()) // begins where the one before ended, by the clock
-            QVERIFY(std::abs(*part.info().startUnixSeconds - start - double(all.size()) / rate) < 1e-4);
-        else
-            start = *part.info().startUnixSeconds;
-        const std::vector<float> own = readAll(part);
-        all.insert(all.end(), own.begin(), own.end());
+    // A line at 6 dB, for which a stream suffices that ends two windows after the crossing.
+    void isToldSoonAfterTheCrossing()
+    {
+        LineScene lines{.sampleRateHz = rate, .durationSeconds = 60.0};
+        lines.noise.deviation = 0.1;
+        lines.seed = 5;
+        lines.lines = {{.snrDb = 6.0,
+                        .referenceSeconds = 0.25,
+                        .startSeconds = 30.0,
+                        .durationSeconds = 25.0,
+                        .frequencyHz = 210.0}};
+        const std::vector<float> samples = readAll(SimulatedRecording(lines));
+        const auto told = [&](double seconds) {
+            const auto count = std::size_t(seconds * rate);
+            GivenSource source(format(), piecesOf({samples.begin(), samples.begin() + std::ptrdiff_t(count)}, {}, 8));
+            std::vector<double> crossings;
+            ListenSinks sinks;
+            sinks.event = [&](const EventChange &change, const AnalysisPlan &) {
+                if (change.state == EventChange::State::Provisional
+                    && std::abs(change.event.position.front() - 210.0) < 10.0)
+                    crossings.push_back(change.event.detectSeconds);
+            };
+            listen(source, settings({}), sinks);
+            return crossings;
+        };
+        const std::vector<double> crossings = told(60.0);
+        QVERIFY(!crossings.empty() && crossings.front() > 30.0 && crossings.front() < 35.0);
+        QCOMPARE(told(crossings.front() + 2.0 * 0.25), std::vector{crossings.front()});
+        QVERIFY(told(crossings.front() - 0.25).empty()); // the line itself, not the stream's end
     }
-    std::vector<float> expected = samples;
-    std::fill_n(expected.begin() + 30'123, 456, 0.0f);
-    QVERIFY(all == expected);
-}
 
-void tst_listen::shorterThanAWindow()
-{
-    GivenSource source(format(), piecesOf(someNoise(200), {}, 1));
-    const ListenResult live = listen(source, settings(path("short.sigmf-meta")), {});
-    QVERIFY(live.events.empty() && !live.plan.frames);
-    QCOMPARE(SigmfRecording(path("short.sigmf-meta")).info().sampleCount, Index(200));
-    GivenSource half(format(), piecesOf(someNoise(4000), {}, 1)); // and than a block
-    QVERIFY(listen(half, settings({}), {}).plan.frames);
-}
+    // A thousand, each of which has to be where it was: the oracle are the samples themselves.
+    void gapsArePlacedToTheSample()
+    {
+        const std::vector<float> samples = someNoise(600'000, 9);
+        const std::vector<Gap> gaps = randomGaps(1000, std::ssize(samples), 300, 10);
+        GivenSource source(format(), piecesOf(samples, gaps, 11));
+        Index told = 0;
+        Index lost = 0;
+        ListenSinks sinks;
+        sinks.notice = [&](const ListenNotice &notice, const StreamFormat &) {
+            if (notice.kind != ListenNotice::Kind::Lost)
+                return;
+            QCOMPARE(notice.sample, gaps[std::size_t(told)].at);
+            QCOMPARE(notice.sampleCount, gaps[std::size_t(told)].length);
+            lost += notice.sampleCount;
+            ++told;
+        };
+        const ListenResult live = listen(source, settings(path("gaps.sigmf-meta")), sinks);
+        QCOMPARE(told, Index(1000));
+        QCOMPARE(live.lostCount, lost);
+        const SigmfRecording kept(path("gaps.sigmf-meta"));
+        std::vector<float> expected = samples;
+        for (const Gap &gap : gaps)
+            std::fill_n(expected.begin() + gap.at, gap.length, 0.0f);
+        QCOMPARE(kept.info().sampleCount, std::ssize(samples));
+        QVERIFY(readAll(kept) == expected);
+        QVERIFY(readInPieces(kept, 5000) == expected);
+        for (const Gap &gap : gaps) {
+            QVERIFY(!kept.isWhole(gap.at, 1) && !kept.isWhole(gap.at + gap.length - 1, 1));
+            QVERIFY(!kept.isWhole(gap.at - 1, 2) && !kept.isWhole(gap.at - 100, gap.length + 200));
+            QVERIFY(kept.isWhole(gap.at - 1, 1) && kept.isWhole(gap.at + gap.length, 1));
+        }
+    }
 
-void tst_listen::stopsWhenAsked()
-{
-    QuietSource source;
-    std::stop_source stop;
-    RunContext context;
-    context.stop = stop.get_token();
-    std::jthread asking([&] {
-        std::this_thread::sleep_for(std::chrono::milliseconds(200));
-        stop.request_stop();
-    });
-    QElapsedTimer timer;
-    (void)calibrateBand(settingsForListening(settings({}).analysis, format()), 251); // once, which takes seconds
-    timer.start();
-    listen(source, settings({}), {}, context);
-    QVERIFY2(timer.elapsed() < 1000, qPrintable(QString::number(timer.elapsed())));
-}
+    // A source that does not wait, and a buffer that cannot hold what it says at once.
+    void overflowIsAGap()
+    {
+        const std::vector<float> samples = scene();
+        GivenSource source(format(), piecesOf(samples, {}, 12), false);
+        ListenSettings used = settings(path("overflow.sigmf-meta"));
+        used.bufferBytes = 300'000;
+        Index overflown = 0;
+        ListenSinks sinks;
+        sinks.notice = [&](const ListenNotice &notice, const StreamFormat &) {
+            if (notice.kind == ListenNotice::Kind::Overflow)
+                overflown += notice.sampleCount;
+        };
+        const ListenResult live = listen(source, used, sinks);
+        QVERIFY(overflown > 0);
+        QCOMPARE(live.lostCount, overflown);
+        const auto file =
+            analyse(std::make_shared<SigmfRecording>(used.recordPath), settingsForListening(used.analysis, format()));
+        QCOMPARE(eventsCsv(live.plan, live.events), eventsCsv(*file, events(*file)));
+    }
+
+    void doesNotOverwrite()
+    {
+        const std::string name = path("there.sigmf-meta");
+        writeBytes(name, "mine");
+        GivenSource source(format(), piecesOf(scene(20.0), {}, 1));
+        QVERIFY(contains(errorOf([&] { listen(source, settings(name), {}); }), "exists already"));
+        QCOMPARE(readBytes(name), QByteArray("mine"));
+    }
+
+    void rotates()
+    {
+        const std::vector<float> samples = someNoise(60'000, 3);
+        GivenSource source(format(), piecesOf(samples, {{30'123, 456}}, 4));
+        ListenSettings used = settings(path("turn.sigmf-meta"));
+        used.rotation.longestSeconds = 20.0;
+        const ListenResult live = listen(source, used, {});
+        QCOMPARE(live.files.size(), std::size_t(3));
+        QCOMPARE(QString::fromStdString(live.recording), m_folder.filePath("turn.timeline"));
+        QCOMPARE(readBytes(live.recording), QByteArray("turn.sigmf-meta\nturn-2.sigmf-meta\nturn-3.sigmf-meta\n"));
+        std::vector<float> all;
+        double start = 0.0;
+        for (const std::string &file : live.files) {
+            const SigmfRecording part(file);
+            if (!all.empty()) // begins where the one before ended, by the clock
+                QVERIFY(std::abs(*part.info().startUnixSeconds - start - double(all.size()) / rate) < 1e-4);
+            else
+                start = *part.info().startUnixSeconds;
+            const std::vector<float> own = readAll(part);
+            all.insert(all.end(), own.begin(), own.end());
+        }
+        std::vector<float> expected = samples;
+        std::fill_n(expected.begin() + 30'123, 456, 0.0f);
+        QVERIFY(all == expected);
+    }
+
+    void shorterThanAWindow()
+    {
+        GivenSource source(format(), piecesOf(someNoise(200), {}, 1));
+        const ListenResult live = listen(source, settings(path("short.sigmf-meta")), {});
+        QVERIFY(live.events.empty() && !live.plan.frames);
+        QCOMPARE(SigmfRecording(path("short.sigmf-meta")).info().sampleCount, Index(200));
+        GivenSource half(format(), piecesOf(someNoise(4000), {}, 1)); // and than a block
+        QVERIFY(listen(half, settings({}), {}).plan.frames);
+    }
+
+    void stopsWhenAsked()
+    {
+        QuietSource source;
+        std::stop_source stop;
+        RunContext context;
+        context.stop = stop.get_token();
+        std::jthread asking([&] {
+            std::this_thread::sleep_for(std::chrono::milliseconds(200));
+            stop.request_stop();
+        });
+        QElapsedTimer timer;
+        (void)calibrateBand(settingsForListening(settings({}).analysis, format()), 251); // once, which takes seconds
+        timer.start();
+        listen(source, settings({}), {}, context);
+        QVERIFY2(timer.elapsed() < 1000, qPrintable(QString::number(timer.elapsed())));
+    }
+
+private:
+    std::string path(const char *name) const { return m_folder.filePath(name).toStdString(); }
+    QTemporaryDir m_folder;
+};
 
 FAINTLINE_TEST(tst_listen)
 #include "tst_listen.moc"
