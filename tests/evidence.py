@@ -30,7 +30,7 @@ def samples_of(cli, path, truth, folder):
     out = os.path.join(folder, "copy.sigmf-meta")
     about = subprocess.run([cli, "info", path, *truth["flags"], "--json"], check=True, capture_output=True, text=True)
     rate = truth["recording"]["sample_rate"]
-    line = json.loads(about.stdout).get("centreHz", 0) + 0.01 * rate
+    line = (json.loads(about.stdout).get("centreHz") or 0) + 0.01 * rate
     subprocess.run([cli, "inject", path, *truth["flags"], "--snr", "-60", "--frequency", str(line), "--out", out, "--truth",
                     os.path.join(folder, "truth.json")], check=True, capture_output=True)
     with open(out) as file:
