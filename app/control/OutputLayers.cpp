@@ -52,6 +52,7 @@ void OutputLayers::add(LayerPlane *plane)
     m_planes.push_back(plane);
     connect(plane, &LayerPlane::spanChanged, this, &OutputLayers::followSpan);
     connect(plane, &LayerPlane::shapeChanged, this, &OutputLayers::follow);
+    connect(&plane->view(), &WaterfallView::colourMapChanged, this, &OutputLayers::show);
     connect(plane, &LayerPlane::cursorChanged, this, [this, plane] { followCursor(*plane); });
 }
 
@@ -254,7 +255,7 @@ void OutputLayers::show()
     LayerItem &item = plane.item();
     item.setTimeVertical(plane.view().orientation() != WaterfallView::Orientation::LeftToRight);
     const Theme::Colours &colours = Theme::colours(plane.view());
-    item.setColours(colours.text, colours.canvas);
+    item.setColours(colours.text, colours.canvas, plane.view().colourMap());
     const bool isKnown = analysis && m_result.analysis == analysis && m_result.picture
                          && m_layer != OutputLayer::Statistic
                          && (m_layer == OutputLayer::Presence) == !m_result.picture->presence.empty();

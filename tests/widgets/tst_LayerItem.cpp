@@ -41,7 +41,7 @@ private slots:
     void init()
     {
         m_item = std::make_unique<LayerItem>();
-        m_item->setColours(Qt::white, Qt::black);
+        m_item->setColours(Qt::white, Qt::black, ColourMap::named("grey"));
     }
 
     void cleanup() { Theme::setPlotScale(1.0); }
@@ -127,9 +127,12 @@ private slots:
         tracks->presence = {0.0f, 0.5f, 1.0f};
         m_item->setPicture(tracks, m_rows, m_columns);
         m_item->setLayer(OutputLayer::Presence, {0.0, 1.0}, "Presence", 1.0);
-        QCOMPARE(colour(1, 0), mapped("viridis", 0.5));
-        QCOMPARE(colour(2, 0), mapped("viridis", 1.0));
+        QCOMPARE(colour(1, 0), mapped("grey", 0.5)); // of the picture that it replaces
+        QCOMPARE(colour(2, 0), mapped("grey", 1.0));
+        m_item->setColours(Qt::white, Qt::black, ColourMap::named("paper"));
+        QCOMPARE(colour(2, 0), mapped("paper", 1.0));
         m_item->setOverlay(true, 8.0);
+        QCOMPARE(colour(2, 0), mapped("viridis", 1.0));
         QCOMPARE(qAlpha(colour(0, 0)), 0);
         QCOMPARE(qAlpha(colour(1, 0)), 128);
         QCOMPARE(qAlpha(colour(2, 0)), 255);

@@ -21,17 +21,12 @@ namespace {
         return layer == OutputLayer::Rate || layer == OutputLayer::SecondRate;
     }
 
-    const ColourMap &mapOf(OutputLayer layer)
-    {
-        return ColourMap::named(isRate(layer) ? QStringLiteral("blue-red") : QStringLiteral("viridis"));
-    }
-
     constexpr QRgb noSlope = qRgb(110, 110, 110);
     constexpr QRgb inhibitedColour = qRgb(0, 170, 190);
 
 } // namespace
 
-LayerItem::LayerItem()
+LayerItem::LayerItem() : m_pictureMap(&ColourMap::named({}))
 {
     setZ(2.0); // above the raster, below the grid and the marks
 }
@@ -60,10 +55,20 @@ void LayerItem::setOverlay(bool isOverlay, double opaqueNats)
     m_image = {};
 }
 
-void LayerItem::setColours(const QColor &text, const QColor &plate)
+void LayerItem::setColours(const QColor &text, const QColor &plate, const ColourMap &map)
 {
+    if (&map != m_pictureMap)
+        m_image = {};
+    m_pictureMap = &map;
     m_text = text;
     m_plate = plate;
+}
+
+const ColourMap &LayerItem::map() const
+{
+    if (m_layer == OutputLayer::Presence && !m_isOverlay)
+        return *m_pictureMap;
+    return ColourMap::named(isRate(m_layer) ? QStringLiteral("blue-red") : QStringLiteral("viridis"));
 }
 
 QRgb LayerItem::colourOf(std::size_t pixel) const
@@ -78,7 +83,7 @@ QRgb LayerItem::colourOf(std::size_t pixel) const
     if (isRate(m_layer) && m_picture->resetFraction[pixel] >= 1.0f) // all states were reset here: no rate has won
         return clear(noSlope, m_isOverlay ? 0.0 : 1.0);
     // If all possible rates are 0, use the middle of the colours, as in any other range.
-    const QRgb colour = mapOf(m_layer).at(m_range.isEmpty() ? 0.5 : (value - m_range.low) / m_range.width());
+    const QRgb colour = map().at(m_range.isEmpty() ? 0.5 : (value - m_range.low) / m_range.width());
     if (!m_isOverlay)
         return clear(colour, 1.0);
     if (m_layer == OutputLayer::Presence)
@@ -194,7 +199,7 @@ void LayerItem::drawKey(QPainter *painter, const QRectF &canvas) const
         const QRectF strip(inner.left(), inner.top() + metrics.height() + 2.0, inner.width(), 9.0);
         for (int x = 0; x < int(strip.width()); ++x)
             painter->fillRect(QRectF(strip.left() + x, strip.top(), 1.0, strip.height()),
-                              QColor(mapOf(m_layer).at(x / strip.width())));
+                              QColor(map().at(x / strip.width())));
         const QRectF numbers(inner.left(), strip.bottom() + 1.0, inner.width(), metrics.height());
         painter->drawText(numbers, Qt::AlignLeft, powerText(m_range.low / m_divisor, 3));
         painter->drawText(numbers, Qt::AlignHCenter, powerText(m_range.middle() / m_divisor, 3));

@@ -14,11 +14,14 @@ class QPainter;
 
 namespace faintline {
 
+class ColourMap;
+
 /// Draws a layer of the detector's output on a waterfall or the map of a ping, instead of the statistic or over it, and
 /// its key in a corner.
 ///
-/// Rates use a diverging map about 0, with grey where all states were reset and no rate has won; ages, reset fractions
-/// and presence use a sequential one, inhibited cells a colour of their own. Over the statistic, the opacity of a layer
+/// Rates use a diverging map about 0, with grey where all states were reset and no rate has won; ages and reset
+/// fractions use a sequential one, inhibited cells a colour of their own. Presence is drawn in the picture's colours if
+/// it replaces the statistic, otherwise in those of ages. Over the statistic, the opacity of a layer
 /// follows the height of the statistic above the noise, or its own value, so that only relevant parts are visible.
 class LayerItem : public QwtPlotItem
 {
@@ -48,7 +51,8 @@ public:
     bool isOverlay() const { return m_isOverlay; }
 
     void setTimeVertical(bool isVertical) { m_isTimeVertical = isVertical; }
-    void setColours(const QColor &text, const QColor &plate);
+    /// Of the key, and the picture's map.
+    void setColours(const QColor &text, const QColor &plate, const ColourMap &map);
 
     /// The key, a separate item drawn over all marks; it must not outlive this one.
     std::unique_ptr<QwtPlotItem> makeKey() const;
@@ -58,6 +62,7 @@ public:
 
 private:
     class Key;
+    const ColourMap &map() const;
     QRgb colourOf(std::size_t pixel) const;
     QImage imageAlong(const QwtScaleMap &hz, const Span &pixels) const;
     void drawKey(QPainter *painter, const QRectF &canvas) const;
@@ -74,6 +79,7 @@ private:
     bool m_isTimeVertical = true;
     QColor m_text;
     QColor m_plate;
+    const ColourMap *m_pictureMap;
     mutable QImage m_image; ///< columns × rows; null: not created yet
 };
 
