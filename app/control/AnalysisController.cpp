@@ -108,16 +108,6 @@ void AnalysisController::reopen(const OpenOptions &options)
         m_document.annotations());
 }
 
-void AnalysisController::adopt(const OpenedSource &opened, std::shared_ptr<const Analysis> analysis)
-{
-    m_isOpening = false;
-    m_runner.cancel();
-    m_document.setOpened(opened, analysis->settings);
-    std::vector<Event> found = events(*analysis);
-    m_document.setAnalysis(std::move(analysis), std::move(found));
-    emit settled();
-}
-
 void AnalysisController::edit(const QString &field, const FieldValue &value, const QString &text)
 {
     AnalysisSettings after = m_document.settings();

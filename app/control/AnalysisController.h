@@ -35,8 +35,6 @@ public:
     void recover(const QString &path);
     /// Reopens the open source with other options.
     void reopen(const OpenOptions &options);
-    /// Adopts a source that was opened and analysed elsewhere.
-    void adopt(const OpenedSource &opened, std::shared_ptr<const Analysis> analysis);
 
     bool isBusy() const { return m_runner.isRunning(); }
 

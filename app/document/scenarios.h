@@ -6,16 +6,20 @@
 
 namespace faintline {
 
-/// A bundled simulated recording.
+/// A recording, or a scene to simulate, that comes with the program.
 struct Scenario {
     QString title;
-    QString sentence;       ///< what it shows
-    QString path;           ///< path of its JSON in the program's resources
-    bool isWelcome = false; ///< whether the welcome page demonstrates it
+    QString sentence;  ///< what it shows
+    QString path;      ///< of the file; of a scene, in the program's resources
+    QString picture{}; ///< for the start page, in the resources; empty: not shown there
+    QString credit{};  ///< of a recording
 };
 
-/// The bundled scenarios, the most instructive one first.
+/// The bundled scenes, the most instructive one first.
 const std::vector<Scenario> &scenarios();
+
+/// The recordings that lie beside the program, installed or built; none if it was copied alone.
+const std::vector<Scenario> &exampleRecordings();
 
 /// Path of the bundled scene of sonar pings without targets.
 QString openSeaPath();

@@ -1,27 +1,29 @@
 #pragma once
 
-#include <QAbstractButton>
+#include "app/document/scenarios.h"
 
-class QLabel;
+#include <QAbstractButton>
 
 namespace faintline {
 
-/// Large button of the welcome page: a frame highlighted with the focus or under the mouse; its pictures and labels
-/// ignore mouse events.
+/// Large button of the start page for a recording or a scene: its picture, and what it shows. Highlighted with the
+/// focus or under the mouse; its parts ignore mouse events.
 class Card : public QAbstractButton
 {
     Q_OBJECT
 
 public:
-    /// `sentence`: description for screen readers.
-    Card(const QString &title, const QString &sentence, QWidget *parent = nullptr);
+    explicit Card(const Scenario &scenario, QWidget *parent = nullptr);
+
+    const Scenario &scenario() const { return m_scenario; }
 
     QSize sizeHint() const override;
 
 protected:
-    static QLabel *caption(const QString &text, const QFont &font);
-
     void paintEvent(QPaintEvent *event) override;
+
+private:
+    Scenario m_scenario;
 };
 
 } // namespace faintline

@@ -1,10 +1,9 @@
 #include "app/welcome/WelcomePage.h"
 
-#include "analyse/analyse.h"
 #include "app/base/distinctLabels.h"
 #include "app/base/filePath.h"
-#include "app/welcome/ScanCard.h"
-#include "app/welcome/ScenarioCard.h"
+#include "app/document/scenarios.h"
+#include "app/welcome/Card.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
 
@@ -13,8 +12,6 @@
 #include <QPushButton>
 #include <QScrollArea>
 #include <QVBoxLayout>
-
-#include <algorithm>
 
 namespace faintline {
 
@@ -42,10 +39,8 @@ namespace {
 
 } // namespace
 
-WelcomePage::WelcomePage(QWidget *lessons, QWidget *parent)
-    : QWidget(parent), m_scanCard(new ScanCard), m_recent(new QVBoxLayout)
+WelcomePage::WelcomePage(QWidget *lessons, QWidget *parent) : QWidget(parent), m_recent(new QVBoxLayout)
 {
-    connect(&m_runner, &JobRunner::failed, this, &WelcomePage::failed);
     auto *page = new QWidget;
     page->setMaximumWidth(pageWidth);
     auto *open = new QPushButton(tr("&Open recording…"));
@@ -55,23 +50,20 @@ WelcomePage::WelcomePage(QWidget *lessons, QWidget *parent)
     connect(open, &QPushButton::clicked, this, &WelcomePage::openRequested);
 
     auto *opening = new QHBoxLayout;
+    opening->addWidget(sentence(tr("Faintline"), Theme::boldFont(28)), 1);
     opening->addWidget(open);
-    opening->addSpacing(12);
-    opening->addWidget(sentence(tr("or drop a file anywhere on this window"), Theme::font()), 1);
     m_recent->setSpacing(0);
 
     auto *column = new QVBoxLayout(page);
-    column->setContentsMargins(24, 28, 24, 24);
-    column->setSpacing(12);
-    column->addWidget(sentence(tr("Faintline"), Theme::boldFont(28)));
-    column->addWidget(
-        sentence(tr("Finds signals too faint to see by adding up the evidence along every path a signal could have "
-                    "taken. Click a picture to open it."),
-                 Theme::font(15)));
-    column->addSpacing(8);
-    column->addLayout(buildCards());
-    column->addSpacing(8);
+    column->setContentsMargins(24, 14, 24, 14);
+    column->setSpacing(8);
     column->addLayout(opening);
+    column->addWidget(
+        sentence(tr("Finds signals too faint to see by adding up the evidence along every path a signal "
+                    "could have taken. Above, what is recorded; below, what is found. Click a picture to open it."),
+                 Theme::font(15)));
+    column->addLayout(buildCards(exampleRecordings()));
+    column->addLayout(buildCards(scenarios()));
     column->addWidget(lessons);
     column->addLayout(m_recent);
     column->addStretch(1);
@@ -91,20 +83,18 @@ WelcomePage::WelcomePage(QWidget *lessons, QWidget *parent)
     layout->addWidget(area);
 }
 
-QLayout *WelcomePage::buildCards()
+QLayout *WelcomePage::buildCards(const std::vector<Scenario> &shown)
 {
     auto *cards = new QHBoxLayout;
     cards->setSpacing(16);
-    for (const Scenario &scenario : scenarios()) {
-        if (!scenario.isWelcome)
+    for (const Scenario &scenario : shown) {
+        if (scenario.picture.isEmpty())
             continue;
-        auto *card = new ScenarioCard(scenario);
+        auto *card = new Card(scenario);
         m_cards.push_back(card);
         cards->addWidget(card, 1);
-        connect(card, &ScenarioCard::clicked, this, [this, card] { emit scenarioChosen(card); });
+        connect(card, &Card::clicked, this, [this, path = scenario.path] { emit pathChosen(path); });
     }
-    cards->addWidget(m_scanCard, 1);
-    connect(m_scanCard, &ScanCard::clicked, this, &WelcomePage::scansChosen);
     return cards;
 }
 
@@ -123,44 +113,6 @@ void WelcomePage::setRecent(const QStringList &paths)
         connect(button, &QPushButton::clicked, this, [this, path] { emit pathChosen(path); });
         m_recent->addWidget(button, 0, Qt::AlignLeft);
     }
-}
-
-void WelcomePage::start()
-{
-    if (!m_runner.isRunning())
-        startNext();
-}
-
-void WelcomePage::stop()
-{
-    m_runner.cancel();
-}
-
-void WelcomePage::startNext()
-{
-    const auto next =
-        std::find_if(m_cards.begin(), m_cards.end(), [](const ScenarioCard *card) { return !card->analysis(); });
-    if (next == m_cards.end())
-        return m_scanCard->hasResult() ? emit settled() : startScans();
-    m_runner.start(
-        [this, card = *next, path = (*next)->scenario().path](const RunContext &context) -> JobRunner::Delivery {
-            const OpenedSource opened = openSource(sourceAt(path));
-            const auto analysis = analyse(opened, firstSettings(opened), {}, context);
-            return [this, card, opened, analysis] {
-                card->setResult(opened, analysis);
-                startNext();
-            };
-        });
-}
-
-void WelcomePage::startScans()
-{
-    m_runner.start([this](const RunContext &context) -> JobRunner::Delivery {
-        return [this, result = ScanCard::compute(context)] {
-            m_scanCard->setResult(result);
-            emit settled();
-        };
-    });
 }
 
 } // namespace faintline

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "app/base/JobRunner.h"
-
 #include <QWidget>
 
 #include <vector>
@@ -10,11 +8,11 @@ class QVBoxLayout;
 
 namespace faintline {
 
-class ScanCard;
-class ScenarioCard;
+class Card;
+struct Scenario;
 
-/// Page shown while nothing is open: scenarios that are simulated and analysed in the background, a button to open a
-/// recording, and the recent recordings.
+/// Page shown while nothing is open: a button to open a recording, pictures of recordings and scenes that come with the
+/// program, the lessons, and the recent recordings. Nothing is computed for it.
 class WelcomePage : public QWidget
 {
     Q_OBJECT
@@ -25,31 +23,17 @@ public:
 
     void setRecent(const QStringList &paths);
 
-    const std::vector<ScenarioCard *> &cards() const { return m_cards; }
-    ScanCard *scanCard() const { return m_scanCard; }
-
-public slots:
-    void start(); ///< continues with the cards that are not ready yet
-    void stop();  ///< frees the processor for other work
+    const std::vector<Card *> &cards() const { return m_cards; }
 
 signals:
     void openRequested();
     void pathChosen(const QString &path);
-    /// Emitted even if the card has no result yet.
-    void scenarioChosen(faintline::ScenarioCard *card);
-    void scansChosen(); ///< the radar's card
-    void settled();     ///< all cards are ready
-    void failed(const faintline::Error &error);
 
 private:
-    QLayout *buildCards();
-    void startNext();
-    void startScans();
+    QLayout *buildCards(const std::vector<Scenario> &shown);
 
-    std::vector<ScenarioCard *> m_cards;
-    ScanCard *m_scanCard;
+    std::vector<Card *> m_cards;
     QVBoxLayout *m_recent;
-    JobRunner m_runner; ///< destroyed first, so that its jobs end before the other members are destroyed
 };
 
 } // namespace faintline

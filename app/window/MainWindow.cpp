@@ -152,7 +152,6 @@ void MainWindow::showWelcome()
     m_presentAction->setChecked(false);
     putBenchAside();
     m_welcome->setRecent(m_memory.recent());
-    m_welcome->start();
 }
 
 void MainWindow::showWorkbench()
@@ -161,7 +160,6 @@ void MainWindow::showWorkbench()
     if (m_pages->currentWidget() == &bench())
         return;
     m_panels->setLeastPictures(bench().hasReadOut() ? Panels::leastWithBars : Panels::leastAlone);
-    m_welcome->stop();
     m_pages->setCurrentWidget(&bench());
     if (const QByteArray panels = m_memory.layout().panels; panels.isEmpty() || !restoreState(panels))
         m_panels->takeDefault();
@@ -272,7 +270,6 @@ void MainWindow::closeEvent(QCloseEvent *event)
         return event->ignore();
     m_lessons->leave();
     saveLayout();
-    m_welcome->stop();
     m_controller.stop();
     event->accept();
 }

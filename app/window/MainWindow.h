@@ -33,7 +33,6 @@ class OwnPresets;
 class Panels;
 class Playback;
 class ReportWriter;
-class ScenarioCard;
 class SessionSaver;
 class TrialViewer;
 
@@ -151,7 +150,6 @@ private:
     void showError(const Error &error);
     void showFailure(const Error &error);
     void offerIq();
-    void openScenario(ScenarioCard *card);
     /// Gives the whole window to a panel that needs no recording, until one is opened.
     void showAlone(QWidget *panel, const QString &title, const QString &hint);
     void chooseFile();

@@ -13,7 +13,6 @@
 #include "app/control/thresholdWords.h"
 #include "app/document/Recovery.h"
 #include "app/document/SessionSaver.h"
-#include "app/document/scanScenario.h"
 #include "app/lessons/Lesson.h"
 #include "app/lessons/LessonGuide.h"
 #include "app/lessons/LessonList.h"
@@ -31,7 +30,6 @@
 #include "app/views/ChartMenus.h"
 #include "app/views/ReportWriter.h"
 #include "app/views/WindowViews.h"
-#include "app/welcome/ScenarioCard.h"
 #include "app/welcome/WelcomePage.h"
 #include "app/window/ActivityBar.h"
 #include "app/window/FileDrop.h"
@@ -170,8 +168,6 @@ void MainWindow::connectWelcome()
 {
     connect(m_welcome, &WelcomePage::openRequested, this, &MainWindow::chooseFile);
     connect(m_welcome, &WelcomePage::pathChosen, this, [this](const QString &path) { open(path); });
-    connect(m_welcome, &WelcomePage::scenarioChosen, this, &MainWindow::openScenario);
-    connect(m_welcome, &WelcomePage::scansChosen, this, [this] { open(radarScenarioPath()); });
     connect(m_lessonList, &LessonList::chosen, this,
             [this](int lesson) { startLesson(lessons()[std::size_t(lesson)]); });
     connect(m_lessons, &LessonGuide::runningChanged, this, [this](bool isRunning) {
@@ -188,7 +184,6 @@ void MainWindow::connectWelcome()
     connect(m_presentAction, &QAction::toggled, this,
             [](bool isPresenting) { Theme::setPlotScale(isPresenting ? 1.5 : 1.0); });
     connect(m_presentAction, &QAction::toggled, m_lessons, &LessonGuide::present);
-    connect(m_welcome, &WelcomePage::failed, this, &MainWindow::showError);
 }
 
 /// Connects everything in which an event can be selected, and what is done with events.

@@ -17,7 +17,6 @@
 #include "app/panels/OpenOptionsDialog.h"
 #include "app/panels/SequentialPanel.h"
 #include "app/panels/SurveyPanel.h"
-#include "app/welcome/ScenarioCard.h"
 #include "app/welcome/WelcomePage.h"
 #include "app/window/Panels.h"
 #include "app/workspace/PingBench.h"
@@ -94,8 +93,7 @@ void MainWindow::openNow(const QString &path, const OpenOptions &options, const 
             return;
         chosen = dialog.options();
     }
-    m_welcome->stop();
-    if (!isVisible()) {
+    if (!isVisible() || m_document.isEmpty()) {
         for (Bench *one : std::initializer_list<Bench *>{m_workbench, m_pings})
             one->setEmptySentence(tr("Reading %1 …").arg(fileLabel(path)));
         showWorkbench();
@@ -112,25 +110,12 @@ void MainWindow::offerRecovery()
     m_messages->showMessage(MessageBar::Kind::Notice, tr("Unsaved work"),
                             tr("of %1 can be restored; the program ended unexpectedly.").arg(when), tr("Restore"),
                             [this, session = left.first()] {
-                                m_welcome->stop();
                                 // Discard the old recovery file once it is saved again.
                                 connect(
                                     m_recovery, &Recovery::kept, this, [session] { Recovery::discard(session); },
                                     Qt::SingleShotConnection);
                                 m_controller.recover(session);
                             });
-}
-
-void MainWindow::openScenario(ScenarioCard *card)
-{
-    if (!card->analysis())
-        return open(card->scenario().path);
-    const auto next = [this, card] {
-        m_welcome->stop();
-        m_controller.adopt(card->opened(), card->analysis());
-    };
-    if (mayLeave(tr("opening something else"), next))
-        next();
 }
 
 void MainWindow::newScene()
@@ -161,7 +146,6 @@ void MainWindow::openScans(const ScanTest &test)
 
 void MainWindow::showAlone(QWidget *panel, const QString &title, const QString &hint)
 {
-    m_welcome->stop();
     m_messages->dismiss();
     if (m_document.isEmpty() || m_pages->currentWidget() == m_welcome) {
         m_pages->hide(); // makes room for the panel

@@ -6,7 +6,6 @@
 #include "app/control/EventReviews.h"
 #include "app/control/Playback.h"
 #include "app/document/SessionSaver.h"
-#include "app/document/scanScenario.h"
 #include "app/document/scenarios.h"
 #include "app/help/KeysOverlay.h"
 #include "app/lessons/LessonGuide.h"
@@ -295,12 +294,17 @@ void MainWindow::buildToolBar()
     add(tr("Open…"), "open", tr("Open a recording, a scenario or a session (Ctrl+O)"), true, &MainWindow::chooseFile);
 
     auto *scenarioMenu = new QMenu(this);
-    for (const Scenario &scenario : scenarios())
-        scenarioMenu->addAction(scenario.title, this, [this, path = scenario.path] { open(path); });
-    scenarioMenu->addAction(tr("A radar that looks until it can decide"), this, [this] { open(radarScenarioPath()); });
+    const auto addExamples = [this, scenarioMenu](const std::vector<Scenario> &examples) {
+        for (const Scenario &example : examples)
+            scenarioMenu->addAction(example.title, this, [this, path = example.path] { open(path); })
+                ->setToolTip(example.sentence);
+    };
+    addExamples(exampleRecordings());
+    scenarioMenu->addSeparator();
+    addExamples(scenarios());
     auto *scenarioButton = new QToolButton;
-    scenarioButton->setText(tr("Scenario"));
-    scenarioButton->setToolTip(tr("Open a simulated recording"));
+    scenarioButton->setText(tr("Examples"));
+    scenarioButton->setToolTip(tr("Open a recording or a simulated scene that comes with the program"));
     scenarioButton->setMenu(scenarioMenu);
     scenarioButton->setPopupMode(QToolButton::InstantPopup);
     bar->addButton(scenarioButton, QStringLiteral("scenario"), true);

@@ -3,7 +3,6 @@
 #include "app/openWindow.h"
 #include "app/panels/TargetsPanel.h"
 #include "app/panels/targetCells.h"
-#include "app/welcome/WelcomePage.h"
 #include "app/workspace/PingBench.h"
 #include "scene/PingTruth.h"
 #include "widgets/pings/PingMap.h"
@@ -45,7 +44,6 @@ protected:
     void openScene()
     {
         m_window = newWindow({1400, 1000});
-        m_window->welcome().stop();
         QVERIFY(openAndSettle(*m_window, m_path, takeNineRates));
         QTest::keyClick(m_window.get(), Qt::Key_D, Qt::ControlModifier | Qt::ShiftModifier);
         QVERIFY(panel().isVisible());

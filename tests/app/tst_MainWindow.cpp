@@ -5,7 +5,6 @@
 #include "app/help/KeysOverlay.h"
 #include "app/openWindow.h"
 #include "app/views/WindowViews.h"
-#include "app/welcome/ScenarioCard.h"
 #include "app/welcome/WelcomePage.h"
 #include "app/workspace/Workbench.h"
 #include "exchange/Session.h"
@@ -137,16 +136,6 @@ private slots:
         auto window = this->window();
         QVERIFY(window->welcome().isVisible());
         QVERIFY(!window->workbench().isVisible());
-        QSignalSpy settled(&window->welcome(), &WelcomePage::settled);
-        QVERIFY(settled.wait(patience));
-        for (const ScenarioCard *card : window->welcome().cards()) {
-            QVERIFY(card->analysis());
-            QVERIFY(!card->analysis()->tracks.empty());
-        }
-        // One click leads inside, at once, for the result is there already.
-        QTest::mouseClick(window->welcome().cards().front(), Qt::LeftButton);
-        QVERIFY(window->workbench().isVisible());
-        QVERIFY(window->workbench().output()->picture());
         QVERIFY(!window->controller().isBusy());
         QCOMPARE(window->messages().text(), QString());
     }

@@ -10,7 +10,6 @@
 #include "app/panels/NoiseFitPanel.h"
 #include "app/panels/StateSlicePanel.h"
 #include "app/panels/WhyPanel.h"
-#include "app/welcome/WelcomePage.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
 #include "exchange/ModelFile.h"
@@ -85,7 +84,6 @@ class tst_PingBench : public QObject
     {
         auto result = newWindow(
             {1400, 900}, remembers ? std::make_unique<QSettings>(path("memory.ini"), QSettings::IniFormat) : nullptr);
-        result->welcome().stop();
         return result;
     }
 

@@ -2,7 +2,6 @@
 
 #include "app/control/OutputLayers.h"
 #include "app/openWindow.h"
-#include "app/welcome/WelcomePage.h"
 #include "app/workspace/AxesBar.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
@@ -87,7 +86,6 @@ private slots:
     void init()
     {
         m_window = newWindow({1400, 900});
-        m_window->welcome().stop();
         QVERIFY(openAndSettle(*m_window, path("scans.json")));
     }
 

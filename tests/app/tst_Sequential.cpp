@@ -8,7 +8,7 @@
 #include "app/panels/SequentialPanel.h"
 #include "app/panels/TrajectoryPage.h"
 #include "app/panels/sequentialSentences.h"
-#include "app/welcome/ScanCard.h"
+#include "app/welcome/Card.h"
 #include "app/welcome/WelcomePage.h"
 #include "app/workspace/Workbench.h"
 #include "support/test.h"
@@ -129,9 +129,12 @@ void tst_Sequential::presentedTheyStay()
 
 void tst_Sequential::theWelcomeCardOpensTheDock()
 {
-    ScanCard *card = m_window->welcome().scanCard();
+    const auto &cards = m_window->welcome().cards();
+    const auto found =
+        std::ranges::find_if(cards, [](const Card *card) { return card->scenario().path == radarScenarioPath(); });
+    QVERIFY(found != cards.end());
+    Card *card = *found;
     QVERIFY(card->isVisible());
-    QVERIFY(QTest::qWaitFor([&] { return card->hasResult(); }, patience));
     QVERIFY(dock()->isHidden());
     QTest::mouseClick(card, Qt::LeftButton);
     QVERIFY(dock()->isVisible());

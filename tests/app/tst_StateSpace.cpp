@@ -5,7 +5,6 @@
 #include "app/openWindow.h"
 #include "app/panels/LawPanel.h"
 #include "app/panels/StateSlicePanel.h"
-#include "app/welcome/WelcomePage.h"
 #include "app/workspace/Workbench.h"
 #include "support/test.h"
 #include "widgets/plot/LawPlot.h"
@@ -71,7 +70,6 @@ private slots:
     void init()
     {
         m_window = newWindow({1600, 1400}); // bars of a height at which a pixel is little
-        m_window->welcome().stop();
         QVERIFY(openAndSettle(*m_window, m_scene, [](AnalysisSettings &settings) {
             settings.model = laws::billon();
             settings.spectrogram.windowSeconds = 0.5;

@@ -243,7 +243,6 @@ void tst_Targets::unsavedTargetsSurvive()
 {
     QTemporaryDir left;
     m_window = newWindow({1400, 1000}, {}, left.path());
-    m_window->welcome().stop();
     QVERIFY(openAndSettle(*m_window, m_path, takeNineRates));
     QSignalSpy kept(&m_window->recovery(), &Recovery::kept);
     m_window->targets().editor().addTarget();

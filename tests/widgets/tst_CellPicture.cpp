@@ -174,25 +174,6 @@ private slots:
         QVERIFY(isGreenNear(3.0, 4.0, {}) && isGreenNear(3.0, 4.0, {5.0, 5.0}) && !isGreenNear(3.0, 4.0, {9.0, 0.0}));
     }
 
-    void bareItHasNeitherNumbersNorKey()
-    {
-        CellPicture view;
-        view.setBare(true);
-        view.setPicture(stages(2), ranges(2), {0, 0, 0, 0}, {0.0, 1.0}, "P");
-        const QColor colour(10, 250, 20);
-        view.setPaths({{"key only", CellPicture::Path::Kind::Rings, colour, {{50.0, 5000.0}}}}); // far outside
-        test::show(view);
-        for (const QwtAxisId axis : {QwtAxis::XBottom, QwtAxis::YLeft, QwtAxis::YRight})
-            QVERIFY(!view.isAxisVisible(axis));
-        QVERIFY(!test::coloursOf(view).contains(colour.rgb()));
-        view.setBare(false);
-        view.setPaths(view.paths());
-        QCoreApplication::processEvents();
-        for (const QwtAxisId axis : {QwtAxis::XBottom, QwtAxis::YLeft, QwtAxis::YRight})
-            QVERIFY(view.isAxisVisible(axis));
-        QVERIFY(test::coloursOf(view).contains(colour.rgb()));
-    }
-
     void hostileNamesStayOnOneLine()
     {
         CellPicture view;

@@ -196,19 +196,6 @@ private slots:
         QVERIFY(!m_view->isAxisVisible(QwtAxis::YLeft));
     }
 
-    void bareThereAreNoNumbers()
-    {
-        m_view->setTitles("stage", "ln Λ");
-        QCOMPARE(m_view->axisTitle(QwtAxis::YLeft).text(), QString("ln Λ"));
-        const int width = m_view->canvas()->width();
-        m_view->setBare(true);
-        QCoreApplication::processEvents();
-        QVERIFY(!m_view->isAxisVisible(QwtAxis::XBottom) && !m_view->isAxisVisible(QwtAxis::YLeft));
-        QVERIFY(m_view->canvas()->width() > width);
-        m_view->setBare(false);
-        QVERIFY(m_view->isAxisVisible(QwtAxis::XBottom));
-    }
-
     void aSmallerCanvasHasFewerNumbers()
     {
         const auto count = [&] {

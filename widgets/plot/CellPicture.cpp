@@ -179,7 +179,7 @@ void CellPicture::clear()
 void CellPicture::restyle()
 {
     const bool hasPicture = !m_values.empty();
-    setAxisVisible(QwtAxis::YRight, hasPicture && !isBare());
+    setAxisVisible(QwtAxis::YRight, hasPicture);
     if (hasPicture) {
         setAxisTitle(QwtAxis::YRight, m_title);
         setAxisScaleDiv(QwtAxis::YRight, linearScaleDiv(m_range, 5));
@@ -202,7 +202,7 @@ void CellPicture::restyle()
             m_key->entries.push_back(
                 {path.name, QPen(path.colour, 2.0, path.kind == Path::Kind::Dashes ? Qt::DashLine : Qt::SolidLine),
                  path.kind == Path::Kind::Rings || path.kind == Path::Kind::Crosses});
-    m_key->setVisible(hasPicture && !isBare() && !m_key->entries.empty());
+    m_key->setVisible(hasPicture && !m_key->entries.empty());
     replot();
 }
 

@@ -134,20 +134,12 @@ void MarkedPlot::setEmptySentence(const QString &sentence)
 
 void MarkedPlot::setEmpty(bool isEmpty)
 {
-    m_isEmpty = isEmpty;
     m_sentence->setVisible(isEmpty);
     m_grid->setVisible(!isEmpty);
     m_markItem->setVisible(!isEmpty);
-    setAxisVisible(QwtAxis::XBottom, !isEmpty && !m_isBare);
-    setAxisVisible(QwtAxis::YLeft, !isEmpty && !m_isBare);
+    setAxisVisible(QwtAxis::XBottom, !isEmpty);
+    setAxisVisible(QwtAxis::YLeft, !isEmpty);
     replot();
-}
-
-void MarkedPlot::setBare(bool isBare)
-{
-    m_isBare = isBare;
-    setEmpty(m_isEmpty);
-    restyle();
 }
 
 QPointF MarkedPlot::canvasPosition(double x, double y) const

@@ -45,10 +45,6 @@ public:
     /// Whether the sentence is shown instead of the axes.
     void setEmpty(bool isEmpty);
 
-    /// Whether titles and numbers are omitted, for a small picture.
-    void setBare(bool isBare);
-    bool isBare() const { return m_isBare; }
-
     QPointF canvasPosition(double x, double y) const;
 
     QSize sizeHint() const override { return {420, 220}; }
@@ -74,8 +70,6 @@ private:
     Span m_x{0.0, 1.0};
     Span m_y{0.0, 1.0};
     std::vector<Mark> m_marks;
-    bool m_isBare = false;
-    bool m_isEmpty = true;
     double m_marksTop = 3.0;
     std::optional<double> m_cursorAt;
     QwtPlotGrid *m_grid;
