@@ -19,7 +19,7 @@ QString hint(const Document &document, bool isBusy, const QString &usual)
         return tr("Stopped before a result was available. Press Run to start again; From and To select a part of the "
                   "recording.");
     if (!document.analysis())
-        return tr("Reading the recording and estimating its noise.");
+        return tr("Reading the recording: a first look. What was found follows when the detector has run.");
     if (document.provisional())
         return tr("Provisional: new statistic of the visible part, with the old threshold and events. Calibrating …");
     if (document.isPreview())

@@ -183,6 +183,7 @@ void Workbench::showPictures(const PicturesSoFar &pictures)
                                           : -std::numeric_limits<double>::infinity();
     const bool isReached = !pictures.quickLook || m_document.viewport().visible().time.high <= reached;
     m_input->setPicture(isReached ? pictures.input : pictures.quickLook, pictures.frequency);
+    m_output->setHeading(tr("Statistic D so far"));
     m_output->setPicture(pictures.statistic, pictures.frequency);
     if (!pictures.statistic)
         m_output->setEmptySentence(tr("The statistic appears here after the noise has been estimated."));

@@ -8,7 +8,7 @@
 
 namespace faintline {
 
-/// Pictures of a long recording while it is still being analysed.
+/// Pictures of a recording while it is still being analysed.
 struct PicturesSoFar {
     std::shared_ptr<const PeakPyramid> quickLook; ///< y in dB at some times of the whole recording
     std::shared_ptr<const PeakPyramid> input;     ///< y in dB up to the current frame; null before the chain starts
@@ -17,8 +17,7 @@ struct PicturesSoFar {
     Axis frequency;
 };
 
-/// Called by the computing thread a few times per second, if the recording is long or not calibrated yet. It does not
-/// change any result.
+/// Called by the computing thread a few times per second. It does not change any result.
 using PictureSink = std::function<void(const PicturesSoFar &)>;
 
 } // namespace faintline

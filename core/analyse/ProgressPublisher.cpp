@@ -1,11 +1,10 @@
 #include "analyse/ProgressPublisher.h"
 
-#include "calibrate/calibrate.h"
 #include "frames/PeakPyramid.h"
-#include "noise/NoiseNormaliser.h"
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 namespace faintline {
 
@@ -46,13 +45,8 @@ namespace {
 
 } // namespace
 
-ProgressPublisher::ProgressPublisher(const PictureSink &sink, const Axis &time, const Axis &frequency,
-                                     const AnalysisSettings &settings)
-    : m_sink(sink)
+ProgressPublisher::ProgressPublisher(const PictureSink &sink, const Axis &time, const Axis &frequency) : m_sink(sink)
 {
-    constexpr double manyCells = 3e7;
-    const bool isLong = double(time.count) * double(frequency.count) > manyCells;
-    m_isWanted = sink && (isLong || !knownCalibration(settings));
     m_pictures.time = time;
     m_pictures.frequency = frequency;
 }
@@ -60,7 +54,7 @@ ProgressPublisher::ProgressPublisher(const PictureSink &sink, const Axis &time, 
 void ProgressPublisher::publishQuickLook(std::shared_ptr<const Spectrogram> spectrogram,
                                          const NormaliserSettings &settings, const RunContext &context)
 {
-    if (!m_isWanted)
+    if (!m_sink)
         return;
     m_pictures.quickLook = quickLook(std::move(spectrogram), settings, context);
     m_sink(m_pictures);
@@ -70,11 +64,21 @@ void ProgressPublisher::publish(const std::shared_ptr<PeakPyramid> &input, const
 {
     constexpr std::chrono::milliseconds interval{400};
     const auto now = std::chrono::steady_clock::now();
-    if (!m_isWanted || now - m_last < interval)
+    if (!m_sink || now - m_last < interval)
         return;
     m_last = now;
     m_pictures.input = input ? std::make_shared<const PeakPyramid>(input->soFar()) : nullptr;
     m_pictures.statistic = std::make_shared<const PeakPyramid>(statistic.soFar());
+    m_sink(m_pictures);
+}
+
+void ProgressPublisher::publishWhole(std::shared_ptr<const PeakPyramid> input,
+                                     std::shared_ptr<const PeakPyramid> statistic)
+{
+    if (!m_sink)
+        return;
+    m_pictures.input = std::move(input);
+    m_pictures.statistic = std::move(statistic);
     m_sink(m_pictures);
 }
 

@@ -64,7 +64,7 @@ namespace {
             publisher.publish(m_input, *m_statistic);
         }
 
-        void finish()
+        void finish(ProgressPublisher &publisher)
         {
             if (m_input) {
                 m_input->finish();
@@ -77,6 +77,7 @@ namespace {
             if (m_analysis.inputAlong.empty())
                 m_analysis.inputAlong = alongEachAxis(m_analysis.input);
             m_analysis.statisticAlong = alongEachAxis(m_analysis.statistic);
+            publisher.publishWhole(m_analysis.input, m_analysis.statistic);
         }
 
     private:
@@ -208,7 +209,7 @@ namespace {
                 request.statistic(first, statistic);
         }
         chain->finish();
-        pictures.finish();
+        pictures.finish(publisher);
         pings.finish();
         return chain->takeJoinedTracks();
     }
@@ -270,7 +271,7 @@ namespace {
         } else {
             const auto spectrogram = std::make_shared<Spectrogram>(recording, settings.spectrogram, settings.selection);
             publisher = ProgressPublisher(request.pictures, spectrogram->time(),
-                                          familyAxis(settings.family, spectrogram->frequency()), settings);
+                                          familyAxis(settings.family, spectrogram->frequency()));
             if (settings.family.isNone())
                 publisher.publishQuickLook(spectrogram, settings.noise, context.part(0.0, 0.01));
             normalisePlan(*analysis, spectrogram, context.part(0.01, 0.2));
@@ -290,7 +291,7 @@ namespace {
         analysis->recording = first->recording;
         const RecordingPointer rest = restOf(*first, subtracted, context.part(0.0, 0.2));
         const auto spectrogram = std::make_shared<Spectrogram>(rest, settings.spectrogram, settings.selection);
-        ProgressPublisher publisher(request.pictures, spectrogram->time(), spectrogram->frequency(), settings);
+        ProgressPublisher publisher(request.pictures, spectrogram->time(), spectrogram->frequency());
         normalisePlan(*analysis, spectrogram, context.part(0.2, 0.4));
         analysis->model = first->model; // for the same grid
         analysis->calibration = first->calibration;
@@ -392,8 +393,7 @@ namespace {
                 regulationBand(analysis.model, resetRule(*smd, analysis.calibration->lnK), context.part(0.0, 0.1));
         ProgressPublisher publisher;
         if (analysis.grid().isSpectrum())
-            publisher =
-                ProgressPublisher(request.pictures, analysis.time(), analysis.grid().axes.back(), analysis.settings);
+            publisher = ProgressPublisher(request.pictures, analysis.time(), analysis.grid().axes.back());
         run(analysis, context.part(0.1, 1.0), request, publisher);
         if (request.depth != AnalysisDepth::Trial)
             finishTracks(analysis);
