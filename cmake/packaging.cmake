@@ -6,8 +6,8 @@ set(CPACK_PACKAGE_CONTACT "Faintline maintainers <maintainers@users.noreply.fain
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "workbench for track-before-detect")
 set(CPACK_PACKAGE_DESCRIPTION
 "Opens recordings of sonar, radar, radio and sound, detects in them what is
-too faint to see, and shows the detector thinking: input and statistic side
-by side, with the threshold in false alarms per hour.")
+too faint to see, and shows the detector thinking: the input above what was
+found, with the threshold in false alarms per hour.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL runtime)

@@ -28,11 +28,10 @@ OutputLayers::OutputLayers(Document &document, WaterfallView &output, QObject *p
     connect(&document, &Document::opened, this, [this] {
         m_runner.cancel();
         m_result = {};
-        if (!isOffered(m_layer))
-            setLayer(OutputLayer::Rate);
         show();
     });
     connect(&document, &Document::analysisChanged, this, &OutputLayers::follow);
+    connect(&document, &Document::provisionalChanged, this, &OutputLayers::show);
     add(new LineLayerPlane(output, document.viewport(), this));
     connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
         emit failed(error);
@@ -76,6 +75,18 @@ bool OutputLayers::isOffered(OutputLayer layer) const
     return layer != OutputLayer::SecondRate || m_document.frameKind().isSeenSingly;
 }
 
+OutputLayer OutputLayers::layer() const
+{
+    if (isOffered(m_layer))
+        return m_layer;
+    return m_layer == OutputLayer::SecondRate ? OutputLayer::Rate : OutputLayer::Statistic;
+}
+
+bool OutputLayers::isCovering() const
+{
+    return layer() != OutputLayer::Statistic && !m_isOverlay && m_document.analysis() && !m_document.provisional();
+}
+
 bool OutputLayers::isPossible() const
 {
     return m_document.analysis() && plane().kind().isShownLike(m_document.frameKind());
@@ -93,7 +104,7 @@ bool OutputLayers::eventFilter(QObject *watched, QEvent *event)
 
 void OutputLayers::setLayer(OutputLayer layer)
 {
-    if (layer == m_layer || !isOffered(layer))
+    if (layer == m_layer)
         return;
     m_layer = layer;
     show();
@@ -103,7 +114,7 @@ void OutputLayers::setLayer(OutputLayer layer)
 
 QString OutputLayers::heading() const
 {
-    switch (m_layer) {
+    switch (layer()) {
     case OutputLayer::Rate:
         return tr("Winning %1 of each cell").arg(rateName(plane().shown().along));
     case OutputLayer::SecondRate:
@@ -115,7 +126,7 @@ QString OutputLayers::heading() const
     case OutputLayer::Inhibited:
         return tr("Inhibited cells");
     case OutputLayer::Presence:
-        return tr("Presence of the tracks over their 5–95 % bands");
+        return tr("What was found: probability of a signal");
     case OutputLayer::Statistic:
         break;
     }
@@ -130,11 +141,16 @@ QString OutputLayers::rateName(std::size_t axis) const
 
 void OutputLayers::cycleLayer()
 {
-    auto next = m_layer;
+    auto next = layer();
     do
         next = static_cast<OutputLayer>((std::size_t(next) + 1) % outputLayerNames.size());
     while (!isOffered(next));
     setLayer(next);
+}
+
+void OutputLayers::toggleFound()
+{
+    setLayer(layer() == OutputLayer::Presence ? OutputLayer::Statistic : OutputLayer::Presence);
 }
 
 void OutputLayers::setOverlay(bool isOverlay)
@@ -160,7 +176,7 @@ void OutputLayers::follow()
 
 void OutputLayers::followSpan()
 {
-    if (m_layer != OutputLayer::Statistic)
+    if (layer() != OutputLayer::Statistic)
         follow();
 }
 
@@ -204,11 +220,11 @@ void OutputLayers::compute()
     if (!isPossible())
         return emit settled();
     const auto analysis = m_document.analysis();
-    const bool wantsPicture = m_layer != OutputLayer::Statistic;
+    const bool wantsPicture = layer() != OutputLayer::Statistic;
     const LayerWindow wanted = plane().window(*analysis);
     const std::optional<Place> cursor = this->cursor();
     m_runner.start([this, analysis, cursor, frame = singleFrame(cursor), wantsPicture, wanted, shown = plane().shown(),
-                    isOfTracks = m_layer == OutputLayer::Presence](const RunContext &context) -> JobRunner::Delivery {
+                    isOfTracks = layer() == OutputLayer::Presence](const RunContext &context) -> JobRunner::Delivery {
         if (!m_replay || m_replay->analysis() != analysis)
             m_replay = std::make_shared<LayerReplay>(
                 analysis, memoryShares::orSome(memoryShares::layerReplay, 4 * bytesOfStates(*analysis)));
@@ -256,23 +272,25 @@ void OutputLayers::show()
     item.setTimeVertical(plane.view().orientation() != WaterfallView::Orientation::LeftToRight);
     const Theme::Colours &colours = Theme::colours(plane.view());
     item.setColours(colours.text, colours.canvas, plane.view().colourMap());
-    const bool isKnown = analysis && m_result.analysis == analysis && m_result.picture
-                         && m_layer != OutputLayer::Statistic
-                         && (m_layer == OutputLayer::Presence) == !m_result.picture->presence.empty();
+    const bool isKnown = analysis && !m_document.provisional() && m_result.analysis == analysis && m_result.picture
+                         && layer() != OutputLayer::Statistic
+                         && (layer() == OutputLayer::Presence) == !m_result.picture->presence.empty();
     if (!isKnown || m_result.frame != singleFrame(cursor()) || m_result.shown != plane.shown()) {
         item.setPicture(nullptr, {}, {});
+        plane.view().setTracksPictured(false);
         return plane.replot();
     }
     const auto [rows, columns] = plane.axes(*analysis);
     item.setPicture(m_result.picture, rows, columns);
     item.setOverlay(m_isOverlay, analysis->threshold);
     showLayer(item);
+    plane.view().setTracksPictured(layer() == OutputLayer::Presence && !m_isOverlay);
     plane.replot();
 }
 
 void OutputLayers::showLayer(LayerItem &item)
 {
-    switch (m_layer) {
+    switch (layer()) {
     case OutputLayer::Rate:
         return showRates(item, plane().shown().along);
     case OutputLayer::SecondRate:
@@ -280,11 +298,11 @@ void OutputLayers::showLayer(LayerItem &item)
     case OutputLayer::Age:
         return showAges(item);
     case OutputLayer::Reset:
-        return item.setLayer(m_layer, {0.0, 1.0}, tr("States reset (fraction)"), 1.0);
+        return item.setLayer(layer(), {0.0, 1.0}, tr("States reset (fraction)"), 1.0);
     case OutputLayer::Inhibited:
-        return item.setLayer(m_layer, {0.0, 1.0}, tr("Inhibited"), 1.0);
+        return item.setLayer(layer(), {0.0, 1.0}, tr("Inhibited"), 1.0);
     case OutputLayer::Presence:
-        return item.setLayer(m_layer, {0.0, 1.0}, tr("Presence of the tracks (probability)"), 1.0);
+        return item.setLayer(layer(), {0.0, 1.0}, tr("Probability of a signal"), 1.0);
     case OutputLayer::Statistic:
         return;
     }
@@ -296,7 +314,7 @@ void OutputLayers::showRates(LayerItem &item, std::size_t axis)
     const QString name = QString::fromStdString(m_document.analysis()->grid().axes[axis].unit);
     const FrequencyUnit unit = name == QLatin1String("Hz") ? rateUnit(largest) : FrequencyUnit{name + "/s", 1.0};
     const QString title = tr("Winning %1 (%2)").arg(rateName(axis), unit.name);
-    item.setLayer(m_layer, {-largest, largest}, title, unit.hz);
+    item.setLayer(layer(), {-largest, largest}, title, unit.hz);
 }
 
 void OutputLayers::showAges(LayerItem &item)
@@ -313,7 +331,7 @@ void OutputLayers::showAges(LayerItem &item)
         unit = {frames, frameSeconds};
     else if (longest > manySeconds)
         unit = {tr("h"), 3600.0};
-    item.setLayer(m_layer, {0.0, longest}, tr("Path age since reset (%1)").arg(unit.name), unit.seconds);
+    item.setLayer(layer(), {0.0, longest}, tr("Path age since reset (%1)").arg(unit.name), unit.seconds);
 }
 
 } // namespace faintline

@@ -34,7 +34,11 @@ public:
 
     /// Whether the open source has this layer.
     bool isOffered(OutputLayer layer) const;
-    OutputLayer layer() const { return m_layer; }
+    /// As chosen; where the open source lacks that layer, the one in its place.
+    OutputLayer layer() const;
+    OutputLayer chosen() const { return m_layer; }
+    /// Whether the picture shows a layer and not the statistic: there is an analysis, and no preview of other settings.
+    bool isCovering() const;
     QString heading() const; ///< heading of a picture that shows the layer
     bool isOverlay() const { return m_isOverlay; }
     const LayerItem &item() const; ///< for the open source
@@ -46,6 +50,7 @@ public:
 public slots:
     void setLayer(faintline::OutputLayer layer);
     void cycleLayer();
+    void toggleFound(); ///< presence, or the statistic
     void setOverlay(bool isOverlay);
     /// Whether the cursor's cell is evaluated even while no layer is shown.
     void setWatching(bool isWatching);
@@ -79,7 +84,7 @@ private:
     void add(LayerPlane *plane);
     LayerPlane &plane() const; ///< for the open source
     bool isPossible() const;
-    bool isWanted() const { return m_isWatching || m_layer != OutputLayer::Statistic; }
+    bool isWanted() const { return m_isWatching || layer() != OutputLayer::Statistic; }
     void follow();
     void followSpan();
     void followCursor(const LayerPlane &of);

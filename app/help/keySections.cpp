@@ -56,6 +56,7 @@ namespace {
                                       {"[  ]", "black level down, up"},
                                       {"{  }", "white level down, up"},
                                       {"A", "automatic range"},
+                                      {"F", "what was found, or the statistic D"},
                                       {"V   Shift + V", "next output layer; over the statistic"},
                                       {"S   Shift + S", "state space under the cursor; spectrum"}}};
         return section;

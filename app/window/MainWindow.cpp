@@ -299,6 +299,8 @@ void MainWindow::saveLayout()
     layout.orientation = view.orientation;
     layout.isLogarithmic = view.isLogarithmic;
     layout.isRadioAxis = view.isRadioAxis;
+    const std::string_view layer = outputLayerNames[std::size_t(m_workbench->layers().chosen())];
+    layout.layer = QString::fromLatin1(layer.data(), qsizetype(layer.size()));
     m_memory.setLayout(layout);
 }
 
@@ -311,6 +313,9 @@ void MainWindow::restoreLayout()
     if (!layout.pingSplitters.isEmpty())
         m_pings->restoreSplitters(layout.pingSplitters);
     m_workbench->restore({{}, {}, layout.orientation, layout.colourMap, layout.isLogarithmic, layout.isRadioAxis});
+    const auto layer = std::ranges::find(outputLayerNames, layout.layer.toStdString());
+    if (layer != outputLayerNames.end())
+        m_workbench->layers().setLayer(OutputLayer(layer - outputLayerNames.begin()));
 }
 
 void MainWindow::setAsking(bool isAsking)

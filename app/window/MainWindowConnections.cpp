@@ -177,6 +177,14 @@ void MainWindow::connectWelcome()
         showTitle();
         showHint();
     });
+    connect(m_lessons, &LessonGuide::runningChanged, this,
+            [layers = &m_workbench->layers(), before = std::optional<OutputLayer>()](bool isRunning) mutable {
+                if (isRunning && !before)
+                    before = layers->chosen();
+                layers->setLayer(isRunning ? OutputLayer::Statistic : before.value_or(layers->chosen()));
+                if (!isRunning)
+                    before.reset();
+            }); // lessons speak of the statistic
     connect(m_lessons, &LessonGuide::lessonRequested, this,
             [this](int lesson) { startLesson(lessons()[std::size_t(lesson)]); });
     connect(m_lessons, &LessonGuide::written, this, &MainWindow::showWritten);

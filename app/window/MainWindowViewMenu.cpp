@@ -77,6 +77,8 @@ void MainWindow::buildViewMenu()
         picture->clear();
         addCommands(*picture, *output);
     });
+    addAction(addViewAction(*menu, tr("What was &found, or the statistic D"), Qt::Key_F,
+                            [layers = &m_workbench->layers()] { layers->toggleFound(); }));
     addLayerMenu(*menu);
     m_panelsMenu = menu->addMenu(tr("&Panels"));
     m_panelsMenu->addActions(m_panels->toggleActions());

@@ -17,6 +17,7 @@ namespace {
     const QString orientationKey = QStringLiteral("view/orientation");
     const QString logarithmicKey = QStringLiteral("view/logarithmic");
     const QString radioKey = QStringLiteral("view/radio");
+    const QString layerKey = QStringLiteral("view/layer");
     const QString geometryKey = QStringLiteral("window/geometry");
     const QString panelsKey = QStringLiteral("window/panels");
     const QString splittersKey = QStringLiteral("window/splitters");
@@ -80,10 +81,11 @@ WindowMemory::Layout WindowMemory::layout() const
 {
     if (!m_store)
         return {};
-    return {m_store->value(geometryKey).toByteArray(),  m_store->value(panelsKey).toByteArray(),
-            m_store->value(splittersKey).toByteArray(), m_store->value(pingSplittersKey).toByteArray(),
-            m_store->value(colourMapKey).toString(),    m_store->value(orientationKey).toString(),
-            m_store->value(logarithmicKey).toBool(),    m_store->value(radioKey).toBool()};
+    return {m_store->value(geometryKey).toByteArray(),      m_store->value(panelsKey).toByteArray(),
+            m_store->value(splittersKey).toByteArray(),     m_store->value(pingSplittersKey).toByteArray(),
+            m_store->value(colourMapKey).toString(),        m_store->value(orientationKey, "leftToRight").toString(),
+            m_store->value(logarithmicKey).toBool(),        m_store->value(radioKey).toBool(),
+            m_store->value(layerKey, "presence").toString()};
 }
 
 void WindowMemory::setLayout(const Layout &layout)
@@ -98,6 +100,7 @@ void WindowMemory::setLayout(const Layout &layout)
     m_store->setValue(orientationKey, layout.orientation);
     m_store->setValue(logarithmicKey, layout.isLogarithmic);
     m_store->setValue(radioKey, layout.isRadioAxis);
+    m_store->setValue(layerKey, layout.layer);
 }
 
 Theme::Kind WindowMemory::theme() const

@@ -11,6 +11,7 @@
 namespace faintline {
 
 /// State of a window that persists between runs: recent files, layout, appearance. Without a store nothing is kept.
+/// A store that is still empty gives what a first window shows: time from left to right, and what was found.
 class WindowMemory
 {
 public:
@@ -23,9 +24,12 @@ public:
         QString orientation;
         bool isLogarithmic = false; ///< the frequency axis
         bool isRadioAxis = false;
+        QString layer; ///< of the output, as in outputLayerNames
     };
 
     explicit WindowMemory(std::unique_ptr<QSettings> store = {}) : m_store(std::move(store)) {}
+
+    bool isKept() const { return m_store != nullptr; }
 
     /// The program's store in the user's configuration folder.
     static std::unique_ptr<QSettings> programStore();

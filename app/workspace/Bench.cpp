@@ -166,7 +166,7 @@ void Bench::setAutomaticRange()
 /// Heading above the statistic. The colour bar belongs to the statistic; a layer shown in its place has its own key.
 void Bench::showHeading()
 {
-    const bool isStatistic = layers().layer() == OutputLayer::Statistic || layers().isOverlay();
+    const bool isStatistic = !layers().isCovering();
     setColourBarShown(isStatistic);
     if (!m_document.plan() || !isInUse())
         return;

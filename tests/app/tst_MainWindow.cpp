@@ -2,6 +2,7 @@
 
 #include "app/base/MessageBar.h"
 #include "app/base/filePath.h"
+#include "app/control/OutputLayers.h"
 #include "app/help/KeysOverlay.h"
 #include "app/openWindow.h"
 #include "app/views/WindowViews.h"
@@ -11,10 +12,12 @@
 #include "support/test.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/plot/ExceedancePlot.h"
+#include "widgets/waterfall/LayerItem.h"
 
 #include <qwt_plot_canvas.h>
 #include <qwt_scale_map.h>
 
+#include <QDockWidget>
 #include <QDropEvent>
 #include <QLabel>
 #include <QMenuBar>
@@ -570,6 +573,30 @@ private slots:
         const QByteArray error = replay.readAllStandardError();
         QVERIFY2(error.startsWith("error: ") && error.contains("cannot be reproduced") && error.count('\n') == 1,
                  error.constData());
+    }
+
+    void aFirstWindowShowsWhatWasFoundBelowTheInput()
+    {
+        {
+            auto window = this->window(true);
+            QSignalSpy pictures(&window->document(), &Document::picturesGrew);
+            QVERIFY(openAndSettle(*window, m_scene));
+            QVERIFY(!pictures.isEmpty()); // before the result
+            Workbench &bench = window->workbench();
+            const auto top = [&](const QWidget *view) { return view->mapTo(window.get(), QPoint()).y(); };
+            QVERIFY(top(bench.input()) + bench.input()->height() <= top(bench.output()));
+            QCOMPARE(bench.output()->orientation(), WaterfallView::Orientation::LeftToRight);
+            QVERIFY(settle(bench.layers()));
+            QCOMPARE(bench.layers().item().picture()->presence.empty(), false);
+            QVERIFY(bench.output()->heading().contains("found"));
+            QTest::keyClick(bench.output(), Qt::Key_F);
+            QVERIFY(bench.output()->heading().startsWith("Statistic D"));
+            window->close();
+        }
+        auto window = this->window(true); // as it was left
+        QCOMPARE(window->workbench().layers().chosen(), OutputLayer::Statistic);
+        window.reset();
+        QFile::remove(path("memory.ini"));
     }
 
     void remembersFilesAndLayout()

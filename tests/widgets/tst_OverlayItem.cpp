@@ -103,7 +103,7 @@ private slots:
         m_item->hasTracks = false;         // but there is nothing else then
         QVERIFY(!marked(drawn()).isNull());
         m_item->hasTracks = true;
-        m_item->marks.resize(50);
+        m_item->marks.resize(12);
         QVERIFY(!marked(drawn()).isNull());
     }
 
@@ -115,6 +115,18 @@ private slots:
         const QImage image = drawn();
         QVERIFY(test::coloursOf(image).contains(m_item->colours.selectedEvent.rgb())); // with its number on a plate
         QVERIFY(std::abs(marked(image).left() - (50 + 2 * 70 - 6)) < 5);
+    }
+
+    void ofManyEventsTheOneUnderThePointerIsMarked()
+    {
+        for (int id = 1; id <= 13; ++id)
+            m_item->marks.push_back({id, {{50.0, 51.0}, {10.0 * id, 10.0 * id + 1.0}}, true});
+        QVERIFY(marked(drawn()).isNull());
+        m_item->hoveredEvent = 7;
+        QVERIFY(std::abs(marked(drawn()).left() - (50 + 2 * 70 - 6)) < 5);
+        m_item->hoveredEvent = 0;
+        m_item->marks.pop_back(); // twelve are few
+        QVERIFY(std::abs(marked(drawn()).left() - (50 + 2 * 10 - 6)) < 5);
     }
 
     /// Plates of numbers: darker than any other part of a mark.
@@ -131,7 +143,7 @@ private slots:
         QVERIFY(one > 80);
         QVERIFY(plates({100.0, 101.0}) > 1.8 * double(one));
         QVERIFY(plates({100.0, 101.0, 102.0}) > 2.6 * double(one));
-        QVERIFY(plates(std::vector<double>(30, 100.0)) < 6 * one); // there is no room for more
+        QVERIFY(plates(std::vector<double>(12, 100.0)) < 6 * one); // there is no room for more
     }
 
     void layersAreLeftOut()

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 namespace faintline {
 
@@ -114,6 +115,17 @@ void MarkedWaterfall::setSelectedEvent(int id)
 {
     m_selectedEvent = id;
     updateContent();
+}
+
+void MarkedWaterfall::setHoveredEvent(int id)
+{
+    if (std::exchange(m_overlay->hoveredEvent, id) != id)
+        replot();
+}
+
+void MarkedWaterfall::setTracksPictured(bool arePictured)
+{
+    m_overlay->areTracksPictured = arePictured;
 }
 
 void MarkedWaterfall::setFaintEvents(const std::vector<int> &ids)

@@ -13,8 +13,7 @@ namespace faintline {
 namespace {
 
     constexpr double faintOpacity = 0.3;
-    constexpr std::size_t labelLimit = 40;   ///< more numbers would be unreadable
-    constexpr std::size_t bracketLimit = 80; ///< as would more brackets
+    constexpr std::size_t bracketLimit = 12; ///< more brackets and numbers would hide what they mark
     const QColor seam(0, 0, 0, 150);
 
     QPen linePen(const QColor &colour, double width, Qt::PenStyle style = Qt::SolidLine)
@@ -185,6 +184,8 @@ void OverlayItem::drawLines(const Canvas &canvas, const std::vector<OverlayLine>
 {
     const Span visible = canvas.visibleTime();
     for (const OverlayLine &line : lines) {
+        if (&lines == &tracks && areTracksPictured && line.id != selectedEvent)
+            continue;
         const QPen pen = penOf(line.stage, usual);
         canvas.painter.setOpacity(isFaint(line.id) ? faintOpacity : 1.0);
         // The visible part with one more point at either end; one point per pixel is enough.
@@ -260,13 +261,13 @@ void OverlayItem::drawBoxes(const Canvas &canvas, const std::vector<OverlayBox> 
 
 void OverlayItem::drawEvents(const Canvas &canvas) const
 {
-    // If many events are visible, their brackets would hide what they mark; only the tracks are drawn then.
+    // Of many events only the selected one and the one under the pointer have brackets; the others have their tracks.
     const auto rectOfMark = [&](const OverlayMark &mark) {
         return frameOf(rectOf(mark.box, canvas.x, canvas.y, isTimeVertical));
     };
     const auto inSight = std::size_t(std::count_if(
         marks.begin(), marks.end(), [&](const OverlayMark &mark) { return rectOfMark(mark).intersects(canvas.rect); }));
-    const bool areLabelled = inSight <= labelLimit;
+    const bool areMany = inSight > bracketLimit;
     std::vector<QRectF> taken;
     // At one of the frame's corners where no other number is; nothing if there is none.
     const auto roomFor = [&](const QRectF &frame, const QString &number) -> std::optional<QPointF> {
@@ -288,14 +289,14 @@ void OverlayItem::drawEvents(const Canvas &canvas) const
     const auto drawOne = [&](const OverlayMark &mark) {
         const bool isSelected = mark.id == selectedEvent;
         const QRectF rect = rectOfMark(mark);
-        if (!rect.intersects(canvas.rect) || (inSight > bracketLimit && hasTracks && !isSelected))
+        if (!rect.intersects(canvas.rect) || (areMany && hasTracks && !isSelected && mark.id != hoveredEvent))
             return;
         QColor colour = isSelected ? colours.selectedEvent : colours.event;
         if (!mark.isConfirmed && !isSelected)
             colour.setAlpha(150);
         canvas.painter.setOpacity(isFaint(mark.id) ? faintOpacity : 1.0);
         canvas.stroke(corners(rect), linePen(colour, isSelected ? 2.0 : 1.4));
-        if (!areLabelled && !isSelected)
+        if (areMany && !isSelected && mark.id != hoveredEvent)
             return;
         const QString number =
             mark.stage == TrackStage::Provisional ? QStringLiteral("%1?").arg(mark.id) : QString::number(mark.id);

@@ -30,7 +30,9 @@ public:
     std::vector<OverlayBox> areas; ///< of raised level, without a line
     std::vector<int> faintEvents;  ///< rejected ones, drawn faintly
     bool hasEvents = true, hasTracks = true, hasTruth = true;
+    bool areTracksPictured = false; ///< by the picture: only the selected one is drawn over it
     int selectedEvent = 0;
+    int hoveredEvent = 0; ///< under the pointer; 0: none
     std::optional<Viewport::Point> cursor;
     std::vector<double> harmonicsHz;
     std::optional<Sidebands> sidebands;

@@ -55,6 +55,7 @@ bool WaterfallMouse::eventFilter(QObject *watched, QEvent *event)
             emit m_view.eventActivated(id);
         return true;
     case QEvent::Leave:
+        m_view.setHoveredEvent(0);
         emit m_view.hoverEnded();
         break;
     default:
@@ -127,6 +128,7 @@ void WaterfallMouse::release(const QMouseEvent &event)
 
 void WaterfallMouse::hover(const QPointF &position)
 {
+    m_view.setHoveredEvent(m_view.eventAt(position));
     const Viewport::Point point = m_view.pointAt(position);
     if (const auto value = m_view.valueAt(point.seconds, point.hz))
         emit m_view.hovered(point.seconds, point.hz, *value);
