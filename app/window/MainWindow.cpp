@@ -137,6 +137,7 @@ void MainWindow::putBenchAside()
     m_pages->show();
     m_pages->setCurrentWidget(m_welcome);
     m_panels->hide();
+    m_legend->hide();
     for (QToolBar *bar : m_bottomBars)
         bar->hide();
     for (QAction *action : m_viewActions)
@@ -164,6 +165,7 @@ void MainWindow::showWorkbench()
     if (const QByteArray panels = m_memory.layout().panels; panels.isEmpty() || !restoreState(panels))
         m_panels->takeDefault();
     showBars();
+    m_legend->show();
     for (QAction *action : m_viewActions)
         action->setEnabled(true);
     m_panelsMenu->setEnabled(true);

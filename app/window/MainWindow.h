@@ -198,6 +198,7 @@ private:
     OverviewStrip *m_overview = nullptr;
     ActivityBar *m_activity = nullptr;
     QLabel *m_hint = nullptr;
+    QLabel *m_legend = nullptr; ///< of the marks in the pictures
     KeysOverlay *m_keys = nullptr;
     EquationSheet *m_equation = nullptr;
     CommandPalette *m_palette = nullptr;

@@ -41,6 +41,7 @@
 #include "widgets/events/EventTable.h"
 #include "widgets/plot/ExceedancePlot.h"
 #include "widgets/plot/StripPlot.h"
+#include "widgets/waterfall/MarkLegend.h"
 #include "widgets/waterfall/OverviewStrip.h"
 
 #include <QDockWidget>
@@ -193,7 +194,10 @@ void MainWindow::buildStatusBar()
     m_activity = new ActivityBar;
     statusBar()->setSizeGripEnabled(false);
     statusBar()->addWidget(m_hint, 1);
+    m_legend = new MarkLegend;
+    m_legend->hide();
     statusBar()->addPermanentWidget(m_activity);
+    statusBar()->addPermanentWidget(m_legend);
 }
 
 } // namespace faintline
