@@ -12,6 +12,9 @@ inline constexpr int oneColumnFrom = 800;
 /// Height from which a column has panels one above the other; in a lower window they share one place.
 inline constexpr int twoRowsFrom = 640;
 
+/// Height from which a column has a list of events with an explanation below it.
+inline constexpr int threeRowsFrom = 900;
+
 /// Height from which the overview of the recording is shown.
 inline constexpr int overviewFrom = 480;
 

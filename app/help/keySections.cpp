@@ -78,7 +78,7 @@ namespace {
                                       {"K", "cursor to the nearest peak"},
                                       {"H", "harmonics of the cursor's frequency"},
                                       {"I", "sidebands: drag one, or Alt + Left, Right"},
-                                      {"Space", "play as sound; Detect > Play what"},
+                                      {"Space", "play as sound; Play > Play what"},
                                       {"Space   End", "live: hold the picture, go to the newest frames"},
                                       {"J  L", "one frame, ping or stage back, forward"},
                                       {"Ctrl + R", "run again"},
@@ -105,7 +105,7 @@ namespace {
                                       {"Ctrl + K", "find a command by name"},
                                       {"F1   ?", "this list of keys"},
                                       {"Shift + F1", "the equation of the view"},
-                                      {"F5", "presentation; Escape leaves it"},
+                                      {"F5   F6", "presentation, Escape leaves it; light or dark"},
                                       {"F11", "maximise the panel with the focus, or put it back"},
                                       {"Ctrl + Q", "quit"}}};
         return section;

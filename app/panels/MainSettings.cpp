@@ -6,21 +6,58 @@
 #include "widgets/base/settingWords.h"
 #include "widgets/forms/SettingRow.h"
 
+#include <QLabel>
 #include <QVBoxLayout>
 
 namespace faintline {
 
 namespace {
 
-    constexpr const char *names[]{"spectrogram.windowSeconds", "model.lowestSlope", "model.highestSlope", "model.snr",
-                                  "decide.falseAlarmsPerHour"};
     constexpr int labelWidth = 108;
     constexpr double mostBins = 100.0;
     constexpr double mostHertz = 1e9;
 
+    /// Outside its section of the form; empty: the label says enough.
+    QString labelAlone(const QString &name)
+    {
+        const QMap<QString, QString> labels{
+            {QStringLiteral("detector.kind"), MainSettings::tr("Detector")},
+            {QStringLiteral("selection.lowHz"), MainSettings::tr("Band from")},
+            {QStringLiteral("selection.highHz"), MainSettings::tr("Band to")},
+            {QStringLiteral("selection.fromSeconds"), MainSettings::tr("Time from")},
+            {QStringLiteral("selection.toSeconds"), MainSettings::tr("Time to")},
+        };
+        return labels.value(name);
+    }
+
 } // namespace
 
-MainSettings::MainSettings(Document &document, AnalysisController &controller, QWidget *parent)
+const std::vector<const char *> &MainSettings::few()
+{
+    static const std::vector<const char *> names{"spectrogram.windowSeconds", "model.lowestSlope", "model.highestSlope",
+                                                 "model.snr", "decide.falseAlarmsPerHour"};
+    return names;
+}
+
+const std::vector<const char *> &MainSettings::dozen()
+{
+    static const std::vector<const char *> names{"spectrogram.windowSeconds",
+                                                 "decide.falseAlarmsPerHour",
+                                                 "model.lowestSlope",
+                                                 "model.highestSlope",
+                                                 "model.snr",
+                                                 "detector.kind",
+                                                 "selection.lowHz",
+                                                 "selection.highHz",
+                                                 "selection.fromSeconds",
+                                                 "selection.toSeconds",
+                                                 "subtract.lines",
+                                                 "spectrogram.window"};
+    return names;
+}
+
+MainSettings::MainSettings(Document &document, AnalysisController &controller, const std::vector<const char *> &names,
+                           QWidget *parent)
     : QWidget(parent), m_document(document), m_controller(controller)
 {
     setAccessibleName(tr("Main settings"));
@@ -31,6 +68,8 @@ MainSettings::MainSettings(Document &document, AnalysisController &controller, Q
         const Field<AnalysisSettings> &field = settingField(name);
         auto *row = new SettingRow(field, defaultValue(field));
         row->setLabelWidth(labelWidth);
+        if (const QString label = labelAlone(QString::fromLatin1(name)); !label.isEmpty())
+            row->label()->setText(label);
         connect(row, &SettingRow::edited, this, [this, name = QString::fromLatin1(name)](const FieldValue &value) {
             m_controller.edit(name, value, tr("Change “%1”").arg(settingLabel(name)));
         });

@@ -3,20 +3,28 @@
 #include <QMap>
 #include <QWidget>
 
+#include <vector>
+
 namespace faintline {
 
 class AnalysisController;
 class Document;
 class SettingRow;
 
-/// The five settings of lines that are changed first: window, range of slopes, SNR and false alarms per hour. They are
-/// those of the pipeline's form, for windows in which that form lies behind another panel. Hidden for pings.
+/// Settings of lines that are changed first, as rows of the pipeline's form, where that form is not seen. Hidden for
+/// pings.
 class MainSettings : public QWidget
 {
     Q_OBJECT
 
 public:
-    MainSettings(Document &document, AnalysisController &controller, QWidget *parent = nullptr);
+    /// The five most frequent ones: window, range of slopes, SNR and false alarms per hour.
+    static const std::vector<const char *> &few();
+    /// With part, band, window's shape, detector and strong lines: a dozen.
+    static const std::vector<const char *> &dozen();
+
+    MainSettings(Document &document, AnalysisController &controller, const std::vector<const char *> &names,
+                 QWidget *parent = nullptr);
 
     /// Whether they are settings of the open source.
     bool isApplicable() const;

@@ -163,7 +163,7 @@ void MainWindow::showWorkbench()
     m_panels->setLeastPictures(bench().hasReadOut() ? Panels::leastWithBars : Panels::leastAlone);
     m_pages->setCurrentWidget(&bench());
     if (const QByteArray panels = m_memory.layout().panels; panels.isEmpty() || !restoreState(panels))
-        m_panels->takeDefault();
+        m_panels->takeLayout(m_memory.isKept() ? Panels::analyse() : Panels::researcher());
     showBars();
     m_legend->show();
     for (QAction *action : m_viewActions)

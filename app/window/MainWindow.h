@@ -103,6 +103,7 @@ private:
     void buildCentre();
     void buildPanels();
     void buildDocks();
+    void buildSettingsDock();
     void buildBottom();
     void buildStatusBar();
     void buildMenus();
@@ -115,10 +116,10 @@ private:
     void addPresentation(QMenu &menu);
     void addLessonMenu(QMenu &menu);
     void addThemeMenu(QMenu &menu);
-    void buildDetectMenu();
-    void buildReviewMenu();
-    void buildEvaluateMenu();
-    void buildReproduceMenu();
+    void buildPlayMenu();
+    void buildLinesMenu();
+    void buildAnalyseMenu();
+    void addReproductions(QMenu &help);
     void buildHelpMenu();
     void buildToolBar();
     void connectDocument();

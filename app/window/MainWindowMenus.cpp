@@ -39,10 +39,9 @@ void MainWindow::buildMenus()
     buildFileMenu();
     buildEditMenu();
     buildViewMenu();
-    buildDetectMenu();
-    buildReviewMenu();
-    buildEvaluateMenu();
-    buildReproduceMenu();
+    buildPlayMenu();
+    buildLinesMenu();
+    buildAnalyseMenu();
     buildHelpMenu();
     nameWhatHolds();
     // Shortcuts of a hidden menu do not work, so add the actions to the window for presentations.
@@ -122,40 +121,9 @@ void MainWindow::buildEditMenu()
     addViewAction(*menu, tr("&Delete preset…"), {}, [this] { m_pipeline->removePreset(); });
 }
 
-void MainWindow::buildDetectMenu()
+void MainWindow::buildPlayMenu()
 {
-    QMenu *menu = menuBar()->addMenu(tr("&Detect"));
-    addViewAction(*menu, tr("&Run again"), QKeySequence(Qt::CTRL | Qt::Key_R), [this] { m_controller.run(); });
-    m_stopAction = menu->addAction(tr("&Stop"), QKeySequence(Qt::Key_Escape), &m_controller, &AnalysisController::stop);
-    m_stopAction->setEnabled(false);
-    m_boxAnalysis->addActionsTo(*menu);
-    menu->addSeparator();
-    addViewAction(*menu, tr("Threshold &down"), Qt::Key_Comma, [this] { m_controller.stepThreshold(-1); });
-    addViewAction(*menu, tr("Threshold &up"), Qt::Key_Period, [this] { m_controller.stepThreshold(1); });
-    menu->addSeparator();
-    addViewAction(*menu, tr("&Next event"), Qt::Key_N, [this] { m_events->selectNext(); });
-    addViewAction(*menu, tr("&Previous event"), QKeySequence(Qt::SHIFT | Qt::Key_N),
-                  [this] { m_events->selectPrevious(); });
-    menu->addSeparator();
-    addViewAction(*menu, tr("&Why (not) detected"), QKeySequence(Qt::Key_W), [this] { showWhy(); });
-    addViewAction(*menu, tr("Draw a line &by hand"), QKeySequence(Qt::CTRL | Qt::Key_D), [this] { showHandLine(); });
-    addViewAction(*menu, tr("Pla&ce sonar targets"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_D), [this] {
-        showTargets();
-    })->setToolTip(tr("Place the targets of a simulated scene on the map, and edit them in a table"));
-    addViewAction(*menu, tr("Doppler &fit"), Qt::Key_D, [this] {
-        showDoppler();
-    })->setToolTip(tr("Fit a source that passes at constant speed to the selected event's track"));
-    addViewAction(*menu, tr("S&traighten recording along this track…"), Qt::Key_T, [this] { straighten(); });
-    addViewAction(*menu, tr("Learn &motion from tracks…"), {}, [this] { learnMotion(); });
-    menu->addSeparator();
-    addViewAction(*menu, tr("&Keep as A"), QKeySequence(Qt::CTRL | Qt::Key_B), [this] {
-        showCompare();
-        m_compare->keep();
-    });
-    addViewAction(*menu, tr("Swap &A and B"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_B),
-                  [this] { m_compare->swap(); });
-    addViewAction(*menu, tr("&Go to A"), {}, [this] { m_compare->goToA(); });
-    menu->addSeparator();
+    QMenu *menu = menuBar()->addMenu(tr("&Play"));
     m_playAction = addViewAction(*menu, tr("P&lay"), Qt::Key_Space, {});
     m_playAction->setCheckable(true);
     connect(m_playAction, &QAction::toggled, this, &MainWindow::setPlaying);
@@ -167,43 +135,76 @@ void MainWindow::buildDetectMenu()
     m_workbench->addAction(m_playAction);
     m_pings->addAction(m_playAction);
     m_playback->addActionsTo(*menu->addMenu(tr("Play &what")));
+    menu->addSeparator();
     addViewAction(*menu, tr("Frame &back"), Qt::Key_J, [this] { bench().stepFrames(-1); });
     addViewAction(*menu, tr("Frame &forward"), Qt::Key_L, [this] { bench().stepFrames(1); });
-    menu->addSeparator();
-    addViewAction(*menu, tr("&State space"), Qt::Key_S, [this] { showStates(); });
 }
 
-void MainWindow::buildReviewMenu()
+/// What is done with single lines and targets.
+void MainWindow::buildLinesMenu()
 {
-    QMenu *menu = menuBar()->addMenu(tr("&Annotate"));
+    QMenu *menu = menuBar()->addMenu(tr("&Lines"));
     menu->setToolTipsVisible(true);
+    addViewAction(*menu, tr("&Next event"), Qt::Key_N, [this] { m_events->selectNext(); });
+    addViewAction(*menu, tr("&Previous event"), QKeySequence(Qt::SHIFT | Qt::Key_N),
+                  [this] { m_events->selectPrevious(); });
+    addViewAction(*menu, tr("&Why (not) detected"), QKeySequence(Qt::Key_W), [this] { showWhy(); });
+    menu->addSeparator();
     m_reviews->addActionsTo(*menu);
+    menu->addSeparator();
+    addViewAction(*menu, tr("Doppler &fit"), Qt::Key_D, [this] {
+        showDoppler();
+    })->setToolTip(tr("Fit a source that passes at constant speed to the selected event's track"));
+    addViewAction(*menu, tr("S&traighten recording along this track…"), Qt::Key_T, [this] { straighten(); });
+    addViewAction(*menu, tr("Learn &motion from tracks…"), {}, [this] { learnMotion(); });
+    menu->addSeparator();
+    addViewAction(*menu, tr("Draw a line &by hand"), QKeySequence(Qt::CTRL | Qt::Key_D), [this] { showHandLine(); });
+    addViewAction(*menu, tr("Pla&ce sonar targets"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_D), [this] {
+        showTargets();
+    })->setToolTip(tr("Place the targets of a simulated scene on the map, and edit them in a table"));
+    addViewAction(*menu, tr("&Inject a line…"), QKeySequence(Qt::CTRL | Qt::Key_I), [this] { injectLine(); });
 }
 
-void MainWindow::buildEvaluateMenu()
+/// Runs of the detector, and what tells how good they are.
+void MainWindow::buildAnalyseMenu()
 {
-    QMenu *menu = menuBar()->addMenu(tr("Eva&luate"));
+    QMenu *menu = menuBar()->addMenu(tr("&Analyse"));
+    addViewAction(*menu, tr("&Run again"), QKeySequence(Qt::CTRL | Qt::Key_R), [this] { m_controller.run(); });
+    m_stopAction = menu->addAction(tr("&Stop"), QKeySequence(Qt::Key_Escape), &m_controller, &AnalysisController::stop);
+    m_stopAction->setEnabled(false);
+    m_boxAnalysis->addActionsTo(*menu);
+    menu->addSeparator();
+    addViewAction(*menu, tr("Threshold &down"), Qt::Key_Comma, [this] { m_controller.stepThreshold(-1); });
+    addViewAction(*menu, tr("Threshold &up"), Qt::Key_Period, [this] { m_controller.stepThreshold(1); });
+    menu->addSeparator();
+    addViewAction(*menu, tr("&Keep as A"), QKeySequence(Qt::CTRL | Qt::Key_B), [this] {
+        showCompare();
+        m_compare->keep();
+    });
+    addViewAction(*menu, tr("Swap &A and B"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_B),
+                  [this] { m_compare->swap(); });
+    addViewAction(*menu, tr("&Go to A"), {}, [this] { m_compare->goToA(); });
+    menu->addSeparator();
     addViewAction(*menu, tr("&Pd and ROC"), QKeySequence(Qt::CTRL | Qt::Key_P), [this] { m_panels->show(m_evaluate); });
     addViewAction(*menu, tr("&Experiments"), {}, [this] { m_panels->show(m_experimentList); });
     addViewAction(*menu, tr("S&weep a setting"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_P),
                   [this] { showSweep(); });
     addViewAction(*menu, tr("&Noise fit"), {}, [this] { showNoiseFit(); });
+    addViewAction(*menu, tr("S&tate space"), Qt::Key_S, [this] { showStates(); });
     addViewAction(*menu, tr("&Latency of pings"), {}, [this] { showLatency(); });
     menu->addSeparator();
-    addViewAction(*menu, tr("&Sequential test"), QKeySequence(Qt::CTRL | Qt::Key_T),
+    addViewAction(*menu, tr("Se&quential test"), QKeySequence(Qt::CTRL | Qt::Key_T),
                   [this] { m_panels->show(m_sequential); });
-    addViewAction(*menu, tr("Sequential test on the se&lection"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_T),
+    addViewAction(*menu, tr("Sequential test on the selecti&on"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_T),
                   [this] {
                       m_panels->show(m_sequential);
                       m_sequential->startOnSelection();
                   });
-    menu->addSeparator();
-    addViewAction(*menu, tr("&Inject a line…"), QKeySequence(Qt::CTRL | Qt::Key_I), [this] { injectLine(); });
 }
 
-void MainWindow::buildReproduceMenu()
+void MainWindow::addReproductions(QMenu &help)
 {
-    QMenu *menu = menuBar()->addMenu(tr("&Reproduce"));
+    QMenu *menu = help.addMenu(tr("&Reproduce a paper’s figure"));
     QAction *quick = menu->addAction(tr("&Quick: a tenth of the trials"));
     quick->setCheckable(true);
     quick->setChecked(true);
@@ -224,6 +225,7 @@ void MainWindow::buildHelpMenu()
     menu->addAction(tr("&Equation of this view"), QKeySequence(Qt::SHIFT | Qt::Key_F1), this,
                     &MainWindow::showEquation);
     addLessonMenu(*menu);
+    addReproductions(*menu);
     m_settingsMenu = new QMenu(tr("Setting"), this);
     menu->addAction(tr("&Find a command or setting…"), QKeySequence(Qt::CTRL | Qt::Key_K), this,
                     &MainWindow::showPalette);

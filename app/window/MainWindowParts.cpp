@@ -47,10 +47,15 @@
 #include <QDockWidget>
 #include <QGridLayout>
 #include <QLabel>
+#include <QPushButton>
+#include <QScrollArea>
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QToolBar>
 #include <QVBoxLayout>
+
+#include <array>
+#include <memory>
 
 namespace faintline {
 
@@ -138,12 +143,18 @@ void MainWindow::buildDocks()
 {
     using Place = Panels::Place;
     m_panels->add(QStringLiteral("pipelineDock"), tr("Pipeline"), m_pipeline, Place::Left);
-    auto *main = new MainSettings(m_document, m_controller);
+    buildSettingsDock();
+    auto *main = new MainSettings(m_document, m_controller, MainSettings::few());
     auto *threshold = new ThresholdPanel(*m_threshold, *main, m_controller, m_check);
     // The threshold is above the events so that both are visible while dragging.
     m_panels->add(QStringLiteral("thresholdDock"), tr("Threshold"), threshold, Place::RightTop);
-    connect(static_cast<QDockWidget *>(m_pipeline->parentWidget()), &QDockWidget::visibilityChanged, threshold,
-            [threshold](bool isVisible) { threshold->setMainSettingsWanted(!isVisible); });
+    const auto seen = std::make_shared<std::array<bool, 2>>(); // forms that have these settings, too
+    for (const std::size_t form : {std::size_t(0), std::size_t(1)})
+        connect(findChild<QDockWidget *>(QLatin1String(form == 0 ? "pipelineDock" : "settingsDock")),
+                &QDockWidget::visibilityChanged, threshold, [seen, form, threshold](bool isSeen) {
+                    (*seen)[form] = isSeen;
+                    threshold->setMainSettingsWanted(*seen == std::array{false, false});
+                });
     m_panels->add(QStringLiteral("eventsDock"), tr("Events"), m_events, Place::RightBottom);
     m_panels->add(QStringLiteral("whyDock"), tr("Why"), m_why, Place::RightBottom);
     m_panels->add(QStringLiteral("noiseDock"), tr("Noise"), m_info, Place::RightBottom);
@@ -163,6 +174,27 @@ void MainWindow::buildDocks()
     m_panels->add(QStringLiteral("sequentialDock"), tr("Sequential test"), m_sequential, Place::Bottom);
     m_panels->add(QStringLiteral("latencyDock"), tr("Latency"), m_latency, Place::Bottom);
     m_panels->add(QStringLiteral("targetsDock"), tr("Targets"), m_targets, Place::Bottom);
+}
+
+/// A dozen settings, and the form of all behind a button.
+void MainWindow::buildSettingsDock()
+{
+    auto *all = new QPushButton(tr("&All settings…"));
+    all->setToolTip(tr("The whole pipeline, with its presets"));
+    connect(all, &QPushButton::clicked, this, [this] { m_panels->show(m_pipeline); });
+    auto *column = new QWidget;
+    auto *layout = new QVBoxLayout(column);
+    layout->setContentsMargins(0, 4, 0, 4);
+    layout->addWidget(new MainSettings(m_document, m_controller, MainSettings::dozen()));
+    layout->addWidget(all, 0, Qt::AlignLeft);
+    layout->addStretch(1);
+    auto *area = new QScrollArea;
+    area->setFrameShape(QFrame::NoFrame);
+    area->setWidgetResizable(true);
+    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    area->setWidget(column);
+    m_panels->add(QStringLiteral("settingsDock"), tr("Settings"), area, Panels::Place::Left);
+    area->parentWidget()->hide(); // until a layout has it
 }
 
 void MainWindow::buildBottom()

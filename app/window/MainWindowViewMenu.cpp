@@ -82,19 +82,20 @@ void MainWindow::buildViewMenu()
     addLayerMenu(*menu);
     m_panelsMenu = menu->addMenu(tr("&Panels"));
     m_panelsMenu->addActions(m_panels->toggleActions());
-    m_panelsMenu->addSeparator();
+    QMenu *layouts = menu->addMenu(tr("La&yout"));
     for (const QString &name : Panels::layoutNames())
-        m_panelsMenu->addAction(tr("Layout: %1").arg(name), m_panels, [this, name] { m_panels->takeLayout(name); });
+        addViewAction(*layouts, name, {}, [this, name] { m_panels->takeLayout(name); });
     addViewAction(*menu, tr("Ma&ximise panel"), Qt::Key_F11, [this] {
         m_panels->toggleMaximised();
     })->setToolTip(tr("Give the whole window to the panel that has the focus, or put it back"));
-    addPresentation(*menu);
+    addPresentation(*layouts);
+    addAction(m_presentAction); // also while the menu bar is hidden
     addThemeMenu(*menu);
 }
 
 void MainWindow::addPresentation(QMenu &menu)
 {
-    m_presentAction = addViewAction(menu, tr("&Presentation"), Qt::Key_F5, {});
+    m_presentAction = addViewAction(menu, tr("&Lecture: the pictures alone, full screen"), Qt::Key_F5, {});
     m_presentAction->setCheckable(true);
     connect(m_presentAction, &QAction::toggled, m_panels, &Panels::setPresenting);
     // Escape leaves a presentation; otherwise it stops the running job.
@@ -117,6 +118,10 @@ void MainWindow::addThemeMenu(QMenu &menu)
         action->setActionGroup(group);
         action->setChecked(Theme::kind(palette()) == kind);
     };
+    addAction(themes->addAction(tr("Light &or dark"), QKeySequence(Qt::Key_F6), this, [this] {
+        setTheme(Theme::kind(palette()) == Theme::Kind::Light ? Theme::Kind::Dark : Theme::Kind::Light);
+    }));
+    themes->addSeparator();
     addTheme(tr("&Light"), Theme::Kind::Light);
     addTheme(tr("&Dark"), Theme::Kind::Dark);
     addTheme(tr("&High contrast"), Theme::Kind::HighContrast);

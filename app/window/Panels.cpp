@@ -47,18 +47,19 @@ namespace {
 
     struct Layout {
         const char *name;
-        QStringList docks; ///< visible docks, the front tab last; empty: default
+        QStringList docks; ///< visible docks, the front tab last; empty: as they were added
     };
 
     const std::vector<Layout> &layouts()
     {
         static const std::vector<Layout> all{
-            {QT_TRANSLATE_NOOP("faintline::Panels", "Lines"), {}},
+            {QT_TRANSLATE_NOOP("faintline::Panels", "Analyse"),
+             {"thresholdDock", "settingsDock", "whyDock", "eventsDock"}},
+            {QT_TRANSLATE_NOOP("faintline::Panels", "Researcher"), {}},
             {QT_TRANSLATE_NOOP("faintline::Panels", "Active sonar"), {"thresholdDock", "eventsDock", "statesDock"}},
             {QT_TRANSLATE_NOOP("faintline::Panels", "Sequential test"), {"sequentialDock"}},
             {QT_TRANSLATE_NOOP("faintline::Panels", "Evaluate"),
              {"experimentsDock", "reproductionDock", "evaluateDock"}},
-            {QT_TRANSLATE_NOOP("faintline::Panels", "Teach"), {"eventsDock", "thresholdDock"}},
         };
         return all;
     }
@@ -136,7 +137,9 @@ void Panels::arrangeColumns(const QSize &size)
     QDockWidget *left = first(Place::Left), *right = first(Place::RightTop);
     const bool isNarrow = size.width() < twoColumnsFrom;
     if (isNarrow) {
-        m_window.tabifyDockWidget(right, left);
+        for (const Entry &entry : m_entries)
+            if (entry.place == Place::Left)
+                m_window.tabifyDockWidget(right, entry.dock);
         right->raise();
     }
     m_window.resizeDocks({left, right}, {size.width() * 16 / 100, std::max(narrowestColumn, size.width() * 18 / 100)},
@@ -200,6 +203,29 @@ QStringList Panels::layoutNames()
     return names;
 }
 
+QString Panels::analyse()
+{
+    return layoutNames()[0];
+}
+
+QString Panels::researcher()
+{
+    return layoutNames()[1];
+}
+
+/// In a high column, why an event was found is below the list of events.
+void Panels::stackEvents()
+{
+    QDockWidget *events = dock("eventsDock"), *why = dock("whyDock");
+    if (m_window.height() < threeRowsFrom)
+        return;
+    m_window.addDockWidget(Qt::RightDockWidgetArea, why, Qt::Vertical); // out of their common tabs
+    events->raise();
+    const int height = m_window.height() * 3 / 4;
+    m_window.resizeDocks({first(Place::RightTop), events, why}, {height / 3, height / 4, height * 5 / 12},
+                         Qt::Vertical);
+}
+
 void Panels::takeLayout(const QString &name)
 {
     const auto index = layoutNames().indexOf(name);
@@ -207,10 +233,13 @@ void Panels::takeLayout(const QString &name)
         return;
     takeDefault();
     const Layout &layout = layouts()[std::size_t(index)];
-    if (layout.docks.isEmpty())
+    const bool isTooSmall = name == analyse() && first(Place::RightTop)->isHidden();
+    if (layout.docks.isEmpty() || isTooSmall)
         return;
     for (const Entry &entry : m_entries)
         entry.dock->setVisible(layout.docks.contains(entry.dock->objectName()));
+    if (name == analyse())
+        stackEvents();
     for (const QString &shown : layout.docks)
         if (QDockWidget *own = dock(shown))
             own->raise();

@@ -41,8 +41,10 @@ public:
     void hide();               ///< hides all panels
     QList<QAction *> toggleActions() const;
 
-    /// Layouts for particular tasks, by name; the first is the default.
+    /// Layouts for particular tasks, by name.
     static QStringList layoutNames();
+    static QString analyse();    ///< of a program's first window: settings that matter, events, and why
+    static QString researcher(); ///< of pictures that are rendered: all panels that have a place beside the pictures
     void takeLayout(const QString &name);
 
     /// True while several panels are shown or hidden together; changes of visibility are then not the user's choice.
@@ -74,6 +76,7 @@ private:
     int tabHeight(const QDockWidget &dock) const;
     void bringForward(QDockWidget &dock, bool wasHidden);
     void arrangeColumns(const QSize &size);
+    void stackEvents();
     QDockWidget *first(Place place) const;
     QDockWidget *last(Place place) const;
 

@@ -34,7 +34,7 @@ LiveBar::LiveBar(Document &document, LiveRun &run, QWidget *parent)
     m_label->setAccessibleName(tr("Live"));
     m_hear->setObjectName(QStringLiteral("hear"));
     m_hear->setCheckable(true);
-    m_hear->setToolTip(tr("Play what comes in: all of it, the band of the box, or a line (Detect > Play what)"));
+    m_hear->setToolTip(tr("Play what comes in: all of it, the band of the box, or a line (Play > Play what)"));
     m_hear->setFocusPolicy(Qt::TabFocus);
     connect(m_hear, &QToolButton::toggled, this, &LiveBar::hearingRequested);
     m_hold->setToolTip(tr("Hold the picture while listening continues, or go back to the newest frames (Space, End)"));

@@ -73,7 +73,7 @@ void lookAtLayouts(MainWindow &window, const QSize &size, const std::vector<Wate
             QVERIFY2(view->canvas()->width() >= canvas && view->height() >= 350,
                      qPrintable(layout + QStringLiteral(": %1, %2").arg(view->canvas()->width()).arg(view->height())));
     }
-    window.findChild<Panels *>()->takeLayout(Panels::layoutNames().first());
+    window.findChild<Panels *>()->takeLayout(Panels::researcher());
 }
 
 /// A row of tabs speaks through its tabs; a hidden message has nothing to say yet, nor has a sheet whose panel shows no
@@ -268,14 +268,14 @@ private slots:
     void aPanelFromTheMenuIsInFront()
     {
         auto *panels = m_window->findChild<Panels *>();
-        panels->takeLayout(Panels::layoutNames().first());
+        panels->takeLayout(Panels::researcher());
         for (const char *name : {"spectrumDock", "compareDock", "evaluateDock"}) {
             auto *dock = m_window->findChild<QDockWidget *>(name);
             dock->toggleViewAction()->trigger();
             QCoreApplication::processEvents();
             QVERIFY2(dock->isVisible() && !dock->visibleRegion().isEmpty(), name);
         }
-        panels->takeLayout(Panels::layoutNames().first());
+        panels->takeLayout(Panels::researcher());
     }
 
     /// Every sheet, from the menu or by its command: a usable height, and pictures of 350 pixels above.
@@ -285,7 +285,7 @@ private slots:
         m_window->resize(1280, 800);
         const Workbench &bench = m_window->workbench();
         for (const QDockWidget *dock : m_window->findChildren<QDockWidget *>()) {
-            panels->takeLayout(Panels::layoutNames().first());
+            panels->takeLayout(Panels::researcher());
             QCoreApplication::processEvents();
             if (m_window->dockWidgetArea(const_cast<QDockWidget *>(dock)) != Qt::BottomDockWidgetArea)
                 continue;
@@ -297,7 +297,7 @@ private slots:
                 qPrintable(
                     QString("%1: %2, %3").arg(dock->windowTitle()).arg(bench.input()->height()).arg(dock->height())));
         }
-        panels->takeLayout(Panels::layoutNames().first());
+        panels->takeLayout(Panels::researcher());
         for (const char *name : {"compareDock", "sweepDock", "evaluateDock"}) { // the second and third share tabs
             auto *dock = m_window->findChild<QDockWidget *>(name);
             dock->toggleViewAction()->trigger();
@@ -305,12 +305,12 @@ private slots:
             QVERIFY2(bench.input()->height() >= 350 && dock->height() >= 200,
                      qPrintable(QString("%1: %2, %3").arg(name).arg(bench.input()->height()).arg(dock->height())));
         }
-        panels->takeLayout(Panels::layoutNames().first());
+        panels->takeLayout(Panels::researcher());
     }
 
     void aFloatingPanelReturnsToTheFront()
     {
-        m_window->findChild<Panels *>()->takeLayout(Panels::layoutNames().first());
+        m_window->findChild<Panels *>()->takeLayout(Panels::researcher());
         auto *dock = m_window->findChild<QDockWidget *>("eventsDock");
         dock->setFloating(true);
         QCoreApplication::processEvents();
@@ -333,7 +333,7 @@ private slots:
         QTest::keyClick(m_window.get(), Qt::Key_F11);
         QVERIFY(!dock->isFloating());
         QTRY_VERIFY(!dock->visibleRegion().isEmpty() && dock->height() < m_window->height() / 2);
-        panels->takeLayout(Panels::layoutNames().first());
+        panels->takeLayout(Panels::researcher());
     }
 
     void picturesHaveTheRoom_data()
@@ -402,7 +402,7 @@ private slots:
         for (QDockWidget *dock : window->findChildren<QDockWidget *>()) {
             if (!dock->widget() || !dock->toggleViewAction()->isVisible())
                 continue;
-            window->findChild<Panels *>()->takeLayout(Panels::layoutNames().first());
+            window->findChild<Panels *>()->takeLayout(Panels::researcher());
             if (dock->isHidden())
                 dock->toggleViewAction()->trigger();
             dock->raise();

@@ -31,7 +31,7 @@ private slots:
                           writeFile(m_folder, "scene.json",
                                     R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": []})"),
                           [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; }));
-        m_main = m_window->findChild<MainSettings *>();
+        m_main = m_window->findChild<ThresholdPanel *>()->findChild<MainSettings *>();
         QVERIFY(m_main);
         QVERIFY(QTest::qWaitFor([&] { return m_main->isVisible(); }));
     }
@@ -113,7 +113,7 @@ private slots:
         m_window->addDockWidget(Qt::LeftDockWidgetArea, form);
         form->show();
         QVERIFY(QTest::qWaitFor([&] { return !m_main->isVisible() && threshold->isVisible(); }));
-        m_window->findChild<Panels *>()->takeLayout(Panels::layoutNames().first());
+        m_window->findChild<Panels *>()->takeLayout(Panels::researcher());
         QVERIFY(QTest::qWaitFor([&] { return m_main->isVisible(); }));
     }
 

@@ -591,6 +591,10 @@ private slots:
             QVERIFY(bench.output()->heading().contains("found"));
             QTest::keyClick(bench.output(), Qt::Key_F);
             QVERIFY(bench.output()->heading().startsWith("Statistic D"));
+            for (const char *dock : {"thresholdDock", "settingsDock", "eventsDock", "whyDock"})
+                QVERIFY2(window->findChild<QDockWidget *>(dock)->isVisible(), dock);
+            for (const char *dock : {"pipelineDock", "noiseDock", "noiseFitDock", "statesDock"})
+                QVERIFY2(!window->findChild<QDockWidget *>(dock)->isVisible(), dock);
             window->close();
         }
         auto window = this->window(true); // as it was left

@@ -153,7 +153,7 @@ void analyseBox(Walk &walk)
     walk.pick("Analyse this box");
     waitForEvents(walk, 1);
     walk.takePicture("analyst-in-box");
-    walk.choose({"Detect", "Analyse the whole recording"});
+    walk.choose({"Analyse", "Analyse the whole recording"});
     waitForEvents(walk, 3);
     walk.hand.press("m");
     walk.waitUntil("no more measuring", [&] { return !output.isMeasuring(); });

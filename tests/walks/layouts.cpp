@@ -43,7 +43,7 @@ void lookAtLayouts(Walk &walk, const QString &scenario)
     walk.waitForResults();
     lookAtPictures(walk, scenario);
     for (const QString &name : Panels::layoutNames()) {
-        walk.choose({"View", "Panels", "Layout: " + name});
+        walk.choose({"View", "Layout", name});
         lookAtPictures(walk, scenario + " " + name);
     }
 }
@@ -53,7 +53,7 @@ void goThrough(Walk &walk)
     lookAtLayouts(walk, "sonar-crossing-targets");
     lookAtLayouts(walk, "faint-drifting-line");
     walk.choose({"View", "Theme", "Light"});
-    walk.choose({"View", "Panels", "Layout: Lines"});
+    walk.choose({"View", "Layout", "Researcher"});
     lookAtPictures(walk, "lines in light");
 }
 

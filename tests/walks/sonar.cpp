@@ -71,7 +71,7 @@ void explainTarget(Walk &walk)
 /// Maps side by side stay wide enough in the layout that is named for them.
 void takeLayout(Walk &walk)
 {
-    walk.choose({"View", "Panels", "Layout: Active sonar"});
+    walk.choose({"View", "Layout", "Active sonar"});
     walk.waitUntil("wide maps", [&] {
         const PingBench &bench = walk.window().pingBench();
         return walk.window().states().isVisible() && bench.input()->width() >= 350 && bench.output()->width() >= 350;
