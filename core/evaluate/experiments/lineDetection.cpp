@@ -10,7 +10,8 @@ namespace faintline {
 
 namespace {
 
-    constexpr double onLineCells = 1.5; ///< of a track's distance from its line
+    constexpr double onLineCells =
+        1.5; ///< of a track's distance from its line, in the window that found it or the one shown
     constexpr double missed = -std::numeric_limits<double>::infinity();
 
     /// Relation of a track to a line.
@@ -18,10 +19,10 @@ namespace {
 
     Bond bondOf(const Track &track, const Analysis &analysis, const TruthLine &line)
     {
-        const Spectrogram &spectrogram = *analysis.frames->spectrogram();
         const Axis &frequency = analysis.grid().axes.front();
-        const double nearHz = onLineCells * spectrogram.binsPerCell() * frequency.step;
-        const double window = spectrogram.windowSeconds();
+        const double shown = analysis.frames->spectrogram()->windowSeconds();
+        const double window = track.windowSeconds > 0.0 ? std::min(track.windowSeconds, shown) : shown;
+        const double nearHz = onLineCells / window;
         const double centreHz = analysis.recording->info().centreHz;
         int during = 0;
         int on = 0;

@@ -8,7 +8,7 @@
 namespace faintline {
 
 /// How an analysis found a known line. A track *detects* the line if half of its points while the line lasts lie on it,
-/// within 1.5 resolution cells.
+/// within 1.5 resolution cells of the window that found it, or of the analysis' own if that is shorter.
 struct LineDetection {
     /// By how much the largest statistic of the tracks that detect it exceeds the threshold, in the detector's unit,
     /// above 0; -∞ if it was missed.
