@@ -211,7 +211,7 @@ namespace {
             std::erase_if(found.tracks, [this](const Track &track) {
                 const Curve curve(track, *m_other);
                 return track.peakStatistic < sureStatistic(*m_other) || track.points.size() < 2 || isKnown(curve)
-                       || !(isSeenBetter(curve) || followersOf(curve).size() > 1);
+                       || !(isShorter() || isSeenBetter(curve) || followersOf(curve).size() > 1);
             });
             std::ranges::stable_sort(found.tracks, std::greater<>(), &Track::peakStatistic);
             return std::move(found.tracks);
@@ -234,6 +234,46 @@ namespace {
                 count += 1.0;
             }
             return count > 0.0 ? std::max(0.0, sum / count) * window * window : 0.0;
+        }
+
+        bool isShorter() const { return windowOf(*m_other) < windowOf(m_base); }
+
+        /// Whether the base's frames hold the power of a track of a shorter window, rather than none of it, where it moves
+        /// while a window of the base lasts: a line has the same energy in both. Without it, the base counts that power as
+        /// noise.
+        bool hasItsEnergyInBase(const Curve &x, const Track &track) const
+        {
+            const FrameGeometry geometry = m_base.frames->geometry();
+            const Axis &time = m_base.time();
+            const Axis &axis = frequencyOf(m_base);
+            const double half = 0.5 * geometry.windowSeconds;
+            PathStrip strip;
+            strip.firstFrame = std::max<Index>(0, Index(std::floor(time.position(x.start()))));
+            const Index last = std::min(time.count - 1, Index(std::ceil(time.position(x.end()))));
+            std::vector<std::pair<Index, Index>> cells; ///< first and last, of each frame
+            for (Index frame = strip.firstFrame; frame <= last; ++frame) {
+                const double t = time.value(double(frame));
+                const Band band = x.between(t - half, t + half);
+                const double low = band.isEmpty() ? x.at(t) : band.low;
+                const double high = band.isEmpty() ? x.at(t) : band.high;
+                cells.emplace_back(Index(std::floor(axis.position(low) - geometry.binsPerCell)),
+                                   Index(std::ceil(axis.position(high) + geometry.binsPerCell)));
+                strip.centres.push_back((cells.back().first + cells.back().second) / 2);
+                strip.halfWidth = std::max(strip.halfWidth, cells.back().second - strip.centres.back());
+            }
+            readStrips(m_base, std::span(&strip, 1), {}, "comparing windows");
+            double energy = 0.0;
+            for (Index at = 0; at < strip.frameCount(); ++at)
+                for (Index cell = cells[std::size_t(at)].first; cell <= cells[std::size_t(at)].second; ++cell)
+                    if (const float power = strip.valueAt(at, cell); !std::isnan(power))
+                        energy += double(power) - 1.0;
+            double bins = 0.0; // that a line fills, at its largest power
+            for (double bin = -8.0; bin <= 8.0; bin += 1.0)
+                bins += leakageAt(geometry.window, std::abs(bin) / geometry.binsPerCell);
+            double own = 0.0;
+            for (std::size_t i = 0; i < track.points.size(); ++i)
+                own += track.isPresent(i) ? double(track.smoothed[i].level) : 0.0;
+            return energy / bins > 0.5 * own;
         }
 
         bool isSeenBetter(const Curve &x) const
@@ -331,14 +371,15 @@ namespace {
                     if (areOnePath(own, path) && isBetterKnown(whole, own))
                         return replace(inFramesOf(m_base, *m_other, whole), own);
                 }
-            if (!isBetter)
+            if (!isBetter && !isShorter())
                 return;
             for (const Track &part : partsOf(x, strip, {})) {
                 const Curve alone(part, *m_other);
                 const bool isInPiece = std::ranges::any_of(pieces, [&](std::size_t s) {
                     return alone.start() >= m_curves[s].start() && alone.end() <= m_curves[s].end();
                 });
-                if (!isInPiece && isSeenBetter(alone))
+                if (!isInPiece
+                    && ((isBetter && isSeenBetter(alone)) || (isShorter() && hasItsEnergyInBase(alone, part))))
                     add(inFramesOf(m_base, *m_other, part));
             }
         }

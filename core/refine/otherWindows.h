@@ -10,14 +10,14 @@ namespace faintline {
 /// The tracks of the recording's window, the base, and what other windows know better, each asked in its own window.
 ///
 /// The base keeps all its tracks, except pieces of one path. Windows are asked in the order of their distance from the
-/// base, and the tracks X of each by their statistic. X is asked if its window sees it better than the base does,
+/// base, and the tracks X of each by their statistic. Those of shorter windows are asked, those of longer ones if their
+/// window sees them better than the base does,
 ///
 ///   √T/max(1, m) > √T0/max(1, m0),   T, T0: the windows
 ///
 /// because a signal that moves by m cells within a window has 1/m of its energy in each. m is the root mean square of the
 /// movement within T; m0² the mean product of the movements in two successive windows T0, which a random walk does not
-/// have: when in doubt, the base sees it. X is kept if what remains of it suffices, as a further run of the chain
-/// (searchBehind.h):
+/// have. X is kept if what remains of it suffices, as a further run of the chain (searchBehind.h):
 ///
 ///   gain over μ·a ≥ sureStatistic   gain: the detector's score of the strongest path around X (bothWays.h)
 ///   μ(t,f) = Π_S 1 + 2·A_S·|W(d_S)|²
@@ -34,8 +34,13 @@ namespace faintline {
 ///               evidence over its threshold than each piece, and takes their earliest detection. For several pieces the
 ///               condition on windows does not apply: a spread signal is one track in the window in which it stands out
 ///               as one, however slow it is.
-///   adding      otherwise, each part that its window sees better is a track, unless a follower spans it. Its statistic
-///               is its own gain.
+///   adding      otherwise, each part is a track, unless a follower spans it. Its statistic is its own gain. Its window
+///               has to see X and the part better; or, if it is the shorter one, the base's frames have to hold the
+///               part's energy, because a line has the same Σ r in both (Parseval), and what the base takes for noise is
+///               none:
+///
+///                 Σ (y - 1)/w ≥ ½ Σ r    y: the base's cells within one of where X is during T0; r: X's power over the
+///                                        noise's; w: sum of the main lobe's powers over its largest one, in bins
 ///
 /// Windows of fewer than OwnNoiseLaw::fewestFrames frames are not asked. Positions are interpolated between frames;
 /// statistics are shifted by the difference of the two thresholds, and powers divided by the ratio of the windows, so that

@@ -81,6 +81,7 @@ private slots:
     void noiseBringsFew();
     void oneInAHumHasToBeSureOverIt();
     void aGlideBesideLinesThatStandStillIsFound();
+    void oneThatWandersBesideLinesThatStandStillIsFound();
     void aChangeOfTheThresholdAsksAgain();
 };
 
@@ -199,6 +200,26 @@ void tst_otherWindows::aGlideBesideLinesThatStandStillIsFound()
     QVERIFY2(std::abs(found.front().ratesPerSecond.front() - 100.0) < 5.0,
              qPrintable(QString::number(found.front().ratesPerSecond.front())));
     QVERIFY(analysis->tracks.size() >= 7);
+}
+
+/// The chosen window is sixteen times the automatic one; the line wanders over twenty of its cells, and has half of its
+/// energy there.
+void tst_otherWindows::oneThatWandersBesideLinesThatStandStillIsFound()
+{
+    LineScene lines = scene(4000.0, 32.0, 5);
+    for (int i = 0; i < 6; ++i)
+        lines.lines.push_back(line(100.0 + 100.0 * i, 0.0, 0.0, 32.0, 8.0, 0.2));
+    lines.lines.push_back(line(1300.0, 0.0, 10.0, 12.0, 4.0, 0.2));
+    lines.lines.back().wanderHz = 2.0;
+    lines.lines.back().wanderSeconds = 5.0;
+    const auto analysis = analysed(lines);
+    QVERIFY(analysis->frames->spectrogram()->windowSeconds() > 3.0);
+    const std::vector<Event> found = ofAnotherWindow(*analysis);
+    QCOMPARE(found.size(), std::size_t(1));
+    QVERIFY2(std::abs(found.front().position.front() - 1300.0) < 6.0,
+             qPrintable(QString::number(found.front().position.front())));
+    QVERIFY(std::abs(found.front().onsetSeconds - 10.0) < 2.0 && std::abs(found.front().endSeconds - 22.0) < 2.0);
+    QCOMPARE(analysis->tracks.size(), std::size_t(7));
 }
 
 void tst_otherWindows::aChangeOfTheThresholdAsksAgain()
