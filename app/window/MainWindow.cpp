@@ -234,6 +234,7 @@ void MainWindow::showFailure(const Error &error)
         return;
     // Opened but not analysable: the form is needed to change the settings.
     bench().setEmptySentence(tr("No analysis with these settings."));
+    m_events->setEmptySentence(tr("No analysis with these settings."));
     m_threshold->setCalibration({}, 0.0);
     m_events->setEvents({});
     showWorkbench();

@@ -112,8 +112,11 @@ void MainWindow::connectDocument()
     connect(&m_document, &Document::shownEventsChanged, this, &MainWindow::showEvents);
     const auto showWhetherPreview = [this] {
         m_events->setPreview(m_document.isPreview());
+        m_events->setEmptySentence(m_document.analysis() ? tr("No event at this threshold.")
+                                                         : tr("Events follow when the detector has run."));
         showHint();
     };
+    connect(&m_document, &Document::opened, this, showWhetherPreview);
     connect(&m_document, &Document::settingsChanged, this, showWhetherPreview);
     connect(&m_document, &Document::analysisChanged, this, showWhetherPreview);
     connect(&m_document, &Document::shownThresholdChanged, this, showWhetherPreview);

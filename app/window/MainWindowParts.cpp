@@ -105,7 +105,6 @@ void MainWindow::buildPanels()
     m_threshold->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
     new ThresholdCurves(m_document, *m_threshold, this);
     m_events = new EventTable;
-    m_events->setEmptySentence(tr("No event at this threshold."));
     m_reviews = new EventReviews(
         m_document, *m_events,
         {m_workbench->input(), m_workbench->output(), m_pings->alongHistory(), m_pings->acrossHistory()}, this);
