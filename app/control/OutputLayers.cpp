@@ -234,16 +234,22 @@ void OutputLayers::compute()
                 std::make_shared<const LayerPicture>(isOfTracks ? presencePicture(*analysis, wanted)
                                                      : frame ? layerPictureOf(*m_replay, *frame, wanted, shown, context)
                                                              : layerPicture(*m_replay, wanted, context));
-        if (cursor)
+        const auto delivery = [this](const Result &made) -> JobRunner::Delivery {
+            return [this, made] {
+                if (m_document.analysis() != made.analysis)
+                    return;
+                m_result = made;
+                show();
+                emit readingChanged();
+            };
+        };
+        if (cursor) {
+            if (isOfTracks) // needs no detector, which has to run up to the cursor
+                m_runner.deliver(delivery(result));
             result.atCursor = readCell(
                 *analysis, m_replay->at(cursor->frame, context, {cursor->cell, cursor->cell + 1}), cursor->cell, shown);
-        return [this, result] {
-            if (m_document.analysis() != result.analysis)
-                return;
-            m_result = result;
-            show();
-            emit readingChanged();
-        };
+        }
+        return delivery(result);
     });
 }
 
