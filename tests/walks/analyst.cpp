@@ -62,6 +62,7 @@ void open(Walk &walk)
     walk.waitForText("lines.wav");
     walk.waitForResults();
     walk.takePicture("analyst-first");
+    walk.choose({"View", "Layout", "Researcher"}); // for all of the settings
     walk.clickTab("Pipeline");
     walk.click("Section Selection"); // closes the section above
     walk.fillIn("Window length in s", "1");

@@ -12,12 +12,13 @@ using namespace faintline::test;
 
 namespace {
 
-constexpr int least = 350; // pixels
+constexpr int least = 350; // pixels, each way, or as large an area if the pictures lie above each other
+constexpr int lowest = 120;
 
 bool isLargeEnough(const QWidget &picture)
 {
     return picture.isVisible() && !picture.visibleRegion().isEmpty() && picture.width() >= least
-           && picture.height() >= least;
+           && picture.height() >= lowest && picture.width() * picture.height() >= least * least;
 }
 
 /// `name`: of the picture that is taken.
