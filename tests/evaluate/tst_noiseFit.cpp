@@ -30,6 +30,23 @@ private slots:
         QVERIFY(std::abs(law.distance() - 0.393469) < 1e-3);
     }
 
+    void leavesOutWhatWasNotObserved()
+    {
+        const float none = std::numeric_limits<float>::quiet_NaN();
+        NoiseLaw law;
+        law.add(std::vector<float>{0.5f, none, 1.5f, none});
+        QCOMPARE(law.count(), std::int64_t(2));
+        QCOMPARE(law.mean(), 1.0);
+        // Four bins, of which the upper two are a stop band.
+        std::vector<float> y = cells(4000, 1, 3);
+        for (std::size_t i = 0; i < y.size(); ++i)
+            if (i % 4 >= 2)
+                y[i] = none;
+        const auto bands = fitNoise(frames(4, y), {2});
+        QCOMPARE(bands.size(), std::size_t(1));
+        QCOMPARE(bands[0].law.count(), std::int64_t(2000));
+    }
+
     void theLawItselfFits()
     {
         NoiseLaw law;

@@ -18,10 +18,12 @@ void NoiseLaw::add(std::span<const float> y)
 {
     const auto last = float(m_counts.size() - 1);
     for (const float value : y) {
+        if (std::isnan(value)) // not observed
+            continue;
+        ++m_count;
         ++m_counts[std::size_t(std::clamp(value * float(stepsPerUnit), 0.0f, last))];
         m_sum += double(value);
     }
-    m_count += std::ssize(y);
 }
 
 void NoiseLaw::add(const NoiseLaw &other)
@@ -104,6 +106,7 @@ std::vector<FittedBand> fitNoise(const NormalisedFrames &frames, const NoiseSamp
                 result[std::size_t(band)].law.add(std::span<const float>(y).subspan(
                     std::size_t(row + edge(band)), std::size_t(edge(band + 1) - edge(band))));
     }
+    std::erase_if(result, [](const FittedBand &band) { return band.law.count() == 0; });
     const double overlap =
         std::max(1.0, geometry.framesPerWindow / double(stride)) * std::max(1.0, geometry.binsPerCell);
     for (FittedBand &band : result)
