@@ -52,7 +52,7 @@ namespace {
     /// The calibration applied to a recording: threshold and false alarms per hour.
     Json onRecording(const Calibration &calibration, const AnalysisSettings &settings, const Spectrogram &spectrogram)
     {
-        const double cellFramesPerHour = cellFramesInAnHour(settings.family, spectrogram);
+        const double cellFramesPerHour = cellFramesInAnHour(settings, spectrogram);
         const double nats = thresholdNats(settings.decide, calibration, cellFramesPerHour);
         const double rate = calibration.eventRateAt(nats);
         const double half = calibration.thresholdUncertainty(rate);

@@ -62,7 +62,7 @@ void calibratePlan(AnalysisPlan &plan, const RunContext &context, CalibrationDep
 {
     plan.model = makeModel(plan.settings.model, plan.grid());
     plan.calibration = calibrateBand(plan.settings, *plan.frames->spectrogram(), context, depth);
-    plan.cellFramesPerHour = double(plan.grid().size()) * 3600.0 / plan.time().step;
+    plan.cellFramesPerHour = cellFramesInAnHour(plan.settings, *plan.frames->spectrogram());
     plan.threshold = thresholdNats(plan.settings.decide, *plan.calibration, plan.cellFramesPerHour);
 }
 

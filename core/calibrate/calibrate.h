@@ -35,9 +35,6 @@ std::shared_ptr<const Calibration> calibrateBand(AnalysisSettings settings, cons
                                                  const RunContext &context = {},
                                                  CalibrationDepth depth = CalibrationDepth::Refined);
 
-/// Cells × frames per hour of these frames.
-double cellFramesInAnHour(const FamilySettings &family, const Spectrogram &spectrogram);
-
 /// The model on a part of its grid that is large enough to measure its response to noise: above 20 000 cells, the
 /// longest bounded axis is cut to about 5000 cells in total and made cyclic, so that no path leaves the part. A sonar's
 /// bounded range axis loses such paths, hence its false alarms are 13 to 40 % fewer than predicted here.

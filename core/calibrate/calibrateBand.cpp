@@ -123,11 +123,6 @@ std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &setting
                            counted ? lost * double(simulated) / double(*counted) : 0.0);
 }
 
-double cellFramesInAnHour(const FamilySettings &family, const Spectrogram &spectrogram)
-{
-    return double(familyAxis(family, spectrogram.frequency()).count) * 3600.0 / spectrogram.time().step;
-}
-
 std::shared_ptr<const Calibration> calibrateBand(AnalysisSettings settings, const Spectrogram &spectrogram,
                                                  const RunContext &context, CalibrationDepth depth)
 {

@@ -39,24 +39,26 @@ std::optional<Advice> adviceOnSilence(const Analysis &analysis, const RunContext
 
 std::optional<Advice> adviceOnStopBands(const Analysis &analysis)
 {
-    if (!analysis.background || analysis.background->stopBands.empty())
+    if (!analysis.recording || !analysis.background || analysis.background->stopBands.empty())
         return {};
     const std::vector<StopBand> &bands = analysis.background->stopBands;
     const Axis &axis = analysis.grid().axes.back();
-    const double centreHz = analysis.frames->spectrogram()->recording().info().centreHz;
     const auto words = [&](double hz) {
-        const double within = std::clamp(hz, axis.first, axis.last());
-        return formatToStep(centreHz + within, 10.0 * axis.step, 3);
+        return formatToStep(analysis.recording->info().centreHz + std::clamp(hz, axis.first, axis.last()),
+                            10.0 * axis.step, 3);
     };
-    Advice advice{"stopBand", {}, {}, analysis.settings};
-    for (const StopBand &band : bands)
-        advice.sentence += (advice.sentence.empty() ? "" : " and ") + words(band.lowHz) + " … " + words(band.highHz) + " Hz";
-    advice.sentence += (bands.size() > 1 ? " are not searched: they lie " : " is not searched: it lies ")
-        + std::to_string(std::lround(dbFromRatio(std::exp(bands.front().natsBelow))))
-        + " dB below the band beside it and follows its level, as a filter's stop band does";
+    const bool isOne = bands.size() == 1;
+    Advice advice{
+        "stopBand", words(bands.front().lowHz) + " … " + words(bands.front().highHz) + " Hz", {}, analysis.settings};
+    if (!isOne)
+        advice.sentence += " and " + words(bands.back().lowHz) + " … " + words(bands.back().highHz) + " Hz";
+    advice.sentence += isOne ? " is not searched: it lies " : " are not searched: they lie ";
+    advice.sentence += std::to_string(std::lround(dbFromRatio(std::exp(bands.front().natsBelow))))
+                       + " dB below the band beside and follow" + (isOne ? "s" : "")
+                       + " its level, as a filter's stop band does";
     advice.settings.selection.lowHz = std::max(bands.front().lowHz, axis.first);
     advice.settings.selection.highHz = std::min(bands.front().highHz, axis.last());
-    advice.remedy = "select that band to search it";
+    advice.remedy = isOne ? "select that band to search it" : "select one of them to search it";
     return advice;
 }
 
@@ -65,9 +67,9 @@ std::vector<Advice> advise(const Analysis &analysis, const RunContext &context)
     if (std::optional<Advice> silence = adviceOnSilence(analysis, context))
         return {*silence};
     std::vector<Advice> all;
-    for (std::optional<Advice> one : {adviceOnConstantCells(analysis, context), adviceOnChannels(analysis, context),
-                                      adviceOnSlopes(analysis), adviceOnCloseLines(analysis),
-                                      adviceOnStopBands(analysis)})
+    for (std::optional<Advice> one :
+         {adviceOnConstantCells(analysis, context), adviceOnChannels(analysis, context), adviceOnSlopes(analysis),
+          adviceOnCloseLines(analysis), adviceOnStopBands(analysis)})
         if (one)
             all.push_back(std::move(*one));
     return all;

@@ -124,7 +124,7 @@ namespace {
                 const std::size_t width = std::size_t(m_columnCells[column + 1]) - first;
                 const std::span<const float> own = statistic.subspan(first, width);
                 m_isLeftOut[column] = m_isLeftOut[column] || *std::ranges::max_element(own) > m_loudest
-                    || std::ranges::any_of(y.subspan(first, width), isUnknown);
+                                      || std::ranges::any_of(y.subspan(first, width), isUnknown);
                 int continued = 0;
                 for (const float *scores = detector.scores().data() + first, *end = scores + m_planes * std::ssize(y);
                      scores < end; scores += y.size())

@@ -29,7 +29,7 @@ SurrogateCount countOnSurrogates(RecordingPointer recording, const AnalysisSetti
     const Spectrogram spectrogram(recording, settings.spectrogram, settings.selection);
     const auto background = estimateBackground(spectrogram, settings.noise, context.part(0.0, 0.05));
     const auto calibration = calibrateBand(settings, spectrogram, context.part(0.05, 0.2));
-    const double cellFramesPerHour = cellFramesInAnHour(settings.family, spectrogram);
+    const double cellFramesPerHour = cellFramesInAnHour(settings, spectrogram);
 
     SurrogateCount result;
     result.runs = runs;

@@ -26,7 +26,7 @@ struct NoiseStretch {
 /// ln power of a stretch's noise in a frame with the given source levels.
 void readStretch(const NoiseStretch &stretch, std::span<const float> levels, std::span<float> ln);
 
-/// A stop band of the filter that a recording went through (stopBands.h). It is not observed.
+/// A stop band of the filter that a recording went through (stopBands.h). It is not observed, except from the past alone.
 struct StopBand {
     double lowHz = 0.0;
     double highHz = 0.0;
@@ -73,8 +73,8 @@ struct NoiseBackground {
     std::vector<float> lnLevel; ///< levelTime.count × bandCount values, to be added to lnPower
     /// In ascending time: stretches where several alternating noises replace lnPower.
     std::vector<NoiseStretch> stretches{};
-    Axis bins{};                  ///< frames of the detector, Hz
-    std::vector<float> lnAtEdges; ///< correction of each bin after interpolation; empty: none
+    Axis bins{};                       ///< frames of the detector, Hz
+    std::vector<float> lnAtEdges;      ///< correction of each bin after interpolation; empty: none
     std::vector<StopBand> stopBands{}; ///< of the whole band; none in one that was selected
 
     /// ln power that denotes "nothing was recorded".

@@ -2,6 +2,7 @@
 
 #include "frames/observed.h"
 #include "noise/FrameNormaliser.h"
+#include "noise/stopBands.h"
 
 #include <algorithm>
 #include <limits>
@@ -30,10 +31,8 @@ void NormalisedSpectrogram::read(Index first, Index count, std::span<float> out)
         }
         normaliser.normalise(values, *m_background, time().value(double(first + i)));
         for (const StopBand &band : m_background->stopBands) {
-            const Axis &axis = m_spectrogram->frequency();
-            const Index from = std::clamp<Index>(Index(std::ceil(axis.position(band.lowHz))), 0, axis.count);
-            const Index to = std::clamp<Index>(Index(std::floor(axis.position(band.highHz))) + 1, from, axis.count);
-            std::fill(values.begin() + from, values.begin() + to, notObserved);
+            const auto [cell, end] = cellsIn(band, m_spectrogram->frequency());
+            std::fill(values.begin() + cell, values.begin() + end, notObserved);
         }
     }
 }

@@ -3,6 +3,7 @@
 #include "frames/Spectrogram.h"
 #include "noise/NoiseBackground.h"
 
+#include <utility>
 #include <vector>
 
 namespace faintline {
@@ -17,7 +18,10 @@ namespace faintline {
 std::vector<StopBand> stopBands(const Axis &frequency, std::vector<std::vector<double>> lnPower, bool isComplex);
 
 /// Of a spectrogram's recording, whatever its window, from medians of 8 spectra of 1024 samples at up to 64 times; none
-/// if a band is selected, or the recording has fewer than 131 072 samples.
+/// if a band is selected, or the selection has fewer than 131 072 samples.
 std::vector<StopBand> stopBands(const Spectrogram &spectrogram);
+
+/// The first cell of an axis in a stop band, and the one behind the last.
+std::pair<Index, Index> cellsIn(const StopBand &band, const Axis &frequency);
 
 } // namespace faintline

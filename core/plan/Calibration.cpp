@@ -1,5 +1,7 @@
 #include "plan/Calibration.h"
 
+#include "noise/stopBands.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -93,6 +95,22 @@ double thresholdNats(const DecideSettings &decide, const Calibration &calibratio
         break;
     }
     return decide.thresholdNats;
+}
+
+std::vector<StopBand> bandsNotSearched(const AnalysisSettings &settings, const Spectrogram &spectrogram)
+{
+    return settings.noise.causal ? std::vector<StopBand>() : stopBands(spectrogram);
+}
+
+double cellFramesInAnHour(const AnalysisSettings &settings, const Spectrogram &spectrogram)
+{
+    Index cells = familyAxis(settings.family, spectrogram.frequency()).count;
+    if (settings.family.isNone())
+        for (const StopBand &band : bandsNotSearched(settings, spectrogram)) {
+            const auto [first, end] = cellsIn(band, spectrogram.frequency());
+            cells -= end - first;
+        }
+    return double(cells) * 3600.0 / spectrogram.time().step;
 }
 
 ResetRule resetRule(const SmdSettings &settings, double lnK)

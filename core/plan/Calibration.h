@@ -1,5 +1,6 @@
 #pragma once
 
+#include "noise/NoiseBackground.h"
 #include "plan/AnalysisSettings.h"
 #include "plan/RareRates.h"
 
@@ -65,6 +66,12 @@ struct Calibration {
 
 /// The threshold in nats that the decide settings specify.
 double thresholdNats(const DecideSettings &decide, const Calibration &calibration, double cellFramesPerHour);
+
+/// Cells × frames per hour of these frames, without the stop bands, which are not searched.
+double cellFramesInAnHour(const AnalysisSettings &settings, const Spectrogram &spectrogram);
+
+/// The stop bands, unless a causal background, which does not know them, searches them.
+std::vector<StopBand> bandsNotSearched(const AnalysisSettings &settings, const Spectrogram &spectrogram);
 
 /// The reset rule that the settings specify, with the ln K found.
 ResetRule resetRule(const SmdSettings &settings, double lnK);

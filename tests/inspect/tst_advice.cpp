@@ -2,6 +2,7 @@
 #include "inspect/advice.h"
 #include "scene/SimulatedRecording.h"
 #include "signal/ArrayRecording.h"
+#include "support/recordings.h"
 #include "support/test.h"
 
 #include <cmath>
@@ -96,6 +97,23 @@ private slots:
             QVERIFY(isAsked(*analysis, other->frames->spectrogram()->windowSeconds()));
         QVERIFY(!isAsked(*analysis, 1e3 * own) && !isAsked(*analysis, 1e-3 * own));
         QVERIFY(!isAsked(*inWindow(noiseWith({}, 1), 0.25), 0.125));
+    }
+
+    void stopBandsAreNamedAndNotCounted()
+    {
+        const auto analysis = inWindow(test::filteredNoise(300.0), 0.5);
+        const auto advice = adviceOnStopBands(*analysis);
+        QVERIFY(advice);
+        QVERIFY2(advice->sentence.find(" … 500 Hz is not searched: it lies 3") != std::string::npos,
+                 advice->sentence.c_str());
+        const double low = advice->settings.selection.lowHz;
+        QVERIFY2(low > 300.0 && low < 350.0, advice->sentence.c_str());
+        QCOMPARE(advice->settings.selection.highHz, 500.0);
+        // 500 Hz in bins of 1 Hz, four frames a second.
+        const double searched = analysis->cellFramesPerHour / (4.0 * 3600.0);
+        QVERIFY2(std::abs(searched - low) < 2.0, qPrintable(QString::number(searched)));
+        QVERIFY(!adviceOnStopBands(*analyse(test::filteredNoise(300.0), advice->settings)));
+        QVERIFY(!adviceOnStopBands(*inWindow(noiseWith({}, 1), 0.25)));
     }
 
     void distancesAreWrittenPlainly()

@@ -1,13 +1,11 @@
 #include "noise/NoiseNormaliser.h"
 #include "noise/stopBands.h"
-#include "signal/ArrayRecording.h"
+#include "support/recordings.h"
 #include "support/test.h"
 
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <numeric>
-#include <random>
 
 using namespace faintline;
 
@@ -28,32 +26,9 @@ double swell(double time)
     return 3.0 * std::sin(20.0 * time);
 }
 
-/// Seconds of noise at 1 kHz whose level swells, and what a filter leaves of it above 300 Hz: 35 dB less.
-RecordingPointer filteredNoise(double seconds)
-{
-    constexpr int taps = 101;
-    std::vector<double> filter;
-    for (int tap = -taps / 2; tap <= taps / 2; ++tap) {
-        const double x = 0.6 * std::numbers::pi * double(tap);
-        const double hann = 0.5 + 0.5 * std::cos(2.0 * std::numbers::pi * double(tap) / double(taps));
-        filter.push_back(hann * (tap == 0 ? 0.6 : 0.6 * std::sin(x) / x));
-    }
-    filter[taps / 2] += std::pow(10.0, -35.0 / 20.0);
-    std::mt19937 random(3);
-    std::normal_distribution<double> normal;
-    std::vector<double> noise;
-    for (int i = 0; i < int(1000.0 * seconds) + taps; ++i)
-        noise.push_back(normal(random) * std::pow(10.0, swell(double(i) / 60'000.0) / 20.0));
-    const auto samples = std::make_shared<std::vector<float>>();
-    for (std::size_t i = 0; i + taps < noise.size(); ++i)
-        samples->push_back(float(std::inner_product(filter.begin(), filter.end(), noise.begin() + std::ptrdiff_t(i), 0.0)));
-    const ArrayLayout layout{.sampleRateHz = 1000.0, .sampleCount = std::ssize(*samples)};
-    return std::make_shared<ArrayRecording>("filtered", std::shared_ptr<const float>(samples, samples->data()), layout);
-}
-
 } // namespace
 
-class tst_stopBands: public QObject
+class tst_stopBands : public QObject
 {
     Q_OBJECT
 
@@ -86,19 +61,15 @@ private slots:
         QTest::addColumn<Spectrum>("spectrum");
         QTest::newRow("white") << Spectrum([](double time, double) { return swell(time); });
         QTest::newRow("constant level") << Spectrum([](double, double place) { return place < 0.7 ? 0.0 : -30.0; });
-        QTest::newRow("a level of its own") << Spectrum([](double time, double place) {
-            return place < 0.7 ? swell(time) : swell(1.0 - 0.3 * time) - 30.0;
-        });
-        QTest::newRow("rounding errors below it") << Spectrum([](double time, double place) {
-            return place < 0.7 ? swell(time) : -30.0;
-        });
+        QTest::newRow("a level of its own") << Spectrum(
+            [](double time, double place) { return place < 0.7 ? swell(time) : swell(1.0 - 0.3 * time) - 30.0; });
+        QTest::newRow("rounding errors below it")
+            << Spectrum([](double time, double place) { return place < 0.7 ? swell(time) : -30.0; });
         QTest::newRow("a slope") << Spectrum([](double time, double place) { return swell(time) - 60.0 * place; });
-        QTest::newRow("shallow") << Spectrum([](double time, double place) {
-            return swell(time) - (place < 0.7 ? 0.0 : 15.0);
-        });
-        QTest::newRow("in the middle") << Spectrum([](double time, double place) {
-            return swell(time) - (std::abs(place - 0.5) < 0.1 ? 30.0 : 0.0);
-        });
+        QTest::newRow("shallow") << Spectrum(
+            [](double time, double place) { return swell(time) - (place < 0.7 ? 0.0 : 15.0); });
+        QTest::newRow("in the middle") << Spectrum(
+            [](double time, double place) { return swell(time) - (std::abs(place - 0.5) < 0.1 ? 30.0 : 0.0); });
     }
     void leavesOtherQuietBands()
     {
@@ -111,7 +82,7 @@ private slots:
         SpectrogramSettings settings;
         settings.windowSeconds = 0.5;
         const auto read = [&](const SelectionSettings &selection) {
-            const auto spectrogram = std::make_shared<Spectrogram>(filteredNoise(300.0), settings, selection);
+            const auto spectrogram = std::make_shared<Spectrogram>(test::filteredNoise(300.0), settings, selection);
             const NormalisedSpectrogram frames(spectrogram, estimateBackground(*spectrogram, {}), {});
             std::vector<float> y(std::size_t(frames.grid().size()));
             frames.read(200, 1, y);
@@ -120,10 +91,26 @@ private slots:
         };
         const double hz = read({});
         QVERIFY2(hz > 150.0 && hz < 195.0, qPrintable(QString::number(hz)));
-        SelectionSettings above;
+        SelectionSettings above; // the pass band ends at 300 Hz
         above.lowHz = 320.0;
         above.highHz = 500.0;
         QCOMPARE(read(above), 0.0);
+    }
+
+    void needsEnoughSamples()
+    {
+        SpectrogramSettings settings;
+        settings.windowSeconds = 0.1;
+        SelectionSettings half;
+        half.toSeconds = 0.5; // shorter than one of its spectra
+        QVERIFY(stopBands(Spectrogram(test::filteredNoise(300.0), settings, half)).empty());
+    }
+
+    void cellsLieWithinTheBand()
+    {
+        const Axis axis{"frequency", "Hz", -10.0, 1.0, 21, false};
+        QCOMPARE(cellsIn({3.5, 10.5, 0.0}, axis), (std::pair<Index, Index>(14, 21)));
+        QCOMPARE(cellsIn({-10.5, -4.0, 0.0}, axis), (std::pair<Index, Index>(0, 7)));
     }
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/Random.h"
-#include "signal/Recording.h"
+#include "signal/ArrayRecording.h"
 #include "support/errors.h"
 #include "support/files.h"
 
@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <memory>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,6 +34,29 @@ inline std::vector<float> someNoise(Index count, std::uint64_t stream = 1)
     for (float &value : values)
         value = std::clamp(value, -1.0f, 1.0f);
     return values;
+}
+
+/// Seconds of noise at 1 kHz whose level swells, and what a filter leaves of it above 300 Hz: 35 dB less.
+inline RecordingPointer filteredNoise(double seconds)
+{
+    constexpr int taps = 101;
+    std::vector<double> filter;
+    for (int tap = -taps / 2; tap <= taps / 2; ++tap) {
+        const double x = 0.6 * std::numbers::pi * double(tap);
+        const double hann = 0.5 + 0.5 * std::cos(2.0 * std::numbers::pi * double(tap) / double(taps));
+        filter.push_back(hann * (tap == 0 ? 0.6 : 0.6 * std::sin(x) / x));
+    }
+    filter[taps / 2] += std::pow(10.0, -35.0 / 20.0);
+    std::vector<float> noise(std::size_t(1000.0 * seconds) + taps);
+    Random(3, 0).normals(noise, 1.0f);
+    for (std::size_t i = 0; i < noise.size(); ++i)
+        noise[i] *= float(std::pow(10.0, 3.0 * std::sin(double(i) / 3000.0) / 20.0));
+    const auto samples = std::make_shared<std::vector<float>>();
+    for (std::size_t i = 0; i + taps < noise.size(); ++i)
+        samples->push_back(
+            float(std::inner_product(filter.begin(), filter.end(), noise.begin() + std::ptrdiff_t(i), 0.0)));
+    const ArrayLayout layout{.sampleRateHz = 1000.0, .sampleCount = std::ssize(*samples)};
+    return std::make_shared<ArrayRecording>("filtered", std::shared_ptr<const float>(samples, samples->data()), layout);
 }
 
 /// Interleaved samples to a file by libsndfile.

@@ -54,7 +54,8 @@ namespace {
         }
     }
 
-    /// Mask of everything that the detectors' chains track, including the boxes that were inhibited meanwhile.
+    /// Mask of everything that the detectors' chains track, including the boxes that were inhibited meanwhile, and of
+    /// what was not observed.
     SignalMask signalsFoundBy(const std::vector<AnalysisPlan> &plans, const RunContext &context)
     {
         const NormalisedFrames &frames = *plans.front().frames;
@@ -64,6 +65,12 @@ namespace {
             chains.push_back(makeChain(plan, makePathDetector(plan)));
         std::vector<float> statistic(std::size_t(frames.grid().size()));
         forEachFrame(frames, context, "searching for signals", [&](Index frame, std::span<float> y) {
+            const auto isObserved = [](float value) { return !std::isnan(value); };
+            for (auto first = std::ranges::find_if_not(y, isObserved); first != y.end();) {
+                const auto end = std::find_if(first, y.end(), isObserved);
+                mask.add(frame, first - y.begin(), end - y.begin() - 1);
+                first = std::find_if_not(end, y.end(), isObserved);
+            }
             for (const auto &chain : chains) {
                 chain->update(frame, y, statistic);
                 for (const CellBox &box : chain->inhibited())
@@ -159,7 +166,7 @@ InjectionTrials::InjectionTrials(const InjectionExperiment &experiment, Recordin
         throw fieldError("durationSeconds", formatNumber(experiment.durationSeconds),
                          "must be shorter than the selection, " + formatNumber(double(time.count) * time.step) + " s");
     shared->background = estimateBackground(*shared->spectrogram, experiment.settings.noise, context.part(0.0, 0.2));
-    const double cellFramesPerHour = double(shared->spectrogram->frequency().count) * 3600.0 / time.step;
+    const double cellFramesPerHour = cellFramesInAnHour(experiment.settings, *shared->spectrogram);
     const double ordered = experiment.falseAlarmsPerHour / cellFramesPerHour;
     const auto frames = framesOf(shared->spectrogram, shared->background, experiment.settings.noise);
     std::vector<AnalysisPlan> plans;

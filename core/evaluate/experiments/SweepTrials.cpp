@@ -50,6 +50,12 @@ SweepTrials::SweepTrials(const SweepExperiment &experiment, RecordingPointer rec
         info.sampleCount = Index(experiment.trialSeconds() * experiment.sampleRateHz);
         m_referenceSeconds = Spectrogram::automaticWindowSeconds(m_recording ? m_recording->info() : info);
     }
+    if (m_recording) {
+        SpectrogramSettings windows = experiment.settings.spectrogram;
+        windows.windowSeconds = m_referenceSeconds;
+        m_stopBands =
+            bandsNotSearched(experiment.settings, Spectrogram(m_recording, windows, experiment.settings.selection));
+    }
     const auto count = double(experiment.values.size());
     for (std::size_t i = 0; i < experiment.values.size(); ++i) {
         const RunContext part = context.part(double(i) / count, double(i + 1) / count);
@@ -59,7 +65,7 @@ SweepTrials::SweepTrials(const SweepExperiment &experiment, RecordingPointer rec
             settings.spectrogram.windowSeconds = m_referenceSeconds;
         settings = withSlopesInBins(settings, made.recording->info());
         const Spectrogram spectrogram(made.recording, settings.spectrogram, settings.selection);
-        const double cellFramesPerHour = cellFramesInAnHour(settings.family, spectrogram);
+        const double cellFramesPerHour = cellFramesInAnHour(settings, spectrogram);
         m_thresholds.push_back(
             thresholdNats(settings.decide, *calibrateBand(settings, spectrogram, part), cellFramesPerHour));
     }
@@ -93,8 +99,13 @@ LineSettings SweepTrials::lineAt(const SweepExperiment &one, const Placement &pl
     const bool isWhole = isWholeBand(selection);
     const double start = info.isComplex ? -0.5 * info.sampleRateHz : 0.0;
     const double end = 0.5 * info.sampleRateHz;
-    const double lowest = isWhole ? start : std::max(start, selection.lowHz);
-    const double highest = isWhole ? end : std::min(end, selection.highHz);
+    double lowest = isWhole ? start : std::max(start, selection.lowHz);
+    double highest = isWhole ? end : std::min(end, selection.highHz);
+    for (const StopBand &band : m_stopBands)
+        if (band.lowHz <= lowest)
+            lowest = band.highHz;
+        else
+            highest = band.lowHz;
     const double travel = one.driftHzPerSecond * one.durationSeconds;
     const double low = lowest + bandMargin * (highest - lowest) + 4.0 * one.wanderHz + std::max(0.0, -travel);
     const double high = highest - bandMargin * (highest - lowest) - 4.0 * one.wanderHz - std::max(0.0, travel);

@@ -3,6 +3,7 @@
 #include "base/RunContext.h"
 #include "evaluate/experiments/RunOutcome.h"
 #include "evaluate/experiments/SweepExperiment.h"
+#include "plan/Calibration.h"
 #include "scene/Truth.h"
 #include "signal/Recording.h"
 
@@ -47,7 +48,8 @@ private:
 
     SweepExperiment m_experiment;
     RecordingPointer m_recording;
-    double m_referenceSeconds; ///< the window to which an SNR refers
+    std::vector<StopBand> m_stopBands; ///< of the recording: no line is placed there
+    double m_referenceSeconds;         ///< the window to which an SNR refers
     std::vector<double> m_thresholds;
 };
 
