@@ -268,7 +268,8 @@ namespace {
                     if (const float power = strip.valueAt(at, cell); !std::isnan(power))
                         energy += double(power) - 1.0;
             double bins = 0.0; // that a line fills, at its largest power
-            for (double bin = -8.0; bin <= 8.0; bin += 1.0)
+            const double lobe = std::ceil(mainLobeHalfWidth(geometry.window) * geometry.binsPerCell);
+            for (double bin = -lobe; bin <= lobe; bin += 1.0)
                 bins += leakageAt(geometry.window, std::abs(bin) / geometry.binsPerCell);
             double own = 0.0;
             for (std::size_t i = 0; i < track.points.size(); ++i)
