@@ -84,7 +84,17 @@ OutputLayer OutputLayers::layer() const
 
 bool OutputLayers::isCovering() const
 {
-    return layer() != OutputLayer::Statistic && !m_isOverlay && m_document.analysis() && !m_document.provisional();
+    // The picture of a single frame is made anew with every frame: its heading stays meanwhile.
+    return layer() != OutputLayer::Statistic && !m_isOverlay && m_document.analysis() && !m_document.provisional()
+           && (plane().isOfOneFrame() || isKnown());
+}
+
+/// Whether the layer has been computed for the analysis that is shown.
+bool OutputLayers::isKnown() const
+{
+    return m_document.analysis() && !m_document.provisional() && m_result.analysis == m_document.analysis()
+           && m_result.picture && layer() != OutputLayer::Statistic
+           && (layer() == OutputLayer::Presence) == !m_result.picture->presence.empty();
 }
 
 bool OutputLayers::isPossible() const
@@ -238,8 +248,11 @@ void OutputLayers::compute()
             return [this, made] {
                 if (m_document.analysis() != made.analysis)
                     return;
+                const bool wasCovering = isCovering();
                 m_result = made;
                 show();
+                if (isCovering() != wasCovering)
+                    emit layerChanged(); // the heading
                 emit readingChanged();
             };
         };
@@ -278,10 +291,7 @@ void OutputLayers::show()
     item.setTimeVertical(plane.view().orientation() != WaterfallView::Orientation::LeftToRight);
     const Theme::Colours &colours = Theme::colours(plane.view());
     item.setColours(colours.text, colours.canvas, plane.view().colourMap());
-    const bool isKnown = analysis && !m_document.provisional() && m_result.analysis == analysis && m_result.picture
-                         && layer() != OutputLayer::Statistic
-                         && (layer() == OutputLayer::Presence) == !m_result.picture->presence.empty();
-    if (!isKnown || m_result.frame != singleFrame(cursor()) || m_result.shown != plane.shown()) {
+    if (!isKnown() || m_result.frame != singleFrame(cursor()) || m_result.shown != plane.shown()) {
         item.setPicture(nullptr, {}, {});
         plane.view().setTracksPictured(false);
         return plane.replot();

@@ -83,6 +83,7 @@ private:
 
     void add(LayerPlane *plane);
     LayerPlane &plane() const; ///< for the open source
+    bool isKnown() const;
     bool isPossible() const;
     bool isWanted() const { return m_isWatching || layer() != OutputLayer::Statistic; }
     void follow();

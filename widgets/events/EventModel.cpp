@@ -36,7 +36,6 @@ namespace {
         return *std::ranges::find(columns, names[std::size_t(column)], &TableColumn<Event>::name);
     }
 
-
     double toTenths(double seconds)
     {
         return std::round(10.0 * seconds) / 10.0;

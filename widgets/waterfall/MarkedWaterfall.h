@@ -60,8 +60,8 @@ public slots:
     void setTimes(const std::vector<faintline::OverlayTime> &times);
     void setAreas(const std::vector<faintline::AreaEvent> &areas); ///< shown with the events
     void setTruth(const std::vector<faintline::TruthLine> &lines);
-    void setSelectedEvent(int id);                    ///< 0: none
-    void setHoveredEvent(int id);                     ///< under the pointer; 0: none
+    void setSelectedEvent(int id); ///< 0: none
+    void setHoveredEvent(int id);  ///< under the pointer; 0: none
     /// Whether the picture itself is one of the tracks.
     void setTracksPictured(bool arePictured);
     void setFaintEvents(const std::vector<int> &ids); ///< rejected ones

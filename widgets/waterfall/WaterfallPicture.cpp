@@ -24,7 +24,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr double peakReach = 12.0;    ///< pixels
+    constexpr double peakReach = 12.0; ///< pixels
 
     bool measuresTime(const Axis &axis)
     {
