@@ -67,9 +67,11 @@ QImage linePicture(MainWindow &window)
     QWidget &input = *bench.inputView(), &output = *bench.outputView();
     const TimeStack::Part alone(bench.timeStack(), input);
     const QImage upper = bare(*bench.input(), 2.0, input);
-    bare(*bench.output(), 2.0, output); // takes its size, for which the layer is then computed
-    if (!settle(bench.layers()))
-        return {};
+    for (int pass = 0; pass < 2; ++pass) { // the layer is computed for the size, and its heading takes some
+        bare(*bench.output(), 2.0, output);
+        if (!settle(bench.layers()))
+            return {};
+    }
     return above(upper, bare(*bench.output(), 2.0, output));
 }
 
@@ -99,6 +101,25 @@ QImage radarPicture(MainWindow &window)
     SequentialPanel &panel = window.sequential();
     CellPicture &scan = panel.trajectory().scan();
     return above(bare(scan, 10.0, scan), bare(panel.walk(), 20.0, panel.walk()));
+}
+
+/// Of 8 × 8 pixels, those with another colour: other rounding on another processor, or a track that lies a pixel or a
+/// frame beside, does not date a picture; a track that is missing does.
+int changedBlocks(const QImage &expected, const QImage &actual)
+{
+    const auto coarse = [](const QImage &picture) {
+        return picture.scaled(picture.size() / 8, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
+    };
+    const QImage a = coarse(expected), b = coarse(actual);
+    constexpr int visible = 20;
+    int changed = 0;
+    for (int y = 0; y < a.height(); ++y)
+        for (int x = 0; x < a.width(); ++x) {
+            const QColor one = a.pixelColor(x, y), other = b.pixelColor(x, y);
+            changed += std::abs(one.red() - other.red()) > visible || std::abs(one.green() - other.green()) > visible
+                       || std::abs(one.blue() - other.blue()) > visible;
+        }
+    return changed;
 }
 
 } // namespace
@@ -137,6 +158,14 @@ private slots:
         QVERIFY(!window->document().shownEvents().empty());
     }
 
+    void aMissingPartOfATrackDatesAPicture()
+    {
+        const QImage kept(scenarios().front().picture);
+        QImage without = kept;
+        QPainter(&without).fillRect(kept.width() / 2, half.height() + gap, kept.width(), half.height(), Qt::black);
+        QVERIFY(changedBlocks(kept, without) > 10);
+    }
+
     void theFaintLineIsFoundWhole()
     {
         const auto window = newWindow();
@@ -173,11 +202,9 @@ private slots:
                                                             : linePicture(*window);
         if (const QString folder = qEnvironmentVariable("FAINTLINE_START_PICTURES"); !folder.isEmpty())
             QVERIFY(made.save(folder + QLatin1Char('/') + QFileInfo(picture).fileName()));
-        const PictureDifference difference = comparePictures(QImage(picture), made, true);
-        // A track that ends elsewhere does not date a picture; one that is missing does.
-        const int tolerated = made.width() * made.height() / 300;
-        QVERIFY2(difference.isSameSize && difference.changedPixels < tolerated,
-                 qPrintable(QString::number(difference.changedPixels)));
+        const QImage kept(picture);
+        QCOMPARE(made.size(), kept.size());
+        QVERIFY2(changedBlocks(kept, made) < 5, qPrintable(QString::number(changedBlocks(kept, made))));
     }
 };
 
