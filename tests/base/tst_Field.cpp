@@ -5,13 +5,12 @@
 #include "base/Random.h"
 #include "base/json.h"
 #include "base/numberText.h"
+#include "support/CommaLocale.h"
 #include "support/errors.h"
 
-#include <clocale>
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <locale>
 
 using namespace faintline;
 
@@ -51,14 +50,6 @@ const Field<Lamp> &fieldOf(const QString &name)
     qFatal("the test asks for a field that is not in its table");
 }
 
-/// The decimal comma and grouped thousands of half the world.
-class Comma : public std::numpunct<char>
-{
-    char do_decimal_point() const override { return ','; }
-    char do_thousands_sep() const override { return '.'; }
-    std::string do_grouping() const override { return "\3"; }
-};
-
 } // namespace
 
 /// Settings as text: what is read, what is refused and in which words, and numbers in their shortest form.
@@ -67,21 +58,6 @@ class tst_Field : public QObject
     Q_OBJECT
 
 private slots:
-    void init()
-    {
-        // Every test here runs in a locale that writes 1.234,5.
-        m_before = std::locale::global(std::locale(std::locale(), new Comma));
-        for (const char *name : {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8"})
-            if (std::setlocale(LC_ALL, name))
-                break;
-    }
-
-    void cleanup()
-    {
-        std::locale::global(m_before);
-        std::setlocale(LC_ALL, "C");
-    }
-
     void parses_data()
     {
         QTest::addColumn<QString>("name");
@@ -420,7 +396,7 @@ private slots:
     }
 
 private:
-    std::locale m_before;
+    test::CommaLocale m_locale; ///< for every test of the class
 };
 
 FAINTLINE_TEST(tst_Field)

@@ -4,22 +4,13 @@
 #include "analyse/columns.h"
 #include "base/json.h"
 #include "exchange/writeReviewed.h"
+#include "support/CommaLocale.h"
 #include "support/recordings.h"
-
-#include <clocale>
-#include <locale>
 
 using namespace faintline;
 using namespace faintline::test;
 
 namespace {
-
-class Comma : public std::numpunct<char>
-{
-    char do_decimal_point() const override { return ','; }
-    char do_thousands_sep() const override { return '.'; }
-    std::string do_grouping() const override { return "\3"; }
-};
 
 /// Frames every half second from 0.25 s on; bins of 2.5 Hz from 1000 Hz on.
 Analysis twoTracks()
@@ -62,20 +53,6 @@ class tst_writeEvents : public QObject
     Q_OBJECT
 
 private slots:
-    void init()
-    {
-        m_before = std::locale::global(std::locale(std::locale(), new Comma));
-        for (const char *name : {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8"})
-            if (std::setlocale(LC_ALL, name))
-                break;
-    }
-
-    void cleanup()
-    {
-        std::locale::global(m_before);
-        std::setlocale(LC_ALL, "C");
-    }
-
     void eventsAsCsv()
     {
         // By onset. The rising one climbs a bin, 2.5 Hz, a frame, half a second: 5 Hz/s; at its detection it is in bin 5.
@@ -299,7 +276,7 @@ private:
     }
 
     QTemporaryDir m_folder;
-    std::locale m_before;
+    test::CommaLocale m_locale; ///< for every test of the class
 };
 
 FAINTLINE_TEST(tst_writeEvents)
