@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <thread>
 #include <vector>
 
@@ -49,6 +50,7 @@ private slots:
                         if (i == 7)
                             throw Error("item 7", "fails");
                         ++done;
+                        std::this_thread::sleep_for(std::chrono::microseconds(10)); // lets another thread fail first
                     };
                 });
             };
