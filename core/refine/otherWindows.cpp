@@ -49,7 +49,8 @@ namespace {
     {
     public:
         Curve(const Track &track, const Analysis &analysis)
-            : m_start(analysis.time().value(double(track.onsetFrame))), m_step(analysis.time().step)
+            : m_start(analysis.time().value(double(track.onsetFrame))), m_step(analysis.time().step),
+              m_windowHalf(0.5 * windowOf(analysis))
         {
             const Axis &axis = frequencyOf(analysis);
             for (std::size_t i = 0; i < track.points.size(); ++i) {
@@ -64,6 +65,8 @@ namespace {
 
         double start() const { return m_start; }
         double end() const { return secondsAt(m_hz.size() - 1); }
+        double heardFrom() const { return start() - m_windowHalf; } ///< of the window of its first frame
+        double heardUntil() const { return end() + m_windowHalf; }
         double duration() const { return end() - start() + m_step; }
         std::size_t count() const { return m_hz.size(); }
         double secondsAt(std::size_t i) const { return m_start + double(i) * m_step; }
@@ -74,9 +77,12 @@ namespace {
         Band between(double from, double to) const
         {
             Band band;
-            const double first = std::ceil((from - m_start) / m_step - 0.5);
-            const double last = std::floor((to - m_start) / m_step + 0.5);
-            for (double i = std::max(0.0, first); i <= std::min(last, double(m_hz.size() - 1)); i += 1.0) {
+            if (to < heardFrom() || from > heardUntil())
+                return band;
+            const auto most = double(m_hz.size() - 1);
+            const double first = std::clamp(std::ceil((from - m_start) / m_step - 0.5), 0.0, most);
+            const double last = std::clamp(std::floor((to - m_start) / m_step + 0.5), 0.0, most);
+            for (double i = first; i <= last; i += 1.0) {
                 const Band &one = m_bands[std::size_t(i)];
                 band = {std::min(band.low, one.low), std::max(band.high, one.high)};
             }
@@ -94,6 +100,7 @@ namespace {
     private:
         double m_start;
         double m_step;
+        double m_windowHalf;
         std::vector<double> m_hz;
         std::vector<Band> m_bands; ///< 5-95 %; empty where absent
     };
@@ -377,7 +384,7 @@ namespace {
             for (const Track &part : partsOf(x, strip, {})) {
                 const Curve alone(part, *m_other);
                 const bool isInPiece = std::ranges::any_of(pieces, [&](std::size_t s) {
-                    return alone.start() >= m_curves[s].start() && alone.end() <= m_curves[s].end();
+                    return alone.start() >= m_curves[s].heardFrom() && alone.end() <= m_curves[s].heardUntil();
                 });
                 if (!isInPiece
                     && ((isBetter && isSeenBetter(alone)) || (isShorter() && hasItsEnergyInBase(alone, part))))
@@ -427,7 +434,8 @@ namespace {
             const double last = m_other->time().value(double(strip.firstFrame + strip.frameCount() - 1));
             for (std::size_t s = 0; s < m_curves.size(); ++s)
                 if (m_curves[s].count() > 0 && std::ranges::find(leftOut, s) == leftOut.end()
-                    && m_curves[s].start() - windowHalf() <= last && m_curves[s].end() + windowHalf() >= first)
+                    && m_curves[s].heardFrom() - windowHalf() <= last
+                    && m_curves[s].heardUntil() + windowHalf() >= first)
                     raise(floor, strip, m_curves[s]);
             raiseAreas(floor, strip);
             for (std::size_t i = 0; i < strip.y.size(); ++i)

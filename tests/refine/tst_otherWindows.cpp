@@ -82,6 +82,7 @@ private slots:
     void oneInAHumHasToBeSureOverIt();
     void aGlideBesideLinesThatStandStillIsFound();
     void oneThatWandersBesideLinesThatStandStillIsFound();
+    void strongLinesThatStandStillStay();
     void aChangeOfTheThresholdAsksAgain();
 };
 
@@ -220,6 +221,21 @@ void tst_otherWindows::oneThatWandersBesideLinesThatStandStillIsFound()
              qPrintable(QString::number(found.front().position.front())));
     QVERIFY(std::abs(found.front().onsetSeconds - 10.0) < 2.0 && std::abs(found.front().endSeconds - 22.0) < 2.0);
     QCOMPARE(analysis->tracks.size(), std::size_t(7));
+}
+
+/// Every window has them, and the short ones for longer: before the middle of the first long frame, behind the last one's.
+void tst_otherWindows::strongLinesThatStandStillStay()
+{
+    LineScene lines = scene(4000.0, 100.0, 3);
+    for (int i = 0; i < 12; ++i)
+        lines.lines.push_back(line(47.0 * (i + 1), 0.0, 0.0, 100.0, 12.0 + i, 0.5));
+    const auto analysis = analysed(lines);
+    QVERIFY(analysis->frames->spectrogram()->windowSeconds() > 3.0);
+    QCOMPARE(ofAnotherWindow(*analysis).size(), std::size_t(0));
+    const std::vector<Event> found = events(*analysis);
+    QCOMPARE(found.size(), lines.lines.size());
+    for (const Event &event : found)
+        QVERIFY(std::abs(std::remainder(event.position.front(), 47.0)) < 0.03);
 }
 
 void tst_otherWindows::aChangeOfTheThresholdAsksAgain()
