@@ -37,7 +37,7 @@ const std::vector<float> &samples()
     return all;
 }
 
-AnalysisSettings settings()
+AnalysisSettings scaledSettings()
 {
     AnalysisSettings s = preset("billon").settings;
     s.spectrogram.windowSeconds = 0.25;
@@ -98,9 +98,9 @@ private slots:
     {
         QFETCH(QString, type);
         QFETCH(double, scale);
-        const Found ordinary = found(*analyse(open(QStringLiteral("rf32_le"), 1.0), settings()));
+        const Found ordinary = found(*analyse(open(QStringLiteral("rf32_le"), 1.0), scaledSettings()));
         QVERIFY(ordinary.peaks.size() == 1 && ordinary.frames.size() > 200);
-        const Found scaled = found(*analyse(open(type, scale), settings()));
+        const Found scaled = found(*analyse(open(type, scale), scaledSettings()));
         QCOMPARE(scaled.frames, ordinary.frames);
         QCOMPARE(scaled.cells, ordinary.cells);
         QVERIFY2(std::abs(scaled.peaks[0] - ordinary.peaks[0]) < 1e-3 * ordinary.peaks[0],
@@ -111,7 +111,7 @@ private slots:
 
     void aPartOfIt()
     {
-        AnalysisSettings part = settings();
+        AnalysisSettings part = scaledSettings();
         part.selection.fromSeconds = 20.0;
         part.selection.toSeconds = 50.0;
         part.selection.lowHz = 60.0;
@@ -135,9 +135,9 @@ private slots:
         Found ordinary;
         for (const double scale : {1.0, 1e-21, 1e14}) {
             const RecordingPointer base = open(QStringLiteral("rf32_le"), scale);
-            const InjectedLine injected = scaledInjection(line, base, settings(), {});
+            const InjectedLine injected = scaledInjection(line, base, scaledSettings(), {});
             const auto made = std::make_shared<InjectedRecording>(base, std::vector{injected}, 0, 7);
-            const Found now = found(*analyse(made, settings()));
+            const Found now = found(*analyse(made, scaledSettings()));
             if (scale == 1.0) {
                 amplitude = injected.amplitude;
                 ordinary = now;
@@ -158,7 +158,7 @@ private slots:
         for (const double deviation : {1.0, 1e-12, 1e6}) {
             scene.noise.deviation = deviation;
             scene.lines = {LineSettings{8.0, 0.25, 5.0, 0.0, 100.0}};
-            const Found now = found(*analyse(std::make_shared<SimulatedRecording>(scene), settings()));
+            const Found now = found(*analyse(std::make_shared<SimulatedRecording>(scene), scaledSettings()));
             QVERIFY(!now.frames.empty());
             if (frames.empty())
                 frames = now.frames;
@@ -211,7 +211,7 @@ private slots:
                              : QByteArray(reinterpret_cast<const char *>(&narrow), sizeof narrow));
         }
         const RecordingPointer recording = openBytes(bytes, type.toStdString());
-        const std::string said = errorOf([&] { analyse(recording, settings()); });
+        const std::string said = errorOf([&] { analyse(recording, scaledSettings()); });
         QVERIFY2(contains(said, "has no usable samples: " + message.toStdString()), said.c_str());
     }
 
@@ -234,7 +234,7 @@ private slots:
     {
         QFETCH(QString, type);
         QFETCH(QByteArray, bytes);
-        const auto analysis = analyse(openBytes(bytes, type.toStdString()), settings());
+        const auto analysis = analyse(openBytes(bytes, type.toStdString()), scaledSettings());
         QVERIFY(analysis->tracks.empty());
         const std::vector<Advice> advice = advise(*analysis);
         QCOMPARE(advice.size(), std::size_t(1));
@@ -246,7 +246,7 @@ private slots:
     {
         std::vector<float> values(4000, 0.0f);
         values[3500] = 1e-3f;
-        QCOMPARE(errorOf([&] { analyse(openBytes(bytesOf<float>(values, 1.0), "rf32_le"), settings()); }),
+        QCOMPARE(errorOf([&] { analyse(openBytes(bytesOf<float>(values, 1.0), "rf32_le"), scaledSettings()); }),
                  std::string());
     }
 

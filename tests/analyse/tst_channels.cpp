@@ -17,7 +17,7 @@ using namespace faintline;
 
 namespace {
 
-constexpr double rate = 500.0;
+constexpr double soundRate = 500.0;
 
 struct Sound {
     double seconds = 60.0;
@@ -31,7 +31,7 @@ struct Sound {
 /// Noise of variance 1, and lines at 100 Hz and 20 Hz more for each.
 RecordingPointer stereo(const Sound &sound)
 {
-    const auto count = Index(sound.seconds * rate);
+    const auto count = Index(sound.seconds * soundRate);
     const auto channels = std::size_t(sound.channels);
     std::vector<float> shared(static_cast<std::size_t>(count)), own(shared.size());
     const auto samples = std::make_shared<std::vector<float>>(shared.size() * channels);
@@ -42,16 +42,16 @@ RecordingPointer stereo(const Sound &sound)
             (*samples)[n * channels + c] =
                 float(std::sqrt(1.0 - sound.common)) * own[n] + float(std::sqrt(sound.common)) * shared[n];
         for (std::size_t line = 0; line < sound.starts.size(); ++line)
-            for (auto n = std::size_t(sound.starts[line] * rate); n < std::size_t((sound.starts[line] + 40.0) * rate);
-                 ++n) {
-                const double amplitude = std::sqrt(4.0 * std::pow(10.0, 0.1 * sound.snrDb[line]) / rate);
-                const double cycles = (100.0 + 20.0 * double(line)) * double(n) / rate + 0.3 * double(c);
+            for (auto n = std::size_t(sound.starts[line] * soundRate);
+                 n < std::size_t((sound.starts[line] + 40.0) * soundRate); ++n) {
+                const double amplitude = std::sqrt(4.0 * std::pow(10.0, 0.1 * sound.snrDb[line]) / soundRate);
+                const double cycles = (100.0 + 20.0 * double(line)) * double(n) / soundRate + 0.3 * double(c);
                 if (!(sound.inSecondOnly && c == 0))
                     (*samples)[n * channels + c] += float(amplitude * std::sin(2.0 * std::numbers::pi * cycles));
             }
     }
     return std::make_shared<ArrayRecording>("stereo", std::shared_ptr<const float>(samples, samples->data()),
-                                            ArrayLayout{rate, count, sound.channels, false, 0.0});
+                                            ArrayLayout{soundRate, count, sound.channels, false, 0.0});
 }
 
 AnalysisSettings channels(std::vector<double> added)

@@ -15,7 +15,7 @@ using namespace faintline;
 
 namespace {
 
-constexpr Index frames = 240;
+constexpr Index observedFrames = 240;
 constexpr Index cells = 48;
 constexpr float unobservedValue = std::numeric_limits<float>::quiet_NaN();
 
@@ -23,7 +23,7 @@ constexpr float unobservedValue = std::numeric_limits<float>::quiet_NaN();
 /// frames, is `masked`.
 std::vector<float> values(float masked)
 {
-    std::vector<float> y(std::size_t(frames * cells));
+    std::vector<float> y(std::size_t(observedFrames * cells));
     Random random(8, 1);
     random.exponentials(y);
     for (Index frame = 60; frame < 180; ++frame)
@@ -120,7 +120,7 @@ private slots:
                                                ResetRule{ResetLaw::Fixed, 0.6});
             std::vector<float> statistic(cells);
             float largest = -std::numeric_limits<float>::infinity();
-            for (Index frame = 0; frame < frames; ++frame) {
+            for (Index frame = 0; frame < observedFrames; ++frame) {
                 detector->update(std::span(y).subspan(std::size_t(frame * cells), cells), statistic);
                 for (const float value : statistic) {
                     QVERIFY2(!std::isnan(value),

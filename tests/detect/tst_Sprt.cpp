@@ -51,7 +51,7 @@ KinematicAxis matrix(std::vector<double> rows)
     return a;
 }
 
-KinematicAxis rated(Index cells)
+KinematicAxis stageAxis(Index cells)
 {
     KinematicAxis a = axis(cells, true);
     a.firstRate = -1;
@@ -102,7 +102,7 @@ std::vector<World> worlds()
         {"Doppler last", {admissible(3), axis(2)}, {false, true}, {}},
         {"Doppler first", {axis(3), admissible(2)}, {true, false}, {0.25, 0.75}},
         {"Doppler alone", {axis(5)}, {true}, {}},
-        {"rates and Doppler", {rated(3), axis(2)}, {false, true}, {}},
+        {"rates and Doppler", {stageAxis(3), axis(2)}, {false, true}, {}},
         {"rates between ends", {bounded(3, -1, 3, {0.5, 0.25})}, {false}, {}},
         {"five slopes between ends", {bounded(3, -2, 5, {1.0 / 3.0, 1.0 / 3.0})}, {false}, {}},
         {"rates to be held", {bounded(4, -1, 3, {1.0})}, {false}, {}},
@@ -335,7 +335,7 @@ private slots:
     {
         // 3 × 3000 states, 600 stages: 43 MB of scores, so only milestones are kept; the corridor round the target fits in
         // whole.
-        KinematicAxis wide = rated(3000);
+        KinematicAxis wide = stageAxis(3000);
         wide.cyclic = false;
         const auto lambdaAt = [](Index stage, Index cell) {
             return cell == 1400 + stage / 4 ? 8.0 : 0.001 * double((cell * 7 + stage * 13) % 97);

@@ -12,7 +12,7 @@ using namespace faintline;
 
 namespace {
 
-std::vector<float> noise(std::size_t cells, std::uint64_t stream, std::uint64_t frame)
+std::vector<float> exponentialNoise(std::size_t cells, std::uint64_t stream, std::uint64_t frame)
 {
     Random random(1000 + stream, frame);
     std::vector<float> y(cells);
@@ -97,7 +97,7 @@ std::vector<double> regulated(const ResetRule &rule, int settling, int frames)
     std::vector<float> d(std::size_t(grid.size()));
     std::vector<double> lnK;
     for (int t = 0; t < settling + frames; ++t) {
-        detector.update(noise(d.size(), 5, std::uint64_t(t)), d);
+        detector.update(exponentialNoise(d.size(), 5, std::uint64_t(t)), d);
         if (t >= settling)
             lnK.push_back(detector.regulation().lnK);
     }
@@ -132,7 +132,7 @@ private slots:
         Smd detector(model, {ResetLaw::Mean});
         std::vector<float> d(144);
         for (int ping = 0; ping < 8; ++ping) {
-            std::vector<float> y = noise(144, 7, std::uint64_t(ping));
+            std::vector<float> y = exponentialNoise(144, 7, std::uint64_t(ping));
             // A target of power 5 from range 4 and beam 4 on, two cells and a beam a ping: over the wrap and to the range's
             // end.
             if (const int range = 4 + 2 * ping; range < PlainParsons::ranges)
@@ -190,7 +190,7 @@ private slots:
             if (inhibited)
                 detector.inhibit(sources);
             for (int t = 0; t < 60; ++t) {
-                std::vector<float> y = noise(144, 9, std::uint64_t(t));
+                std::vector<float> y = exponentialNoise(144, 9, std::uint64_t(t));
                 for (Index cell : sources) {
                     float &value = y[std::size_t(cell)];
                     value = inhibited ? 0.0f : value + power;
@@ -214,7 +214,7 @@ private slots:
         std::vector<float> d(144);
         detector.inhibit(inhibited);
         for (std::uint64_t t = 0; t < 12; ++t) {
-            const std::vector<float> y = noise(144, 13, t);
+            const std::vector<float> y = exponentialNoise(144, 13, t);
             detector.update(y, d);
             double sum = 0.0;
             int continued = 0;
@@ -236,7 +236,7 @@ private slots:
         Smd detector(model, {ResetLaw::Mean});
         std::vector<float> d(144);
         for (std::uint64_t t = 0; t < 10; ++t)
-            detector.update(noise(144, 15, t), d);
+            detector.update(exponentialNoise(144, 15, t), d);
         const double before = detector.regulation().lnK;
         std::vector<Index> all(144);
         for (Index i = 0; i < 144; ++i)

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double rate = 500.0;
 constexpr Index sampleCount = 30'000;
-constexpr std::size_t bytes = std::size_t(8) << 20;
+constexpr std::size_t pictureBytes = std::size_t(8) << 20;
 
 /// Three channels: noise, ten times louder noise with a line at 120 Hz, silence.
 RecordingPointer threeChannels()
@@ -65,7 +65,7 @@ private slots:
             const auto analysis = analyse(recording, settings);
             settings.selection.channel = 1 - channel; // what is analysed does not matter
             settings.selection.channels = {0.0, 1.0};
-            made.push_back(channelPicture(recording, settings, channel, bytes));
+            made.push_back(channelPicture(recording, settings, channel, pictureBytes));
             QVERIFY(made.back().frequency == analysis->grid().axes.back());
             QVERIFY(made.back().picture->time() == analysis->time());
             QVERIFY(areEqual(*made.back().picture, *analysis->input));
@@ -78,7 +78,7 @@ private slots:
     {
         const RecordingPointer recording = threeChannels();
         const auto meanAt = [&](int channel, double hz) {
-            const ChannelPicture made = channelPicture(recording, quickSettings(), channel, bytes);
+            const ChannelPicture made = channelPicture(recording, quickSettings(), channel, pictureBytes);
             const auto cell = std::size_t(made.frequency.nearest(hz));
             double sum = 0.0;
             for (Index row = 0; row < made.picture->rowCount(0); ++row)
@@ -95,7 +95,7 @@ private slots:
     void rowsAreMergedWithinTheBudget()
     {
         const RecordingPointer recording = threeChannels();
-        const ChannelPicture whole = channelPicture(recording, quickSettings(), 0, bytes);
+        const ChannelPicture whole = channelPicture(recording, quickSettings(), 0, pictureBytes);
         const ChannelPicture small = channelPicture(recording, quickSettings(), 0, std::size_t(1) << 14);
         QCOMPARE(whole.picture->framesPerRow(0), Index(1));
         QVERIFY(small.picture->framesPerRow(0) > 1);
@@ -104,7 +104,7 @@ private slots:
 
     void silenceIsAnError()
     {
-        const std::string said = errorOf([] { channelPicture(threeChannels(), quickSettings(), 2, bytes); });
+        const std::string said = errorOf([] { channelPicture(threeChannels(), quickSettings(), 2, pictureBytes); });
         QVERIFY(!said.empty() && !contains(said, "\n"));
     }
 
@@ -114,7 +114,7 @@ private slots:
         source.request_stop();
         RunContext context;
         context.stop = source.get_token();
-        QVERIFY_THROWS_EXCEPTION(Cancelled, channelPicture(threeChannels(), quickSettings(), 0, bytes, context));
+        QVERIFY_THROWS_EXCEPTION(Cancelled, channelPicture(threeChannels(), quickSettings(), 0, pictureBytes, context));
     }
 };
 

@@ -17,11 +17,11 @@ using namespace faintline::test;
 
 namespace {
 
-constexpr double rate = 1000.0;
+constexpr double liveRate = 1000.0;
 
 StreamFormat format()
 {
-    return {parseSampleType("rf32_le", "test"), rate, 1, 0.0, "test"};
+    return {parseSampleType("rf32_le", "test"), liveRate, 1, 0.0, "test"};
 }
 
 /// Samples in memory, a tenth of a second at a time; half a second is lost at one place, if any.
@@ -29,7 +29,7 @@ class GivenSource final : public SampleSource
 {
 public:
     explicit GivenSource(std::vector<float> samples, double lossSeconds = -1.0)
-        : m_samples(std::move(samples)), m_lossAt(Index(lossSeconds * rate))
+        : m_samples(std::move(samples)), m_lossAt(Index(lossSeconds * liveRate))
     {
     }
     const StreamFormat &format() const override { return m_format; }
@@ -57,7 +57,7 @@ private:
 /// Two lines that stay: one strong, one that stands little above the threshold.
 std::vector<float> scene(double seconds)
 {
-    LineScene lines{.sampleRateHz = rate, .durationSeconds = seconds};
+    LineScene lines{.sampleRateHz = liveRate, .durationSeconds = seconds};
     lines.noise.deviation = 0.1;
     for (const auto &[hz, snrDb] : {std::pair(120.0, 8.0), std::pair(310.0, 3.0)}) {
         LineSettings line{.snrDb = snrDb, .startSeconds = 20.0, .frequencyHz = hz};

@@ -12,7 +12,7 @@ using namespace faintline::test;
 
 namespace {
 
-constexpr double rate = 48'000.0;
+constexpr double clockRate = 48'000.0;
 
 /// Deliveries of a clock that is so many ppm slow, each late by up to a twentieth of a second, some by up to one.
 std::vector<SourceClock::Departure> told(SourceClock &clock, double ppmSlow, double hours)
@@ -20,8 +20,8 @@ std::vector<SourceClock::Departure> told(SourceClock &clock, double ppmSlow, dou
     Random random(1, 2);
     std::vector<SourceClock::Departure> all;
     double now = 1000.0;
-    for (Index counted = 4800; double(counted) < 3600.0 * hours * rate; counted += 4800) {
-        const double made = 1000.0 + double(counted) / rate / (1.0 - 1e-6 * ppmSlow);
+    for (Index counted = 4800; double(counted) < 3600.0 * hours * clockRate; counted += 4800) {
+        const double made = 1000.0 + double(counted) / clockRate / (1.0 - 1e-6 * ppmSlow);
         const double late = random.uniform() < 0.01 ? random.uniform() : 0.05 * random.uniform();
         now = std::max(now, made + late); // in the order they were made
         if (const auto departure = clock.note(counted, now))
@@ -51,12 +51,12 @@ private slots:
     void departs()
     {
         QFETCH(double, ppm);
-        SourceClock clock(rate);
+        SourceClock clock(clockRate);
         const std::vector<SourceClock::Departure> all = told(clock, ppm, 3.0);
         QCOMPARE(std::ssize(all), Index(1 + std::floor(std::log2(10'800.0 * std::abs(ppm) * 1e-6 / 0.1))));
         double expected = 0.1;
         for (const SourceClock::Departure &departure : all) {
-            const double seconds = double(departure.samples) / rate;
+            const double seconds = double(departure.samples) / clockRate;
             QVERIFY2(std::abs(seconds) >= expected && std::abs(seconds) < expected + 0.02 + 11e-6 * std::abs(ppm),
                      qPrintable(QString::number(seconds)));
             // The least late of a hundred deliveries is half a millisecond late in the mean, and few are later than 4 ms.
@@ -70,13 +70,13 @@ private slots:
 
     void lateDeliveries()
     {
-        SourceClock clock(rate);
+        SourceClock clock(clockRate);
         QVERIFY(told(clock, 0.0, 24.0).empty());
     }
 
     void beginsAnew()
     {
-        SourceClock clock(rate);
+        SourceClock clock(clockRate);
         QVERIFY(!told(clock, 500.0, 0.1).empty());
         clock.restart();
         QVERIFY(told(clock, 0.0, 0.1).empty());

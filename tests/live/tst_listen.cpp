@@ -16,11 +16,11 @@ using namespace faintline::test;
 
 namespace {
 
-constexpr double rate = 1000.0;
+constexpr double heardRate = 1000.0;
 
 StreamFormat format()
 {
-    return {parseSampleType("rf32_le", "test"), rate, 1, 0.0, "test"};
+    return {parseSampleType("rf32_le", "test"), heardRate, 1, 0.0, "test"};
 }
 
 std::vector<std::byte> bytesOf(std::span<const float> samples)
@@ -119,7 +119,7 @@ std::vector<Gap> randomGaps(int count, Index samples, Index longest, std::uint64
 /// Ten minutes with lines that come and go, one of them interrupted.
 std::vector<float> scene(double seconds = 600.0)
 {
-    LineScene lines{.sampleRateHz = rate, .durationSeconds = seconds};
+    LineScene lines{.sampleRateHz = heardRate, .durationSeconds = seconds};
     lines.noise.deviation = 0.1;
     lines.seed = 4;
     const auto add = [&](LineSettings line) {
@@ -262,7 +262,7 @@ private slots:
     // A line at 6 dB, for which a stream suffices that ends two windows after the crossing.
     void isToldSoonAfterTheCrossing()
     {
-        LineScene lines{.sampleRateHz = rate, .durationSeconds = 60.0};
+        LineScene lines{.sampleRateHz = heardRate, .durationSeconds = 60.0};
         lines.noise.deviation = 0.1;
         lines.seed = 5;
         lines.lines = {{.snrDb = 6.0,
@@ -272,7 +272,7 @@ private slots:
                         .frequencyHz = 210.0}};
         const std::vector<float> samples = readAll(SimulatedRecording(lines));
         const auto told = [&](double seconds) {
-            const auto count = std::size_t(seconds * rate);
+            const auto count = std::size_t(seconds * heardRate);
             GivenSource source(format(), piecesOf({samples.begin(), samples.begin() + std::ptrdiff_t(count)}, {}, 8));
             std::vector<double> crossings;
             ListenSinks sinks;
@@ -369,7 +369,7 @@ private slots:
         for (const std::string &file : live.files) {
             const SigmfRecording part(file);
             if (!all.empty()) // begins where the one before ended, by the clock
-                QVERIFY(std::abs(*part.info().startUnixSeconds - start - double(all.size()) / rate) < 1e-4);
+                QVERIFY(std::abs(*part.info().startUnixSeconds - start - double(all.size()) / heardRate) < 1e-4);
             else
                 start = *part.info().startUnixSeconds;
             const std::vector<float> own = readAll(part);

@@ -19,7 +19,7 @@ using namespace faintline::test;
 namespace {
 
 constexpr std::chrono::milliseconds patience{50};
-constexpr double rate = 8000.0;
+constexpr double sentRate = 8000.0;
 
 /// Sends datagrams to a port of this machine.
 class Sender
@@ -69,7 +69,7 @@ private:
 
 StreamFormat bytesFormat()
 {
-    return {parseSampleType("ru8", "test"), rate, 1, 0.0, {}};
+    return {parseSampleType("ru8", "test"), sentRate, 1, 0.0, {}};
 }
 
 /// A port that was free a moment ago.
@@ -161,7 +161,7 @@ private slots:
     void datagramsWithoutNumbers()
     {
         const int port = freePort();
-        UdpSource source(std::to_string(port), {parseSampleType("ci16_le", "test"), rate, 1, 0.0, {}});
+        UdpSource source(std::to_string(port), {parseSampleType("ci16_le", "test"), sentRate, 1, 0.0, {}});
         const Sender sender(port);
         sender.send(QByteArray(400, 'a'));
         sender.send(QByteArray(403, 'b')); // three bytes that are no sample
@@ -189,7 +189,7 @@ private slots:
         Heard back = source.hear(patience);
         QCOMPARE(back.incident, Heard::Incident::Back);
         QCOMPARE(back.bytes.size(), std::size_t(80));
-        const double seconds = double(back.lostSamples) / rate;
+        const double seconds = double(back.lostSamples) / sentRate;
         QVERIFY2(std::abs(seconds - double(elapsed) / 1000.0) < 0.3, qPrintable(QString::number(seconds)));
     }
 

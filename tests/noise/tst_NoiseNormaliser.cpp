@@ -12,9 +12,9 @@ using namespace faintline::test;
 
 namespace {
 
-constexpr double rate = 1000.0;
+constexpr double sampleRate = 1000.0;
 
-std::vector<float> gaussian(Index count, std::uint64_t stream, float deviation = 1.0f)
+std::vector<float> whiteSamples(Index count, std::uint64_t stream, float deviation = 1.0f)
 {
     std::vector<float> values(static_cast<std::size_t>(count));
     Random(9, stream).normals(values, deviation);
@@ -25,7 +25,7 @@ std::vector<float> gaussian(Index count, std::uint64_t stream, float deviation =
 std::vector<float> lowPassed(Index count, std::uint64_t stream)
 {
     constexpr int taps = 511;
-    const std::vector<float> white = gaussian(count + taps, stream);
+    const std::vector<float> white = whiteSamples(count + taps, stream);
     std::vector<double> filter(taps);
     for (int i = 0; i < taps; ++i) {
         const double t = i - taps / 2;
@@ -45,7 +45,7 @@ void addTone(std::vector<float> &samples, double hz, double db, double windowSam
 {
     const double amplitude = std::sqrt(6.0 * std::pow(10.0, db / 10.0) / windowSamples);
     for (std::size_t n = 0; n < samples.size(); ++n)
-        samples[n] += float(amplitude * std::cos(2.0 * std::numbers::pi * hz * double(n) / rate));
+        samples[n] += float(amplitude * std::cos(2.0 * std::numbers::pi * hz * double(n) / sampleRate));
 }
 
 /// All frames of a recording after the normaliser.
@@ -78,7 +78,7 @@ Normalised normalised(std::vector<float> samples, const SpectrogramSettings &spe
                       bool isComplex = false, const SelectionSettings &selection = {},
                       const NormaliserSettings &settings = {})
 {
-    const auto recording = std::make_shared<MemoryRecording>(std::move(samples), rate, isComplex);
+    const auto recording = std::make_shared<MemoryRecording>(std::move(samples), sampleRate, isComplex);
     const auto spectrogram = std::make_shared<Spectrogram>(recording, spectral, selection);
     Normalised result;
     result.frames =
@@ -166,11 +166,11 @@ private slots:
         QFETCH(int, binsPerCell);
         QFETCH(int, shape);
         const Normalised n =
-            normalised(gaussian(isComplex ? 200000 : 100000, 1),
+            normalised(whiteSamples(isComplex ? 200000 : 100000, 1),
                        {windowSeconds, steps, binsPerCell, static_cast<WindowShape>(shape)}, isComplex);
         QVERIFY(n.isSound());
         // One y of deviation 1 for each window and cell; the background's own scatter, a median's, doubles the error.
-        const double cells = (isComplex ? rate : 0.5 * rate) * windowSeconds;
+        const double cells = (isComplex ? sampleRate : 0.5 * sampleRate) * windowSeconds;
         const double error = 2.0 / std::sqrt(cells * 100.0 / windowSeconds);
         QVERIFY2(std::abs(n.mean() - 1.0) < 3.0 * error, said("mean", n.mean()));
         // A quarter of the band and a quarter of the time for themselves.
@@ -186,7 +186,7 @@ private slots:
     // for all of them left Billon's 0.3 % short, which at one false alarm an hour halves what comes of an order.
     void noWindowShiftsTheMean()
     {
-        const std::vector<float> samples = gaussian(2000000, 2);
+        const std::vector<float> samples = whiteSamples(2000000, 2);
         for (const WindowShape shape :
              {WindowShape::Rectangular, WindowShape::Hann, WindowShape::Blackman, WindowShape::BlackmanHarris}) {
             const double mean = normalised(samples, {0.25, 2, 1, shape}, true).mean();
@@ -198,15 +198,15 @@ private slots:
     void levelDoesNotMatter()
     {
         // The same noise 200 dB weaker or 100 dB stronger gives the same y, up to rounding.
-        const Normalised reference = normalised(gaussian(60000, 2));
+        const Normalised reference = normalised(whiteSamples(60000, 2));
         for (float deviation : {1e-10f, 1e5f})
-            QVERIFY(largestDifference(normalised(gaussian(60000, 2, deviation)).y, reference.y) < 1e-3);
+            QVERIFY(largestDifference(normalised(whiteSamples(60000, 2, deviation)).y, reference.y) < 1e-3);
     }
 
     void steepSlope()
     {
         // Four poles at 0.9: the density falls by (1.9/0.1)⁸, 102 dB, from 0 Hz to half the rate.
-        std::vector<float> samples = gaussian(400000, 3, 1e-2f);
+        std::vector<float> samples = whiteSamples(400000, 3, 1e-2f);
         for (int pole = 0; pole < 4; ++pole) {
             double state = 0.0;
             for (float &sample : samples) {
@@ -243,7 +243,7 @@ private slots:
         QFETCH(double, db);
         QFETCH(double, hz);
         // There from the first sample to the last: it must not become its own background.
-        std::vector<float> samples = gaussian(200000, 4);
+        std::vector<float> samples = whiteSamples(200000, 4);
         addTone(samples, hz, db, 500.0);
         const Normalised n = normalised(samples);
         const double level = dB(n.meanOfBin(n.binAt(hz)) - 1.0);
@@ -252,7 +252,7 @@ private slots:
 
     void strongLineLeavesItsNeighboursAlone()
     {
-        std::vector<float> samples = gaussian(400000, 5);
+        std::vector<float> samples = whiteSamples(400000, 5);
         const Normalised without = normalised(samples);
         addTone(samples, 210.0, 60.0, 500.0);
         const Normalised with = normalised(samples);
@@ -273,7 +273,7 @@ private slots:
 
     void twoLinesSideBySide()
     {
-        std::vector<float> samples = gaussian(200000, 6);
+        std::vector<float> samples = whiteSamples(200000, 6);
         addTone(samples, 210.0, 40.0, 500.0);
         addTone(samples, 218.0, 10.0, 500.0); // four cells away
         const Normalised n = normalised(samples);
@@ -284,7 +284,7 @@ private slots:
     void levelStep()
     {
         // 20 dB up, and 20 dB down again.
-        std::vector<float> samples = gaussian(400000, 7);
+        std::vector<float> samples = whiteSamples(400000, 7);
         for (std::size_t n = 150000; n < 270000; ++n)
             samples[n] *= 10.0f;
         const Normalised n = normalised(samples, {0.1, 2, 2});
@@ -306,9 +306,10 @@ private slots:
     {
         // 1.5 dB up and down in 30 s, a little more than a block: within ±41 %, followed until the noise's own scatter is
         // left.
-        std::vector<float> samples = gaussian(400000, 21);
+        std::vector<float> samples = whiteSamples(400000, 21);
         for (std::size_t i = 0; i < samples.size(); ++i)
-            samples[i] *= float(std::pow(10.0, 0.075 * std::sin(2.0 * std::numbers::pi * double(i) / (30.0 * rate))));
+            samples[i] *=
+                float(std::pow(10.0, 0.075 * std::sin(2.0 * std::numbers::pi * double(i) / (30.0 * sampleRate))));
         const Normalised n = normalised(samples);
         double sum = 0.0;
         double counted = 0.0;
@@ -338,7 +339,7 @@ private slots:
     void levelsAreFollowed()
     {
         QFETCH(Pieces, pieces);
-        std::vector<float> samples = gaussian(400000, 31);
+        std::vector<float> samples = whiteSamples(400000, 31);
         const std::vector<float> gain = gains(samples.size(), pieces);
         for (std::size_t i = 0; i < samples.size(); ++i)
             samples[i] *= gain[i];
@@ -373,7 +374,7 @@ private slots:
     void steadyLineAmidSteps()
     {
         // A faint line keeps its level above the noise while the gain, line and all, jumps by 20 dB.
-        std::vector<float> samples = gaussian(400000, 32);
+        std::vector<float> samples = whiteSamples(400000, 32);
         addTone(samples, 210.0, 3.0, 500.0);
         const std::vector<float> gain = gains(samples.size(), {{1, 20}, {17777, 20}, {1, 0}, {13131, 0}});
         for (std::size_t i = 0; i < samples.size(); ++i)
@@ -387,14 +388,14 @@ private slots:
     {
         // Half of the band 40 dB above the other, and off half of the time: what lies beside it stays at 1, whatever it
         // does.
-        std::vector<float> loud = gaussian(400000, 33);
+        std::vector<float> loud = whiteSamples(400000, 33);
         for (int pole = 0; pole < 6; ++pole) { // low-pass
             float state = 0.0f;
             for (float &sample : loud)
                 sample = state = 0.6f * state + 0.4f * sample;
         }
         const std::vector<float> gain = gains(loud.size(), {{1, 0}, {3000, 0}, {1, -40}, {2000, -40}});
-        std::vector<float> samples = gaussian(400000, 34, 0.01f);
+        std::vector<float> samples = whiteSamples(400000, 34, 0.01f);
         for (std::size_t i = 0; i < samples.size(); ++i)
             samples[i] += gain[i] * loud[i];
         const Normalised n = normalised(samples);
@@ -416,10 +417,10 @@ private slots:
             const double sine = t == 0.0 ? 0.2 : std::sin(0.2 * std::numbers::pi * t) / (std::numbers::pi * t);
             filter[std::size_t(i)] = float(2.0 * blackman * sine * std::cos(0.4 * std::numbers::pi * t));
         }
-        const std::vector<float> white = gaussian(400000 + taps, 35);
+        const std::vector<float> white = whiteSamples(400000 + taps, 35);
         const std::vector<float> gain =
             gains(400000, {{1, 0}, {3000, 0}, {1, -40}, {3000, -40}, {1, 10}, {3000, 10}, {1, -15}, {3000, -15}});
-        std::vector<float> samples = gaussian(400000, 36);
+        std::vector<float> samples = whiteSamples(400000, 36);
         for (std::size_t i = 0; i < samples.size(); ++i)
             samples[i] += 10.0f * gain[i]
                           * std::inner_product(filter.begin(), filter.end(), white.begin() + std::ptrdiff_t(i), 0.0f);
@@ -440,7 +441,7 @@ private slots:
     void sameAtTheEdges()
     {
         // The background of steady white noise is averaged over blocks at the band's ends as within it.
-        const Normalised n = normalised(gaussian(600000, 22), {0.1, 2, 2}, true);
+        const Normalised n = normalised(whiteSamples(600000, 22), {0.1, 2, 2}, true);
         const NoiseBackground &background = n.frames->background();
         const Index cells = background.frequency.count;
         const auto deviation = [&](Index from, Index to) { // from the variance of a complex sample, 2
@@ -480,7 +481,7 @@ private slots:
         // A resonance of 10 dB at 125 Hz, 38 cells of 2.5 Hz wide at half its height: the running median over 41 cells
         // lies between its top and its flanks.
         const double radius = 0.7;
-        std::vector<float> samples = gaussian(600000, 38);
+        std::vector<float> samples = whiteSamples(600000, 38);
         for (std::size_t n = 2; n < samples.size(); ++n)
             samples[n] += float(2.0 * radius * std::cos(2.0 * std::numbers::pi * 0.125)) * samples[n - 1]
                           - float(radius * radius) * samples[n - 2];
@@ -524,7 +525,7 @@ private slots:
 
     void digitalSilence()
     {
-        std::vector<float> samples = gaussian(300000, 10);
+        std::vector<float> samples = whiteSamples(300000, 10);
         std::fill(samples.begin() + 100000, samples.begin() + 180000, 0.0f);
         const Normalised n = normalised(samples, {0.1, 2, 2});
         QVERIFY(n.isSound());
@@ -551,7 +552,7 @@ private slots:
     {
         // The power of 10³⁷ is beyond a float: no NaN comes of it, all over or for a while.
         for (const std::size_t from : {std::size_t(0), std::size_t(30000)}) {
-            std::vector<float> samples = gaussian(60000, 23);
+            std::vector<float> samples = whiteSamples(60000, 23);
             for (std::size_t i = from; i < samples.size(); ++i)
                 samples[i] *= 1e37f;
             QVERIFY(normalised(samples).isSound());
@@ -561,7 +562,7 @@ private slots:
     void clicks()
     {
         // A sample of 300 deviations every 17 s: 30 dB on every bin of the frames it is in.
-        const std::vector<float> quiet = gaussian(200000, 11);
+        const std::vector<float> quiet = whiteSamples(200000, 11);
         std::vector<float> samples = quiet;
         for (std::size_t n = 5000; n < samples.size(); n += 17003)
             samples[n] += 300.0f;
@@ -585,7 +586,7 @@ private slots:
     {
         // A line of four windows is shorter than half a block: it does not become background, nor does the guard take it
         // away.
-        std::vector<float> samples = gaussian(200000, 12);
+        std::vector<float> samples = whiteSamples(200000, 12);
         std::vector<float> burst(2000, 0.0f);
         addTone(burst, 300.0, 20.0, 500.0);
         for (std::size_t n = 0; n < burst.size(); ++n)
@@ -612,7 +613,7 @@ private slots:
         QFETCH(double, high);
         // A narrow band has no noise of its own to speak of: the background comes from its neighbourhood.
         SelectionSettings band{.lowHz = low, .highHz = high};
-        std::vector<float> samples = gaussian(400000, 13);
+        std::vector<float> samples = whiteSamples(400000, 13);
         const Normalised quiet = normalised(samples, {0.5, 2, 2}, false, band);
         QVERIFY2(std::abs(quiet.mean() - 1.0) < 0.2, said("mean", quiet.mean()));
         const double hz = quiet.frames->grid().axes[0].value(double(quiet.bins / 2));
@@ -633,14 +634,14 @@ private slots:
     void shorterThanABlock()
     {
         QFETCH(int, samples);
-        const Normalised n = normalised(gaussian(samples, 14));
+        const Normalised n = normalised(whiteSamples(samples, 14));
         QVERIFY(n.isSound());
         QVERIFY2(n.mean() > 0.6 && n.mean() < 1.7, said("mean", n.mean()));
     }
 
     void framesAreAFunctionOfTheirIndex()
     {
-        const Normalised n = normalised(gaussian(100000, 15), {0.1, 2, 2}, true);
+        const Normalised n = normalised(whiteSamples(100000, 15), {0.1, 2, 2}, true);
         std::vector<float> pieces(n.y.size());
         std::vector<float> other(n.y.size());
         {

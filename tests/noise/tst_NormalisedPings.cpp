@@ -43,7 +43,7 @@ private:
 constexpr Index pings = 96;
 constexpr Index ranges = 400;
 constexpr Index beams = 16;
-constexpr Index cells = ranges * beams;
+constexpr Index pingCells = ranges * beams;
 
 Grid sea()
 {
@@ -63,11 +63,11 @@ double meanPower(Index cell, double slopeDb, double gainDb)
 /// I and Q of noise with these mean powers, unit mean square.
 std::vector<double> noiseIq(double slopeDb, double gainDb, int seed = 7)
 {
-    std::vector<float> unit(std::size_t(2 * pings * cells));
+    std::vector<float> unit(std::size_t(2 * pings * pingCells));
     Random(std::uint64_t(seed), 0).normals(unit, std::numbers::sqrt2_v<float> / 2.0f);
     std::vector<double> values(unit.begin(), unit.end());
     for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] *= std::sqrt(meanPower(Index(i / 2) % cells, slopeDb, gainDb));
+        values[i] *= std::sqrt(meanPower(Index(i / 2) % pingCells, slopeDb, gainDb));
     return values;
 }
 
@@ -133,7 +133,7 @@ double meanOf(const std::vector<float> &y, const std::function<bool(Index cell)>
     double sum = 0.0;
     double count = 0.0;
     for (std::size_t i = 0; i < y.size(); ++i)
-        if (belongs(Index(i) % cells) && !std::isnan(y[i])) {
+        if (belongs(Index(i) % pingCells) && !std::isnan(y[i])) {
             sum += double(y[i]);
             count += 1.0;
         }
@@ -211,13 +211,13 @@ private slots:
             for (Index echo = 0; echo < echoes; ++echo)
                 for (Index i = 0; i < extent; ++i) {
                     const Index range = (10 + 30 * echo + ping * cellsPerPing + i) % ranges;
-                    result.push_back(std::size_t(ping * cells + range * beams + echo));
+                    result.push_back(std::size_t(ping * pingCells + range * beams + echo));
                 }
             return result;
         };
         for (Index ping = 0; ping < pings; ++ping)
             for (const std::size_t at : places(ping))
-                power[at] += snr * meanPower(Index(at) % cells, 60.0, 10.0);
+                power[at] += snr * meanPower(Index(at) % pingCells, 60.0, 10.0);
         const std::vector<float> y =
             normalised(std::make_shared<ArrayPings>(pings, sea(), std::move(power)), PingValues::Power);
         double sum = 0.0;
@@ -233,7 +233,7 @@ private slots:
     void fewPings()
     {
         std::vector<double> power = powersOf(noiseIq(60.0, 10.0));
-        power.resize(std::size_t(6 * cells));
+        power.resize(std::size_t(6 * pingCells));
         const std::vector<float> y =
             normalised(std::make_shared<ArrayPings>(6, sea(), std::move(power)), PingValues::Power);
         const double mean = meanOf(y, [](Index) { return true; });
@@ -245,10 +245,11 @@ private slots:
         std::vector<double> power = powersOf(noiseIq(60.0, 10.0));
         const auto factor = [](Index ping) { return ping % 3 == 1 ? 4.0 : ping == 50 ? 0.1 : 1.0; };
         for (std::size_t i = 0; i < power.size(); ++i)
-            power[i] *= factor(Index(i) / cells);
+            power[i] *= factor(Index(i) / pingCells);
         const auto raw = std::make_shared<ArrayPings>(pings, sea(), std::move(power));
         const auto meanOfPing = [](const std::vector<float> &y, Index ping) {
-            return std::accumulate(y.begin() + ping * cells, y.begin() + (ping + 1) * cells, 0.0) / double(cells);
+            return std::accumulate(y.begin() + ping * pingCells, y.begin() + (ping + 1) * pingCells, 0.0)
+                   / double(pingCells);
         };
         const std::vector<float> followed = normalised(raw, PingValues::Power);
         for (const Index ping : {0, 1, 31, 50, 95}) {
@@ -268,7 +269,7 @@ private slots:
         std::vector<double> power = powersOf(noiseIq(60.0, 10.0));
         for (std::size_t i = 0; i < power.size(); ++i)
             if (Index(i) % beams == 3)
-                power[i] *= ratioFromDb(6.0 * double(Index(i) / cells) / double(pings));
+                power[i] *= ratioFromDb(6.0 * double(Index(i) / pingCells) / double(pings));
         PingNoiseSettings settings;
         settings.blockPings = 16;
         const std::vector<float> y =
@@ -277,7 +278,7 @@ private slots:
             double sum = 0.0;
             for (Index ping = first; ping < first + 8; ++ping)
                 for (Index range = 0; range < ranges; ++range)
-                    sum += double(y[std::size_t(ping * cells + range * beams + 3)]);
+                    sum += double(y[std::size_t(ping * pingCells + range * beams + 3)]);
             QVERIFY2(std::abs(sum / (8.0 * ranges) - 1.0) < 0.08, qPrintable(QString::number(sum / (8.0 * ranges))));
         }
     }
@@ -287,17 +288,17 @@ private slots:
     {
         std::vector<double> power = powersOf(noiseIq(60.0, 10.0));
         for (std::size_t i = 0; i < power.size(); ++i) {
-            const Index ping = Index(i) / cells;
+            const Index ping = Index(i) / pingCells;
             if (Index(i) % beams == 2)
                 power[i] = 0.0;
-            if (ping % 4 == 1 || (Index(i) % cells) / beams == 77)
+            if (ping % 4 == 1 || (Index(i) % pingCells) / beams == 77)
                 power[i] = std::numeric_limits<double>::quiet_NaN();
         }
         const std::vector<float> y =
             normalised(std::make_shared<ArrayPings>(pings, sea(), std::move(power)), PingValues::Power);
         for (std::size_t i = 0; i < y.size(); ++i) {
             const bool isMissing =
-                Index(i) % beams == 2 || (Index(i) / cells) % 4 == 1 || (Index(i) % cells) / beams == 77;
+                Index(i) % beams == 2 || (Index(i) / pingCells) % 4 == 1 || (Index(i) % pingCells) / beams == 77;
             QCOMPARE(std::isnan(y[i]), isMissing);
         }
         const double mean = meanOf(y, [](Index) { return true; });
@@ -312,24 +313,24 @@ private slots:
         std::vector<double> power = powersOf(noiseIq(60.0, 10.0));
         const std::vector<float> before =
             normalised(std::make_shared<ArrayPings>(pings, sea(), power), PingValues::Power, settings);
-        for (std::size_t i = std::size_t(48 * cells); i < power.size(); ++i)
+        for (std::size_t i = std::size_t(48 * pingCells); i < power.size(); ++i)
             power[i] *= 1.0 + double(i % 5);
         const std::vector<float> after =
             normalised(std::make_shared<ArrayPings>(pings, sea(), std::move(power)), PingValues::Power, settings);
-        QVERIFY(std::equal(before.begin(), before.begin() + 48 * cells, after.begin()));
-        QVERIFY(!std::equal(before.begin() + 48 * cells, before.end(), after.begin() + 48 * cells));
+        QVERIFY(std::equal(before.begin(), before.begin() + 48 * pingCells, after.begin()));
+        QVERIFY(!std::equal(before.begin() + 48 * pingCells, before.end(), after.begin() + 48 * pingCells));
     }
 
     void piecesAreTheWhole()
     {
         const auto raw = stored(Stored::Int16Iq, noiseIq(60.0, 10.0));
         const NormalisedPings made(raw, PingValues::Power, false, {});
-        std::vector<float> whole(std::size_t(pings * cells));
+        std::vector<float> whole(std::size_t(pings * pingCells));
         made.read(0, pings, whole);
         for (const Index first : {0, 17, 90}) {
-            std::vector<float> piece(std::size_t(6 * cells));
+            std::vector<float> piece(std::size_t(6 * pingCells));
             made.read(first, 6, piece);
-            QVERIFY(std::equal(piece.begin(), piece.end(), whole.begin() + first * cells));
+            QVERIFY(std::equal(piece.begin(), piece.end(), whole.begin() + first * pingCells));
         }
     }
 
@@ -359,7 +360,8 @@ private slots:
 
     void refusals()
     {
-        const auto nothing = std::make_shared<ArrayPings>(4, sea(), std::vector<double>(std::size_t(4 * cells), 0.0));
+        const auto nothing =
+            std::make_shared<ArrayPings>(4, sea(), std::vector<double>(std::size_t(4 * pingCells), 0.0));
         QCOMPARE(
             errorOf([&] { NormalisedPings(nothing, PingValues::Power, false, {}); }),
             std::string("memory: holds no power in most of its cells: their values are 0, negative or not finite"));

@@ -11,16 +11,16 @@ using namespace faintline;
 
 namespace {
 
-constexpr Index cells = 600;
+constexpr Index blockCells = 600;
 constexpr Index bands = 4;
 
 /// Noise of ln power 1 in every cell, all of it firm.
 BlockBackground block()
 {
     BlockBackground made;
-    made.lnPower.assign(std::size_t(cells), 1.0f);
+    made.lnPower.assign(std::size_t(blockCells), 1.0f);
     made.medians = made.lnPower;
-    made.isNoise.assign(std::size_t(cells), true);
+    made.isNoise.assign(std::size_t(blockCells), true);
     made.isFirm = made.isNoise;
     return made;
 }
@@ -29,11 +29,12 @@ BlockBackground block()
 template <class Level>
 std::vector<float> frames(Index count, std::uint64_t stream, Level level)
 {
-    std::vector<float> values(std::size_t(count * cells));
+    std::vector<float> values(std::size_t(count * blockCells));
     Random(91, stream).exponentials(values);
     for (Index frame = 0; frame < count; ++frame)
-        for (Index cell = 0; cell < cells; ++cell)
-            values[std::size_t(frame * cells + cell)] *= float(std::exp(1.0 + level(frame, cell * bands / cells)));
+        for (Index cell = 0; cell < blockCells; ++cell)
+            values[std::size_t(frame * blockCells + cell)] *=
+                float(std::exp(1.0 + level(frame, cell * bands / blockCells)));
     return values;
 }
 
@@ -85,10 +86,10 @@ private slots:
         BlockBackground lines = block();
         std::vector<float> values = frames(50, 3, [](Index, Index) { return 0.0; });
         const std::vector<float> before = levelsOf(values, lines, bands, 1.0);
-        for (Index cell = 0; cell < cells; cell += 10) {
+        for (Index cell = 0; cell < blockCells; cell += 10) {
             lines.isNoise[std::size_t(cell)] = lines.isFirm[std::size_t(cell)] = false;
             for (Index frame = 0; frame < 50; ++frame)
-                values[std::size_t(frame * cells + cell)] *= 100.0f;
+                values[std::size_t(frame * blockCells + cell)] *= 100.0f;
         }
         const std::vector<float> after = levelsOf(values, lines, bands, 1.0);
         for (Index column = 0; column <= bands; ++column)
@@ -108,7 +109,7 @@ private slots:
     void silenceHasNoLevel()
     {
         std::vector<float> values = frames(3, 5, [](Index, Index) { return 0.0; });
-        std::fill_n(values.begin() + cells, cells, 0.0f);
+        std::fill_n(values.begin() + blockCells, blockCells, 0.0f);
         const std::vector<float> found = levelsOf(values, block(), bands, 1.0);
         for (Index column = 0; column <= bands; ++column) {
             QVERIFY(found[std::size_t(column)] < levelNotKnown);

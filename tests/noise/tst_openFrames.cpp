@@ -11,12 +11,12 @@ using namespace faintline::test;
 
 namespace {
 
-constexpr Index frames = 60;
-constexpr Index cells = 40;
+constexpr Index fileFrames = 60;
+constexpr Index fileCells = 40;
 
 std::vector<float> someValues()
 {
-    std::vector<float> values(std::size_t(frames * cells));
+    std::vector<float> values(std::size_t(fileFrames * fileCells));
     Random(131, 0).exponentials(values);
     return values;
 }
@@ -74,10 +74,10 @@ private slots:
         QCOMPARE(info.sampleType, std::string("float32"));
         QCOMPARE(info.time.first, 1.0);
         QCOMPARE(info.time.step, 0.5);
-        QCOMPARE(info.time.count, frames);
+        QCOMPARE(info.time.count, fileFrames);
         QCOMPARE(info.frequency.first, 100.0);
         QCOMPARE(info.frequency.step, 2.0);
-        QCOMPARE(info.frequency.count, cells);
+        QCOMPARE(info.frequency.count, fileCells);
         QCOMPARE(info.channelCount, 1);
         QCOMPARE(openPower(makeStack(powerGrid, true))->info().sampleType, std::string("float64"));
     }
@@ -95,14 +95,14 @@ private slots:
         const auto power = openPower(makeStack(powerGrid, isDouble));
         const std::vector<float> whole = someValues();
         for (const PowerPart &part :
-             {PowerPart{0, 0, frames, 0, cells}, PowerPart{0, 7, 1, 39, 1}, PowerPart{0, 59, 1, 0, cells},
+             {PowerPart{0, 0, fileFrames, 0, fileCells}, PowerPart{0, 7, 1, 39, 1}, PowerPart{0, 59, 1, 0, fileCells},
               PowerPart{0, 3, 20, 5, 11}, PowerPart{0, 3, 0, 5, 0}}) {
             std::vector<float> found(std::size_t(part.frames * part.cells));
             power->read(part, found);
             for (Index frame = 0; frame < part.frames; ++frame)
                 for (Index cell = 0; cell < part.cells; ++cell)
                     QCOMPARE(found[std::size_t(frame * part.cells + cell)],
-                             whole[std::size_t((part.firstFrame + frame) * cells + part.firstCell + cell)]);
+                             whole[std::size_t((part.firstFrame + frame) * fileCells + part.firstCell + cell)]);
         }
     }
 
@@ -112,8 +112,8 @@ private slots:
         QVERIFY(!openPower(stack));
         const auto made = openFrames(stack);
         QVERIFY(made);
-        std::vector<float> y(std::size_t(frames * cells));
-        made->read(0, frames, y);
+        std::vector<float> y(std::size_t(fileFrames * fileCells));
+        made->read(0, fileFrames, y);
         QVERIFY(y == someValues());
     }
 
@@ -161,10 +161,10 @@ private slots:
         const std::string stack = makeStack(powerGrid);
         const auto power = openPower(stack);
         QVERIFY(QFile::resize(QString::fromStdString(stack), QFile(QString::fromStdString(stack)).size() - 4));
-        std::vector<float> row(std::size_t(cells), 0.0f);
-        power->read({0, frames - 2, 1, 0, cells}, row);
+        std::vector<float> row(std::size_t(fileCells), 0.0f);
+        power->read({0, fileFrames - 2, 1, 0, fileCells}, row);
         QCOMPARE(errorOf([&] {
-                     power->read({0, frames - 1, 1, 0, cells}, row);
+                     power->read({0, fileFrames - 1, 1, 0, fileCells}, row);
                  }),
                  stack + ": was truncated while open");
     }
@@ -178,7 +178,7 @@ private:
         if (isDouble) {
             writeBytes(path("a.npy"), doubles(someValues()));
         } else {
-            NumPyWriter writer(path("a.npy"), {frames, cells});
+            NumPyWriter writer(path("a.npy"), {fileFrames, fileCells});
             writer.write(someValues());
             writer.finish();
         }

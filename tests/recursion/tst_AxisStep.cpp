@@ -14,7 +14,7 @@ namespace {
 
 constexpr double nothingHere = -std::numeric_limits<double>::infinity();
 
-KinematicAxis rated(Index cells, int firstRate, int rateCount, std::vector<double> change, int ratesPerCell = 1)
+KinematicAxis stepAxis(Index cells, int firstRate, int rateCount, std::vector<double> change, int ratesPerCell = 1)
 {
     return {.cells = cells,
             .firstRate = firstRate,
@@ -95,11 +95,11 @@ private slots:
     void stepsOfAnAxisThatStaysAreNone()
     {
         const auto steps =
-            stepsOfPhase<MaxPlus<float>>(StateSpace({rated(7, 0, 1, {1.0}), rated(3, 0, 1, {1.0})}), 0, 1.0);
+            stepsOfPhase<MaxPlus<float>>(StateSpace({stepAxis(7, 0, 1, {1.0}), stepAxis(3, 0, 1, {1.0})}), 0, 1.0);
         QVERIFY(steps.first.shifts.empty());
         QVERIFY(steps.later.empty());
         QCOMPARE(steps.reach(), Index(0));
-        const auto moving = stepsOfPhase<MaxPlus<float>>(StateSpace({rated(7, -3, 4, {1.0})}), 0, 1.0);
+        const auto moving = stepsOfPhase<MaxPlus<float>>(StateSpace({stepAxis(7, -3, 4, {1.0})}), 0, 1.0);
         QCOMPARE(moving.first.shifts.size(), std::size_t(4));
         QCOMPARE(moving.reach(), Index(3));
     }
@@ -107,7 +107,7 @@ private slots:
     // Every plane moved by other than nothing is copied once, whoever wants it.
     void movesOfLaterAxesAreCopies()
     {
-        const StateSpace space({rated(6, 0, 1, {1.0}), rated(5, -1, 3, {0.5, 0.25})});
+        const StateSpace space({stepAxis(6, 0, 1, {1.0}), stepAxis(5, -1, 3, {0.5, 0.25})});
         const auto steps = stepsOfPhase<SumProduct>(space, 0, 1.0);
         QCOMPARE(steps.later.size(), std::size_t(1));
         const AxisStep<double> &later = steps.later.front();
@@ -199,7 +199,7 @@ private slots:
         QFETCH(int, changes);
         QFETCH(int, ratesPerCell);
         const std::vector<double> law(std::size_t(changes + 1), 1.0 / (2 * changes + 1));
-        const StateSpace space({rated(200, -rates / 2, rates, law, ratesPerCell)});
+        const StateSpace space({stepAxis(200, -rates / 2, rates, law, ratesPerCell)});
         AxisStep<float> step = stepsOfPhase<MaxPlus<float>>(space, 0, 1.0).first;
         const AxisStep<float> plain = step;
         const SharedMaxima maxima = shareMaxima(step, false);
@@ -235,7 +235,7 @@ private slots:
 
     void unequalWeightsAreNotShared()
     {
-        const StateSpace space({rated(200, -4, 9, {0.2, 0.16, 0.12, 0.08, 0.04})});
+        const StateSpace space({stepAxis(200, -4, 9, {0.2, 0.16, 0.12, 0.08, 0.04})});
         AxisStep<float> step = stepsOfPhase<MaxPlus<float>>(space, 0, 1.0).first;
         const AxisStep<float> plain = step;
         const SharedMaxima maxima = shareMaxima(step, false);

@@ -11,7 +11,7 @@ using namespace faintline;
 namespace {
 
 constexpr double binsPerCell = 2.0;
-constexpr double cellLikeness = 35.0 / 18.0; // Hann
+constexpr double hannLikeness = 35.0 / 18.0; // Hann
 
 /// Noise of mean 1 beside a path that moves by a bin every second frame.
 PathStrip noise(Index frames, std::uint64_t seed)
@@ -122,10 +122,10 @@ void tst_levelBeside::areasAreFoundWithTheirLevel()
 {
     PathStrip strip = noise(400, 5);
     const std::vector<double> path = pathOf(strip);
-    QVERIFY2(mean(areaLevels(strip, path, binsPerCell, cellLikeness), 0, 400) < 1.15,
-             qPrintable(QString::number(mean(areaLevels(strip, path, binsPerCell, cellLikeness), 0, 400))));
+    QVERIFY2(mean(areaLevels(strip, path, binsPerCell, hannLikeness), 0, 400) < 1.15,
+             qPrintable(QString::number(mean(areaLevels(strip, path, binsPerCell, hannLikeness), 0, 400))));
     raise(strip, 200, 400, 1, strip.halfWidth, 4.0f); // on one side
-    const std::vector<double> levels = areaLevels(strip, path, binsPerCell, cellLikeness);
+    const std::vector<double> levels = areaLevels(strip, path, binsPerCell, hannLikeness);
     QVERIFY(mean(levels, 0, 190) < 1.3);
     const double inside = mean(levels, 210, 400);
     QVERIFY2(inside > 3.5 && inside < 4.8, qPrintable(QString::number(inside)));
@@ -137,7 +137,7 @@ void tst_levelBeside::linesAreNoArea()
 {
     PathStrip strip = noise(400, 6);
     raise(strip, 0, 400, 5, 8, 100.0f);
-    const double level = mean(areaLevels(strip, pathOf(strip), binsPerCell, cellLikeness), 0, 400);
+    const double level = mean(areaLevels(strip, pathOf(strip), binsPerCell, hannLikeness), 0, 400);
     QVERIFY2(level < 2.5, qPrintable(QString::number(level)));
 }
 
@@ -146,7 +146,7 @@ void tst_levelBeside::aNarrowBandIsAnArea()
 {
     PathStrip strip = noise(400, 7);
     raise(strip, 0, 400, -8, 8, 4.0f);
-    const double level = mean(areaLevels(strip, pathOf(strip), binsPerCell, cellLikeness), 0, 400);
+    const double level = mean(areaLevels(strip, pathOf(strip), binsPerCell, hannLikeness), 0, 400);
     QVERIFY2(level > 3.5 && level < 4.8, qPrintable(QString::number(level)));
 }
 

@@ -9,15 +9,15 @@ using namespace faintline;
 
 namespace {
 
-constexpr double windowSeconds = 0.25;
+constexpr double lineWindowSeconds = 0.25;
 
 /// One line of 10 dB, for 50 s in 60 s of white noise.
 Analysis withOneLine(const ModelSettings &law = {})
 {
     LineScene scene = test::scene(1000.0, 60.0, 7);
-    scene.lines = {test::line(200.0, 0.0, 5.0, 50.0, 10.0, windowSeconds)};
+    scene.lines = {test::line(200.0, 0.0, 5.0, 50.0, 10.0, lineWindowSeconds)};
     AnalysisSettings settings;
-    settings.spectrogram.windowSeconds = windowSeconds;
+    settings.spectrogram.windowSeconds = lineWindowSeconds;
     settings.model = law;
     return *analyse(std::make_shared<SimulatedRecording>(scene), settings);
 }

@@ -12,8 +12,8 @@ using test::amplitudeAt;
 
 namespace {
 
-constexpr double rate = 2000.0;
-constexpr Index count = 60000;
+constexpr double chirpRate = 2000.0;
+constexpr Index chirpCount = 60000;
 
 /// 300 + 4 t + 3 sin(2π t/7) Hz at t seconds.
 double frequencyAt(double t)
@@ -30,14 +30,14 @@ double cyclesAt(double t) // its integral
 RecordingPointer chirp(bool isComplex)
 {
     const auto samples = std::make_shared<std::vector<float>>();
-    for (Index n = 0; n < count; ++n) {
-        const double angle = 2.0 * std::numbers::pi * cyclesAt(double(n) / rate);
+    for (Index n = 0; n < chirpCount; ++n) {
+        const double angle = 2.0 * std::numbers::pi * cyclesAt(double(n) / chirpRate);
         samples->push_back(float(std::cos(angle)));
         if (isComplex)
             samples->push_back(float(std::sin(angle)));
     }
     return std::make_shared<ArrayRecording>("chirp", std::shared_ptr<const float>(samples, samples->data()),
-                                            ArrayLayout{rate, count, 1, isComplex, 0.0});
+                                            ArrayLayout{chirpRate, chirpCount, 1, isComplex, 0.0});
 }
 
 FrequencyCurve curve()
@@ -83,8 +83,8 @@ private slots:
     {
         QFETCH(bool, isComplex);
         const StraightenedRecording straight(chirp(isComplex), 0, curve(), 440.0);
-        QVERIFY(amplitudeAt(*chirp(isComplex), 440.0, 0, count) < 0.05);
-        const double amplitude = amplitudeAt(straight, 440.0, 0, count);
+        QVERIFY(amplitudeAt(*chirp(isComplex), 440.0, 0, chirpCount) < 0.05);
+        const double amplitude = amplitudeAt(straight, 440.0, 0, chirpCount);
         QVERIFY2(std::abs(amplitude - 1.0) < 0.01, qPrintable(QString::number(amplitude)));
     }
 

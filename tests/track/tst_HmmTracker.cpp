@@ -11,7 +11,7 @@ using namespace faintline;
 
 namespace {
 
-constexpr Index cells = 101;
+constexpr Index bankCells = 101;
 constexpr double threshold = 10.0;
 constexpr double lnK = -0.7;
 constexpr float unreached = -std::numeric_limits<float>::infinity();
@@ -21,7 +21,7 @@ KinematicAxis line(bool isCyclic)
 {
     KinematicAxis axis;
     axis.name = "frequency";
-    axis.cells = cells;
+    axis.cells = bankCells;
     axis.cyclic = isCyclic;
     axis.firstRate = -1;
     axis.rateCount = 3;
@@ -31,7 +31,7 @@ KinematicAxis line(bool isCyclic)
 
 Grid gridOf(bool isCyclic)
 {
-    return {{{"frequency", "Hz", 0.0, 1.0, cells, isCyclic}}};
+    return {{{"frequency", "Hz", 0.0, 1.0, bankCells, isCyclic}}};
 }
 
 TrackSettings wide()
@@ -51,7 +51,7 @@ std::vector<std::vector<float>> frames(Index count, Index cell, float gain, std:
     Random random(19, stream);
     std::vector<std::vector<float>> made;
     for (Index frame = 0; frame < count; ++frame) {
-        std::vector<float> lambda(std::size_t(cells), 0.0f);
+        std::vector<float> lambda(std::size_t(bankCells), 0.0f);
         for (float &value : lambda)
             value = float(random.exponential() - 1.5);
         if (cell >= 0)
@@ -127,8 +127,8 @@ struct Followed {
     {
         std::vector<Index> all;
         for (Index other = cell - 2; other <= cell + 2; ++other)
-            if (isCyclic || (other >= 0 && other < cells))
-                all.push_back((other + cells) % cells);
+            if (isCyclic || (other >= 0 && other < bankCells))
+                all.push_back((other + bankCells) % bankCells);
         std::sort(all.begin(), all.end());
         return all;
     }
@@ -138,9 +138,9 @@ struct Followed {
     {
         Random random(23, 0);
         std::vector<float> all;
-        for (Index state = 0; state < 3 * cells; ++state)
+        for (Index state = 0; state < 3 * bankCells; ++state)
             all.push_back(float(9.0 * random.uniform()));
-        all[std::size_t(cells + cell)] = 10.0f;
+        all[std::size_t(bankCells + cell)] = 10.0f;
         return all;
     }
 
@@ -207,12 +207,12 @@ void tst_HmmTracker::windowIsTheWholeLine()
 
         std::vector<float> painted(expected.size(), unreached);
         followed.tracker.paintStates(painted);
-        std::vector<float> ofCells(std::size_t(cells), unreached);
+        std::vector<float> ofCells(std::size_t(bankCells), unreached);
         followed.tracker.paint(ofCells);
-        for (Index at = 0; at < cells; ++at) {
+        for (Index at = 0; at < bankCells; ++at) {
             double highest = double(unreached);
             for (Index plane = 0; plane < 3; ++plane) {
-                const auto state = std::size_t(plane * cells + at);
+                const auto state = std::size_t(plane * bankCells + at);
                 highest = std::max(highest, expected[state]);
                 QVERIFY(expected[state] == double(unreached)
                             ? painted[state] == unreached
@@ -312,7 +312,7 @@ void tst_HmmTracker::endsWhereTheFallBegan()
 {
     Followed followed(false, 50);
     Index frame = 5;
-    std::vector<float> heard(std::size_t(cells), -1.0f);
+    std::vector<float> heard(std::size_t(bankCells), -1.0f);
     heard[50] = 2.5f;
     for (int i = 0; i < 4; ++i)
         QVERIFY(followed.update(++frame, heard));
@@ -335,18 +335,18 @@ void tst_HmmTracker::aLineThatLeavesTheGridEnds()
     upward.rateCount = 1;
     upward.rateChange = {1.0};
     TrackerModel model({StateSpace({upward}), Likelihood(), 1.0}, gridOf(false), wide(), threshold);
-    std::vector<float> scores(std::size_t(cells), 12.0f);
-    const std::vector<Index> seeded{cells - 3};
-    HmmTracker tracker(model, Followed::start(), {cells - 3, seeded, scores, 0.0});
-    const std::vector<float> heard(std::size_t(cells), 1.0f);
+    std::vector<float> scores(std::size_t(bankCells), 12.0f);
+    const std::vector<Index> seeded{bankCells - 3};
+    HmmTracker tracker(model, Followed::start(), {bankCells - 3, seeded, scores, 0.0});
+    const std::vector<float> heard(std::size_t(bankCells), 1.0f);
     QVERIFY(tracker.update(6, heard, lnK));
     QVERIFY(tracker.update(7, heard, lnK));
-    QCOMPARE(tracker.cell(), cells - 1);
+    QCOMPARE(tracker.cell(), bankCells - 1);
     QVERIFY(!tracker.update(8, heard, lnK));
     const Track track = tracker.finish(true);
     QVERIFY(!track.isOpen);
     QCOMPARE(track.endFrame, Index(7));
-    QCOMPARE(track.points.back().cell, cells - 1);
+    QCOMPARE(track.points.back().cell, bankCells - 1);
 }
 
 void tst_HmmTracker::aTrackerWithoutPastGoesOnToTheBit()
@@ -365,7 +365,7 @@ void tst_HmmTracker::aTrackerWithoutPastGoesOnToTheBit()
         QVERIFY(bare.statistic() == followed.tracker.statistic() && bare.level() == followed.tracker.level());
         QCOMPARE(bare.cell(), followed.tracker.cell());
         QCOMPARE(bare.earliestEnd(), followed.tracker.earliestEnd());
-        std::vector<float> a(std::size_t(cells), unreached);
+        std::vector<float> a(std::size_t(bankCells), unreached);
         std::vector<float> b = a;
         bare.paint(a);
         followed.tracker.paint(b);
