@@ -3,11 +3,14 @@
 #include "base/logmath.h"
 
 #include <boost/math/special_functions/bessel.hpp>
+#include <boost/math/special_functions/sinc.hpp>
+#include <boost/math/special_functions/sinhc.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <span>
 
 namespace faintline {
 
@@ -15,13 +18,43 @@ namespace {
 
     constexpr double kaiserBeta = 14.0;
 
-    /// Σ aₖ (-1)ᵏ cos(2πk n/N), the cosine-sum windows.
-    double cosineSum(std::initializer_list<double> coefficients, double phase)
+    /// aₖ of a cosine-sum window Σ aₖ cos(2πk t), |t| ≤ ½; empty for others.
+    std::span<const double> cosinesOf(WindowShape shape)
     {
+        static constexpr double rectangular[] = {1.0};
+        static constexpr double hann[] = {0.5, 0.5};
+        static constexpr double hamming[] = {0.54, 0.46};
+        static constexpr double blackman[] = {0.42, 0.5, 0.08};
+        static constexpr double blackmanHarris[] = {0.35875, 0.48829, 0.14128, 0.01168};
+        switch (shape) {
+        case WindowShape::Rectangular:
+            return rectangular;
+        case WindowShape::Hann:
+            return hann;
+        case WindowShape::Hamming:
+            return hamming;
+        case WindowShape::Blackman:
+            return blackman;
+        case WindowShape::BlackmanHarris:
+            return blackmanHarris;
+        case WindowShape::Kaiser:
+            break;
+        }
+        return {};
+    }
+
+    double shapeAt(WindowShape shape, double fraction)
+    {
+        if (shape == WindowShape::Kaiser) {
+            const double x = 2.0 * fraction - 1.0;
+            return boost::math::cyl_bessel_i(0, kaiserBeta * std::sqrt(std::max(0.0, 1.0 - x * x)))
+                   / boost::math::cyl_bessel_i(0, kaiserBeta);
+        }
+        const double phase = 2.0 * std::numbers::pi * fraction;
         double value = 0.0;
         double sign = 1.0;
         double k = 0.0;
-        for (double coefficient : coefficients) {
+        for (const double coefficient : cosinesOf(shape)) {
             value += sign * coefficient * std::cos(k * phase);
             sign = -sign;
             k += 1.0;
@@ -29,27 +62,23 @@ namespace {
         return value;
     }
 
-    double shapeAt(WindowShape shape, double fraction)
+    /// W(Δ)/W(0).
+    double transformAt(WindowShape shape, double distance)
     {
-        const double phase = 2.0 * std::numbers::pi * fraction;
-        switch (shape) {
-        case WindowShape::Rectangular:
-            return 1.0;
-        case WindowShape::Hann:
-            return cosineSum({0.5, 0.5}, phase);
-        case WindowShape::Hamming:
-            return cosineSum({0.54, 0.46}, phase);
-        case WindowShape::Blackman:
-            return cosineSum({0.42, 0.5, 0.08}, phase);
-        case WindowShape::BlackmanHarris:
-            return cosineSum({0.35875, 0.48829, 0.14128, 0.01168}, phase);
-        case WindowShape::Kaiser: {
-            const double x = 2.0 * fraction - 1.0;
-            return boost::math::cyl_bessel_i(0, kaiserBeta * std::sqrt(std::max(0.0, 1.0 - x * x)))
-                   / boost::math::cyl_bessel_i(0, kaiserBeta);
+        using std::numbers::pi;
+        if (shape == WindowShape::Kaiser) {
+            const double square = kaiserBeta * kaiserBeta - pi * pi * distance * distance;
+            const double root = std::sqrt(std::abs(square));
+            const double value = square > 0.0 ? boost::math::sinhc_pi(root) : boost::math::sinc_pi(root);
+            return value / boost::math::sinhc_pi(kaiserBeta);
         }
-        }
-        return 1.0;
+        const std::span<const double> cosines = cosinesOf(shape);
+        double value = 0.0;
+        for (std::size_t k = 0; k < cosines.size(); ++k)
+            value += 0.5 * cosines[k]
+                     * (boost::math::sinc_pi(pi * (distance - double(k)))
+                        + boost::math::sinc_pi(pi * (distance + double(k))));
+        return value / cosines.front();
     }
 
     struct Leakage {
@@ -136,19 +165,11 @@ double leakageBound(WindowShape shape, double distanceCells)
 
 double leakageAt(WindowShape shape, double distanceCells)
 {
-    constexpr int points = 256; // exact for cosine sums, up to rounding
     const double distance = std::abs(distanceCells);
     if (distance > mainLobeHalfWidth(shape) + 1.0)
         return leakageBound(shape, distance);
-    double transform = 0.0;
-    double sum = 0.0;
-    for (int n = 0; n < points; ++n) {
-        const double fraction = (n + 0.5) / points;
-        const double value = shapeAt(shape, fraction);
-        transform += value * std::cos(2.0 * std::numbers::pi * distance * (fraction - 0.5));
-        sum += value;
-    }
-    return transform * transform / (sum * sum);
+    const double transform = transformAt(shape, distance);
+    return transform * transform;
 }
 
 } // namespace faintline

@@ -91,12 +91,14 @@ void OwnNoiseLaw::setPowers(Part &part, std::vector<float> values)
 {
     if (values.size() < fewestValues)
         return;
-    std::sort(values.begin(), values.end(), std::greater<>());
     const auto count = double(values.size());
     bool isExponential = true;
     std::vector<float> quantiles{0.0f};
     std::vector<float> worths{0.0f};
+    auto end = values.end(); // of those above the quantile before
     for (std::ptrdiff_t beyond = std::ssize(values) / 2; beyond >= quantileMinimumValues; beyond /= 2) {
+        std::nth_element(values.begin(), values.begin() + beyond, end, std::greater<>());
+        end = values.begin() + beyond;
         const float y = values[std::size_t(beyond)];
         const double g = -std::log(double(beyond) / count);
         const double error = quantileErrorShare * double(y) + sureDeviations * std::sqrt(likeValues / double(beyond));
