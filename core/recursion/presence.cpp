@@ -10,6 +10,7 @@ namespace {
 
     constexpr double lowQuantile = 0.05;
     constexpr double highQuantile = 0.95;
+    constexpr Index chunkMinimumBytes = Index(1) << 22;
     constexpr double lambdaLimitNats = 60.0; ///< larger values would not change a decision
 
     /// Probabilities of the states after a frame: rates × width, followed by "off".
@@ -220,14 +221,16 @@ namespace {
     template <class Take>
     void passBothWays(const Chain &chain, Index frames, CorridorEnds ends, Take take)
     {
-        // α at the beginning of each chunk; inside a chunk it is recomputed on the way back.
-        const auto chunk = std::max<Index>(16, Index(std::sqrt(double(frames))));
-        std::vector<Weights> starts;
-        Weights alpha = chain.start(ends.absentBefore);
-        for (Index frame = 0; frame < frames; ++frame) {
-            if (frame % chunk == 0)
-                starts.push_back(alpha);
-            alpha = chain.forward(alpha, frame);
+        // α at the beginning of each chunk; inside a chunk it is computed on the way back, again in all but the last.
+        const auto chunk =
+            std::max<Index>(chunkMinimumBytes / (Index(sizeof(double)) * (chain.states() + 1)),
+                            Index(std::sqrt(double(frames))) + 1);
+        std::vector<Weights> starts{chain.start(ends.absentBefore)};
+        for (Index first = chunk; first < frames; first += chunk) {
+            Weights alpha = starts.back();
+            for (Index frame = first - chunk; frame < first; ++frame)
+                alpha = chain.forward(alpha, frame);
+            starts.push_back(std::move(alpha));
         }
         Weights beta = chain.end(ends.absentAfter);
         for (Index first = (std::ssize(starts) - 1) * chunk; first >= 0; first -= chunk) {
