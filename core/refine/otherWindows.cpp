@@ -164,6 +164,22 @@ namespace {
         return part;
     }
 
+    /// Cells of the base's frames, in each of them from the lowest to the highest one.
+    struct BaseCells {
+        PathStrip strip;
+        std::vector<Index> lowest;
+        std::vector<Index> highest;
+
+        double energyIn(Index at) const
+        {
+            double energy = 0.0;
+            for (Index cell = lowest[std::size_t(at)]; cell <= highest[std::size_t(at)]; ++cell)
+                if (const float power = strip.valueAt(at, cell); !std::isnan(power))
+                    energy += double(power) - 1.0;
+            return energy;
+        }
+    };
+
     /// All signals that are known, and how the tracks of other windows change them.
     class KnownSignals
     {
@@ -192,11 +208,20 @@ namespace {
                 const auto share = [&](std::size_t i) { return 0.5 + 0.5 * double(i) / double(tracks.size()); };
                 readStrips(other, strips, context.part(share(first), share(first + strips.size())),
                            "comparing windows");
-                for (const PathStrip &strip : strips) {
-                    if (tracks[first].peakStatistic * evidenceLeft(strip, *m_noise) >= other.threshold)
-                        ask(tracks[first], strip);
-                    ++first;
-                }
+                std::vector<BaseCells> cells(strips.size());
+                std::vector<PathStrip *> ofBase;
+                for (std::size_t i = 0; i < strips.size(); ++i)
+                    if (tracks[first + i].peakStatistic * evidenceLeft(strips[i], *m_noise) < other.threshold)
+                        strips[i] = {};
+                    else if (isShorter()) {
+                        cells[i] = cellsOf(Curve(tracks[first + i], other));
+                        ofBase.push_back(&cells[i].strip);
+                    }
+                readStrips(m_base, std::move(ofBase), {}, "comparing windows");
+                for (std::size_t i = 0; i < strips.size(); ++i)
+                    if (strips[i].frameCount() > 0)
+                        ask(tracks[first + i], strips[i], cells[i]);
+                first += strips.size();
             }
         }
 
@@ -245,35 +270,46 @@ namespace {
 
         bool isShorter() const { return windowOf(*m_other) < windowOf(m_base); }
 
-        /// Whether the base's frames hold the power of a track of a shorter window, rather than none of it, where it moves
-        /// while a window of the base lasts: a line has the same energy in both. Without it, the base counts that power as
-        /// noise.
-        bool hasItsEnergyInBase(const Curve &x, const Track &track) const
+        /// The cells of the base's frames within one of where x is during their windows.
+        BaseCells cellsOf(const Curve &x) const
         {
             const FrameGeometry geometry = m_base.frames->geometry();
             const Axis &time = m_base.time();
             const Axis &axis = frequencyOf(m_base);
             const double half = 0.5 * geometry.windowSeconds;
-            PathStrip strip;
+            BaseCells cells;
+            PathStrip &strip = cells.strip;
             strip.firstFrame = std::max<Index>(0, Index(std::floor(time.position(x.start()))));
             const Index last = std::min(time.count - 1, Index(std::ceil(time.position(x.end()))));
-            std::vector<std::pair<Index, Index>> cells; ///< first and last, of each frame
             for (Index frame = strip.firstFrame; frame <= last; ++frame) {
                 const double t = time.value(double(frame));
                 const Band band = x.between(t - half, t + half);
                 const double low = band.isEmpty() ? x.at(t) : band.low;
                 const double high = band.isEmpty() ? x.at(t) : band.high;
-                cells.emplace_back(Index(std::floor(axis.position(low) - geometry.binsPerCell)),
-                                   Index(std::ceil(axis.position(high) + geometry.binsPerCell)));
-                strip.centres.push_back((cells.back().first + cells.back().second) / 2);
-                strip.halfWidth = std::max(strip.halfWidth, cells.back().second - strip.centres.back());
+                const auto lowest = Index(std::floor(axis.position(low) - geometry.binsPerCell));
+                const auto highest = Index(std::ceil(axis.position(high) + geometry.binsPerCell));
+                cells.lowest.push_back(lowest);
+                cells.highest.push_back(highest);
+                strip.centres.push_back((lowest + highest) / 2);
+                strip.halfWidth = std::max(strip.halfWidth, highest - strip.centres.back());
             }
-            readStrips(m_base, std::span(&strip, 1), {}, "comparing windows");
+            return cells;
+        }
+
+        /// Whether the base's frames hold the power of a part of a track of a shorter window, rather than none of it,
+        /// where it moves while a window of the base lasts: a line has the same energy in both. Without it, the base
+        /// counts that power as noise.
+        bool hasItsEnergyInBase(const Curve &part, const Track &track, const BaseCells &cells) const
+        {
+            const FrameGeometry geometry = m_base.frames->geometry();
+            const auto place = [&](double seconds) {
+                return m_base.time().position(seconds) - double(cells.strip.firstFrame);
+            };
+            const auto first = std::max<Index>(0, Index(std::floor(place(part.start()))));
+            const auto last = std::min(cells.strip.frameCount() - 1, Index(std::ceil(place(part.end()))));
             double energy = 0.0;
-            for (Index at = 0; at < strip.frameCount(); ++at)
-                for (Index cell = cells[std::size_t(at)].first; cell <= cells[std::size_t(at)].second; ++cell)
-                    if (const float power = strip.valueAt(at, cell); !std::isnan(power))
-                        energy += double(power) - 1.0;
+            for (Index at = first; at <= last; ++at)
+                energy += cells.energyIn(at);
             double bins = 0.0; // that a line fills, at its largest power
             const double lobe = std::ceil(mainLobeHalfWidth(geometry.window) * geometry.binsPerCell);
             for (double bin = -lobe; bin <= lobe; bin += 1.0)
@@ -362,7 +398,7 @@ namespace {
             });
         }
 
-        void ask(const Track &x, const PathStrip &strip)
+        void ask(const Track &x, const PathStrip &strip, const BaseCells &cells)
         {
             const Curve curve(x, *m_other);
             const std::vector<std::size_t> pieces = followersOf(curve);
@@ -387,7 +423,7 @@ namespace {
                     return alone.start() >= m_curves[s].heardFrom() && alone.end() <= m_curves[s].heardUntil();
                 });
                 if (!isInPiece
-                    && ((isBetter && isSeenBetter(alone)) || (isShorter() && hasItsEnergyInBase(alone, part))))
+                    && ((isBetter && isSeenBetter(alone)) || (isShorter() && hasItsEnergyInBase(alone, part, cells))))
                     add(inFramesOf(m_base, *m_other, part));
             }
         }
