@@ -45,25 +45,12 @@ namespace {
         return asked > 0.0 ? asked : 1.0 / resolutionHz(analysis);
     }
 
-    /// Includes tracks that the noise explains: a fast line breaks into short, strong pieces in a window too long for
-    /// it, which is informative on the window.
-    std::vector<Track> foundIn(const Analysis &analysis)
-    {
-        if (!analysis.firstTracks.empty())
-            return analysis.firstTracks;
-        std::vector<Track> found = analysis.tracks;
-        found.insert(found.end(), analysis.explainedByNoise.begin(), analysis.explainedByNoise.end());
-        return found;
-    }
-
     /// An analysis with tracks only, for comparison with other windows and as a start after a change of the threshold.
     std::shared_ptr<const Analysis> tracksOnly(const Analysis &analysis)
     {
         auto result = std::make_shared<Analysis>();
         static_cast<AnalysisPlan &>(*result) = analysis;
         result->tracks = analysis.tracks;
-        result->explainedByNoise = analysis.explainedByNoise;
-        result->firstTracks = analysis.firstTracks;
         result->lnK = analysis.lnK;
         result->unsubtracted = analysis.unsubtracted;
         return result;
@@ -85,13 +72,13 @@ namespace {
         {
         }
 
-        /// Result for the chosen window; without pictures if it is not T0. Sets `choice`.
+        /// Trial of the chosen window; without pictures if it is not T0.
         std::shared_ptr<Analysis> run(const Analysis *previous, const PictureSink &pictures)
         {
             RunRequest request = AnalysisRequest{.previous = previous, .pictures = pictures};
             request.calibration = m_calibrationDepth;
             request.depth = m_depth;
-            request.keepsFirstTracks = true;
+            request.isTrial = true;
             std::shared_ptr<Analysis> automatic = runOnRecording(m_recording, m_asked, request, nextPart());
             m_windowSeconds = windowSecondsOf(*automatic);
             m_cells = double(automatic->grid().size()) * automatic->grid().axes.back().step * m_windowSeconds;
@@ -208,21 +195,18 @@ namespace {
 
         static bool isSure(const Analysis &analysis)
         {
-            const auto hasSure = [limit = sureStatistic(analysis)](const std::vector<Track> &tracks) {
-                return std::any_of(tracks.begin(), tracks.end(),
-                                   [limit](const Track &track) { return track.peakStatistic >= limit; });
-            };
-            return hasSure(analysis.tracks) || hasSure(analysis.explainedByNoise);
+            return std::ranges::any_of(analysis.tracks, [limit = sureStatistic(analysis)](const Track &track) {
+                return track.peakStatistic >= limit;
+            });
         }
 
         static double shareKept(const Analysis &shorter, const Analysis &longer)
         {
-            const std::vector<Track> ofShorter = foundIn(shorter);
-            const std::vector<Track> ofLonger = foundIn(longer);
-            const auto onAxes = [](const Analysis &analysis, const std::vector<Track> &tracks) {
-                return TracksOnAxes{tracks, analysis.time(), analysis.grid().axes.back(), resolutionHz(analysis)};
+            const auto onAxes = [](const Analysis &analysis) {
+                return TracksOnAxes{analysis.tracks, analysis.time(), analysis.grid().axes.back(),
+                                    resolutionHz(analysis)};
             };
-            return energyKept(onAxes(shorter, ofShorter), onAxes(longer, ofLonger), sureStatistic(shorter));
+            return energyKept(onAxes(shorter), onAxes(longer), sureStatistic(shorter));
         }
 
         RecordingPointer m_recording;
@@ -289,39 +273,34 @@ std::shared_ptr<const Analysis> runInChosenWindow(const RecordingPointer &record
     AnalysisSettings asked = settings; // subtraction does not affect the choice
     asked.subtract.lines = false;
     const double searched = isChosen ? 0.0 : subtracts ? 0.4 : 0.7; // shares of the progress
-    const double detected = isChosen ? 0.6 : subtracts ? 0.8 : 0.98;
     const double compared = 0.98;
+    const double detected = isChosen ? 0.6 : subtracts ? 0.8 : compared;
     WindowChoice choice;
     std::vector<std::shared_ptr<const Analysis>> others;
-    std::shared_ptr<Analysis> found;
+    std::shared_ptr<Analysis> trial;
     if (isChosen) {
         choice = *previous->choice;
         others = previous->others;
     } else {
         WindowSearch search(recording, asked, wanted.calibration, subtracts ? AnalysisDepth::Trial : wanted.depth,
                             context.part(0.0, searched));
-        found = search.run(previous, wanted.pictures);
-        others = search.others(*found);
-        choice = search.choice(*found);
+        trial = search.run(previous, wanted.pictures);
+        others = search.others(*trial);
+        choice = search.choice(*trial);
+        wanted.previous = trial.get();
     }
     choice.asked = settings;
-    const bool isTrial = !isChosen && choice.chosen != choice.automatic;
-    const bool isComplete = !isChosen && !subtracts; // the search ran with these settings
-    if (isTrial || !isComplete) {
-        const std::shared_ptr<Analysis> tried = found; // until it is not needed any more
-        wanted.previous = isChosen ? previous : tried.get();
-        found = runOnRecording(recording, ofTrial(choice, choice.chosen, settings), wanted,
-                               context.part(searched, detected));
-    }
+    const std::shared_ptr<Analysis> found = runOnRecording(recording, ofTrial(choice, choice.chosen, settings), wanted,
+                                                           context.part(searched, detected));
+    trial = {};
     const auto count = double(others.size());
-    if (!isComplete) // after the pictures, which the user waits for
+    if (isChosen || subtracts) // after the pictures, which the user waits for; the search ran without subtraction
         for (std::size_t i = 0; i < others.size(); ++i) {
             const std::shared_ptr<const Analysis> tried = others[i];
             const RunContext part = context.part(detected, compared).part(double(i) / count, double(i + 1) / count);
             others[i] = runOnRecording(recording, ofTrial(choice, i < choice.chosen ? i : i + 1, settings),
                                        trialRequest(wanted.calibration, tried.get()), part);
         }
-    found->firstTracks = {};
     found->others = std::move(others);
     found->tracks = withOtherWindows(*found, found->others, context.part(compared, 1.0));
     choice.fromOthers = std::count_if(found->tracks.begin(), found->tracks.end(),

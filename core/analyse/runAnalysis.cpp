@@ -137,26 +137,27 @@ namespace {
                       const RunContext &context)
     {
         if (looksTwice(analysis)) {
-            const SecondLookDepth depth = request.depth == AnalysisDepth::Trial ? SecondLookDepth::Tracks
-                                          : request.keepsFirstTracks            ? SecondLookDepth::SignalsBesideTracks
-                                                                                : SecondLookDepth::Signals;
-            SecondView seen =
-                lookTwice(analysis, std::move(analysis.tracks), subtracted, depth, context.part(0.0, 0.5));
-            analysis.tracks = std::move(seen.tracks);
-            analysis.firstTracks = std::move(seen.first);
-            analysis.areas = std::move(seen.areas);
-        } else if (cutsOnly(analysis) && request.depth != AnalysisDepth::Trial) {
+            SecondView view =
+                analysis.firstView
+                    ? *std::exchange(analysis.firstView, {})
+                    : lookTwice(analysis, std::move(analysis.tracks), subtracted, context.part(0.0, 0.2));
+            if (request.isTrial)
+                analysis.firstView = std::make_shared<const SecondView>(view);
+            else
+                view = lookBehind(analysis, std::move(view), context.part(0.2, 0.5));
+            analysis.tracks = std::move(view.tracks);
+            numberByDetection(analysis.tracks);
+            analysis.areas = joinAreas(std::move(view.areas));
+        } else if (cutsOnly(analysis) && !request.isTrial) {
             analysis.tracks = cutToSignals(analysis, std::move(analysis.tracks), context.part(0.0, 0.5));
         }
         analysis.tracks = withoutLoneTeeth(analysis, std::move(analysis.tracks), context.part(0.5, 0.6));
         analysis.tracks = withoutGhosts(analysis, std::move(analysis.tracks));
-        if (request.keepsFirstTracks && analysis.firstTracks.empty()) // families
-            analysis.firstTracks = analysis.tracks;
         if (!subtracted.empty()) {
             analysis.tracks.insert(analysis.tracks.end(), subtracted.begin(), subtracted.end());
             numberByDetection(analysis.tracks);
         }
-        if (request.depth != AnalysisDepth::Trial)
+        if (!request.isTrial)
             holdAgainstOwnNoise(analysis, context.part(0.6, 1.0));
     }
 
@@ -220,8 +221,6 @@ namespace {
     {
         // The chain, which may be as large as all else, is gone when others search for more.
         analysis.tracks = detectedTracks(analysis, context.part(0.0, 0.9), request, publisher);
-        if (request.depth == AnalysisDepth::Trial)
-            analysis.chainTracks = analysis.tracks;
         settleTracks(analysis, request, subtracted, context.part(0.9, 1.0));
     }
 
@@ -249,10 +248,12 @@ namespace {
                                             const RunContext &context, const Analysis *previous,
                                             const RunRequest &request)
     {
-        if (previous && previous->settings == settings && previous->chainTracks
-            && request.depth == AnalysisDepth::Tracks && !request.statistic) { // a trial that is completed
+        const bool isTried = previous && previous->settings == settings && previous->firstView
+                             && (!previous->calibration->isFirstEstimate
+                                 || request.calibration == CalibrationDepth::FirstEstimate);
+        const bool hasPictures = request.depth != AnalysisDepth::Whole || (previous && previous->statistic);
+        if (isTried && hasPictures && !request.statistic) { // the trial is completed
             auto completed = std::make_shared<Analysis>(*previous);
-            completed->tracks = *std::exchange(completed->chainTracks, {});
             settleTracks(*completed, request, {}, context);
             return completed;
         }
@@ -276,6 +277,8 @@ namespace {
                 publisher.publishQuickLook(spectrogram, settings.noise, context.part(0.0, 0.01));
             normalisePlan(*analysis, spectrogram, context.part(0.01, 0.2));
         }
+        if (isTried)
+            analysis->firstView = previous->firstView;
         calibratePlan(*analysis, context.part(0.2, 0.5), request.calibration);
         run(*analysis, context.part(0.5, 1.0), request, publisher);
         return analysis;
@@ -331,7 +334,7 @@ std::shared_ptr<Analysis> runOnRecording(const RecordingPointer &recording, cons
     checkWindow(settings);
     std::shared_ptr<Analysis> analysis =
         analyseWithRest(recording, settings, context, lender(request.previous, recording), request);
-    if (request.depth != AnalysisDepth::Trial)
+    if (!request.isTrial)
         finishTracks(*analysis);
     return analysis;
 }
@@ -395,7 +398,7 @@ namespace {
         if (analysis.grid().isSpectrum())
             publisher = ProgressPublisher(request.pictures, analysis.time(), analysis.grid().axes.back());
         run(analysis, context.part(0.1, 1.0), request, publisher);
-        if (request.depth != AnalysisDepth::Trial)
+        if (!request.isTrial)
             finishTracks(analysis);
     }
 

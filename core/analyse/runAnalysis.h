@@ -11,8 +11,12 @@
 namespace faintline {
 
 struct RunRequest : AnalysisRequest {
-    RunRequest(AnalysisRequest request) : AnalysisRequest(std::move(request)) {}
-    bool keepsFirstTracks = false; ///< sets Analysis::firstTracks
+    RunRequest(AnalysisRequest request)
+        : AnalysisRequest(std::move(request)), isTrial(depth == AnalysisDepth::Trial)
+    {
+    }
+
+    bool isTrial; ///< whether the tracks are those of a trial; a trial of greater depth has its pictures, too
 };
 
 /// Analyses a recording in the window of the settings, T0 if they leave it open.

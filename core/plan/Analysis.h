@@ -30,6 +30,8 @@ struct NoiseBand {
 /// The band of ln K values, one per frame, from settled noise. Precondition: at least two.
 NoiseBand noiseBand(std::span<const double> lnK);
 
+struct SecondView;
+
 /// Result of a run of the chain, with its plan. Immutable; parts that remain valid after a change of settings are
 /// shared.
 struct Analysis : AnalysisPlan {
@@ -42,11 +44,8 @@ struct Analysis : AnalysisPlan {
     std::vector<Track> tracks; ///< ordered by detection, then cell
     /// Tracks that the recording's own noise explains (ownNoiseLaw.h), not among `tracks`.
     std::vector<Track> explainedByNoise;
-    /// The tracks before signals were searched for behind others and identities assigned (secondLook.h), including
-    /// those that the noise explains, untrimmed; kept while a window is chosen, because trials of other windows have no
-    /// others.
-    std::vector<Track> firstTracks;
-    std::optional<std::vector<Track>> chainTracks; ///< those of the chain itself; kept by trials (AnalysisDepth::Trial)
+    /// What the tracks of a trial were made from, so that it can be completed (secondLook.h).
+    std::shared_ptr<const SecondView> firstView;
     std::vector<Area> areas; ///< regions of raised level without a line, ordered by time (secondLook.h)
     /// For frames on several axes: the tracks found by thresholding each frame separately.
     std::vector<Track> conventional;

@@ -72,38 +72,44 @@ namespace {
         return sum / quantiles;
     }
 
+    Explanations explanationsOf(const NormalisedFrames &frames)
+    {
+        /// The window's leakage over a distance in bins that is known to `error` cells.
+        const auto around = [geometry = frames.geometry()](double (*leakage)(WindowShape, double), double error) {
+            return [=](double bins) {
+                const double cells = bins / geometry.binsPerCell;
+                return std::max({leakage(geometry.window, std::max(0.0, cells - error)),
+                                 leakage(geometry.window, cells), leakage(geometry.window, cells + error)});
+            };
+        };
+        return {frames.grid().size(), around(leakageBound, 0.0), around(leakageAt, 0.02)};
+    }
+
     class SecondLook
     {
     public:
         SecondLook(const Analysis &analysis, const RunContext &context)
+            : SecondLook(analysis, context, {{}, {}, explanationsOf(*analysis.frames)})
+        {
+        }
+
+        SecondLook(const Analysis &analysis, const RunContext &context, SecondView view)
             : m_analysis(analysis), m_context(context), m_frames(*analysis.frames), m_cells(m_frames.grid().size()),
-              m_geometry(m_frames.geometry()),
-              m_explanations(m_cells, leakageAround(leakageBound, 0.0), leakageAround(leakageAt, 0.02)),
-              m_model(bothWaysModel(analysis))
+              m_geometry(m_frames.geometry()), m_explanations(std::move(view.explanations)),
+              m_model(bothWaysModel(analysis)), m_tracks(std::move(view.tracks)), m_areas(std::move(view.areas))
         {
         }
 
-        SecondView run(std::vector<Track> found, std::span<const Track> subtracted, SecondLookDepth depth)
+        SecondView result() { return {std::move(m_tracks), std::move(m_areas), std::move(m_explanations)}; }
+
+        void lookBehindAll()
         {
-            lookAtAll(std::move(found), subtracted, m_context.part(0.0, 0.4));
-            SecondView view;
-            if (depth != SecondLookDepth::Tracks && m_analysis.settings.family.isNone()) {
-                if (depth == SecondLookDepth::SignalsBesideTracks) {
-                    view.first = m_tracks;
-                    numberByDetection(view.first);
-                }
-                lookBehind();
-                m_tracks = relinked(std::move(m_tracks));
-                m_tracks = decideJointly(m_analysis, std::move(m_tracks), slopeFramesOf(*m_model.axis),
-                                         m_context.part(1.0, 1.0));
-            }
-            numberByDetection(m_tracks);
-            view.tracks = std::move(m_tracks);
-            view.areas = joinAreas(std::move(m_areas));
-            return view;
+            searchBehindAll();
+            m_tracks = relinked(std::move(m_tracks));
+            m_tracks =
+                decideJointly(m_analysis, std::move(m_tracks), slopeFramesOf(*m_model.axis), m_context.part(1.0, 1.0));
         }
 
-    private:
         void lookAtAll(std::vector<Track> found, std::span<const Track> subtracted, const RunContext &context)
         {
             std::stable_sort(found.begin(), found.end(),
@@ -135,24 +141,18 @@ namespace {
             }
         }
 
+    private:
         /// Searches behind what is explained, as long as that finds something.
-        void lookBehind()
+        void searchBehindAll()
         {
-            for (int pass = 0; pass < behindLimitPasses && m_accepted > 0; ++pass) {
-                const RunContext context = m_context.part(0.4 + 0.2 * pass, 0.6 + 0.2 * pass);
-                m_accepted = 0;
+            bool isMore = !m_tracks.empty();
+            for (int pass = 0; pass < behindLimitPasses && isMore; ++pass) {
+                const RunContext context =
+                    m_context.part(double(pass) / behindLimitPasses, double(pass + 1) / behindLimitPasses);
+                const std::size_t known = m_tracks.size();
                 lookAtAll(searchBehind(m_analysis, m_explanations, context.part(0.0, 0.7)), {}, context.part(0.7, 1.0));
+                isMore = m_tracks.size() > known;
             }
-        }
-
-        /// The window's leakage over a distance in bins that is known to `error` cells.
-        std::function<double(double)> leakageAround(double (*leakage)(WindowShape, double), double error) const
-        {
-            return [=, shape = m_geometry.window, binsPerCell = m_geometry.binsPerCell](double bins) {
-                const double cells = bins / binsPerCell;
-                return std::max({leakage(shape, std::max(0.0, cells - error)), leakage(shape, cells),
-                                 leakage(shape, cells + error)});
-            };
         }
 
         /// Reads strips that fit into memory together, and calls take(number) for each.
@@ -402,7 +402,6 @@ namespace {
                 if (candidate != best)
                     candidate->track.peakStatistic = candidate->evidence;
                 m_tracks.push_back(std::move(candidate->track));
-                ++m_accepted;
                 for (ExplainedSignal &signal : candidate->signals)
                     m_explanations.add(std::move(signal));
             }
@@ -491,7 +490,6 @@ namespace {
         BothWaysModel m_model;
         std::vector<Candidate> m_candidates; ///< for the current track
         std::vector<Track> m_tracks;
-        int m_accepted = 0; ///< tracks in the last pass
         std::vector<Area> m_areas;
     };
 
@@ -563,9 +561,20 @@ std::vector<Track> cutToSignals(const Analysis &analysis, std::vector<Track> tra
 }
 
 SecondView lookTwice(const Analysis &analysis, std::vector<Track> found, std::span<const Track> subtracted,
-                     SecondLookDepth depth, const RunContext &context)
+                     const RunContext &context)
 {
-    return SecondLook(analysis, context).run(std::move(found), subtracted, depth);
+    SecondLook look(analysis, context);
+    look.lookAtAll(std::move(found), subtracted, context);
+    return look.result();
+}
+
+SecondView lookBehind(const Analysis &analysis, SecondView view, const RunContext &context)
+{
+    if (!analysis.settings.family.isNone())
+        return view;
+    SecondLook look(analysis, context, std::move(view));
+    look.lookBehindAll();
+    return look.result();
 }
 
 } // namespace faintline

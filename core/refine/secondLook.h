@@ -1,6 +1,7 @@
 #pragma once
 
 #include "plan/Analysis.h"
+#include "refine/explanation.h"
 #include "track/Area.h"
 
 #include <span>
@@ -23,16 +24,12 @@ bool cutsOnly(const AnalysisPlan &analysis);
 /// follows noise for as long as it costs nothing. Tracks that are present nowhere stay as they are.
 std::vector<Track> cutToSignals(const Analysis &analysis, std::vector<Track> tracks, const RunContext &context);
 
-/// Result of the two-sided second pass over the chain's tracks.
+/// What a second pass makes of tracks.
 struct SecondView {
-    std::vector<Track> tracks; ///< lines, by detection
-    std::vector<Area> areas;   ///< by time
-    std::vector<Track> first;  ///< tracks after step 4, by detection; if requested and if steps 5 to 7 were taken
+    std::vector<Track> tracks; ///< lines, in the order in which they were explained
+    std::vector<Area> areas;   ///< not joined
+    Explanations explanations; ///< the floor that the lines raise
 };
-
-/// How far the second pass goes: to the tracks of the chain; or also to signals hidden by them, and to identities; or
-/// the same with the former beside the result.
-enum class SecondLookDepth { Tracks, Signals, SignalsBesideTracks };
 
 /// Two-sided second pass over detected tracks: limits each signal to the time it was present and estimates its position
 /// to a fraction of a bin.
@@ -57,14 +54,14 @@ enum class SecondLookDepth { Tracks, Signals, SignalsBesideTracks };
 /// The ends of the resulting tracks are still generous, for comparison with other windows and for subtraction; they are
 /// trimmed at the very end of an analysis (trimEnds.h).
 ///
-/// Steps 5 to 7 are left out at depth Tracks, and for families, whose members lie beside each other.
+/// lookTwice takes steps 1 to 4, lookBehind the others, except for families, whose members lie beside each other.
 ///
 /// `subtracted`: lines that were removed before the frames were made (subtractLines.h). Their remainders and skirts are
 /// explained before all others, because they are not separate signals.
 ///
-/// `found`: ordered by detection, as is the result, which is renumbered. Reads all frames once; memory is proportional
-/// to the tracks' length. Deterministic.
+/// `found`: ordered by detection. Reads all frames once; memory is proportional to the tracks' length. Deterministic.
 SecondView lookTwice(const Analysis &analysis, std::vector<Track> found, std::span<const Track> subtracted,
-                     SecondLookDepth depth, const RunContext &context);
+                     const RunContext &context);
+SecondView lookBehind(const Analysis &analysis, SecondView view, const RunContext &context);
 
 } // namespace faintline
