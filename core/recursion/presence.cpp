@@ -119,8 +119,9 @@ namespace {
         void addTo(Presence &result, const Weights &alpha, const Weights &beta, Index frame) const
         {
             std::vector<double> cells(static_cast<std::size_t>(m_width));
-            for (Index s = 0; s < m_states; ++s)
-                cells[std::size_t(s % m_width)] += alpha[std::size_t(s)] * beta[std::size_t(s)];
+            for (std::size_t first = 0; first < std::size_t(m_states); first += cells.size())
+                for (std::size_t c = 0; c < cells.size(); ++c)
+                    cells[c] += alpha[first + c] * beta[first + c];
             const double off = alpha.back() * beta.back();
             double on = 0.0;
             double moment = 0.0;
@@ -128,12 +129,12 @@ namespace {
                 on += cells[c];
                 moment += cells[c] * double(c);
             }
-            const auto first = double(m_corridor.firstCells[std::size_t(frame)]);
+            const auto lowest = double(m_corridor.firstCells[std::size_t(frame)]);
             const auto at = std::size_t(frame);
             result.present[at] = float(on + off > 0.0 ? on / (on + off) : 0.0);
-            result.mean[at] = first + (on > 0.0 ? moment / on : 0.5 * double(m_width - 1));
-            result.low[at] = float(first + quantile(cells, lowQuantile * on));
-            result.high[at] = float(first + quantile(cells, highQuantile * on));
+            result.mean[at] = lowest + (on > 0.0 ? moment / on : 0.5 * double(m_width - 1));
+            result.low[at] = float(lowest + quantile(cells, lowQuantile * on));
+            result.high[at] = float(lowest + quantile(cells, highQuantile * on));
         }
 
         /// Adds the probabilities that the slope changed by 0, 1, … steps in the step into that frame.
@@ -293,12 +294,13 @@ double strongestPath(const Corridor &corridor, const KinematicAxis &axis, const 
                            double &best = next[std::size_t(to)];
                            best = std::max(best, scores[std::size_t(from)] + step.lnProbability);
                        });
-        for (std::size_t s = 0; s < states; ++s) {
-            const auto cell = Index(s) % corridor.width;
-            next[s] = std::max(0.0, next[s] + lnK[std::size_t(frame)])
-                      + double(corridor.lambda[std::size_t(frame * corridor.width + cell)]);
-            largest = std::max(largest, next[s]);
-        }
+        const float *lambda = corridor.lambda.data() + frame * corridor.width;
+        for (std::size_t first = 0; first < states; first += std::size_t(corridor.width))
+            for (std::size_t c = 0; c < std::size_t(corridor.width); ++c) {
+                double &score = next[first + c];
+                score = std::max(0.0, score + lnK[std::size_t(frame)]) + double(lambda[c]);
+                largest = std::max(largest, score);
+            }
         std::swap(scores, next);
     }
     return largest;
