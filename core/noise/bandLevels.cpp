@@ -46,12 +46,20 @@ namespace {
     {
     public:
         FrameLevels(const BlockBackground &block, Index bands, double likeness)
-            : m_block(block), m_bands(bands), m_cells(std::ssize(block.lnPower)), m_likeness(likeness),
-              m_agreeing(float(4.0 * medianScatter(double(m_cells) / double(bands)))), m_inverse(std::size_t(m_cells))
+            : m_bands(bands), m_cells(std::ssize(block.lnPower)), m_likeness(likeness),
+              m_agreeing(float(4.0 * medianScatter(double(m_cells) / double(bands)))), m_inverse(std::size_t(m_cells)),
+              m_noise(std::size_t(bands)), m_firm(std::size_t(bands))
         {
             for (std::size_t cell = 0; cell < m_inverse.size(); ++cell)
                 m_inverse[cell] =
                     block.lnPower[cell] > NoiseBackground::silence ? std::exp(-block.lnPower[cell]) : 0.0f;
+            for (Index band = 0; band < bands; ++band)
+                for (Index cell = firstCell(band, bands, m_cells); cell < endCell(band, bands, m_cells); ++cell) {
+                    if (block.isNoise[std::size_t(cell)])
+                        m_noise[std::size_t(band)].push_back(cell);
+                    if (block.isFirm[std::size_t(cell)])
+                        m_firm[std::size_t(band)].push_back(cell);
+                }
         }
 
         /// Levels of each sub-band, and last of the whole band.
@@ -68,7 +76,7 @@ namespace {
             m_sample.clear();
             for (Index band : m_telling)
                 if (m_telling.size() < 3 || std::abs(levels[std::size_t(band)] - middle) < m_agreeing)
-                    collect(frame, band, isFirm ? m_block.isFirm : m_block.isNoise);
+                    collect(frame, isFirm ? m_firm[std::size_t(band)] : m_noise[std::size_t(band)]);
             const float mean = truncatedMean(m_sample, std::exp(middle));
             levels.back() =
                 mean > 0.0f && !m_sample.empty() ? lnMean(mean, std::ssize(m_sample), m_likeness) : levelNotKnown;
@@ -84,7 +92,7 @@ namespace {
             m_known.clear();
             for (Index band = 0; band < m_bands; ++band) {
                 m_sample.clear();
-                collect(frame, band, m_block.isNoise);
+                collect(frame, m_noise[std::size_t(band)]);
                 const std::ptrdiff_t count = std::ssize(m_sample);
                 if (count < fewestCells)
                     continue;
@@ -94,18 +102,16 @@ namespace {
                 levels[std::size_t(band)] =
                     lnMean(truncatedMean(m_sample, median / std::numbers::ln2_v<float>), count, m_likeness);
                 m_known.push_back(band);
-                const Index first = firstCell(band, m_bands, m_cells);
-                const Index end = endCell(band, m_bands, m_cells);
-                if (2 * std::count(m_block.isFirm.begin() + first, m_block.isFirm.begin() + end, true) >= end - first)
+                if (2 * std::ssize(m_firm[std::size_t(band)])
+                    >= endCell(band, m_bands, m_cells) - firstCell(band, m_bands, m_cells))
                     m_telling.push_back(band);
             }
         }
 
-        void collect(std::span<const float> frame, Index band, const std::vector<bool> &wanted)
+        void collect(std::span<const float> frame, const std::vector<Index> &wanted)
         {
-            for (Index cell = firstCell(band, m_bands, m_cells); cell < endCell(band, m_bands, m_cells); ++cell)
-                if (const auto c = std::size_t(cell); wanted[c])
-                    m_sample.push_back(frame[c] * m_inverse[c]);
+            for (const Index cell : wanted)
+                m_sample.push_back(frame[std::size_t(cell)] * m_inverse[std::size_t(cell)]);
         }
 
         /// Median; two values have no majority, so all count.
@@ -116,12 +122,13 @@ namespace {
             return levels.empty() ? 0.0f : std::accumulate(levels.begin(), levels.end(), 0.0f) / float(levels.size());
         }
 
-        const BlockBackground &m_block;
         Index m_bands;
         Index m_cells;
         double m_likeness;
         float m_agreeing; ///< maximum distance of a sub-band's level from the median one
         std::vector<float> m_inverse;
+        std::vector<std::vector<Index>> m_noise; ///< cells of noise in each sub-band
+        std::vector<std::vector<Index>> m_firm;  ///< those whose background is firm
         std::vector<float> m_sample;
         std::vector<Index> m_telling;
         std::vector<Index> m_known;
