@@ -96,6 +96,9 @@ namespace {
             for (const double step : {1.0 / factor, factor, own / factor, own * factor})
                 if (!isTried(step) && isFeasible(step))
                     tried(step, step < 1.0 ? laws::glide() : m_asked.model);
+            while (isTooLong(*m_analyses.front())
+                   && isFeasible(m_trials.front().windowSeconds / m_windowSeconds / factor))
+                tried(m_trials.front().windowSeconds / m_windowSeconds / factor, laws::glide());
             std::vector<std::shared_ptr<const Analysis>> result = m_analyses;
             result.erase(result.begin() + Index(numberOf(windowSecondsOf(chosen))));
             return result;
@@ -200,6 +203,15 @@ namespace {
             });
         }
 
+        /// Whether the next shorter window sees a sure track better.
+        static bool isTooLong(const Analysis &analysis)
+        {
+            return std::ranges::any_of(analysis.tracks, [&](const Track &track) {
+                return track.peakStatistic >= sureStatistic(analysis)
+                       && isSeenBetter(track, analysis, windowSecondsOf(analysis) / factor);
+            });
+        }
+
         static double shareKept(const Analysis &shorter, const Analysis &longer)
         {
             const auto onAxes = [](const Analysis &analysis) {
@@ -290,8 +302,8 @@ std::shared_ptr<const Analysis> runInChosenWindow(const RecordingPointer &record
         wanted.previous = trial.get();
     }
     choice.asked = settings;
-    const std::shared_ptr<Analysis> found = runOnRecording(recording, ofTrial(choice, choice.chosen, settings), wanted,
-                                                           context.part(searched, detected));
+    const std::shared_ptr<Analysis> found =
+        runOnRecording(recording, ofTrial(choice, choice.chosen, settings), wanted, context.part(searched, detected));
     trial = {};
     const auto count = double(others.size());
     if (isChosen || subtracts) // after the pictures, which the user waits for; the search ran without subtraction

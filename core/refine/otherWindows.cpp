@@ -105,6 +105,35 @@ namespace {
         std::vector<Band> m_bands; ///< 5-95 %; empty where absent
     };
 
+    /// How well a window sees a signal, relative: the energy in a cell of one frame, over that of the noise, times the
+    /// root of the number of frames. A signal that moves by m cells within a window has 1/m of its energy in each.
+    double visibility(double window, double cells)
+    {
+        return std::sqrt(window) / std::max(1.0, cells);
+    }
+
+    /// Mean square of the movement within a window, or mean product of those in two successive ones, in cells²; 0 if it
+    /// does not last for that.
+    double movement2(const Curve &x, double window, int windows)
+    {
+        double sum = 0.0;
+        double count = 0.0;
+        for (std::size_t i = 0; i < x.count() && x.secondsAt(i) + double(windows) * window <= x.end(); ++i) {
+            const double t = x.secondsAt(i);
+            const double one = x.at(t + window) - x.at(t);
+            sum += one * (windows == 1 ? one : x.at(t + 2.0 * window) - x.at(t + window));
+            count += 1.0;
+        }
+        return count > 0.0 ? std::max(0.0, sum / count) * window * window : 0.0;
+    }
+
+    /// In a window, than in the base's.
+    bool isBetterIn(const Curve &x, double window, double ofBase)
+    {
+        return visibility(window, std::sqrt(movement2(x, window, 1)))
+               > visibility(ofBase, std::sqrt(movement2(x, ofBase, 2)));
+    }
+
     /// A track of another window in the frames of this one, interpolated between its points.
     Track inFramesOf(const Analysis &own, const Analysis &other, const Track &track)
     {
@@ -249,25 +278,6 @@ namespace {
             return std::move(found.tracks);
         }
 
-        /// How well a window sees it, relative: the energy in a cell of one frame, over that of the noise, times the
-        /// root of the number of frames. A signal that moves by m cells within a window has 1/m of its energy in each.
-        static double visibility(double window, double cells) { return std::sqrt(window) / std::max(1.0, cells); }
-
-        /// Mean square of the movement within a window, or mean product of those in two successive ones, in cells²; 0
-        /// if it does not last for that.
-        static double movement2(const Curve &x, double window, int windows)
-        {
-            double sum = 0.0;
-            double count = 0.0;
-            for (std::size_t i = 0; i < x.count() && x.secondsAt(i) + double(windows) * window <= x.end(); ++i) {
-                const double t = x.secondsAt(i);
-                const double one = x.at(t + window) - x.at(t);
-                sum += one * (windows == 1 ? one : x.at(t + 2.0 * window) - x.at(t + window));
-                count += 1.0;
-            }
-            return count > 0.0 ? std::max(0.0, sum / count) * window * window : 0.0;
-        }
-
         bool isShorter() const { return windowOf(*m_other) < windowOf(m_base); }
 
         /// The cells of the base's frames within one of where x is during their windows.
@@ -322,10 +332,7 @@ namespace {
 
         bool isSeenBetter(const Curve &x) const
         {
-            const double here = windowOf(*m_other);
-            const double there = windowOf(m_base);
-            return visibility(here, std::sqrt(movement2(x, here, 1)))
-                   > visibility(there, std::sqrt(movement2(x, there, 2)));
+            return isBetterIn(x, windowOf(*m_other), windowOf(m_base));
         }
 
         double cellHz() const { return 1.0 / std::min(windowOf(m_base), windowOf(*m_other)); } ///< of the coarser one
@@ -583,6 +590,11 @@ namespace {
     };
 
 } // namespace
+
+bool isSeenBetter(const Track &track, const Analysis &analysis, double windowSeconds)
+{
+    return isBetterIn(Curve(track, analysis), windowSeconds, windowOf(analysis));
+}
 
 std::vector<Track> withOtherWindows(const Analysis &base, std::span<const std::shared_ptr<const Analysis>> others,
                                     const RunContext &context)

@@ -83,6 +83,7 @@ private slots:
     void aGlideBesideLinesThatStandStillIsFound();
     void oneThatWandersBesideLinesThatStandStillIsFound();
     void strongLinesThatStandStillStay();
+    void shorterWindowsAreTriedForWhatIsTooFast();
     void aChangeOfTheThresholdAsksAgain();
 };
 
@@ -236,6 +237,28 @@ void tst_otherWindows::strongLinesThatStandStillStay()
     QCOMPARE(found.size(), lines.lines.size());
     for (const Event &event : found)
         QVERIFY(std::abs(std::remainder(event.position.front(), 47.0)) < 0.03);
+}
+
+/// The automatic window has no glide, a quarter of it the slower ones, which a sixteenth sees better; that has the
+/// faster ones, too.
+void tst_otherWindows::shorterWindowsAreTriedForWhatIsTooFast()
+{
+    LineScene glides = scene(16000.0, 40.0, 4);
+    for (int i = 0; i < 2; ++i)
+        glides.lines.push_back(line(4000.0, -1500.0, 4.0 + 9.0 * i, 1.5, 10.0, 0.0125));
+    for (int i = 0; i < 2; ++i)
+        glides.lines.push_back(line(7000.0, -6000.0, 22.0 + 9.0 * i, 0.9, 10.0, 0.0125));
+    const auto analysis = analysed(glides);
+    const double window = analysis->frames->spectrogram()->windowSeconds();
+    QVERIFY(window > 0.15);
+    const std::vector<Event> found = ofAnotherWindow(*analysis);
+    QCOMPARE(found.size(), glides.lines.size());
+    for (const Event &event : found) {
+        const bool isFast = event.onsetSeconds > 20.0;
+        QVERIFY2(!isFast || std::abs(event.windowSeconds - window / 16.0) < 0.1 * event.windowSeconds,
+                 qPrintable(QString::number(event.windowSeconds)));
+        QVERIFY(event.endSeconds - event.onsetSeconds > (isFast ? 0.7 : 1.2));
+    }
 }
 
 void tst_otherWindows::aChangeOfTheThresholdAsksAgain()
