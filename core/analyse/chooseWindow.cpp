@@ -96,9 +96,6 @@ namespace {
             for (const double step : {1.0 / factor, factor, own / factor, own * factor})
                 if (!isTried(step) && isFeasible(step))
                     tried(step, step < 1.0 ? laws::glide() : m_asked.model);
-            while (isTooLong(*m_analyses.front())
-                   && isFeasible(m_trials.front().windowSeconds / m_windowSeconds / factor))
-                tried(m_trials.front().windowSeconds / m_windowSeconds / factor, laws::glide());
             std::vector<std::shared_ptr<const Analysis>> result = m_analyses;
             result.erase(result.begin() + Index(numberOf(windowSecondsOf(chosen))));
             return result;
@@ -203,15 +200,6 @@ namespace {
             });
         }
 
-        /// Whether the next shorter window sees a sure track better.
-        static bool isTooLong(const Analysis &analysis)
-        {
-            return std::ranges::any_of(analysis.tracks, [&](const Track &track) {
-                return track.peakStatistic >= sureStatistic(analysis)
-                       && isSeenBetter(track, analysis, windowSecondsOf(analysis) / factor);
-            });
-        }
-
         static double shareKept(const Analysis &shorter, const Analysis &longer)
         {
             const auto onAxes = [](const Analysis &analysis) {
@@ -238,6 +226,18 @@ namespace {
     AnalysisSettings ofTrial(const WindowChoice &choice, std::size_t number, const AnalysisSettings &settings)
     {
         return number == choice.automatic ? settings : inWindowOf(choice.trials[number], settings);
+    }
+
+    /// Whether a window shorter than all that were asked sees better what the shortest one knew better.
+    bool isTooLong(const WindowTrial &shortest, const Analysis &found)
+    {
+        const Axis &axis = found.grid().axes.back();
+        const double next = shortest.windowSeconds / factor;
+        return double(axis.count) * axis.step * next >= fewestCellsOfBand
+               && std::ranges::any_of(found.tracks, [&](const Track &track) {
+                      return track.windowSeconds > 0.0 && track.windowSeconds < (1.0 + 1e-6) * shortest.windowSeconds
+                             && isSeenBetter(track, found, next, track.windowSeconds);
+                  });
     }
 
     /// Whether all settings that affect the choice of a window are equal.
@@ -315,6 +315,19 @@ std::shared_ptr<const Analysis> runInChosenWindow(const RecordingPointer &record
         }
     found->others = std::move(others);
     found->tracks = withOtherWindows(*found, found->others, context.part(compared, 1.0));
+    while (!choice.trials.empty() && isTooLong(choice.trials.front(), *found)) {
+        WindowTrial next = choice.trials.front();
+        next.windowSeconds /= factor;
+        next.settings = inWindowOf(next, next.settings);
+        const RunContext part = context.part(1.0, 1.0);
+        found->others.insert(found->others.begin(), runOnRecording(recording, inWindowOf(next, settings),
+                                                                   trialRequest(wanted.calibration), part));
+        next.tracks = std::ssize(found->others.front()->tracks);
+        choice.trials.insert(choice.trials.begin(), next);
+        ++choice.automatic;
+        ++choice.chosen;
+        found->tracks = withOtherWindows(*found, std::span(found->others).first(1), part);
+    }
     choice.fromOthers = std::count_if(found->tracks.begin(), found->tracks.end(),
                                       [](const Track &track) { return track.windowSeconds > 0.0; });
     found->choice = std::move(choice);

@@ -127,11 +127,10 @@ namespace {
         return count > 0.0 ? std::max(0.0, sum / count) * window * window : 0.0;
     }
 
-    /// In a window, than in the base's.
-    bool isBetterIn(const Curve &x, double window, double ofBase)
+    bool isBetterIn(const Curve &x, double window, double than)
     {
         return visibility(window, std::sqrt(movement2(x, window, 1)))
-               > visibility(ofBase, std::sqrt(movement2(x, ofBase, 2)));
+               > visibility(than, std::sqrt(movement2(x, than, 2)));
     }
 
     /// A track of another window in the frames of this one, interpolated between its points.
@@ -330,10 +329,7 @@ namespace {
             return energy / bins > 0.5 * own;
         }
 
-        bool isSeenBetter(const Curve &x) const
-        {
-            return isBetterIn(x, windowOf(*m_other), windowOf(m_base));
-        }
+        bool isSeenBetter(const Curve &x) const { return isBetterIn(x, windowOf(*m_other), windowOf(m_base)); }
 
         double cellHz() const { return 1.0 / std::min(windowOf(m_base), windowOf(*m_other)); } ///< of the coarser one
         double windowHalf() const { return 0.5 * windowOf(*m_other); }
@@ -591,9 +587,9 @@ namespace {
 
 } // namespace
 
-bool isSeenBetter(const Track &track, const Analysis &analysis, double windowSeconds)
+bool isSeenBetter(const Track &track, const Analysis &analysis, double windowSeconds, double thanSeconds)
 {
-    return isBetterIn(Curve(track, analysis), windowSeconds, windowOf(analysis));
+    return isBetterIn(Curve(track, analysis), windowSeconds, thanSeconds);
 }
 
 std::vector<Track> withOtherWindows(const Analysis &base, std::span<const std::shared_ptr<const Analysis>> others,

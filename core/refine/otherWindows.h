@@ -49,7 +49,7 @@ namespace faintline {
 std::vector<Track> withOtherWindows(const Analysis &base, std::span<const std::shared_ptr<const Analysis>> others,
                                     const RunContext &context = {});
 
-/// Whether a window sees a track of an analysis better than the analysis' own does, as above.
-bool isSeenBetter(const Track &track, const Analysis &analysis, double windowSeconds);
+/// Whether a window sees a track of an analysis better than another one does, as above.
+bool isSeenBetter(const Track &track, const Analysis &analysis, double windowSeconds, double thanSeconds);
 
 } // namespace faintline
