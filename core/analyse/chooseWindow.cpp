@@ -228,16 +228,43 @@ namespace {
         return number == choice.automatic ? settings : inWindowOf(choice.trials[number], settings);
     }
 
-    /// Whether a window shorter than all that were asked sees better what the shortest one knew better.
+    /// Whether the next shorter window sees better what the shortest one knew better.
     bool isTooLong(const WindowTrial &shortest, const Analysis &found)
     {
-        const Axis &axis = found.grid().axes.back();
-        const double next = shortest.windowSeconds / factor;
-        return double(axis.count) * axis.step * next >= fewestCellsOfBand
-               && std::ranges::any_of(found.tracks, [&](const Track &track) {
-                      return track.windowSeconds > 0.0 && track.windowSeconds < (1.0 + 1e-6) * shortest.windowSeconds
-                             && isSeenBetter(track, found, next, track.windowSeconds);
-                  });
+        return std::ranges::any_of(found.tracks, [&](const Track &track) {
+            return track.windowSeconds > 0.0 && track.windowSeconds < (1.0 + 1e-6) * shortest.windowSeconds
+                   && isSeenBetter(track, found, shortest.windowSeconds / factor, track.windowSeconds);
+        });
+    }
+
+    /// Asks ever shorter windows, until the next one would not see better what the last one knew better. Without such an
+    /// end nothing changes: bursts have more energy in every shorter window.
+    void askShorterWindows(Analysis &found, WindowChoice &choice, const AnalysisSettings &settings,
+                           CalibrationDepth calibration, const RunContext &context)
+    {
+        Analysis asked;
+        static_cast<AnalysisPlan &>(asked) = found;
+        asked.tracks = found.tracks;
+        asked.areas = found.areas;
+        WindowChoice trials = choice;
+        const double bandHz = double(found.grid().axes.back().count) * found.grid().axes.back().step;
+        while (isTooLong(trials.trials.front(), asked)) {
+            WindowTrial next = trials.trials.front();
+            next.windowSeconds /= factor;
+            if (bandHz * next.windowSeconds < fewestCellsOfBand)
+                return;
+            next.settings = inWindowOf(next, next.settings);
+            asked.others.insert(asked.others.begin(), runOnRecording(found.recording, inWindowOf(next, settings),
+                                                                     trialRequest(calibration), context));
+            next.tracks = std::ssize(asked.others.front()->tracks);
+            trials.trials.insert(trials.trials.begin(), next);
+            ++trials.automatic;
+            ++trials.chosen;
+            asked.tracks = withOtherWindows(asked, std::span(asked.others).first(1), context);
+        }
+        found.tracks = std::move(asked.tracks);
+        found.others.insert(found.others.begin(), asked.others.begin(), asked.others.end());
+        choice = std::move(trials);
     }
 
     /// Whether all settings that affect the choice of a window are equal.
@@ -315,19 +342,7 @@ std::shared_ptr<const Analysis> runInChosenWindow(const RecordingPointer &record
         }
     found->others = std::move(others);
     found->tracks = withOtherWindows(*found, found->others, context.part(compared, 1.0));
-    while (!choice.trials.empty() && isTooLong(choice.trials.front(), *found)) {
-        WindowTrial next = choice.trials.front();
-        next.windowSeconds /= factor;
-        next.settings = inWindowOf(next, next.settings);
-        const RunContext part = context.part(1.0, 1.0);
-        found->others.insert(found->others.begin(), runOnRecording(recording, inWindowOf(next, settings),
-                                                                   trialRequest(wanted.calibration), part));
-        next.tracks = std::ssize(found->others.front()->tracks);
-        choice.trials.insert(choice.trials.begin(), next);
-        ++choice.automatic;
-        ++choice.chosen;
-        found->tracks = withOtherWindows(*found, std::span(found->others).first(1), part);
-    }
+    askShorterWindows(*found, choice, settings, wanted.calibration, context.part(1.0, 1.0));
     choice.fromOthers = std::count_if(found->tracks.begin(), found->tracks.end(),
                                       [](const Track &track) { return track.windowSeconds > 0.0; });
     found->choice = std::move(choice);
