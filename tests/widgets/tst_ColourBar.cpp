@@ -48,6 +48,20 @@ private slots:
         QVERIFY(m_bar->range().high > m_bar->range().low);
     }
 
+    void endOfALongRangeIsDraggedOnItsOwnScale()
+    {
+        m_bar->setHistogram(ByteScale(ByteScale::Kind::ScoreNats), {});
+        m_bar->setMarker(16.0);
+        m_bar->setRange(0.0, 2000.0);
+        const ColourScale scale = ColourScale::of(ByteScale(ByteScale::Kind::ScoreNats), 16.0);
+        const Span places = scale.places(m_bar->range());
+        const double half = scale.value(places.middle());
+        drag(places.high, places.middle());
+        QVERIFY(half < 300.0);
+        QVERIFY(std::abs(m_bar->range().high / half - 1.0) < 0.05);
+        QCOMPARE(m_bar->range().low, 0.0);
+    }
+
     void doubleClickAsksForAutomatic()
     {
         QSignalSpy automatic(m_bar.get(), &ColourBar::automaticRequested);
@@ -85,13 +99,13 @@ private slots:
     }
 
 private:
-    void drag(double fromValue, double toValue)
+    void drag(double fromPlace, double toPlace)
     {
         // The bar shows the range and 6 % of it beyond either end where there is no histogram.
-        const Span scale{m_bar->range().low - 0.06 * m_bar->range().width(),
-                         m_bar->range().high + 0.06 * m_bar->range().width()};
+        const Span range = m_bar->places();
+        const Span scale{range.low - 0.06 * range.width(), range.high + 0.06 * range.width()};
         const auto y = [&](double value) { return 288.0 - (value - scale.low) / scale.width() * (288.0 - 26.0); };
-        const QPointF from(30.0, y(fromValue)), to(30.0, y(toValue));
+        const QPointF from(30.0, y(fromPlace)), to(30.0, y(toPlace));
         QTest::mousePress(m_bar.get(), Qt::LeftButton, {}, from.toPoint());
         QMouseEvent move(QEvent::MouseMove, to, m_bar->mapToGlobal(to), Qt::NoButton, Qt::LeftButton, {});
         QCoreApplication::sendEvent(m_bar.get(), &move);

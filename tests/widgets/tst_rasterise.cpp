@@ -2,6 +2,7 @@
 #include "widgets/base/rasterise.h"
 
 #include "pictures.h"
+#include "widgets/base/ColourScale.h"
 
 #include <algorithm>
 #include <cmath>
@@ -152,12 +153,29 @@ private slots:
             return automaticRange(picture->scale(), countPixels(*picture, 1.0, 1.0), threshold);
         };
         const Span full = rangeWith(4, 14.0);
-        QVERIFY(rangeWith(4, {}).low > 150.0);               // what the picture alone would say
-        QVERIFY(full.low <= 7.0 && full.high <= 7.0 + 35.0); // 14 nat is no longer black
-        QVERIFY(full.high >= 28.0);
+        QVERIFY(rangeWith(4, {}).low > 150.0); // what the picture alone would say
+        QVERIFY(full.low <= 7.0);
+        QVERIFY(full.high > 280.0 && full.high < 310.0); // nearly the strongest, in steps of 15 %
+        const ColourScale colours = ColourScale::of(ByteScale(ByteScale::Kind::ScoreNats), 14.0);
+        QVERIFY(colours.share(14.0, full) > 0.2); // 14 nat is not black
+        QVERIFY(colours.share(220.0, full) < 0.95);
         QCOMPARE(rangeWith(0, 14.0).low, rangeWith(0, {}).low); // of noise alone, which stays dark
         QCOMPARE(rangeWith(0, 14.0).high, 21.0);
         QCOMPARE(rangeWith(4, -1.0), rangeWith(4, {}));
+    }
+
+    void coloursOfAScoreAreLogarithmicAboveTheThreshold()
+    {
+        const ColourScale bent = ColourScale::of(ByteScale(ByteScale::Kind::ScoreNats), 16.0);
+        const Span range{0.0, 2000.0};
+        for (const double value : {-3.0, 0.0, 16.0, 24.0, 24.1, 100.0, 5000.0})
+            QVERIFY(std::abs(bent.value(bent.place(value)) - value) < 1e-9 * (1.0 + std::abs(value)));
+        QCOMPARE(bent.place(20.0), 20.0);
+        QVERIFY(bent.share(16.0, range) > 0.2);
+        QVERIFY(bent.share(20.0, range) - bent.share(16.0, range) > 0.04); // ten of 256 colours
+        QCOMPARE(bent.share(2000.0, range), 1.0);
+        const ColourScale decibels = ColourScale::of(ByteScale(ByteScale::Kind::PowerDb), 16.0);
+        QCOMPARE(decibels.share(500.0, range), 0.25);
     }
 
     void whiteIsTheLargestValue()

@@ -264,17 +264,21 @@ Span automaticRange(const ByteScale &scale, const std::vector<double> &counts, s
     if (scale.kind() == ByteScale::Kind::PowerDb) {
         return {middle - 2.5, std::clamp(quantile(scale, counts, 0.998) + 2.0, middle + 10.0, middle + 16.0)};
     }
-    // The noise's tail is exponential, so a multiple of the upper quartile's distance is a false-alarm probability.
-    const double tail = std::max(quantile(scale, counts, 0.75) - middle, 0.25);
-    const double height = std::clamp(25.0 * tail, 10.0, 200.0);
-    if (!threshold || *threshold <= 0.0)
-        return {middle, middle + height};
-    constexpr double mostThresholds =
-        5.0; // above the black level: values just above the threshold then have a fifth of the colours below them
+    if (!threshold || *threshold <= 0.0) {
+        // The noise's tail is exponential, so a multiple of the upper quartile's distance is a false-alarm probability.
+        const double tail = std::max(quantile(scale, counts, 0.75) - middle, 0.25);
+        return {middle, middle + std::clamp(25.0 * tail, 10.0, 200.0)};
+    }
     constexpr double leastThresholds = 1.5; // noise alone stays dark
+    constexpr double nearlyAll = 0.98;      // of the pixels above the threshold
     const double low = std::min(middle, 0.5 * *threshold);
-    const double present = std::max(quantile(scale, counts, 1.0), leastThresholds * *threshold);
-    return {low, std::max(std::min({middle + height, low + mostThresholds * (*threshold - low), present}), low + 10.0)};
+    std::vector<double> above = counts;
+    for (int byte = 0; byte < 256; ++byte)
+        if (scale.value(byte) <= *threshold)
+            above[std::size_t(byte)] = 0.0;
+    const bool hasDetections = std::accumulate(above.begin(), above.end(), 0.0) > 0.0;
+    const double strongest = hasDetections ? quantile(scale, above, nearlyAll) : 0.0;
+    return {low, std::max({strongest, leastThresholds * *threshold, low + 10.0})};
 }
 
 } // namespace faintline

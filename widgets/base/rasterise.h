@@ -51,9 +51,9 @@ int levelToRead(const PeakPyramid &picture, const PixelRow &time, const PixelRow
 std::vector<double> countPixels(const PeakPyramid &picture, double framesPerPixel, double cellsPerPixel);
 
 /// Suggested black and white level for such counts: dB from slightly below the noise's median to 10 … 16 dB above it;
-/// nats from the noise's median to values reached only by detections; differences symmetric about zero. If lines fill a
-/// band, its median is no longer the noise's: with a given threshold, values just above it remain distinguishable,
-/// and the white level is not above the largest value, as far as that exceeds one and a half thresholds.
+/// nats from the noise's median to values reached only by detections; differences symmetric about zero. With a given
+/// threshold, from the noise's median or half the threshold, which is smaller, to nearly the strongest of what exceeds
+/// the threshold, and at least to one and a half thresholds; ColourScale keeps values near the threshold apart.
 Span automaticRange(const ByteScale &scale, const std::vector<double> &counts, std::optional<double> threshold = {});
 
 /// Peak and mean of a box of whole cells.

@@ -1,5 +1,6 @@
 #include "widgets/pings/PolarItem.h"
 
+#include "widgets/base/ColourScale.h"
 #include "widgets/base/deviceRect.h"
 #include "widgets/base/rasterise.h"
 #include "widgets/pings/visitPolar.h"
@@ -34,10 +35,11 @@ void PolarItem::setPicture(std::shared_ptr<const PeakPyramid> picture, const Axi
     m_bearing = bearing;
 }
 
-void PolarItem::setColours(const ColourMap &map, const Span &range)
+void PolarItem::setColours(const ColourMap &map, const Span &range, std::optional<double> threshold)
 {
     m_map = &map;
     m_range = range;
+    m_threshold = threshold;
 }
 
 void PolarItem::setContour(std::optional<double> value, QRgb colour)
@@ -64,9 +66,10 @@ QImage PolarItem::image(const Span &x, const Span &y, const QSize &size) const
             values[pixel] = bytes[std::size_t(ring * m_bearing.count + beam)];
     });
 
+    const ColourScale colours = ColourScale::of(m_picture->scale(), m_threshold);
     std::array<QRgb, 256> table;
     for (int byte = 0; byte < 256; ++byte)
-        table[std::size_t(byte)] = m_map->at((m_picture->scale().value(byte) - m_range.low) / m_range.width());
+        table[std::size_t(byte)] = m_map->at(colours.share(m_picture->scale().value(byte), m_range));
     const int contourByte = m_contour ? m_picture->scale().byte(*m_contour) : 256;
     QImage image(size, QImage::Format_RGB32);
     const auto at = [&](int row, int column) {

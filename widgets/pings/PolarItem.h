@@ -26,7 +26,7 @@ public:
 
     /// `range` is the picture's own axis, `bearing` that of its cells, in degrees.
     void setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &bearing);
-    void setColours(const ColourMap &map, const Span &range);
+    void setColours(const ColourMap &map, const Span &range, std::optional<double> threshold = {});
     /// Pixels adjacent to values at or above this one are drawn in the contour's colour.
     void setContour(std::optional<double> value, QRgb colour);
     void setGround(const QColor &ground) { m_ground = ground; } ///< where there are no cells
@@ -41,6 +41,7 @@ private:
     Axis m_bearing;
     const ColourMap *m_map;
     Span m_range{-6.0, 14.0};
+    std::optional<double> m_threshold; ///< of the colours
     std::optional<double> m_contour;
     QRgb m_contourColour = 0xffffffff;
     QColor m_ground;

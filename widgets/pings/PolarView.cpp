@@ -155,7 +155,7 @@ void PolarView::restyle()
 void PolarView::followColours()
 {
     const auto layers = m_view.layers();
-    m_raster->setColours(m_view.colourMap(), m_view.range());
+    m_raster->setColours(m_view.colourMap(), m_view.range(), m_view.threshold());
     m_raster->setContour(layers.testFlag(WaterfallView::ThresholdLayer) ? m_view.threshold() : std::nullopt,
                          Theme::colours(*this).contour.rgb());
     m_overlay->hasTracks = layers.testFlag(WaterfallView::TrackLayer);

@@ -27,6 +27,23 @@ namespace {
     constexpr double bottomMargin = 12.0;
     constexpr double gripReach = 7.0;
     constexpr double smallestRange = 0.5;
+    constexpr double tickSpacing = 36.0; ///< pixels
+
+    /// Every tenth of a decade that a person would name: 20, 50, 100 …
+    double nextRoundNumber(double above)
+    {
+        const double decade = std::pow(10.0, std::floor(std::log10(above)));
+        for (const double digit : {2.0, 5.0})
+            if (digit * decade > above * (1.0 + 1e-9))
+                return digit * decade;
+        return 10.0 * decade;
+    }
+
+    /// In thousands where the bar has no room for more digits.
+    QString tickText(double value, int decimals)
+    {
+        return value < 1e4 ? numberText(value, decimals) : QStringLiteral("%1k").arg(1e-3 * value);
+    }
 
 } // namespace
 
@@ -110,21 +127,30 @@ void ColourBar::setHistogram(const ByteScale &scale, const std::vector<double> &
     update();
 }
 
+ColourScale ColourBar::colours() const
+{
+    return ColourScale::of(m_byteScale, m_marker);
+}
+
 void ColourBar::setMarker(std::optional<double> value)
 {
     m_marker = value;
+    if (m_grip == Grip::None)
+        chooseScale();
     update();
 }
 
 void ColourBar::chooseScale()
 {
     // Fits as much of the data as possible into the range extended by half of it on either side.
+    const Span range = places();
     Span all = m_range;
     for (int byte = 1; byte < int(m_counts.size()); ++byte)
         if (m_counts[std::size_t(byte)] > 0.0)
             all = {std::min(all.low, m_byteScale.value(byte)), std::max(all.high, m_byteScale.value(byte))};
-    const double room = 0.5 * m_range.width(), edge = 0.06 * m_range.width();
-    m_scale = {std::max(all.low, m_range.low - room) - edge, std::min(all.high, m_range.high + room) + edge};
+    all = colours().places(all);
+    const double room = 0.5 * range.width(), edge = 0.06 * range.width();
+    m_scale = {std::max(all.low, range.low - room) - edge, std::min(all.high, range.high + room) + edge};
 }
 
 /// Width of the bar, its histogram, and the numbers beside it.
@@ -147,10 +173,10 @@ QRectF ColourBar::barRect() const
 double ColourBar::yOf(double value) const
 {
     const QRectF bar = barRect();
-    return bar.bottom() - (value - m_scale.low) / m_scale.width() * bar.height();
+    return bar.bottom() - (colours().place(value) - m_scale.low) / m_scale.width() * bar.height();
 }
 
-double ColourBar::valueAt(double y) const
+double ColourBar::placeAt(double y) const
 {
     const QRectF bar = barRect();
     return m_scale.low + (bar.bottom() - y) / bar.height() * m_scale.width();
@@ -170,11 +196,12 @@ void ColourBar::paintEvent(QPaintEvent *)
 void ColourBar::paintBar(QPainter &painter) const
 {
     const QRectF bar = barRect();
+    const Span range = places();
     const double ratio = devicePixelRatioF();
     const int height = std::max(int(ratio * bar.height()), 1);
     QImage image(1, height, QImage::Format_RGB32);
     for (int y = 0; y < height; ++y)
-        image.setPixel(0, y, m_map->at((valueAt(bar.top() + (y + 0.5) / ratio) - m_range.low) / m_range.width()));
+        image.setPixel(0, y, m_map->at((placeAt(bar.top() + (y + 0.5) / ratio) - range.low) / range.width()));
     painter.drawImage(bar, image);
     painter.setPen(QPen(Theme::colours(*this).frame, 1.0));
     painter.drawRect(bar.adjusted(-0.5, -0.5, 0.5, 0.5));
@@ -220,20 +247,39 @@ void ColourBar::paintTicks(QPainter &painter) const
     const Theme::Colours &colours = Theme::colours(*this);
     painter.setFont(Theme::plotFont());
     const QFontMetricsF metrics(painter.font());
-    const QwtScaleDiv div = linearScaleDiv(m_scale, std::max(int(bar.height() / 36.0), 2));
-    const int decimals = decimalsFor(majorStep(div));
-    for (const double value : div.ticks(QwtScaleDiv::MajorTick)) {
+    const auto [values, decimals] = ticks();
+    for (const double value : values) {
         const double y = std::round(yOf(value)) + 0.5;
         painter.setPen(QPen(colours.faintText, 1.0));
         painter.drawLine(QPointF(bar.right() + 1.0, y), QPointF(bar.right() + 5.0, y));
         painter.setPen(colours.text);
         painter.drawText(
             QRectF(bar.right() + 8.0, y - metrics.height() / 2.0, width() - bar.right() - 8.0, metrics.height()),
-            Qt::AlignLeft | Qt::AlignVCenter, numberText(value, decimals));
+            Qt::AlignLeft | Qt::AlignVCenter, tickText(value, decimals));
     }
     painter.setPen(colours.faintText);
     painter.drawText(QRectF(bar.left(), bar.top() - metrics.height() - 6.0, width() - bar.left(), metrics.height()),
                      Qt::AlignLeft | Qt::AlignVCenter, m_unit);
+}
+
+/// Numbers beside the bar, and their decimals.
+std::pair<QList<double>, int> ColourBar::ticks() const
+{
+    const double height = barRect().height();
+    const std::optional<double> threshold = colours().threshold;
+    Span linear = m_scale;
+    if (threshold)
+        linear.high = std::min(linear.high, colours().linearUntil());
+    const QwtScaleDiv div =
+        linearScaleDiv(linear, std::max(int(linear.width() / m_scale.width() * height / tickSpacing), 2));
+    QList<double> values = div.ticks(QwtScaleDiv::MajorTick);
+    if (linear.high < m_scale.high) {
+        const double top = colours().value(m_scale.high);
+        for (double value = nextRoundNumber(linear.high); value <= top; value = nextRoundNumber(value))
+            if (values.isEmpty() || yOf(values.back()) - yOf(value) >= 0.5 * tickSpacing)
+                values.append(value);
+    }
+    return {values, decimalsFor(majorStep(div))};
 }
 
 void ColourBar::paintGrips(QPainter &painter) const
@@ -251,7 +297,7 @@ void ColourBar::paintGrips(QPainter &painter) const
 void ColourBar::paintMarker(QPainter &painter) const
 {
     const QRectF bar = barRect();
-    if (!m_marker || !m_scale.contains(*m_marker))
+    if (!m_marker || !m_scale.contains(colours().place(*m_marker)))
         return;
     const double y = yOf(*m_marker);
     painter.setPen(Qt::NoPen);
@@ -266,7 +312,7 @@ ColourBar::Grip ColourBar::gripAt(double y) const
     const double toLow = std::abs(y - yOf(m_range.low)), toHigh = std::abs(y - yOf(m_range.high));
     if (std::min(toLow, toHigh) <= gripReach)
         return toLow < toHigh ? Grip::Low : Grip::High;
-    return m_range.contains(valueAt(y)) ? Grip::Both : Grip::None;
+    return places().contains(placeAt(y)) ? Grip::Both : Grip::None;
 }
 
 void ColourBar::request(const Span &range)
@@ -279,8 +325,8 @@ void ColourBar::mousePressEvent(QMouseEvent *event)
     if (event->button() != Qt::LeftButton)
         return;
     m_grip = gripAt(event->position().y());
-    m_gripValue = valueAt(event->position().y());
-    m_gripRange = m_range;
+    m_gripPlace = placeAt(event->position().y());
+    m_gripRange = places();
 }
 
 void ColourBar::mouseMoveEvent(QMouseEvent *event)
@@ -290,7 +336,7 @@ void ColourBar::mouseMoveEvent(QMouseEvent *event)
         setCursor(grip == Grip::None ? Qt::ArrowCursor : grip == Grip::Both ? Qt::OpenHandCursor : Qt::SizeVerCursor);
         return;
     }
-    const double shift = valueAt(event->position().y()) - m_gripValue;
+    const double shift = placeAt(event->position().y()) - m_gripPlace;
     Span range = m_gripRange;
     if (m_grip != Grip::High)
         range.low += shift;
@@ -300,7 +346,7 @@ void ColourBar::mouseMoveEvent(QMouseEvent *event)
         range.low = std::min(range.low, range.high - smallestRange);
     if (m_grip == Grip::High)
         range.high = std::max(range.high, range.low + smallestRange);
-    request(range);
+    request(colours().values(range));
 }
 
 void ColourBar::mouseReleaseEvent(QMouseEvent *)
@@ -319,23 +365,25 @@ void ColourBar::mouseDoubleClickEvent(QMouseEvent *)
 void ColourBar::wheelEvent(QWheelEvent *event)
 {
     const double notches = event->angleDelta().y() / 120.0;
-    const double shift = notches * 0.05 * m_range.width();
-    request({m_range.low + shift, m_range.high + shift});
+    const Span range = places();
+    const double shift = notches * 0.05 * range.width();
+    request(colours().values({range.low + shift, range.high + shift}));
     event->accept();
 }
 
 void ColourBar::keyPressEvent(QKeyEvent *event)
 {
-    const double step = std::max(0.02 * m_range.width(), 0.1);
+    const Span range = places();
+    const double step = std::max(0.02 * range.width(), 0.1);
     const double shift = event->key() == Qt::Key_Up ? step : event->key() == Qt::Key_Down ? -step : 0.0;
     if (shift == 0.0) {
         QWidget::keyPressEvent(event);
         return;
     }
     if (event->modifiers().testFlag(Qt::ShiftModifier))
-        request({std::min(m_range.low + shift, m_range.high - smallestRange), m_range.high});
+        request({colours().value(std::min(range.low + shift, range.high - smallestRange)), m_range.high});
     else
-        request({m_range.low, std::max(m_range.high + shift, m_range.low + smallestRange)});
+        request({m_range.low, colours().value(std::max(range.high + shift, range.low + smallestRange))});
 }
 
 bool ColourBar::eventFilter(QObject *watched, QEvent *event)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "frames/PeakPyramid.h"
+#include "widgets/base/ColourScale.h"
 #include "widgets/base/Span.h"
 #include "widgets/plot/ColourMap.h"
 #include "widgets/waterfall/WaterfallView.h"
@@ -37,6 +38,7 @@ public:
     void setMarker(std::optional<double> value);
 
     const Span &range() const { return m_range; }
+    Span places() const { return colours().places(m_range); } ///< of the range on the scale of colours
 
     QSize sizeHint() const override { return {usualWidth(), 240}; }
     QSize minimumSizeHint() const override { return {usualWidth(), 120}; }
@@ -62,7 +64,9 @@ private:
     static int usualWidth();
     QRectF barRect() const;
     double yOf(double value) const;
-    double valueAt(double y) const;
+    ColourScale colours() const;
+    double placeAt(double y) const; ///< on the scale of colours
+    std::pair<QList<double>, int> ticks() const;
     void chooseScale();
     Grip gripAt(double y) const;
     void request(const Span &range);
@@ -74,15 +78,15 @@ private:
 
     const ColourMap *m_map;
     Span m_range{0.0, 1.0};
-    Span m_scale{0.0, 1.0}; ///< values at the widget's lower and upper ends
+    Span m_scale{0.0, 1.0}; ///< places at the widget's lower and upper ends
     QString m_unit;
     ByteScale m_byteScale;
     std::vector<double> m_counts;
     std::optional<double> m_marker;
     QPointer<WaterfallView> m_view; ///< the bar is aligned with its canvas
     Grip m_grip = Grip::None;
-    double m_gripValue = 0.0;
-    Span m_gripRange;
+    double m_gripPlace = 0.0;
+    Span m_gripRange; ///< places
 };
 
 } // namespace faintline

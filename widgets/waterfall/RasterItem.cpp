@@ -1,5 +1,6 @@
 #include "widgets/waterfall/RasterItem.h"
 
+#include "widgets/base/ColourScale.h"
 #include "widgets/base/deviceRect.h"
 
 #include <qwt_plot.h>
@@ -110,10 +111,11 @@ void RasterItem::draw(const PixelRow &time, const PixelRow &cells, int level, st
     rasterise(*m_picture, level, time, cells, out, {first, m_time.count});
 }
 
-void RasterItem::setColours(const ColourMap &map, const Span &range)
+void RasterItem::setColours(const ColourMap &map, const Span &range, std::optional<double> threshold)
 {
     m_map = &map;
     m_range = range;
+    m_threshold = threshold;
 }
 
 void RasterItem::setContour(std::optional<double> value, QRgb colour)
@@ -124,9 +126,10 @@ void RasterItem::setContour(std::optional<double> value, QRgb colour)
 
 std::vector<QRgb> RasterItem::colourTable() const
 {
+    const ColourScale colours = ColourScale::of(m_picture->scale(), m_threshold);
     std::vector<QRgb> table(256);
     for (int byte = 0; byte < 256; ++byte)
-        table[std::size_t(byte)] = m_map->at((m_picture->scale().value(byte) - m_range.low) / m_range.width());
+        table[std::size_t(byte)] = m_map->at(colours.share(m_picture->scale().value(byte), m_range));
     return table;
 }
 
@@ -221,7 +224,7 @@ QImage RasterItem::image(const Span &x, const Span &y, bool isUpward, const QSiz
                 (m_isLogarithmic ? logarithmicRow
                                  : pixelRow)(frequency, m_isTimeVertical ? size.width() : size.height(), m_frequency));
     const int contourByte = m_contour ? m_picture->scale().byte(*m_contour) : 256;
-    paint({isUpward, m_isTimeVertical, m_map, m_range, contourByte, m_contourColour}, size);
+    paint({isUpward, m_isTimeVertical, m_map, m_range, m_threshold, contourByte, m_contourColour}, size);
     return m_image;
 }
 

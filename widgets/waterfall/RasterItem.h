@@ -33,7 +33,7 @@ public:
     void setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency, const Axis &time);
     void setTimeVertical(bool isVertical) { m_isTimeVertical = isVertical; }
     void setLogarithmic(bool isLogarithmic) { m_isLogarithmic = isLogarithmic; } ///< the frequency axis
-    void setColours(const ColourMap &map, const Span &range);
+    void setColours(const ColourMap &map, const Span &range, std::optional<double> threshold = {});
     /// Pixels adjacent to values at or above this one are drawn in the contour's colour.
     void setContour(std::optional<double> value, QRgb colour);
 
@@ -55,6 +55,7 @@ private:
         bool isTimeVertical = false;
         const ColourMap *map = nullptr;
         Span range;
+        std::optional<double> threshold;
         int contourByte = 256;
         QRgb contourColour = 0;
         bool operator==(const ImageKey &) const = default;
@@ -73,6 +74,7 @@ private:
     bool m_isLogarithmic = false;
     const ColourMap *m_map;
     Span m_range{-6.0, 14.0};
+    std::optional<double> m_threshold; ///< of the colours
     std::optional<double> m_contour;
     QRgb m_contourColour = 0xffffffff;
 

@@ -29,7 +29,7 @@ Span WaterfallPicture::automaticRange() const
 
 void WaterfallPicture::applyRange(const Span &range)
 {
-    m_raster->setColours(*m_colourMap, range);
+    m_raster->setColours(*m_colourMap, range, m_threshold);
     if (range == m_levels.range())
         return;
     m_levels.setRange(range);
@@ -52,7 +52,7 @@ void WaterfallPicture::setAutomaticRange()
 
 double WaterfallPicture::levelStep() const
 {
-    return valueUnit() == tr("dB") ? 1.0 : 0.5;
+    return valueUnit() == tr("dB") ? 1.0 : std::max(0.5, 0.01 * range().width());
 }
 
 void WaterfallPicture::stepBlack(int steps)
@@ -73,7 +73,7 @@ void WaterfallPicture::setColourMap(const QString &name)
     if (&map == m_colourMap)
         return;
     m_colourMap = &map;
-    m_raster->setColours(map, range());
+    m_raster->setColours(map, range(), m_threshold);
     replot();
     emit colourMapChanged(map.name());
 }

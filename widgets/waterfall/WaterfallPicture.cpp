@@ -257,6 +257,7 @@ void WaterfallPicture::setThreshold(double nats)
     if (threshold == m_threshold)
         return;
     m_threshold = threshold;
+    m_raster->setColours(*m_colourMap, range(), m_threshold);
     updateContent();
     emit thresholdChanged(nats);
 }

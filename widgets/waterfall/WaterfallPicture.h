@@ -110,7 +110,7 @@ public slots:
     void cycleColourMap();
     void setRange(double low, double high);
     void setAutomaticRange();
-    /// Moves the black or white level by steps of 1 dB or ½ nat.
+    /// Moves the black or white level by steps of 1 dB, or of ½ nat or a hundredth of the range.
     void stepBlack(int steps);
     void stepWhite(int steps);
     /// Threshold of the statistic in nats; NaN for none. Follows dragging.
