@@ -5,6 +5,7 @@
 #include "base/json.h"
 #include "base/logmath.h"
 #include "base/oneLine.h"
+#include "inspect/advice.h"
 #include "inspect/explain.h"
 #include "inspect/familyTeeth.h"
 #include "noise/openFrames.h"
@@ -66,6 +67,9 @@ namespace {
         json["tracked"] = explanation.isTracked;
         json["explained_by_noise"] = explanation.isExplainedByNoise;
         json["offset"] = explanation.offset;
+        if (explanation.otherWindowTrack)
+            json["found_by_window"] = {{"track", *explanation.otherWindowTrack},
+                                       {"window_s", explanation.otherWindowSeconds}};
         json["reset"]["cause"] = resetNames[std::size_t(explanation.reset.kind)];
         json["reset"]["lost"] = explanation.reset.lost;
         if (explanation.reset.track > 0)
@@ -119,6 +123,9 @@ namespace {
             std::printf(
                 "a sequential Markov detector guides its tracks; the path of that detector has %.4f nat here:\n",
                 explanation.statistic);
+        if (explanation.otherWindowTrack)
+            std::printf("track %d passes here; a window of %s s found it\n", *explanation.otherWindowTrack,
+                        formatNumber(explanation.otherWindowSeconds).c_str());
         if (explanation.isSubtracted)
             std::printf("a line was subtracted here; the path is that of the remainder\n");
         if (explanation.isExplainedByNoise)
@@ -208,17 +215,22 @@ namespace {
         const std::vector<double> position = options.position(opened.frames.get());
         const auto analysis = analyse(opened, settings, {}, context.part(0.0, 0.5));
         const Explanation explanation = explain(*analysis, options.seconds, position, context.part(0.5, 0.9));
-        const std::vector<FamilyTooth> teeth = familyTeeth(*analysis, explanation, context.part(0.9, 1.0));
+        const std::vector<FamilyTooth> teeth = familyTeeth(*analysis, explanation, context.part(0.9, 0.95));
+        const auto advice = adviceOnCell(*analysis, explanation, context.part(0.95, 1.0));
         if (options.json) {
             Json json = toJson(explanation, *analysis);
             if (!teeth.empty())
                 json["members"] = toJson(teeth);
+            if (advice)
+                json["advice"] = {{"name", advice->name}, {"sentence", advice->sentence}, {"remedy", advice->remedy}};
             std::printf("%s\n", json.dump(2, ' ', true).c_str());
             return;
         }
         print(explanation, *analysis);
         if (!teeth.empty())
             print(teeth, *analysis);
+        if (advice)
+            std::printf("%s: %s\n", advice->sentence.c_str(), advice->remedy.c_str());
     }
 
 } // namespace

@@ -6,13 +6,16 @@
 #include "app/document/Document.h"
 #include "app/document/statisticUnit.h"
 #include "base/logmath.h"
+#include "widgets/base/Theme.h"
 #include "widgets/base/axisWords.h"
 #include "widgets/base/familyWords.h"
 #include "widgets/base/labelText.h"
 #include "widgets/plot/ChartPlot.h"
 
+#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
+#include <QPushButton>
 #include <QScrollArea>
 #include <QSplitter>
 #include <QTableWidget>
@@ -120,14 +123,18 @@ QString whySentence(const Explanation &explanation, const Analysis &analysis)
     }
     const Axis &time = analysis.time();
     const double margin = explanation.displayed - explanation.threshold;
-    QString words =
-        QObject::tr("%1: D = %2 %7 at %3 and %4, %5 %7 %6 the threshold. ")
-            .arg(explanation.isTracked ? QObject::tr("Followed by a track")
-                 : margin >= 0.0       ? QObject::tr("Detected")
-                                       : QObject::tr("Not detected"),
-                 numberText(explanation.displayed, 2), secondsText(explanation.seconds, time.step),
-                 placeWords(explanation.position, analysis.grid()), numberText(std::abs(margin), 2),
-                 margin >= 0.0 ? QObject::tr("above") : QObject::tr("below"), statisticUnit(analysis.settings));
+    QString words;
+    if (explanation.otherWindowTrack && !explanation.isTracked)
+        words = QObject::tr("Event %1 passes here; a window of %2 found it. In the window that is shown: ")
+                    .arg(*explanation.otherWindowTrack)
+                    .arg(secondsText(explanation.otherWindowSeconds, 0.1 * explanation.otherWindowSeconds));
+    words += QObject::tr("%1: D = %2 %7 at %3 and %4, %5 %7 %6 the threshold. ")
+                 .arg(explanation.isTracked ? QObject::tr("Followed by a track")
+                      : margin >= 0.0       ? QObject::tr("Detected")
+                                            : QObject::tr("Not detected"),
+                      numberText(explanation.displayed, 2), secondsText(explanation.seconds, time.step),
+                      placeWords(explanation.position, analysis.grid()), numberText(std::abs(margin), 2),
+                      margin >= 0.0 ? QObject::tr("above") : QObject::tr("below"), statisticUnit(analysis.settings));
     if (!isScoreOfPaths(analysis.settings.detector))
         words += QObject::tr("This detector has no paths; the path below, in nats, is that of the sequential Markov "
                              "detector that guides its tracks. ");
@@ -183,13 +190,18 @@ QString teethSentence(const std::vector<FamilyTooth> &teeth, const FamilySetting
 }
 
 WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *parent)
-    : QWidget(parent), m_document(document), m_viewports(viewports), m_sentence(plainLabel()), m_plot(new ChartPlot),
-      m_teeth(new QTableWidget), m_ladder(new QTableWidget), m_sight(new VisibilityWatcher(*this)),
-      m_pause(new QTimer(this))
+    : QWidget(parent), m_document(document), m_viewports(viewports), m_sentence(plainLabel()), m_cure(plainLabel()),
+      m_remedy(new QPushButton), m_plot(new ChartPlot), m_teeth(new QTableWidget), m_ladder(new QTableWidget),
+      m_sight(new VisibilityWatcher(*this)), m_pause(new QTimer(this))
 {
     m_sentence->setWordWrap(true);
     m_sentence->setTextFormat(Qt::PlainText);
     m_sentence->setContentsMargins(8, 6, 8, 4);
+    m_cure->setWordWrap(true);
+    m_cure->setFont(Theme::boldFont());
+    m_cure->setContentsMargins(8, 6, 8, 4);
+    m_remedy->setObjectName(QStringLiteral("remedy"));
+    connect(m_remedy, &QPushButton::clicked, this, [this] { emit remedyRequested(*m_advice); });
     m_plot->setEmptySentence(tr("The evidence along the path appears here."));
     buildTables();
     auto *splitter = new QSplitter(Qt::Vertical);
@@ -201,6 +213,11 @@ WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *
     auto *layout = new QVBoxLayout(content);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
+    layout->addWidget(m_cure);
+    auto *remedy = new QHBoxLayout;
+    remedy->setContentsMargins(8, 0, 8, 0);
+    remedy->addWidget(m_remedy, 0, Qt::AlignLeft);
+    layout->addLayout(remedy);
     layout->addWidget(m_sentence);
     layout->addWidget(splitter, 1);
     auto *area = new QScrollArea; // in a low panel, the whole sentence comes first
@@ -278,6 +295,7 @@ void WhyPanel::say(const QString &sentence)
 {
     m_runner.cancel();
     m_explanation.reset();
+    showCure({});
     m_ladder->setRowCount(0);
     m_teeth->hide();
     m_plot->setChart({});
@@ -303,11 +321,25 @@ void WhyPanel::explainCursor()
     m_began.start();
     m_runner.start([this, analysis, at = *at](const RunContext &context) -> JobRunner::Delivery {
         auto explanation = explain(*analysis, at.seconds, at.position, context.part(0.0, 0.9));
-        auto teeth = familyTeeth(*analysis, explanation, context.part(0.9, 1.0));
-        return [this, analysis, explanation = std::move(explanation), teeth = std::move(teeth)] {
+        auto teeth = familyTeeth(*analysis, explanation, context.part(0.9, 0.95));
+        auto advice = adviceOnCell(*analysis, explanation, context.part(0.95, 1.0));
+        return [this, analysis, explanation = std::move(explanation), teeth = std::move(teeth),
+                advice = std::move(advice)] {
             show(explanation, teeth, *analysis);
+            showCure(advice);
         };
     });
+}
+
+void WhyPanel::showCure(const std::optional<Advice> &advice)
+{
+    m_advice = advice;
+    m_cure->setVisible(advice.has_value());
+    m_remedy->setVisible(advice.has_value());
+    if (!advice)
+        return;
+    m_cure->setText(capitalised(QString::fromStdString(advice->sentence)) + QLatin1Char('.'));
+    m_remedy->setText(capitalised(QString::fromStdString(advice->remedy)));
 }
 
 void WhyPanel::layColumns(const Analysis &analysis)

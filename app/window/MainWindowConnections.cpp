@@ -27,6 +27,7 @@
 #include "app/panels/SurveyPanel.h"
 #include "app/panels/SweepPanel.h"
 #include "app/panels/TargetsPanel.h"
+#include "app/panels/WhyPanel.h"
 #include "app/views/ChartMenus.h"
 #include "app/views/ReportWriter.h"
 #include "app/views/WindowViews.h"
@@ -39,6 +40,7 @@
 #include "app/workspace/Workbench.h"
 #include "widgets/base/ReadOut.h"
 #include "widgets/base/labelText.h"
+#include "widgets/base/quantities.h"
 #include "widgets/base/settingWords.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/plot/ExceedancePlot.h"
@@ -246,6 +248,9 @@ void MainWindow::connectViews()
             [this](ExceedancePlot::Unit unit) { m_controller.setThresholdUnit(decideBy(unit)); });
     connect(m_pipeline, &PipelinePanel::failed, this, &MainWindow::showError);
     connect(m_views, &WindowViews::failed, this, &MainWindow::showError);
+    connect(m_why, &WhyPanel::remedyRequested, this, [this](const Advice &advice) {
+        m_controller.setSettings(m_check.remedied(advice), capitalised(QString::fromStdString(advice.remedy)));
+    });
     m_chartMenus = new ChartMenus(*this, this);
     connect(m_chartMenus, &ChartMenus::failed, this, &MainWindow::showError);
     connect(m_chartMenus, &ChartMenus::written, this, &MainWindow::showWritten);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/RunContext.h"
+#include "inspect/explain.h"
 #include "plan/Analysis.h"
 
 #include <optional>
@@ -11,9 +12,8 @@ namespace faintline {
 
 /// A caveat about an analysis's numbers, and settings that would help.
 struct Advice {
-    std::string
-        name; ///< "slopeLimit", "closeLines", "constantCells", "commonNoise", "silence", "stopBand": independent of the
-              ///< wording
+    std::string name; ///< "slopeLimit", "closeLines", "constantCells", "commonNoise", "silence", "stopBand"; of a cell
+                      ///< "fastLine", "threshold": independent of the wording
     std::string sentence;        ///< without a full stop
     std::string remedy;          ///< "use a window of 0.25 s"; empty if no setting helps
     AnalysisSettings settings{}; ///< settings with the remedy
@@ -53,6 +53,20 @@ std::optional<Advice> adviceOnStopBands(const Analysis &analysis);
 
 /// Recordings of silence, in which there is nothing to find.
 std::optional<Advice> adviceOnSilence(const Analysis &analysis, const RunContext &context = {});
+
+/// The largest slope of a state set, bins per frame.
+double steepestSlope(const StateSpace &space);
+
+/// Why a cell was not detected, if there is a cure; for frames of lines. Either a line runs through it that drifts
+/// faster than the model, in all windows that were asked, allows: a straight stretch of up to 65 frames whose cells,
+/// as many of each frame as the line crosses in it, exceed those beside them. Their mean, of y clipped at 5, is tested
+/// against the exponential law, with as many independent cells as there are; the log-likelihood ratio must exceed the
+/// threshold and the logarithm of the number of stretches that were tried. The remedy is a window that is halved until
+/// the model allows that drift. Or the statistic is above half the threshold: the remedy is the rate of false alarms
+/// with which it would be an event, as long as that is at most a hundred times the requested one. Nothing for cells
+/// that are followed by a track, or kept from the detector. Cost: reads 65 frames. Throws Cancelled.
+std::optional<Advice> adviceOnCell(const Analysis &analysis, const Explanation &explanation,
+                                   const RunContext &context = {});
 
 /// All advice that applies, most serious first; of silence, nothing else.
 std::vector<Advice> advise(const Analysis &analysis, const RunContext &context = {});

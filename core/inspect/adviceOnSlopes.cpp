@@ -15,14 +15,6 @@ namespace {
     constexpr Index trackFrames = 8;
     constexpr double shareOfTracks = 0.05; ///< of the frames of all sure tracks
 
-    double steepestSlope(const StateSpace &space)
-    {
-        double steepest = 0.0;
-        for (Index plane = 0; plane < space.planeCount(); ++plane)
-            steepest = std::max(steepest, std::abs(space.ratesOfPlane(plane).back()));
-        return steepest;
-    }
-
     /// Whether a track's slope is that steep in more than half of its frames, or from its first to its last one: the
     /// pieces of a line that is too fast for the model may have been joined to one track.
     bool keepsTo(const Track &track, double slope, const StateSpace &space)
@@ -57,6 +49,14 @@ namespace {
     }
 
 } // namespace
+
+double steepestSlope(const StateSpace &space)
+{
+    double steepest = 0.0;
+    for (Index plane = 0; plane < space.planeCount(); ++plane)
+        steepest = std::max(steepest, std::abs(space.ratesOfPlane(plane).back()));
+    return steepest;
+}
 
 std::optional<Advice> adviceOnSlopes(const Analysis &analysis)
 {

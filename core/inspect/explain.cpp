@@ -304,6 +304,11 @@ Explanation explain(const Analysis &analysis, double seconds, const std::vector<
     explanation.isExplainedByNoise = !tracksThrough(analysis.explainedByNoise, analysis, frame, cell).empty();
     explanation.isSubtracted = std::ranges::any_of(tracksThrough(analysis.tracks, analysis, frame, cell),
                                                    [](const Track *track) { return track->isSubtracted; });
+    for (const Track *track : tracksThrough(analysis.tracks, analysis, frame, cell))
+        if (track->windowSeconds > 0.0 && track->windowSeconds != analysis.frames->geometry().windowSeconds) {
+            explanation.otherWindowTrack = track->id;
+            explanation.otherWindowSeconds = track->windowSeconds;
+        }
     explanation.steps = path.steps;
     std::size_t ownSteps = path.steps.size(); // the detector's, which precede a tracker's
     explanation.model = path.model;

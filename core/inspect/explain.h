@@ -42,6 +42,9 @@ struct Explanation {
     std::optional<int> inhibitedFor;
     bool isSubtracted = false;       ///< on a subtracted line: the explanation is for the remainder (subtractLines.h)
     bool isExplainedByNoise = false; ///< on a path that the recording's own noise explains (ownNoiseLaw.h)
+    /// A track through the cell that another window found, in which this statistic has no part (otherWindows.h).
+    std::optional<int> otherWindowTrack;
+    double otherWindowSeconds = 0.0; ///< T_FT of that window
     bool isTracked = false;          ///< a tracker follows this cell; its path continues without reset
 };
 

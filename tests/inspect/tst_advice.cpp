@@ -5,7 +5,9 @@
 #include "support/recordings.h"
 #include "support/test.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 using namespace faintline;
 
@@ -114,6 +116,68 @@ private slots:
         QVERIFY2(std::abs(searched - low) < 2.0, qPrintable(QString::number(searched)));
         QVERIFY(!adviceOnStopBands(*analyse(test::filteredNoise(300.0), advice->settings)));
         QVERIFY(!adviceOnStopBands(*inWindow(noiseWith({}, 1), 0.25)));
+    }
+
+    void whyNotOfAFastLineTellsTheWindow()
+    {
+        // One bin a frame is 1 Hz in 0.25 s.
+        const auto recording = noiseWith({line(20.0, 48.0, 3.5)});
+        AnalysisSettings settings;
+        settings.spectrogram.windowSeconds = 0.5;
+        const auto analysis = analyse(recording, settings);
+        const double seconds = 1.5;
+        const double hz = 20.0 + 48.0 * seconds;
+        const auto advice = adviceOnCell(*analysis, explain(*analysis, seconds, {hz}));
+        QVERIFY(advice);
+        QCOMPARE(advice->name, std::string("fastLine"));
+        QVERIFY2(advice->sentence.find("this model ends at ±4 Hz/s") != std::string::npos, advice->sentence.c_str());
+        double drift = 0.0;
+        QCOMPARE(std::sscanf(advice->sentence.c_str(), "a line that drifts by %lf Hz/s", &drift), 1);
+        QVERIFY2(std::abs(drift - 48.0) < 5.0, advice->sentence.c_str());
+        QCOMPARE(advice->remedy, std::string("use a window of 0.13 s"));
+        const auto cured = analyse(recording, advice->settings);
+        QVERIFY(std::ranges::any_of(cured->tracks, [&](const Track &track) {
+            return std::ranges::any_of(track.points, [&](const TrackPoint &point) {
+                return std::abs(cured->time().value(double(point.frame)) - seconds) < 0.05
+                       && std::abs(cured->grid().axes[0].value(double(point.cell)) - hz) < 12.0;
+            });
+        }));
+        // Beside the line there is none.
+        QVERIFY(!adviceOnCell(*analysis, explain(*analysis, seconds, {150.0})));
+    }
+
+    void whyNotOfNoiseHasNoFastLines()
+    {
+        const auto analysis = inWindow(noiseWith({line(100.0, 0.0, 0.0)}), 0.25);
+        for (int i = 0; i < 60; ++i) {
+            const double seconds = 3.0 + 0.9 * i;
+            for (const double hz : {30.0, 90.0, 97.0, 103.0, 160.0}) {
+                const auto advice = adviceOnCell(*analysis, explain(*analysis, seconds, {hz}));
+                QVERIFY2(!advice || advice->name == "threshold", advice ? advice->sentence.c_str() : "");
+            }
+        }
+    }
+
+    void whyNotOfAFaintLineTellsTheRate()
+    {
+        const auto recording = noiseWith({line(100.0, 0.0, 0.0)});
+        AnalysisSettings settings;
+        settings.spectrogram.windowSeconds = 0.25;
+        settings.decide.falseAlarmsPerHour = 1e-3;
+        const auto analysis = analyse(recording, settings);
+        // The first frame of the line whose statistic is above half the threshold.
+        std::optional<Advice> advice;
+        double seconds = 0.0;
+        for (Index frame = 0; frame < 40 && !advice; ++frame) {
+            seconds = analysis->time().value(double(frame));
+            const Explanation here = explain(*analysis, seconds, {100.0});
+            advice = adviceOnCell(*analysis, here);
+        }
+        QVERIFY(advice);
+        QCOMPARE(advice->name, std::string("threshold"));
+        const auto cured = analyse(recording, advice->settings);
+        QVERIFY(explain(*cured, seconds, {100.0}).displayed >= cured->threshold);
+        QVERIFY(cured->threshold < analysis->threshold);
     }
 
     void distancesAreWrittenPlainly()
