@@ -68,7 +68,7 @@ namespace {
                                      {{",  .", "threshold down, up by a quarter nat"},
                                       {"N   Shift + N", "next, previous event"},
                                       {"Y  X  U", "accept, reject the event; undecided"},
-                                      {"1 … 9   Shift + U", "class of the event; none"},
+                                      {"1 … 9   Shift + U", "class of the event, none; a lesson’s answer"},
                                       {"E   G   Shift + G", "note on the event; merge, separate several"},
                                       {"W", "why detected, or why not"},
                                       {"Ctrl + D   Ctrl + Shift + D", "draw a line by hand; place sonar targets"},

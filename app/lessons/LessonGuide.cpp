@@ -28,6 +28,7 @@
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QKeyEvent>
 #include <QMainWindow>
 #include <QScreen>
 #include <QTabWidget>
@@ -85,6 +86,18 @@ LessonGuide::LessonGuide(QMainWindow &window, WindowParts &parts)
         }
     });
     connect(m_panel, &LessonPanel::leaveRequested, this, &LessonGuide::leave);
+    window.installEventFilter(this);
+}
+
+/// Number keys, which otherwise are shortcuts of the window, answer a question, unless a field takes them.
+bool LessonGuide::eventFilter(QObject *watched, QEvent *event)
+{
+    if (event->type() == QEvent::ShortcutOverride && isRunning()
+        && m_panel->chooseByKey(*static_cast<QKeyEvent *>(event))) {
+        event->accept();
+        return true;
+    }
+    return QObject::eventFilter(watched, event);
 }
 
 void LessonGuide::start(const Lesson &lesson, int step)
@@ -240,6 +253,7 @@ void LessonGuide::check()
     const bool isShown = isOfScans || isOpen(m_opened);
     if (isShown && m_parts.bench().isVisible())
         showPanel(); // its text can be read while the detector runs
+    limitWidth();
     if (isBusy())
         return;
     if (!isShown)
@@ -281,8 +295,16 @@ void LessonGuide::arrange()
     QWidget *target = widgetNamed(step.point);
     pointOut(target);
     m_frame->pointAt(target);
+    giveKeys();
     if (m_isPresenting)
         keepInSight();
+}
+
+/// To a question that is still open: a field that is pointed to would take its number keys.
+void LessonGuide::giveKeys()
+{
+    if (isRunning() && now().question && m_panel->choice() < 0)
+        m_panel->takeKeys();
 }
 
 /// Scrolls the step's subject into view again once the panels around it have their size.
@@ -323,6 +345,7 @@ QWidget *LessonGuide::widgetNamed(const QString &name)
             return nullptr;
         reveal(form);
         form->reveal(setting);
+        giveKeys();
         return editor->parentWidget();
     }
     if (name == QLatin1String("regulation"))
@@ -336,6 +359,15 @@ QWidget *LessonGuide::widgetNamed(const QString &name)
     if (name == QLatin1String("readout"))
         return &m_parts.readOut();
     return m_parts.views().named(name);
+}
+
+/// Beside a panel that has the place of the pictures, which would not keep its own width.
+void LessonGuide::limitWidth()
+{
+    constexpr int mostPercent = 32; // of the window
+    const bool isAlone = isScanScenario(m_opened) && !m_parts.bench().isVisible();
+    m_panel->setMaximumWidth(isAlone ? std::max(m_panel->minimumWidth(), m_window.width() * mostPercent / 100)
+                                     : QWIDGETSIZE_MAX);
 }
 
 void LessonGuide::showPanel()

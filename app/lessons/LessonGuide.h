@@ -61,6 +61,9 @@ signals:
     void failed(const faintline::Error &error);
     void runningChanged(bool isRunning);
 
+protected:
+    bool eventFilter(QObject *watched, QEvent *event) override;
+
 private:
     const LessonStep &now() const { return m_lesson.steps[std::size_t(m_step)]; }
     AnalysisSettings settingsAtOpening() const;
@@ -74,7 +77,9 @@ private:
     void setScans(const QString &path);
     void showExperiment();
     void arrange();
+    void giveKeys();
     void keepInSight();
+    void limitWidth();
     void showPanel();
     void pointOut(QWidget *target);
     void takeOneColumn();

@@ -6,6 +6,7 @@
 #include <QButtonGroup>
 #include <QEvent>
 #include <QHBoxLayout>
+#include <QKeyEvent>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMouseEvent>
@@ -162,6 +163,7 @@ void LessonPanel::fillHead()
 QVBoxLayout *LessonPanel::newPage()
 {
     m_choices = nullptr;
+    m_words.clear();
     m_why = m_task = m_then = nullptr;
     m_learner = nullptr;
     m_save = nullptr;
@@ -239,13 +241,14 @@ void LessonPanel::fillQuestion(const LessonQuestion &question, QVBoxLayout &colu
     m_choices = new QButtonGroup(column.parentWidget());
     for (int i = 0; i < question.choices.size(); ++i) {
         auto *button = new QRadioButton;
-        auto *words = paragraph(question.choices[i]);
+        auto *words = paragraph(choiceText(i));
         words->setTextInteractionFlags(Qt::NoTextInteraction);
         words->setBuddy(button);
         button->setAccessibleName(question.choices[i]);
         button->setFont(font(false));
         button->setFixedHeight(QFontMetrics(font(false)).height()); // beside the first line
         m_choices->addButton(button, i);
+        m_words.push_back(words);
         column.addWidget(choiceRow(button, words));
     }
     m_why = paragraph({});
@@ -294,6 +297,32 @@ void LessonPanel::fillEnd()
     connect(m_save, &QPushButton::clicked, this, [this] { emit saveRequested(m_learnerName); });
 }
 
+/// With its key, and once a choice is made, whether it was right.
+QString LessonPanel::choiceText(int i) const
+{
+    const LessonQuestion &question = *m_lesson.steps[std::size_t(m_step)].question;
+    const QString mark = choice() < 0           ? QString()
+                         : i == question.answer ? QStringLiteral("✓ ")
+                         : i == choice()        ? QStringLiteral("✗ ")
+                                                : QString();
+    return QStringLiteral("%1  ").arg(i + 1) + mark + question.choices[i];
+}
+
+void LessonPanel::takeKeys()
+{
+    m_area->setFocus(Qt::OtherFocusReason);
+}
+
+bool LessonPanel::chooseByKey(const QKeyEvent &key)
+{
+    const int i = key.key() - Qt::Key_1;
+    const bool isPlain = !(key.modifiers() & ~Qt::KeypadModifier);
+    QAbstractButton *button = m_choices && isPlain && isVisible() ? m_choices->button(i) : nullptr;
+    if (button && !key.isAutoRepeat())
+        button->click();
+    return button;
+}
+
 int LessonPanel::choice() const
 {
     return m_choices ? m_choices->checkedId() : -1;
@@ -340,10 +369,14 @@ void LessonPanel::showState()
             button->setPalette(palette);
         }
     if (m_choices && choice() >= 0) {
-        QPalette palette = this->palette();
-        if (choice() != step.question->answer)
-            palette.setColor(QPalette::WindowText, colours.error);
-        m_why->setPalette(palette);
+        QPalette wrong = palette();
+        wrong.setColor(QPalette::WindowText, colours.error);
+        const bool isRight = choice() == step.question->answer;
+        m_why->setPalette(isRight ? palette() : wrong);
+        for (int i = 0; i < int(m_words.size()); ++i) {
+            m_words[std::size_t(i)]->setText(choiceText(i));
+            m_words[std::size_t(i)]->setPalette(i == choice() && !isRight ? wrong : palette());
+        }
     }
     if (m_task) {
         m_task->setText((m_isDone ? QStringLiteral("✓ ") : QStringLiteral("→ ")) + step.task);

@@ -4,9 +4,12 @@
 
 #include <QWidget>
 
+#include <vector>
+
 class QAbstractButton;
 class QButtonGroup;
 class QLabel;
+class QKeyEvent;
 class QLineEdit;
 class QProgressBar;
 class QPushButton;
@@ -43,6 +46,9 @@ public:
 
     QPushButton *next() const { return m_next; }
     QPushButton *leave() const { return m_leave; }
+    /// Chooses the answer of a number key; whether there is one.
+    bool chooseByKey(const QKeyEvent &key);
+    void takeKeys(); ///< the keyboard's focus
     QButtonGroup *choices() const { return m_choices; }
     QLineEdit *learner() const { return m_learner; } ///< at the end; null before
 
@@ -69,6 +75,7 @@ private:
     void fillHead();
     void showAnswer(int choice);
     void showState();
+    QString choiceText(int i) const;
     QLabel *paragraph(const QString &text, bool isBold = false);
     QFont font(bool isBold) const;
 
@@ -91,6 +98,7 @@ private:
     QPushButton *m_next;
     QPushButton *m_leave;
     QButtonGroup *m_choices = nullptr; ///< for the current step; null without a question
+    std::vector<QLabel *> m_words;     ///< of the choices
     QLabel *m_why = nullptr;
     QLabel *m_task = nullptr;
     QLabel *m_then = nullptr;

@@ -190,6 +190,10 @@ void MainWindow::connectWelcome()
                 if (!isRunning)
                     before.reset();
             }); // lessons speak of the statistic
+    connect(m_lessons, &LessonGuide::runningChanged, this, [this](bool isRunning) {
+        if (isRunning)
+            m_presentAction->setEnabled(true); // also of scans, which have no pictures of their own
+    });
     connect(m_lessons, &LessonGuide::lessonRequested, this,
             [this](int lesson) { startLesson(lessons()[std::size_t(lesson)]); });
     connect(m_lessons, &LessonGuide::written, this, &MainWindow::showWritten);

@@ -184,6 +184,7 @@ private slots:
     void everyLessonIsTrueAndCanBeDone_data();
     void everyLessonIsTrueAndCanBeDone();
     void aWrongAnswerReadsAsWrong();
+    void numberKeysAnswer();
     void answersAreHandedInAsAPage();
     void theEndLeadsToTheNextLessonAndTicksThisOne();
     void whatIsShownBecomesALesson_data();
@@ -323,9 +324,43 @@ void tst_Lessons::aWrongAnswerReadsAsWrong()
     panel.choices()->button((question.answer + 1) % int(question.choices.size()))->click();
     QCOMPARE(why()->text(), "Wrong. The answer is “" + question.choices[question.answer] + "”. " + question.why);
     QCOMPARE(why()->palette().color(QPalette::WindowText), Theme::colours(panel).error);
+    QVERIFY(panel.text().contains("✓ " + question.choices[question.answer]));
+    QVERIFY(panel.text().contains("✗ " + question.choices[panel.choice()]));
     panel.choices()->button(question.answer)->click();
     QCOMPARE(why()->text(), "Right. " + question.why);
     QCOMPARE(why()->palette().color(QPalette::WindowText), Theme::colours(panel).text);
+}
+
+/// Also in the presentation; a field keeps the digits that are typed into it.
+void tst_Lessons::numberKeysAnswer()
+{
+    const auto window = newWindow();
+    LessonGuide &guide = window->lessonGuide();
+    const Lesson lesson = readLesson(":/lessons/reset.json");
+    const auto step =
+        std::ranges::find_if(lesson.steps, [](const LessonStep &each) { return each.question.has_value(); });
+    guide.start(lesson, int(step - lesson.steps.begin()));
+    QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
+    const auto before = window->document().annotations();
+    QVERIFY(std::ssize(window->document().shownEvents()) > 0);
+    window->events().setSelectedEvent(window->document().shownEvents().front().id);
+    // A step that points to a field leaves the keys to its question, until the field is clicked.
+    guide.goTo(guide.step() + 1);
+    QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
+    QVERIFY(guide.lesson().steps[std::size_t(guide.step())].question);
+    QVERIFY(guide.panel().isAncestorOf(window->focusWidget()));
+    auto *field = window->findChild<SettingsForm *>()->editor("smd.lnK");
+    field->setFocus();
+    QTest::keyClick(field, Qt::Key_1);
+    QCOMPARE(guide.panel().choice(), -1);
+    window->workbench().output()->setFocus();
+    QTest::keyClick(window->workbench().output(), Qt::Key_2);
+    QCOMPARE(guide.panel().choice(), 1);
+    QCOMPARE(guide.answers().steps[std::size_t(guide.step())].choice, 1);
+    QCOMPARE(window->document().annotations(), before); // no class was set
+    QTest::keyClick(window.get(), Qt::Key_F5);
+    QTest::keyClick(window->workbench().output(), Qt::Key_1);
+    QCOMPARE(guide.panel().choice(), 0);
 }
 
 /// The first choice and the first time count; Back returns from the end to the last step.

@@ -259,6 +259,7 @@ const Theme::Colours &Theme::colours(Kind kind)
         c.selectedEvent = QColor(0xffffff);
         c.track = QColor(0x7df0c4);
         c.truth = QColor(0xffffff);
+        c.picture = QColor(0x1b1038);
         c.cursor = QColor(0xffffff);
         c.contour = QColor(0x35e0c2);
         c.error = isDark ? QColor(0xff8f85) : QColor(0xb3261e);

@@ -40,6 +40,7 @@ public:
         QColor selectedEvent;
         QColor track;
         QColor truth;
+        QColor picture; ///< most of a picture, on which these marks lie
         QColor cursor;
         QColor contour; ///< around the cells above the threshold
         QColor error;

@@ -64,7 +64,7 @@ void MarkLegend::drawMarks()
     for (const NamedMark &mark : marks) {
         x += betweenMarks;
         const QRectF swatch(x, std::floor(0.5 * (height - swatchHeight)), swatchWidth, swatchHeight);
-        painter.fillRect(swatch, QColor(0x1b, 0x10, 0x38)); // as most of a picture
+        painter.fillRect(swatch, Theme::colours(*this).picture);
         painter.setPen(QPen(mark.colour, mark.width, mark.style));
         painter.drawLine(QPointF(swatch.left(), swatch.center().y()), QPointF(swatch.right(), swatch.center().y()));
         x = swatch.right() + besideSwatch;
