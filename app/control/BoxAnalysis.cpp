@@ -65,18 +65,23 @@ AnalysisSettings inBox(AnalysisSettings settings, const Viewport::Box &box, doub
 BoxAnalysis::BoxAnalysis(Document &document, AnalysisController &controller, const std::vector<WaterfallView *> &views,
                          QObject *parent)
     : QObject(parent), m_document(document), m_controller(controller),
-      m_box(new QAction(tr("Analyse this bo&x"), this)), m_all(new QAction(tr("Analyse the &whole recording"), this))
+      m_box(new QAction(tr("Analyse this bo&x"), this)), m_visible(new QAction(tr("Analyse what I s&ee"), this)),
+      m_all(new QAction(tr("Analyse the &whole recording"), this))
 {
     m_box->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_Return));
     m_box->setToolTip(tr("Restrict the analysis to the time and band of the measured box (M)"));
+    m_visible->setShortcut(QKeySequence(Qt::ALT | Qt::Key_Return));
+    m_visible->setToolTip(tr("Restrict the analysis to the time and band that the pictures show"));
     m_all->setShortcut(QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Return));
     m_all->setToolTip(tr("Analyse all times and frequencies again"));
     connect(m_box, &QAction::triggered, this, &BoxAnalysis::analyseBox);
+    connect(m_visible, &QAction::triggered, this, &BoxAnalysis::analyseVisible);
     connect(m_all, &QAction::triggered, this, &BoxAnalysis::analyseAll);
     for (WaterfallView *view : views)
         connect(view, &WaterfallView::contextMenuRequested, this,
                 [this](QMenu *menu, double, double) { addActionsTo(*menu); });
     connect(&document.viewport(), &Viewport::selectionChanged, this, &BoxAnalysis::enable);
+    connect(&document.viewport(), &Viewport::spanChanged, this, &BoxAnalysis::enable);
     connect(&document, &Document::opened, this, &BoxAnalysis::enable);
     connect(&document, &Document::settingsChanged, this, &BoxAnalysis::enable);
     connect(&document, &Document::analysisChanged, this, &BoxAnalysis::enable);
@@ -86,7 +91,7 @@ BoxAnalysis::BoxAnalysis(Document &document, AnalysisController &controller, con
 void BoxAnalysis::addActionsTo(QMenu &menu)
 {
     menu.addSeparator();
-    menu.addActions({m_box, m_all});
+    menu.addActions({m_box, m_visible, m_all});
 }
 
 void BoxAnalysis::analyseBox()
@@ -101,6 +106,28 @@ void BoxAnalysis::analyseBox()
     m_controller.setSettings(after, tr("Analyse a box"));
 }
 
+/// A side beyond which there is nothing more to see keeps its setting.
+void BoxAnalysis::analyseVisible()
+{
+    const auto analysis = m_document.lineAnalysis();
+    if (!analysis)
+        return;
+    const auto &[time, frequency] = m_document.viewport().visible();
+    const Viewport::Box full = m_document.viewport().full();
+    AnalysisSettings after = inBox(m_document.settings(), m_document.viewport().visible(), analysis->time().step,
+                                   analysis->grid().axes.front().step);
+    const SelectionSettings &before = m_document.settings().selection;
+    if (time.low == full.time.low)
+        after.selection.fromSeconds = before.fromSeconds;
+    if (time.high == full.time.high)
+        after.selection.toSeconds = before.toSeconds;
+    if (frequency.low == full.frequency.low)
+        after.selection.lowHz = before.lowHz;
+    if (frequency.high == full.frequency.high)
+        after.selection.highHz = before.highHz;
+    m_controller.setSettings(after, tr("Analyse what is visible"));
+}
+
 void BoxAnalysis::analyseAll()
 {
     AnalysisSettings after = m_document.settings();
@@ -112,6 +139,7 @@ void BoxAnalysis::enable()
 {
     const SelectionSettings &selection = m_document.settings().selection;
     m_box->setEnabled(m_document.recording() && m_document.analysis() && m_document.viewport().selection());
+    m_visible->setEnabled(m_document.recording() && m_document.lineAnalysis() && !m_document.viewport().showsAll());
     const SelectionSettings all{.channel = selection.channel, .channels = selection.channels};
     m_all->setEnabled(m_document.recording() && selection != all);
 }

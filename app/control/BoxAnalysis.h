@@ -18,8 +18,8 @@ class WaterfallView;
 /// of a frame and of a bin.
 AnalysisSettings inBox(AnalysisSettings settings, const Viewport::Box &box, double frameSeconds, double binHz);
 
-/// *Analyse this box*: restricts the analysis to the measured box, and returns to the whole recording. Adds actions to
-/// the menu, and to those of the pictures.
+/// *Analyse this box*, *Analyse what I see*: restricts the analysis to the measured box or to the visible part, and
+/// returns to the whole recording. Adds actions to the menu, and to those of the pictures.
 class BoxAnalysis : public QObject
 {
     Q_OBJECT
@@ -31,6 +31,7 @@ public:
     void addActionsTo(QMenu &menu);
 
     void analyseBox();
+    void analyseVisible();
     void analyseAll();
 
 private:
@@ -39,6 +40,7 @@ private:
     Document &m_document;
     AnalysisController &m_controller;
     QAction *m_box;
+    QAction *m_visible;
     QAction *m_all;
 };
 

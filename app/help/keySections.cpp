@@ -75,6 +75,7 @@ namespace {
                                       {"D   T", "Doppler fit to the event; straighten along its track"},
                                       {"Ctrl + B", "keep as A for comparison"},
                                       {"M   B   Ctrl + Return", "measure a box; annotate, analyse it"},
+                                      {"Alt + Return", "analyse what is visible"},
                                       {"K", "cursor to the nearest peak"},
                                       {"H", "harmonics of the cursor's frequency"},
                                       {"I", "sidebands: drag one, or Alt + Left, Right"},

@@ -5,7 +5,7 @@
 using namespace faintline;
 using namespace faintline::test;
 
-/// *Analyse this box*: from a drag to an analysis of that part, and back.
+/// *Analyse this box* and *Analyse what I see*: from a drag to an analysis of that part, and back.
 class tst_BoxAnalysis : public QObject
 {
     Q_OBJECT
@@ -52,6 +52,27 @@ private slots:
         QTest::keyClick(window.get(), Qt::Key_Return, Qt::ControlModifier | Qt::ShiftModifier);
         QVERIFY(settle(*window));
         QCOMPARE(document.analysis()->time().count, frames);
+        QCOMPARE(document.settings(), before);
+        ofWhatIsVisible(*window);
+    }
+
+private:
+    static void ofWhatIsVisible(MainWindow &window)
+    {
+        Document &document = window.document();
+        const AnalysisSettings before = document.settings();
+        QTest::keyClick(&window, Qt::Key_Return, Qt::AltModifier); // all is visible, nothing happens
+        QCOMPARE(document.settings(), before);
+        document.viewport().zoomTo({30.0, document.viewport().full().time.high}, {20.0, 60.0});
+        QTest::keyClick(&window, Qt::Key_Return, Qt::AltModifier);
+        QVERIFY(settle(window));
+        const SelectionSettings &part = document.settings().selection;
+        QCOMPARE(part.fromSeconds, 30.0);
+        QCOMPARE(part.toSeconds, before.selection.toSeconds); // the end was visible
+        QCOMPARE(part.lowHz, 20.0);
+        QCOMPARE(part.highHz, 60.0);
+        QVERIFY(document.viewport().full().frequency.high < 61.0);
+        document.undoStack().undo();
         QCOMPARE(document.settings(), before);
     }
 };
