@@ -130,7 +130,7 @@ void Closeup::show()
 {
     if (m_analysis != current())
         return;
-    if (m_inputStretch)
+    if (m_inputStretch && !m_input.isPlain())
         m_input.setCloseup(m_inputStretch);
     if (m_statisticStretch && !m_document.provisional())
         m_output.setCloseup(m_statisticStretch);

@@ -55,7 +55,7 @@ namespace {
                                       {"C", "next colour map"},
                                       {"[  ]", "black level down, up"},
                                       {"{  }", "white level down, up"},
-                                      {"A", "automatic range"},
+                                      {"A   Shift + D", "automatic range; input as plain dB"},
                                       {"F", "what was found, or the statistic D"},
                                       {"V   Shift + V", "next output layer; over the statistic"},
                                       {"S   Shift + S", "state space under the cursor; spectrum"}}};

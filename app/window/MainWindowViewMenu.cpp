@@ -3,6 +3,7 @@
 #include "app/window/MainWindow.h"
 
 #include "app/control/OutputLayers.h"
+#include "app/control/PlainInput.h"
 #include "app/window/Panels.h"
 #include "app/workspace/Workbench.h"
 #include "widgets/waterfall/waterfallCommands.h"
@@ -50,6 +51,8 @@ void MainWindow::buildViewMenu()
     addFrequencyActions(*menu);
     addViewAction(*menu, tr("Next &colour map"), Qt::Key_C, [this] { bench().cycleColourMap(); });
     addViewAction(*menu, tr("A&utomatic range"), Qt::Key_A, [this] { bench().setAutomaticRange(); });
+    menu->addAction(m_workbench->plainInput().action());
+    m_viewActions.push_back(m_workbench->plainInput().action());
     menu->addSeparator();
     addViewAction(*menu, tr("&Measure a box"), Qt::Key_M, [output] { output->setMeasuring(!output->isMeasuring()); });
     QAction *harmonics = addViewAction(*menu, tr("&Harmonics"), Qt::Key_H, {});

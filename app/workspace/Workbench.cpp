@@ -3,6 +3,7 @@
 #include "app/control/BoxMeter.h"
 #include "app/control/Closeup.h"
 #include "app/control/OutputLayers.h"
+#include "app/control/PlainInput.h"
 #include "app/control/trackBox.h"
 #include "app/workspace/RegulationPlot.h"
 #include "app/workspace/strongestPlace.h"
@@ -107,6 +108,8 @@ Workbench::Workbench(Document &document, QWidget *parent)
     m_output->canvas()->installEventFilter(this);
     connect(&document, &Document::picturesGrew, this, &Workbench::showPictures);
     m_closeup = new Closeup(document, *m_input, *m_output, this); // connected after the pictures
+    m_plainInput = new PlainInput(document, *m_input, this);
+    whenInUse(m_plainInput, &PlainInput::changed, &Workbench::showInput);
     whenInUse(m_closeup, &Closeup::settled, &Workbench::readCursor);
 }
 
@@ -162,8 +165,7 @@ void Workbench::showAnalysis()
 
     followExtents(analysis.time(), frequency);
     m_output->setThreshold(analysis.threshold); // before the picture: the automatic range depends on it
-    m_input->setHeading(inputHeading(analysis.unsubtracted != nullptr));
-    m_input->setPicture(analysis.input, frequency);
+    showInput();
     showStatistic();
     showTruth();
     for (WaterfallView *view : {m_input, m_output})
@@ -172,6 +174,17 @@ void Workbench::showAnalysis()
     if (isFirst)
         placeCursor();
     readCursor();
+}
+
+void Workbench::showInput()
+{
+    const auto analysis = m_document.lineAnalysis();
+    if (!analysis)
+        return;
+    const auto plain = m_plainInput->picture();
+    m_input->setPlain(plain != nullptr);
+    m_input->setHeading(plain ? m_plainInput->heading() : inputHeading(analysis->unsubtracted != nullptr));
+    m_input->setPicture(plain ? plain : analysis->input, analysis->grid().axes.back());
 }
 
 void Workbench::showPictures(const PicturesSoFar &pictures)
@@ -264,7 +277,7 @@ void Workbench::read(const Viewport::Point &point)
 {
     ReadOut::Reading reading{point.seconds,
                              point.hz,
-                             m_input->valueAt(point.seconds, point.hz),
+                             m_input->isPlain() ? std::nullopt : m_input->valueAt(point.seconds, point.hz),
                              m_output->valueAt(point.seconds, point.hz),
                              m_document.analysis() ? slopeAt(*m_document.analysis(), point) : std::nullopt,
                              {}};

@@ -11,6 +11,7 @@ namespace faintline {
 
 class BoxMeter;
 class Closeup;
+class PlainInput;
 class RegulationPlot;
 class StripPlot;
 
@@ -37,6 +38,7 @@ public:
     Place place() const override;
     void setPlace(const Place &place) override;
     Closeup &closeup() { return *m_closeup; }
+    PlainInput &plainInput() { return *m_plainInput; }
     StripPlot *statisticPlot() const { return m_statistic; }
     StripPlot *regulationPlot() const;
 
@@ -73,6 +75,7 @@ private:
     static QString inputHeading(bool isRest);
     void linkViews();
     void showOrigin();
+    void showInput();
     void showPictures(const PicturesSoFar &pictures);
     void followExtents(const Axis &time, const Axis &frequency);
     void showLive();
@@ -88,6 +91,7 @@ private:
     OutputLayers *m_layers;
     BoxMeter *m_boxMeter;
     Closeup *m_closeup;
+    PlainInput *m_plainInput;
     QWidget *m_inputPane;
     QWidget *m_outputPane;
     StripPlot *m_statistic;

@@ -1,8 +1,11 @@
 #include "inspect/closeup.h"
 
+#include "base/logmath.h"
+#include "frames/Spectrogram.h"
 #include "plan/chain.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace faintline {
 
@@ -19,9 +22,10 @@ namespace {
         return PeakPyramid(time, analysis.grid().size(), ByteScale(kind), byteBudget);
     }
 
-    /// Calls `take` with blocks of frames, in order.
-    template <class Take>
-    void readFrames(const Analysis &analysis, const FrameStretch &frames, const RunContext &context, const Take &take)
+    /// Calls `take` with blocks of frames of a source, in order.
+    template <class Source, class Take>
+    void readFrames(const Source &source, const Analysis &analysis, const FrameStretch &frames,
+                    const RunContext &context, const Take &take)
     {
         const Index cells = analysis.grid().size();
         const Index most = std::max<Index>(1, blockValues / cells);
@@ -31,7 +35,7 @@ namespace {
             context.checkpoint(share, "computing the close-up");
             const Index count = std::min(most, frames.end - first);
             block.resize(std::size_t(count * cells));
-            analysis.frames->read(first, count, block);
+            source.read(first, count, block);
             take(first, block);
         }
     }
@@ -71,7 +75,8 @@ std::shared_ptr<const PeakPyramid> inputCloseup(const Analysis &analysis, const 
                                                 std::size_t byteBudget, const RunContext &context)
 {
     auto picture = std::make_shared<PeakPyramid>(emptyPicture(analysis, stretch, ByteScale::Kind::PowerDb, byteBudget));
-    readFrames(analysis, stretch, context, [&](Index, std::span<const float> block) { picture->append(block); });
+    readFrames(*analysis.frames, analysis, stretch, context,
+               [&](Index, std::span<const float> block) { picture->append(block); });
     picture->finish();
     return picture;
 }
@@ -90,12 +95,51 @@ std::shared_ptr<const PeakPyramid> statisticCloseup(const Analysis &analysis, co
 
     const auto cells = std::size_t(analysis.grid().size());
     std::vector<float> statistic(cells);
-    readFrames(analysis, way, context, [&](Index first, std::span<const float> block) {
+    readFrames(*analysis.frames, analysis, way, context, [&](Index first, std::span<const float> block) {
         for (Index i = 0; i < std::ssize(block) / Index(cells); ++i) {
             chain->update(first + i, block.subspan(std::size_t(i) * cells, cells), statistic);
             if (first + i >= stretch.begin)
                 picture->append(statistic);
         }
+    });
+    picture->finish();
+    return picture;
+}
+
+std::optional<double> plainReference(const Analysis &analysis)
+{
+    const Spectrogram *spectrogram = analysis.frames->spectrogram();
+    if (!spectrogram || !analysis.background || !(analysis.grid().axes.back() == spectrogram->frequency()))
+        return {};
+    std::vector<float> noise;
+    for (const float ln : analysis.background->lnPower)
+        if (ln > NoiseBackground::silence)
+            noise.push_back(ln);
+    if (noise.empty())
+        return {};
+    const auto low = noise.begin() + std::ssize(noise) / 20;
+    std::ranges::nth_element(noise, low);
+    const RecordingInfo &info = spectrogram->recording().info();
+    const double perHz = (info.isComplex ? 1.0 : 2.0) / info.sampleRateHz;
+    return std::round(dbFromRatio(std::exp(double(*low) + analysis.background->lnUnit) * perHz));
+}
+
+std::shared_ptr<const PeakPyramid> plainPicture(const Analysis &analysis, std::size_t byteBudget,
+                                                const RunContext &context)
+{
+    const Spectrogram &spectrogram = *analysis.frames->spectrogram();
+    const RecordingInfo &info = spectrogram.recording().info();
+    const double perHz =
+        (info.isComplex ? 1.0 : 2.0) * std::exp(analysis.background->lnUnit) / info.sampleRateHz; // of the frames' unit
+    const auto gain = float(perHz / ratioFromDb(*plainReference(analysis)));
+    const FrameStretch all{0, analysis.time().count};
+    auto picture = std::make_shared<PeakPyramid>(emptyPicture(analysis, all, ByteScale::Kind::PowerDb, byteBudget));
+    std::vector<float> scaled;
+    readFrames(spectrogram, analysis, all, context, [&](Index, std::span<const float> block) {
+        scaled.assign(block.begin(), block.end());
+        for (float &power : scaled)
+            power *= gain;
+        picture->append(scaled);
     });
     picture->finish();
     return picture;

@@ -3,6 +3,8 @@
 #include "base/RunContext.h"
 #include "plan/Analysis.h"
 
+#include <optional>
+
 namespace faintline {
 
 /// Frames begin … end-1.
@@ -36,5 +38,14 @@ std::shared_ptr<const PeakPyramid> inputCloseup(const Analysis &analysis, const 
                                                 std::size_t byteBudget, const RunContext &context = {});
 std::shared_ptr<const PeakPyramid> statisticCloseup(const Analysis &analysis, const FrameStretch &stretch,
                                                     std::size_t byteBudget, const RunContext &context = {});
+
+/// Zero of plain pictures: the level that a twentieth of the recording's noise stays below, in whole dB re full scale²
+/// per Hz, for frames of single lines of a recording; otherwise nothing.
+std::optional<double> plainReference(const Analysis &analysis);
+
+/// A picture of the power itself, in dB over `plainReference`: what the input was before the noise was divided out.
+/// Precondition: there is a reference. Throws Cancelled.
+std::shared_ptr<const PeakPyramid> plainPicture(const Analysis &analysis, std::size_t byteBudget,
+                                                const RunContext &context = {});
 
 } // namespace faintline

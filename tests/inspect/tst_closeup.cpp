@@ -5,6 +5,7 @@
 #include "scene/SimulatedRecording.h"
 
 #include <algorithm>
+#include <cmath>
 
 using namespace faintline;
 
@@ -61,6 +62,25 @@ private:
     }
 
 private slots:
+    void plainPictureHasTheLevelsOfTheRecording()
+    {
+        const Analysis &analysis = *analysedOnce();
+        // The noise has a deviation of 0.1.
+        const double density = 10.0 * std::log10(0.1 * 0.1 * 2.0 / 400.0);
+        const double reference = plainReference(analysis).value();
+        QVERIFY2(std::abs(reference - density) < 1.0, QByteArray::number(reference));
+        const auto plain = plainPicture(analysis, plenty);
+        QCOMPARE(plain->frameCount(), analysis.time().count);
+        const Index beside = plain->cells() / 4; // of the line
+        double power = 0.0;
+        for (Index frame = 0; frame < plain->frameCount(); ++frame)
+            for (const std::uint8_t byte : plain->row(0, frame).subspan(std::size_t(plain->cells() - beside)))
+                power += std::pow(10.0, 0.1 * plain->scale().value(byte));
+        const auto count = double(plain->frameCount() * beside);
+        const double meanDb = 10.0 * std::log10(power / count) + reference;
+        QVERIFY2(std::abs(meanDb - density) < 0.15, QByteArray::number(meanDb));
+    }
+
     void holdsWhatTheWholeDoes_data()
     {
         QTest::addColumn<int>("kind");

@@ -254,6 +254,12 @@ BoxValues boxValues(const PeakPyramid &picture, Index beginFrame, Index endFrame
     return values;
 }
 
+Span rangeOfLevels(const ByteScale &scale, const std::vector<double> &counts)
+{
+    const double low = quantile(scale, counts, 0.05);
+    return {low, std::max(quantile(scale, counts, 0.98) + 2.0, low + 10.0)};
+}
+
 Span automaticRange(const ByteScale &scale, const std::vector<double> &counts, std::optional<double> threshold)
 {
     if (scale.kind() == ByteScale::Kind::DifferenceNats)

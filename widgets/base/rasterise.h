@@ -56,6 +56,9 @@ std::vector<double> countPixels(const PeakPyramid &picture, double framesPerPixe
 /// the threshold, and at least to one and a half thresholds; ColourScale keeps values near the threshold apart.
 Span automaticRange(const ByteScale &scale, const std::vector<double> &counts, std::optional<double> threshold = {});
 
+/// The same for levels of noise that differs from cell to cell: nearly all of them.
+Span rangeOfLevels(const ByteScale &scale, const std::vector<double> &counts);
+
 /// Peak and mean of a box of whole cells.
 struct BoxValues {
     double peak = 0.0;          ///< dB or nat

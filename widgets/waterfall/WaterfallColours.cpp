@@ -2,9 +2,11 @@
 
 #include "widgets/waterfall/WaterfallPicture.h"
 
+#include "widgets/base/rasterise.h"
 #include "widgets/waterfall/RasterItem.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace faintline {
 
@@ -24,7 +26,15 @@ void WaterfallPicture::countHistogram()
 
 Span WaterfallPicture::automaticRange() const
 {
+    if (m_picture && m_isPlain && !histogram().empty())
+        return rangeOfLevels(m_picture->scale(), histogram());
     return m_picture ? m_levels.suggested(m_picture->scale(), m_threshold) : range();
+}
+
+void WaterfallPicture::setPlain(bool isPlain)
+{
+    if (std::exchange(m_isPlain, isPlain) != isPlain)
+        m_levels.setAutomatic(true);
 }
 
 void WaterfallPicture::applyRange(const Span &range)

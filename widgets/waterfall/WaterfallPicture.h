@@ -73,6 +73,9 @@ public:
     const ColourMap &colourMap() const { return *m_colourMap; }
     /// Values drawn in the map's first and last colour: dB or nat.
     const Span &range() const { return m_levels.range(); }
+    /// Whether the picture shows the level itself, not that over the noise.
+    bool isPlain() const { return m_isPlain; }
+    void setPlain(bool isPlain);
     bool isRangeAutomatic() const { return m_levels.isAutomatic(); }
     /// The range suggested by the picture's values at this zoom: noise dark, signals bright.
     Span automaticRange() const;
@@ -160,6 +163,7 @@ private:
     const ColourMap *m_colourMap;
     Orientation m_orientation = Orientation::NewestOnTop;
     ColourLevels m_levels;
+    bool m_isPlain = false;
     std::optional<double> m_threshold;
 };
 

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "app/base/JobRunner.h"
+#include "frames/PeakPyramid.h"
+
+#include <QObject>
+
+#include <memory>
+
+class QAction;
+
+namespace faintline {
+
+struct Analysis;
+class Document;
+class WaterfallView;
+
+/// The input's power itself, in dB, to be shown in place of the power over the noise: computed from the recording on a
+/// worker while its action is checked.
+class PlainInput : public QObject
+{
+    Q_OBJECT
+
+public:
+    /// Adds the action to the input's menu.
+    PlainInput(Document &document, WaterfallView &input, QObject *parent = nullptr);
+
+    QAction *action() const { return m_action; }
+    /// The picture of the document's analysis; null unless it is wanted and computed.
+    std::shared_ptr<const PeakPyramid> picture() const;
+    QString heading() const;
+    bool isBusy() const { return m_runner.isRunning(); }
+
+signals:
+    void changed(); ///< the picture
+    void settled();
+
+private:
+    void follow();
+
+    Document &m_document;
+    QAction *m_action;
+    std::shared_ptr<const Analysis> m_analysis; ///< of the picture
+    std::shared_ptr<const PeakPyramid> m_picture;
+    JobRunner m_runner; ///< last, so that its jobs end first
+};
+
+} // namespace faintline
