@@ -1,5 +1,6 @@
 #include "app/window/MainWindow.h"
 
+#include "analyse/snrInBandwidth.h"
 #include "app/base/MessageBar.h"
 #include "app/base/distinctLabels.h"
 #include "app/base/filePath.h"
@@ -200,9 +201,28 @@ void MainWindow::showPlan(const AnalysisPlan &analysis)
 void MainWindow::showEvents()
 {
     const std::vector<Event> events = m_document.shownEvents();
-    m_events->setEvents(events);
+    m_events->setEvents(withShownSnr(events));
     m_overview->setEvents(eventsAlong(events, 0));
     showHint();
+}
+
+/// With the SNR in the bandwidth that is chosen.
+std::vector<Event> MainWindow::withShownSnr(std::vector<Event> events) const
+{
+    if (m_snrBandwidthHz > 0.0 && m_document.plan())
+        for (Event &event : events)
+            event.snrDb +=
+                snrChangeDb(m_snrBandwidthHz, m_document.plan()->frames->geometry().window, event.windowSeconds);
+    return events;
+}
+
+void MainWindow::setSnrBandwidth(double hz)
+{
+    m_snrBandwidthHz = hz;
+    m_memory.setSnrBandwidthHz(hz);
+    m_events->setSnrUnit(hz > 0.0 ? tr("dB in %1 Hz").arg(hz) : tr("dB"));
+    if (!m_document.isEmpty())
+        showEvents();
 }
 
 void MainWindow::showHint()

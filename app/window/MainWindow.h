@@ -115,6 +115,7 @@ private:
     void addLayerMenu(QMenu &menu);
     void addPresentation(QMenu &menu);
     void addLessonMenu(QMenu &menu);
+    void addSnrMenu(QMenu &menu);
     void addThemeMenu(QMenu &menu);
     void buildPlayMenu();
     void buildLinesMenu();
@@ -144,6 +145,8 @@ private:
     /// Whether the document may be closed: no live run, and unsaved work may be lost (SessionSaver::mayLose).
     bool mayLeave(const QString &what, const std::function<void()> &next);
     void showEvents();
+    std::vector<Event> withShownSnr(std::vector<Event> events) const;
+    void setSnrBandwidth(double hz);
     void showHint();
     void showTitle();
     void startLesson(const Lesson &lesson);
@@ -199,7 +202,8 @@ private:
     OverviewStrip *m_overview = nullptr;
     ActivityBar *m_activity = nullptr;
     QLabel *m_hint = nullptr;
-    QLabel *m_legend = nullptr; ///< of the marks in the pictures
+    double m_snrBandwidthHz = 0.0; ///< 0: of a bin
+    QLabel *m_legend = nullptr;    ///< of the marks in the pictures
     KeysOverlay *m_keys = nullptr;
     EquationSheet *m_equation = nullptr;
     CommandPalette *m_palette = nullptr;

@@ -83,6 +83,7 @@ void MainWindow::buildViewMenu()
     addAction(addViewAction(*menu, tr("What was &found, or the statistic D"), Qt::Key_F,
                             [layers = &m_workbench->layers()] { layers->toggleFound(); }));
     addLayerMenu(*menu);
+    addSnrMenu(*menu);
     m_panelsMenu = menu->addMenu(tr("&Panels"));
     m_panelsMenu->addActions(m_panels->toggleActions());
     QMenu *layouts = menu->addMenu(tr("La&yout"));
@@ -109,6 +110,25 @@ void MainWindow::addPresentation(QMenu &menu)
         (isPresenting ? m_stopAction : leave)->setShortcut({});
         (isPresenting ? leave : m_stopAction)->setShortcut(Qt::Key_Escape);
     });
+}
+
+void MainWindow::addSnrMenu(QMenu &menu)
+{
+    QMenu *choices = menu.addMenu(tr("S&NR in the bandwidth"));
+    choices->setToolTipsVisible(true);
+    auto *group = new QActionGroup(choices);
+    const auto add = [&](const QString &text, double hz) {
+        QAction *action = choices->addAction(text, this, [this, hz] { setSnrBandwidth(hz); });
+        action->setCheckable(true);
+        action->setActionGroup(group);
+        action->setChecked(hz == m_memory.snrBandwidthHz());
+        return action;
+    };
+    add(tr("of one &bin, as detected"), 0.0);
+    add(tr("of &1 Hz"), 1.0);
+    add(tr("of &500 Hz"), 500.0);
+    add(tr("of &2500 Hz"), 2500.0)->setToolTip(tr("As WSJT-X gives it"));
+    setSnrBandwidth(m_memory.snrBandwidthHz());
 }
 
 void MainWindow::addThemeMenu(QMenu &menu)

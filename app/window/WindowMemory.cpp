@@ -4,6 +4,9 @@
 
 #include <QFileInfo>
 
+#include <algorithm>
+#include <cmath>
+
 namespace faintline {
 
 namespace {
@@ -11,6 +14,7 @@ namespace {
     constexpr int mostRecent = 10;
     const QString recentKey = QStringLiteral("recent");
     const QString classesKey = QStringLiteral("classes");
+    const QString snrBandwidthKey = QStringLiteral("view/snrBandwidth");
     const QString lessonsKey = QStringLiteral("lessons");
     const QString themeKey = QStringLiteral("view/theme");
     const QString colourMapKey = QStringLiteral("view/colourMap");
@@ -61,6 +65,18 @@ void WindowMemory::setClassNames(const QStringList &names)
 {
     if (m_store)
         m_store->setValue(classesKey, names);
+}
+
+double WindowMemory::snrBandwidthHz() const
+{
+    const double hz = m_store ? m_store->value(snrBandwidthKey).toDouble() : 0.0;
+    return std::isfinite(hz) ? std::max(hz, 0.0) : 0.0;
+}
+
+void WindowMemory::setSnrBandwidthHz(double hz)
+{
+    if (m_store)
+        m_store->setValue(snrBandwidthKey, hz);
 }
 
 QStringList WindowMemory::doneLessons() const

@@ -44,6 +44,10 @@ public:
     QStringList classNames() const;
     void setClassNames(const QStringList &names);
 
+    /// Bandwidth of the noise that SNRs refer to, Hz; 0: that of a bin.
+    double snrBandwidthHz() const;
+    void setSnrBandwidthHz(double hz);
+
     /// Paths of the lessons that were gone through to their end.
     QStringList doneLessons() const;
     void addDoneLesson(const QString &path);

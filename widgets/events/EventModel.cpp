@@ -253,6 +253,12 @@ void EventModel::setStatisticUnit(const QString &unit)
     emit headerDataChanged(Qt::Horizontal, Statistic, Statistic);
 }
 
+void EventModel::setSnrUnit(const QString &unit)
+{
+    m_snrUnit = unit;
+    emit headerDataChanged(Qt::Horizontal, Snr, Snr);
+}
+
 void EventModel::setAxes(const std::vector<Axis> &axes)
 {
     m_axes = axes;
@@ -296,7 +302,9 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
         const TableColumn<Event> &one = fileColumn(column);
         const bool isClock = column == Onset || column == Detection || column == End; // whose unit changes
         const QString name = QString::fromStdString(one.heading);
-        const QString ownUnit = column == Statistic ? m_statisticUnit : QString::fromStdString(one.unit);
+        const QString ownUnit = column == Statistic ? m_statisticUnit
+                                : column == Snr     ? m_snrUnit
+                                                    : QString::fromStdString(one.unit);
         return Words{isClock || ownUnit.isEmpty() ? name : QStringLiteral("%1 (%2)").arg(name, ownUnit),
                      QString::fromStdString(one.sentence)};
     };

@@ -49,6 +49,7 @@ public:
     void setReviews(const std::vector<EventReview> &reviews);
     EventReview review(const Event &event) const;
     void setStatisticUnit(const QString &unit);
+    void setSnrUnit(const QString &unit); ///< of the events' SNR, by default "dB": in a bin
     /// The axes of the events' positions; with two axes, the first takes the frequency's column, the second is the
     /// bearing.
     void setAxes(const std::vector<Axis> &axes);
@@ -95,6 +96,7 @@ private:
     int m_timeDecimals = 1;       ///< of seconds, as short as the recording allows
     bool m_areClockTimes = false; ///< h:min:s
     QString m_statisticUnit = QStringLiteral("nat");
+    QString m_snrUnit = QStringLiteral("dB");
 };
 
 } // namespace faintline

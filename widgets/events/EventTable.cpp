@@ -206,6 +206,11 @@ void EventTable::setStatisticUnit(const QString &unit)
     m_model->setStatisticUnit(unit);
 }
 
+void EventTable::setSnrUnit(const QString &unit)
+{
+    m_model->setSnrUnit(unit);
+}
+
 void EventTable::setAxes(const std::vector<Axis> &axes)
 {
     m_model->setAxes(axes);

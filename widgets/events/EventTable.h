@@ -33,6 +33,7 @@ public:
     void setEvents(const std::vector<Event> &events);
     void setReviews(const std::vector<EventReview> &reviews); ///< of these events
     void setStatisticUnit(const QString &unit);
+    void setSnrUnit(const QString &unit);
     void setAxes(const std::vector<Axis> &axes);                             ///< of the events' positions
     void setOrigin(std::optional<double> startUnixSeconds, double centreHz); ///< see EventModel::setOrigin
     /// Reviews of signals that match no event, one per line; an empty list hides them.

@@ -1,0 +1,48 @@
+#include "analyse/analyse.h"
+#include "analyse/events.h"
+#include "analyse/snrInBandwidth.h"
+#include "scene/SimulatedRecording.h"
+#include "support/test.h"
+
+#include <cmath>
+
+using namespace faintline;
+
+/// SNR against the noise in a given bandwidth.
+class tst_snrInBandwidth : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void noiseBandwidthsOfWindows()
+    {
+        QVERIFY(std::abs(noiseBandwidthCells(WindowShape::Rectangular) - 1.0) < 1e-3);
+        QVERIFY(std::abs(noiseBandwidthCells(WindowShape::Hann) - 1.5) < 1e-3);
+        QVERIFY(std::abs(noiseBandwidthCells(WindowShape::Blackman) - 1.7268) < 2e-3); // Harris 1978: 1.73
+        QVERIFY(std::abs(snrChangeDb(1.5, WindowShape::Hann, 1.0)) < 0.01);
+        QVERIFY(std::abs(snrChangeDb(2500.0, WindowShape::Hann, 1.0) + 10.0 * std::log10(2500.0 / 1.5)) < 0.01);
+    }
+
+    /// A sinusoid of amplitude a in white noise of deviation σ sampled at f has a²f/(4σ²) in 1 Hz.
+    void doesNotDependOnTheWindow()
+    {
+        LineScene scene{.sampleRateHz = 400.0, .durationSeconds = 120.0};
+        scene.lines = {{.snrDb = 12.0, .frequencyHz = 90.0}};
+        const auto recording = std::make_shared<SimulatedRecording>(scene);
+        const double amplitude = recording->truth().lines.front().amplitude;
+        const double in1Hz = 10.0
+                             * std::log10(amplitude * amplitude * scene.sampleRateHz
+                                          / (4.0 * scene.noise.deviation * scene.noise.deviation));
+        for (const double seconds : {0.25, 0.5, 1.0}) {
+            AnalysisSettings settings;
+            settings.spectrogram.windowSeconds = seconds;
+            const auto analysis = analyse(recording, settings);
+            const Event event = chosenEvent(*analysis, 0);
+            const double own = event.snrDb + snrChangeDb(1.0, analysis->frames->geometry().window, event.windowSeconds);
+            QVERIFY2(std::abs(own - in1Hz) < 0.8, QByteArray::number(own) + " " + QByteArray::number(in1Hz));
+        }
+    }
+};
+
+FAINTLINE_TEST(tst_snrInBandwidth)
+#include "tst_snrInBandwidth.moc"
