@@ -48,12 +48,13 @@ void Playback::addActionsTo(QMenu &menu)
 {
     auto *whats = new QActionGroup(this);
     const auto addWhat = [&](const QString &text, What what) {
-        connect(addChoice(menu, *whats, text, what == m_what), &QAction::triggered, this,
-                [this, what] { setWhat(what); });
+        QAction *choice = addChoice(menu, *whats, text, what == m_what);
+        connect(choice, &QAction::triggered, this, [this, what] { setWhat(what); });
+        return choice;
     };
     addWhat(tr("&Recording"), What::Recording);
     addWhat(tr("&Band of the box, or what is visible"), What::Band);
-    addWhat(tr("&Line of the event, or at the cursor, at 700 Hz"), What::Line);
+    m_lineAction = addWhat(tr("&Line of the event, or at the cursor, at 700 Hz"), What::Line);
     menu.addSeparator();
     auto *rates = new QActionGroup(this);
     for (const double speed : speeds)
@@ -69,6 +70,11 @@ void Playback::setWhat(What what)
 {
     m_what = what;
     playOn();
+}
+
+void Playback::chooseLine()
+{
+    m_lineAction->trigger();
 }
 
 void Playback::setSpeed(double speed)

@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 
+class QAction;
 class QMenu;
 
 namespace faintline {
@@ -42,6 +43,7 @@ public:
     /// Selects what is played, how fast, and whether in a loop.
     void addActionsTo(QMenu &menu);
     void setWhat(What what);
+    void chooseLine(); ///< as its action does
     void setSpeed(double speed);
     void setLooping(bool isLooping);
 
@@ -92,6 +94,7 @@ private:
 
     Document &m_document;
     ChooseEvent m_chooseEvent;
+    QAction *m_lineAction = nullptr;
     What m_what = What::Recording;
     double m_speed = 1.0;
     bool m_isLooping = false;

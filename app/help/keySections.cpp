@@ -77,7 +77,7 @@ namespace {
                                       {"M   B   Ctrl + Return", "measure a box; annotate, analyse it"},
                                       {"Alt + Return", "analyse what is visible"},
                                       {"K", "cursor to the nearest peak"},
-                                      {"H", "harmonics of the cursor's frequency"},
+                                      {"H   Shift + H", "harmonics of the cursor's frequency; hear the line"},
                                       {"I", "sidebands: drag one, or Alt + Left, Right"},
                                       {"Space", "play as sound; Play > Play what"},
                                       {"Space   End", "live: hold the picture, go to the newest frames"},

@@ -202,6 +202,7 @@ private:
     OverviewStrip *m_overview = nullptr;
     ActivityBar *m_activity = nullptr;
     QLabel *m_hint = nullptr;
+    QAction *m_harmonicsAction = nullptr;
     double m_snrBandwidthHz = 0.0; ///< 0: of a bin
     QLabel *m_legend = nullptr;    ///< of the marks in the pictures
     KeysOverlay *m_keys = nullptr;

@@ -25,6 +25,7 @@
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
 #include "widgets/base/icon.h"
+#include "widgets/events/EventCard.h"
 #include "widgets/events/EventTable.h"
 
 #include <QMenu>
@@ -148,14 +149,23 @@ void MainWindow::buildLinesMenu()
     addViewAction(*menu, tr("&Next event"), Qt::Key_N, [this] { m_events->selectNext(); });
     addViewAction(*menu, tr("&Previous event"), QKeySequence(Qt::SHIFT | Qt::Key_N),
                   [this] { m_events->selectPrevious(); });
-    addViewAction(*menu, tr("&Why (not) detected"), QKeySequence(Qt::Key_W), [this] { showWhy(); });
+    QAction *why = addViewAction(*menu, tr("&Why (not) detected"), QKeySequence(Qt::Key_W), [this] { showWhy(); });
+    QAction *hear = addViewAction(*menu, tr("&Hear the line"), QKeySequence(Qt::SHIFT | Qt::Key_H), [this] {
+        m_playback->chooseLine();
+        m_playAction->setChecked(true);
+    });
+    hear->setToolTip(tr("Play the selected event's line alone, at 700 Hz"));
     menu->addSeparator();
     m_reviews->addActionsTo(*menu);
     menu->addSeparator();
-    addViewAction(*menu, tr("Doppler &fit"), Qt::Key_D, [this] {
-        showDoppler();
-    })->setToolTip(tr("Fit a source that passes at constant speed to the selected event's track"));
-    addViewAction(*menu, tr("S&traighten recording along this track…"), Qt::Key_T, [this] { straighten(); });
+    QAction *doppler = addViewAction(*menu, tr("Doppler &fit"), Qt::Key_D, [this] { showDoppler(); });
+    doppler->setToolTip(tr("Fit a source that passes at constant speed to the selected event's track"));
+    QAction *straight =
+        addViewAction(*menu, tr("S&traighten recording along this track…"), Qt::Key_T, [this] { straighten(); });
+    straight->setIconText(tr("Straighten…"));
+    why->setIconText(tr("Why"));
+    hear->setIconText(tr("Hear"));
+    m_events->card().setActions({why, hear, m_harmonicsAction, straight, doppler});
     addViewAction(*menu, tr("Learn &motion from tracks…"), {}, [this] { learnMotion(); });
     menu->addSeparator();
     addViewAction(*menu, tr("Draw a line &by hand"), QKeySequence(Qt::CTRL | Qt::Key_D), [this] { showHandLine(); });

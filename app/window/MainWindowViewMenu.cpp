@@ -55,7 +55,7 @@ void MainWindow::buildViewMenu()
     m_viewActions.push_back(m_workbench->plainInput().action());
     menu->addSeparator();
     addViewAction(*menu, tr("&Measure a box"), Qt::Key_M, [output] { output->setMeasuring(!output->isMeasuring()); });
-    QAction *harmonics = addViewAction(*menu, tr("&Harmonics"), Qt::Key_H, {});
+    QAction *harmonics = m_harmonicsAction = addViewAction(*menu, tr("&Harmonics"), Qt::Key_H, {});
     harmonics->setCheckable(true);
     connect(harmonics, &QAction::toggled, input, &WaterfallView::setHarmonics);
     connect(harmonics, &QAction::toggled, output, &WaterfallView::setHarmonics);

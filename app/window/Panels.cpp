@@ -213,16 +213,20 @@ QString Panels::researcher()
     return layoutNames()[1];
 }
 
-/// In a high column, why an event was found is below the list of events.
+/// In a high column, why an event was found is below the list of events; the list has room for the card of the
+/// selected one.
 void Panels::stackEvents()
 {
     QDockWidget *events = dock("eventsDock"), *why = dock("whyDock");
-    if (m_window.height() < threeRowsFrom)
+    if (m_window.height() < threeRowsFrom) {
+        const int column = m_window.height() * 3 / 4;
+        m_window.resizeDocks({first(Place::RightTop), events}, {column * 2 / 5, column * 3 / 5}, Qt::Vertical);
         return;
+    }
     m_window.addDockWidget(Qt::RightDockWidgetArea, why, Qt::Vertical); // out of their common tabs
     events->raise();
     const int height = m_window.height() * 3 / 4;
-    m_window.resizeDocks({first(Place::RightTop), events, why}, {height / 3, height / 4, height * 5 / 12},
+    m_window.resizeDocks({first(Place::RightTop), events, why}, {height / 3, height * 5 / 12, height / 4},
                          Qt::Vertical);
 }
 
@@ -245,7 +249,7 @@ void Panels::takeLayout(const QString &name)
             own->raise();
     for (const QString &shown : layout.docks)
         if (QDockWidget *own = dock(shown); own && m_window.dockWidgetArea(own) == Qt::BottomDockWidgetArea)
-            raiseFromBottom(own, 48);
+            raiseFromBottom(own, m_window.height() < threeRowsFrom ? 38 : 48); // the pictures keep 200 each
 }
 
 void Panels::toggleMaximised()

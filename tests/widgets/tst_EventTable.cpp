@@ -4,12 +4,17 @@
 #include "pictures.h"
 #include "pixels.h"
 #include "widgets/base/Theme.h"
+#include "widgets/events/EventCard.h"
 #include "widgets/events/EventFilter.h"
 #include "widgets/events/EventModel.h"
 
+#include <QAction>
 #include <QHeaderView>
 #include <QLineEdit>
+#include <QSignalSpy>
 #include <QTableView>
+#include <QTextDocumentFragment>
+#include <QToolButton>
 
 using namespace faintline;
 
@@ -48,15 +53,14 @@ private slots:
         m_table->resize(280, 250);
         QCoreApplication::processEvents();
         const QTableView &table = *m_table->table();
-        for (const int column : {EventModel::Id, EventModel::Frequency, EventModel::Onset, EventModel::Detection,
-                                 EventModel::Confirmation}) {
+        for (const int column : {EventModel::Id, EventModel::Frequency, EventModel::Snr, EventModel::Onset}) {
             const int right = table.columnViewportPosition(column) + table.columnWidth(column);
             QVERIFY2(right <= table.viewport()->width(),
                      qPrintable(QStringLiteral("%1: %2 of %3").arg(column).arg(right).arg(table.viewport()->width())));
         }
     }
 
-    /// On a screen of 1280 pixels the panel has 280: the statistic is still seen, and of a long recording the times.
+    /// On a screen of 1280 pixels the panel has 280: frequency, SNR and onset are seen.
     void onASmallScreenNothingNeedsScrolling()
     {
         const auto isSeen = [&](const std::vector<int> &columns) {
@@ -66,8 +70,7 @@ private slots:
                     return false;
             return true;
         };
-        const std::vector<int> times{EventModel::Id, EventModel::Frequency, EventModel::Onset, EventModel::Detection,
-                                     EventModel::Confirmation};
+        const std::vector<int> times{EventModel::Id, EventModel::Frequency, EventModel::Snr, EventModel::Onset};
         for (const double since : {90.0, 4321.5}) {
             m_table->setEvents({});
             m_table->setEvents({test::event(1, since, since + 20.0, 960.03, 21.6),
@@ -75,8 +78,6 @@ private slots:
             m_table->resize(280, 200);
             QCoreApplication::processEvents();
             QVERIFY(isSeen(times));
-            if (since < 1000.0)
-                QVERIFY(isSeen({EventModel::Statistic}));
             for (const int column : times) { // headings are whole, too
                 const QHeaderView &header = *m_table->table()->horizontalHeader();
                 const QString heading = m_table->table()->model()->headerData(column, Qt::Horizontal).toString();
@@ -102,6 +103,39 @@ private slots:
             const int right = table.columnViewportPosition(column) + table.columnWidth(column);
             QVERIFY2(right <= table.viewport()->width(), qPrintable(QString("%1: %2").arg(column).arg(right)));
         }
+    }
+
+    void aCardTellsAllOfTheSelectedEvent()
+    {
+        Event event = test::event(7, 5.0, 20.0, 950.0);
+        event.snrDb = 12.34;
+        event.driftPerSecond = -0.5;
+        event.noiseProbability = 3e-6;
+        event.windowSeconds = 0.25;
+        m_table->setEvents({event, test::event(8, 50.0, 60.0, 100.0)});
+        m_table->setSnrUnit("dB in 2500 Hz");
+        m_table->setOrigin(1.7e9, 0.0);
+        EventReview classified;
+        classified.event = 7;
+        classified.label = "a <whale>";
+        m_table->setReviews({classified});
+        m_table->resize(420, 420);
+        QAction why("Why");
+        QSignalSpy asked(&why, &QAction::triggered);
+        m_table->card().setActions({&why});
+        QVERIFY(m_table->card().isHidden());
+        m_table->setSelectedEvent(7);
+        QVERIFY(m_table->card().isVisible());
+        QString text = QTextDocumentFragment::fromHtml(m_table->card().text()).toPlainText();
+        text.replace(QChar::Nbsp, QLatin1Char(' '));
+        for (const char *fact :
+             {"Event 7", "Frequency 950.00 Hz", "SNR 12.3 dB in 2500 Hz", "Time 5.0 … 20.0 s", "Drift −0.5 Hz/s",
+              "Window 0.25 s", "Onset 2023-11-14", "Chance of being noise 3·10", "Class a <whale>"})
+            QVERIFY2(text.contains(QString::fromUtf8(fact)), qPrintable(text));
+        QTest::mouseClick(m_table->card().findChild<QToolButton *>(), Qt::LeftButton);
+        QCOMPARE(asked.count(), 1);
+        m_table->resize(420, 200); // the list needs the room
+        QVERIFY(m_table->card().isHidden());
     }
 
     void numbersAreNotCutShort()

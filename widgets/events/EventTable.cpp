@@ -1,5 +1,6 @@
 #include "widgets/events/EventTable.h"
 
+#include "widgets/events/EventCard.h"
 #include "widgets/events/EventModel.h"
 #include "widgets/events/EventProxy.h"
 
@@ -20,7 +21,7 @@ namespace faintline {
 
 EventTable::EventTable(QWidget *parent)
     : QWidget(parent), m_model(new EventModel(this)), m_proxy(new EventProxy(this)), m_filter(new QLineEdit),
-      m_table(new QTableView), m_count(new QLabel),
+      m_table(new QTableView), m_card(new EventCard(*m_model)), m_count(new QLabel),
       m_empty(new QLabel(tr("Events appear here after a recording has been analysed."))), m_unmatchedTitle(new QLabel),
       m_unmatched(new QListWidget)
 {
@@ -52,10 +53,15 @@ EventTable::EventTable(QWidget *parent)
     layout->addLayout(stack, 1);
     for (QWidget *page : {static_cast<QWidget *>(m_empty), static_cast<QWidget *>(m_table)})
         stack->addWidget(page); // only now, because the first one is shown, alone if it has no parent
+    layout->addWidget(m_card);
     layout->addWidget(m_unmatchedTitle);
     layout->addWidget(m_unmatched);
     setUpUnmatched();
     updateCount();
+    connect(m_table->selectionModel(), &QItemSelectionModel::selectionChanged, this, &EventTable::updateCard);
+    connect(m_model, &QAbstractItemModel::dataChanged, this, &EventTable::updateCard);
+    connect(m_model, &QAbstractItemModel::headerDataChanged, this, &EventTable::updateCard);
+    updateCard();
 }
 
 void EventTable::setUpUnmatched()
@@ -102,6 +108,7 @@ void EventTable::setUpTable()
     m_table->horizontalHeader()->setResizeContentsPrecision(20); // rows; numbers of all of them: widenColumns
     m_table->horizontalHeader()->setStretchLastSection(true);
     m_table->horizontalHeader()->setMinimumSectionSize(26);
+    orderColumns();
     m_table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
     m_table->setAccessibleName(tr("Events"));
     m_table->installEventFilter(this);
@@ -132,6 +139,21 @@ void EventTable::setEvents(const std::vector<Event> &events)
     widenColumns();
     setSelectedEvent(selected);
     updateCount();
+}
+
+/// Lines are told apart by frequency and SNR, targets by when they were confirmed.
+void EventTable::orderColumns()
+{
+    QHeaderView &header = *m_table->horizontalHeader();
+    std::vector<int> order;
+    if (!m_model->hasBearing())
+        order = {EventModel::Id,    EventModel::Frequency, EventModel::Snr,   EventModel::Onset,
+                 EventModel::Drift, EventModel::End,       EventModel::Window};
+    for (int column = 0; column < EventModel::ColumnCount; ++column)
+        if (std::ranges::find(order, column) == order.end())
+            order.push_back(column);
+    for (int place = 0; place < int(order.size()); ++place)
+        header.moveSection(header.visualIndex(order[std::size_t(place)]), place);
 }
 
 /// Number columns are as wide as their headings, without the style's margins.
@@ -216,6 +238,7 @@ void EventTable::setAxes(const std::vector<Axis> &axes)
     m_model->setAxes(axes);
     for (const auto column : {EventModel::Bearing, EventModel::ThirdAxis, EventModel::FourthAxis})
         m_table->setColumnHidden(column, !m_model->hasColumn(column));
+    orderColumns();
 }
 
 void EventTable::setOrigin(std::optional<double> startUnixSeconds, double centreHz)
@@ -317,6 +340,20 @@ void EventTable::updateCount()
                      : m_isPreview      ? tr("Preview: %1").arg(count)
                                         : count);
     static_cast<QStackedLayout *>(layout()->itemAt(1)->layout())->setCurrentIndex(all > 0 ? 1 : 0);
+}
+
+void EventTable::updateCard()
+{
+    constexpr int leastList = 130; // pixels, of the filter and some events
+    const int row = m_model->rowOf(selectedEvent());
+    m_card->setRow(row);
+    m_card->setVisible(row >= 0 && height() >= leastList + m_card->layout()->totalHeightForWidth(width()));
+}
+
+void EventTable::resizeEvent(QResizeEvent *event)
+{
+    QWidget::resizeEvent(event);
+    updateCard();
 }
 
 void EventTable::keyPressEvent(QKeyEvent *event)

@@ -15,6 +15,7 @@ class QTableView;
 
 namespace faintline {
 
+class EventCard;
 class EventModel;
 class EventProxy;
 
@@ -47,6 +48,7 @@ public:
     std::vector<int> shownIds() const;       ///< in the order shown
     QTableView *table() const { return m_table; }
     QLineEdit *filter() const { return m_filter; }
+    EventCard &card() { return *m_card; } ///< of the selected event, below the table if there is room
 
     QSize sizeHint() const override { return {420, 220}; }
 
@@ -65,6 +67,7 @@ signals:
 protected:
     void keyPressEvent(QKeyEvent *event) override;
     bool eventFilter(QObject *watched, QEvent *event) override;
+    void resizeEvent(QResizeEvent *event) override;
 
 private:
     void setUpTable();
@@ -74,6 +77,8 @@ private:
     void activate(int proxyRow);
     void applyFilter(const QString &text);
     void updateCount();
+    void updateCard();
+    void orderColumns();
     void narrowColumns();
     void widenColumns();
     int widthOf(int row, int column) const;
@@ -82,6 +87,7 @@ private:
     EventProxy *m_proxy;
     QLineEdit *m_filter;
     QTableView *m_table;
+    EventCard *m_card;
     QLabel *m_count;
     QLabel *m_empty;
     QLabel *m_unmatchedTitle;
