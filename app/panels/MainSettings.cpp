@@ -21,6 +21,9 @@ namespace {
     QString labelAlone(const QString &name)
     {
         const QMap<QString, QString> labels{
+            {QStringLiteral("model.lowestSlope"), MainSettings::tr("Drift from")},
+            {QStringLiteral("model.highestSlope"), MainSettings::tr("Drift to")},
+            {QStringLiteral("model.snr"), MainSettings::tr("Faintest SNR")},
             {QStringLiteral("detector.kind"), MainSettings::tr("Detector")},
             {QStringLiteral("selection.lowHz"), MainSettings::tr("Band from")},
             {QStringLiteral("selection.highHz"), MainSettings::tr("Band to")},

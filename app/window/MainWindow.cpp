@@ -164,7 +164,7 @@ void MainWindow::showWorkbench()
     m_panels->setLeastPictures(bench().hasReadOut() ? Panels::leastWithBars : Panels::leastAlone);
     m_pages->setCurrentWidget(&bench());
     if (const QByteArray panels = m_memory.layout().panels; panels.isEmpty() || !restoreState(panels))
-        m_panels->takeLayout(m_memory.isKept() ? Panels::analyse() : Panels::researcher());
+        takeLayout(m_memory.isKept() ? Panels::analyse() : Panels::researcher());
     showBars();
     m_legend->show();
     for (QAction *action : m_viewActions)
@@ -308,6 +308,12 @@ bool MainWindow::focusNextPrevChild(bool next)
     return false;
 }
 
+void MainWindow::takeLayout(const QString &name)
+{
+    m_panels->takeLayout(name);
+    m_regulationAction->setChecked(name != Panels::analyse());
+}
+
 void MainWindow::saveLayout()
 {
     if (m_pages->currentWidget() == m_welcome || m_presentAction->isChecked())
@@ -324,6 +330,7 @@ void MainWindow::saveLayout()
     layout.isRadioAxis = view.isRadioAxis;
     const std::string_view layer = outputLayerNames[std::size_t(m_workbench->layers().chosen())];
     layout.layer = QString::fromLatin1(layer.data(), qsizetype(layer.size()));
+    layout.isRegulationShown = m_regulationAction->isChecked();
     m_memory.setLayout(layout);
 }
 
@@ -336,6 +343,7 @@ void MainWindow::restoreLayout()
     if (!layout.pingSplitters.isEmpty())
         m_pings->restoreSplitters(layout.pingSplitters);
     m_workbench->restore({{}, {}, layout.orientation, layout.colourMap, layout.isLogarithmic, layout.isRadioAxis});
+    m_regulationAction->setChecked(layout.isRegulationShown);
     const auto layer = std::ranges::find(outputLayerNames, layout.layer.toStdString());
     if (layer != outputLayerNames.end())
         m_workbench->layers().setLayer(OutputLayer(layer - outputLayerNames.begin()));

@@ -116,6 +116,7 @@ private:
     void addPresentation(QMenu &menu);
     void addLessonMenu(QMenu &menu);
     void addSnrMenu(QMenu &menu);
+    void takeLayout(const QString &name);
     void addThemeMenu(QMenu &menu);
     void buildPlayMenu();
     void buildLinesMenu();
@@ -203,6 +204,7 @@ private:
     ActivityBar *m_activity = nullptr;
     QLabel *m_hint = nullptr;
     QAction *m_harmonicsAction = nullptr;
+    QAction *m_regulationAction = nullptr;
     double m_snrBandwidthHz = 0.0; ///< 0: of a bin
     QLabel *m_legend = nullptr;    ///< of the marks in the pictures
     KeysOverlay *m_keys = nullptr;

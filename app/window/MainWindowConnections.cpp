@@ -191,6 +191,7 @@ void MainWindow::connectWelcome()
                     before.reset();
             }); // lessons speak of the statistic
     connect(m_lessons, &LessonGuide::runningChanged, this, [this](bool isRunning) {
+        m_workbench->setRegulationWanted(isRunning || m_regulationAction->isChecked());
         if (isRunning)
             m_presentAction->setEnabled(true); // also of scans, which have no pictures of their own
     });

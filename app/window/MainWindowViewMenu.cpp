@@ -83,12 +83,17 @@ void MainWindow::buildViewMenu()
     addAction(addViewAction(*menu, tr("What was &found, or the statistic D"), Qt::Key_F,
                             [layers = &m_workbench->layers()] { layers->toggleFound(); }));
     addLayerMenu(*menu);
+    m_regulationAction = addViewAction(*menu, tr("Share of &resets and ln K over time"), {}, {});
+    m_regulationAction->setCheckable(true);
+    m_regulationAction->setChecked(true);
+    m_regulationAction->setToolTip(tr("How much the detector forgets, below the pictures"));
+    connect(m_regulationAction, &QAction::toggled, m_workbench, &Workbench::setRegulationWanted);
     addSnrMenu(*menu);
     m_panelsMenu = menu->addMenu(tr("&Panels"));
     m_panelsMenu->addActions(m_panels->toggleActions());
     QMenu *layouts = menu->addMenu(tr("La&yout"));
     for (const QString &name : Panels::layoutNames())
-        addViewAction(*layouts, name, {}, [this, name] { m_panels->takeLayout(name); });
+        addViewAction(*layouts, name, {}, [this, name] { takeLayout(name); });
     addViewAction(*menu, tr("Ma&ximise panel"), Qt::Key_F11, [this] {
         m_panels->toggleMaximised();
     })->setToolTip(tr("Give the whole window to the panel that has the focus, or put it back"));

@@ -21,6 +21,7 @@ namespace {
     const QString orientationKey = QStringLiteral("view/orientation");
     const QString logarithmicKey = QStringLiteral("view/logarithmic");
     const QString radioKey = QStringLiteral("view/radio");
+    const QString regulationKey = QStringLiteral("view/regulation");
     const QString layerKey = QStringLiteral("view/layer");
     const QString geometryKey = QStringLiteral("window/geometry");
     const QString panelsKey = QStringLiteral("window/panels");
@@ -97,11 +98,16 @@ WindowMemory::Layout WindowMemory::layout() const
 {
     if (!m_store)
         return {};
-    return {m_store->value(geometryKey).toByteArray(),      m_store->value(panelsKey).toByteArray(),
-            m_store->value(splittersKey).toByteArray(),     m_store->value(pingSplittersKey).toByteArray(),
-            m_store->value(colourMapKey).toString(),        m_store->value(orientationKey, "leftToRight").toString(),
-            m_store->value(logarithmicKey).toBool(),        m_store->value(radioKey).toBool(),
-            m_store->value(layerKey, "presence").toString()};
+    return {m_store->value(geometryKey).toByteArray(),
+            m_store->value(panelsKey).toByteArray(),
+            m_store->value(splittersKey).toByteArray(),
+            m_store->value(pingSplittersKey).toByteArray(),
+            m_store->value(colourMapKey).toString(),
+            m_store->value(orientationKey, "leftToRight").toString(),
+            m_store->value(logarithmicKey).toBool(),
+            m_store->value(radioKey).toBool(),
+            m_store->value(layerKey, "presence").toString(),
+            m_store->value(regulationKey, m_store->contains(panelsKey)).toBool()};
 }
 
 void WindowMemory::setLayout(const Layout &layout)
@@ -117,6 +123,7 @@ void WindowMemory::setLayout(const Layout &layout)
     m_store->setValue(logarithmicKey, layout.isLogarithmic);
     m_store->setValue(radioKey, layout.isRadioAxis);
     m_store->setValue(layerKey, layout.layer);
+    m_store->setValue(regulationKey, layout.isRegulationShown);
 }
 
 Theme::Kind WindowMemory::theme() const

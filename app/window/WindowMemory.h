@@ -25,6 +25,7 @@ public:
         bool isLogarithmic = false; ///< the frequency axis
         bool isRadioAxis = false;
         QString layer; ///< of the output, as in outputLayerNames
+        bool isRegulationShown = true;
     };
 
     explicit WindowMemory(std::unique_ptr<QSettings> store = {}) : m_store(std::move(store)) {}

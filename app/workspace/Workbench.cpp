@@ -344,7 +344,13 @@ void Workbench::showWhatFits()
     const int enoughForOne = isStacked ? 520 : 460; // the pictures keep 350, or 200 each above each other
     const int enoughForBoth = isStacked ? 610 : 570;
     m_statistic->setVisible(height() >= enoughForOne);
-    m_regulation->setVisible(height() >= enoughForBoth && !m_document.isLive());
+    m_regulation->setVisible(m_isRegulationWanted && height() >= enoughForBoth && !m_document.isLive());
+}
+
+void Workbench::setRegulationWanted(bool isWanted)
+{
+    m_isRegulationWanted = isWanted;
+    showWhatFits();
 }
 
 void Workbench::setRadioAxis(bool isOn)

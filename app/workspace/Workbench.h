@@ -48,6 +48,8 @@ public:
     /// Labels frequencies as radio frequencies if the recording has a centre frequency.
     void setRadioAxis(bool isOn);
     bool isRadioAxis() const { return m_isRadioAxis; }
+    /// Whether the share of continued states and ln K are shown over time, where there is room.
+    void setRegulationWanted(bool isWanted);
 
 public slots:
     void stepFrames(int frames) override;
@@ -102,6 +104,7 @@ private:
     Index m_colouredFrames = 0;                     ///< number of frames when its colours were chosen
     bool m_isToBePainted = false;
     bool m_isRadioAxis = false;
+    bool m_isRegulationWanted = true;
 };
 
 } // namespace faintline
