@@ -228,43 +228,38 @@ namespace {
         return number == choice.automatic ? settings : inWindowOf(choice.trials[number], settings);
     }
 
-    /// Whether the next shorter window sees better what the shortest one knew better.
-    bool isTooLong(const WindowTrial &shortest, const Analysis &found)
+    /// Asks the other windows; and ever shorter ones, until the next one would not see better what the last one knew
+    /// better. Without such an end these change nothing: bursts have more energy in every shorter window.
+    void askWindows(Analysis &found, WindowChoice &choice, const AnalysisSettings &settings,
+                    CalibrationDepth calibration, const RunContext &context)
     {
-        return std::ranges::any_of(found.tracks, [&](const Track &track) {
-            return track.windowSeconds > 0.0 && track.windowSeconds < (1.0 + 1e-6) * shortest.windowSeconds
-                   && isSeenBetter(track, found, shortest.windowSeconds / factor, track.windowSeconds);
-        });
-    }
-
-    /// Asks ever shorter windows, until the next one would not see better what the last one knew better. Without such an
-    /// end nothing changes: bursts have more energy in every shorter window.
-    void askShorterWindows(Analysis &found, WindowChoice &choice, const AnalysisSettings &settings,
-                           CalibrationDepth calibration, const RunContext &context)
-    {
-        Analysis asked;
-        static_cast<AnalysisPlan &>(asked) = found;
-        asked.tracks = found.tracks;
-        asked.areas = found.areas;
-        WindowChoice trials = choice;
+        AskedWindows asked = askOtherWindows(found, found.others, context);
+        found.tracks = asked.tracks;
+        Analysis shorter;
+        static_cast<AnalysisPlan &>(shorter) = found;
+        shorter.areas = found.areas;
+        WindowChoice tried = choice;
         const double bandHz = double(found.grid().axes.back().count) * found.grid().axes.back().step;
-        while (isTooLong(trials.trials.front(), asked)) {
-            WindowTrial next = trials.trials.front();
+        while (asked.isTooLong) {
+            WindowTrial next = tried.trials.front();
             next.windowSeconds /= factor;
             if (bandHz * next.windowSeconds < fewestCellsOfBand)
                 return;
             next.settings = inWindowOf(next, next.settings);
-            asked.others.insert(asked.others.begin(), runOnRecording(found.recording, inWindowOf(next, settings),
-                                                                     trialRequest(calibration), context));
-            next.tracks = std::ssize(asked.others.front()->tracks);
-            trials.trials.insert(trials.trials.begin(), next);
-            ++trials.automatic;
-            ++trials.chosen;
-            asked.tracks = withOtherWindows(asked, std::span(asked.others).first(1), context);
+            next.kept = std::numeric_limits<double>::quiet_NaN();
+            const RunContext part = context.part(1.0, 1.0);
+            shorter.others.insert(shorter.others.begin(), runOnRecording(found.recording, inWindowOf(next, settings),
+                                                                         trialRequest(calibration), part));
+            next.tracks = std::ssize(shorter.others.front()->tracks);
+            tried.trials.insert(tried.trials.begin(), next);
+            ++tried.automatic;
+            ++tried.chosen;
+            shorter.tracks = std::move(asked.tracks);
+            asked = askOtherWindows(shorter, std::span(shorter.others).first(1), part);
         }
         found.tracks = std::move(asked.tracks);
-        found.others.insert(found.others.begin(), asked.others.begin(), asked.others.end());
-        choice = std::move(trials);
+        found.others.insert(found.others.begin(), shorter.others.begin(), shorter.others.end());
+        choice = std::move(tried);
     }
 
     /// Whether all settings that affect the choice of a window are equal.
@@ -341,8 +336,7 @@ std::shared_ptr<const Analysis> runInChosenWindow(const RecordingPointer &record
                                        trialRequest(wanted.calibration, tried.get()), part);
         }
     found->others = std::move(others);
-    found->tracks = withOtherWindows(*found, found->others, context.part(compared, 1.0));
-    askShorterWindows(*found, choice, settings, wanted.calibration, context.part(1.0, 1.0));
+    askWindows(*found, choice, settings, wanted.calibration, context.part(compared, 1.0));
     choice.fromOthers = std::count_if(found->tracks.begin(), found->tracks.end(),
                                       [](const Track &track) { return track.windowSeconds > 0.0; });
     found->choice = std::move(choice);

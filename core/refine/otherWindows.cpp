@@ -222,6 +222,10 @@ namespace {
         {
             m_other = &other;
             m_model = bothWaysModel(other);
+            if (windowOf(other) < m_shortest) {
+                m_shortest = windowOf(other);
+                m_isTooLong = false;
+            }
             const std::vector<Track> tracks = tracksToAsk();
             if (tracks.empty() || other.time().count < OwnNoiseLaw::fewestFrames)
                 return;
@@ -253,11 +257,11 @@ namespace {
             }
         }
 
-        std::vector<Track> take()
+        AskedWindows take()
         {
             std::erase_if(m_tracks, [](const Track &track) { return track.points.empty(); });
             numberByDetection(m_tracks);
-            return std::move(m_tracks);
+            return {std::move(m_tracks), m_isTooLong};
         }
 
     private:
@@ -415,8 +419,10 @@ namespace {
                                std::ranges::max_element(parts, {}, &Track::peakStatistic)->peakStatistic);
                     const Curve path(whole, *m_other);
                     const std::vector<std::size_t> own = followersOf(path);
-                    if (areOnePath(own, path) && isBetterKnown(whole, own))
+                    if (areOnePath(own, path) && isBetterKnown(whole, own)) {
+                        noteMovement(path);
                         return replace(inFramesOf(m_base, *m_other, whole), own);
+                    }
                 }
             if (!isBetter && !isShorter())
                 return;
@@ -426,8 +432,16 @@ namespace {
                     return alone.start() >= m_curves[s].heardFrom() && alone.end() <= m_curves[s].heardUntil();
                 });
                 if (!isInPiece
-                    && ((isBetter && isSeenBetter(alone)) || (isShorter() && hasItsEnergyInBase(alone, part, cells))))
-                    add(inFramesOf(m_base, *m_other, part));
+                    && ((isBetter && isSeenBetter(alone)) || (isShorter() && hasItsEnergyInBase(alone, part, cells)))) {
+                    noteMovement(alone);
+                    Track known = inFramesOf(m_base, *m_other, part);
+                    const auto piece = std::ranges::find_if(
+                        pieces, [&](std::size_t s) { return areConnected(m_tracks[s], known, x); });
+                    if (piece != pieces.end())
+                        extend(*piece, known, x);
+                    else
+                        add(std::move(known));
+                }
             }
         }
 
@@ -560,6 +574,50 @@ namespace {
             }
         }
 
+        void noteMovement(const Curve &known)
+        {
+            const double window = windowOf(*m_other);
+            m_isTooLong =
+                m_isTooLong || (isShorter() && window == m_shortest && isBetterIn(known, 0.25 * window, window));
+        }
+
+        /// Whether the track of the other window is present all the way between two tracks of the base's frames.
+        bool areConnected(const Track &a, const Track &b, const Track &x) const
+        {
+            const double from = m_base.time().value(double(std::min(a.endFrame, b.endFrame)));
+            const double to = m_base.time().value(double(std::max(a.onsetFrame, b.onsetFrame)));
+            for (std::size_t i = 0; i < x.points.size(); ++i)
+                if (const double t = m_other->time().value(double(x.points[i].frame));
+                    from < t && t < to && !x.isPresent(i))
+                    return false;
+            return true;
+        }
+
+        /// Continues a signal to the ends of a part of the other window's track, along that.
+        void extend(std::size_t s, const Track &part, const Track &x)
+        {
+            const Track whole = inFramesOf(m_base, *m_other, x);
+            Track &own = m_tracks[s];
+            const auto at = [&](const auto &values, Index frame) {
+                return values.begin() + (frame - whole.onsetFrame);
+            };
+            const auto take = [&](auto &values, const auto &from) {
+                if (part.endFrame > own.endFrame)
+                    values.insert(values.end(), at(from, own.endFrame + 1), at(from, part.endFrame + 1));
+                if (part.onsetFrame < own.onsetFrame)
+                    values.insert(values.begin(), at(from, part.onsetFrame), at(from, own.onsetFrame));
+            };
+            take(own.points, whole.points);
+            take(own.smoothed, whole.smoothed);
+            own.isOpen = part.endFrame > own.endFrame ? part.isOpen : own.isOpen;
+            own.takeEndsOfPoints();
+            own.detectFrame = std::clamp(part.detectFrame, own.onsetFrame, own.detectFrame);
+            own.peakStatistic = std::max(own.peakStatistic, part.peakStatistic);
+            for (TrackPoint &point : own.points)
+                point.statistic = std::min(point.statistic, own.peakStatistic);
+            m_curves[s] = Curve(own, m_base);
+        }
+
         void add(Track track)
         {
             m_curves.emplace_back(track, m_base);
@@ -581,19 +639,16 @@ namespace {
         std::vector<Track> m_tracks; ///< without points: replaced
         std::vector<Curve> m_curves; ///< of these
         const Analysis *m_other = nullptr;
-        BothWaysModel m_model; ///< of the other window
+        double m_shortest = std::numeric_limits<double>::infinity(); ///< window of those asked, s
+        bool m_isTooLong = false;                                    ///< see AskedWindows
+        BothWaysModel m_model;                                       ///< of the other window
         std::unique_ptr<OwnNoiseLaw> m_noise;
     };
 
 } // namespace
 
-bool isSeenBetter(const Track &track, const Analysis &analysis, double windowSeconds, double thanSeconds)
-{
-    return isBetterIn(Curve(track, analysis), windowSeconds, thanSeconds);
-}
-
-std::vector<Track> withOtherWindows(const Analysis &base, std::span<const std::shared_ptr<const Analysis>> others,
-                                    const RunContext &context)
+AskedWindows askOtherWindows(const Analysis &base, std::span<const std::shared_ptr<const Analysis>> others,
+                             const RunContext &context)
 {
     KnownSignals signals(base);
     std::vector<std::shared_ptr<const Analysis>> byDistance(others.begin(), others.end());

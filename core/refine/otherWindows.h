@@ -34,10 +34,11 @@ namespace faintline {
 ///               evidence over its threshold than each piece, and takes their earliest detection. For several pieces the
 ///               condition on windows does not apply: a spread signal is one track in the window in which it stands out
 ///               as one, however slow it is.
-///   adding      otherwise, each part is a track, unless a follower spans it. Its statistic is its own gain. Its window
-///               has to see X and the part better; or, if it is the shorter one, the base's frames have to hold the
-///               part's energy, because a line has the same Σ r in both (Parseval), and what the base takes for noise is
-///               none:
+///   adding      otherwise, each part is a track, unless a follower spans it; or it continues a follower, if X is present
+///               all the way between them, as along a line that is fast for a while. Its statistic is its own gain. Its
+///               window has to see X and the part better; or, if it is the shorter one, the base's frames have to hold
+///               the part's energy, because a line has the same Σ r in both (Parseval), and what the base takes for noise
+///               is none:
 ///
 ///                 Σ (y - 1)/w ≥ ½ Σ r    y: the base's cells within one of where X is during T0; r: X's power over the
 ///                                        noise's; w: sum of the main lobe's powers over its largest one, in bins
@@ -45,11 +46,20 @@ namespace faintline {
 /// Windows of fewer than OwnNoiseLaw::fewestFrames frames are not asked. Positions are interpolated between frames;
 /// statistics are shifted by the difference of the two thresholds, and powers divided by the ratio of the windows, so that
 /// both have the same meaning as in the base. The result is renumbered, by detection, then cell. All analyses must have
-/// two-sided tracks (secondLook.h). Throws Cancelled.
-std::vector<Track> withOtherWindows(const Analysis &base, std::span<const std::shared_ptr<const Analysis>> others,
-                                    const RunContext &context = {});
+/// two-sided tracks (secondLook.h).
+struct AskedWindows {
+    std::vector<Track> tracks;
+    bool isTooLong = false; ///< a window of a quarter sees better what the shortest one knows better
+};
+/// Throws Cancelled.
+AskedWindows askOtherWindows(const Analysis &base, std::span<const std::shared_ptr<const Analysis>> others,
+                             const RunContext &context = {});
 
-/// Whether a window sees a track of an analysis better than another one does, as above.
-bool isSeenBetter(const Track &track, const Analysis &analysis, double windowSeconds, double thanSeconds);
+inline std::vector<Track> withOtherWindows(const Analysis &base,
+                                           std::span<const std::shared_ptr<const Analysis>> others,
+                                           const RunContext &context = {})
+{
+    return askOtherWindows(base, others, context).tracks;
+}
 
 } // namespace faintline
