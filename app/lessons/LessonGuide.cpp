@@ -366,8 +366,8 @@ void LessonGuide::limitWidth()
 {
     constexpr int mostPercent = 32; // of the window
     const bool isAlone = isScanScenario(m_opened) && !m_parts.bench().isVisible();
-    m_panel->setMaximumWidth(isAlone ? std::max(m_panel->minimumWidth(), m_window.width() * mostPercent / 100)
-                                     : QWIDGETSIZE_MAX);
+    m_dock->setMaximumWidth(isAlone ? std::max(m_panel->minimumWidth(), m_window.width() * mostPercent / 100)
+                                    : QWIDGETSIZE_MAX);
 }
 
 void LessonGuide::showPanel()
@@ -397,10 +397,20 @@ void LessonGuide::present(bool isPresenting)
         pointOut(widgetNamed(now().point));
         if (auto *below = m_window.findChild<QDockWidget *>(QStringLiteral("pipelineDock"));
             below && below->isVisible())
-            m_window.resizeDocks({m_dock, below}, {2, 1}, Qt::Vertical);
+            shareColumn(*below);
         m_frame->follow();
         keepInSight();
     }
+}
+
+/// Two thirds for the lesson, and more if its step needs that, as long as the other panel can be used.
+void LessonGuide::shareColumn(QDockWidget &below)
+{
+    constexpr int leastBelow = 200;
+    const int height = std::max(m_window.height(), m_dock->height() + below.height());
+    const int lesson =
+        std::clamp(m_panel->presentedHeight(), height * 2 / 3, std::max(height * 2 / 3, height - leastBelow));
+    m_window.resizeDocks({m_dock, &below}, {lesson, height - lesson}, Qt::Vertical);
 }
 
 /// Reveals what a step points to, in front of the step's other panels.
@@ -430,8 +440,8 @@ void LessonGuide::takeOneColumn()
     }
     if (!below)
         return;
-    m_window.resizeDocks({m_dock, below}, {2, 1}, Qt::Vertical);
     m_window.resizeDocks({m_dock}, {width * panelPercent / 100}, Qt::Horizontal);
+    shareColumn(*below);
 }
 
 void LessonGuide::leave()

@@ -83,6 +83,7 @@ private:
     void showPanel();
     void pointOut(QWidget *target);
     void takeOneColumn();
+    void shareColumn(QDockWidget &below);
     void reveal(QWidget *widget);
     bool isBusy() const;
 

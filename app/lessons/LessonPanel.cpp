@@ -182,25 +182,41 @@ void LessonPanel::showPage(QVBoxLayout &column)
     fitText();
 }
 
+/// Of the page with text of that size, which it then has.
+int LessonPanel::pageHeight(int textSize, int width)
+{
+    QWidget &page = *m_area->widget();
+    m_textSize = textSize;
+    for (QWidget *part : page.findChildren<QWidget *>()) {
+        if (part->testAttribute(Qt::WA_SetFont))
+            part->setFont(font(part->font().bold()));
+        if (part->layout())
+            part->layout()->invalidate();
+        part->updateGeometry(); // what holds text remembers its height otherwise
+    }
+    page.layout()->invalidate();
+    return page.layout()->totalHeightForWidth(width);
+}
+
+int LessonPanel::presentedHeight()
+{
+    if (!m_area->widget() || m_step < 0)
+        return 0;
+    const int before = m_textSize;
+    const int smallest = pageHeight(smallLargeSize, m_area->maximumViewportSize().width());
+    pageHeight(before, m_area->maximumViewportSize().width());
+    return height() - m_area->height() + smallest;
+}
+
 /// In a presentation, the largest text with which the whole step is seen, until more is said of it.
 void LessonPanel::fitText()
 {
     if (!m_isLarge || !m_area->widget() || !m_area->isVisible() || choice() >= 0 || m_isDone)
         return;
-    QWidget &page = *m_area->widget();
     const QSize room = m_area->maximumViewportSize();
-    const auto setSize = [&](int size) {
-        m_textSize = size;
-        for (QWidget *part : page.findChildren<QWidget *>())
-            if (part->testAttribute(Qt::WA_SetFont))
-                part->setFont(font(part->font().bold()));
-        page.layout()->invalidate();
-    };
-    for (int size = largeSize; size >= smallLargeSize; --size) {
-        setSize(size);
-        if (page.layout()->totalHeightForWidth(room.width()) <= room.height())
+    for (int size = largeSize; size >= smallLargeSize; --size)
+        if (pageHeight(size, room.width()) <= room.height())
             break;
-    }
     if (m_choices)
         for (QAbstractButton *button : m_choices->buttons())
             button->setFixedHeight(QFontMetrics(font(false)).height()); // beside the first line

@@ -48,6 +48,8 @@ public:
     QPushButton *leave() const { return m_leave; }
     /// Chooses the answer of a number key; whether there is one.
     bool chooseByKey(const QKeyEvent &key);
+    /// Height in which a presented step is seen whole, in the smallest text of presentations.
+    int presentedHeight();
     void takeKeys(); ///< the keyboard's focus
     QButtonGroup *choices() const { return m_choices; }
     QLineEdit *learner() const { return m_learner; } ///< at the end; null before
@@ -71,6 +73,7 @@ private:
     void fillEnd();
     QVBoxLayout *newPage();
     void showPage(QVBoxLayout &column);
+    int pageHeight(int textSize, int width);
     void fitText();
     void fillHead();
     void showAnswer(int choice);
