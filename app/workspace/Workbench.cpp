@@ -91,6 +91,7 @@ Workbench::Workbench(Document &document, QWidget *parent)
     connect(&document, &Document::opened, this, [this] {
         m_isFirstPicture = true;
         m_livePlan.reset();
+        m_input->setPlain(false);
         for (WaterfallView *view : {m_input, m_output}) {
             view->setStartUnixSeconds({});
             view->setTimes({});
@@ -194,6 +195,9 @@ void Workbench::showPictures(const PicturesSoFar &pictures)
     const Axis &time = pictures.time;
     const double reached = pictures.input ? time.value(double(pictures.input->frameCount()) - 0.5)
                                           : -std::numeric_limits<double>::infinity();
+    if (m_input->isPlain())
+        m_input->setHeading(inputHeading(false));
+    m_input->setPlain(false);
     const bool isReached = !pictures.quickLook || m_document.viewport().visible().time.high <= reached;
     m_input->setPicture(isReached ? pictures.input : pictures.quickLook, pictures.frequency);
     m_output->setHeading(tr("Statistic D so far"));

@@ -3,6 +3,7 @@
 #include "app/base/MessageBar.h"
 #include "app/base/filePath.h"
 #include "app/control/OutputLayers.h"
+#include "app/control/PlainInput.h"
 #include "app/help/KeysOverlay.h"
 #include "app/openWindow.h"
 #include "app/views/WindowViews.h"
@@ -10,8 +11,10 @@
 #include "app/workspace/Workbench.h"
 #include "exchange/Session.h"
 #include "support/test.h"
+#include "widgets/events/EventModel.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/plot/ExceedancePlot.h"
+#include "widgets/plot/StripPlot.h"
 #include "widgets/waterfall/LayerItem.h"
 
 #include <qwt_plot_canvas.h>
@@ -22,6 +25,7 @@
 #include <QLabel>
 #include <QMenuBar>
 #include <QStatusBar>
+#include <QTableView>
 
 #include <algorithm>
 #include <cmath>
@@ -88,6 +92,14 @@ class tst_MainWindow : public QObject
     QString m_scene;
 
     QString path(const QString &name) const { return m_folder.filePath(name); }
+
+    static void choose(MainWindow &window, const QString &action)
+    {
+        for (QAction *one : window.findChildren<QAction *>())
+            if (one->text().remove(QLatin1Char('&')) == action && !one->menu())
+                return one->trigger();
+        QFAIL("no such action");
+    }
 
     std::unique_ptr<MainWindow> window(bool remembers = false) const
     {
@@ -629,6 +641,63 @@ private slots:
             QTest::qWait(20 * i);
         }
         QVERIFY(clock.elapsed() < 20000 * slowdown);
+    }
+
+    void theInputIsShownAsPlainDbAndBack()
+    {
+        auto window = this->window();
+        QVERIFY(openAndSettle(*window, path("tone.wav")));
+        WaterfallView *input = window->workbench().input();
+        PlainInput &plain = window->workbench().plainInput();
+        const auto overNoise = input->picture();
+        QTest::keyClick(window.get(), Qt::Key_D, Qt::ShiftModifier);
+        QVERIFY(plain.isBusy());
+        QVERIFY(settle(plain));
+        QVERIFY(input->isPlain() && input->picture() != overNoise);
+        QVERIFY2(input->heading().contains("full scale²/Hz"), qPrintable(input->heading()));
+        // Another analysis shows its own.
+        window->controller().edit("spectrogram.windowSeconds", 0.5, "window");
+        QVERIFY(settle(*window));
+        QVERIFY(settle(plain));
+        QVERIFY(input->isPlain());
+        QCOMPARE(input->picture()->time(), window->document().analysis()->time());
+        QTest::keyClick(window.get(), Qt::Key_D, Qt::ShiftModifier);
+        QVERIFY(!input->isPlain());
+        QCOMPARE(input->picture(), window->document().analysis()->input);
+        QVERIFY(input->isRangeAutomatic());
+    }
+
+    void snrsAreGivenInTheChosenBandwidth()
+    {
+        {
+            auto window = this->window(true);
+            QVERIFY(openAndSettle(*window, m_scene));
+            const QAbstractItemModel &table = *window->eventTable().table()->model();
+            const auto snr = [&] { return table.index(0, EventModel::Snr).data().toDouble(); };
+            const double ofABin = snr();
+            choose(*window, "of 2500 Hz");
+            const Event &event = window->document().shownEvents().front();
+            // A Hann window's bin has a noise bandwidth of 1.5 resolution cells.
+            QVERIFY(std::abs(snr() - ofABin - 10.0 * std::log10(1.5 / (2500.0 * event.windowSeconds))) < 0.11);
+            QCOMPARE(table.headerData(EventModel::Snr, Qt::Horizontal).toString(), QString("SNR (dB in 2500 Hz)"));
+            QVERIFY(std::abs(event.snrDb - ofABin) < 0.06); // files have that of the bin
+        }
+        auto window = this->window(true);
+        QVERIFY(openAndSettle(*window, m_scene));
+        const QAbstractItemModel &table = *window->eventTable().table()->model();
+        QCOMPARE(table.headerData(EventModel::Snr, Qt::Horizontal).toString(), QString("SNR (dB in 2500 Hz)"));
+    }
+
+    void resetsAreShownOnDemand()
+    {
+        auto window = this->window();
+        window->resize(1400, 1000);
+        QVERIFY(openAndSettle(*window, m_scene));
+        QVERIFY(window->workbench().regulationPlot()->isVisible());
+        choose(*window, "Analyse");
+        QVERIFY(!window->workbench().regulationPlot()->isVisible());
+        choose(*window, "Researcher");
+        QVERIFY(window->workbench().regulationPlot()->isVisible());
     }
 
     void twoHundredEditsInTheWindowUndoneAreWhatTheyWere()

@@ -5,7 +5,9 @@
 #include "support/test.h"
 #include "widgets/plot/ChartPlot.h"
 
+#include <QPushButton>
 #include <QTableWidget>
+#include <QUndoStack>
 
 #include <memory>
 
@@ -25,6 +27,7 @@ private slots:
     void noNumberIsCutShort();
     void otherDetectorsSayThatTheyHaveNoPath();
     void theNextRecordingHasNoPathYet();
+    void aCureIsAClickAway();
 
 private:
     void askAt(double seconds, double hz)
@@ -122,6 +125,28 @@ void tst_WhyPanel::theNextRecordingHasNoPathYet()
     QObject::disconnect(connection);
     QVERIFY2(sentence.startsWith("Click a cell"), qPrintable(sentence));
     QCOMPARE(rows, 0);
+}
+
+void tst_WhyPanel::aCureIsAClickAway()
+{
+    QVERIFY(
+        openAndSettle(*m_window, writeFile(m_folder, "fast.json",
+                                           R"({"kind": "lines", "sampleRateHz": 400, "durationSeconds": 60, "lines": [
+        {"snrDb": 14, "durationSeconds": 3.5, "frequencyHz": 20, "driftHzPerSecond": 48}]})")));
+    m_window->controller().edit("spectrogram.windowSeconds", 0.5, "window");
+    QVERIFY(settle(*m_window));
+    askAt(1.5, 180.0);
+    WhyPanel &why = m_window->why();
+    QVERIFY(why.remedy()->isHidden());
+    askAt(1.5, 92.0);
+    QVERIFY(why.advice());
+    QVERIFY(why.remedy()->isVisible());
+    QCOMPARE(why.remedy()->text(), QString("Use a window of 0.13 s"));
+    why.remedy()->click();
+    QVERIFY(settle(*m_window));
+    QCOMPARE(m_window->document().settings().spectrogram.windowSeconds, 0.13);
+    QCOMPARE(m_window->document().undoStack().undoText(), QString("Use a window of 0.13 s"));
+    QVERIFY(!m_window->document().shownEvents().empty());
 }
 
 FAINTLINE_WINDOW_TEST(tst_WhyPanel)
