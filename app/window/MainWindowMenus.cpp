@@ -179,6 +179,7 @@ void MainWindow::buildLinesMenu()
 void MainWindow::buildAnalyseMenu()
 {
     QMenu *menu = menuBar()->addMenu(tr("&Analyse"));
+    menu->setToolTipsVisible(true);
     addViewAction(*menu, tr("&Run again"), QKeySequence(Qt::CTRL | Qt::Key_R), [this] { m_controller.run(); });
     m_stopAction = menu->addAction(tr("&Stop"), QKeySequence(Qt::Key_Escape), &m_controller, &AnalysisController::stop);
     m_stopAction->setEnabled(false);
@@ -195,16 +196,24 @@ void MainWindow::buildAnalyseMenu()
                   [this] { m_compare->swap(); });
     addViewAction(*menu, tr("&Go to A"), {}, [this] { m_compare->goToA(); });
     menu->addSeparator();
-    addViewAction(*menu, tr("&Pd and ROC"), QKeySequence(Qt::CTRL | Qt::Key_P), [this] { m_panels->show(m_evaluate); });
+    addViewAction(*menu, tr("&Pd and ROC"), QKeySequence(Qt::CTRL | Qt::Key_P), [this] {
+        m_panels->show(m_evaluate);
+    })->setToolTip(tr("How often lines of an SNR are found, at a rate of false alarms"));
     addViewAction(*menu, tr("&Experiments"), {}, [this] { m_panels->show(m_experimentList); });
-    addViewAction(*menu, tr("S&weep a setting"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_P),
-                  [this] { showSweep(); });
-    addViewAction(*menu, tr("&Noise fit"), {}, [this] { showNoiseFit(); });
-    addViewAction(*menu, tr("S&tate space"), Qt::Key_S, [this] { showStates(); });
+    addViewAction(*menu, tr("S&weep a setting"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_P), [this] {
+        showSweep();
+    })->setToolTip(tr("How often lines are found with each of several values of a setting"));
+    addViewAction(*menu, tr("&Noise fit"), {}, [this] {
+        showNoiseFit();
+    })->setToolTip(tr("Whether the recording's noise is as the rate of false alarms assumes"));
+    addViewAction(*menu, tr("S&tate space"), Qt::Key_S, [this] {
+        showStates();
+    })->setToolTip(tr("What the detector holds of every frequency and drift at the cursor's time"));
     addViewAction(*menu, tr("&Latency of pings"), {}, [this] { showLatency(); });
     menu->addSeparator();
-    addViewAction(*menu, tr("Se&quential test"), QKeySequence(Qt::CTRL | Qt::Key_T),
-                  [this] { m_panels->show(m_sequential); });
+    addViewAction(*menu, tr("Se&quential test"), QKeySequence(Qt::CTRL | Qt::Key_T), [this] {
+        m_panels->show(m_sequential);
+    })->setToolTip(tr("Decide scan by scan whether there is a target, or go on"));
     addViewAction(*menu, tr("Sequential test on the selecti&on"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_T),
                   [this] {
                       m_panels->show(m_sequential);

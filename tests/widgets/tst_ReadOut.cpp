@@ -50,7 +50,7 @@ private slots:
         for (const char *name : {"Time", "Level", "Statistic"})
             QCOMPARE(shown(name), QString("–"));
         QCOMPARE(shown("Frequency"), QString("440.0 Hz"));
-        QCOMPARE(shown("Slope"), QString("−0.25 Hz/s"));
+        QCOMPARE(shown("Drift"), QString("−0.25 Hz/s"));
         QCOMPARE(m_line->text(), QString("440.0 Hz · −0.25 Hz/s"));
     }
 
@@ -224,7 +224,7 @@ private:
     {
         QCoreApplication::processEvents();
         QHash<QString, int> result;
-        for (const char *name : {"Time", "Frequency", "Level", "Statistic", "Slope"})
+        for (const char *name : {"Time", "Frequency", "Level", "Statistic", "Drift"})
             result[name] = figure(name)->mapTo(m_line.get(), QPoint()).x();
         return result;
     }

@@ -45,13 +45,13 @@ ReadOut::ReadOut(QWidget *parent) : QWidget(parent)
     m_radio = addItem(tr("Radio"), tr("RF"), QStringLiteral("000.000000 MHz"));
     m_level = addItem(tr("Level"), tr("L"), QStringLiteral("−00.0 dB"));
     m_statistic = addItem(tr("Statistic"), tr("D"), QStringLiteral("000.00 × noise"));
-    m_slope = addItem(tr("Slope"), tr("Slope"), QStringLiteral("−00.000 Hz/s"));
+    m_slope = addItem(tr("Drift"), tr("Drift"), QStringLiteral("−00.000 Hz/s"));
     m_age = addItem(tr("Path"), tr("Path"), {});
     layout->addStretch(1);
     m_radio.box->setToolTip(tr("Radio frequency: the recording's centre frequency plus the offset"));
     m_level.box->setToolTip(tr("Power over the mean of the noise"));
     m_statistic.box->setToolTip(tr("The detector's statistic D"));
-    m_slope.box->setToolTip(tr("Slope of the best state in this cell, or of the track through it"));
+    m_slope.box->setToolTip(tr("Drift of the best path into this cell, or of the track through it"));
     m_age.box->setToolTip(tr("Time since the last reset of the best path that ends in this cell; computed while a "
                              "layer (V) or the state space (S) is shown"));
     setAccessibleName(tr("Read-out"));
