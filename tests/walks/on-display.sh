@@ -1,6 +1,7 @@
 #!/bin/sh
-# Runs a program as on a small screen of a user: on an X display of its own of 1280 × 800 pixels, under a window
-# manager, with a home of its own. on-display.sh PROGRAM [ARGUMENT …]; 77: something that it needs is not installed.
+# Runs a program as on a screen of a user, by default a small one: on an X display of its own of FAINTLINE_WALK_SCREEN
+# (1280x800) pixels, under a window manager, with a home of its own. on-display.sh PROGRAM [ARGUMENT …]; 77: something
+# that it needs is not installed.
 set -eu
 
 for tool in Xvfb openbox xdotool; do
@@ -34,7 +35,7 @@ start() {
 
 export HOME="$home" XDG_CONFIG_HOME="$home/config" XDG_DATA_HOME="$home/data" XDG_CACHE_HOME="$home/cache"
 mkdir -m 700 "$home/run" && export XDG_RUNTIME_DIR="$home/run"
-start Xvfb -displayfd 1 -screen 0 1280x800x24 -nolisten tcp >"$home/display" 2>"$home/server.log"
+start Xvfb -displayfd 1 -screen 0 "${FAINTLINE_WALK_SCREEN:-1280x800}x24" -nolisten tcp >"$home/display" 2>"$home/server.log"
 server=$!
 until [ -s "$home/display" ]; do
     kill -0 "$server" 2>/dev/null || fail "Xvfb does not start: $(tail -n 1 "$home/server.log")"
