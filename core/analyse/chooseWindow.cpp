@@ -229,7 +229,8 @@ namespace {
     }
 
     /// Asks the other windows; and ever shorter ones, until the next one would not see better what the last one knew
-    /// better. Without such an end these change nothing: bursts have more energy in every shorter window.
+    /// better. Without such an end, or if one does not have more evidence of most tracks of the last one, these change
+    /// nothing: bursts have more energy in every shorter window.
     void askWindows(Analysis &found, WindowChoice &choice, const AnalysisSettings &settings,
                     CalibrationDepth calibration, const RunContext &context)
     {
@@ -256,6 +257,8 @@ namespace {
             ++tried.chosen;
             shorter.tracks = std::move(asked.tracks);
             asked = askOtherWindows(shorter, std::span(shorter.others).first(1), part);
+            if (!asked.knowsBetter)
+                return;
         }
         found.tracks = std::move(asked.tracks);
         found.others.insert(found.others.begin(), shorter.others.begin(), shorter.others.end());

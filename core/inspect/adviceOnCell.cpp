@@ -151,10 +151,10 @@ namespace {
 
     std::optional<Advice> adviceOnThreshold(const Analysis &analysis, const Explanation &explanation)
     {
-        constexpr double leastShare = 0.5;   ///< of the threshold
+        constexpr double nearShare = 0.5;    ///< of the threshold
         constexpr double mostAlarms = 100.0; ///< of the requested ones
         const double statistic = explanation.displayed;
-        if (!analysis.calibration || statistic < leastShare * analysis.threshold)
+        if (!analysis.calibration || statistic < nearShare * analysis.threshold)
             return {};
         const auto alarms = [&](double nats) {
             return analysis.calibration->eventRateAt(nats) * analysis.cellFramesPerHour;

@@ -16,6 +16,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <set>
 #include <utility>
 
 namespace faintline {
@@ -261,10 +262,26 @@ namespace {
         {
             std::erase_if(m_tracks, [](const Track &track) { return track.points.empty(); });
             numberByDetection(m_tracks);
-            return {std::move(m_tracks), m_isTooLong};
+            return {std::move(m_tracks), m_isTooLong, knowsBetter()};
         }
 
     private:
+        bool knowsBetter() const
+        {
+            double window = std::numeric_limits<double>::infinity();
+            for (const Track &track : m_base.tracks)
+                if (track.windowSeconds > 0.0)
+                    window = std::min(window, track.windowSeconds);
+            int count = 0;
+            int better = 0;
+            for (std::size_t s = 0; s < m_base.tracks.size(); ++s)
+                if (m_base.tracks[s].windowSeconds == window) {
+                    ++count;
+                    better += m_betterKnown.contains(s) ? 1 : 0;
+                }
+            return 2 * better > count;
+        }
+
         /// Of the other window, the strongest first.
         std::vector<Track> tracksToAsk() const
         {
@@ -410,6 +427,9 @@ namespace {
             const Curve curve(x, *m_other);
             const std::vector<std::size_t> pieces = followersOf(curve);
             const bool isBetter = isSeenBetter(curve);
+            for (const std::size_t s : pieces)
+                if (isBetterKnown(x, {s}))
+                    m_betterKnown.insert(s);
             if ((isBetter || pieces.size() > 1) && areOnePath(pieces, curve))
                 if (const std::vector<Track> parts = partsOf(x, strip, pieces); !parts.empty()) {
                     const Index first = x.points.front().frame;
@@ -640,8 +660,9 @@ namespace {
         std::vector<Curve> m_curves; ///< of these
         const Analysis *m_other = nullptr;
         double m_shortest = std::numeric_limits<double>::infinity(); ///< window of those asked, s
-        bool m_isTooLong = false;                                    ///< see AskedWindows
-        BothWaysModel m_model;                                       ///< of the other window
+        bool m_isTooLong = false;                                    ///< see AskedWindows, as the next
+        std::set<std::size_t> m_betterKnown;
+        BothWaysModel m_model; ///< of the other window
         std::unique_ptr<OwnNoiseLaw> m_noise;
     };
 

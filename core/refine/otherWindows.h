@@ -49,7 +49,8 @@ namespace faintline {
 /// two-sided tracks (secondLook.h).
 struct AskedWindows {
     std::vector<Track> tracks;
-    bool isTooLong = false; ///< a window of a quarter sees better what the shortest one knows better
+    bool isTooLong = false;   ///< a window of a quarter sees better what the shortest one knows better
+    bool knowsBetter = false; ///< more evidence of most tracks that the shortest window before had brought
 };
 /// Throws Cancelled.
 AskedWindows askOtherWindows(const Analysis &base, std::span<const std::shared_ptr<const Analysis>> others,
