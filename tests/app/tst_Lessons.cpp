@@ -17,6 +17,7 @@
 #include "app/workspace/Workbench.h"
 #include "support/errors.h"
 #include "support/test.h"
+#include "widgets/events/EventTable.h"
 #include "widgets/forms/SettingsForm.h"
 #include "widgets/pings/PingMap.h"
 #include "widgets/plot/ExceedancePlot.h"
@@ -343,7 +344,7 @@ void tst_Lessons::numberKeysAnswer()
     QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
     const auto before = window->document().annotations();
     QVERIFY(std::ssize(window->document().shownEvents()) > 0);
-    window->events().setSelectedEvent(window->document().shownEvents().front().id);
+    window->eventTable().setSelectedEvent(window->document().shownEvents().front().id);
     // A step that points to a field leaves the keys to its question, until the field is clicked.
     guide.goTo(guide.step() + 1);
     QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
