@@ -12,6 +12,7 @@
 #include <QFontMetricsF>
 #include <QMouseEvent>
 #include <QPainter>
+#include <QScopedValueRollback>
 
 #include <algorithm>
 #include <cmath>
@@ -164,8 +165,11 @@ void MarkedPlot::clicked(const QPointF &canvas)
 bool MarkedPlot::eventFilter(QObject *watched, QEvent *event)
 {
     if (watched == canvas()) {
-        if (event->type() == QEvent::Resize)
+        constexpr int mostTries = 3; // ticks need width, and width decides on ticks
+        if (event->type() == QEvent::Resize && m_resizing < mostTries) {
+            const QScopedValueRollback nested(m_resizing, m_resizing + 1);
             layAxes();
+        }
         if (event->type() == QEvent::MouseButtonPress) {
             const auto *mouse = static_cast<QMouseEvent *>(event);
             if (mouse->button() == Qt::LeftButton) {

@@ -72,6 +72,7 @@ private:
     std::vector<Mark> m_marks;
     double m_marksTop = 3.0;
     std::optional<double> m_cursorAt;
+    int m_resizing = 0; ///< nested
     QwtPlotGrid *m_grid;
     MarkItem *m_markItem;
     CanvasSentence *m_sentence;
