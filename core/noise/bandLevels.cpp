@@ -48,7 +48,8 @@ namespace {
         FrameLevels(const BlockBackground &block, Index bands, double likeness)
             : m_bands(bands), m_cells(std::ssize(block.lnPower)), m_likeness(likeness),
               m_agreeing(float(4.0 * medianScatter(double(m_cells) / double(bands)))), m_inverse(std::size_t(m_cells)),
-              m_noise(std::size_t(bands)), m_firm(std::size_t(bands))
+              m_noise(std::size_t(bands)), m_firm(std::size_t(bands)),
+              m_medians(std::size_t(bands), std::numbers::ln2_v<float>)
         {
             for (std::size_t cell = 0; cell < m_inverse.size(); ++cell)
                 m_inverse[cell] =
@@ -96,9 +97,10 @@ namespace {
                 const std::ptrdiff_t count = std::ssize(m_sample);
                 if (count < fewestCells)
                     continue;
-                const float median = medianOf(m_sample);
+                const float median = medianNear(m_medians[std::size_t(band)]);
                 if (!(median > 0.0f))
                     continue;
+                m_medians[std::size_t(band)] = median;
                 levels[std::size_t(band)] =
                     lnMean(truncatedMean(m_sample, median / std::numbers::ln2_v<float>), count, m_likeness);
                 m_known.push_back(band);
@@ -112,6 +114,26 @@ namespace {
         {
             for (const Index cell : wanted)
                 m_sample.push_back(frame[std::size_t(cell)] * m_inverse[std::size_t(cell)]);
+        }
+
+        /// Median of the sample, faster if it is near that value.
+        float medianNear(float expected)
+        {
+            constexpr float nearRatio = 1.1f;
+            const float low = expected / nearRatio;
+            const float high = expected * nearRatio;
+            m_near.clear();
+            Index below = 0;
+            for (const float value : m_sample) {
+                below += value < low ? 1 : 0;
+                if (value >= low && value < high)
+                    m_near.push_back(value);
+            }
+            const Index rank = (std::ssize(m_sample) - 1) / 2 - below;
+            if (rank < 0 || rank >= std::ssize(m_near))
+                return medianOf(m_sample);
+            std::nth_element(m_near.begin(), m_near.begin() + rank, m_near.end());
+            return m_near[std::size_t(rank)];
         }
 
         /// Median; two values have no majority, so all count.
@@ -129,7 +151,9 @@ namespace {
         std::vector<float> m_inverse;
         std::vector<std::vector<Index>> m_noise; ///< cells of noise in each sub-band
         std::vector<std::vector<Index>> m_firm;  ///< those whose background is firm
+        std::vector<float> m_medians; ///< of each sub-band in the frame before
         std::vector<float> m_sample;
+        std::vector<float> m_near;
         std::vector<Index> m_telling;
         std::vector<Index> m_known;
     };
