@@ -48,15 +48,16 @@ namespace {
     Scatter meansOf(const NoiseSample &sample, const std::vector<Index> &cells, Index length)
     {
         Scatter scatter;
-        for (const Index cell : cells)
-            for (Index first = 0; first + length <= sample.rows(); first += length) {
-                float sum = 0.0f;
-                for (Index row = first; row < first + length; ++row)
-                    sum += std::isnan(sample.at(row, cell)) ? sample.at(row, cell)
-                                                            : std::min(sample.at(row, cell), runPowerLimit);
+        std::vector<float> sums(cells.size());
+        for (Index first = 0; first + length <= sample.rows(); first += length) {
+            std::ranges::fill(sums, 0.0f);
+            for (Index row = first; row < first + length; ++row)
+                for (std::size_t i = 0; i < cells.size(); ++i)
+                    sums[i] += std::min(sample.at(row, cells[i]), runPowerLimit); // NaN stays
+            for (const float sum : sums)
                 if (!std::isnan(sum))
                     scatter.add(double(sum) / double(length));
-            }
+        }
         return scatter;
     }
 
