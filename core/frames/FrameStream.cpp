@@ -11,27 +11,33 @@ namespace {
 } // namespace
 
 FrameStream::FrameStream(const NormalisedFrames &frames, bool readsAhead)
-    : m_frames(frames), m_readsAhead(readsAhead),
-      m_blockFrames(std::max<Index>(1, Index(blockBytes / sizeof(float)) / std::max<Index>(1, frames.grid().size())))
+    : FrameStream(frames, readsAhead, 0, frames.time().count)
 {
-    if (m_readsAhead)
+}
+
+FrameStream::FrameStream(const NormalisedFrames &frames, bool readsAhead, Index first, Index end)
+    : m_frames(frames), m_readsAhead(readsAhead),
+      m_blockFrames(std::max<Index>(1, Index(blockBytes / sizeof(float)) / std::max<Index>(1, frames.grid().size()))),
+      m_position(first), m_end(end)
+{
+    if (m_readsAhead && m_position < m_end)
         prefetch();
 }
 
 std::vector<float> FrameStream::next()
 {
-    if (m_position >= m_frames.time().count)
+    if (m_position >= m_end)
         return {};
     std::vector<float> block = m_readsAhead ? m_block.get() : read(m_position);
     m_position += std::ssize(block) / m_frames.grid().size();
-    if (m_readsAhead && m_position < m_frames.time().count)
+    if (m_readsAhead && m_position < m_end)
         prefetch();
     return block;
 }
 
 std::vector<float> FrameStream::read(Index first) const
 {
-    const Index count = std::min(m_blockFrames, m_frames.time().count - first);
+    const Index count = std::min(m_blockFrames, m_end - first);
     std::vector<float> block(std::size_t(count * m_frames.grid().size()));
     m_frames.read(first, count, block);
     return block;

@@ -12,6 +12,8 @@ class FrameStream
 {
 public:
     FrameStream(const NormalisedFrames &frames, bool readsAhead); ///< `frames` must outlive this
+    /// Of the frames from `first` up to, not including, `end`.
+    FrameStream(const NormalisedFrames &frames, bool readsAhead, Index first, Index end);
 
     /// Index of the first frame of `next`.
     Index position() const { return m_position; }
@@ -26,7 +28,8 @@ private:
     const NormalisedFrames &m_frames;
     bool m_readsAhead;
     Index m_blockFrames;
-    Index m_position = 0;
+    Index m_position;
+    Index m_end;
     std::future<std::vector<float>> m_block;
 };
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace faintline {
@@ -126,6 +127,30 @@ void Explanations::hide(Index frame, Index firstCell, std::span<float> y, float 
     });
 }
 
+std::vector<Explanations::Stretch> Explanations::stretches() const
+{
+    std::vector<Stretch> all;
+    for (const ExplainedSignal &signal : m_signals)
+        if (!signal.positions.empty())
+            all.push_back({signal.firstFrame - 1, signal.endFrame(), std::ssize(signal.positions) + 2});
+    std::ranges::sort(all, {}, &Stretch::first);
+    std::vector<Stretch> joined;
+    for (Stretch next : all) {
+        while (!joined.empty() && next.first - next.raised <= joined.back().last + joined.back().raised) {
+            const Stretch before = joined.back();
+            joined.pop_back();
+            const Index more = next.first > before.last ? next.raised : std::max<Index>(0, next.last - before.last);
+            next = {before.first, std::max(before.last, next.last), before.raised + more};
+        }
+        joined.push_back(next);
+    }
+    for (Stretch &stretch : joined) {
+        stretch.first -= stretch.raised;
+        stretch.last += stretch.raised;
+    }
+    return joined;
+}
+
 namespace {
 
     constexpr double hidingNatsPerFrame = 0.05; ///< nat per frame
@@ -158,36 +183,51 @@ namespace {
 
 } // namespace
 
+namespace {
+
+    /// Sends the frames of a stretch through a chain of its own.
+    std::vector<Track> searchIn(const Explanations::Stretch &stretch, const Analysis &analysis,
+                                const Explanations &explanations, float hidden, const RunContext &context)
+    {
+        const NormalisedFrames &frames = *analysis.frames;
+        const Index cells = frames.grid().size();
+        const Index frameCount = frames.time().count;
+        const Index phases = analysis.model.space.axes().front().phaseCount();
+        std::unique_ptr<PathDetector> detector = makePathDetector(analysis);
+        detector->useThreads(context.threads);
+        const auto chain = makeChain(analysis, std::move(detector));
+        std::vector<float> floor(static_cast<std::size_t>(cells));
+        std::vector<float> statistic(floor.size());
+        FrameStream stream(frames, context.threads > 1, std::max<Index>(0, stretch.first) / phases * phases,
+                           std::min(frameCount, stretch.last + 1));
+        for (std::vector<float> block = stream.next(); !block.empty(); block = stream.next()) {
+            const Index first = stream.position() - std::ssize(block) / cells;
+            context.checkpoint(double(first) / double(frameCount), "searching behind strong signals");
+            for (Index i = 0; i < std::ssize(block) / cells; ++i) {
+                const std::span<float> y = std::span(block).subspan(std::size_t(i * cells), floor.size());
+                explanations.read(first + i, 0, floor);
+                for (std::size_t cell = 0; cell < floor.size(); ++cell)
+                    y[cell] /= floor[cell];
+                explanations.hide(first + i, 0, y, hidden);
+                chain->update(first + i, y, statistic);
+            }
+        }
+        chain->finish();
+        return chain->takeJoinedTracks();
+    }
+
+} // namespace
+
 std::vector<Track> searchBehind(const Analysis &analysis, const Explanations &explanations, const RunContext &context)
 {
-    const NormalisedFrames &frames = *analysis.frames;
-    const Index cells = frames.grid().size();
-    const Index frameCount = frames.time().count;
     const KinematicAxis &axis = analysis.model.space.axes().front();
     const auto hidden =
         float(powerOf(analysis.model.likelihood,
                       -(analysis.calibration->lnK + std::log(axis.rateChange.front())) - hidingNatsPerFrame));
-    std::unique_ptr<PathDetector> detector = makePathDetector(analysis);
-    detector->useThreads(context.threads);
-    const auto chain = makeChain(analysis, std::move(detector));
-    std::vector<float> floor(static_cast<std::size_t>(cells));
-    std::vector<float> statistic(floor.size());
-    FrameStream stream(frames, context.threads > 1);
-    for (std::vector<float> block = stream.next(); !block.empty(); block = stream.next()) {
-        const Index first = stream.position() - std::ssize(block) / cells;
-        context.checkpoint(double(first) / double(frameCount), "searching behind strong signals");
-        for (Index i = 0; i < std::ssize(block) / cells; ++i) {
-            const std::span<float> y = std::span(block).subspan(std::size_t(i * cells), floor.size());
-            explanations.read(first + i, 0, floor);
-            for (std::size_t cell = 0; cell < floor.size(); ++cell)
-                y[cell] /= floor[cell];
-            explanations.hide(first + i, 0, y, hidden);
-            chain->update(first + i, y, statistic);
-        }
-    }
-    chain->finish();
-    std::vector<Track> found = chain->takeJoinedTracks();
-    const auto reach = Index(std::ceil(frames.geometry().binsPerCell));
+    std::vector<Track> found;
+    for (const Explanations::Stretch &stretch : explanations.stretches())
+        std::ranges::move(searchIn(stretch, analysis, explanations, hidden, context), std::back_inserter(found));
+    const auto reach = Index(std::ceil(analysis.frames->geometry().binsPerCell));
     const double sure = sureStatistic(analysis);
     std::erase_if(found, [&](const Track &track) {
         return track.peakStatistic < sure || hiddenShare(track, explanations, reach) < hiddenShareLimit;

@@ -46,6 +46,19 @@ public:
     /// Sets y to `value` in the cells firstCell … of a frame that signals hide.
     void hide(Index frame, Index firstCell, std::span<float> y, float value) const;
 
+    /// A stretch of frames, of which signals raise the floor in some.
+    struct Stretch {
+        Index first;
+        Index last;
+        Index raised; ///< frames
+
+        bool operator==(const Stretch &) const = default;
+    };
+
+    /// The stretches, in order, outside which no track lies of which at least half of the points are in frames where
+    /// signals raise the floor. They may reach beyond all frames.
+    std::vector<Stretch> stretches() const;
+
 private:
     /// A signal in a block of time, and the cells that it may raise there.
     struct Entry {
@@ -73,8 +86,8 @@ private:
 /// The chain is that of the analysis, with the same threshold, on y/floor. Cells within the main lobe of an explained
 /// signal are not known to hold nothing else: there λ = -(ln K + ln h(0)) - 0.05, so that a path that goes on behind a
 /// stronger signal loses as much as in noise, and none gains. Only tracks that the first run could not find are
-/// returned: at half of their points or more the floor is raised within a resolution cell. Because they are a second
-/// chance for noise, they also have to be a hundred times rarer than ordered (sureStatistic.h). Throws Cancelled.
+/// returned: at half of their points or more the floor is raised within a resolution cell, so that frames in which no
+/// such track can lie are left out (Explanations::stretches). Because they are a second chance for noise, they also have to be a hundred times rarer than ordered (sureStatistic.h). Throws Cancelled.
 std::vector<Track> searchBehind(const Analysis &analysis, const Explanations &explanations, const RunContext &context);
 
 } // namespace faintline

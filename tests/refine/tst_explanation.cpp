@@ -1,6 +1,8 @@
+#include "base/Random.h"
 #include "refine/explanation.h"
 #include "support/test.h"
 
+#include <algorithm>
 #include <cmath>
 
 using namespace faintline;
@@ -25,6 +27,7 @@ private slots:
     void skirtsCountWhereTheyAreWider();
     void oneFrameMoreAtEitherEnd();
     void transformBesideSharpSignals();
+    void halfHiddenTracksLieInOneStretch();
 };
 
 void tst_explanation::floorIsTheProductOfAll()
@@ -86,6 +89,40 @@ void tst_explanation::transformBesideSharpSignals()
             const bool isSharp = isMeasured && slope < 0.1;
             QVERIFY(std::abs(double(floor[0]) - (isSharp ? 1.0 : 1.0 + 200.0 * tenths(3.0))) < 1e-4);
         }
+}
+
+/// Every track of which half of the points lie where the floor is raised, by enumeration.
+void tst_explanation::halfHiddenTracksLieInOneStretch()
+{
+    constexpr Index frames = 240;
+    Random random(4, 0);
+    bool areParted = false;
+    for (int trial = 0; trial < 20; ++trial) {
+        Explanations explanations(100, tenths, tenths);
+        std::vector<int> raisedBefore(frames + 1, 0);
+        std::vector<bool> isRaised(frames, false);
+        for (int signal = 0; signal < 4; ++signal) {
+            const auto first = Index(random.uniform() * (frames - 20));
+            const auto count = std::size_t(1.0 + random.uniform() * 12.0);
+            explanations.add({first, std::vector<double>(count, 40.0), std::vector<float>(count, 9.0f), {}});
+            for (Index at = std::max<Index>(0, first - 1); at <= first + Index(count); ++at)
+                isRaised[std::size_t(at)] = true;
+        }
+        for (std::size_t at = 0; at < isRaised.size(); ++at)
+            raisedBefore[at + 1] = raisedBefore[at] + int(isRaised[at]);
+        const std::vector<Explanations::Stretch> stretches = explanations.stretches();
+        areParted = areParted || stretches.size() > 1;
+        for (Index first = 0; first < frames; ++first)
+            for (Index last = first; last < frames; ++last) {
+                const int raised = raisedBefore[std::size_t(last) + 1] - raisedBefore[std::size_t(first)];
+                if (2 * raised < last - first + 1)
+                    continue;
+                QCOMPARE(std::ranges::count_if(
+                             stretches, [&](const auto &each) { return each.first <= first && last <= each.last; }),
+                         1);
+            }
+    }
+    QVERIFY(areParted);
 }
 
 FAINTLINE_TEST(tst_explanation)
