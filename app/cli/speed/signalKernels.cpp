@@ -1,8 +1,10 @@
 #include "app/cli/speed/kernels.h"
 
+#include "analyse/analyse.h"
 #include "app/cli/speed/SpeedKernel.h"
 #include "app/cli/speed/plainForms.h"
 #include "base/Random.h"
+#include "detect/Smd.h"
 #include "model/Likelihood.h"
 #include "noise/NoiseNormaliser.h"
 #include "noise/medians.h"
@@ -10,12 +12,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <random>
 
 namespace faintline {
 
 namespace {
+
+    const char *const bare = "FFTW and states";
+    const char *const eachWindow = "each window";
 
     std::vector<SpeedForm> likelihoodForms()
     {
@@ -102,6 +108,87 @@ namespace {
                  }},
                 {"normalised", frames, 1, [work] { work->normalised->read(0, frames, work->out); }},
                 {twoThreads, frames, 2, [work, two] { work->spectrogram->read(0, frames, work->out, two); }}};
+    }
+
+    /// Noise at 48 kHz, as 16-bit samples.
+    class LongNoise final : public Recording
+    {
+    public:
+        explicit LongNoise(std::uint64_t seconds)
+        {
+            std::vector<float> second(48000);
+            for (std::uint64_t i = 0; i < seconds; ++i) {
+                Random(5, i).normals(second, 3000.0f);
+                for (const float value : second)
+                    m_samples.push_back(std::int16_t(std::lround(std::clamp(value, -32767.0f, 32767.0f))));
+            }
+            m_info.path = "noise";
+            m_info.sampleRateHz = 48000.0;
+            m_info.sampleCount = std::ssize(m_samples);
+            m_info.channelCount = 1;
+        }
+        void read(int, Index first, Index count, std::span<float> out) const override
+        {
+            fill(first, count, out, [this](Index from, std::span<float> inside) {
+                for (std::size_t i = 0; i < inside.size(); ++i)
+                    inside[i] = float(m_samples[std::size_t(from) + i]);
+            });
+        }
+
+    private:
+        std::vector<std::int16_t> m_samples;
+    };
+
+    /// Half an hour of noise in windows of 2 s, against its transforms and its states alone.
+    std::vector<SpeedForm> detectionForms()
+    {
+        constexpr std::size_t blockFrames = 16;
+        struct Work {
+            explicit Work(const Analysis &analysis)
+                : fft(analysis.frames->spectrogram()->transformLength(), Fft::Input::Real), buffer(fft.buffer()),
+                  detector(analysis.model, {ResetLaw::Fixed, analysis.calibration->lnK}), cells(analysis.grid().size()),
+                  y(exponentials(blockFrames * std::size_t(cells))), statistic(y.size())
+            {
+            }
+            Fft fft;
+            std::unique_ptr<Fft::Buffer> buffer;
+            Smd detector;
+            Index cells;
+            std::vector<float> y;
+            std::vector<float> statistic;
+        };
+        constexpr AnalysisDepth tracks = AnalysisDepth::Tracks;
+        const OpenedSource noise(std::make_shared<LongNoise>(1800));
+        AnalysisSettings settings;
+        settings.spectrogram.windowSeconds = 2.0;
+        const auto detect = [=] { return analyse(noise, settings, {.depth = tracks}); };
+        const std::shared_ptr<const Analysis> analysis = detect();
+        const auto work = std::make_shared<Work>(*analysis);
+        return {{ours, double(analysis->time().count), 1, [=] { detect(); }},
+                {bare, blockFrames, 1, [work] {
+                     for (std::size_t i = 0; i < blockFrames; ++i)
+                         work->fft.run(*work->buffer);
+                     work->detector.updateBlock(work->y, work->statistic, work->cells);
+                 }}};
+    }
+
+    /// Five minutes of it with the window left open, against the detection in each of the windows that were tried.
+    std::vector<SpeedForm> windowForms()
+    {
+        const OpenedSource noise(std::make_shared<LongNoise>(300));
+        const auto detect = [noise](const AnalysisSettings &settings) {
+            return analyse(noise, settings, {.depth = AnalysisDepth::Tracks});
+        };
+        std::vector<AnalysisSettings> windows;
+        const std::shared_ptr<const Analysis> analysis = detect({});
+        for (const WindowTrial &trial : analysis->choice->trials) {
+            windows.push_back(trial.settings);
+            windows.back().spectrogram.windowSeconds = trial.windowSeconds;
+        }
+        return {{ours, 1, 1, [detect] { detect({}); }}, {eachWindow, 1, 1, [detect, windows] {
+                                                             for (const AnalysisSettings &settings : windows)
+                                                                 detect(settings);
+                                                         }}};
     }
 
     std::vector<SpeedForm> runningMeanForms()
@@ -201,6 +288,16 @@ std::vector<SpeedKernel> signalKernels()
          "frame",
          {{ours, "bare FFTW", 0.75}, {"normalised", ours, 0.5}, {twoThreads, ours, 1.8}},
          [] { return spectrogramForms(16384); }},
+        {"detection-window",
+         "half an hour of noise at 48 kHz, windows of 2 s",
+         "frame",
+         {{ours, bare, 0.5}},
+         detectionForms},
+        {"detection-defaults",
+         "five minutes of noise at 48 kHz, no settings",
+         "recording",
+         {{ours, eachWindow, 1.0 / 1.5}},
+         windowForms},
         {"background-mean",
          "mean over neighbouring bins",
          "bin",
