@@ -143,10 +143,9 @@ namespace {
                       const RunContext &context)
     {
         if (looksTwice(analysis)) {
-            SecondView view =
-                analysis.firstView
-                    ? *std::exchange(analysis.firstView, {})
-                    : lookTwice(analysis, std::move(analysis.tracks), subtracted, context.part(0.0, 0.2));
+            SecondView view = analysis.firstView
+                                  ? *std::exchange(analysis.firstView, {})
+                                  : lookTwice(analysis, std::move(analysis.tracks), subtracted, context.part(0.0, 0.2));
             if (request.isTrial)
                 analysis.firstView = std::make_shared<const SecondView>(view);
             else
@@ -254,9 +253,9 @@ namespace {
                                             const RunContext &context, const Analysis *previous,
                                             const RunRequest &request)
     {
-        const bool isTried = previous && previous->settings == settings && previous->firstView
-                             && (!previous->calibration->isFirstEstimate
-                                 || request.calibration == CalibrationDepth::FirstEstimate);
+        const bool isTried =
+            previous && previous->settings == settings && previous->firstView
+            && (!previous->calibration->isFirstEstimate || request.calibration == CalibrationDepth::FirstEstimate);
         const bool hasPictures = request.depth != AnalysisDepth::Whole || (previous && previous->statistic);
         if (isTried && hasPictures && !request.statistic) { // the trial is completed
             auto completed = std::make_shared<Analysis>(*previous);

@@ -11,10 +11,7 @@
 namespace faintline {
 
 struct RunRequest : AnalysisRequest {
-    RunRequest(AnalysisRequest request)
-        : AnalysisRequest(std::move(request)), isTrial(depth == AnalysisDepth::Trial)
-    {
-    }
+    RunRequest(AnalysisRequest request) : AnalysisRequest(std::move(request)), isTrial(depth == AnalysisDepth::Trial) {}
 
     bool isTrial; ///< whether the tracks are those of a trial; a trial of greater depth has its pictures, too
 };

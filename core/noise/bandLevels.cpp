@@ -151,7 +151,7 @@ namespace {
         std::vector<float> m_inverse;
         std::vector<std::vector<Index>> m_noise; ///< cells of noise in each sub-band
         std::vector<std::vector<Index>> m_firm;  ///< those whose background is firm
-        std::vector<float> m_medians; ///< of each sub-band in the frame before
+        std::vector<float> m_medians;            ///< of each sub-band in the frame before
         std::vector<float> m_sample;
         std::vector<float> m_near;
         std::vector<Index> m_telling;

@@ -223,9 +223,8 @@ namespace {
     void passBothWays(const Chain &chain, Index frames, CorridorEnds ends, Take take)
     {
         // α at the beginning of each chunk; inside a chunk it is computed on the way back, again in all but the last.
-        const auto chunk =
-            std::max<Index>(chunkMinimumBytes / (Index(sizeof(double)) * (chain.states() + 1)),
-                            Index(std::sqrt(double(frames))) + 1);
+        const auto chunk = std::max<Index>(chunkMinimumBytes / (Index(sizeof(double)) * (chain.states() + 1)),
+                                           Index(std::sqrt(double(frames))) + 1);
         std::vector<Weights> starts{chain.start(ends.absentBefore)};
         for (Index first = chunk; first < frames; first += chunk) {
             Weights alpha = starts.back();
