@@ -201,6 +201,7 @@ WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *
     m_cure->setFont(Theme::boldFont());
     m_cure->setContentsMargins(8, 6, 8, 4);
     m_remedy->setObjectName(QStringLiteral("remedy"));
+    m_remedy->setAccessibleName(tr("Remedy"));
     connect(m_remedy, &QPushButton::clicked, this, [this] { emit remedyRequested(*m_advice); });
     m_plot->setEmptySentence(tr("The evidence along the path appears here."));
     buildTables();
@@ -340,6 +341,7 @@ void WhyPanel::showCure(const std::optional<Advice> &advice)
         return;
     m_cure->setText(capitalised(QString::fromStdString(advice->sentence)) + QLatin1Char('.'));
     m_remedy->setText(capitalised(QString::fromStdString(advice->remedy)));
+    m_remedy->setAccessibleName(m_remedy->text());
 }
 
 void WhyPanel::layColumns(const Analysis &analysis)
