@@ -10,7 +10,7 @@ namespace {
 
     constexpr double lowQuantile = 0.05;
     constexpr double highQuantile = 0.95;
-    constexpr Index chunkMinimumBytes = Index(1) << 22;
+    constexpr Index chunkMinimumBytes = Index(1) << 21;
     constexpr double lambdaLimitNats = 60.0; ///< larger values would not change a decision
 
     /// Probabilities of the states after a frame: rates × width, followed by "off".

@@ -40,7 +40,7 @@ struct Presence {
 /// before the first frame and after the last one, unless `ends` says that the signal is absent there: a signal that is
 /// present from the first frame on then costs as much as one that begins later, p, so that the evidence alone decides
 /// where it begins. Source: Baum and others 1970. Oracle: enumeration of all sequences. Cost: frames × moves ×
-/// width, twice if they fit into 4 MiB, else three times; memory: √frames.
+/// width, twice if they fit into 2 MiB, else three times; memory: √frames.
 Presence presenceIn(const Corridor &corridor, const KinematicAxis &axis, double lnChange, Index firstStep,
                     CorridorEnds ends = {});
 

@@ -18,8 +18,8 @@ KinematicAxis ring(Index cells)
     return axis(cells, {0.5, 0.25}, true);
 }
 
-SequentialStudy study(const std::vector<KinematicAxis> &axes, const std::vector<bool> &isFolded,
-                      std::optional<double> actualSnr = {})
+SequentialStudy seededStudy(const std::vector<KinematicAxis> &axes, const std::vector<bool> &isFolded,
+                            std::optional<double> actualSnr = {})
 {
     SequentialStudy made = test::study(axes, isFolded, 2.0, actualSnr);
     made.seed = 41;
@@ -51,7 +51,7 @@ private slots:
     {
         QFETCH(int, cells);
         constexpr int stages = 700;
-        const SequentialStudy made = study({axis(cells)}, {false});
+        const SequentialStudy made = seededStudy({axis(cells)}, {false});
         std::vector<float> stream(std::size_t(stages * cells));
         Random(41, 2 * 6).exponentials(stream);
         std::vector<float> frames;
@@ -62,7 +62,7 @@ private slots:
 
     void trialsHaveNumbersOfTheirOwn()
     {
-        const SequentialStudy made = study({ring(8)}, {false}, 3.0);
+        const SequentialStudy made = seededStudy({ring(8)}, {false}, 3.0);
         QVERIFY(framesOf(made, 4, 20) == framesOf(made, 4, 20));
         QVERIFY(framesOf(made, 4, 20) != framesOf(made, 5, 20));
         SequentialStudy other = made;
@@ -73,8 +73,8 @@ private slots:
     void theTargetRaisesItsOwnCell()
     {
         constexpr int stages = 50;
-        const auto noise = framesOf(study({ring(6)}, {false}), 2, stages);
-        const test::Heard heard = test::hear(study({ring(6)}, {false}, 3.0), 2, stages);
+        const auto noise = framesOf(seededStudy({ring(6)}, {false}), 2, stages);
+        const test::Heard heard = test::hear(seededStudy({ring(6)}, {false}, 3.0), 2, stages);
         for (std::size_t stage = 0; stage < stages; ++stage)
             for (std::size_t cell = 0; cell < 6; ++cell) {
                 const float raise = Index(cell) == heard.states[stage] ? 4.0f : 1.0f; // 1 + SNR
@@ -84,7 +84,7 @@ private slots:
 
     void theTargetMovesAsItsModelSays()
     {
-        const SequentialStudy made = study({ring(6)}, {false}, 3.0);
+        const SequentialStudy made = seededStudy({ring(6)}, {false}, 3.0);
         constexpr int trials = 4000;
         std::array<int, 6> starts{};
         std::array<int, 6> moves{};
@@ -106,8 +106,8 @@ private slots:
     void aFoldedTargetIsAnywhereAnew()
     {
         constexpr int stages = 6000;
-        const auto noise = framesOf(study({ring(4), axis(3)}, {false, true}), 0, stages);
-        const test::Heard heard = test::hear(study({ring(4), axis(3)}, {false, true}, 5.0), 0, stages);
+        const auto noise = framesOf(seededStudy({ring(4), axis(3)}, {false, true}), 0, stages);
+        const test::Heard heard = test::hear(seededStudy({ring(4), axis(3)}, {false, true}, 5.0), 0, stages);
         std::array<int, 3> visits{};
         int changes = 0;
         Index before = 0;
@@ -128,7 +128,7 @@ private slots:
 
     void noiseHasNoTarget()
     {
-        const test::Heard heard = test::hear(study({ring(4), axis(3)}, {false, true}), 0, 1);
+        const test::Heard heard = test::hear(seededStudy({ring(4), axis(3)}, {false, true}), 0, 1);
         QCOMPARE(heard.frames[0].size(), std::size_t(12));
         QCOMPARE(heard.states[0], Index(-1));
         QCOMPARE(heard.folded[0], Index(0));
@@ -139,7 +139,7 @@ private slots:
     {
         constexpr Index cells = 9;
         constexpr Index averaged = 4;
-        SequentialStudy made = study({axis(2), ring(cells)}, {false, false}, 3.0);
+        SequentialStudy made = seededStudy({axis(2), ring(cells)}, {false, false}, 3.0);
         const auto plain = framesOf(made, 1, 5);
         made.averagedCells = averaged;
         const auto frames = framesOf(made, 1, 5);

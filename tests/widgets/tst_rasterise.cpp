@@ -157,8 +157,8 @@ private slots:
         QVERIFY(full.low <= 7.0);
         QVERIFY(full.high > 280.0 && full.high < 310.0); // nearly the strongest, in steps of 15 %
         const ColourScale colours = ColourScale::of(ByteScale(ByteScale::Kind::ScoreNats), 14.0);
-        QVERIFY(colours.share(14.0, full) > 0.2); // 14 nat is not black
-        QVERIFY(colours.share(220.0, full) < 0.97); // ten colours from white
+        QVERIFY(colours.share(14.0, full) > 0.2);               // 14 nat is not black
+        QVERIFY(colours.share(220.0, full) < 0.97);             // ten colours from white
         QCOMPARE(rangeWith(0, 14.0).low, rangeWith(0, {}).low); // of noise alone, which stays dark
         QCOMPARE(rangeWith(0, 14.0).high, 21.0);
         QCOMPARE(rangeWith(4, -1.0), rangeWith(4, {}));
