@@ -73,7 +73,9 @@ OwnNoiseLaw::OwnNoiseLaw(const NormalisedFrames &frames, std::span<const Track> 
     const NoiseSample sample(frames, tracks, binsPerCell, context);
     const Index parts = std::ssize(m_parts);
     for (Index part = 0; part < parts; ++part) {
+        const Index all = sample.rows() * ((part + 1) * m_cells / parts - part * m_cells / parts);
         std::vector<float> values;
+        values.reserve(std::size_t(all)); // as large as the sample; growing would take three times that
         std::vector<Index> cells;
         for (Index cell = part * m_cells / parts; cell < (part + 1) * m_cells / parts; ++cell)
             if (const std::vector<float> noise = sample.noiseIn(cell); !noise.empty()) {
@@ -82,7 +84,6 @@ OwnNoiseLaw::OwnNoiseLaw(const NormalisedFrames &frames, std::span<const Track> 
             }
         const std::size_t count = values.size();
         setPowers(m_parts[std::size_t(part)], std::move(values));
-        const Index all = sample.rows() * ((part + 1) * m_cells / parts - part * m_cells / parts);
         if (double(count) >= noiseMinimumShare * double(all))
             setRuns(m_parts[std::size_t(part)], sample, cells, overlap);
     }
