@@ -200,27 +200,22 @@ void MainWindow::showPlan(const AnalysisPlan &analysis)
 
 void MainWindow::showEvents()
 {
-    const std::vector<Event> events = m_document.shownEvents();
-    m_events->setEvents(withShownSnr(events));
+    std::vector<Event> events = m_document.shownEvents();
     m_overview->setEvents(eventsAlong(events, 0));
-    showHint();
-}
-
-/// With the SNR in the bandwidth that is chosen.
-std::vector<Event> MainWindow::withShownSnr(std::vector<Event> events) const
-{
-    if (m_snrBandwidthHz > 0.0 && m_document.plan())
+    const auto plan = m_document.plan();
+    const bool isConverted = m_snrBandwidthHz > 0.0 && m_document.recording() && plan && plan->frames;
+    m_events->setSnrUnit(isConverted ? tr("dB in %1 Hz").arg(m_snrBandwidthHz) : tr("dB"));
+    if (isConverted)
         for (Event &event : events)
-            event.snrDb +=
-                snrChangeDb(m_snrBandwidthHz, m_document.plan()->frames->geometry().window, event.windowSeconds);
-    return events;
+            event.snrDb += snrChangeDb(m_snrBandwidthHz, plan->frames->geometry());
+    m_events->setEvents(events);
+    showHint();
 }
 
 void MainWindow::setSnrBandwidth(double hz)
 {
     m_snrBandwidthHz = hz;
     m_memory.setSnrBandwidthHz(hz);
-    m_events->setSnrUnit(hz > 0.0 ? tr("dB in %1 Hz").arg(hz) : tr("dB"));
     if (!m_document.isEmpty())
         showEvents();
 }

@@ -146,7 +146,6 @@ private:
     /// Whether the document may be closed: no live run, and unsaved work may be lost (SessionSaver::mayLose).
     bool mayLeave(const QString &what, const std::function<void()> &next);
     void showEvents();
-    std::vector<Event> withShownSnr(std::vector<Event> events) const;
     void setSnrBandwidth(double hz);
     void showHint();
     void showTitle();

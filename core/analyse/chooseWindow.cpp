@@ -234,7 +234,7 @@ namespace {
     void askWindows(Analysis &found, WindowChoice &choice, const AnalysisSettings &settings,
                     CalibrationDepth calibration, const RunContext &context)
     {
-        AskedWindows asked = askOtherWindows(found, found.others, context);
+        AskedWindows asked = withOtherWindows(found, found.others, context);
         found.tracks = asked.tracks;
         Analysis shorter;
         static_cast<AnalysisPlan &>(shorter) = found;
@@ -256,7 +256,7 @@ namespace {
             ++tried.automatic;
             ++tried.chosen;
             shorter.tracks = std::move(asked.tracks);
-            asked = askOtherWindows(shorter, std::span(shorter.others).first(1), part);
+            asked = withOtherWindows(shorter, std::span(shorter.others).first(1), part);
             if (!asked.knowsBetter)
                 return;
         }

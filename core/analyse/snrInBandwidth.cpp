@@ -1,6 +1,7 @@
 #include "analyse/snrInBandwidth.h"
 
 #include "base/logmath.h"
+#include "frames/Window.h"
 
 #include <numeric>
 
@@ -14,9 +15,9 @@ double noiseBandwidthCells(WindowShape shape)
     return length / (sum * sum);
 }
 
-double snrChangeDb(double hz, WindowShape shape, double windowSeconds)
+double snrChangeDb(double hz, const FrameGeometry &geometry)
 {
-    return dbFromRatio(noiseBandwidthCells(shape) / (windowSeconds * hz));
+    return dbFromRatio(noiseBandwidthCells(geometry.window) / (geometry.windowSeconds * hz));
 }
 
 } // namespace faintline

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "frames/Window.h"
+#include "frames/NormalisedFrames.h"
 
 namespace faintline {
 
@@ -8,12 +8,12 @@ namespace faintline {
 /// window.
 double noiseBandwidthCells(WindowShape shape);
 
-/// The change of an SNR from that in one window and bin to that against the noise in `hz`, dB, which a window of another
-/// length does not change: B = noiseBandwidthCells/T_FT is a bin's noise bandwidth,
+/// The change of an event's SNR, which is that in a bin of these frames whatever window found it, to that against the
+/// noise in `hz`, dB: B = noiseBandwidthCells/T_FT is a bin's noise bandwidth,
 ///
 ///   SNR(hz) = SNR(bin)·B/hz
 ///
 /// WSPR and the modes of WSJT-X refer to 2500 Hz.
-double snrChangeDb(double hz, WindowShape shape, double windowSeconds);
+double snrChangeDb(double hz, const FrameGeometry &geometry);
 
 } // namespace faintline

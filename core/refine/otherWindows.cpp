@@ -668,8 +668,8 @@ namespace {
 
 } // namespace
 
-AskedWindows askOtherWindows(const Analysis &base, std::span<const std::shared_ptr<const Analysis>> others,
-                             const RunContext &context)
+AskedWindows withOtherWindows(const Analysis &base, std::span<const std::shared_ptr<const Analysis>> others,
+                              const RunContext &context)
 {
     KnownSignals signals(base);
     std::vector<std::shared_ptr<const Analysis>> byDistance(others.begin(), others.end());

@@ -4,8 +4,16 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace faintline {
+
+/// What asking windows has brought.
+struct AskedWindows {
+    std::vector<Track> tracks;
+    bool isTooLong = false;   ///< a window of a quarter sees better what the shortest one knows better
+    bool knowsBetter = false; ///< more evidence of most tracks that the shortest window before had brought
+};
 
 /// The tracks of the recording's window, the base, and what other windows know better, each asked in its own window.
 ///
@@ -46,21 +54,8 @@ namespace faintline {
 /// Windows of fewer than OwnNoiseLaw::fewestFrames frames are not asked. Positions are interpolated between frames;
 /// statistics are shifted by the difference of the two thresholds, and powers divided by the ratio of the windows, so that
 /// both have the same meaning as in the base. The result is renumbered, by detection, then cell. All analyses must have
-/// two-sided tracks (secondLook.h).
-struct AskedWindows {
-    std::vector<Track> tracks;
-    bool isTooLong = false;   ///< a window of a quarter sees better what the shortest one knows better
-    bool knowsBetter = false; ///< more evidence of most tracks that the shortest window before had brought
-};
-/// Throws Cancelled.
-AskedWindows askOtherWindows(const Analysis &base, std::span<const std::shared_ptr<const Analysis>> others,
-                             const RunContext &context = {});
-
-inline std::vector<Track> withOtherWindows(const Analysis &base,
-                                           std::span<const std::shared_ptr<const Analysis>> others,
-                                           const RunContext &context = {})
-{
-    return askOtherWindows(base, others, context).tracks;
-}
+/// two-sided tracks (secondLook.h). Throws Cancelled.
+AskedWindows withOtherWindows(const Analysis &base, std::span<const std::shared_ptr<const Analysis>> others,
+                              const RunContext &context = {});
 
 } // namespace faintline

@@ -2,6 +2,7 @@
 #include "analyse/events.h"
 #include "analyse/snrInBandwidth.h"
 #include "scene/SimulatedRecording.h"
+#include "support/lines.h"
 #include "support/test.h"
 
 #include <cmath>
@@ -19,8 +20,8 @@ private slots:
         QVERIFY(std::abs(noiseBandwidthCells(WindowShape::Rectangular) - 1.0) < 1e-3);
         QVERIFY(std::abs(noiseBandwidthCells(WindowShape::Hann) - 1.5) < 1e-3);
         QVERIFY(std::abs(noiseBandwidthCells(WindowShape::Blackman) - 1.7268) < 2e-3); // Harris 1978: 1.73
-        QVERIFY(std::abs(snrChangeDb(1.5, WindowShape::Hann, 1.0)) < 0.01);
-        QVERIFY(std::abs(snrChangeDb(2500.0, WindowShape::Hann, 1.0) + 10.0 * std::log10(2500.0 / 1.5)) < 0.01);
+        QVERIFY(std::abs(snrChangeDb(1.5, {.windowSeconds = 1.0})) < 0.01);
+        QVERIFY(std::abs(snrChangeDb(2500.0, {.windowSeconds = 1.0}) + 10.0 * std::log10(2500.0 / 1.5)) < 0.01);
     }
 
     /// A sinusoid of amplitude a in white noise of deviation σ sampled at f has a²f/(4σ²) in 1 Hz.
@@ -38,9 +39,27 @@ private slots:
             settings.spectrogram.windowSeconds = seconds;
             const auto analysis = analyse(recording, settings);
             const Event event = chosenEvent(*analysis, 0);
-            const double own = event.snrDb + snrChangeDb(1.0, analysis->frames->geometry().window, event.windowSeconds);
+            const double own = event.snrDb + snrChangeDb(1.0, analysis->frames->geometry());
             QVERIFY2(std::abs(own - in1Hz) < 0.8, QByteArray::number(own) + " " + QByteArray::number(in1Hz));
         }
+    }
+
+    /// The line beside the sweeps is found with a window four times as long as that which the sweeps choose.
+    void doesNotDependOnTheWindowThatFoundIt()
+    {
+        LineScene scene = test::sweeps();
+        scene.lines.push_back(test::line(3000.3, 0.0, 0.0, scene.durationSeconds, -4.0, 0.025));
+        const auto analysis = analyse(std::make_shared<SimulatedRecording>(scene), {});
+        const double shown = analysis->frames->geometry().windowSeconds;
+        const double in1Hz = -4.0 - 10.0 * std::log10(0.025); // the SNR is that in a rectangular window of 25 ms
+        int others = 0;
+        for (const Event &event : events(*analysis))
+            if (event.windowSeconds > 2.0 * shown) {
+                ++others;
+                const double own = event.snrDb + snrChangeDb(1.0, analysis->frames->geometry());
+                QVERIFY2(std::abs(own - in1Hz) < 1.5, QByteArray::number(own) + " " + QByteArray::number(in1Hz));
+            }
+        QCOMPARE(others, 1);
     }
 };
 

@@ -132,7 +132,7 @@ void tst_otherWindows::onePutsPiecesTogether()
     };
     const std::vector<Event> pieces = near(events(*chosen));
     QVERIFY2(pieces.size() > 1, qPrintable(QString::number(pieces.size())));
-    const std::vector<Event> whole = near(events(*chosen, withOtherWindows(*chosen, std::array{longer})));
+    const std::vector<Event> whole = near(events(*chosen, withOtherWindows(*chosen, std::array{longer}).tracks));
     QCOMPARE(whole.size(), std::size_t(1));
     QVERIFY(whole.front().onsetSeconds < 0.5 && whole.front().endSeconds > 9.5);
     QVERIFY(whole.front().detectSeconds <= pieces.front().detectSeconds);
@@ -173,8 +173,8 @@ void tst_otherWindows::oneInAHumHasToBeSureOverIt()
     scene.lines.push_back(line(lineHz, 0.0, 0.0, scene.durationSeconds, -4.0, 0.025));
     const auto isTheLine = [=](const Event &event) { return std::abs(event.position.front() - lineHz) < 5.0; };
     const auto countIn = [&](const Analyses &both) {
-        return std::ranges::count_if(events(*both.chosen, withOtherWindows(*both.chosen, std::array{both.longer})),
-                                     isTheLine);
+        return std::ranges::count_if(
+            events(*both.chosen, withOtherWindows(*both.chosen, std::array{both.longer}).tracks), isTheLine);
     };
     QCOMPARE(countIn(inBothWindows(scene)), 1);
 

@@ -54,16 +54,23 @@ namespace {
         return largest;
     }
 
+    /// Noise at 48 kHz; as 16-bit samples, half an hour of it takes 170 MB.
+    template <class Sample>
     class NoiseInMemory final : public Recording
     {
     public:
-        explicit NoiseInMemory(std::size_t samples) : m_samples(samples)
+        explicit NoiseInMemory(Index samples)
         {
-            Random(2, 0).normals(m_samples, 1.0f);
             m_info.path = "noise";
             m_info.sampleRateHz = 48000.0;
-            m_info.sampleCount = std::ssize(m_samples);
+            m_info.sampleCount = samples;
             m_info.channelCount = 1;
+            std::vector<float> part(48000);
+            for (std::uint64_t i = 0; std::ssize(m_samples) < samples; ++i) {
+                Random(5, i).normals(part, 3000.0f);
+                const Index count = std::min(std::ssize(part), samples - std::ssize(m_samples));
+                m_samples.insert(m_samples.end(), part.begin(), part.begin() + count); // 32767 is eleven deviations
+            }
         }
         void read(int, Index first, Index count, std::span<float> out) const override
         {
@@ -73,7 +80,7 @@ namespace {
         }
 
     private:
-        std::vector<float> m_samples;
+        std::vector<Sample> m_samples;
     };
 
     std::vector<SpeedForm> spectrogramForms(int length)
@@ -90,7 +97,7 @@ namespace {
         };
         const auto work = std::make_shared<Work>();
         constexpr Index frames = 64;
-        const auto recording = std::make_shared<NoiseInMemory>(std::size_t(length) * 80);
+        const auto recording = std::make_shared<NoiseInMemory<float>>(Index(length) * 80);
         work->spectrogram = std::make_shared<Spectrogram>(recording, settings);
         const NormaliserSettings noise;
         work->normalised = std::make_shared<NormalisedSpectrogram>(
@@ -109,35 +116,6 @@ namespace {
                 {"normalised", frames, 1, [work] { work->normalised->read(0, frames, work->out); }},
                 {twoThreads, frames, 2, [work, two] { work->spectrogram->read(0, frames, work->out, two); }}};
     }
-
-    /// Noise at 48 kHz, as 16-bit samples.
-    class LongNoise final : public Recording
-    {
-    public:
-        explicit LongNoise(std::uint64_t seconds)
-        {
-            std::vector<float> second(48000);
-            for (std::uint64_t i = 0; i < seconds; ++i) {
-                Random(5, i).normals(second, 3000.0f);
-                for (const float value : second)
-                    m_samples.push_back(std::int16_t(std::lround(std::clamp(value, -32767.0f, 32767.0f))));
-            }
-            m_info.path = "noise";
-            m_info.sampleRateHz = 48000.0;
-            m_info.sampleCount = std::ssize(m_samples);
-            m_info.channelCount = 1;
-        }
-        void read(int, Index first, Index count, std::span<float> out) const override
-        {
-            fill(first, count, out, [this](Index from, std::span<float> inside) {
-                for (std::size_t i = 0; i < inside.size(); ++i)
-                    inside[i] = float(m_samples[std::size_t(from) + i]);
-            });
-        }
-
-    private:
-        std::vector<std::int16_t> m_samples;
-    };
 
     /// Half an hour of noise in windows of 2 s, against its transforms and its states alone.
     std::vector<SpeedForm> detectionForms()
@@ -158,7 +136,7 @@ namespace {
             std::vector<float> statistic;
         };
         constexpr AnalysisDepth tracks = AnalysisDepth::Tracks;
-        const OpenedSource noise(std::make_shared<LongNoise>(1800));
+        const OpenedSource noise(std::make_shared<NoiseInMemory<std::int16_t>>(1800 * 48000));
         AnalysisSettings settings;
         settings.spectrogram.windowSeconds = 2.0;
         const auto detect = [=] { return analyse(noise, settings, {.depth = tracks}); };
@@ -175,7 +153,7 @@ namespace {
     /// Five minutes of it with the window left open, against the detection in each of the windows that were tried.
     std::vector<SpeedForm> windowForms()
     {
-        const OpenedSource noise(std::make_shared<LongNoise>(300));
+        const OpenedSource noise(std::make_shared<NoiseInMemory<std::int16_t>>(300 * 48000));
         const auto detect = [noise](const AnalysisSettings &settings) {
             return analyse(noise, settings, {.depth = AnalysisDepth::Tracks});
         };
