@@ -1,7 +1,7 @@
 #include "app/control/PlainInput.h"
 
 #include "app/document/Document.h"
-#include "inspect/closeup.h"
+#include "base/memoryShares.h"
 #include "widgets/base/quantities.h"
 #include "widgets/waterfall/WaterfallView.h"
 
@@ -9,12 +9,6 @@
 #include <QMenu>
 
 namespace faintline {
-
-namespace {
-
-    constexpr std::size_t plainBytes = std::size_t(80) << 20;
-
-} // namespace
 
 PlainInput::PlainInput(Document &document, WaterfallView &input, QObject *parent)
     : QObject(parent), m_document(document), m_action(new QAction(tr("Input as &plain dB"), this))
@@ -31,33 +25,39 @@ PlainInput::PlainInput(Document &document, WaterfallView &input, QObject *parent
     connect(&document, &Document::opened, this, [this] {
         m_runner.cancel();
         m_analysis.reset();
-        m_picture.reset();
+        m_plain.reset();
+        follow();
     });
     connect(&m_runner, &JobRunner::finished, this, &PlainInput::settled);
     connect(&m_runner, &JobRunner::cancelled, this, &PlainInput::settled);
-    connect(&m_runner, &JobRunner::failed, this, &PlainInput::settled);
+    connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
+        emit failed(error);
+        emit settled();
+    });
+    follow();
 }
 
 std::shared_ptr<const PeakPyramid> PlainInput::picture() const
 {
-    return m_action->isChecked() && m_analysis && m_analysis == m_document.analysis() ? m_picture : nullptr;
+    return m_action->isChecked() && m_plain && m_analysis == m_document.analysis() ? m_plain->picture : nullptr;
 }
 
 QString PlainInput::heading() const
 {
-    return tr("Input (dB over %1 dB re full scale²/Hz)").arg(numberText(*plainReference(*m_analysis), 0));
+    return tr("Input (dB over %1 dB re full scale²/Hz)").arg(numberText(m_plain->referenceDb, 0));
 }
 
 void PlainInput::follow()
 {
     m_runner.cancel();
     const auto analysis = m_document.lineAnalysis();
-    if (!m_action->isChecked() || !analysis || m_analysis == analysis || !plainReference(*analysis))
+    m_action->setEnabled(analysis && analysis->recording && analysis->settings.family.isNone() && !m_document.isLive());
+    if (!m_action->isEnabled() || !m_action->isChecked() || m_analysis == analysis)
         return;
     m_runner.start([this, analysis](const RunContext &context) -> JobRunner::Delivery {
-        return [this, analysis, picture = plainPicture(*analysis, plainBytes, context)] {
+        return [this, analysis, plain = plainPicture(*analysis, memoryShares::picture, context)] {
             m_analysis = analysis;
-            m_picture = picture;
+            m_plain = plain;
             emit changed();
         };
     });

@@ -1,17 +1,17 @@
 #pragma once
 
 #include "app/base/JobRunner.h"
-#include "frames/PeakPyramid.h"
+#include "inspect/closeup.h"
 
 #include <QObject>
 
 #include <memory>
+#include <optional>
 
 class QAction;
 
 namespace faintline {
 
-struct Analysis;
 class Document;
 class WaterfallView;
 
@@ -28,12 +28,13 @@ public:
     QAction *action() const { return m_action; }
     /// The picture of the document's analysis; null unless it is wanted and computed.
     std::shared_ptr<const PeakPyramid> picture() const;
-    QString heading() const;
+    QString heading() const; ///< precondition: there is a picture
     bool isBusy() const { return m_runner.isRunning(); }
 
 signals:
     void changed(); ///< the picture
     void settled();
+    void failed(const faintline::Error &error);
 
 private:
     void follow();
@@ -41,7 +42,7 @@ private:
     Document &m_document;
     QAction *m_action;
     std::shared_ptr<const Analysis> m_analysis; ///< of the picture
-    std::shared_ptr<const PeakPyramid> m_picture;
+    std::optional<PlainPicture> m_plain;
     JobRunner m_runner; ///< last, so that its jobs end first
 };
 

@@ -51,6 +51,7 @@ void MainWindow::buildViewMenu()
     addFrequencyActions(*menu);
     addViewAction(*menu, tr("Next &colour map"), Qt::Key_C, [this] { bench().cycleColourMap(); });
     addViewAction(*menu, tr("A&utomatic range"), Qt::Key_A, [this] { bench().setAutomaticRange(); });
+    connect(&m_workbench->plainInput(), &PlainInput::failed, this, &MainWindow::showError);
     menu->addAction(m_workbench->plainInput().action());
     m_viewActions.push_back(m_workbench->plainInput().action());
     menu->addSeparator();

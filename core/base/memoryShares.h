@@ -16,10 +16,10 @@ namespace faintline {
 namespace memoryShares {
 
     inline constexpr std::size_t mebibyte = std::size_t(1) << 20;
-    inline constexpr std::size_t documentBytes = 464 * mebibyte;
+    inline constexpr std::size_t documentBytes = 528 * mebibyte;
 
-    inline constexpr std::size_t picture = 64 * mebibyte; ///< for the input, and as much for the statistic; 1.33 per
-                                                          ///< cell
+    /// For the input, and as much for the statistic and for the input as plain dB; 1.33 per cell.
+    inline constexpr std::size_t picture = 64 * mebibyte;
     /// Noise; twice this while it is estimated, before the pictures exist.
     inline constexpr std::size_t background = 64 * mebibyte;
     inline constexpr std::size_t checkpoints = 32 * mebibyte; ///< of the chain, for replaying part of a run
@@ -32,7 +32,7 @@ namespace memoryShares {
     inline constexpr std::size_t stateReplay = 24 * mebibyte;   ///< all states of the inspected frames
     inline constexpr std::size_t layerReplay = 24 * mebibyte;   ///< ages and predecessors of all paths
 
-    static_assert(2 * picture + background + checkpoints + 2 * pathRecord + 3 * closeup + channels + previewFrames
+    static_assert(3 * picture + background + checkpoints + 2 * pathRecord + 3 * closeup + channels + previewFrames
                       + stateReplay + layerReplay
                   == documentBytes);
 

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace faintline {
 
@@ -106,43 +108,34 @@ std::shared_ptr<const PeakPyramid> statisticCloseup(const Analysis &analysis, co
     return picture;
 }
 
-std::optional<double> plainReference(const Analysis &analysis)
+std::optional<PlainPicture> plainPicture(const Analysis &analysis, std::size_t byteBudget, const RunContext &context)
 {
     const Spectrogram *spectrogram = analysis.frames->spectrogram();
     if (!spectrogram || !analysis.background || !(analysis.grid().axes.back() == spectrogram->frequency()))
         return {};
     std::vector<float> noise;
-    for (const float ln : analysis.background->lnPower)
-        if (ln > NoiseBackground::silence)
-            noise.push_back(ln);
+    std::ranges::copy_if(analysis.background->lnPower, std::back_inserter(noise),
+                         [](float ln) { return ln > NoiseBackground::silence; });
     if (noise.empty())
         return {};
     const auto low = noise.begin() + std::ssize(noise) / 20;
     std::ranges::nth_element(noise, low);
     const RecordingInfo &info = spectrogram->recording().info();
-    const double perHz = (info.isComplex ? 1.0 : 2.0) / info.sampleRateHz;
-    return std::round(dbFromRatio(std::exp(double(*low) + analysis.background->lnUnit) * perHz));
-}
-
-std::shared_ptr<const PeakPyramid> plainPicture(const Analysis &analysis, std::size_t byteBudget,
-                                                const RunContext &context)
-{
-    const Spectrogram &spectrogram = *analysis.frames->spectrogram();
-    const RecordingInfo &info = spectrogram.recording().info();
-    const double perHz =
-        (info.isComplex ? 1.0 : 2.0) * std::exp(analysis.background->lnUnit) / info.sampleRateHz; // of the frames' unit
-    const auto gain = float(perHz / ratioFromDb(*plainReference(analysis)));
+    const double perHz = // of the frames' unit
+        (info.isComplex ? 1.0 : 2.0) * std::exp(analysis.background->lnUnit) / info.sampleRateHz;
+    const double referenceDb = std::round(dbFromRatio(std::exp(double(*low)) * perHz));
+    const auto gain = float(perHz / ratioFromDb(referenceDb));
     const FrameStretch all{0, analysis.time().count};
     auto picture = std::make_shared<PeakPyramid>(emptyPicture(analysis, all, ByteScale::Kind::PowerDb, byteBudget));
     std::vector<float> scaled;
-    readFrames(spectrogram, analysis, all, context, [&](Index, std::span<const float> block) {
+    readFrames(*spectrogram, analysis, all, context, [&](Index, std::span<const float> block) {
         scaled.assign(block.begin(), block.end());
         for (float &power : scaled)
             power *= gain;
         picture->append(scaled);
     });
     picture->finish();
-    return picture;
+    return PlainPicture{std::move(picture), referenceDb};
 }
 
 } // namespace faintline

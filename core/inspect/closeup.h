@@ -39,13 +39,14 @@ std::shared_ptr<const PeakPyramid> inputCloseup(const Analysis &analysis, const 
 std::shared_ptr<const PeakPyramid> statisticCloseup(const Analysis &analysis, const FrameStretch &stretch,
                                                     std::size_t byteBudget, const RunContext &context = {});
 
-/// Zero of plain pictures: the level that a twentieth of the recording's noise stays below, in whole dB re full scale²
-/// per Hz, for frames of single lines of a recording; otherwise nothing.
-std::optional<double> plainReference(const Analysis &analysis);
+/// The power itself, in dB over a reference: what the input was before the noise was divided out.
+struct PlainPicture {
+    std::shared_ptr<const PeakPyramid> picture;
+    double referenceDb; ///< level that a twentieth of the noise stays below, whole dB re full scale² per Hz
+};
 
-/// A picture of the power itself, in dB over `plainReference`: what the input was before the noise was divided out.
-/// Precondition: there is a reference. Throws Cancelled.
-std::shared_ptr<const PeakPyramid> plainPicture(const Analysis &analysis, std::size_t byteBudget,
-                                                const RunContext &context = {});
+/// Of frames of single lines of a recording; nothing of others, or of silence. Throws Cancelled.
+std::optional<PlainPicture> plainPicture(const Analysis &analysis, std::size_t byteBudget,
+                                         const RunContext &context = {});
 
 } // namespace faintline
