@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <span>
 
 namespace faintline {
 
@@ -16,6 +17,7 @@ namespace {
     constexpr double slopeRatio = 1.06; ///< of neighbouring slopes, which part by less than they smear a line
     constexpr double mostSlope = 64.0;  ///< bins per frame
     constexpr double mostPower = 5.0;   ///< of a cell, so that a few strong ones are no line
+    constexpr Index reachCells = 4096;  ///< about the cell; the steepest lines and what lies beside them take 2300
 
     /// Sums of clipped powers.
     struct ClippedSum {
@@ -30,21 +32,22 @@ namespace {
         double mean() const { return cells > 0.0 ? power / cells : 0.0; }
     };
 
-    /// Frames around a cell, with running sums of their clipped powers.
+    /// The cells around one, with each frame's running sums of clipped powers.
     class Surroundings
     {
     public:
         Surroundings(const Analysis &analysis, Index frame, Index cell, const RunContext &context)
-            : m_frame(frame), m_cell(cell), m_cells(analysis.grid().size())
+            : m_frame(frame), m_firstCell(std::max<Index>(cell - reachCells, 0)), m_cell(cell - m_firstCell),
+              m_cells(std::min(cell + reachCells + 1, analysis.grid().size()) - m_firstCell)
         {
             m_first = std::max<Index>(frame - stretchFrames.back(), 0);
             const Index end = std::min(frame + stretchFrames.back() + 1, analysis.time().count);
-            std::vector<float> y(std::size_t(m_cells), 0.0f);
+            std::vector<float> y(std::size_t(analysis.grid().size()));
             for (Index t = m_first; t < end; ++t) {
                 context.checkpoint(double(t - m_first) / double(end - m_first), "looking for faster lines");
                 analysis.frames->read(t, 1, y);
                 std::vector<ClippedSum> sums(1);
-                for (const float power : y) {
+                for (const float power : std::span(y).subspan(std::size_t(m_firstCell), std::size_t(m_cells))) {
                     sums.push_back(sums.back());
                     if (std::isfinite(power))
                         sums.back().add({std::min(double(power), mostPower), 1.0});
@@ -71,7 +74,8 @@ namespace {
 
     private:
         Index m_frame;
-        Index m_cell;
+        Index m_firstCell;
+        Index m_cell; ///< counted from the first, as all cells here
         Index m_cells;
         Index m_first = 0;
         std::vector<std::vector<ClippedSum>> m_sums;
@@ -131,11 +135,13 @@ namespace {
             limit = std::max(limit, steepestSlope(other->model.space) * hzPerSecondOfASlope(*other));
         const double unit = hzPerSecondOfASlope(analysis);
         const double own = steepestSlope(analysis.model.space);
+        if (own == 0.0)
+            return {};
         limit = std::max(limit, own * unit);
         const Index cell = analysis.grid().axes.back().nearest(explanation.position.back());
         const auto line =
             fastLineThrough(analysis, analysis.time().nearest(explanation.seconds), cell, limit / unit, context);
-        if (!line || own == 0.0)
+        if (!line)
             return {};
         const double drift = line->slope * unit;
         Advice advice{"fastLine",
