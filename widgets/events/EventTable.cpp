@@ -138,6 +138,7 @@ void EventTable::setEvents(const std::vector<Event> &events)
     }
     widenColumns();
     setSelectedEvent(selected);
+    updateCard(); // new contents take the selection away without a signal
     updateCount();
 }
 
