@@ -127,24 +127,24 @@ void Explanations::hide(Index frame, Index firstCell, std::span<float> y, float 
     });
 }
 
-std::vector<Explanations::Stretch> Explanations::stretches() const
+std::vector<Explanations::RaisedStretch> Explanations::stretches() const
 {
-    std::vector<Stretch> all;
+    std::vector<RaisedStretch> all;
     for (const ExplainedSignal &signal : m_signals)
         if (!signal.positions.empty())
             all.push_back({signal.firstFrame - 1, signal.endFrame(), std::ssize(signal.positions) + 2});
-    std::ranges::sort(all, {}, &Stretch::first);
-    std::vector<Stretch> joined;
-    for (Stretch next : all) {
+    std::ranges::sort(all, {}, &RaisedStretch::first);
+    std::vector<RaisedStretch> joined;
+    for (RaisedStretch next : all) {
         while (!joined.empty() && next.first - next.raised <= joined.back().last + joined.back().raised) {
-            const Stretch before = joined.back();
+            const RaisedStretch before = joined.back();
             joined.pop_back();
             const Index more = next.first > before.last ? next.raised : std::max<Index>(0, next.last - before.last);
             next = {before.first, std::max(before.last, next.last), before.raised + more};
         }
         joined.push_back(next);
     }
-    for (Stretch &stretch : joined) {
+    for (RaisedStretch &stretch : joined) {
         stretch.first -= stretch.raised;
         stretch.last += stretch.raised;
     }
@@ -181,12 +181,8 @@ namespace {
         return hidden / double(track.points.size());
     }
 
-} // namespace
-
-namespace {
-
     /// Sends the frames of a stretch through a chain of its own.
-    std::vector<Track> searchIn(const Explanations::Stretch &stretch, const Analysis &analysis,
+    std::vector<Track> searchIn(const Explanations::RaisedStretch &stretch, const Analysis &analysis,
                                 const Explanations &explanations, float hidden, const RunContext &context)
     {
         const NormalisedFrames &frames = *analysis.frames;
@@ -225,7 +221,7 @@ std::vector<Track> searchBehind(const Analysis &analysis, const Explanations &ex
         float(powerOf(analysis.model.likelihood,
                       -(analysis.calibration->lnK + std::log(axis.rateChange.front())) - hidingNatsPerFrame));
     std::vector<Track> found;
-    for (const Explanations::Stretch &stretch : explanations.stretches())
+    for (const Explanations::RaisedStretch &stretch : explanations.stretches())
         std::ranges::move(searchIn(stretch, analysis, explanations, hidden, context), std::back_inserter(found));
     const auto reach = Index(std::ceil(analysis.frames->geometry().binsPerCell));
     const double sure = sureStatistic(analysis);

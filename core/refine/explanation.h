@@ -47,17 +47,17 @@ public:
     void hide(Index frame, Index firstCell, std::span<float> y, float value) const;
 
     /// A stretch of frames, of which signals raise the floor in some.
-    struct Stretch {
+    struct RaisedStretch {
         Index first;
         Index last;
         Index raised; ///< frames
 
-        bool operator==(const Stretch &) const = default;
+        bool operator==(const RaisedStretch &) const = default;
     };
 
     /// The stretches, in order, outside which no track lies of which at least half of the points are in frames where
     /// signals raise the floor. They may reach beyond all frames.
-    std::vector<Stretch> stretches() const;
+    std::vector<RaisedStretch> stretches() const;
 
 private:
     /// A signal in a block of time, and the cells that it may raise there.

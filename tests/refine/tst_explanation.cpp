@@ -110,7 +110,7 @@ void tst_explanation::halfHiddenTracksLieInOneStretch()
         }
         for (std::size_t at = 0; at < isRaised.size(); ++at)
             raisedBefore[at + 1] = raisedBefore[at] + int(isRaised[at]);
-        const std::vector<Explanations::Stretch> stretches = explanations.stretches();
+        const std::vector<Explanations::RaisedStretch> stretches = explanations.stretches();
         areParted = areParted || stretches.size() > 1;
         for (Index first = 0; first < frames; ++first)
             for (Index last = first; last < frames; ++last) {
