@@ -120,12 +120,12 @@ namespace {
     /// Half an hour of noise in windows of 2 s, against its transforms and its states alone.
     std::vector<SpeedForm> detectionForms()
     {
-        constexpr std::size_t blockFrames = 16;
+        constexpr std::size_t framesAtOnce = 16;
         struct Work {
             explicit Work(const Analysis &analysis)
                 : fft(analysis.frames->spectrogram()->transformLength(), Fft::Input::Real), buffer(fft.buffer()),
                   detector(analysis.model, {ResetLaw::Fixed, analysis.calibration->lnK}), cells(analysis.grid().size()),
-                  y(exponentials(blockFrames * std::size_t(cells))), statistic(y.size())
+                  y(exponentials(framesAtOnce * std::size_t(cells))), statistic(y.size())
             {
             }
             Fft fft;
@@ -143,8 +143,8 @@ namespace {
         const std::shared_ptr<const Analysis> analysis = detect();
         const auto work = std::make_shared<Work>(*analysis);
         return {{ours, double(analysis->time().count), 1, [=] { detect(); }},
-                {bare, blockFrames, 1, [work] {
-                     for (std::size_t i = 0; i < blockFrames; ++i)
+                {bare, framesAtOnce, 1, [work] {
+                     for (std::size_t i = 0; i < framesAtOnce; ++i)
                          work->fft.run(*work->buffer);
                      work->detector.updateBlock(work->y, work->statistic, work->cells);
                  }}};
