@@ -1,5 +1,6 @@
 #include "app/control/EventReviews.h"
 
+#include "app/control/DrawnLines.h"
 #include "app/control/EventFiles.h"
 #include "base/oneLine.h"
 #include "widgets/base/labelText.h"
@@ -45,7 +46,7 @@ namespace {
 
 EventReviews::EventReviews(Document &document, EventTable &table, std::vector<WaterfallView *> views, QWidget *window)
     : QObject(window), m_document(document), m_table(table), m_views(std::move(views)), m_window(window),
-      m_files(new EventFiles(document, window))
+      m_files(new EventFiles(document, window)), m_drawn(new DrawnLines(document, table, m_views, this))
 {
     m_eventActions << add(tr("&Accept"), Qt::Key_Y, tr("This is a signal"), &EventReviews::accept)
                    << add(tr("Re&ject"), Qt::Key_X, tr("Not a signal; show it dimmed"), &EventReviews::reject)
@@ -61,12 +62,12 @@ EventReviews::EventReviews(Document &document, EventTable &table, std::vector<Wa
                           tr("Treat merged events as several "
                              "signals again"),
                           &EventReviews::separate);
-    m_actions << nullptr;
+    m_actions << nullptr << m_drawn->actions() << nullptr;
     m_addBox =
         add(tr("Add annotation of the &box…"), Qt::Key_B, tr("Label the measured box (M)"), &EventReviews::askForLabel);
     m_actions << nullptr << m_files->actions();
 
-    for (QAction *action : m_eventActions)
+    for (QAction *action : m_eventActions + m_drawn->actions())
         m_table.table()->addAction(action);
     connect(&m_table, &EventTable::unmatchedActivated, this, &EventReviews::goToUnmatched);
     connect(&m_table, &EventTable::noteRequested, this, &EventReviews::editNote);
@@ -259,6 +260,7 @@ void EventReviews::fillContextMenu(QMenu &menu, double seconds, double hz)
         return;
     menu.addSeparator();
     menu.addAction(m_addBox);
+    m_drawn->addCutTo(menu, seconds);
     const std::vector<Annotation> &boxes = m_document.annotations().boxes;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         const Annotation &box = boxes[i];

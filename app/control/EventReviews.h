@@ -12,6 +12,7 @@ class QWidget;
 
 namespace faintline {
 
+class DrawnLines;
 class EventFiles;
 class EventTable;
 class PingMap;
@@ -78,6 +79,7 @@ private:
     std::vector<PingMap *> m_maps;
     QWidget *m_window;
     EventFiles *m_files;
+    DrawnLines *m_drawn;
     QList<QAction *> m_actions;      ///< null: a separator
     QList<QAction *> m_eventActions; ///< enabled with a selected event
     QAction *m_merge = nullptr;

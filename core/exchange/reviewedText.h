@@ -10,10 +10,10 @@
 
 namespace faintline {
 
-/// One row of a list of events: an event or a manually drawn box.
+/// One row of a list of events: an event, a piece of its line drawn by hand, or a box drawn by hand.
 struct ReviewedRow {
     const Event *event = nullptr;
-    int signal = 0;
+    int signal = 0; ///< 0: of a box
     Annotation box; ///< for an event, the extent of its track
 };
 

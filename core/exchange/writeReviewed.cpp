@@ -6,6 +6,8 @@
 #include "exchange/reviewedText.h"
 #include "exchange/writeEvents.h"
 
+#include <algorithm>
+
 namespace faintline {
 
 namespace {
@@ -20,6 +22,23 @@ namespace {
         return label;
     }
 
+    /// What was drawn by hand stands beside what was measured, and takes its place nowhere.
+    void addDrawn(const EventReview &said, const Analysis &analysis, std::vector<ReviewedRow> &rows)
+    {
+        for (const SignalPath &piece : said.drawn) {
+            ReviewedRow row{nullptr, said.signal, rows.back().box};
+            row.box.label += " (drawn)";
+            row.box.startSeconds = piece.seconds.front();
+            row.box.endSeconds = piece.seconds.back();
+            if (analysis.grid().isSpectrum()) {
+                const auto [low, high] = std::ranges::minmax_element(piece.position);
+                row.box.lowHz = low->back();
+                row.box.highHz = high->back();
+            }
+            rows.push_back(row);
+        }
+    }
+
     std::vector<ReviewedRow> rowsOf(const Analysis &analysis, const std::vector<Event> &events,
                                     const Annotations &annotations)
     {
@@ -32,6 +51,7 @@ namespace {
             row.box.note = oneLine(said[i].note);
             row.box.verdict = said[i].verdict;
             rows.push_back(row);
+            addDrawn(said[i], analysis, rows);
         }
         for (const Annotation &box : annotations.boxes) {
             ReviewedRow row{nullptr, 0, box};
@@ -57,7 +77,7 @@ namespace {
             });
             if (hasBand)
                 text += ',' + numberOrEmpty(row.box.lowHz) + "," + numberOrEmpty(row.box.highHz);
-            text += ',' + nameOf(row.box.verdict) + "," + (e ? std::to_string(row.signal) : "") + ","
+            text += ',' + nameOf(row.box.verdict) + "," + (row.signal > 0 ? std::to_string(row.signal) : "") + ","
                     + csvText(row.box.label) + "," + csvText(row.box.note) + "\n";
         }
         return text;
@@ -68,11 +88,12 @@ namespace {
         Json json = Json::object();
         if (row.event) {
             json = eventJson(*row.event, analysis);
-            json["signal"] = row.signal;
         } else {
             json["t_onset"] = row.box.startSeconds;
             json["t_end"] = row.box.endSeconds;
         }
+        if (row.signal > 0)
+            json["signal"] = row.signal;
         if (row.box.lowHz && row.box.highHz) {
             json["f_low"] = *row.box.lowHz;
             json["f_high"] = *row.box.highHz;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace faintline {
@@ -9,6 +10,7 @@ namespace faintline {
 namespace {
 
     constexpr std::size_t mostInstants = 17;
+    constexpr std::size_t drawnInstantLimit = 1000;
     constexpr double toleranceCells = 2.0;
     constexpr double leastShare = 0.5; ///< of the shorter path's time
 
@@ -54,7 +56,7 @@ namespace {
         std::erase_if(reviews, [](const Review &review) {
             return review.paths.empty()
                    || (review.verdict == Verdict::None && review.note.empty() && review.label.empty()
-                       && review.paths.size() == 1);
+                       && review.drawn.empty() && review.paths.size() == 1);
         });
     }
 
@@ -67,6 +69,31 @@ namespace {
         return reviews.emplace_back(Review{{pathOf(analysis, event)}, Verdict::None, {}, {}});
     }
 
+    /// In order of time, a path that begins after the one before it has ended joined to it.
+    std::vector<SignalPath> joined(std::vector<SignalPath> paths)
+    {
+        std::ranges::stable_sort(paths, {}, [](const SignalPath &path) { return path.seconds.front(); });
+        std::vector<SignalPath> pieces;
+        for (SignalPath &path : paths) {
+            if (pieces.empty() || path.seconds.front() <= pieces.back().seconds.back()) {
+                pieces.push_back(std::move(path));
+                continue;
+            }
+            SignalPath &before = pieces.back();
+            std::ranges::move(path.seconds, std::back_inserter(before.seconds));
+            std::ranges::move(path.position, std::back_inserter(before.position));
+        }
+        return pieces;
+    }
+
+    Json toJson(const std::vector<SignalPath> &paths)
+    {
+        Json json = Json::array();
+        for (const SignalPath &path : paths)
+            json.push_back(toJson(path));
+        return json;
+    }
+
     Json toJson(const Review &review)
     {
         Json json = Json::object();
@@ -76,9 +103,9 @@ namespace {
             json["note"] = review.note;
         if (!review.label.empty())
             json["label"] = review.label;
-        json["paths"] = Json::array();
-        for (const SignalPath &path : review.paths)
-            json["paths"].push_back(toJson(path));
+        json["paths"] = toJson(review.paths);
+        if (!review.drawn.empty())
+            json["drawn"] = toJson(review.drawn);
         return json;
     }
 
@@ -90,14 +117,35 @@ namespace {
         return verdictNamed(name);
     }
 
+    SignalPath pathFromJson(const Json &json, const std::string &where, std::size_t limit)
+    {
+        checkKeys(json, where, {"seconds", "position", "tolerance"});
+        SignalPath path{json.at("seconds"), json.at("position"), json.at("tolerance")};
+        if (path.seconds.empty() || path.seconds.size() > limit || path.seconds.size() != path.position.size()
+            || !std::is_sorted(path.seconds.begin(), path.seconds.end(), std::less_equal<>()))
+            throw Error(where,
+                        "must have 1 … " + std::to_string(limit) + " ascending seconds and a position for each");
+        for (const std::vector<double> &position : path.position)
+            if (position.size() != path.tolerance.size() || position.empty())
+                throw Error(where + ".position", "must have a value and a tolerance for every axis");
+        return path;
+    }
+
+    std::vector<SignalPath> pathsFromJson(const Json &json, const std::string &where, std::size_t limit)
+    {
+        std::vector<SignalPath> paths;
+        for (const Json &path : json)
+            paths.push_back(pathFromJson(path, where + "[" + std::to_string(paths.size()) + "]", limit));
+        return paths;
+    }
+
     Review reviewFromJson(const Json &json, const std::string &where)
     {
-        checkKeys(json, where, {"verdict", "note", "label", "paths"});
+        checkKeys(json, where, {"verdict", "note", "label", "paths", "drawn"});
         Review review{
             {}, verdictFromJson(json, where), json.value("note", std::string()), json.value("label", std::string())};
-        for (const Json &path : json.at("paths"))
-            review.paths.push_back(
-                signalPathFromJson(path, where + ".paths[" + std::to_string(review.paths.size()) + "]"));
+        review.paths = pathsFromJson(json.at("paths"), where + ".paths", mostInstants);
+        review.drawn = pathsFromJson(json.value("drawn", Json::array()), where + ".drawn", drawnInstantLimit);
         return review;
     }
 
@@ -151,15 +199,7 @@ Json toJson(const SignalPath &path)
 
 SignalPath signalPathFromJson(const Json &json, const std::string &where)
 {
-    checkKeys(json, where, {"seconds", "position", "tolerance"});
-    SignalPath path{json.at("seconds"), json.at("position"), json.at("tolerance")};
-    if (path.seconds.empty() || path.seconds.size() > mostInstants || path.seconds.size() != path.position.size()
-        || !std::is_sorted(path.seconds.begin(), path.seconds.end(), std::less_equal<>()))
-        throw Error(where, "must have 1 … 17 ascending seconds and a position for each");
-    for (const std::vector<double> &position : path.position)
-        if (position.size() != path.tolerance.size() || position.empty())
-            throw Error(where + ".position", "must have a value and a tolerance for every axis");
-    return path;
+    return pathFromJson(json, where, mostInstants);
 }
 
 SignalPath pathOf(const Analysis &analysis, const Event &event)
@@ -258,8 +298,10 @@ std::vector<EventReview> eventReviews(const Analysis &analysis, const std::vecto
         if (matches[i] < 0)
             continue;
         const auto index = std::size_t(matches[i]);
-        if (first[index] == 0)
+        if (first[index] == 0) {
             first[index] = events[i].id;
+            one.drawn = reviews[index].drawn;
+        }
         one.verdict = reviews[index].verdict;
         one.note = reviews[index].note;
         one.label = reviews[index].label;
@@ -294,18 +336,29 @@ std::vector<Review> withLabel(std::vector<Review> reviews, const Analysis &analy
     return reviews;
 }
 
+std::vector<Review> withDrawn(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events,
+                              int id, std::vector<SignalPath> drawn)
+{
+    reviewOf(reviews, analysis, eventOf(events, id)).drawn = std::move(drawn);
+    dropEmpty(reviews);
+    return reviews;
+}
+
 std::vector<Review> merged(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events,
                            const std::vector<int> &ids)
 {
     if (ids.size() < 2)
         return reviews;
     Review one;
+    bool isDrawn = false;
     for (int id : ids) {
         const Event &event = eventOf(events, id);
         if (matchReviews(analysis, {event}, {one}).front() == 0)
             continue; // already included
         Review &own = reviewOf(reviews, analysis, event);
         one.paths.insert(one.paths.end(), own.paths.begin(), own.paths.end());
+        std::ranges::copy(own.drawn.empty() ? own.paths : own.drawn, std::back_inserter(one.drawn));
+        isDrawn = isDrawn || !own.drawn.empty();
         if (one.verdict == Verdict::None)
             one.verdict = own.verdict;
         if (one.label.empty())
@@ -315,6 +368,7 @@ std::vector<Review> merged(std::vector<Review> reviews, const Analysis &analysis
         own.paths.clear(); // so that no event matches it again
         dropEmpty(reviews);
     }
+    one.drawn = isDrawn ? joined(std::move(one.drawn)) : std::vector<SignalPath>();
     reviews.push_back(one);
     return reviews;
 }
@@ -333,6 +387,39 @@ std::vector<Review> separated(std::vector<Review> reviews, const Analysis &analy
     }
     dropEmpty(reviews);
     return reviews;
+}
+
+std::vector<SignalPath> piecesOf(const std::vector<Review> &reviews, const Analysis &analysis, const Event &event)
+{
+    const int index = matchReviews(analysis, {event}, reviews).front();
+    if (index < 0)
+        return {pathOf(analysis, event)};
+    const Review &review = reviews[std::size_t(index)];
+    return review.drawn.empty() ? joined(review.paths) : review.drawn;
+}
+
+std::vector<SignalPath> cutAt(const std::vector<SignalPath> &pieces, double seconds)
+{
+    std::vector<SignalPath> cut;
+    for (const SignalPath &piece : pieces) {
+        cut.push_back(piece);
+        if (!(piece.seconds.front() < seconds && seconds < piece.seconds.back()))
+            continue;
+        std::vector<double> place;
+        for (std::size_t axis = 0; axis < piece.tolerance.size(); ++axis)
+            place.push_back(at(piece, seconds, axis));
+        const auto before = std::ranges::lower_bound(piece.seconds, seconds) - piece.seconds.begin();
+        const auto behind = std::ranges::upper_bound(piece.seconds, seconds) - piece.seconds.begin();
+        cut.back().seconds.resize(std::size_t(before));
+        cut.back().position.resize(std::size_t(before));
+        cut.back().seconds.push_back(seconds);
+        cut.back().position.push_back(place);
+        SignalPath rest{{seconds}, {place}, piece.tolerance};
+        rest.seconds.insert(rest.seconds.end(), piece.seconds.begin() + behind, piece.seconds.end());
+        rest.position.insert(rest.position.end(), piece.position.begin() + behind, piece.position.end());
+        cut.push_back(std::move(rest));
+    }
+    return cut;
 }
 
 Json toJson(const Annotations &annotations)

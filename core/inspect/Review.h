@@ -19,7 +19,7 @@ Verdict verdictNamed(const std::string &name);
 
 /// Path of a signal: positions along each axis at some instants, linear in between.
 struct SignalPath {
-    std::vector<double> seconds;               ///< ascending, at most 17
+    std::vector<double> seconds;               ///< ascending; of a detected one at most 17
     std::vector<std::vector<double>> position; ///< one per instant, of one value per axis (Hz; or m, degrees)
     std::vector<double> tolerance;             ///< per axis: two cells of the run in which it was detected
 
@@ -32,6 +32,8 @@ struct Review {
     Verdict verdict = Verdict::None;
     std::string note;
     std::string label{}; ///< class assigned by the person
+    /// Where the person says that the signal is: pieces drawn by hand, in order of time; empty: as detected.
+    std::vector<SignalPath> drawn{};
 
     bool operator==(const Review &) const = default;
 };
@@ -65,6 +67,7 @@ struct EventReview {
     std::string note;
     int signal = 0; ///< number of the first event of the same signal, its own if it is alone
     std::string label{};
+    std::vector<SignalPath> drawn{}; ///< with the signal's first event
 
     bool operator==(const EventReview &) const = default;
 };
@@ -99,12 +102,21 @@ std::vector<Review> withNote(std::vector<Review> reviews, const Analysis &analys
                              int id, const std::string &note);
 std::vector<Review> withLabel(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events,
                               const std::vector<int> &ids, const std::string &label);
-/// Merges several events into one signal, with the first verdict and the first label among theirs, and all notes.
+/// `drawn` empty: as detected.
+std::vector<Review> withDrawn(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events,
+                              int id, std::vector<SignalPath> drawn);
+/// Merges several events into one signal, with the first verdict and the first label among theirs, and all notes. What
+/// was drawn of one of them is joined with the others' paths.
 std::vector<Review> merged(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events,
                            const std::vector<int> &ids);
-/// Undoes a merge; each part keeps the review.
+/// Undoes a merge; each part keeps the review, but for what was drawn.
 std::vector<Review> separated(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events,
                               const std::vector<int> &ids);
+
+/// Where an event's signal is: as drawn, else as detected, pieces that follow each other joined.
+std::vector<SignalPath> piecesOf(const std::vector<Review> &reviews, const Analysis &analysis, const Event &event);
+/// The same pieces, the one at that time cut in two.
+std::vector<SignalPath> cutAt(const std::vector<SignalPath> &pieces, double seconds);
 
 Json toJson(const SignalPath &path);
 /// Throws Error naming `where`, or Json::exception for values of the wrong kind.

@@ -13,7 +13,9 @@
 #include "support/recordings.h"
 #include "widgets/events/EventModel.h"
 #include "widgets/events/EventTable.h"
+#include "widgets/waterfall/WaterfallView.h"
 
+#include <QAction>
 #include <QApplication>
 #include <QInputDialog>
 #include <QListWidget>
@@ -37,6 +39,13 @@ class tst_EventReviews : public QObject
              eventReviews(*document().analysis(), document().shownEvents(), document().annotations().reviews))
             result.push_back(one.verdict);
         return result;
+    }
+    QAction *actionOf(const QString &text) const
+    {
+        for (QAction *action : m_window->findChildren<QAction *>())
+            if (action->text().remove('&') == text)
+                return action;
+        throw Error(text.toStdString(), "is no action");
     }
     void choose(const std::vector<int> &ids) const
     {
@@ -129,6 +138,48 @@ private slots:
         const QList<QByteArray> rows = test::readBytes(path.toStdString()).split('\n');
         QVERIFY2(rows[1].contains(",\"fin whale\","), rows[1].constData());
         QVERIFY2(rows[2].contains(",\"event 2\","), rows[2].constData());
+    }
+
+    void linesAreCutAndDrawnByHand()
+    {
+        choose({1});
+        WaterfallView &input = *m_window->workbench().input();
+        const std::vector<SignalPath> found = piecesOf({}, *document().analysis(), document().shownEvents().front());
+        QCOMPARE(found.size(), std::size_t(1));
+        const double middle = 0.5 * (found[0].seconds.front() + found[0].seconds.back());
+        document().viewport().setCursor({found[0].seconds.back() + 5.0, 100.0});
+        QVERIFY(!actionOf("Cut at the cursor")->isEnabled());
+        document().viewport().setCursor({middle, 100.0});
+        actionOf("Cut at the cursor")->trigger();
+        const auto drawn = [&] { return document().annotations().reviews.front().drawn; };
+        QCOMPARE(drawn().size(), std::size_t(2));
+        QCOMPARE(drawn()[1].seconds.front(), middle);
+
+        // The end of the first piece is dragged down by 20 Hz and back by 2 s; its other points and the second piece stay.
+        actionOf("Draw by hand")->setChecked(true);
+        const std::vector<SignalPath> before = drawn();
+        const auto at = [&](double seconds, double hz) { return input.positionOf({seconds, hz}).toPoint(); };
+        const double hz = before[0].position.back().front();
+        const auto grab = at(before[0].seconds[2], before[0].position[2].front());
+        const auto drop = at(before[0].seconds[2], before[0].position[2].front() + 20.0);
+        QTest::mousePress(input.canvas(), Qt::LeftButton, {}, grab);
+        QTest::mouseMove(input.canvas(), drop);
+        QVERIFY2(drawn() == before, "one step of editing, when the mouse is released");
+        QTest::mouseRelease(input.canvas(), Qt::LeftButton, {}, drop);
+        QCOMPARE(drawn().size(), std::size_t(2));
+        QVERIFY(std::abs(drawn()[0].position[2].front() - before[0].position[2].front() - 20.0) < 3.0);
+        QCOMPARE(drawn()[0].position.back().front(), hz);
+        QCOMPARE(drawn()[1], before[1]);
+        QCOMPARE(document().undoStack().count(), 2);
+        // A click off the line is the picture's.
+        QTest::mouseClick(input.canvas(), Qt::LeftButton, {}, at(middle, 300.0));
+        QCOMPARE(document().undoStack().count(), 2);
+        QVERIFY(std::abs(document().viewport().cursor()->hz - 300.0) < 3.0);
+        const QImage withLines = input.grab().toImage();
+        actionOf("Draw by hand")->setChecked(false);
+        actionOf("As detected")->trigger();
+        QVERIFY(document().annotations().isEmpty());
+        QVERIFY(input.grab().toImage() != withLines);
     }
 
     void aRejectedEventIsFaintAndCanBeFilteredOut()

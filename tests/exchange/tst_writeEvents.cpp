@@ -257,6 +257,21 @@ private slots:
             QVERIFY2(names.contains(column.name.c_str()) && track.contains(column.name), column.name.c_str());
     }
 
+    void drawnPiecesStandBesideTheirEvent()
+    {
+        const Analysis analysis = twoTracks();
+        const std::vector<Event> all = events(analysis);
+        const SignalPath piece{{1.25, 2.0}, {{1004.0}, {1001.5}}, {5.0}};
+        Annotations annotations{withDrawn({}, analysis, all, 2, {piece}), {}};
+        annotations.reviews = withVerdict(annotations.reviews, analysis, all, {2}, Verdict::Accepted);
+        writeReviewed(analysis, all, annotations, path("drawn.csv"));
+        writeReviewed(analysis, all, {}, path("plain.csv"));
+        const QList<QByteArray> rows = readBytes(path("drawn.csv")).trimmed().split('\n');
+        QCOMPARE(rows.size(), 4);
+        QCOMPARE(rows[2], QByteArray(",1.25,,2,,,,,,1001.5,1004,accepted,2,\"event 2 (drawn)\",\"\""));
+        QCOMPARE(rows[3], readBytes(path("plain.csv")).trimmed().split('\n')[2]); // what was measured stays
+    }
+
     void refusals()
     {
         for (const char *name : {"e.xml", "e", "csv"})

@@ -151,6 +151,41 @@ private slots:
         QVERIFY(separated(reviews, analysis, all, {3}).empty());
     }
 
+    void drawnLinesStayWithTheSignal()
+    {
+        const Analysis analysis = analysisOf({{0, line(100, 1, 21)}, {40, line(140, 0, 21)}});
+        const std::vector<Event> all = events(analysis);
+        // 100 … 120 Hz in 0 … 20 s, cut at 6.5 s, where no instant of its path is.
+        const std::vector<SignalPath> halves = cutAt(piecesOf({}, analysis, all[0]), 6.5);
+        QCOMPARE(halves.size(), std::size_t(2));
+        QCOMPARE(halves[0].seconds.back(), 6.5);
+        QCOMPARE(halves[1].seconds.front(), 6.5);
+        QCOMPARE(halves[0].position.back(), std::vector{106.5});
+        QCOMPARE(halves[1].position.front(), std::vector{106.5});
+        QCOMPARE(halves[0].seconds.size() + halves[1].seconds.size(), std::size_t(19)); // 17, and the cut twice
+        QCOMPARE(cutAt(halves, 30.0), halves);
+        QCOMPARE(cutAt(halves, 6.5), halves);
+
+        const std::vector<Review> drawn = withDrawn({}, analysis, all, 1, halves);
+        QCOMPARE(piecesOf(drawn, analysis, all[0]), halves);
+        QCOMPARE(eventReviews(analysis, all, drawn)[0].drawn, halves);
+        QVERIFY(eventReviews(analysis, all, drawn)[1].drawn.empty());
+        const Json json = toJson(Annotations{drawn, {}});
+        QVERIFY(annotationsFromJson(parseJson(json.dump(2), "x"), "x").reviews == drawn);
+        QVERIFY(withDrawn(drawn, analysis, all, 1, {}).empty());
+
+        // Joined: in one line where one follows the other, also with what was drawn of them.
+        const std::vector<Review> joined = merged({}, analysis, all, {2, 1});
+        const std::vector<SignalPath> whole = piecesOf(joined, analysis, all[1]);
+        QCOMPARE(whole.size(), std::size_t(1));
+        QCOMPARE(whole[0].seconds.front(), 0.0);
+        QCOMPARE(whole[0].seconds.back(), 60.0);
+        const std::vector<Review> both = merged(withDrawn({}, analysis, all, 1, {halves[0]}), analysis, all, {1, 2});
+        QCOMPARE(both.front().drawn.size(), std::size_t(1));
+        QCOMPARE(both.front().drawn[0].seconds[halves[0].seconds.size()], 40.0);
+        QVERIFY(separated(both, analysis, all, {1}).empty());
+    }
+
     void asJsonAndBack()
     {
         const Analysis analysis = analysisOf({{0, line(100, 1, 40)}, {50, line(120, 0, 1)}});
@@ -166,12 +201,14 @@ private slots:
 
     void hostileJson()
     {
-        for (const char *text :
-             {R"([])", R"({"boxes": [{"seconds": [2, 1], "label": ""}]})", R"({"boxes": [{"seconds": [1]}]})",
-              R"({"boxes": [3]})", R"({"reviews": [{"paths": [{"seconds": [], "position": [], "tolerance": []}]}]})",
-              R"({"reviews": [{"paths": [{"seconds": [1, 1], "position": [[1], [2]], "tolerance": [1]}]}]})",
-              R"({"reviews": [{"paths": [{"seconds": [1], "position": [[1, 2]], "tolerance": [1]}]}]})",
-              R"({"reviews": [{"verdict": "perhaps", "paths": []}]})", R"({"other": 1})"})
+        for (
+            const char *text :
+            {R"([])", R"({"boxes": [{"seconds": [2, 1], "label": ""}]})", R"({"boxes": [{"seconds": [1]}]})",
+             R"({"boxes": [3]})", R"({"reviews": [{"paths": [{"seconds": [], "position": [], "tolerance": []}]}]})",
+             R"({"reviews": [{"paths": [{"seconds": [1, 1], "position": [[1], [2]], "tolerance": [1]}]}]})",
+             R"({"reviews": [{"paths": [{"seconds": [1], "position": [[1, 2]], "tolerance": [1]}]}]})",
+             R"({"reviews": [{"paths": [], "drawn": [{"seconds": [2, 1], "position": [[1], [2]], "tolerance": [1]}]}]})",
+             R"({"reviews": [{"verdict": "perhaps", "paths": []}]})", R"({"other": 1})"})
             QVERIFY_EXCEPTION_THROWN(annotationsFromJson(Json::parse(text), "annotations"), std::exception);
     }
 

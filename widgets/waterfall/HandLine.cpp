@@ -53,7 +53,7 @@ public:
         }
         painter->setPen(QPen(QColor(0, 0, 0, 220), 1.5));
         painter->setBrush(colour);
-        for (const QPointF &vertex : polygon)
+        for (const QPointF &vertex : m_line.m_isActive || polygon.size() == 1 ? polygon : QPolygonF())
             painter->drawEllipse(vertex, handleRadius, handleRadius);
         painter->restore();
     }
@@ -68,11 +68,15 @@ HandLine::HandLine(WaterfallView &view) : QObject(&view), m_view(view)
     view.canvas()->installEventFilter(this);
 }
 
-void HandLine::setActive(bool isActive)
+void HandLine::setActive(bool isActive, bool extends)
 {
+    m_extends = extends;
+    if (m_isActive == isActive)
+        return;
     m_isActive = isActive;
     m_held = -1;
     m_view.canvas()->setCursor(isActive ? Qt::PointingHandCursor : Qt::CrossCursor);
+    m_view.replot();
 }
 
 void HandLine::setPoints(std::vector<Viewport::Point> points)
@@ -126,6 +130,21 @@ int HandLine::vertexAt(const QPointF &position) const
     return nearest;
 }
 
+bool HandLine::isOnLine(const QPointF &position) const
+{
+    for (std::size_t i = 1; i < m_points.size(); ++i) {
+        const QPointF from = m_view.positionOf(m_points[i - 1]);
+        const QPointF way = m_view.positionOf(m_points[i]) - from;
+        const double length = QPointF::dotProduct(way, way);
+        const double share =
+            length > 0.0 ? std::clamp(QPointF::dotProduct(position - from, way) / length, 0.0, 1.0) : 0.0;
+        const QPointF off = position - from - share * way;
+        if (std::hypot(off.x(), off.y()) <= reach)
+            return true;
+    }
+    return false;
+}
+
 void HandLine::move(const QPointF &position)
 {
     Viewport::Point point = m_view.pointAt(position);
@@ -154,13 +173,19 @@ bool HandLine::eventFilter(QObject *watched, QEvent *event)
     case QEvent::MouseButtonDblClick:
         if (mouse()->button() == Qt::RightButton) {
             m_last = vertexAt(mouse()->position());
-            removeLast();
-            return true;
+            if (m_last >= 0) {
+                removeLast();
+                emit edited();
+                return true;
+            }
+            return m_extends;
         }
         if (mouse()->button() != Qt::LeftButton)
             break;
-        m_view.setFocus(Qt::MouseFocusReason);
         m_held = vertexAt(mouse()->position());
+        if (m_held < 0 && !m_extends && !isOnLine(mouse()->position()))
+            break;
+        m_view.setFocus(Qt::MouseFocusReason);
         if (m_held < 0)
             m_held = insert(m_view.pointAt(mouse()->position()));
         move(mouse()->position());
@@ -174,6 +199,7 @@ bool HandLine::eventFilter(QObject *watched, QEvent *event)
         if (m_held < 0)
             break;
         m_held = -1;
+        emit edited();
         return true;
     case QEvent::ContextMenu:
         return true; // the right button removes vertices

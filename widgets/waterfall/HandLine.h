@@ -11,7 +11,8 @@ namespace faintline {
 /// A polyline drawn by hand over a waterfall, with vertices in ascending time.
 ///
 /// While active, a press beside the line adds a vertex and a press on a vertex grabs it; both follow the mouse until it
-/// is released. A right-click on a vertex removes it. Wheel and keys still go to the view.
+/// is released. A right-click on a vertex removes it. Wheel and keys still go to the view. Vertices are marked while they
+/// can be grabbed.
 class HandLine : public QObject
 {
     Q_OBJECT
@@ -21,7 +22,8 @@ public:
     explicit HandLine(WaterfallView &view);
 
     bool isActive() const { return m_isActive; }
-    void setActive(bool isActive);
+    /// `extends`: a press anywhere adds a vertex, otherwise one on the line.
+    void setActive(bool isActive, bool extends = true);
 
     const std::vector<Viewport::Point> &points() const { return m_points; }
     void setPoints(std::vector<Viewport::Point> points); ///< sorted by time
@@ -31,6 +33,7 @@ public:
 
 signals:
     void changed();
+    void edited(); ///< with the mouse, when it is released
 
 protected:
     bool eventFilter(QObject *watched, QEvent *event) override;
@@ -39,6 +42,7 @@ private:
     class Item;
 
     int vertexAt(const QPointF &position) const; ///< -1: none
+    bool isOnLine(const QPointF &position) const;
     int insert(const Viewport::Point &point);
     void move(const QPointF &position);
     void update();
@@ -46,6 +50,7 @@ private:
     WaterfallView &m_view;
     std::vector<Viewport::Point> m_points;
     bool m_isActive = false;
+    bool m_extends = true;
     int m_held = -1;
     int m_last = -1;
 };
