@@ -236,7 +236,9 @@ namespace {
                     for (std::size_t i = 0; i < power.size(); ++i)
                         if (const double y = powerBeside(seen, other, double(i) - parabolaReachBins); !std::isnan(y))
                             power[i] += y;
-                const auto peak = std::size_t(std::max_element(power.begin() + 1, power.end() - 1) - power.begin());
+                auto peak = std::size_t(std::max_element(power.begin() + 1, power.end() - 1) - power.begin());
+                if (power[peak] == power[parabolaReachBins]) // also where nothing was observed
+                    peak = parabolaReachBins;
                 const auto ln = [&](std::size_t i) { return std::log(std::max(power[i], 1e-9)); };
                 const double curvature = ln(peak - 1) - 2.0 * ln(peak) + ln(peak + 1);
                 const double within =

@@ -2,6 +2,7 @@
 
 #include "frames/Spectrogram.h"
 #include "frames/Window.h"
+#include "frames/observed.h"
 #include "plan/Analysis.h"
 #include "plan/sureStatistic.h"
 #include "refine/levelBeside.h"
@@ -58,9 +59,11 @@ namespace {
                 const SmoothedPoint &point = track.smoothed[i];
                 const double hz = axis.value(point.position);
                 m_hz.push_back(hz);
-                m_bands.push_back(track.isPresent(i) ? Band{std::min(hz, axis.value(double(point.low))),
-                                                            std::max(hz, axis.value(double(point.high)))}
-                                                     : Band{});
+                const bool isThere = // what was not observed is no pause
+                    track.isPresent(i) || !isObserved(*analysis.frames->spectrogram(), track.points[i].frame);
+                m_bands.push_back(isThere ? Band{std::min(hz, axis.value(double(point.low))),
+                                                 std::max(hz, axis.value(double(point.high)))}
+                                          : Band{});
             }
         }
 

@@ -4,6 +4,7 @@
 #include "plan/chain.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace faintline {
@@ -55,7 +56,10 @@ void readStrips(const Analysis &analysis, std::vector<PathStrip *> strips, const
         for (Index i = 0; i < count; ++i) {
             const std::span<float> y = std::span(values).subspan(std::size_t(i * cells), std::size_t(cells));
             for (const CellBox &box : excluded)
-                box.forEachCell(frames.grid(), [&](Index cell) { y[std::size_t(cell)] = 0.0f; });
+                box.forEachCell(frames.grid(), [&](Index cell) {
+                    if (float &power = y[std::size_t(cell)]; !std::isnan(power))
+                        power = 0.0f;
+                });
             for (PathStrip *strip : open)
                 copyFrame(y, first + i - strip->firstFrame, *strip);
         }

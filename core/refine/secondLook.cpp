@@ -42,6 +42,18 @@ namespace {
         double evidence;
     };
 
+    /// Of frames that were not observed nobody knows whether the signal was there: it is not reported.
+    BothWays lookAtObserved(const PathStrip &strip, const BothWaysModel &model)
+    {
+        BothWays seen = lookBothWays(strip, model);
+        for (Index at = 0; at < strip.frameCount(); ++at) {
+            const auto row = strip.y.begin() + at * strip.width();
+            if (std::all_of(row, row + strip.width(), [](float y) { return std::isnan(y); }))
+                seen.endsBy[std::size_t(at)] = 0.0f;
+        }
+        return seen;
+    }
+
     /// The point at a frame, or the nearest one.
     const TrackPoint &pointAt(const Track &track, Index frame)
     {
@@ -232,7 +244,7 @@ namespace {
             }
             setLnK(m_model, m_analysis, strip);
             m_model.ends = {};
-            const BothWays seen = lookBothWays(strip, m_model);
+            const BothWays seen = lookAtObserved(strip, m_model);
             double against = 0.0;
             for (Index at = from; at < to; ++at) {
                 const auto i = std::size_t(at);
@@ -348,7 +360,7 @@ namespace {
             setLnK(m_model, m_analysis, strip);
             if (isLineOverFloor(*piece.track, strip)) {
                 m_model.ends = {.absentBefore = piece.isFirst(), .absentAfter = piece.isLast()};
-                const BothWays seen = lookBothWays(strip, m_model);
+                const BothWays seen = lookAtObserved(strip, m_model);
                 for (const Stretch &stretch : stretchesOf(piece, seen))
                     propose(piece, seen, stretch);
             }
@@ -525,7 +537,7 @@ namespace {
             readStrips(analysis, std::span(&piece.strip, 1), context, following);
             setLnK(model, analysis, piece.strip);
             model.ends = {.absentBefore = piece.isFirst(), .absentAfter = piece.isLast()};
-            const std::vector<float> present = lookBothWays(piece.strip, model).endsBy;
+            const std::vector<float> present = lookAtObserved(piece.strip, model).endsBy;
             for (std::size_t i = piece.from; i < piece.to; ++i) {
                 const Index frame = track.points[i].frame;
                 if (present[std::size_t(frame - piece.strip.firstFrame)] <= 0.5f)

@@ -8,8 +8,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index edgeFrames = 1; ///< of a signal that fills part of their window: windows overlap
-
+    /// Keeps one more observed frame at either end, of whose window the signal fills a part: windows overlap.
     void trimEnds(Track &track)
     {
         const Index start = track.points.front().frame;
@@ -21,9 +20,13 @@ namespace {
             return;
         while (!track.isPresent(std::size_t(end - 1)))
             --end;
-        track.keepPoints(std::size_t(std::max<Index>(0, first - edgeFrames)),
-                         std::size_t(std::min(std::ssize(track.smoothed), end + edgeFrames)));
-        track.keepDecisionsIn(start + first, start + end - 1);
+        const auto isEdge = [&](Index point) {
+            return point >= 0 && point < std::ssize(track.smoothed)
+                   && track.smoothed[std::size_t(point)].presence > 0.0f;
+        };
+        const Index last = end - 1;
+        track.keepPoints(std::size_t(first - (isEdge(first - 1) ? 1 : 0)), std::size_t(end + (isEdge(end) ? 1 : 0)));
+        track.keepDecisionsIn(start + first, start + last);
     }
 
 } // namespace

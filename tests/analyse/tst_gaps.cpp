@@ -24,6 +24,7 @@ private slots:
     void framesAreNotObserved();
     void noiseBesideAGap();
     void linesGoOn();
+    void aLineThatEndsAtAGapEndsThere();
     void noiseLawLooksBeside();
     void injectedLinesStayOutside();
 };
@@ -34,12 +35,12 @@ constexpr double rate = 1000.0;
 constexpr Index gapBegin = 100'250;
 constexpr Index gapEnd = 140'600;
 
-/// Noise with a faint drifting line; its gap reads as 0, and tells so unless it is hidden.
-RecordingPointer holed(double amplitude, bool isHidden = false)
+/// Noise with a faint drifting line up to a sample; its gap reads as 0, and tells so unless it is hidden.
+RecordingPointer holed(double amplitude, bool isHidden = false, std::size_t lineEnd = 240'000)
 {
     std::vector<float> samples(240'000);
     Random(5, 0).normals(samples, 1.0f);
-    for (std::size_t n = 0; n < samples.size(); ++n) {
+    for (std::size_t n = 0; n < lineEnd; ++n) {
         const double t = double(n) / rate;
         samples[n] += float(amplitude * std::cos(2.0 * std::numbers::pi * (180.0 * t + 0.5 * 0.1 * t * t)));
     }
@@ -98,14 +99,29 @@ void tst_gaps::noiseBesideAGap()
     }
 }
 
-// One event from end to end; where the gap is hidden the same line breaks in two.
+// One event from end to end, which tells nothing of the gap; where the gap is hidden the same line breaks in two.
 void tst_gaps::linesGoOn()
 {
-    const std::vector<Event> found = events(*analysed(holed(0.15)));
+    const auto analysis = analysed(holed(0.15));
+    const std::vector<Event> found = events(*analysis);
     QCOMPARE(found.size(), std::size_t(1));
+    const double middle = 0.5 * (found[0].onsetSeconds + found[0].endSeconds);
+    QVERIFY2(std::abs(found[0].position.back() - (180.0 + 0.1 * middle)) < 0.03,
+             QByteArray::number(found[0].position.back() - (180.0 + 0.1 * middle)));
+    const Track &track = analysis->tracks.front();
+    for (const std::size_t i : track.presentPoints())
+        QVERIFY(isObserved(*analysis->frames->spectrogram(), track.points[i].frame));
     QVERIFY(found[0].onsetSeconds < 10.0 && found[0].endSeconds > 230.0);
     QVERIFY(std::abs(found[0].driftPerSecond - 0.1) < 0.005);
     QVERIFY(events(*analysed(holed(0.15, true))).size() >= 2);
+}
+
+void tst_gaps::aLineThatEndsAtAGapEndsThere()
+{
+    const std::vector<Event> found = events(*analysed(holed(0.15, false, gapBegin)));
+    QCOMPARE(found.size(), std::size_t(1));
+    QVERIFY2(found[0].endSeconds > 95.0 && found[0].endSeconds <= double(gapBegin) / rate,
+             QByteArray::number(found[0].endSeconds));
 }
 
 void tst_gaps::noiseLawLooksBeside()

@@ -41,9 +41,11 @@ private slots:
         QTest::addColumn<bool>("isOpen");
         QTest::newRow("present throughout") << QList<float>{0.9f, 1.0f, 0.8f} << 100 << 102 << true;
         QTest::newRow("later, and ended")
-            << QList<float>{0.0f, 0.1f, 0.6f, 1.0f, 0.7f, 0.4f, 0.0f} << 101 << 105 << false;
+            << QList<float>{0.01f, 0.1f, 0.6f, 1.0f, 0.7f, 0.4f, 0.01f} << 101 << 105 << false;
         QTest::newRow("keyed") << QList<float>{0.1f, 0.4f, 0.9f, 0.1f, 0.0f, 0.9f} << 101 << 105 << true;
         QTest::newRow("in one frame") << QList<float>{0.0f, 0.2f, 0.6f, 0.3f, 0.0f} << 101 << 103 << false;
+        QTest::newRow("beside what was not observed")
+            << QList<float>{0.0f, 0.0f, 0.9f, 1.0f, 0.0f} << 102 << 103 << false;
         QTest::newRow("nowhere certain") << QList<float>{0.2f, 0.5f, 0.3f} << 100 << 102 << true;
     }
 
