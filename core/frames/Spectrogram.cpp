@@ -233,7 +233,10 @@ double Spectrogram::automaticWindowSeconds(const RecordingInfo &info)
     // At least 16 samples, so that a spectrum exists; at most a quarter of the recording, and limited by memory.
     constexpr double windowMinimumSamples = 16.0;
     constexpr double most = 4e6;
-    chosen = std::clamp(chosen, windowMinimumSamples / info.sampleRateHz, most / info.sampleRateHz);
+    const double least = windowMinimumSamples / info.sampleRateHz;
+    chosen = std::clamp(chosen, least, most / info.sampleRateHz);
+    if (info.places.hasGaps()) // frames that reach into gaps are lost: a quarter of a stretch's at most
+        chosen = std::min(chosen, std::max(double(info.places.typicalCount()) / info.sampleRateHz / 4.0, least));
     return std::min(chosen, std::max(info.durationSeconds() / 4.0, 1.0 / info.sampleRateHz));
 }
 

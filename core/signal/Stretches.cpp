@@ -1,6 +1,7 @@
 #include "signal/Stretches.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace faintline {
 
@@ -32,6 +33,19 @@ Index Stretches::samples() const
     for (const StoredRun &each : m_stretches)
         samples += each.count;
     return samples;
+}
+
+Index Stretches::typicalCount() const
+{
+    std::vector<Index> counts;
+    for (const StoredRun &each : m_stretches)
+        counts.push_back(each.count);
+    std::ranges::sort(counts, std::ranges::greater());
+    Index left = samples() - samples() / 2;
+    for (const Index count : counts)
+        if (left -= count; left <= 0)
+            return count;
+    return 0;
 }
 
 Index Stretches::end() const

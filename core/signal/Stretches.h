@@ -27,6 +27,8 @@ public:
     Index missing() const; ///< samples in all gaps
     Index samples() const; ///< in all stretches
     Index end() const;     ///< one past the last sample, in time
+    /// The largest number of samples such that half of all lie in stretches of at least as many; 0: there are none.
+    Index typicalCount() const;
 
     /// Index among the stored samples of a place in time, or of the first stored one behind it; without any stretch they
     /// are equal. In a place beyond the end, time goes on.

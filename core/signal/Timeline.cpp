@@ -133,6 +133,7 @@ Timeline::Timeline(const std::vector<std::string> &names, OpenFile open) : m_ope
     m_info.path = names.front();
     m_info.sampleRateHz = aligned.rateHz;
     m_info.sampleCount = m_stretches.end();
+    m_info.places = m_stretches;
     m_info.startUnixSeconds = aligned.startUnixSeconds;
     m_info.notes = aligned.notes;
     if (!broken.empty())

@@ -430,6 +430,21 @@ private slots:
         QVERIFY2(std::abs(Spectrogram::automaticWindowSeconds(info) - window) < 1e-9 * window,
                  qPrintable(QString::number(Spectrogram::automaticWindowSeconds(info))));
     }
+
+    void automaticWindowOfAGappyRecordingFitsItsStretches()
+    {
+        RecordingInfo info;
+        info.sampleRateHz = 40.0;
+        info.sampleCount = 40'000;
+        QCOMPARE(Spectrogram::automaticWindowSeconds(info), 20.0);
+        for (Index second = 0; second < 1000; second += 10) // nine seconds of ten
+            info.places.add(40 * second, 36 * second, 360);
+        QCOMPARE(Spectrogram::automaticWindowSeconds(info), 2.25);
+        // Half of all samples lie in one long stretch.
+        info.places.add(40'000, 36'000, 36'000);
+        info.sampleCount = 76'000;
+        QCOMPARE(Spectrogram::automaticWindowSeconds(info), 20.0);
+    }
 };
 
 FAINTLINE_TEST(tst_Spectrogram)
