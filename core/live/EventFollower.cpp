@@ -37,8 +37,6 @@ Event EventFollower::eventNow(const HmmTracker &tracker, Index frame) const
     event.position.back() = axes.back().value(double(at.back()) + tracker.displacement());
     event.detectedPosition = event.position;
     event.ratesPerSecond.assign(at.size(), 0.0);
-    event.statistic = statisticOf(track, m_plan);
-    event.isConfirmed = track.isConfirmed;
     event.isOpen = true;
     return event;
 }
@@ -57,22 +55,26 @@ void EventFollower::followTrackers(Index frame)
     std::map<int, Open> still;
     for (const HmmTracker &tracker : m_chain.trackers()) {
         const Track &track = tracker.track();
-        Open open{false, frame, track.detectFrame, track.onsetFrame, tracker.earliestEnd()};
-        if (track.id > m_lastId) {
-            tell(State::Provisional, eventNow(tracker, frame));
-        } else {
-            open.isConfirmed = m_open.at(track.id).isConfirmed;
-            open.toldFrame = m_open.at(track.id).toldFrame;
-        }
+        const bool isNew = track.id > m_lastId;
+        Open open = isNew ? Open{.toldFrame = frame} : std::move(m_open.at(track.id));
+        open.detectFrame = track.detectFrame;
+        open.onsetFrame = track.onsetFrame;
+        open.earliestEnd = tracker.earliestEnd();
+        if (isNew || open.earliestEnd == frame)
+            open.heard = eventNow(tracker, frame);
+        open.heard.statistic = statisticOf(track, m_plan);
+        open.heard.isConfirmed = track.isConfirmed;
+        if (isNew)
+            tell(State::Provisional, open.heard);
         if (track.isConfirmed && !open.isConfirmed) {
-            tell(State::Confirmed, eventNow(tracker, frame));
+            tell(State::Confirmed, open.heard);
             open.toldFrame = frame;
         } else if (frame - open.toldFrame >= m_updateFrames) {
-            tell(State::Updated, eventNow(tracker, frame));
+            tell(State::Updated, open.heard);
             open.toldFrame = frame;
         }
         open.isConfirmed = track.isConfirmed;
-        still.emplace(track.id, open);
+        still.emplace(track.id, std::move(open));
     }
     if (!still.empty())
         m_lastId = std::max(m_lastId, still.rbegin()->first);

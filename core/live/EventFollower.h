@@ -19,7 +19,7 @@ struct EventChange {
     };
 
     State state = State::Provisional;
-    Event event;               ///< as known so far; for a track in progress, the current position and statistic
+    Event event;               ///< as known so far; for a track in progress, where it last had evidence
     std::optional<int> partOf; ///< final: continues as the event with this number
     bool isWithdrawn = false;  ///< final: another track follows the same signal
 };
@@ -52,6 +52,7 @@ private:
         Index detectFrame = 0;
         Index onsetFrame = 0;
         Index earliestEnd = 0;
+        Event heard{}; ///< as it was there
     };
 
     void followTrackers(Index frame);

@@ -8,10 +8,6 @@
 
 namespace faintline {
 
-namespace {
-
-} // namespace
-
 HmmTracker::HmmTracker(TrackerModel &model, Track start, const Seed &seed)
     : m_model(&model), m_track(std::move(start)), m_best(seed.state)
 {

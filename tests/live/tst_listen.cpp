@@ -290,6 +290,34 @@ private slots:
         QVERIFY(told(crossings.front() - 0.25).empty()); // the line itself, not the stream's end
     }
 
+    // A tracker goes on through noise for a while before it gives up; what is told of it does not.
+    void nothingIsToldBeyondTheLastEvidence()
+    {
+        LineScene lines{.sampleRateHz = heardRate, .durationSeconds = 60.0};
+        lines.noise.deviation = 0.1;
+        lines.seed = 6;
+        lines.lines = {{.snrDb = 12.0,
+                        .referenceSeconds = 0.25,
+                        .startSeconds = 10.0,
+                        .durationSeconds = 20.0,
+                        .frequencyHz = 210.0}};
+        GivenSource source(format(), piecesOf(readAll(SimulatedRecording(lines)), {}, 8));
+        ListenSettings used = settings({});
+        used.updateSeconds = 1.0;
+        int updates = 0;
+        ListenSinks sinks;
+        sinks.event = [&](const EventChange &change, const AnalysisPlan &) {
+            if (std::abs(change.event.position.front() - 210.0) > 40.0)
+                return;
+            ++updates;
+            QVERIFY2(change.event.endSeconds < 32.0, QByteArray::number(change.event.endSeconds));
+            QVERIFY2(std::abs(change.event.position.front() - 210.0) < 4.0,
+                     QByteArray::number(change.event.position.front()));
+        };
+        listen(source, used, sinks);
+        QVERIFY(updates > 20);
+    }
+
     // A thousand, each of which has to be where it was: the oracle are the samples themselves.
     void gapsArePlacedToTheSample()
     {
