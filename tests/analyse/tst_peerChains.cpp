@@ -82,6 +82,7 @@ class tst_peerChains : public QObject
 
 private slots:
     void aCrossingForgetsItsOwnPlace();
+    void aWholeExcursionIsInhibitedInTheNextFrame();
     void theShoulderIsAboveTheNoise_data()
     {
         addKinds(1);
@@ -130,6 +131,41 @@ void tst_peerChains::aCrossingForgetsItsOwnPlace()
         return;
     }
     QFAIL("the line was not found");
+}
+
+// A band wider than a track's box: its rim would start tracks of its own.
+void tst_peerChains::aWholeExcursionIsInhibitedInTheNextFrame()
+{
+    constexpr std::size_t integrator = 2;
+    constexpr Index frames = 300;
+    std::vector<float> band(std::size_t(frames * cellCount));
+    Random(6, 0).exponentials(band);
+    for (Index frame = 150; frame < frames; ++frame)
+        for (Index cell = 90; cell < 110; ++cell)
+            band[std::size_t(frame * cellCount + cell)] += 4.0f;
+    const Analysis analysis = prepared(
+        integrator, std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, frames, false}, grid(), std::move(band)),
+        1e-6);
+    const auto chain = makeChain(analysis);
+    std::vector<float> y(cellCount);
+    std::vector<float> statistic(cellCount);
+    std::vector<CellBox> forgotten;
+    for (Index frame = 0; frame < frames; ++frame) {
+        analysis.frames->read(frame, 1, y);
+        chain->update(frame, y, statistic);
+        if (!forgotten.empty()) {
+            for (const CellBox &box : forgotten)
+                box.forEachCell(grid(), [&](Index cell) {
+                    QVERIFY2(std::ranges::any_of(chain->inhibited(),
+                                                 [&](const CellBox &each) { return each.contains(grid(), {cell}); }),
+                             QByteArray::number(cell));
+                });
+            return;
+        }
+        if (!chain->trackers().empty())
+            forgotten.assign(chain->forgotten().begin(), chain->forgotten().end());
+    }
+    QFAIL("the band was not found");
 }
 
 void tst_peerChains::theShoulderIsAboveTheNoise()
