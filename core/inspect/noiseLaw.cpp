@@ -101,14 +101,13 @@ namespace {
     }
 
     /// The fraction of states whose path continues, in tiles of cells and frames. Tiles in which the statistic exceeds
-    /// what is rare on noise, or cells were not observed, are left out, and loud paths are forgotten there.
+    /// what is rare on noise, or cells were not observed, are left out.
     class ContinuedFractions
     {
     public:
         explicit ContinuedFractions(const AnalysisPlan &plan)
             : m_loudest(float(loudestOf(plan))), m_likelihood(plan.model.likelihood),
-              m_planes(plan.model.space.planeCount()), m_grid(plan.grid()),
-              m_inhibitedBins(inhibitedBins(plan.settings)), m_lambda(std::size_t(plan.model.space.cellCount())),
+              m_planes(plan.model.space.planeCount()), m_lambda(std::size_t(plan.model.space.cellCount())),
               m_continued(std::size_t(std::max<Index>(1, plan.model.space.cellCount() / tileCells)), 0.0)
         {
             const auto columns = std::ssize(m_continued);
@@ -135,14 +134,6 @@ namespace {
             m_frames += 1.0;
             if (++m_tileFrames == tileFrames)
                 close();
-        }
-
-        /// Ends the paths that are too good for noise, before they branch into other tiles.
-        void forgetLoud(std::span<const float> statistic, Smd &detector) const
-        {
-            for (std::size_t cell = 0; cell < statistic.size(); ++cell)
-                if (statistic[cell] > m_loudest)
-                    detector.forget(m_grid, {{Index(cell)}, {m_inhibitedBins}});
         }
 
         /// Ends the tiles, before a stretch that does not continue the last one; short ones count with the next.
@@ -178,8 +169,6 @@ namespace {
         float m_loudest;
         Likelihood m_likelihood;
         Index m_planes;
-        Grid m_grid;
-        Index m_inhibitedBins;
         std::vector<float> m_lambda;
         std::vector<Index> m_columnCells; ///< first cell of each column, and the end
         std::vector<double> m_continued;  ///< states in the current tile of each column of cells
@@ -233,7 +222,6 @@ namespace {
                 detector.update(m_y, m_statistic);
                 if (++seen > settlingFrames)
                     m_fractions.add(m_y, m_statistic, detector);
-                m_fractions.forgetLoud(m_statistic, detector);
             }
             m_fractions.close();
         }
@@ -321,7 +309,6 @@ namespace {
                 detector.update(y, statistic);
                 if (frame >= settling)
                     fractions.add(y, statistic, detector);
-                fractions.forgetLoud(statistic, detector);
             }
             fractions.close();
             const double fraction = fractions.lowerQuartile();
