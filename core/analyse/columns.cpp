@@ -95,7 +95,8 @@ std::vector<TableColumn<Event>> eventColumns(const Grid &grid, OptionalColumns o
         keyRank = 5;
         add(columnOf("snr_db", &Event::snrDb), "SNR", "dB", "Mean signal-to-noise power ratio in one window and bin");
         add(columnOf("band_hz", &Event::bandWidth));
-        add(columnOf("noise_probability", &Event::noiseProbability));
+        add(columnOf("noise_probability", &Event::noiseProbability), "Chance of noise", "",
+            "Probability that noise alone gives an event as significant as this one in this recording");
         add(columnOf("window_s", &Event::windowSeconds), "Window", "s",
             "Length of the window that found the event: the displayed one, or another one that sees it better");
     }

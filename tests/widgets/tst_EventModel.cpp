@@ -92,10 +92,11 @@ private slots:
     {
         Event event = test::event(1, 1.0, 2.0, 300.0);
         event.position.clear();
-        event.confirmSeconds = event.snrDb = event.windowSeconds = std::numeric_limits<double>::quiet_NaN();
+        event.confirmSeconds = event.snrDb = event.windowSeconds = event.noiseProbability =
+            std::numeric_limits<double>::quiet_NaN();
         m_model->setEvents({event});
         for (const int column : {EventModel::Frequency, EventModel::Bearing, EventModel::Confirmation, EventModel::Snr,
-                                 EventModel::Window})
+                                 EventModel::Chance, EventModel::Window})
             QCOMPARE(text(column), QString("–"));
         m_model->setOrigin(0.0, 1e6);
         QCOMPARE(text(EventModel::Radio), QString());
@@ -119,6 +120,8 @@ private slots:
         strong.confirmSeconds = 150.0;
         weak.snrDb = -9.0;
         strong.snrDb = 10.0;
+        weak.noiseProbability = 1e-9;
+        strong.noiseProbability = 0.01;
         weak.windowSeconds = 0.5;
         strong.windowSeconds = 16.0;
         weak.driftPerSecond = -3.0;

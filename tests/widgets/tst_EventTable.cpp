@@ -130,7 +130,7 @@ private slots:
         text.replace(QChar::Nbsp, QLatin1Char(' '));
         for (const char *fact :
              {"Event 7", "Frequency 950.00 Hz", "SNR 12.3 dB in 2500 Hz", "Time 5.0 … 20.0 s", "Drift −0.5 Hz/s",
-              "Window 0.25 s", "Onset 2023-11-14", "Chance of being noise 3·10", "Class a <whale>"})
+              "Window 0.25 s", "Onset 2023-11-14", "Chance of noise 3·10", "Class a <whale>"})
             QVERIFY2(text.contains(QString::fromUtf8(fact)), qPrintable(text));
         QTest::mouseClick(m_table->card().findChild<QToolButton *>(), Qt::LeftButton);
         QCOMPARE(asked.count(), 1);

@@ -37,12 +37,6 @@ namespace {
                                                                    : value + QLatin1Char(' ') + unit};
     }
 
-    QString chanceText(double probability)
-    {
-        return probability < 0.01 ? powerText(probability, 1)
-                                  : EventCard::tr("%1 %").arg(numberText(100.0 * probability, 0));
-    }
-
 } // namespace
 
 EventCard::EventCard(const EventModel &model, QWidget *parent)
@@ -104,9 +98,7 @@ void EventCard::fill()
     for (const int column : {EventModel::Drift, EventModel::Window, EventModel::Utc, EventModel::Radio})
         if (column != EventModel::Radio || m_model.hasRadio())
             facts.push_back(factOf(m_model, m_row, column));
-    if (std::isfinite(event.noiseProbability))
-        facts.push_back({tr("Chance of being noise"), chanceText(event.noiseProbability)});
-    for (const int column : {EventModel::Class, EventModel::Judged, EventModel::Note})
+    for (const int column : {EventModel::Chance, EventModel::Class, EventModel::Judged, EventModel::Note})
         facts.push_back(factOf(m_model, m_row, column));
     QStringList words;
     const QString faint = Theme::colours(*this).faintText.name();

@@ -9,9 +9,10 @@
 #include <QPalette>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string>
 
 namespace faintline {
 
@@ -29,11 +30,23 @@ namespace {
     /// The column of files that is shown in a column of the table.
     const TableColumn<Event> &fileColumn(int column)
     {
-        static constexpr std::array<const char *, EventModel::ColumnCount> names{
-            "event",     "",       "",         "", "", "t_onset", "t_detect",      "",
-            "statistic", "snr_db", "window_s", "", "", "t_end",   "drift_hz_per_s"};
+        static const std::map<int, std::string> names{{EventModel::Id, "event"},
+                                                      {EventModel::Onset, "t_onset"},
+                                                      {EventModel::Detection, "t_detect"},
+                                                      {EventModel::Statistic, "statistic"},
+                                                      {EventModel::Snr, "snr_db"},
+                                                      {EventModel::Chance, "noise_probability"},
+                                                      {EventModel::Window, "window_s"},
+                                                      {EventModel::End, "t_end"},
+                                                      {EventModel::Drift, "drift_hz_per_s"}};
         static const auto columns = eventColumns(Grid(), {.secondPass = true});
-        return *std::ranges::find(columns, names[std::size_t(column)], &TableColumn<Event>::name);
+        return *std::ranges::find(columns, names.at(column), &TableColumn<Event>::name);
+    }
+
+    QString chanceText(double probability)
+    {
+        return probability < 0.01 ? powerText(probability, 1)
+                                  : EventModel::tr("%1 %").arg(numberText(100.0 * probability, 0));
     }
 
     double toTenths(double seconds)
@@ -65,6 +78,8 @@ double EventModel::sortValue(const Event &event, int column) const
         return hasBearing() && !event.ratesPerSecond.empty() ? event.ratesPerSecond.front() : event.driftPerSecond;
     case Snr:
         return std::isfinite(event.snrDb) ? event.snrDb : -std::numeric_limits<double>::infinity();
+    case Chance:
+        return std::isfinite(event.noiseProbability) ? event.noiseProbability : 1.0;
     case Window:
         return std::isfinite(event.windowSeconds) ? event.windowSeconds : 0.0;
     case Judged: {
@@ -192,6 +207,8 @@ QString EventModel::text(const Event &event, int column) const
         return numberText(event.statistic, 1);
     case Snr:
         return std::isfinite(event.snrDb) ? numberText(event.snrDb, 1) : QStringLiteral("–");
+    case Chance:
+        return std::isfinite(event.noiseProbability) ? chanceText(event.noiseProbability) : QStringLiteral("–");
     case Window:
         return std::isfinite(event.windowSeconds) ? QString::number(event.windowSeconds, 'g', 4) : QStringLiteral("–");
     case Judged:
@@ -233,6 +250,11 @@ QVariant EventModel::data(const QModelIndex &index, int role) const
     default:
         return {};
     }
+}
+
+bool EventModel::hasChances() const
+{
+    return std::ranges::any_of(m_events, [](const Event &event) { return std::isfinite(event.noiseProbability); });
 }
 
 bool EventModel::hasWindows() const
@@ -323,6 +345,7 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
         {tr("Conf."), tr("Confirmed: time at which the track was confirmed")},
         own(Statistic),
         own(Snr),
+        own(Chance),
         own(Window),
         {tr("Onset (UTC)"), tr("Date and time of the onset")},
         {tr("RF (Hz)"), tr("Radio frequency in the middle between onset and end: centre frequency plus offset")},

@@ -29,6 +29,7 @@ public:
         Confirmation,
         Statistic,
         Snr,
+        Chance, ///< of being noise, if it is known of some events
         Window, ///< if events were found with different windows
         Utc,    ///< onset, if the recording's start time is known
         Radio,  ///< frequency including the receiver's centre, if there is one
@@ -60,6 +61,7 @@ public:
     /// Sets the recording's start time (UTC) and the frequency that corresponds to 0 Hz.
     void setOrigin(std::optional<double> startUnixSeconds, double centreHz);
     bool hasUtc() const { return m_startUnixSeconds.has_value(); }
+    bool hasChances() const;
     /// Whether another window found some of the events.
     bool hasWindows() const;
     /// Whether any event has a class.

@@ -112,8 +112,8 @@ void EventTable::setUpTable()
     m_table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
     m_table->setAccessibleName(tr("Events"));
     m_table->installEventFilter(this);
-    for (const int column : {EventModel::Bearing, EventModel::ThirdAxis, EventModel::FourthAxis, EventModel::Window,
-                             EventModel::Utc, EventModel::Radio, EventModel::Class})
+    for (const int column : {EventModel::Bearing, EventModel::ThirdAxis, EventModel::FourthAxis, EventModel::Chance,
+                             EventModel::Window, EventModel::Utc, EventModel::Radio, EventModel::Class})
         m_table->setColumnHidden(column, true);
     connect(m_table, &QTableView::clicked, this, [this](const QModelIndex &index) {
         if (selectedEvents().size() == 1) // otherwise several are being selected
@@ -131,6 +131,7 @@ void EventTable::setEvents(const std::vector<Event> &events)
     const int selected = selectedEvent();
     const bool isFirst = m_model->events().empty();
     m_model->setEvents(events);
+    m_table->setColumnHidden(EventModel::Chance, !m_model->hasChances());
     m_table->setColumnHidden(EventModel::Window, !m_model->hasWindows());
     if (isFirst && !events.empty()) {
         m_table->resizeColumnsToContents();
@@ -148,8 +149,8 @@ void EventTable::orderColumns()
     QHeaderView &header = *m_table->horizontalHeader();
     std::vector<int> order;
     if (!m_model->hasBearing())
-        order = {EventModel::Id,    EventModel::Frequency, EventModel::Snr,   EventModel::Onset,
-                 EventModel::Drift, EventModel::End,       EventModel::Window};
+        order = {EventModel::Id,    EventModel::Frequency, EventModel::Snr,    EventModel::Onset,
+                 EventModel::Drift, EventModel::End,       EventModel::Chance, EventModel::Window};
     for (int column = 0; column < EventModel::ColumnCount; ++column)
         if (std::ranges::find(order, column) == order.end())
             order.push_back(column);
