@@ -48,6 +48,21 @@ private slots:
         QCOMPARE(m_table->shownIds(), (std::vector<int>{2, 1, 3}));
     }
 
+    void newResultsDoNotReorderTheList()
+    {
+        // Event 1 begins later now, event 2 is gone, and a new one begins between the others.
+        m_table->setEvents(
+            {test::event(1, 50.0, 60.0, 950.0), test::event(3, 40.0, 90.0, 300.0), test::event(4, 20.0, 30.0, 500.0)});
+        QCOMPARE(m_table->shownIds(), (std::vector<int>{1, 4, 3}));
+        const QHeaderView &header = *m_table->table()->horizontalHeader();
+        const QPoint onset(header.sectionViewportPosition(EventModel::Onset) + 4, header.height() / 2);
+        QTest::mouseClick(header.viewport(), Qt::LeftButton, {}, onset);
+        QCOMPARE(m_table->shownIds(), (std::vector<int>{1, 3, 4})); // from the latest on
+        m_table->setEvents({});                                     // another recording
+        m_table->setEvents({test::event(1, 1.0, 2.0, 950.0), test::event(3, 9.0, 10.0, 300.0)});
+        QCOMPARE(m_table->shownIds(), (std::vector<int>{3, 1}));
+    }
+
     void aNarrowPanelShowsWhereAndSinceWhen()
     {
         m_table->resize(280, 250);

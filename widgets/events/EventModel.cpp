@@ -101,12 +101,22 @@ void EventModel::setEvents(std::vector<Event> events)
 {
     beginResetModel();
     m_events = std::move(events);
+    QHash<int, Event> ordered;
+    for (const Event &event : m_events)
+        ordered.insert(event.id, m_ordered.value(event.id, event));
+    m_ordered = std::move(ordered);
     double last = 0.0;
     for (const Event &event : m_events)
         last = std::max(last, event.endSeconds);
     m_timeDecimals = last < 3.0 ? 4 : last < 30.0 ? 2 : 1; // whistles last milliseconds
     m_areClockTimes = last >= clockFromSeconds;
     endResetModel();
+}
+
+void EventModel::takeOrder()
+{
+    for (const Event &event : m_events)
+        m_ordered.insert(event.id, event);
 }
 
 void EventModel::setReviews(const std::vector<EventReview> &reviews)
@@ -241,7 +251,7 @@ QVariant EventModel::data(const QModelIndex &index, int role) const
         return index.column() == Note && !text(event, Note).isEmpty() ? QVariant(asHtml(text(event, Note)))
                                                                       : QVariant();
     case SortRole:
-        return sortValue(event, index.column());
+        return sortValue(*m_ordered.constFind(event.id), index.column());
     case Qt::TextAlignmentRole:
         return QVariant::fromValue(alignmentOf(index.column()));
     case Qt::AccessibleTextRole:

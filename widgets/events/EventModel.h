@@ -45,7 +45,10 @@ public:
 
     using QAbstractTableModel::QAbstractTableModel;
 
+    /// Events that were listed before keep their place in the order (`SortRole`), with the values that they had then.
     void setEvents(std::vector<Event> events);
+    /// Orders by the values that are shown.
+    void takeOrder();
     /// Reviews in any order; events without one are not reviewed.
     void setReviews(const std::vector<EventReview> &reviews);
     EventReview review(const Event &event) const;
@@ -90,6 +93,7 @@ private:
     double sortValue(const Event &event, int column) const;
 
     std::vector<Event> m_events;
+    QHash<int, Event> m_ordered; ///< with the values by which they are ordered
     QHash<int, EventReview> m_reviews;
     std::set<std::string> m_labels; ///< in order, for sorting; events without one come last
     std::vector<Axis> m_axes;

@@ -102,6 +102,10 @@ void EventTable::setUpTable()
     m_table->setTabKeyNavigation(false);
     m_table->setSortingEnabled(true);
     m_table->sortByColumn(EventModel::Onset, Qt::AscendingOrder);
+    connect(m_table->horizontalHeader(), &QHeaderView::sectionClicked, this, [this] {
+        m_model->takeOrder();
+        m_proxy->invalidate();
+    });
     m_table->verticalHeader()->hide();
     m_table->verticalHeader()->setDefaultSectionSize(22);
     m_table->horizontalHeader()->setHighlightSections(false);
