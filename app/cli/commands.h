@@ -131,8 +131,10 @@ CLI::Option *addOutput(CLI::App &command, Common &common, const std::string &nam
 /// Parses "2/8", counted from 0 or from 1, depending on the job scheduler; 0 and N denote the same shard. Throws Error.
 Shard shardFrom(const std::string &text);
 
-/// Throws if one of these files cannot be written, or is named twice, before a computation whose result would be lost.
-/// Empty names are ignored.
+/// Throws if two outputs are one file, whatever their spelling, or one would replace what is written with another. Empty
+/// names are ignored.
+void checkDifferent(const std::vector<std::string> &outputs);
+/// The same, and throws if one cannot be written, before a computation whose result would be lost.
 void checkOutputs(const std::vector<std::string> &paths);
 
 /// Calls `make` and prefixes errors with the file's name.

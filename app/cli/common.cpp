@@ -265,14 +265,26 @@ Shard shardFrom(const std::string &text)
     return {int(*index), int(*count)};
 }
 
+void checkDifferent(const std::vector<std::string> &outputs)
+{
+    std::vector<std::string> before;
+    for (const std::string &output : outputs) {
+        if (output.empty())
+            continue;
+        const std::vector<std::string> own = filesWrittenFor(output);
+        for (const std::string &file : own)
+            if (std::ranges::any_of(before, [&](const std::string &other) { return isSameFile(file, other); }))
+                throw Error(file, "is given for two outputs");
+        before.insert(before.end(), own.begin(), own.end());
+    }
+}
+
 void checkOutputs(const std::vector<std::string> &paths)
 {
-    for (auto path = paths.begin(); path != paths.end(); ++path)
-        if (!path->empty()) {
-            if (std::find(paths.begin(), path, *path) != path)
-                throw Error(*path, "is given for two outputs");
-            const AtomicFile probe(*path); // removed again without a trace
-        }
+    checkDifferent(paths);
+    for (const std::string &path : paths)
+        if (!path.empty())
+            const AtomicFile probe(path); // removed again without a trace
 }
 
 Source sourceIn(const std::string &path, const OpenOptions &options)

@@ -211,6 +211,7 @@ namespace {
             throw Error("listen", "a live run cannot be replayed; use 'detect' on its recording");
         if (!options.events.empty() && !options.events.ends_with(".csv") && !options.events.ends_with(".json"))
             throw Error(options.events, "the file name must end in .csv or .json");
+        checkDifferent({options.out, options.events, options.record});
         checkOutputs({options.events});
         keepNoHoles(128 << 10); // frames too
         AnalysisOptions analysis = options.analysis;

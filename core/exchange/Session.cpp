@@ -140,7 +140,7 @@ std::vector<std::string> filesReadFor(const std::string &name)
     return files;
 }
 
-void checkReplacesNoInput(const std::string &result)
+std::vector<std::string> filesWrittenFor(const std::string &result)
 {
     std::vector<std::string> files{result, result + ".provenance.json"};
     const std::string stem = result.substr(0, result.rfind('.'));
@@ -148,7 +148,12 @@ void checkReplacesNoInput(const std::string &result)
         files.insert(files.end(), {stem + ".sigmf-meta", stem + ".sigmf-data"});
     if (hasEnding(result, ".npy"))
         files.push_back(gridPathOf(result));
-    for (const std::string &file : files)
+    return files;
+}
+
+void checkReplacesNoInput(const std::string &result)
+{
+    for (const std::string &file : filesWrittenFor(result))
         InputFiles::refuse(file);
 }
 

@@ -42,8 +42,11 @@ void writeSession(const std::string &path, Session session);
 /// the grid and the truth beside. What cannot be found is left out.
 std::vector<std::string> filesReadFor(const std::string &name);
 
-/// Throws Error if a result of this name, or a file that is written with it, would replace a file that is read: before
-/// anything is computed.
+/// All files that may be written for a result of this name: the file itself, its provenance, both files of a SigMF
+/// recording, the grid beside.
+std::vector<std::string> filesWrittenFor(const std::string &result);
+
+/// Throws Error if one of them would replace a file that is read: before anything is computed.
 void checkReplacesNoInput(const std::string &result);
 
 /// Why the recording on disk differs from the one of the session; empty if it does not. Throws Error if it cannot be

@@ -102,6 +102,24 @@ private slots:
         QCOMPARE(contentNow(), QByteArray("read no more"));
     }
 
+    /// Of a file that does not exist yet, too.
+    void oneFileHasManyNames()
+    {
+        const QTemporaryDir folder;
+        const auto in = [&](const char *file) { return folder.filePath(file).toStdString(); };
+        writeTextFile(in("file"), "text");
+        QCOMPARE(::link(in("file").c_str(), in("hard").c_str()), 0);
+        QCOMPARE(::symlink("file", in("symbolic").c_str()), 0);
+        QCOMPARE(::symlink("new", in("dangling").c_str()), 0);
+        QCOMPARE(::symlink(".", in("folder").c_str()), 0);
+        for (const char *name : {"file", "./file", "hard", "symbolic", "folder/file"})
+            QVERIFY2(isSameFile(in("file"), in(name)) && !isSameFile(in("new"), in(name)), name);
+        for (const char *name : {"new", "./new", "dangling", "folder/new", "folder/dangling"})
+            QVERIFY2(isSameFile(in("new"), in(name)) && !isSameFile(in("file"), in(name)), name);
+        QVERIFY(!isSameFile(in("new"), in("newer")));
+        QVERIFY(isSameFile("a name", "./a name"));
+    }
+
     /// A document keeps its place as an input when it is written anew, as another file of that name.
     void documentsAreWrittenAgain()
     {

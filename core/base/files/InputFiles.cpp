@@ -24,10 +24,16 @@ namespace {
         return FileIdentity(status.st_dev, status.st_ino);
     }
 
+    /// Without links. The file need not exist yet.
     std::string realPathOf(const std::string &path)
     {
+        namespace fs = std::filesystem;
+        constexpr int mostLinks = 40;
         std::error_code failure;
-        const std::filesystem::path real = std::filesystem::canonical(path, failure);
+        fs::path real = fs::absolute(path, failure);
+        for (int links = 0; links < mostLinks && fs::is_symlink(real, failure); ++links)
+            real = real.parent_path() / fs::read_symlink(real, failure);
+        real = fs::weakly_canonical(real, failure);
         return failure ? path : real.string();
     }
 
@@ -43,6 +49,12 @@ namespace {
     }
 
 } // namespace
+
+bool isSameFile(const std::string &one, const std::string &other)
+{
+    const auto identity = identityOf(one);
+    return (identity && identity == identityOf(other)) || realPathOf(one) == realPathOf(other);
+}
 
 InputFiles::InputFiles(const std::vector<std::string> &paths)
 {

@@ -7,6 +7,9 @@
 
 namespace faintline {
 
+/// Whether two names are those of one file, which need not exist yet: under any spelling and through links.
+bool isSameFile(const std::string &one, const std::string &other);
+
 /// Files that are read while this object exists. No result replaces one of them: AtomicFile refuses to, under any
 /// spelling of the name and through symbolic and hard links, because files are compared by device and inode.
 class InputFiles

@@ -15,7 +15,11 @@ class tst_cliMistakes : public CommandLineTest
     Q_OBJECT
 
 private slots:
-    void initTestCase() { simulateLine(); }
+    void initTestCase()
+    {
+        simulateLine();
+        QVERIFY(QFile::link("to.csv", path("linked.csv")));
+    }
 
     void mistakes_data();
     void mistakes();
@@ -64,6 +68,17 @@ void tst_cliMistakes::mistakes_data()
     row("two inputs", {"detect", "line.wav", "--frames", "y.npy", "--summary"},
         "detect: accepts either a recording or "
         "--frames");
+    row("two outputs that are one", {"detect", "line.wav", "--events", "z.csv", "--tracks", "./z.csv"},
+        "./z.csv: is given for two outputs");
+    row("statistic and events that are one", {"detect", "line.wav", "--events", "linked.csv", "--statistic", "to.csv"},
+        "to.csv: is given for two outputs");
+    row("recordings that are one", {"straighten", "line.wav", "--out", "z.wav", "--rest", "./z.wav"},
+        "./z.wav: is given for two outputs");
+    row("output that is another's provenance",
+        {"detect", "line.wav", "--events", "e.csv", "--tracks", "e.csv.provenance.json"},
+        "e.csv.provenance.json: is given for two outputs");
+    row("live outputs that are one", {"listen", "line.wav", "--out", "z.json", "--events", "./z.json"},
+        "./z.json: is given for two outputs");
     row("unknown kind of events", {"detect", "line.wav", "--events", "e.xml"}, "e.xml: the file name must end in");
     row("unknown kind of tracks", {"detect", "line.wav", "--tracks", "t.txt"}, "t.txt: the file name must end in");
     row("no such folder", {"detect", "line.wav", "--statistic", "no/D.npy"},
