@@ -112,6 +112,10 @@ Source sourceIn(const std::string &path, const OpenOptions &options);
 /// The pings of a simulated sonar; null for other sources.
 std::shared_ptr<const SimulatedPings> pingsOf(const Source &source);
 
+/// What is said of a recording: what opening it found, and samples that are not finite, for which those of float
+/// recordings are read, as far as that takes seconds.
+std::vector<std::string> notesOf(const Recording &recording);
+
 /// Says something on standard error: "note: PATH: WORDS".
 void tellNote(const std::string &note, const Common &common);
 

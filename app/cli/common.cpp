@@ -298,6 +298,27 @@ std::shared_ptr<const SimulatedPings> pingsOf(const Source &source)
                         : nullptr;
 }
 
+std::vector<std::string> notesOf(const Recording &recording)
+{
+    const RecordingInfo &info = recording.info();
+    constexpr Index mostSamples = Index(1) << 28;
+    constexpr Index block = 1 << 16;
+    const Index end = std::min(info.sampleCount, std::max<Index>(1, mostSamples / info.channelCount));
+    Index notObserved = 0;
+    for (int channel = 0; channel < info.channelCount; ++channel) {
+        if (recording.isFinite(channel, 0, end))
+            continue;
+        for (Index first = 0; first < end; first += block)
+            notObserved += recording.nonFiniteCountIn(channel, first, std::min(block, end - first));
+    }
+    std::vector<std::string> notes = info.notes;
+    if (notObserved > 0)
+        notes.push_back(std::to_string(notObserved) + " sample(s)"
+                        + (end < info.sampleCount ? " of the first " + std::to_string(end) : "")
+                        + " are not finite; frames that reach into them are not observed.");
+    return notes;
+}
+
 void tellNote(const std::string &note, const Common &common)
 {
     if (common.progress == "json")

@@ -304,11 +304,26 @@ namespace {
         files.commit();
     }
 
-    void printResult(const Analysis &analysis, const DetectInput &input, bool areFramesGiven)
+    /// As `info` words them. Only recordings with samples that are not finite are read again, to count these.
+    std::vector<std::string> notesOn(const DetectInput &input, const DetectOptions &options)
     {
-        printSummary(analysis);
-        if (input.opened.recording && input.opened.recording->nonFiniteCount() > 0)
-            std::printf("some samples are not finite; they are read as 0\n");
+        const RecordingPointer &recording = input.opened.recording;
+        if (recording)
+            return recording->nonFiniteCount() > 0 ? notesOf(*recording) : recording->info().notes;
+        const auto power = input.opened.isPower ? openPower(options.analysis.source().path) : nullptr;
+        return power ? power->info().notes : std::vector<std::string>();
+    }
+
+    void tell(const std::vector<std::string> &notes, const DetectOptions &options, const Common &common)
+    {
+        for (const std::string &note : notes)
+            tellNote(oneLine(options.analysis.source().path) + ": " + oneLine(note), common);
+    }
+
+    void printResult(const Analysis &analysis, const DetectInput &input, const std::vector<std::string> &notes,
+                     bool areFramesGiven)
+    {
+        printSummary(analysis, notes);
         if (areFramesGiven)
             if (const std::string warning = noiseMeanWarning(*input.opened.frames); !warning.empty())
                 std::printf("%s\n", warning.c_str());
@@ -336,10 +351,12 @@ namespace {
         write(*analysis, input, options, common, writer);
         if (options.json)
             printEventsJson(*analysis, input, options);
+        std::vector<std::string> notes = notesOn(input, options);
         if (options.summary)
-            printResult(*analysis, input, !options.frames.empty());
-        else if (const std::optional<Advice> silence = adviceOnSilence(*analysis, context))
-            tellNote(oneLine(options.analysis.source().path) + ": " + silence->sentence, common);
+            return printResult(*analysis, input, notes, !options.frames.empty());
+        if (const std::optional<Advice> silence = adviceOnSilence(*analysis, context))
+            notes.push_back(silence->sentence);
+        tell(notes, options, common);
     }
 
 } // namespace

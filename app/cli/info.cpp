@@ -53,27 +53,6 @@ namespace {
             std::printf("note          %s\n", oneLine(note).c_str());
     }
 
-    /// Adds a note on samples that are not finite: those of float recordings are read, as far as that takes seconds.
-    RecordingInfo readThrough(const Recording &recording)
-    {
-        RecordingInfo info = recording.info();
-        constexpr Index mostSamples = Index(1) << 28;
-        constexpr Index block = 1 << 16;
-        const Index end = std::min(info.sampleCount, std::max<Index>(1, mostSamples / info.channelCount));
-        Index notObserved = 0;
-        for (int channel = 0; channel < info.channelCount; ++channel) {
-            if (recording.isFinite(channel, 0, end))
-                continue;
-            for (Index first = 0; first < end; first += block)
-                notObserved += recording.nonFiniteCountIn(channel, first, std::min(block, end - first));
-        }
-        if (notObserved > 0)
-            info.notes.push_back(std::to_string(notObserved) + " sample(s)"
-                                 + (end < info.sampleCount ? " of the first " + std::to_string(end) : "")
-                                 + " are not finite; frames that reach into them are not observed.");
-        return info;
-    }
-
     Json toJson(const Axis &axis)
     {
         return {{"unit", axis.unit}, {"first", axis.first}, {"step", axis.step}, {"count", axis.count}};
@@ -243,7 +222,9 @@ void addInfo(CLI::App &app, Common &)
                 print(power->info());
             return;
         }
-        const RecordingInfo info = readThrough(*openSamples(source));
+        const RecordingPointer recording = openSamples(source);
+        RecordingInfo info = recording->info();
+        info.notes = notesOf(*recording);
         if (options->json)
             std::printf("%s\n", toJson(info).dump(2, ' ', true).c_str());
         else

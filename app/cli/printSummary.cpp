@@ -42,7 +42,7 @@ namespace {
                     falseAlarmWords(perHour, analysis.calibration->rateUncertaintyAt(analysis.threshold)).c_str());
     }
 
-    void printWarnings(const Analysis &analysis)
+    void printWarnings(const Analysis &analysis, const std::vector<std::string> &notes)
     {
         if (const std::vector<Index> dragged = draggedFrames(analysis); !dragged.empty())
             std::printf("warning: ln K left its noise band %.3f … %.3f in %zu frame(s), the first at %s s; strong "
@@ -51,6 +51,8 @@ namespace {
                         secondsOf(analysis.time().value(double(dragged.front())), analysis.time()).c_str());
         if (const auto law = checkNoiseLaw(analysis); law && !law->isFollowed())
             std::printf("warning: %s\n", law->warning().c_str());
+        for (const std::string &note : notes)
+            std::printf("note: %s\n", oneLine(note).c_str());
         for (const Advice &advice : advise(analysis))
             std::printf("note: %s%s%s\n", advice.sentence.c_str(), advice.remedy.empty() ? "" : "; ",
                         advice.remedy.c_str());
@@ -102,7 +104,7 @@ namespace {
 
 } // namespace
 
-void printSummary(const Analysis &analysis)
+void printSummary(const Analysis &analysis, const std::vector<std::string> &notes)
 {
     const Axis &time = analysis.time();
     const std::vector<Event> found = events(analysis);
@@ -113,7 +115,7 @@ void printSummary(const Analysis &analysis)
     if (const std::string words = subtractionWords(analysis); !words.empty())
         std::printf("%s\n", words.c_str());
     printThreshold(analysis);
-    printWarnings(analysis);
+    printWarnings(analysis, notes);
     std::printf("%zu event(s)\n", found.size());
     for (const Event &event : found)
         printEvent(analysis, event);

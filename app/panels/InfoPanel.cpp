@@ -165,7 +165,7 @@ void InfoPanel::refresh()
     if (m_document.recording())
         describeRecording(rows, m_document.recording()->info());
     if (m_document.recording() && m_document.recording()->nonFiniteCount() > 0)
-        rows.note(tr("Some samples are not finite numbers. They are read as 0."));
+        rows.note(tr("Some samples are not finite; frames that reach into them are not observed."));
     if (m_document.analysis()) {
         describeFrames(rows, *m_document.analysis());
         describeCalibration(rows, *m_document.analysis(), m_controller.isBusy());

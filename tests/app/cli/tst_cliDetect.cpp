@@ -44,6 +44,7 @@ private slots:
     void oddRecordings_data();
     void oddRecordings();
     void samplesThatAreNoNumbers();
+    void passesOnTheRecordingsNotes();
 };
 
 namespace {
@@ -439,12 +440,35 @@ void tst_cliDetect::samplesThatAreNoNumbers()
     writeBytes(pathOf("nan.wav"), wav(1000, 1, samples));
     const Outcome done =
         run(QStringList{"detect", "nan.wav", "--events", "nan.csv", "--statistic", "nan.npy"} + lineSettings);
-    QCOMPARE(done.err, QByteArray());
+    QCOMPARE(done.err, QByteArray("note: nan.wav: 401 sample(s) are not finite; frames that reach into them are not "
+                                  "observed.\n"));
     QCOMPARE(done.code, 0);
     const QByteArray events = content("nan.csv");
     QVERIFY2(events.count('\n') == 1 || !numbersOf(events).empty(), events.data());
     QVERIFY2(!events.contains("nan") && !events.contains("inf"), events.data());
     QVERIFY(std::ranges::all_of(readNumPy(pathOf("nan.npy")).values, [](float value) { return std::isfinite(value); }));
+}
+
+/// In the words of `info`: in the summary, or, without one, on standard error. Here a gap and an empty file.
+void tst_cliDetect::passesOnTheRecordingsNotes()
+{
+    QVERIFY(QDir(folder()).mkpath("night"));
+    writeBytes(pathOf("night/20260301_000000.wav"), wav(1000, 1, someNoise(8000)));
+    writeBytes(pathOf("night/20260301_000010.wav"), {});
+    writeBytes(pathOf("night/20260301_000020.wav"), wav(1000, 1, someNoise(8000)));
+    QList<QByteArray> notes;
+    for (const QByteArray &line : run({"info", "night"}).out.split('\n'))
+        if (line.startsWith("note  "))
+            notes.push_back(line.mid(4).trimmed());
+    QVERIFY(notes.size() >= 3);
+    const Outcome summary = run(QStringList{"detect", "night", "--summary"} + lineSettings);
+    QCOMPARE(summary.err, QByteArray());
+    const Outcome events = run(QStringList{"detect", "night", "--events", "night.csv"} + lineSettings);
+    QCOMPARE(events.out, QByteArray());
+    for (const QByteArray &note : notes) {
+        QVERIFY2(summary.out.contains("\nnote: " + note + '\n'), summary.out.data());
+        QVERIFY2(events.err.contains("note: night: " + note + '\n'), events.err.data());
+    }
 }
 
 FAINTLINE_TEST(tst_cliDetect)
