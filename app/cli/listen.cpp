@@ -1,6 +1,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/inRange.h"
 
+#include "analyse/usable.h"
 #include "base/files/AtomicFile.h"
 #include "base/files/keepNoHoles.h"
 #include "base/json.h"
@@ -182,6 +183,8 @@ namespace {
         std::string words = std::to_string(result.events.size()) + " event(s)";
         if (!result.plan.frames)
             words += "; " + endedEarly(format);
+        if (result.silentCount > 0)
+            words += "; " + silenceWords(result.silentCount);
         if (!result.isAnalysedToTheEnd)
             words += "; the end of the input was not analysed";
         if (command && command->leftOutCount() > 0)

@@ -33,7 +33,12 @@ std::string silenceWords(const Spectrogram &spectrogram, const NoiseBackground &
         throw Error(recording.info().path, all + "are not finite in single precision");
     if (nonFinite > 0)
         throw Error(recording.info().path, all + "are 0 or not finite");
-    return "the recording is silent: all of the " + std::to_string(end - first)
+    return silenceWords(end - first);
+}
+
+std::string silenceWords(Index samples)
+{
+    return "the recording is silent: all of the " + std::to_string(samples)
            + " samples read are 0 or below 1e-45, the smallest value in single precision";
 }
 

@@ -13,5 +13,7 @@ namespace faintline {
 /// not finite leave none to use. Costs nothing if the background found any power, else one reading.
 std::string silenceWords(const Spectrogram &spectrogram, const NoiseBackground &background,
                          const RunContext &context = {});
+/// The same of so many samples, which are known to be silent.
+std::string silenceWords(Index samples);
 
 } // namespace faintline

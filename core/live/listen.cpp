@@ -184,6 +184,9 @@ namespace {
             m_y.resize(std::size_t(frames.grid().size()));
             m_statistic.resize(m_y.size());
             frames.read(frame, 1, m_y);
+            const bool isSilent =
+                m_result.silentCount >= 0 && std::ranges::none_of(m_y, [](float y) { return y > 0.0f; });
+            m_result.silentCount = isSilent ? end - m_result.plan.frames->spectrogram()->firstSample() : -1;
             m_chain->update(frame, m_y, m_statistic);
             m_follower->take(frame);
             const std::lock_guard lock(m_mutex);

@@ -48,6 +48,7 @@ struct ListenResult {
     std::optional<double> startUnixSeconds; ///< of the first sample, by this machine's clock
     Index sampleCount = 0;                  ///< gaps included
     Index lostCount = 0;
+    Index silentCount = 0;          ///< samples of all frames, if these are silent; else -1
     bool isAnalysedToTheEnd = true; ///< false: the end of the recording was not analysed
     bool isRecordedWhole = true;
     std::vector<std::string> files; ///< metadata of the recordings

@@ -29,6 +29,7 @@ private slots:
     void mistakes_data();
     void mistakes();
     void overBeforeAWindow();
+    void silenceIsTold();
     void memoryStaysFlat();
 
 private:
@@ -299,6 +300,23 @@ void tst_cliListen::overBeforeAWindow()
         const Outcome told = listen({"-", "--raw-type", "ri16_le", "--raw-rate", "1000"}, QByteArray(2 * samples, 1));
         QCOMPARE(told.code, 0);
         QVERIFY2(told.out.contains("ended before one window was complete"), told.out.constData());
+    }
+}
+
+// In the words of `detect`, when the stream ends.
+void tst_cliListen::silenceIsTold()
+{
+    for (const bool isSilent : {true, false}) {
+        QByteArray samples(20'100, '\0');
+        if (!isSilent)
+            samples[15'000] = '\1';
+        const Outcome heard = listen({"-"}, wav(samples));
+        QCOMPARE(heard.code, 0);
+        writeBytes(pathOf("heard.wav"), wav(samples));
+        const Outcome found = run(QStringList{"detect", "heard.wav", "--summary"} + settings + causal);
+        const qsizetype at = found.out.indexOf("the recording is silent: all of the 10000 samples");
+        QCOMPARE(at >= 0, isSilent);
+        QCOMPARE(heard.out.contains("0 event(s); " + found.out.mid(at).split('\n').first()), isSilent);
     }
 }
 
