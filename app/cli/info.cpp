@@ -1,5 +1,6 @@
 #include "app/cli/commands.h"
 #include "app/cli/inRange.h"
+#include "app/cli/printSummary.h"
 
 #include "base/files/fileName.h"
 #include "base/json.h"
@@ -78,8 +79,9 @@ namespace {
         std::printf("container     %s, %s\n", oneLine(info.container).c_str(), oneLine(info.sampleType).c_str());
         std::printf("frames        %td, one every %s s\n", info.time.count, formatPlainly(info.time.step).c_str());
         std::printf("frequencies   %td channels of %s Hz, %s … %s Hz\n", info.frequency.count,
-                    formatPlainly(info.frequency.step).c_str(), formatPlainly(info.frequency.first).c_str(),
-                    formatPlainly(info.frequency.last()).c_str());
+                    formatPlainly(info.frequency.step).c_str(),
+                    positionText(info.frequency.first, info.frequency).c_str(),
+                    positionText(info.frequency.last(), info.frequency).c_str());
         if (info.channelCount > 1)
             std::printf("polarisations %d\n", info.channelCount);
         if (info.startUnixSeconds)
@@ -126,8 +128,8 @@ namespace {
         for (const Axis &axis : info.grid.axes) {
             const std::string unit = axis.unit.empty() ? std::string() : " " + oneLine(axis.unit);
             std::printf("%-13s %td cells of %s%s, %s … %s%s%s\n", oneLine(axis.name).c_str(), axis.count,
-                        formatPlainly(axis.step).c_str(), unit.c_str(), formatPlainly(axis.first).c_str(),
-                        formatPlainly(axis.last()).c_str(), unit.c_str(), axis.cyclic ? ", cyclic" : "");
+                        formatPlainly(axis.step).c_str(), unit.c_str(), positionText(axis.first, axis).c_str(),
+                        positionText(axis.last(), axis).c_str(), unit.c_str(), axis.cyclic ? ", cyclic" : "");
         }
         std::printf("values        %s\n", valuesOf(pings).c_str());
     }

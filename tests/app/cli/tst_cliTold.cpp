@@ -17,6 +17,7 @@ private slots:
     void helpAndVersion();
     void infoAsText();
     void infoAsJson();
+    void infoOfFrequencies();
     void describesEverySetting();
     void simulatesTheSameAgain();
 };
@@ -64,6 +65,20 @@ void tst_cliTold::infoAsJson()
     QCOMPARE(json["complex"].get<bool>(), true);
     QCOMPARE(json["centreHz"].get<double>(), 7e6);
     QCOMPARE(json["startUnixSeconds"].get<double>(), 1721952000.0);
+}
+
+/// With the digits that their channels need: the step is added to 6667.1 MHz 49 999 times.
+void tst_cliTold::infoOfFrequencies()
+{
+    const auto word = [](const QByteArray &text) { return littleEndian(std::uint64_t(text.size()), 4) + text; };
+    const auto real = [](double value) { return QByteArray(reinterpret_cast<const char *>(&value), sizeof value); };
+    const QByteArray header = word("HEADER_START") + word("nchans") + littleEndian(50000, 4) + word("nbits")
+                              + littleEndian(8, 4) + word("nifs") + littleEndian(1, 4) + word("fch1") + real(6667.1)
+                              + word("foff") + real(-2e-6) + word("tsamp") + real(18.0) + word("HEADER_END");
+    writeBytes(pathOf("d.fil"), header + QByteArray(100000, '\1'));
+    const Outcome told = run({"info", "d.fil"});
+    QVERIFY2(told.out.contains("50000 channels of 2 Hz, 6667000002 … 6667100000 Hz\n"),
+             (told.out + told.err).constData());
 }
 
 void tst_cliTold::describesEverySetting()
