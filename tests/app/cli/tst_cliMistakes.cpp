@@ -199,8 +199,10 @@ void tst_cliMistakes::inputsAreNotReplaced()
     }
     const auto everything = [this] {
         QMap<QString, QByteArray> files;
-        for (QDirIterator file(folder(), QDir::Files | QDir::Hidden, QDirIterator::Subdirectories); file.hasNext();)
-            files[file.next()] = readBytes(file.filePath().toStdString());
+        for (QDirIterator file(folder(), QDir::Files | QDir::Hidden, QDirIterator::Subdirectories); file.hasNext();) {
+            const QString name = file.next();
+            files[name] = readBytes(name.toStdString());
+        }
         return files;
     };
     const auto before = everything();
