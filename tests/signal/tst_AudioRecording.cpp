@@ -211,6 +211,11 @@ private slots:
             return name + littleEndian(std::uint64_t(length), 4) + QByteArray(length, 'x');
         };
         QTest::newRow("samples") << more << 20000 << true;
+        QTest::newRow("samples, then a chunk") << more + chunk("LIST", 5112) << 20000 << true;
+        QTest::newRow("samples, then chunks") << more + chunk("id3 ", 33) + '\0' + chunk("cue ", 4) << 20000 << true;
+        QTest::newRow("samples, then a chunk and more samples") << more + chunk("LIST", 5112) + more << 37560 << true;
+        QTest::newRow("samples like a chunk, but for its length") << more + chunk("LIST", 5112) + "xx" << 22561 << true;
+        QTest::newRow("a chunk within a sample") << more + '\1' + chunk("LIST", 5111) << 22560 << true;
         QTest::newRow("a few samples") << more.first(40) << 5020 << true;
         QTest::newRow("silence that is longer than padding") << QByteArray(100000, '\0') << 55000 << true;
         QTest::newRow("nothing") << QByteArray() << 5000 << false;

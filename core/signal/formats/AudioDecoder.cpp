@@ -180,8 +180,22 @@ namespace {
                     return;
                 }
                 if (m_isRf64)
-                    return;
+                    break;
             }
+            if (m_isTruncated)
+                return;
+            const Index samplesEnd = chunksAtEnd(m_file, chunk.offset + m_data.length, chunk.offset, frameBytes());
+            m_dataBytes = samplesEnd - chunk.offset;
+        }
+
+        /// Of the samples of all channels at one time.
+        Index frameBytes() const
+        {
+            constexpr Index frameBytesAt = 12;
+            std::array<std::byte, 2> bytes{};
+            if (const WavChunk *const format = find("fmt "))
+                m_file.readAt(format->offset + frameBytesAt, bytes);
+            return std::max<Index>(1, Index(riffNumber(bytes)));
         }
 
         BehindSamples behindAt(Index offset, bool isOdd) const

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstring>
+#include <set>
 #include <string_view>
 #include <vector>
 
@@ -69,6 +71,32 @@ BehindSamples behindSamples(std::span<const std::byte> bytes, bool isOdd, bool i
         && std::all_of(bytes.begin(), bytes.end(), [](std::byte b) { return b == std::byte(0); }))
         return isAll ? BehindSamples::Padding : BehindSamples::Unknown;
     return BehindSamples::Samples;
+}
+
+Index chunksAtEnd(const FileBytes &file, Index declaredEnd, Index begin, Index frameBytes)
+{
+    constexpr Index mostBytes = 1 << 20;
+    const Index from = std::max(declaredEnd, file.size() - mostBytes);
+    std::vector<std::byte> bytes(std::size_t(std::max<Index>(0, file.size() - from)));
+    bytes.resize(file.readAt(from, bytes));
+    std::set<Index> starts{std::ssize(bytes)}; // of chunks from which the end is reached, and the end
+    Index samplesEnd = file.size();
+    for (Index at = std::ssize(bytes) - chunkHeadBytes; at >= 0; --at) {
+        const auto head = std::span(bytes).subspan(std::size_t(at), std::size_t(chunkHeadBytes));
+        const std::string_view name = nameAt(head);
+        if (!std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) || c == '_' || c == ' '; }))
+            continue;
+        const Index length = wordValue(head.last(wordBytes), false);
+        const Index end = at + chunkHeadBytes + length;
+        if (!starts.contains(end) && !starts.contains(end + length % 2))
+            continue;
+        starts.insert(at);
+        const Index samples = from + at - begin;
+        const Index padding = samples % frameBytes;
+        if (padding == 0 || (padding == 1 && samples % 2 == 0))
+            samplesEnd = from + at - padding;
+    }
+    return samplesEnd;
 }
 
 bool leadsBackwards(const FileBytes &file, Index chunk)

@@ -23,6 +23,12 @@ enum class BehindSamples { Nothing, Chunk, Padding, Samples, Unknown };
 BehindSamples behindSamples(std::span<const std::byte> bytes, bool isOdd, bool isAll);
 constexpr std::size_t mostToTellByBytes = (std::size_t(1) << 16) + 2; ///< bytes that are enough for behindSamples
 
+/// Where the samples of a WAV file end whose declared length, to `declaredEnd`, is too small: at the chunks of a sequence
+/// that reaches exactly to the end of the file, in its last MiB, else at the end of the file. Their names are letters,
+/// digits, _ or blanks, and the first one stands at a whole number of frames of `frameBytes`, from `begin` on, or a byte
+/// of padding behind it. White bytes look like that in two of 10⁶ files: a length of 32 bits must have one value.
+Index chunksAtEnd(const FileBytes &file, Index declaredEnd, Index begin, Index frameBytes);
+
 /// Whether a LIST or INFO chunk of a RIFF file holds a length that would make libsndfile 1.2 (wavlike_subchunk_parse),
 /// which adds lengths in 32 bits, seek backwards and possibly loop forever. Chunks for photographs (exif) count as
 /// such: they are not parsed here, and no recorder writes them.
