@@ -292,6 +292,8 @@ private slots:
         QTest::newRow("short peak") << chunk("PEAK", QByteArray(8, '\1'));
         QTest::newRow("long peak") << chunk("PEAK", QByteArray(24, '\0'));
         QTest::newRow("two peaks") << chunk("PEAK", QByteArray(4000, '\0')) + chunk("PEAK", {});
+        QTest::newRow("peak that claims more than it holds")
+            << dated() + "PEAK" + littleEndian(24, 4) + QByteArray(16, '\1');
         QTest::newRow("cues") << chunk("cue ", QByteArray("\xff\xff\xff\xff", 4));
         QTest::newRow("sampler") << chunk("smpl", QByteArray(36, '\xff'));
         QTest::newRow("instrument") << chunk("inst", QByteArray(2, '\0'));
@@ -303,10 +305,8 @@ private slots:
     void damagedChunksAreIgnored()
     {
         QFETCH(QByteArray, chunk);
-        const QByteArray sound =
-            "LIST" + littleEndian(32, 4) + "INFOICRD" + littleEndian(20, 4) + "2024-07-26T01:02:03Z";
-        QByteArray floats = wave(1, 8000, {0, 0x3f00, 0, -0x4180}, 8, chunk + sound); // 0.5 and -0.25 …
-        floats.replace(20, 2, littleEndian(3, 2));                                    // … as 32-bit floats
+        QByteArray floats = wave(1, 8000, {0, 0x3f00, 0, -0x4180}, 8, chunk + dated()); // 0.5 and -0.25 …
+        floats.replace(20, 2, littleEndian(3, 2));                                      // … as 32-bit floats
         floats.replace(32, 4, littleEndian(0x200004, 4));
         writeBytes(path("chunk.wav"), floats);
         const AudioRecording recording(path("chunk.wav"), false);
@@ -561,6 +561,11 @@ private slots:
     }
 
 private:
+    static QByteArray dated()
+    {
+        return "LIST" + littleEndian(32, 4) + "INFOICRD" + littleEndian(20, 4) + "2024-07-26T01:02:03Z";
+    }
+
     std::string path(const char *name) const { return m_folder.filePath(name).toStdString(); }
 
     QTemporaryDir m_folder;

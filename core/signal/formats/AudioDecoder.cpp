@@ -158,6 +158,18 @@ namespace {
                 if (length % 2 != 0 && readHead(offset + 1, next))
                     ++offset;
             }
+            if (m_data.offset == 0 && !m_chunks.empty())
+                findDataBehind(m_chunks.back().offset);
+        }
+
+        /// Of a chunk whose length leads past the head of the samples: these reach to the end of the file.
+        void findDataBehind(Index offset)
+        {
+            constexpr Index largestHeadBytes = 1 << 16;
+            WavChunk chunk;
+            for (Index at = offset; at < offset + largestHeadBytes && m_data.offset == 0; ++at)
+                if (m_file.hasAt(at, "data") && readHead(at, chunk) && chunk.offset + chunk.length == m_file.size())
+                    setData(chunk);
         }
 
         void setData(const WavChunk &chunk)
