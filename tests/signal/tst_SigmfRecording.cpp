@@ -20,6 +20,7 @@ private slots:
     void captureWithAnotherFrequency();
     void gapsKeepTheirPlaces_data();
     void gapsKeepTheirPlaces();
+    void mostTimesCount();
     void datasetOfAnotherName();
     void realPairsAsIq();
     void badMetadata_data();
@@ -176,6 +177,28 @@ void tst_SigmfRecording::gapsKeepTheirPlaces()
     std::vector<float> beyond(8, 1.0f);
     recording.read(0, recording.info().sampleCount - 2, 8, beyond);
     QCOMPARE(std::count(beyond.begin(), beyond.end(), 0.0f), 6);
+}
+
+/// Of captures whose places are known by an index, a stale time does not move the others, whichever it is.
+void tst_SigmfRecording::mostTimesCount()
+{
+    for (const int stale : {0, 2, 4}) {
+        QByteArray captures;
+        for (int i = 0; i < 5; ++i)
+            captures += (i > 0 ? "," : "") + QByteArray(R"({"core:sample_start": )") + QByteArray::number(10 * i)
+                        + R"(, "core:global_index": )" + QByteArray::number(1000 + 10 * i)
+                        + R"(, "core:datetime": "2026-03-01T)" + (i == stale ? "11:50" : "12:00") + ":00."
+                        + QByteArray::number(25 + i) + "Z\"}";
+        writeBytes(path("a.sigmf-data"), QByteArray(50, 'a'));
+        const SigmfRecording recording(write(R"({"global": {"core:datatype": "ri8", "core:sample_rate": 1000},
+            "captures": [)" + captures + "]}"));
+        QCOMPARE(*recording.info().startUnixSeconds, 1772366400.25);
+        QCOMPARE(recording.info().sampleCount, Index(50));
+        QCOMPARE(recording.info().notes.size(), std::size_t(1));
+        QVERIFY2(recording.info().notes[0].starts_with("The core:datetime of the capture at sample "
+                                                       + std::to_string(10 * stale) + " is 600 s earlier than "),
+                 recording.info().notes[0].c_str());
+    }
 }
 
 void tst_SigmfRecording::datasetOfAnotherName()

@@ -78,6 +78,16 @@ namespace {
 
     constexpr double largestSampleCount = 9007199254740992.0; // 2⁵³
 
+    constexpr double crystalError = 200e-6;
+
+    /// "… is 2.5 s later than "
+    std::string timeIs(Index sample, double late)
+    {
+        return "The core:datetime of the capture at sample " + std::to_string(sample) + " is "
+               + formatNumber(std::round(1e3 * std::abs(late)) / 1e3) + " s " + (late > 0.0 ? "later" : "earlier")
+               + " than ";
+    }
+
     /// The sample file of a metadata file, by its name or as specified in it.
     std::string dataPathOf(const Section &global, const std::string &path)
     {
@@ -97,17 +107,25 @@ struct SigmfRecording::Meta {
         Index inTime;
         Index inFile;
     };
+    /// A capture's time, of which the place is known.
+    struct Stamp {
+        Index number;            ///< of its first sample
+        Index inTime;            ///< place of that
+        double startUnixSeconds; ///< of the recording, by this time
+        bool isWhole;            ///< seconds
+    };
     std::string dataPath;
     RawLayout layout;
     double centreHz = 0.0;
     std::optional<double> startUnixSeconds;
     std::vector<std::string> notes;
     std::vector<Start> starts;
+    std::vector<Stamp> stamps;
     std::optional<Index> firstGlobal;   ///< global index of the first sample
     std::optional<double> datedSeconds; ///< time of a sample, s since 1970 …
     Index datedInTime = 0;              ///< … which has this place
     bool isRetuned = false;             ///< another centre frequency was told
-    bool isContradicted = false;        ///< a time that contradicts the sample numbers was told
+    bool isContradicted = false;        ///< a time before its sample number was told
     Index offset = 0;
     std::string json; ///< "global" and "captures"
 
@@ -115,6 +133,8 @@ struct SigmfRecording::Meta {
     void readCapture(const Section &capture, bool isFirst);
     void placeByIndex(Index start, Index globalIndex);
     void placeByTime(Index start, const std::string &time, bool isPlaced);
+    void settleStart();
+    double lateness(const Stamp &stamp, const Stamp &other) const;
     Index inTimeOf(Index start) const;
 };
 
@@ -158,6 +178,7 @@ SigmfRecording::Meta SigmfRecording::readMeta(const std::string &path)
         throw Error(metaPath + ": captures", "must be a list, [ … ]");
     for (std::size_t i = 0; hasCaptures && i < captures->size(); ++i)
         meta.readCapture({(*captures)[i], metaPath + ": captures[" + std::to_string(i) + "]"}, i == 0);
+    meta.settleStart();
     meta.json = Json{{"global", json["global"]}, {"captures", hasCaptures ? *captures : Json::array()}}.dump();
     return meta;
 }
@@ -226,7 +247,7 @@ void SigmfRecording::Meta::placeByIndex(Index start, Index globalIndex)
 }
 
 /// Takes the start time from the first capture that has one. If a later one is late, and no index gives its place
-/// (isPlaced), samples are missing before it.
+/// (isPlaced), samples are missing before it. Those whose places are known are compared in settleStart.
 void SigmfRecording::Meta::placeByTime(Index start, const std::string &time, bool isPlaced)
 {
     const std::optional<double> seconds = parseUtc(time);
@@ -236,33 +257,60 @@ void SigmfRecording::Meta::placeByTime(Index start, const std::string &time, boo
         notes.push_back("core:datetime \"" + oneLine(time, 40) + "\" is not an ISO 8601 time and is ignored.");
         return;
     }
+    const bool isWhole = time.find('.') == std::string::npos && time.find(',') == std::string::npos;
+    if (isPlaced || !datedSeconds)
+        stamps.push_back({offset + start, inTime, *seconds - double(inTime) / rate, isWhole});
     if (!datedSeconds) {
         startUnixSeconds = *seconds - double(inTime) / rate;
         datedSeconds = seconds;
         datedInTime = inTime;
         return;
     }
-    constexpr double crystalError = 200e-6;
-    const bool isWhole = time.find('.') == std::string::npos && time.find(',') == std::string::npos;
+    if (isPlaced)
+        return;
     const double elapsed = double(inTime - datedInTime) / rate;
     const double late = *seconds - *datedSeconds - elapsed;
     if (std::abs(late) <= (isWhole ? 1.0 : 0.01) + crystalError * std::abs(elapsed))
         return;
-    const std::string where = "The core:datetime of the capture at sample " + std::to_string(offset + start) + " is "
-                              + formatNumber(std::round(1e3 * std::abs(late)) / 1e3) + " s "
-                              + (late > 0.0 ? "later" : "earlier") + " than ";
+    const std::string where = timeIs(offset + start, late) + "its sample number tells";
     const bool isBackward = !starts.empty() && start < starts.back().inFile;
-    if (isPlaced || late < 0.0 || isBackward || late > Stretches::longestSeconds) {
+    if (late < 0.0 || isBackward || late > Stretches::longestSeconds) {
         if (!std::exchange(isContradicted, true))
-            notes.push_back(where + (isPlaced ? "its core:global_index" : "its sample number")
-                            + " tells; the time is ignored.");
+            notes.push_back(where + "; the time is ignored.");
         return;
     }
     starts.push_back({inTime + std::llround(late * rate), start});
     datedSeconds = seconds;
     datedInTime = starts.back().inTime;
-    notes.push_back(where + "its sample number tells: samples are missing before it"
-                    + (isWhole ? ", to within 1 s." : "."));
+    notes.push_back(where + ": samples are missing before it" + (isWhole ? ", to within 1 s." : "."));
+}
+
+/// By how much a time is later than another one and the places of both tell; 0 within their resolution.
+double SigmfRecording::Meta::lateness(const Stamp &stamp, const Stamp &other) const
+{
+    const double late = stamp.startUnixSeconds - other.startUnixSeconds;
+    const double elapsed = double(stamp.inTime - other.inTime) / layout.sampleRateHz;
+    const double resolution = (stamp.isWhole || other.isWhole ? 1.0 : 0.01) + crystalError * std::abs(elapsed);
+    return std::abs(late) <= resolution ? 0.0 : late;
+}
+
+/// Of times whose places are known, those of the majority count: the first one may be stale.
+void SigmfRecording::Meta::settleStart()
+{
+    if (stamps.size() < 2)
+        return;
+    std::vector<Stamp> sorted = stamps;
+    const auto middle = sorted.begin() + std::ssize(sorted) / 2;
+    std::ranges::nth_element(sorted, middle, {}, &Stamp::startUnixSeconds);
+    const auto agrees = [&](const Stamp &stamp) { return lateness(stamp, *middle) == 0.0; };
+    const bool isMajority = 2 * std::ranges::count_if(stamps, agrees) > std::ssize(stamps);
+    const Stamp &right = isMajority ? *std::ranges::find_if(stamps, agrees) : stamps.front();
+    startUnixSeconds = right.startUnixSeconds;
+    const auto wrong = std::ranges::find_if(stamps, [&](const Stamp &stamp) { return lateness(stamp, right) != 0.0; });
+    if (wrong != stamps.end())
+        notes.push_back(timeIs(wrong->number, lateness(*wrong, right)) + "its core:global_index "
+                        + (&right == &stamps.front() ? "tells" : "and most other times tell")
+                        + "; the time is ignored.");
 }
 
 SigmfRecording::SigmfRecording(const std::string &path, bool iq) : SigmfRecording(path, readMeta(path), iq) {}
