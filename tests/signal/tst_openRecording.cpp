@@ -192,19 +192,28 @@ private slots:
         QFETCH(QList<double>, stamps);
         QFETCH(int, missing);
         QFETCH(double, first);
-        QByteArray file = "RIFF" + littleEndian(0, 4) + "WAVEfmt " + littleEndian(16, 4) + littleEndian(1, 2)
-                          + littleEndian(1, 2) + littleEndian(1000, 4) + littleEndian(2000, 4) + littleEndian(2, 2)
-                          + littleEndian(16, 2);
-        for (const double stamp : stamps)
-            file += "kiwi" + littleEndian(10, 4) + littleEndian(0, 2) + littleEndian(std::uint32_t(stamp), 4)
-                    + littleEndian(std::uint32_t(std::lround(1e9 * (stamp - std::floor(stamp)))), 4) + "data"
-                    + littleEndian(200, 4) + QByteArray(200, '\1');
-        const std::string name = path("20260101T000820Z_kiwi.wav"); // a Thursday: the week began on Sunday
-        writeBytes(name, file);
-        const RecordingInfo info = openRecording(name)->info();
+        const RecordingInfo info = kiwi(stamps);
         QCOMPARE(info.container, std::string("KiwiSDR WAV"));
         QCOMPARE(info.sampleCount, Index(400 + missing));
         QVERIFY(std::abs(std::fmod(*info.startUnixSeconds - 315964800.0 + 18.0, 604800.0) - first) < 1e-6);
+    }
+
+    // To a nanosecond, stamps of the week's second 300 000 agree with the header's rate.
+    void ratesThatStampsDoNotTellApart()
+    {
+        for (const double interval : {0.1, 0.1 / 3.0}) {
+            QList<double> stamps;
+            for (int i = 0; i < 60; ++i)
+                stamps.push_back(300000.0 + interval * i);
+            const RecordingInfo info = kiwi(stamps, interval == 0.1 ? 1000 : 3000);
+            QCOMPARE(info.sampleRateHz, interval == 0.1 ? 1000.0 : 3000.0);
+            QCOMPARE(info.notes.size(), std::size_t(1));
+            QCOMPARE(info.notes[0], std::string("The first time stamp is second 300000 of the GPS week."));
+        }
+        QList<double> fast;
+        for (int i = 0; i < 60; ++i)
+            fast.push_back(300000.0 + 0.09999999 * i);
+        QVERIFY(std::abs(kiwi(fast).sampleRateHz - 1000.0001) < 1e-6);
     }
 
     void contentBeatsExtension()
@@ -304,6 +313,21 @@ private slots:
     }
 
 private:
+    /// A file of a KiwiSDR with a block of 100 samples at each stamp.
+    RecordingInfo kiwi(const QList<double> &stamps, std::uint32_t rate = 1000) const
+    {
+        QByteArray file = "RIFF" + littleEndian(0, 4) + "WAVEfmt " + littleEndian(16, 4) + littleEndian(1, 2)
+                          + littleEndian(1, 2) + littleEndian(rate, 4) + littleEndian(2 * rate, 4) + littleEndian(2, 2)
+                          + littleEndian(16, 2);
+        for (const double stamp : stamps)
+            file += "kiwi" + littleEndian(10, 4) + littleEndian(0, 2) + littleEndian(std::uint32_t(stamp), 4)
+                    + littleEndian(std::uint32_t(std::lround(1e9 * (stamp - std::floor(stamp)))), 4) + "data"
+                    + littleEndian(200, 4) + QByteArray(200, '\1');
+        const std::string name = path("20260101T000820Z_kiwi.wav"); // a Thursday: the week began on Sunday
+        writeBytes(name, file);
+        return openRecording(name)->info();
+    }
+
     std::string path(const char *name) const { return m_folder.filePath(name).toStdString(); }
     std::string refusal(const std::string &file, const OpenOptions &options = {}) const
     {

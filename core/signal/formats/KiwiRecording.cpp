@@ -2,6 +2,7 @@
 
 #include "base/Error.h"
 #include "base/Field.h"
+#include "base/numberText.h"
 #include "signal/timeInName.h"
 
 #include <algorithm>
@@ -105,14 +106,17 @@ namespace {
             }
         }
 
-        /// Over the longest stretch without a gap; the header's rate if that is short or contradicts it.
+        /// Over the longest stretch without a gap; the header's rate if that is short, contradicts it, or agrees with it
+        /// to the stamps' nanosecond.
         double rateHz() const
         {
             const double seconds = m_longestEnd.seconds - m_longestBegin.seconds;
             const double rate = double(m_longestEnd.sample - m_longestBegin.sample) / seconds;
             constexpr double farOff = 1e-3;
             constexpr double rateFromSeconds = 1.0;
-            return seconds >= rateFromSeconds && std::abs(rate / m_nominalHz - 1.0) < farOff ? rate : m_nominalHz;
+            constexpr double resolution = 2e-9; // of a difference of two stamps
+            const double off = std::abs(rate / m_nominalHz - 1.0);
+            return seconds >= rateFromSeconds && off < farOff && off * seconds > resolution ? rate : m_nominalHz;
         }
 
         /// Second of the GPS week of the first sample.
@@ -146,7 +150,7 @@ namespace {
         {
             std::vector<std::string> notes;
             if (m_isKnown)
-                notes.push_back("The first time stamp is second " + formatNumber(m_first.seconds)
+                notes.push_back("The first time stamp is second " + formatPlainly(m_first.seconds)
                                 + " of the GPS week.");
             if (m_stale != 0.0)
                 notes.push_back("The time stamp of the first block, " + formatNumber(std::round(std::abs(m_stale)))
