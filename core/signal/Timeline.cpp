@@ -159,7 +159,8 @@ RecordingPointer Timeline::openUnlessBroken(const std::string &path, std::vector
 TimedFile Timeline::addPart(const std::string &path, const Recording &recording)
 {
     const RecordingInfo &info = recording.info();
-    const std::optional<double> start = info.startUnixSeconds ? info.startUnixSeconds : timeInName(path);
+    const std::optional<NamedTime> named = stampInName(path);
+    const std::optional<double> start = info.startUnixSeconds || !named ? info.startUnixSeconds : named->unixSeconds;
     if (!start)
         throw Error(path,
                     "has no time stamp in its header or its name (such as 20260123_235959); a timeline requires one");
@@ -179,7 +180,8 @@ TimedFile Timeline::addPart(const std::string &path, const Recording &recording)
     const bool isExact =
         info.startUnixSeconds
         && (info.container == "Digital RF" || info.container == "HDF5 strain" || info.container == "KiwiSDR WAV");
-    return {path, *start, info.sampleRateHz, info.sampleCount, isExact};
+    const bool hasFraction = named && named->hasFraction && *start == named->unixSeconds;
+    return {path, *start, info.sampleRateHz, info.sampleCount, isExact, hasFraction};
 }
 
 void Timeline::checkLike(const RecordingInfo &other) const

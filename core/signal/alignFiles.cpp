@@ -98,7 +98,7 @@ namespace {
                 std::all_of(m_files.begin(), m_files.end(), [](const TimedFile &file) { return file.isExact; });
             m_areWhole = !m_areExact && m_files.size() > 1
                          && std::all_of(m_files.begin(), m_files.end(), [](const TimedFile &file) {
-                                return file.startUnixSeconds == std::floor(file.startUnixSeconds);
+                                return !file.hasFraction && file.startUnixSeconds == std::floor(file.startUnixSeconds);
                             });
             m_resolution = m_areWhole ? 1.0 : leastResolution;
             findRuns();

@@ -13,7 +13,8 @@ struct TimedFile {
     double startUnixSeconds = 0.0;
     double rateHz = 0.0;
     Index samples = 0;
-    bool isExact = false; ///< samples and stamp share a clock: GNSS, or the file's own count
+    bool isExact = false;     ///< samples and stamp share a clock: GNSS, or the file's own count
+    bool hasFraction = false; ///< the stamp tells more than whole seconds, even where that is 0
 };
 
 /// Place of a file's samples in time.
@@ -34,10 +35,11 @@ struct Alignment {
 /// Places files on one timeline by their time stamps; sample counts are exact, stamps are not.
 ///
 /// Files follow on without a gap if their stamps lie about a straight line over the samples, at most 200 ppm (the
-/// tolerance of crystals) from their rate, within the stamps' resolution: 1 s if all are whole seconds, else 10 ms, or
-/// 0.1 ms if all are exact; and within up to 0.1 s more if they are late and early by turns, as a program's delays make
-/// them. Of few whole seconds, a range that uniform numbers have in one case of 100 is too large. Files that do not
-/// follow on have a gap between them or an overlap, as their stamps say, or as equal intervals between them do.
+/// tolerance of crystals) from their rate, within the stamps' resolution: 1 s if all are whole seconds (and none tells a
+/// fraction of 0), else 10 ms, or 0.1 ms if all are exact; and within up to 0.1 s more if they are late and early by
+/// turns, as a program's delays make them. Of few whole seconds, a range that uniform numbers have in one case of 100 is
+/// too large. Files that do not follow on have a gap between them or an overlap, as their stamps say, or as equal
+/// intervals between them do.
 ///
 /// Files that follow one another form a run. Over all runs the clock is a straight line,
 ///

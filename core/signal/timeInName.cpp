@@ -13,42 +13,47 @@ namespace faintline {
 namespace {
 
     constexpr const char *timeOfDay =
-        R"([T_ -]?(\d{2})[:._-]?(\d{2})[:._-]?(\d{2})(?:[.,](\d{3}|\d{6}))?(?:([+-])(\d{2}):?(\d{2}))?(?!\d))";
+        R"([T_ -]?(\d{2})[:._-]?(\d{2})[:._-]?(\d{2})(?:[.,](\d{3}|\d{6})|[_-](\d{3})(?! ?[kMG]?Hz))?)"
+        R"((?:([+-])(\d{2}):?(\d{2}))?(?!\d))";
 
     double numberIn(const std::smatch &match, std::size_t group)
     {
         return match[group].matched ? std::stod(match[group].str()) : 0.0;
     }
 
-    std::optional<double> calendarTime(const std::smatch &match)
+    std::optional<NamedTime> calendarTime(const std::smatch &match)
     {
         const double year = numberIn(match, 1) + (match[1].length() == 2 ? 2000.0 : 0.0);
-        const double fraction = numberIn(match, 7) / std::pow(10.0, double(match[7].length()));
+        const std::size_t behind = match[8].matched ? 8 : 7; // digits behind the second
+        const double fraction = numberIn(match, behind) / std::pow(10.0, double(match[behind].length()));
         const double zone =
-            (match[8].str() == "-" ? -1.0 : 1.0) * 60.0 * (60.0 * numberIn(match, 9) + numberIn(match, 10));
+            (match[9].str() == "-" ? -1.0 : 1.0) * 60.0 * (60.0 * numberIn(match, 10) + numberIn(match, 11));
         const auto time =
             unixSeconds(int(year), int(numberIn(match, 2)), int(numberIn(match, 3)),
                         {int(numberIn(match, 4)), int(numberIn(match, 5)), numberIn(match, 6) + fraction});
-        return time && year >= 1970.0 && year < 2100.0 ? std::optional(*time - zone) : std::nullopt;
+        return time && year >= 1970.0 && year < 2100.0 ? std::optional(NamedTime{*time - zone, match[behind].matched})
+                                                       : std::nullopt;
     }
 
     /// Hour to second, then day to year, as SDR++ writes them.
-    std::optional<double> reversedTime(const std::smatch &match)
+    std::optional<NamedTime> reversedTime(const std::smatch &match)
     {
-        return unixSeconds(int(numberIn(match, 6)), int(numberIn(match, 5)), int(numberIn(match, 4)),
-                           {int(numberIn(match, 1)), int(numberIn(match, 2)), numberIn(match, 3)});
+        const auto time = unixSeconds(int(numberIn(match, 6)), int(numberIn(match, 5)), int(numberIn(match, 4)),
+                                      {int(numberIn(match, 1)), int(numberIn(match, 2)), numberIn(match, 3)});
+        return time ? std::optional(NamedTime{*time, false}) : std::nullopt;
     }
 
-    std::optional<double> countedTime(const std::smatch &match)
+    std::optional<NamedTime> countedTime(const std::smatch &match)
     {
         constexpr double latestUnixSeconds = 4102444800.0; // 2100
-        const double time = numberIn(match, 1) / (match[1].length() == 13 ? 1e3 : 1.0);
-        return time >= 1e9 && time < latestUnixSeconds ? std::optional(time) : std::nullopt;
+        const bool hasFraction = match[1].length() == 13;
+        const double time = numberIn(match, 1) / (hasFraction ? 1e3 : 1.0);
+        return time >= 1e9 && time < latestUnixSeconds ? std::optional(NamedTime{time, hasFraction}) : std::nullopt;
     }
 
     struct Pattern {
         std::regex regex;
-        std::optional<double> (*timeOf)(const std::smatch &match);
+        std::optional<NamedTime> (*timeOf)(const std::smatch &match);
     };
 
     const std::array<Pattern, 5> &patterns()
@@ -65,15 +70,21 @@ namespace {
 
 } // namespace
 
-std::optional<double> timeInName(const std::string &path)
+std::optional<NamedTime> stampInName(const std::string &path)
 {
     const std::string name = std::filesystem::path(path).filename().string();
     for (const Pattern &pattern : patterns())
         for (auto match = std::sregex_iterator(name.begin(), name.end(), pattern.regex);
              match != std::sregex_iterator(); ++match)
-            if (const std::optional<double> time = pattern.timeOf(*match))
+            if (const std::optional<NamedTime> time = pattern.timeOf(*match))
                 return time;
     return std::nullopt;
+}
+
+std::optional<double> timeInName(const std::string &path)
+{
+    const std::optional<NamedTime> stamp = stampInName(path);
+    return stamp ? std::optional(stamp->unixSeconds) : std::nullopt;
 }
 
 std::optional<ReceiverName> receiverName(const std::string &path)

@@ -12,9 +12,17 @@ namespace faintline {
 ///   23-59-59_23-01-2026                                                                   time, then day to year
 ///   1769212799        1769212799123                                                       seconds, milliseconds
 ///
-/// A T, _, - or blank separates date and time; a fraction has 3 or 6 digits; without a zone the time is UTC. Ten digits
-/// with a unit (1420405751Hz) are a frequency. The first matching pattern of this table counts. Returns nothing if the name (without its folders) holds no such time.
+/// A T, _, - or blank separates date and time; a fraction has 3 or 6 digits behind a point or comma, or 3 behind a _ or -
+/// (20260123_235959_250); without a zone the time is UTC. Ten digits with a unit (1420405751Hz) are a frequency. The
+/// first matching pattern of this table counts. Returns nothing if the name (without its folders) holds no such time.
 std::optional<double> timeInName(const std::string &path);
+
+/// The same, and whether the name tells more than whole seconds, which may be 0.
+struct NamedTime {
+    double unixSeconds = 0.0;
+    bool hasFraction = false;
+};
+std::optional<NamedTime> stampInName(const std::string &path);
 
 /// What a receiver's program writes into a file's name of the recording's centre frequency, sample rate and type.
 ///

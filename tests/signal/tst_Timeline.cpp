@@ -60,6 +60,11 @@ private slots:
         QTest::newRow("ISO without colons") << "x 2026-01-23 23-59-59.flac" << time;
         QTest::newRow("zone") << "20260124T005959+0100_REC.wav" << time;
         QTest::newRow("milliseconds") << "20260123T235959.250Z.wav" << time + 0.25;
+        QTest::newRow("milliseconds behind a line") << "SITE_20260123_235959_250.wav" << time + 0.25;
+        QTest::newRow("milliseconds behind a hyphen") << "2026-01-23T23-59-59-250Z_x.wav" << time + 0.25;
+        QTest::newRow("a rate behind the second") << "20260123_235959_192kHz.wav" << time;
+        QTest::newRow("a zone behind a hyphen") << "20260123T195959-0400.wav" << time;
+        QTest::newRow("gqrx") << "gqrx_20260123_235959_137500_48000_fc.raw" << time;
         QTest::newRow("kiwirecorder") << "20260123T235959Z_7050000_iq.wav" << time;
         QTest::newRow("14 digits") << "rec20260123235959.wav" << time;
         QTest::newRow("SoundTrap") << "5678.260123235959.wav" << time;
@@ -231,6 +236,17 @@ private slots:
         if (resolution == 1.0 && std::abs(missing) >= 1.0)
             QVERIFY(aligned.notes.back().find("uncertain by up to 1 s") != std::string::npos
                     || aligned.notes.at(aligned.notes.size() - 2).find("uncertain by up to 1 s") != std::string::npos);
+    }
+
+    /// Half a second between two files is a gap where names tell milliseconds, although these are 0.
+    void namedMillisecondsCount()
+    {
+        for (const char *name : {"20260101_000000.000.wav", "20260101_000100_000.wav"})
+            writeAudio(path(name), SF_FORMAT_WAV | SF_FORMAT_PCM_16, 1, 200, someNoise(11900));
+        const RecordingInfo info = openTogether({m_folder->path().toStdString()})->info();
+        QCOMPARE(info.startUnixSeconds, std::optional(newYear));
+        QCOMPARE(info.sampleCount, Index(2 * 12000 - 100));
+        QVERIFY(contains(info.notes.at(1), "1 gap(s) between files, 0.5 s altogether"));
     }
 
     void delaysOfStampsAreNoPauses_data()
