@@ -2,33 +2,69 @@
 
 #include "base/files/AtomicFile.h"
 #include "base/json.h"
+#include "exchange/annotationText.h"
 #include "signal/formats/SigmfRecording.h"
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
+#include <vector>
 
 namespace faintline {
 
 namespace {
 
     constexpr const char *generatorKey = "core:generator", *generatorName = "Faintline";
+    constexpr const char *labelKey = "core:label", *statisticKey = "faintline:statistic";
 
     bool isOurs(const Json &one)
     {
         return one.value(generatorKey, Json()) == generatorName;
     }
 
-    /// Whether an annotation of the file is of the same place and has the same label. Those of other programs may leave
-    /// out a count or an edge, which ours of it has, or the label.
+    /// Whether a member of an annotation by Faintline holds nothing that a person said.
+    bool isOurWord(const std::string &key, const Json &value)
+    {
+        static const std::set<std::string> places{"core:sample_start",    "core:sample_count", "core:freq_lower_edge",
+                                                  "core:freq_upper_edge", generatorKey,        statisticKey};
+        if (places.contains(key) || !value.is_string())
+            return places.contains(key);
+        const std::string text = value.get<std::string>();
+        return key == labelKey             ? isEventLabel(text)
+               : key == "core:comment"     ? text.empty() || isEventComment(text)
+               : key == "faintline:review" ? text.empty()
+                                           : false;
+    }
+
+    /// Whether a run made an annotation, and no person has said anything of it since.
+    bool isReplaceable(const Json &one)
+    {
+        return isOurs(one) && std::ranges::all_of(one.items(), [](const auto &member) {
+                   return isOurWord(member.key(), member.value());
+               });
+    }
+
+    /// Whether an annotation of the file is of the same place and has the same label, or one that a person gave the
+    /// event. Those of other programs may leave out a count or an edge, which ours of it has, or the label.
     bool isOfOnePlace(const Json &one, const Json &ours)
     {
         constexpr const char *edges[]{"core:sample_count", "core:freq_lower_edge", "core:freq_upper_edge"};
+        const auto isEvent = [&] { return isOurs(one) && isOurWord(labelKey, ours.value(labelKey, Json())); };
         return one.value("core:sample_start", Json()) == ours.value("core:sample_start", Json())
-               && one.value("core:label", Json("")) == ours.value("core:label", Json(""))
+               && (one.value(labelKey, Json("")) == ours.value(labelKey, Json("")) || isEvent())
                && std::ranges::all_of(edges, [&](const char *key) {
                       return one.value(key, Json()) == ours.value(key, Json())
                              || (!isOurs(one) && (!one.contains(key) || !ours.contains(key)));
                   });
+    }
+
+    /// Takes what a new run says of an annotation's event, except in place of what a person said.
+    void renew(Json &one, const Json &made)
+    {
+        one.erase(statisticKey);
+        for (const auto &[key, value] : made.items())
+            if (!one.contains(key) || isOurWord(key, one[key]) || !isOurWord(key, value))
+                one[key] = value;
     }
 
     /// The namespaces that annotations use are declared, as SigMF requires.
@@ -45,28 +81,25 @@ namespace {
 
     int addTo(Json &annotations, const Json &added)
     {
-        if (!annotations.is_array())
-            annotations = Json::array();
+        std::vector<Json> kept, replaced, made;
+        for (const Json &one : annotations.is_array() ? annotations : Json::array())
+            (isReplaceable(one) ? replaced : kept).push_back(one);
         int count = 0;
         for (Json one : added) {
             one[generatorKey] = generatorName;
             const auto isSame = [&](const Json &other) { return isOfOnePlace(other, one); };
-            const auto same = std::find_if(annotations.begin(), annotations.end(), isSame);
-            count += same == annotations.end();
-            if (same == annotations.end()) {
-                annotations.push_back(std::move(one));
+            const auto same = std::ranges::find_if(kept, isSame);
+            if (same != kept.end()) {
+                if (isOurs(*same))
+                    renew(*same, one);
                 continue;
             }
-            // Copies that earlier runs left go.
-            annotations.erase(std::remove_if(same + 1, annotations.end(),
-                                             [&](const Json &other) { return isOurs(other) && isSame(other); }),
-                              annotations.end());
-            if (isOurs(*same))
-                *same = std::move(one);
+            count += std::ranges::none_of(replaced, isSame);
+            made.push_back(std::move(one));
         }
-        std::stable_sort(annotations.begin(), annotations.end(), [](const Json &a, const Json &b) {
-            return a.value("core:sample_start", 0.0) < b.value("core:sample_start", 0.0);
-        });
+        kept.insert(kept.end(), made.begin(), made.end());
+        std::ranges::stable_sort(kept, {}, [](const Json &one) { return one.value("core:sample_start", 0.0); });
+        annotations = kept;
         return count;
     }
 

@@ -3,6 +3,7 @@
 #include "base/oneLine.h"
 
 #include <array>
+#include <regex>
 #include <utility>
 
 namespace faintline {
@@ -29,6 +30,19 @@ void takeApart(const std::string &text, Annotation &annotation)
         }
     annotation.label = oneLine(text.substr(0, first));
     annotation.note = first == std::string::npos ? std::string() : oneLine(text.substr(first + length));
+}
+
+bool isEventLabel(const std::string &label)
+{
+    static const std::regex pattern(R"(event \d{1,10}( \(of \d{1,10}\))?|area)");
+    return std::regex_match(label, pattern);
+}
+
+bool isEventComment(const std::string &comment)
+{
+    static const std::regex pattern(R"(statistic [-+.e\d]{1,30} (nat|× noise)(, SNR [-+.e\d]{1,30} dB in one window)?)"
+                                    R"(|not a line: level raised by at least [-+.e\d]{1,30} dB)");
+    return std::regex_match(comment, pattern);
 }
 
 } // namespace faintline

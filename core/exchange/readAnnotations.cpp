@@ -353,6 +353,8 @@ namespace {
                 box.highHz = one["core:freq_upper_edge"].get<double>() - info.centreHz;
             box.label = oneLine(one.value("core:label", std::string()));
             box.note = oneLine(one.value("core:comment", std::string()));
+            if (isEventComment(box.note))
+                box.note.clear();
             box.verdict = verdictNamed(one.value("faintline:review", std::string()));
             return box;
         });

@@ -391,7 +391,7 @@ private slots:
         for (int copy = 0; copy < 2; ++copy)
             for (Json one : once) {
                 one["core:generator"] = "Faintline";
-                one["core:comment"] = "copy " + std::to_string(copy);
+                one["core:comment"] = "statistic " + std::to_string(copy) + " nat"; // of other settings
                 meta["annotations"].push_back(one);
             }
         Json foreign = once[1]; // shorter, and by another program
@@ -406,16 +406,72 @@ private slots:
         const Json after = parseJson(readBytes(own).toStdString(), own)["annotations"];
         QCOMPARE(after.size(), std::size_t(5));
         QVERIFY(after[0] == meta["annotations"][0]);
-        QVERIFY(after[4] == foreign);
+        QVERIFY(after[1] == foreign);
         for (std::size_t i = 1; i < 4; ++i) {
-            QVERIFY(after[i]["core:label"] == "event " + std::to_string(i));
-            QVERIFY(after[i]["core:comment"] == "" && after[i].contains("faintline:statistic")); // the newest
+            QVERIFY(after[i + 1]["core:label"] == "event " + std::to_string(i));
+            QVERIFY(after[i + 1]["core:comment"] == "" && after[i + 1].contains("faintline:statistic")); // the newest
         }
 
         // One without edges is another box than one with them.
         imported.boxes = {{3.0, 4.0, {}, {}, "x", "", Verdict::None}, {3.0, 4.0, 10.0, 20.0, "x", "", Verdict::None}};
         QCOMPARE(annotateRecording(own, reviewedSigmf(analysis, {}, imported)), 2);
         QCOMPARE(annotateRecording(own, reviewedSigmf(analysis, {}, imported)), 0);
+    }
+
+    /// What a run says in a comment is no note of a person.
+    void ownCommentsAreNoNotes()
+    {
+        Analysis analysis = threeTracks(m_info);
+        analysis.settings.detector = PofNSettings();
+        writeEvents(analysis, path("plain.sigmf-meta"));
+        const auto plain = readAnnotations(path("plain.sigmf-meta"), m_info);
+        QCOMPARE(plain.size(), std::size_t(3));
+        QVERIFY(std::ranges::all_of(plain, [](const Annotation &box) { return box.note.empty(); }));
+        QVERIFY(isEventComment("statistic 1.25e+03 nat, SNR -0.3 dB in one window"));
+        QVERIFY(isEventComment("not a line: level raised by at least 6 dB"));
+        for (const char *words : {"", "statistic 12 nat, looks real", "statistic is weak", "my note"})
+            QVERIFY2(!isEventComment(words), words);
+        QVERIFY(isEventLabel("event 12 (of 3)") && isEventLabel("area") && !isEventLabel("event horizon"));
+    }
+
+    /// Annotations of a run with other settings are replaced, except those of which a person has said something.
+    void otherSettingsReplaceWhatNobodyReviewed()
+    {
+        const std::string own = path("again.sigmf-meta");
+        writeBytes(own, R"({"global": {"core:datatype": "cf32_le", "core:sample_rate": 1000.0}, "captures": []})");
+        const Analysis one = threeTracks(m_info);
+        Analysis other = one; // tracks at other places, with other statistics
+        for (Track &track : other.tracks) {
+            track.points.pop_back();
+            --track.endFrame;
+            track.peakStatistic += 100.0;
+        }
+        const auto file = [&] { return parseJson(readBytes(own).toStdString(), own)["annotations"]; };
+        QCOMPARE(annotateRecording(own, eventsSigmf(one)), 3);
+        Json meta = parseJson(readBytes(own).toStdString(), own);
+        Json &beacon = meta["annotations"][0];
+        beacon.update(
+            {{"faintline:review", "accepted"}, {"core:comment", "mine"}, {"core:label", "Beacon"}, {"my:x", 1}});
+        meta["annotations"][1]["faintline:review"] = "rejected"; // by the words of the run
+        meta["annotations"][2]["core:label"] = "Third";
+        const Json reviewed = meta["annotations"];
+        writeBytes(own, QByteArray::fromStdString(meta.dump()));
+
+        QCOMPARE(annotateRecording(own, eventsSigmf(other)), 3);
+        QCOMPARE(file().size(), std::size_t(6));
+        QCOMPARE(annotateRecording(own, eventsSigmf(one)), 0);
+        QVERIFY(file() == reviewed);
+        // Reviews that were read from the file come back to their events, with the statistic of this run.
+        Annotations said;
+        said.reviews = withVerdict({}, one, events(one), {1}, Verdict::Accepted);
+        said.reviews = withNote(said.reviews, one, events(one), 1, "mine");
+        QCOMPARE(annotateRecording(own, reviewedSigmf(one, events(one), said)), 0);
+        Json expected = reviewed[0];
+        expected["faintline:statistic"] = events(one)[0].statistic;
+        QVERIFY(file()[0] == expected);
+        QCOMPARE(file()[1]["faintline:review"].get<std::string>(), std::string("rejected"));
+        QCOMPARE(file()[2]["core:label"].get<std::string>(), std::string("Third"));
+        QCOMPARE(file().size(), std::size_t(3));
     }
 
     void textsAreTakenApart()
