@@ -146,6 +146,18 @@ private slots:
         QVERIFY(plates(std::vector<double>(12, 100.0)) < 6 * one); // there is no room for more
     }
 
+    /// The bracket of an event that is drawn later begins where the number of the first one would be.
+    void aNumberDoesNotLieUnderABracket()
+    {
+        const auto plates = [&](double start) {
+            m_item->marks = {{1, {{20.0, 50.0}, {100.0, 104.0}}, true}, {2, {{start, 90.0}, {100.0, 104.0}}, true}};
+            return test::pixelsWhere(drawn(), canvas, [](QRgb colour) { return qBlue(colour) < 22; }).size();
+        };
+        const auto apart = plates(70.0);
+        QVERIFY(apart > 160);
+        QVERIFY(double(plates(51.5)) > 0.97 * double(apart));
+    }
+
     void layersAreLeftOut()
     {
         m_item->marks = {{1, {{40.0, 60.0}, {90.0, 110.0}}, true}};

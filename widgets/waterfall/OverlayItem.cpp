@@ -268,48 +268,58 @@ void OverlayItem::drawEvents(const Canvas &canvas) const
     const auto inSight = std::size_t(std::count_if(
         marks.begin(), marks.end(), [&](const OverlayMark &mark) { return rectOfMark(mark).intersects(canvas.rect); }));
     const bool areMany = inSight > bracketLimit;
-    std::vector<QRectF> taken;
-    // At one of the frame's corners where no other number is; nothing if there is none.
+    const auto isNamed = [&](const OverlayMark &mark) {
+        return !areMany || mark.id == selectedEvent || mark.id == hoveredEvent;
+    };
+    const auto colourOf = [&](const OverlayMark &mark) {
+        QColor colour = mark.id == selectedEvent ? colours.selectedEvent : colours.event;
+        if (!mark.isConfirmed && mark.id != selectedEvent)
+            colour.setAlpha(150);
+        return colour;
+    };
+    std::vector<QRectF> brackets, numbers;
+    std::vector<const OverlayMark *> named; ///< the selected one first
+    for (const OverlayMark &mark : marks) {
+        const QRectF rect = rectOfMark(mark);
+        if (!rect.intersects(canvas.rect) || (hasTracks && !isNamed(mark)))
+            continue;
+        const bool isSelected = mark.id == selectedEvent;
+        canvas.painter.setOpacity(isFaint(mark.id) ? faintOpacity : 1.0);
+        canvas.stroke(corners(rect), linePen(colourOf(mark), isSelected ? 2.0 : 1.4));
+        for (const QLineF &line : corners(rect))
+            brackets.push_back(QRectF(line.p1(), line.p2()).normalized().adjusted(-1.0, -1.0, 1.0, 1.0));
+        if (isNamed(mark))
+            named.insert(isSelected ? named.begin() : named.end(), &mark);
+    }
+    // At one of the frame's corners where no other number is, and if possible no bracket; nothing if there is none.
     const auto roomFor = [&](const QRectF &frame, const QString &number) -> std::optional<QPointF> {
         constexpr double gap = 3.0;
         const QSizeF size = canvas.plateOf({}, number).size();
         const double top = std::max(frame.top() - 1.0, canvas.rect.top() + 2.0);
         const double bottom = frame.bottom() + 1.0 - size.height();
         const double left = frame.left() - gap - size.width();
-        for (const QPointF &corner : {QPointF(frame.right() + gap, top), QPointF(left, top),
-                                      QPointF(frame.right() + gap, bottom), QPointF(left, bottom)}) {
-            const QRectF plate = canvas.plateOf(corner, number);
-            if (std::ranges::none_of(taken, [&plate](const QRectF &other) { return other.intersects(plate); })) {
-                taken.push_back(plate);
+        for (const bool isOverBrackets : {false, true})
+            for (const QPointF &corner : {QPointF(frame.right() + gap, top), QPointF(left, top),
+                                          QPointF(frame.right() + gap, bottom), QPointF(left, bottom)}) {
+                const QRectF plate = canvas.plateOf(corner, number);
+                const auto isOver = [&plate](const QRectF &other) { return other.intersects(plate); };
+                if (std::ranges::any_of(numbers, isOver) || (!isOverBrackets && std::ranges::any_of(brackets, isOver)))
+                    continue;
+                numbers.push_back(plate);
                 return corner;
             }
-        }
         return {};
     };
-    const auto drawOne = [&](const OverlayMark &mark) {
-        const bool isSelected = mark.id == selectedEvent;
-        const QRectF rect = rectOfMark(mark);
-        if (!rect.intersects(canvas.rect) || (areMany && hasTracks && !isSelected && mark.id != hoveredEvent))
-            return;
-        QColor colour = isSelected ? colours.selectedEvent : colours.event;
-        if (!mark.isConfirmed && !isSelected)
-            colour.setAlpha(150);
-        canvas.painter.setOpacity(isFaint(mark.id) ? faintOpacity : 1.0);
-        canvas.stroke(corners(rect), linePen(colour, isSelected ? 2.0 : 1.4));
-        if (areMany && !isSelected && mark.id != hoveredEvent)
-            return;
+    for (const OverlayMark *mark : named) {
         const QString number =
-            mark.stage == TrackStage::Provisional ? QStringLiteral("%1?").arg(mark.id) : QString::number(mark.id);
-        const std::optional<QPointF> corner = roomFor(rect, number);
-        if (corner && isSelected)
+            mark->stage == TrackStage::Provisional ? QStringLiteral("%1?").arg(mark->id) : QString::number(mark->id);
+        canvas.painter.setOpacity(isFaint(mark->id) ? faintOpacity : 1.0);
+        const std::optional<QPointF> corner = roomFor(rectOfMark(*mark), number);
+        if (corner && mark->id == selectedEvent)
             canvas.label(*corner, number, QColor(0x10141a), colours.selectedEvent);
         else if (corner)
-            canvas.label(*corner, number, colour);
-    };
-    for (const bool isSelected : {true, false}) // whose number comes first
-        for (const OverlayMark &mark : marks)
-            if ((mark.id == selectedEvent) == isSelected)
-                drawOne(mark);
+            canvas.label(*corner, number, colourOf(*mark));
+    }
     canvas.painter.setOpacity(1.0);
 }
 
