@@ -51,6 +51,7 @@ private slots:
         for (const double low : {0.0, 0.7, 123.4})
             for (const double width : {0.3, 1.0, 1.9, 3.0}) // of 0.7 … 3.7, steps of 2 would leave one
                 QVERIFY(major(linearScaleDiv({low, low + width}, 2)).size() >= 2);
+        QVERIFY(!major(linearScaleDiv({2000.0, 4990.0}, 1)).isEmpty()); // room for one, though 5000 lies outside
         const QwtScaleDiv div = linearScaleDiv({0.7, 1.9}, 4);
         QCOMPARE(div.lowerBound(), 0.7); // the scale ends where the span does
         QCOMPARE(div.upperBound(), 1.9);

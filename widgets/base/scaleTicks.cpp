@@ -66,10 +66,11 @@ QwtScaleDiv linearScaleDiv(const Span &span, int majorTicks, double origin)
                 ticks[type] << tick - origin;
         return QwtScaleDiv(span.low, span.high, ticks);
     }
-    // A single number does not define a scale: if there is room for two but steps are too wide, they are reduced.
+    // A single number does not define a scale: if there is room for two but steps are too wide, they are reduced; so they
+    // are if there would be none.
     const auto divided = [&](int most) { return QwtLinearScaleEngine().divideScale(span.low, span.high, most, 5); };
     QwtScaleDiv div = divided(std::max(majorTicks, 1));
-    if (majorTicks >= 2 && div.ticks(QwtScaleDiv::MajorTick).size() < 2)
+    if (div.ticks(QwtScaleDiv::MajorTick).size() < std::clamp(majorTicks, 1, 2))
         div = divided(majorTicks + 1);
     div.setInterval(span.low, span.high);
     return div;
