@@ -3,6 +3,7 @@
 #include "scene/PingTruth.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace faintline {
@@ -58,6 +59,40 @@ std::vector<TargetShape> SceneEditor::shapes() const
             shape.corners.push_back({corner.place.rangeMetres, corner.place.bearingDegrees});
     }
     return result;
+}
+
+std::vector<SceneEditor::Place> SceneEditor::reach() const
+{
+    constexpr int sidePoints = 24; // seen from above, sides across the bearing are arcs
+    const auto &analysis = m_document.analysis();
+    if (m_gesture != Gesture::Draw || !scene() || !analysis)
+        return {};
+    const PingTarget &target = scene()->targets[std::size_t(m_held.target)];
+    const std::vector<TargetCorner> corners = cornersOf(*scene(), target);
+    const std::vector<Axis> axes = pingGrid(*scene()).axes;
+    if (target.legs.empty() || corners.size() <= target.legs.size())
+        return {};
+    const TargetCorner &from = corners[target.legs.size() - 1];
+    const int pings = corners.back().ping - from.ping;
+    const auto fastest = [&](std::size_t axis) {
+        double rate = 0.0;
+        for (std::size_t model = 0; model < analysis->modelCount(); ++model) {
+            const KinematicAxis &rates = analysis->modelAt(model).space.axes()[axis];
+            rate = std::max({rate, std::abs(rates.rate(0)), std::abs(rates.rate(rates.rateCount - 1))});
+        }
+        return rate * pings * axes[axis].step;
+    };
+    const double along = fastest(0), across = std::min(fastest(1), 0.5 * axes[1].step * double(axes[1].count));
+    std::vector<Place> outline;
+    const auto addSide = [&](double range, int sign) {
+        for (int i = -sidePoints; i <= sidePoints; ++i)
+            outline.push_back({std::clamp(range, axes[0].value(0.0), axes[0].value(double(axes[0].count - 1))),
+                               from.place.bearingDegrees + across * sign * i / sidePoints});
+    };
+    addSide(from.place.rangeMetres - along, 1);
+    addSide(from.place.rangeMetres + along, -1);
+    outline.push_back(outline.front());
+    return outline;
 }
 
 void SceneEditor::select(const TargetHandle &handle)

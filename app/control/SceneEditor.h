@@ -30,6 +30,8 @@ public:
     /// The scene with the change in progress; null if the open source is not a simulated scene of pings.
     const PingScene *scene() const;
     std::vector<TargetShape> shapes() const;
+    /// While a leg is drawn: outline of the places where it can end if the model is to follow it, at a constant rate.
+    std::vector<Place> reach() const;
 
     const TargetHandle &selected() const { return m_selected; }
     void select(const TargetHandle &handle);

@@ -179,8 +179,10 @@ void TargetsPanel::followScene()
     m_unit->setEnabled(scene != nullptr);
     if (m_isActive) {
         const std::vector<TargetShape> shapes = m_editor->shapes();
-        for (TargetLayer *layer : m_layers)
+        for (TargetLayer *layer : m_layers) {
             layer->setShapes(shapes);
+            layer->setReach(m_editor->reach());
+        }
     }
     updateLayers();
     followSelection();
@@ -224,6 +226,8 @@ void TargetsPanel::showSentence()
     if (!m_editor->scene())
         return say(tr("Targets can be placed in simulated scenes of sonar pings. Open one, or press New scene."),
                    false);
+    if (!m_editor->reach().empty())
+        return say(tr("Dotted: as far as the fastest target gets in this leg that the model follows."), false);
     if (m_editor->isPlacing())
         return say(
             tr("Click a map to place a target, drag to draw its leg. Drag from its end, or Shift+click, to add a "

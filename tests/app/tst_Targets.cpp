@@ -27,6 +27,7 @@ private slots:
 
     void aClickPlacesATargetInThePingShown();
     void aDragDrawsALegThatEndsAtThePointer();
+    void whatTheModelFollowsIsShownWhileALegIsDrawn();
     void furtherDragsAndClicksAddLegs();
     void cornersAreDraggedAndRemoved();
     void escapeAbandonsTheDragThenEndsPlacing();
@@ -69,6 +70,23 @@ void tst_Targets::aDragDrawsALegThatEndsAtThePointer()
     QVERIFY(std::abs(end.bearingDegrees - 100.0) < 6.0);
     QCOMPARE(m_window->document().undoStack().count(), 1); // target and leg are one gesture
     QCOMPARE(m_window->document().undoStack().undoText(), QString("Place a target"));
+}
+
+void tst_Targets::whatTheModelFollowsIsShownWhileALegIsDrawn()
+{
+    startPlacing();
+    QTest::mousePress(canvas(), Qt::LeftButton, {}, at(3300.0, 180.0));
+    QTest::mouseMove(canvas(), at(3400.0, 180.0));
+    const auto reach = panel().editor().reach();
+    QVERIFY(reach.size() > 4);
+    QVERIFY2(panel().sentence().startsWith("Dotted: "), qPrintable(panel().sentence()));
+    const auto [nearest, farthest] = std::ranges::minmax(reach, {}, &SceneEditor::Place::along);
+    QTest::mouseMove(canvas(), at(farthest.along, 180.0));
+    QTest::mouseRelease(canvas(), Qt::LeftButton, {}, at(farthest.along, 180.0));
+    QVERIFY(std::abs(last().legs[0].rangeCellsPerPing - 1.0) < 0.1); // the fastest of the nine rates
+    QVERIFY(nearest.along < 3150.0);
+    QVERIFY(panel().editor().reach().empty());
+    QVERIFY(!panel().sentence().startsWith("Dotted: "));
 }
 
 void tst_Targets::furtherDragsAndClicksAddLegs()

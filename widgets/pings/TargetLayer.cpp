@@ -46,6 +46,7 @@ public:
         painter->save();
         painter->setRenderHint(QPainter::Antialiasing);
         painter->setClipRect(rect);
+        drawReach(*painter);
         for (int i = 0; i < int(m_layer.m_shapes.size()); ++i)
             if (i != m_layer.m_selected.target)
                 drawTarget(*painter, i, rect);
@@ -84,6 +85,21 @@ private:
             line << m_layer.m_positionOf(path[i]);
         }
         draw();
+    }
+
+    void drawReach(QPainter &painter) const
+    {
+        for (const double turns : {-1.0, 0.0, 1.0}) { // what leaves one edge comes in at the other
+            QPolygonF line;
+            for (const Place &place : m_layer.m_reach)
+                line << m_layer.m_positionOf({place.along, place.across + turns * m_layer.m_turn()});
+            painter.setPen(QPen(outline, 3.5, Qt::SolidLine, Qt::FlatCap));
+            painter.drawPolyline(line);
+            painter.setPen(QPen(Theme::colours(m_layer.m_plot).event, 1.5, Qt::DotLine, Qt::FlatCap));
+            painter.drawPolyline(line);
+            if (m_layer.m_turn() == 0.0)
+                break;
+        }
     }
 
     void drawHandle(QPainter &painter, const TargetHandle &handle, const QColor &colour) const
@@ -158,6 +174,13 @@ TargetLayer::TargetLayer(QwtPlot &plot, std::function<Place(const QPointF &)> pl
 void TargetLayer::setShapes(const std::vector<TargetShape> &shapes)
 {
     m_shapes = shapes;
+    if (m_isActive)
+        m_plot.replot();
+}
+
+void TargetLayer::setReach(const std::vector<Place> &outline)
+{
+    m_reach = outline;
     if (m_isActive)
         m_plot.replot();
 }

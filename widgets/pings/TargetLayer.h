@@ -34,6 +34,7 @@ public:
     explicit TargetLayer(PolarView &view);
 
     void setShapes(const std::vector<TargetShape> &shapes);
+    void setReach(const std::vector<Place> &outline); ///< drawn dotted; empty: none
     void setSelected(const TargetHandle &handle);
     void setActive(bool isActive);
     void setPlacing(bool isPlacing);
@@ -71,6 +72,7 @@ private:
     std::function<QPointF(const Place &)> m_positionOf;
     std::function<double()> m_turn; ///< period of the bearing if lines across it are cut; 0: they are not
     std::vector<TargetShape> m_shapes;
+    std::vector<Place> m_reach;
     TargetHandle m_selected;
     TargetHandle m_hovered;
     bool m_isActive = false;
