@@ -107,7 +107,7 @@ namespace {
                                       {"F1   ?", "this list of keys"},
                                       {"Shift + F1", "the equation of the view"},
                                       {"F5   F6", "presentation, Escape leaves it; light or dark"},
-                                      {"F11", "maximise the panel with the focus, or put it back"},
+                                      {"F11", "maximise the panel with the focus or opened last, or put it back"},
                                       {"Ctrl + Q", "quit"}}};
         return section;
     }

@@ -169,6 +169,7 @@ void Panels::show(QWidget *panel)
 /// From behind other tabs; a sheet that was hidden gets a usable height.
 void Panels::bringForward(QDockWidget &dock, bool wasHidden)
 {
+    m_latest = &dock;
     dock.raise();
     m_window.layout()->activate(); // so that it has its place at once
     if (wasHidden && !dock.isFloating() && m_window.dockWidgetArea(&dock) == Qt::BottomDockWidgetArea)
@@ -259,6 +260,8 @@ void Panels::toggleMaximised()
     QDockWidget *chosen = nullptr;
     for (QWidget *widget = QApplication::focusWidget(); widget && !chosen; widget = widget->parentWidget())
         chosen = qobject_cast<QDockWidget *>(widget);
+    if (!chosen && m_latest && !m_latest->visibleRegion().isEmpty())
+        chosen = m_latest;
     for (const Entry &entry : m_entries)
         if (!chosen && entry.place == Place::Bottom && !entry.dock->visibleRegion().isEmpty())
             chosen = entry.dock;

@@ -59,8 +59,8 @@ public:
 
 public slots:
     void takeDefault();
-    /// Gives the window's whole place to the panel that has the focus, otherwise to the one at the bottom; or puts it
-    /// back.
+    /// Gives the window's whole place to the panel that has the focus, otherwise to the one that was opened last or is at
+    /// the bottom; or puts it back.
     void toggleMaximised();
     /// Shows only the pictures, in full screen.
     void setPresenting(bool isPresenting);
@@ -85,7 +85,8 @@ private:
     QByteArray m_default;
     QByteArray m_beforePresenting;
     QPointer<QDockWidget> m_maximised;
-    QRect m_before; ///< place of a maximised panel that floated; invalid: it was docked
+    QPointer<QDockWidget> m_latest; ///< that was asked for
+    QRect m_before;                 ///< place of a maximised panel that floated; invalid: it was docked
     bool m_isRearranging = false;
     int m_leastPictures = leastWithBars;
 };
