@@ -50,7 +50,6 @@ BarPlot::BarPlot(QWidget *parent)
 {
     m_item->attach(this);
     m_key->attach(this);
-    setMarksTop(42.0); // below the key
     BarPlot::restyle();
 }
 
@@ -99,6 +98,7 @@ void BarPlot::restyle()
     m_key->entries.clear();
     for (const Series &series : m_series)
         m_key->entries.push_back({series.name, QPen(colours.curves[series.colour], 1.0), true});
+    setMarksTop(m_key->height());
     replot();
 }
 

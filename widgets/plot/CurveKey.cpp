@@ -15,6 +15,11 @@ CurveKey::CurveKey(Qt::Alignment corner) : m_corner(corner)
     setZ(50.0);
 }
 
+double CurveKey::height() const
+{
+    return entries.empty() ? 0.0 : std::ceil(QFontMetricsF(Theme::plotFont()).height()) * double(entries.size()) + 8.0;
+}
+
 void CurveKey::draw(QPainter *painter, const QwtScaleMap &, const QwtScaleMap &, const QRectF &canvasRect) const
 {
     if (entries.empty())
@@ -29,7 +34,7 @@ void CurveKey::draw(QPainter *painter, const QwtScaleMap &, const QwtScaleMap &,
         widest = std::max(widest, metrics.horizontalAdvance(entry.name));
     const double line = std::ceil(metrics.height());
     const QSizeF size(std::ceil(widest) + sample + gap + 2 * margin, line * double(entries.size()) + 4.0);
-    if (size.width() > 0.75 * canvasRect.width()) { // curves take precedence over their names
+    if (size.width() > 0.75 * canvasRect.width() || size.height() > 0.5 * canvasRect.height()) { // curves come first
         painter->restore();
         return;
     }

@@ -25,6 +25,8 @@ public:
     QColor textColour;
     QColor plate; ///< behind the key
 
+    double height() const; ///< with what is around it, px
+
     void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
               const QRectF &canvasRect) const override;
 

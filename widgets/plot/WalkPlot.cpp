@@ -17,7 +17,6 @@ namespace faintline {
 
 namespace {
 
-    constexpr double belowKey = 42.0;        ///< px
     constexpr double reach = 24.0;           ///< px from the mouse to a walk
     constexpr std::size_t mostPoints = 4000; ///< maximum number of points drawn per walk
 
@@ -114,7 +113,6 @@ WalkPlot::WalkPlot(QWidget *parent)
 {
     m_item->attach(this);
     m_key->attach(this);
-    setMarksTop(belowKey);
     setTitles(tr("stage"), tr("ln Λ (nat)"));
     setAccessibleName(tr("Log-likelihood ratio of the sequential tests"));
     WalkPlot::restyle();
@@ -182,6 +180,7 @@ void WalkPlot::restyle()
         m_key->entries.push_back({tr("H0, noise only"), QPen(colours.curves[0], 1.6), false});
     if (has(true))
         m_key->entries.push_back({tr("H1, a target"), QPen(colours.curves[1], 1.6), false});
+    setMarksTop(m_key->height());
     replot();
 }
 
