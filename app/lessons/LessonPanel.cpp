@@ -190,6 +190,8 @@ int LessonPanel::pageHeight(int textSize, int width)
     for (QWidget *part : page.findChildren<QWidget *>()) {
         if (part->testAttribute(Qt::WA_SetFont))
             part->setFont(font(part->font().bold()));
+        if (qobject_cast<QRadioButton *>(part))
+            part->setFixedHeight(part->fontMetrics().height()); // beside the first line
         if (part->layout())
             part->layout()->invalidate();
         part->updateGeometry(); // what holds text remembers its height otherwise
@@ -214,13 +216,12 @@ void LessonPanel::fitText()
     if (!m_isLarge || !m_area->widget() || !m_area->isVisible() || choice() >= 0 || m_isDone)
         return;
     const QSize room = m_area->maximumViewportSize();
-    for (int size = largeSize; size >= smallLargeSize; --size)
-        if (pageHeight(size, room.width()) <= room.height())
+    const int height = m_title->height() + room.height(); // which share the panel
+    for (int size = largeSize; size >= smallLargeSize; --size) {
+        m_title->setFont(Theme::boldFont(size));
+        if (pageHeight(size, room.width()) + m_title->heightForWidth(m_title->width()) <= height)
             break;
-    if (m_choices)
-        for (QAbstractButton *button : m_choices->buttons())
-            button->setFixedHeight(QFontMetrics(font(false)).height()); // beside the first line
-    m_title->setFont(Theme::boldFont(m_textSize));
+    }
 }
 
 void LessonPanel::fill()
@@ -247,8 +248,8 @@ void LessonPanel::fill()
         column->addWidget(m_task);
         column->addWidget(m_then);
     }
-    showPage(*column);
     showState();
+    showPage(*column);
 }
 
 void LessonPanel::fillQuestion(const LessonQuestion &question, QVBoxLayout &column)
@@ -262,7 +263,7 @@ void LessonPanel::fillQuestion(const LessonQuestion &question, QVBoxLayout &colu
         words->setBuddy(button);
         button->setAccessibleName(question.choices[i]);
         button->setFont(font(false));
-        button->setFixedHeight(QFontMetrics(font(false)).height()); // beside the first line
+        button->setFixedHeight(button->fontMetrics().height()); // beside the first line
         m_choices->addButton(button, i);
         m_words.push_back(words);
         column.addWidget(choiceRow(button, words));
