@@ -12,7 +12,6 @@
 #include <QMenuBar>
 #include <QScopedValueRollback>
 #include <QScreen>
-#include <QStatusBar>
 #include <QTabBar>
 #include <QToolBar>
 
@@ -322,7 +321,6 @@ void Panels::setPresenting(bool isPresenting)
         for (const Entry &entry : m_entries)
             entry.dock->setVisible(!isPresenting);
     m_window.menuBar()->setVisible(!isPresenting);
-    m_window.statusBar()->setVisible(!isPresenting);
     m_window.setWindowState(m_window.windowState().setFlag(Qt::WindowFullScreen, isPresenting));
     const int width = std::max(m_window.width(), m_window.screen()->size().width()); // full screen comes later
     for (const Entry &entry : m_entries)

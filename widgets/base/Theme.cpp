@@ -338,7 +338,7 @@ void Theme::setPlotScale(double scale)
     QEvent change(QEvent::StyleChange);
     for (QWidget *widget : QApplication::allWidgets())
         if (widget->inherits("QwtPlot") || widget->inherits("faintline::ChartPlot")
-            || widget->inherits("faintline::ColourBar"))
+            || widget->inherits("faintline::ColourBar") || widget->inherits("faintline::MarkLegend"))
             QApplication::sendEvent(widget, &change);
 }
 

@@ -33,7 +33,6 @@ namespace {
 
 MarkLegend::MarkLegend(QWidget *parent) : QLabel(parent)
 {
-    setFont(Theme::font(12));
     setToolTip(tr("Track: a line that was found. Selected: the event of the list. Raised level: an area without a "
                   "line. Truth: what was simulated, or is known."));
     setAccessibleName(tr("Marks in the pictures"));
@@ -42,13 +41,14 @@ MarkLegend::MarkLegend(QWidget *parent) : QLabel(parent)
 
 void MarkLegend::changeEvent(QEvent *event)
 {
-    if (event->type() == QEvent::PaletteChange)
+    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::StyleChange)
         drawMarks();
     QLabel::changeEvent(event);
 }
 
 void MarkLegend::drawMarks()
 {
+    setFont(Theme::plotFont());
     const std::vector<NamedMark> marks = namedMarks(Theme::colours(*this));
     double whole = 0.0;
     for (const NamedMark &mark : marks)
