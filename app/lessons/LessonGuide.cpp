@@ -11,7 +11,9 @@
 #include "app/panels/EvaluatePanel.h"
 #include "app/panels/ExperimentsPanel.h"
 #include "app/panels/PipelinePanel.h"
+#include "app/panels/SequentialControls.h"
 #include "app/panels/SequentialPanel.h"
+#include "app/panels/StartColumn.h"
 #include "app/views/WindowParts.h"
 #include "app/views/WindowViews.h"
 #include "app/workspace/PingBench.h"
@@ -33,6 +35,8 @@
 #include <QScreen>
 #include <QTabWidget>
 #include <QUrl>
+
+#include <qwt_plot.h>
 
 #include <algorithm>
 #include <utility>
@@ -253,7 +257,6 @@ void LessonGuide::check()
     const bool isShown = isOfScans || isOpen(m_opened);
     if (isShown && m_parts.bench().isVisible())
         showPanel(); // its text can be read while the detector runs
-    limitWidth();
     if (isBusy())
         return;
     if (!isShown)
@@ -310,9 +313,10 @@ void LessonGuide::giveKeys()
 /// Scrolls the step's subject into view again once the panels around it have their size.
 void LessonGuide::keepInSight()
 {
-    constexpr int laidOutMs = 100;
+    constexpr int laidOutMs = 250;
     QTimer::singleShot(laidOutMs, this, [this] {
         if (isRunning() && m_isReady && !m_isAtEnd) {
+            shareColumn(); // now that the width of its text is known
             widgetNamed(now().point);
             m_frame->follow();
         }
@@ -361,22 +365,17 @@ QWidget *LessonGuide::widgetNamed(const QString &name)
     return m_parts.views().named(name);
 }
 
-/// Beside a panel that has the place of the pictures, which would not keep its own width.
-void LessonGuide::limitWidth()
-{
-    constexpr int mostPercent = 32; // of the window
-    const bool isAlone = isScanScenario(m_opened) && !m_parts.bench().isVisible();
-    m_dock->setMaximumWidth(isAlone ? std::max(m_panel->minimumWidth(), m_window.width() * mostPercent / 100)
-                                    : QWIDGETSIZE_MAX);
-}
-
+/// At the left; at the right of a panel that has the place of the pictures, in its area, since without pictures Qt gives
+/// a column of its own the room that the panel needs.
 void LessonGuide::showPanel()
 {
-    if (!m_dock->isHidden())
+    const bool isAlone = isScanScenario(m_opened) && !m_parts.bench().isVisible();
+    if (std::exchange(m_isAlone, isAlone) == isAlone && !m_dock->isHidden())
         return;
-    m_window.addDockWidget(Qt::LeftDockWidgetArea, m_dock, Qt::Vertical);
+    m_window.addDockWidget(isAlone ? Qt::BottomDockWidgetArea : Qt::LeftDockWidgetArea, m_dock,
+                           isAlone ? Qt::Horizontal : Qt::Vertical);
     auto *below = m_window.findChild<QDockWidget *>(QStringLiteral("pipelineDock"));
-    if (below && m_window.dockWidgetArea(below) == Qt::LeftDockWidgetArea) {
+    if (below && !isAlone && m_window.dockWidgetArea(below) == Qt::LeftDockWidgetArea) {
         m_window.splitDockWidget(m_dock, below, Qt::Vertical);
         m_dock->show();
         if (!below->isHidden())
@@ -395,53 +394,85 @@ void LessonGuide::present(bool isPresenting)
         for (const QString &name : now().show)
             reveal(widgetNamed(name));
         pointOut(widgetNamed(now().point));
-        if (auto *below = m_window.findChild<QDockWidget *>(QStringLiteral("pipelineDock"));
-            below && below->isVisible())
-            shareColumn(*below);
         m_frame->follow();
         keepInSight();
     }
+    if (!isPresenting)
+        setFormsVisible(true);
 }
 
-/// Two thirds for the lesson, and more if its step needs that, as long as the other panel can be used.
-void LessonGuide::shareColumn(QDockWidget &below)
+/// In a presentation: half of the height for a sheet below the pictures; of the column, two thirds for the lesson, half
+/// above a chart, and more if its step needs that, as long as the other panel can be used.
+void LessonGuide::shareColumn()
 {
     constexpr int leastBelow = 200;
-    const int height = std::max(m_window.height(), m_dock->height() + below.height());
-    const int lesson =
-        std::clamp(m_panel->presentedHeight(), height * 2 / 3, std::max(height * 2 / 3, height - leastBelow));
-    m_window.resizeDocks({m_dock, &below}, {lesson, height - lesson}, Qt::Vertical);
+    const auto docks = m_window.findChildren<QDockWidget *>(Qt::FindDirectChildrenOnly);
+    for (QDockWidget *dock : docks)
+        if (m_isPresenting && m_parts.bench().isVisible() && !dock->isHidden() && !dock->isFloating()
+            && m_window.dockWidgetArea(dock) == Qt::BottomDockWidgetArea)
+            m_window.resizeDocks({dock}, {m_window.height() / 2}, Qt::Vertical);
+    const auto below = std::ranges::find_if(docks, [this](QDockWidget *dock) {
+        return dock != m_dock && !dock->isHidden() && !dock->isFloating()
+               && m_window.dockWidgetArea(m_dock) == m_window.dockWidgetArea(dock);
+    });
+    if (!m_isPresenting || below == docks.end())
+        return;
+    const int height = m_dock->height() + (*below)->height();
+    const int least = (*below)->findChild<QwtPlot *>() ? height / 2 : height * 2 / 3;
+    const int titleBar = m_dock->height() - m_panel->height();
+    const int lesson = std::clamp(m_panel->presentedHeight() + titleBar, least, std::max(least, height - leastBelow));
+    m_window.resizeDocks({m_dock, *below}, {lesson, height - lesson}, Qt::Vertical);
 }
 
 /// Reveals what a step points to, in front of the step's other panels.
 void LessonGuide::pointOut(QWidget *target)
 {
+    putAway(target);
     reveal(target);
     takeOneColumn();
     reveal(target);
+    shareColumn();
 }
 
-/// On a small screen a presented lesson shares its column with the panels of the step, which leaves the pictures their
-/// width. The end of the presentation restores the layout.
+/// In a presentation: panels of earlier steps, and the forms of experiments where nothing is to be entered.
+void LessonGuide::putAway(const QWidget *target)
+{
+    QList<const QWidget *> needed{m_panel, target};
+    for (const QString &name : now().show)
+        needed << widgetNamed(name);
+    for (auto *dock : m_window.findChildren<QDockWidget *>(Qt::FindDirectChildrenOnly)) {
+        const auto isIn = [dock](const QWidget *widget) { return dock->isAncestorOf(widget); };
+        if (m_isPresenting && m_parts.bench().isVisible() && !dock->isFloating() && std::ranges::none_of(needed, isIn))
+            dock->hide();
+    }
+    setFormsVisible(!m_isPresenting || (!now().task.isEmpty() && !qobject_cast<const QwtPlot *>(target)));
+}
+
+/// Of experiments, beside their charts.
+void LessonGuide::setFormsVisible(bool isVisible)
+{
+    m_parts.evaluation().column().setVisible(isVisible);
+    m_parts.sequential().controls().setVisible(isVisible);
+}
+
+/// On a small screen a presented lesson stands at the right, above the panels of the step, which leaves the pictures
+/// their width. The end of the presentation restores the layout.
 void LessonGuide::takeOneColumn()
 {
     const int width = std::max(m_window.width(), m_window.screen()->size().width()); // full screen comes later
-    if (!m_isPresenting || width >= twoColumnsFrom)
+    if (!m_isPresenting || width >= twoColumnsFrom || !m_parts.bench().isVisible())
         return;
     QDockWidget *below = nullptr;
+    if (m_window.dockWidgetArea(m_dock) != Qt::RightDockWidgetArea)
+        m_window.addDockWidget(Qt::RightDockWidgetArea, m_dock, Qt::Vertical);
     for (auto *dock : m_window.findChildren<QDockWidget *>(Qt::FindDirectChildrenOnly)) {
         if (dock == m_dock || dock->isHidden() || dock->isFloating()
             || m_window.dockWidgetArea(dock) == Qt::BottomDockWidgetArea)
             continue;
-        if (!below && m_window.dockWidgetArea(m_dock) != Qt::RightDockWidgetArea)
-            m_window.addDockWidget(Qt::RightDockWidgetArea, m_dock, Qt::Vertical);
         below ? m_window.tabifyDockWidget(below, dock) : m_window.splitDockWidget(m_dock, dock, Qt::Vertical);
         below = below ? below : dock;
     }
-    if (!below)
-        return;
     m_window.resizeDocks({m_dock}, {width * panelPercent / 100}, Qt::Horizontal);
-    shareColumn(*below);
 }
 
 void LessonGuide::leave()
@@ -454,6 +485,7 @@ void LessonGuide::leave()
     m_watch.stop();
     m_frame->pointAt(nullptr);
     m_dock->hide();
+    setFormsVisible(true);
     emit runningChanged(false);
 }
 

@@ -79,11 +79,12 @@ private:
     void arrange();
     void giveKeys();
     void keepInSight();
-    void limitWidth();
     void showPanel();
     void pointOut(QWidget *target);
     void takeOneColumn();
-    void shareColumn(QDockWidget &below);
+    void shareColumn();
+    void putAway(const QWidget *target);
+    void setFormsVisible(bool isVisible);
     void reveal(QWidget *widget);
     bool isBusy() const;
 
@@ -93,6 +94,7 @@ private:
     LessonAnswers m_answers;
     int m_step = -1;
     bool m_isPresenting = false;
+    bool m_isAlone = false; ///< beside a panel that has the place of the pictures
     bool m_isAtEnd = false;
     QString m_opened;                 ///< opened by this lesson, and still open
     QMap<QString, int> m_experiments; ///< started by this lesson: ids by path

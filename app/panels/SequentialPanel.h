@@ -35,6 +35,7 @@ public:
     void startOnSelection(); ///< tests the visible part of the recording
 
     ScanTestForm &form();
+    SequentialControls &controls() { return *m_controls; }
     WalkPlot &walk() { return *m_walk; }
     BarPlot &stopping() { return *m_stopping; }
     ChartPlot &asn() { return *m_asn; }

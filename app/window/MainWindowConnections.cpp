@@ -53,6 +53,8 @@
 #include <QLineEdit>
 #include <QStackedWidget>
 
+#include <algorithm>
+
 namespace faintline {
 
 namespace {
@@ -191,7 +193,9 @@ void MainWindow::connectWelcome()
                     before.reset();
             }); // lessons speak of the statistic
     connect(m_lessons, &LessonGuide::runningChanged, this, [this](bool isRunning) {
-        m_workbench->setRegulationWanted(isRunning || m_regulationAction->isChecked());
+        const auto isOfResets = [](const LessonStep &step) { return step.point == QLatin1String("regulation"); };
+        m_workbench->setRegulationWanted((isRunning && std::ranges::any_of(m_lessons->lesson().steps, isOfResets))
+                                         || m_regulationAction->isChecked());
         if (isRunning)
             m_presentAction->setEnabled(true); // also of scans, which have no pictures of their own
     });

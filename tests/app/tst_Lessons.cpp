@@ -33,6 +33,7 @@
 #include <QLineEdit>
 #include <QMenuBar>
 #include <QPushButton>
+#include <QRadioButton>
 
 #include <qwt_scale_widget.h>
 
@@ -194,7 +195,9 @@ private slots:
     void openingSomethingElseLeaves();
     void aLessonOfScansPutsTheRecordingAside();
     void presentedItIsLargerAndStays();
+    void presentedNoTextIsCut();
     void presentedTheStepKeepsItsPanel();
+    void presentedPanelsOfOtherStepsAreAway();
     void presentedOnASmallScreenItSharesAColumn();
     void presentedTheFormIsLarger();
     void escapeLeavesAPresentationFromAnyField();
@@ -631,6 +634,38 @@ void tst_Lessons::presentedItIsLargerAndStays()
     QCOMPARE(guide.panel().minimumWidth(), 0);
 }
 
+/// What does not fit is scrolled to.
+void tst_Lessons::presentedNoTextIsCut()
+{
+    const auto cut = [](const QWidget &panel) {
+        QStringList all;
+        for (const QLabel *label : panel.findChildren<QLabel *>())
+            if (label->isVisible() && label->wordWrap() && label->height() < label->heightForWidth(label->width()))
+                all << QStringLiteral("%1 < %2: %3")
+                           .arg(label->height())
+                           .arg(label->heightForWidth(label->width()))
+                           .arg(label->text());
+        for (const QRadioButton *button : panel.findChildren<QRadioButton *>())
+            if (button->height() != button->fontMetrics().height()) // beside the first line of its choice
+                all << button->accessibleName();
+        return all.join("; ");
+    };
+    QWidget window;
+    auto *panel = new LessonPanel(&window);
+    panel->setLarge(true);
+    window.show();
+    for (const QSize size : {QSize(384, 530), QSize(384, 760), QSize(410, 400), QSize(560, 1000)})
+        for (const Lesson &lesson : lessons())
+            for (int step = 0; step < int(lesson.steps.size()); ++step) {
+                panel->setStep(lesson, step);
+                window.resize(size);
+                panel->setGeometry(QRect(QPoint(), size));
+                QTRY_VERIFY2(cut(*panel).isEmpty(), qPrintable(lesson.title + ": " + cut(*panel)));
+                QTest::qWait(30); // and remains so
+                QVERIFY2(cut(*panel).isEmpty(), qPrintable(lesson.title + ": " + cut(*panel)));
+            }
+}
+
 /// What a step is about is there, though a presentation puts away all panels.
 void tst_Lessons::presentedTheStepKeepsItsPanel()
 {
@@ -644,6 +679,23 @@ void tst_Lessons::presentedTheStepKeepsItsPanel()
     QVERIFY(!window->findChild<QDockWidget *>("thresholdDock")->isVisible());
     guide.leave();
     QTest::keyClick(window.get(), Qt::Key_F5);
+}
+
+void tst_Lessons::presentedPanelsOfOtherStepsAreAway()
+{
+    const auto window = newWindow();
+    LessonGuide &guide = window->lessonGuide();
+    guide.start(readLesson(":/lessons/choosing-h.json"), 2);
+    QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
+    QTest::keyClick(window.get(), Qt::Key_F5);
+    QVERIFY(window->why().isVisible());
+    guide.goTo(3); // points to a picture
+    QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
+    QVERIFY(!window->why().isVisible());
+    QVERIFY(!window->findChild<SettingsForm *>()->isVisible());
+    QTest::keyClick(window.get(), Qt::Key_F5);
+    QVERIFY(window->findChild<SettingsForm *>()->isVisible());
+    guide.leave();
 }
 
 /// On a small screen the panels of the step lie below the lesson, and the pictures keep their width.
