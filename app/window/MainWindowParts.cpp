@@ -141,7 +141,7 @@ void MainWindow::buildPanels()
 void MainWindow::buildDocks()
 {
     using Place = Panels::Place;
-    m_panels->add(QStringLiteral("pipelineDock"), tr("Pipeline"), m_pipeline, Place::Left);
+    m_panels->add(QStringLiteral("pipelineDock"), tr("All settings"), m_pipeline, Place::Left);
     buildSettingsDock();
     auto *main = new MainSettings(m_document, m_controller, MainSettings::few());
     auto *threshold = new ThresholdPanel(*m_threshold, *main, m_controller, m_check);

@@ -63,7 +63,7 @@ void open(Walk &walk)
     walk.waitForResults();
     walk.takePicture("analyst-first");
     walk.choose({"View", "Layout", "Researcher"}); // for all of the settings
-    walk.clickTab("Pipeline");
+    walk.clickTab("All settings");
     walk.click("Section Selection"); // closes the section above
     walk.fillIn("Window length in s", "1");
     waitForEvents(walk, 3);
