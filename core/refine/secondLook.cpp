@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 namespace faintline {
@@ -21,10 +22,11 @@ namespace faintline {
 namespace {
 
     constexpr std::string_view following = "refining tracks in both directions";
-    constexpr Index largestGapFrames = 24;                    ///< between stretches of one signal
-    constexpr int behindLimitPasses = 3;                      ///< of the search behind what is explained
-    constexpr double hiddenCells = 1.0;                       ///< beside a signal
-    constexpr double ghostStatisticShare = 0.08;              ///< of a path's statistic, above the floor
+    constexpr Index largestGapFrames = 24;       ///< between stretches of one signal
+    constexpr int behindLimitPasses = 3;         ///< of the search behind what is explained
+    constexpr double hiddenCells = 1.0;          ///< beside a signal
+    constexpr double apartCells = 2.0;           ///< from where on two tracks do not meet: half a main lobe
+    constexpr double ghostStatisticShare = 0.08; ///< of a path's statistic, above the floor
     constexpr std::size_t stripBytes = std::size_t(16) << 20; ///< read at a time
 
     struct Stretch {
@@ -32,6 +34,12 @@ namespace {
         Index to;        ///< one past the last
         double gain;     ///< gain of the path's statistic, nat
         double evidence; ///< evidence of the mean path, nat
+    };
+
+    /// Where a track of the chain is in a frame.
+    struct OtherPath {
+        Index cell;
+        const Track *track;
     };
 
     /// Result of a stretch, or of several that were separated by the cuts between pieces.
@@ -131,6 +139,7 @@ namespace {
                 addPieces(pieces, track, m_frames.time().count, m_model.binsPerCell);
             for (const Track &track : found)
                 addPieces(pieces, track, m_frames.time().count, m_model.binsPerCell);
+            m_paths = pathsByFrame(found);
             for (std::size_t first = 0; first < pieces.size();) {
                 std::size_t bytes = 0;
                 std::size_t end = first;
@@ -360,13 +369,80 @@ namespace {
             setLnK(m_model, m_analysis, strip);
             if (isLineOverFloor(*piece.track, strip)) {
                 m_model.ends = {.absentBefore = piece.isFirst(), .absentAfter = piece.isLast()};
-                const BothWays seen = lookAtObserved(strip, m_model);
+                const BothWays seen = lookAtObserved(withoutOthers(strip, *piece.track), m_model);
                 for (const Stretch &stretch : stretchesOf(piece, seen))
                     propose(piece, seen, stretch);
             }
             strip = {};
             if (piece.isLast())
                 accept();
+        }
+
+        static std::vector<std::vector<OtherPath>> pathsByFrame(const std::vector<Track> &tracks)
+        {
+            std::vector<std::vector<OtherPath>> paths;
+            for (const Track &track : tracks) {
+                paths.resize(std::max(paths.size(), std::size_t(track.points.back().frame + 1)));
+                for (const TrackPoint &point : track.points)
+                    paths[std::size_t(point.frame)].push_back({point.cell, &track});
+            }
+            return paths;
+        }
+
+        /// The paths of other tracks in a frame of a strip, unless they are far.
+        std::span<const OtherPath> pathsIn(const PathStrip &strip, Index at) const
+        {
+            const auto frame = std::size_t(strip.firstFrame + at);
+            return frame < m_paths.size() ? std::span<const OtherPath>(m_paths[frame]) : std::span<const OtherPath>();
+        }
+
+        /// A strip in which nothing is to be seen in cells that are nearer to another signal: a track that stays well beside
+        /// this one, with less than half of either's power midway. A path does not go on along a signal that has a track of
+        /// its own.
+        PathStrip withoutOthers(const PathStrip &strip, const Track &track) const
+        {
+            const Index beside = Index(std::ceil(apartCells * m_model.binsPerCell));
+            struct Meeting {
+                double own = 0.0;
+                double other = 0.0;
+                double midway = 0.0;
+                bool isNear = false;
+                bool isApart() const { return !isNear && midway < 0.5 * std::min(own, other); }
+            };
+            std::map<const Track *, Meeting> others;
+            for (Index at = 0; at < strip.frameCount(); ++at) {
+                const Index frame = strip.firstFrame + at;
+                const Index centre = strip.centres[std::size_t(at)];
+                const auto power = [&](Index cell) {
+                    const float y = strip.valueAt(at, cell);
+                    return std::isnan(y) ? 0.0 : double(y) - 1.0;
+                };
+                for (const auto &[cell, other] : pathsIn(strip, at))
+                    if (const Index apart = std::abs(cell - centre); other != &track && apart <= strip.halfWidth) {
+                        Meeting &meeting = others[other];
+                        meeting.isNear = meeting.isNear || apart < beside;
+                        if (frame < track.onsetFrame || frame > track.endFrame)
+                            continue;
+                        meeting.own += power(centre);
+                        meeting.other += power(cell);
+                        meeting.midway += power((centre + cell) / 2);
+                    }
+            }
+            std::erase_if(others, [](const auto &each) { return !each.second.isApart(); });
+            PathStrip own = strip;
+            for (Index at = 0; at < own.frameCount() && !others.empty(); ++at) {
+                const Index centre = own.centres[std::size_t(at)];
+                for (const auto &[cell, other] : pathsIn(own, at)) {
+                    if (!others.contains(other))
+                        continue;
+                    const Index middle = centre + (cell - centre) / 2;
+                    for (Index i = std::min(middle, cell - beside); i <= std::max(middle, cell + beside); ++i)
+                        if (cell > centre ? i > middle : i < middle)
+                            if (const Index k = i - own.firstCell(at); k >= 0 && k < own.width())
+                                own.row(at)[k] = 0.0f;
+                }
+            }
+            return own;
         }
 
         /// What subtraction left of a line is not a separate signal.
@@ -496,6 +572,7 @@ namespace {
         const Analysis &m_analysis;
         const RunContext &m_context;
         const NormalisedFrames &m_frames;
+        std::vector<std::vector<OtherPath>> m_paths; ///< of the tracks that are looked at, by frame
         Index m_cells;
         FrameGeometry m_geometry;
         Explanations m_explanations;

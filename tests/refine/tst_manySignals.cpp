@@ -1,6 +1,14 @@
 #include "support/manySignals.h"
 #include "support/test.h"
 
+#include "analyse/analyse.h"
+#include "base/Random.h"
+#include "scene/SimulatedRecording.h"
+#include "support/lines.h"
+
+#include <algorithm>
+#include <map>
+
 using namespace faintline;
 
 /// Signals beside each other, crossing and meeting: one clean track for each. The whole table, with more seeds, is
@@ -13,6 +21,7 @@ private slots:
     void oneTrackForEach_data();
     void oneTrackForEach();
     void whistlesKeepTheirTracks();
+    void tracksEndWithTheirLinesBesideOthers();
 };
 
 void tst_manySignals::oneTrackForEach_data()
@@ -65,6 +74,40 @@ void tst_manySignals::whistlesKeepTheirTracks()
     QVERIFY2(mean.coverage >= 0.96, qPrintable(QString::number(mean.coverage)));
     QVERIFY2(mean.single >= 0.85, qPrintable(QString::number(mean.single)));
     QVERIFY2(score.precision >= 0.95, qPrintable(QString::number(score.precision)));
+}
+
+// Lines four resolution cells apart that begin and end at any time: a path does not go on along a neighbour.
+void tst_manySignals::tracksEndWithTheirLinesBesideOthers()
+{
+    constexpr double window = 0.5;
+    int tracks = 0;
+    int alongSeveral = 0;
+    for (const int seed : {1, 2, 3}) {
+        LineScene scene = test::scene(1000.0, 60.0, seed);
+        Random random(std::uint64_t(seed), 7);
+        for (int k = 0; k < 8; ++k) {
+            const double start = 30.0 * random.uniform();
+            const double seconds = 15.0 + 13.0 * random.uniform();
+            scene.lines.push_back(test::line(100.0 + 8.0 * k + random.uniform(), 0.0, start, seconds, 18.0, window));
+        }
+        AnalysisSettings settings;
+        settings.spectrogram.windowSeconds = window;
+        const auto analysis = analyse(std::make_shared<SimulatedRecording>(scene), settings);
+        for (const Track &track : analysis->tracks) {
+            std::map<std::size_t, int> points; // by the line
+            for (const std::size_t i : track.presentPoints())
+                for (std::size_t k = 0; k < scene.lines.size(); ++k)
+                    if (std::abs(analysis->grid().axes.back().value(track.smoothed[i].position)
+                                 - scene.lines[k].frequencyHz)
+                        < 1.5)
+                        ++points[k];
+            ++tracks;
+            alongSeveral += std::ranges::count_if(points, [](const auto &line) { return line.second >= 4; }) > 1;
+        }
+    }
+    const QString found = QString("%1 of %2").arg(alongSeveral).arg(tracks);
+    QVERIFY2(tracks >= 21 && tracks <= 27, qPrintable(found));
+    QVERIFY2(alongSeveral <= 5, qPrintable(found));
 }
 
 FAINTLINE_TEST(tst_manySignals)
