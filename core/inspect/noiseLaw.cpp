@@ -100,6 +100,11 @@ namespace {
         return std::isnan(y);
     }
 
+    bool isSilent(float y)
+    {
+        return !(y > 0.0f); // or unknown
+    }
+
     /// The fraction of states whose path continues, in tiles of cells and frames. Tiles in which the statistic exceeds
     /// what is rare on noise, or cells were not observed, are left out.
     class ContinuedFractions
@@ -216,7 +221,7 @@ namespace {
             for (Index frame = first; frame < end; ++frame) {
                 context.checkpoint(double(frame - first) / double(end - first), checking);
                 m_frames.read(frame, 1, m_y);
-                if (std::ranges::all_of(m_y, isUnknown)) // a gap
+                if (std::ranges::all_of(m_y, isSilent)) // a gap, or no noise at all
                     continue;
                 putNoiseOver(points, frame);
                 detector.update(m_y, m_statistic);

@@ -1,6 +1,7 @@
 #include "analyse/analyse.h"
 #include "inspect/noiseLaw.h"
 #include "scene/SimulatedRecording.h"
+#include "signal/ArrayRecording.h"
 #include "support/test.h"
 
 using namespace faintline;
@@ -107,6 +108,16 @@ private slots:
                          .contains(factor > 1.0f ? "expect more false alarms" : "expect fewer"),
                      law->warning().c_str());
         }
+    }
+
+    // A recorder without its microphone makes no noise that could follow a law.
+    void silenceDoesNotWarn()
+    {
+        const auto samples = std::make_shared<std::vector<float>>(24000, 0.0f);
+        const RecordingPointer silent =
+            std::make_shared<ArrayRecording>("silence", std::shared_ptr<const float>(samples, samples->data()),
+                                             ArrayLayout{400.0, 24000, 1, false, 0.0});
+        QVERIFY(!checkNoiseLaw(*analyse(silent, shortWindows())));
     }
 
     void whatHasNoLaw()
